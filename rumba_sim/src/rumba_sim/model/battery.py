@@ -1,0 +1,91 @@
+"""The battery: 12 NiMH cells that loads run down and the dock fills again."""
+
+import dataclasses
+import math
+
+from rumba_sim.model.config import setting
+
+CELLS = 12
+# Rest voltage of one NiMH cell over its state of charge [0..1] [V]: the flat middle and the two knees of the
+# chemistry, set so that the pack has its nominal 14.4 V at 10 % and about 18 V at the end of a charge
+# (iRobot Roomba 600 Open Interface specification; makers' data).
+REST_VOLTAGE = ((0.0, 1.00), (0.1, 1.20), (0.5, 1.27), (0.9, 1.34), (1.0, 1.47))
+SECONDS_PER_HOUR = 3600.0
+ROUNDING = 1e-6  # [%] lest 29 %, put into ampere-hours and taken back, be 30 %
+
+
+@dataclasses.dataclass(frozen=True)
+class BatteryConfig:
+    """What sets one battery apart from another."""
+
+    capacity: float = setting(2.7, 'charge of a full battery (makers: 2.7 to 3.0)', 'Ah', low=0.01, high=1000.0)
+    resistance: float = setting(0.25, 'inner resistance of the pack, about 20 mOhm a cell', 'Ohm', low=0.0, high=10.0)
+    idle_current: float = setting(0.19, 'electronics alone (readings of owners)', 'A', low=0.0, high=100.0)
+    brush_current: float = setting(0.5, 'brushes and vacuum while cleaning (published measurements)', 'A',
+                                   low=0.0, high=100.0)
+    charge_current: float = setting(1.25, 'charger, until the taper; fills the battery in about 3 h', 'A',
+                                    low=0.001, high=100.0)
+    trickle_current: float = setting(0.06, 'charger, at the end of the taper', 'A', low=0.001, high=100.0)
+    taper_start: float = setting(0.85, 'state of charge where the charger begins to taper', '0..1', low=0.0, high=0.99)
+    drain: float = setting(1.0, 'how many times faster than a real one this battery runs down and fills', '1',
+                           low=0.0, high=10000.0)
+
+
+class Battery:
+    """State of one battery, advanced by `step`.
+
+    Attributes:
+        config: its constants.
+        charge: what is left [Ah], 0 to `config.capacity`.
+        current: through the terminals in the last step [A], negative while discharging.
+    """
+
+    def __init__(self, config: BatteryConfig, state_of_charge: float = 1.0) -> None:
+        """Begin at rest with the given state of charge [0..1]."""
+        self.config = config
+        self.charge = config.capacity * state_of_charge
+        self.current = 0.0
+
+    def step(self, dt: float, load: float, on_dock: bool = False) -> None:
+        """Let time pass.
+
+        On the dock the charger feeds the loads, and the battery on top of them.
+
+        Args:
+            dt: time that passes [s], not negative.
+            load: sum of the loads [A], not negative.
+            on_dock: whether the charging contacts are closed.
+        """
+        config = self.config
+        self.current = self._charger_current() if on_dock else -load if self.charge > 0.0 else 0.0
+        charge = self.charge + self.current * config.drain * dt / SECONDS_PER_HOUR
+        self.charge = min(max(charge, 0.0), config.capacity)
+
+    def _charger_current(self) -> float:
+        if self.charge >= self.config.capacity:
+            return 0.0
+        taper = (1.0 - self.state_of_charge) / (1.0 - self.config.taper_start)
+        return max(self.config.trickle_current, self.config.charge_current * min(1.0, taper))
+
+    @property
+    def state_of_charge(self) -> float:
+        """Share of the capacity that is left [0..1]."""
+        return self.charge / self.config.capacity
+
+    @property
+    def percentage(self) -> int:
+        """Charge left [%], 0 to 100, rounded up: 0 says empty."""
+        return math.ceil(100.0 * self.state_of_charge - ROUNDING)
+
+    @property
+    def voltage(self) -> float:
+        """At the terminals [V]: the rest voltage, less what the current loses in the inner resistance."""
+        return CELLS * _rest_voltage(self.state_of_charge) + self.current * self.config.resistance
+
+
+def _rest_voltage(state_of_charge: float) -> float:
+    """Rest voltage of one cell [V] at a state of charge [0..1], by straight lines between the points."""
+    for (left, low), (right, high) in zip(REST_VOLTAGE, REST_VOLTAGE[1:]):
+        if state_of_charge <= right:
+            return low + (high - low) * (state_of_charge - left) / (right - left)
+    return REST_VOLTAGE[-1][1]

@@ -1,0 +1,53 @@
+"""battery_status_publisher: the lesson's node. A Rumba that stands still while its battery runs down.
+
+Publishes:
+  rumba/battery_status   rumba_msg/BatteryStatus, at ~rate, not latched: the message carries no time, so a
+                         subscriber must be able to trust that what arrives is what is true now
+
+Parameters, as in `rosrun rumba_sim battery_status_publisher _rate:=10 _drain:=60`:
+"""
+
+import dataclasses
+
+import rospy
+
+from rumba_msg.msg import BatteryStatus
+from rumba_sim.model.battery import Battery, BatteryConfig
+from rumba_sim.model.config import setting
+from rumba_sim.model.geometry import Pose, wrap_angle
+from rumba_sim.ros import conversions, node
+
+
+@dataclasses.dataclass(frozen=True)
+class Settings:
+    """The node's private parameters."""
+
+    rate: float = setting(5.0, 'messages a second', 'Hz', low=0.01, high=1000.0)
+    percentage: float = setting(100.0, 'charge to begin with', '%', low=0.0, high=100.0)
+    drain: float = setting(1.0, 'how many times faster than a real battery this one runs down', '', low=0.0, high=1e4)
+    location_x: float = setting(0.0, 'where the robot stands in the map frame', 'm')
+    location_y: float = setting(0.0, 'where the robot stands in the map frame', 'm')
+    orientation_theta: float = setting(0.0, 'where it looks, counter-clockwise from the x axis', 'rad')
+    brushes_up: bool = setting(False, 'brushes lifted and still; down they draw current')
+
+
+def main() -> None:
+    """Run the node."""
+    node.run('battery_status_publisher', Settings, publish)
+
+
+def publish(settings: Settings) -> None:
+    """Run the battery down and tell of it, until ROS shuts down."""
+    config = BatteryConfig(drain=settings.drain)
+    battery = Battery(config, settings.percentage / 100.0)
+    load = config.idle_current + (0.0 if settings.brushes_up else config.brush_current)
+    pose = Pose(settings.location_x, settings.location_y, wrap_angle(settings.orientation_theta))
+    publisher = rospy.Publisher('rumba/battery_status', BatteryStatus, queue_size=10)
+    rate = rospy.Rate(settings.rate, reset=True)
+    before = rospy.get_time()
+    while not rospy.is_shutdown():
+        now = rospy.get_time()
+        battery.step(max(0.0, now - before), load)
+        before = now
+        publisher.publish(conversions.battery_status(battery, pose, settings.brushes_up))
+        rate.sleep()

@@ -1,0 +1,84 @@
+#!/usr/bin/env python3
+"""battery_status_publisher through a real master: content, latching, bad parameters, signals."""
+
+import signal
+import subprocess
+import unittest
+
+import rospy
+import rostest
+
+from rumba_msg.msg import BatteryStatus
+
+TOPIC = 'rumba/battery_status'
+TIMEOUT = 30.0
+
+
+def start(namespace, *arguments):
+    """The node as a user starts it, in a namespace of its own."""
+    return subprocess.Popen(
+        ['rosrun', 'rumba_sim', 'battery_status_publisher', f'__ns:=/{namespace}', *arguments],
+        stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True)
+
+
+class BatteryStatusPublisherTest(unittest.TestCase):
+    """The node of the launch file's namespace, and nodes that the test starts."""
+
+    def test_content(self):
+        status = rospy.wait_for_message(TOPIC, BatteryStatus, TIMEOUT)
+        self.assertEqual((status.location_x, status.location_y), (1.5, -2.5))
+        self.assertAlmostEqual(status.orientation_theta, 7.0 - 2.0 * 3.141592653589793)
+        self.assertTrue(status.brushes_up)
+        self.assertRegex(status.debug_message, r'^1\d\.\d V, 0\.19 A, discharging$')
+
+    def test_the_battery_runs_down_to_zero_and_stays(self):
+        """80 % of 2.7 Ah at 0.19 A and a drain of 1000: 1 % in 0.51 s."""
+        first = rospy.wait_for_message(TOPIC, BatteryStatus, TIMEOUT).percentage_battery
+        self.assertLessEqual(first, 80)
+        begin = rospy.get_time()
+        while rospy.wait_for_message(TOPIC, BatteryStatus, TIMEOUT).percentage_battery > first - 6:
+            self.assertLess(rospy.get_time() - begin, TIMEOUT)
+        self.assertAlmostEqual(rospy.get_time() - begin, 6 * 2.7 * 36.0 / (0.19 * 1000.0), delta=1.0)
+
+    def test_what_arrives_is_fresh_not_latched(self):
+        arrived = []
+        subscriber = rospy.Subscriber(TOPIC, BatteryStatus, arrived.append)
+        rospy.wait_for_message(TOPIC, BatteryStatus, TIMEOUT)
+        while not arrived:
+            rospy.sleep(0.01)
+        self.assertEqual(arrived[0]._connection_header['latching'], '0')
+        subscriber.unregister()
+
+    def test_an_empty_battery_says_so(self):
+        process = start('empty', '_percentage:=0')
+        status = rospy.wait_for_message('/empty/' + TOPIC, BatteryStatus, TIMEOUT)
+        self.assertEqual((status.percentage_battery, status.debug_message), (0, 'battery empty'))
+        process.send_signal(signal.SIGINT)
+        self.assertEqual(process.wait(TIMEOUT), 0)
+        process.communicate()
+
+    def test_bad_input_gets_one_line_and_exit_code_2_and_is_forgotten(self):
+        where = r'^battery_status_publisher: parameter of /refused/battery_status_publisher: '
+        for argument, message in (
+                ('_rate:=0', where + r'rate is 0\.0: must be 0\.01 to 1000 \[Hz\]\n$'),
+                ('_percentage:=-1', where + r'percentage is -1\.0: must be 0 to 100 \[%\]\n$'),
+                ('_brushes_up:=5', where + r'brushes_up is 5: must be true or false\n$'),
+                ('_drian:=2', where + r"drian is unknown: did you mean 'drain'\?\n$"),
+                ('_rate:=[', r'^battery_status_publisher: invalid command-line parameters: [^\n]*\n$'),
+                ('rate:=5', r'^battery_status_publisher: rate:= remaps a topic: for the parameter write _rate:=\n$'),
+                ('5', r"^battery_status_publisher: unknown argument '5': .*\n$")):
+            process = start('refused', argument)
+            out, err = process.communicate(timeout=TIMEOUT)
+            self.assertEqual((process.returncode, out), (2, ''), argument)
+            self.assertRegex(err, message)
+        self.assertEqual(rospy.get_param('/refused/battery_status_publisher', {}), {})
+
+    def test_help_names_the_topic_and_every_parameter(self):
+        out, _ = start('help', '--help').communicate(timeout=TIMEOUT)
+        for word in ('rumba/battery_status', 'rate', 'percentage', 'drain', 'location_x', 'brushes_up', '[Hz]'):
+            self.assertIn(word, out)
+
+
+if __name__ == '__main__':
+    rospy.init_node('test_battery_status_publisher')
+    rostest.rosrun('rumba_sim', 'battery_status_publisher', BatteryStatusPublisherTest)

@@ -1,0 +1,56 @@
+"""Settings are strict: each wrong one is named, with what would be right."""
+
+import dataclasses
+import math
+
+import pytest
+
+from rumba_sim.model import config
+from rumba_sim.model.errors import ConfigError
+
+
+@dataclasses.dataclass(frozen=True)
+class Example:
+    """One setting of each type."""
+
+    speed: float = config.setting(0.3, 'how fast', 'm/s', low=0.0, high=0.5)
+    count: int = config.setting(3, 'how many', low=1, high=9)
+    place: float = config.setting(0.0, 'where', 'm')
+    quiet: bool = config.setting(False, 'whether')
+    name: str = config.setting('rumba', 'who')
+
+
+def test_what_is_left_out_keeps_its_default():
+    assert config.from_mapping(Example, {'count': 5}, 'x') == Example(count=5)
+
+
+def test_both_ends_of_a_range_and_whole_numbers_for_floats_are_allowed():
+    assert config.from_mapping(Example, {'speed': 0, 'count': 9}, 'x') == Example(speed=0.0, count=9)
+    assert config.from_mapping(Example, {'speed': 0.5, 'place': -1e9}, 'x') == Example(speed=0.5, place=-1e9)
+
+
+@pytest.mark.parametrize('mapping, message', [
+    ({'speed': -0.1}, r'^here: speed is -0\.1: must be 0 to 0\.5 \[m/s\]$'),
+    ({'speed': 0.51}, r'speed is 0\.51: must be 0 to 0\.5 \[m/s\]'),
+    ({'speed': math.nan}, r'speed is nan: must be 0 to 0\.5'),
+    ({'speed': True}, r'speed is True: must be 0 to 0\.5'),
+    ({'speed': 'fast'}, r"speed is 'fast': must be 0 to 0\.5"),
+    ({'place': math.inf}, r'place is inf: must be a finite number \[m\]'),
+    ({'count': 2.0}, r'count is 2\.0: must be 1 to 9$'),
+    ({'count': 0}, r'count is 0: must be 1 to 9'),
+    ({'count': True}, r'count is True: must be 1 to 9'),
+    ({'quiet': 1}, r'quiet is 1: must be true or false'),
+    ({'name': 5}, r'name is 5: must be text'),
+    ({'sped': 0.2}, r"here: sped is unknown: did you mean 'speed'\?"),
+    ({'zzz': 1}, r'zzz is unknown: known are speed, count, place, quiet, name'),
+])
+def test_a_wrong_setting_is_named_with_what_would_be_right(mapping, message):
+    with pytest.raises(ConfigError, match=message):
+        config.from_mapping(Example, mapping, 'here')
+
+
+def test_a_description_has_a_line_for_each_setting_with_default_unit_meaning_and_range():
+    lines = config.describe(Example).splitlines()
+    assert [line.split()[0] for line in lines] == config.names(Example)
+    assert lines[0].split() == 'speed 0.3 [m/s] how fast; 0 to 0.5'.split()
+    assert lines[3].split() == 'quiet False whether; true or false'.split()

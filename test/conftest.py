@@ -1,0 +1,35 @@
+"""Workspaces that the tests share, each built from nothing once."""
+
+import pytest
+from workspaces import ROOT, Workspace, clean_environment, roscore
+
+OURS = [path.parent for path in sorted(ROOT.glob('*/package.xml'))]
+STRANGERS = sorted((ROOT / 'test' / 'packages').iterdir())
+
+
+@pytest.fixture(scope='session')
+def environment():
+    """An environment without other workspaces, in which a roscore runs."""
+    environment = clean_environment()
+    with roscore(environment):
+        yield environment
+
+
+@pytest.fixture(scope='session')
+def workspace(tmp_path_factory, environment):
+    """This repository's packages and a stranger's side by side, built from nothing, then installed."""
+    workspace = Workspace(tmp_path_factory.mktemp('side_by_side') / 'ws', OURS + STRANGERS, environment)
+    workspace.make()
+    workspace.make('install')
+    return workspace
+
+
+@pytest.fixture(scope='session')
+def overlay(tmp_path_factory, environment, workspace):
+    """A stranger's packages alone, built from nothing over the install space of this repository's."""
+    below = Workspace(tmp_path_factory.mktemp('below') / 'ws', OURS, environment)
+    below.make('install')
+    overlay = Workspace(tmp_path_factory.mktemp('above') / 'ws', STRANGERS, environment, below.setup('install'))
+    overlay.make()
+    overlay.make('install')
+    return overlay

@@ -1,0 +1,12 @@
+"""A stranger's Python and C++ packages use BatteryStatus, in a workspace beside ours and over an installed one."""
+
+import pytest
+
+
+@pytest.mark.parametrize('space', ['devel', 'install'])
+@pytest.mark.parametrize('name', ['workspace', 'overlay'])
+def test_a_python_node_reads_what_a_cpp_node_publishes(request, name, space):
+    stranger = request.getfixturevalue(name).space(space)
+    namespace = f'__ns:=/{name}_{space}'
+    with stranger.running(f'rosrun battery_cpp publisher {namespace}'):
+        assert stranger.run(f'rosrun battery_python reader {namespace}') == '42, 1.5, -2.5, 0.75, True, from C++\n'

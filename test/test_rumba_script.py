@@ -1,0 +1,138 @@
+"""./rumba in checkouts of its own: what it says of bad input, and that its verdict is true."""
+
+import os
+import pathlib
+import shutil
+import subprocess
+
+import pytest
+from workspaces import BUILD_TIMEOUT, ROOT, clean_environment
+
+SAMPLE = {
+    'package.xml': '''<package format="3"><name>sample</name><version>0.1.0</version><description>Sample.</description>
+        <maintainer email="a@b.invalid">x</maintainer><license>BSD</license>
+        <buildtool_depend>catkin</buildtool_depend></package>''',
+    'CMakeLists.txt': '''
+        cmake_minimum_required(VERSION 3.5)
+        project(sample)
+        find_package(catkin REQUIRED)
+        find_package(rostest REQUIRED)
+        catkin_package()
+        catkin_run_tests_target(pytest unit pytest.xml
+          COMMAND "'${PYTHON_EXECUTABLE}' -m pytest --junitxml=${CATKIN_TEST_RESULTS_DIR}/sample/pytest.xml test_unit.py"
+          WORKING_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR})
+        add_rostest(sample.test)''',
+    'test_unit.py': '''
+def test_passes():
+    pass
+
+
+def test_fails():
+    raise AssertionError('on purpose')
+''',
+    'sample.test': '''<launch><param name="here" value="1"/>
+        <test test-name="here" pkg="rostest" type="paramtest" name="paramtest">
+        <param name="param_name_target" value="/here"/><param name="test_duration" value="0.1"/>
+        <param name="wait_time" value="20.0"/></test></launch>''',
+}
+APT_WITHOUT_NETWORK = '''#!/bin/sh
+[ "$1" = update ] || { echo 'E: Unable to locate package catkin'; exit 100; }
+'''
+
+
+@pytest.fixture
+def checkout(tmp_path):
+    """A checkout with spaces in its path that holds one small package of one passing and one failing test."""
+    folder = tmp_path / 'a checkout'
+    (folder / 'sample').mkdir(parents=True)
+    for name in ('rumba', 'packages.txt'):
+        shutil.copy(ROOT / name, folder)
+    for name, text in SAMPLE.items():
+        (folder / 'sample' / name).write_text(text)
+    return folder
+
+
+def rumba(folder, *arguments, **environment):
+    """Exit code, output and error output of ./rumba."""
+    done = subprocess.run([str(folder / 'rumba'), *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                          universal_newlines=True, timeout=BUILD_TIMEOUT, env={**clean_environment(), **environment})
+    return done.returncode, done.stdout, done.stderr
+
+
+def commands(folder, **scripts):
+    """A folder with commands to find before the system's, or alone: scripts by name; None links to the system's."""
+    folder.mkdir()
+    for name, script in scripts.items():
+        path = folder / name
+        if script is None:
+            path.symlink_to(shutil.which(name))
+        else:
+            path.write_text(script)
+            path.chmod(0o755)
+    return folder
+
+
+def test_a_failing_test_fails_the_whole_and_the_last_line_counts(checkout, tmp_path):
+    code, out, _ = rumba(checkout, 'test', XDG_CACHE_HOME=str(tmp_path / 'cache'))
+    # The rostest counts twice: the parameter test, and its launch file.
+    assert (code, out.splitlines()[-1]) == (1, '3 passed, 1 failed')
+
+
+def test_help_names_every_command():
+    code, out, _ = rumba(ROOT, 'help')
+    assert code == 0
+    assert [line.split()[0] for line in out.splitlines() if line.startswith('  ')] == [
+        'run', 'test', 'build', 'shell', 'lint', 'bench', 'help']
+
+
+def test_an_unknown_command_is_refused():
+    assert rumba(ROOT, 'biuld') == (
+        2, '', "rumba: unknown command 'biuld': run, test, build, shell, lint, bench or help\n")
+
+
+@pytest.mark.skipif(pathlib.Path('/opt/ros/noetic').exists(), reason='with ROS Noetic every system is supported')
+def test_an_unsupported_system_is_refused(checkout, tmp_path):
+    release = tmp_path / 'os-release'
+    release.write_text('PRETTY_NAME="Fedora Linux 40"\nID=fedora\nVERSION_ID=40\nVERSION_CODENAME=""\n')
+    code, out, error = rumba(checkout, 'build', RUMBA_OS_RELEASE=str(release))
+    assert (code, out) == (2, '')
+    assert error.startswith('rumba: Fedora Linux 40 is not supported: Debian 11, 12 and 13 and Ubuntu 22.04 are')
+    assert error.count('\n') == 1 and not (checkout / '.ws').exists()
+
+
+def test_no_network_leaves_nothing_behind(checkout, tmp_path):
+    nothing_installed = '#!/bin/sh\nexit 1\n'
+    path = commands(tmp_path / 'bin', **{
+        'apt-get': APT_WITHOUT_NETWORK, 'dpkg-query': nothing_installed, 'id': '#!/bin/sh\necho 0\n'})
+    code, _, error = rumba(checkout, 'build', PATH=f'{path}:{os.environ["PATH"]}', TMPDIR=str(tmp_path))
+    assert code == 1
+    assert error.startswith('rumba: cannot install packages: Unable to locate package catkin (is the network up? ')
+    assert error.count('\n') == 1 and not (checkout / '.ws').exists()
+
+
+def test_no_root_and_no_sudo_says_what_an_administrator_must_do(checkout, tmp_path):
+    system = dict.fromkeys(('sh', 'dirname', 'readlink', 'cat', 'tr'))
+    path = commands(tmp_path / 'bin', **{'id': '#!/bin/sh\necho 1000\n', 'dpkg-query': '#!/bin/sh\nexit 1\n', **system})
+    code, out, error = rumba(checkout, 'build', PATH=str(path))
+    assert (code, out) == (1, '')
+    assert error.startswith('rumba: not root, and there is no sudo; as root: apt-get install ')
+    assert ' python3-pytest' in error
+    assert error.count('\n') == 1 and not (checkout / '.ws').exists()
+
+
+def test_where_all_is_there_nothing_is_asked_for(checkout, tmp_path):
+    forbidden = f'#!/bin/sh\ntouch {tmp_path}/asked\nexit 1\n'
+    path = commands(tmp_path / 'bin', **{'apt-get': forbidden, 'sudo': forbidden})
+    code, _, error = rumba(checkout, 'shell', 'true', PATH=f'{path}:{os.environ["PATH"]}',
+                           XDG_CACHE_HOME=str(tmp_path / 'cache'))
+    assert (code, error) == (0, '')
+    assert not (tmp_path / 'asked').exists()
+
+
+def test_a_python_that_shadows_the_system_s_does_no_harm(checkout, tmp_path):
+    path = commands(tmp_path / 'bin', python3='#!/bin/sh\nexit 1\n', python='#!/bin/sh\nexit 1\n')
+    code, out, _ = rumba(checkout, 'shell', 'sh', '-c', 'command -v python3; rospack find sample',
+                         PATH=f'{path}:{os.environ["PATH"]}', XDG_CACHE_HOME=str(tmp_path / 'cache'))
+    lines = out.splitlines()
+    assert code == 0
+    assert lines[-2] == '/usr/bin/python3' and lines[-1].endswith('/src/sample')
