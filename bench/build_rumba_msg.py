@@ -8,6 +8,7 @@ import tempfile
 import time
 
 PACKAGE = pathlib.Path(__file__).resolve().parents[1] / 'rumba_msg'
+HEADER = 'devel/include/rumba_msg/BatteryStatus.h'
 RUNS = 3
 
 
@@ -18,14 +19,15 @@ def seconds_to_build(environment):
         source.mkdir()
         (source / PACKAGE.name).symlink_to(PACKAGE)
         begin = time.monotonic()
-        subprocess.run(['catkin_make', '-DPYTHON_EXECUTABLE=/usr/bin/python3', f'-j{os.cpu_count()}'],
-                       cwd=workspace, env=environment, stdout=subprocess.DEVNULL, check=True)
+        subprocess.run(['catkin_make', '-C', workspace, '-DPYTHON_EXECUTABLE=/usr/bin/python3', f'-j{os.cpu_count()}'],
+                       env=environment, stdout=subprocess.DEVNULL, check=True)
+        assert pathlib.Path(workspace, HEADER).exists()
         return time.monotonic() - begin
 
 
 def main():
     """Measure and print."""
-    few = dict(os.environ)
+    few = {name: value for name, value in os.environ.items() if name != 'CMAKE_PREFIX_PATH'}
     everything = {name: value for name, value in few.items() if name != 'ROS_LANG_DISABLE'}
     print(f'rumba_msg from nothing, {os.cpu_count()} cores, median of {RUNS}')
     for title, environment in ((f'without {few["ROS_LANG_DISABLE"]}', few), ('with every generator', everything)):

@@ -19,7 +19,7 @@ SAMPLE = {
         find_package(rostest REQUIRED)
         catkin_package()
         catkin_run_tests_target(pytest unit pytest.xml
-          COMMAND "'${PYTHON_EXECUTABLE}' -m pytest --junitxml=${CATKIN_TEST_RESULTS_DIR}/sample/pytest.xml test_unit.py"
+          COMMAND "${PYTHON_EXECUTABLE} -m pytest --junitxml=${CATKIN_TEST_RESULTS_DIR}/sample/pytest.xml ."
           WORKING_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR})
         add_rostest(sample.test)''',
     'test_unit.py': '''
