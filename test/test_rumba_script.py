@@ -90,6 +90,12 @@ def test_an_unknown_command_is_refused():
         2, '', "rumba: unknown command 'biuld': run, test, build, shell, lint, bench or help\n")
 
 
+@pytest.mark.parametrize('argument', ['drian:=5', 'drain', '--screen'])
+def test_an_unknown_argument_of_run_is_refused(argument):
+    assert rumba(ROOT, 'run', argument) == (
+        2, '', f"rumba: unknown argument '{argument}': NAME:=VALUE, where NAME is one of: drain percentage rate\n")
+
+
 @pytest.mark.skipif(pathlib.Path('/opt/ros/noetic').exists(), reason='with ROS Noetic every system is supported')
 def test_an_unsupported_system_is_refused(checkout, tmp_path):
     release = tmp_path / 'os-release'

@@ -14,7 +14,6 @@ import rumba_sim.ros  # noqa: F401 (lets rospy of Debian 11 end cleanly)
 from rumba_msg.msg import BatteryStatus
 
 TIMEOUT = 30.0
-COMMAND = ['rosrun', 'rumba_sim', 'battery_status_listener']
 MESSAGES = [BatteryStatus(97, 1.25, -2.0, 1.5707963, True, 'one'), BatteryStatus(5, 0.0, 0.0, 0.0, False, 'two')]
 LINES = ['battery  97 %   at (1.25, -2.00) m, 90 deg   brushes up   one',
          'battery   5 %   at (0.00, 0.00) m, 0 deg   brushes down   two']
@@ -22,6 +21,13 @@ LINES = ['battery  97 %   at (1.25, -2.00) m, 90 deg   brushes up   one',
 
 class BatteryStatusListenerTest(unittest.TestCase):
     """A listener in a namespace of its own for each test."""
+
+    def start(self, namespace, **options):
+        """The node as a user starts it."""
+        process = subprocess.Popen(['rosrun', 'rumba_sim', 'battery_status_listener', f'__ns:=/{namespace}'], **options)
+        self.addCleanup(process.wait)
+        self.addCleanup(process.kill)
+        return process
 
     def publish(self, namespace):
         """Publish the messages once a listener is there."""
@@ -34,7 +40,7 @@ class BatteryStatusListenerTest(unittest.TestCase):
             publisher.publish(message)
 
     def test_a_line_for_each_message_into_a_pipe(self):
-        process = subprocess.Popen([*COMMAND, '__ns:=/piped'], stdout=subprocess.PIPE, universal_newlines=True)
+        process = self.start('piped', stdout=subprocess.PIPE, universal_newlines=True)
         self.assertEqual(process.stdout.readline(), 'waiting for /piped/rumba/battery_status\n')
         self.publish('piped')
         self.assertEqual([process.stdout.readline().rstrip('\n') for _ in LINES], LINES)
@@ -44,7 +50,7 @@ class BatteryStatusListenerTest(unittest.TestCase):
 
     def test_one_live_line_on_a_terminal(self):
         ours, theirs = pty.openpty()
-        process = subprocess.Popen([*COMMAND, '__ns:=/shown'], stdout=theirs, env={**os.environ, 'COLUMNS': '40'})
+        process = self.start('shown', stdout=theirs, env={**os.environ, 'COLUMNS': '40'})
         os.close(theirs)
         self.publish('shown')
         wanted = '\r\x1b[K' + LINES[1][:39]

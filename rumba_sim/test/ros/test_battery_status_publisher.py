@@ -15,15 +15,17 @@ TOPIC = 'rumba/battery_status'
 TIMEOUT = 30.0
 
 
-def start(namespace, *arguments):
-    """The node as a user starts it, in a namespace of its own."""
-    return subprocess.Popen(
-        ['rosrun', 'rumba_sim', 'battery_status_publisher', f'__ns:=/{namespace}', *arguments],
-        stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True)
-
-
 class BatteryStatusPublisherTest(unittest.TestCase):
     """The node of the launch file's namespace, and nodes that the test starts."""
+
+    def start(self, namespace, *arguments):
+        """The node as a user starts it, in a namespace of its own."""
+        process = subprocess.Popen(
+            ['rosrun', 'rumba_sim', 'battery_status_publisher', f'__ns:=/{namespace}', *arguments],
+            stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True)
+        self.addCleanup(process.communicate)
+        self.addCleanup(process.kill)
+        return process
 
     def test_content(self):
         status = rospy.wait_for_message(TOPIC, BatteryStatus, TIMEOUT)
@@ -51,12 +53,11 @@ class BatteryStatusPublisherTest(unittest.TestCase):
         subscriber.unregister()
 
     def test_an_empty_battery_says_so(self):
-        process = start('empty', '_percentage:=0')
+        process = self.start('empty', '_percentage:=0')
         status = rospy.wait_for_message('/empty/' + TOPIC, BatteryStatus, TIMEOUT)
         self.assertEqual((status.percentage_battery, status.debug_message), (0, 'battery empty'))
         process.send_signal(signal.SIGINT)
         self.assertEqual(process.wait(TIMEOUT), 0)
-        process.communicate()
 
     def test_bad_input_gets_one_line_and_exit_code_2_and_is_forgotten(self):
         where = r'^battery_status_publisher: parameter of /refused/battery_status_publisher: '
@@ -68,14 +69,14 @@ class BatteryStatusPublisherTest(unittest.TestCase):
                 ('_rate:=[', r'^battery_status_publisher: invalid command-line parameters: [^\n]*\n$'),
                 ('rate:=5', r'^battery_status_publisher: rate:= remaps a topic: for the parameter write _rate:=\n$'),
                 ('5', r"^battery_status_publisher: unknown argument '5': .*\n$")):
-            process = start('refused', argument)
+            process = self.start('refused', argument)
             out, err = process.communicate(timeout=TIMEOUT)
             self.assertEqual((process.returncode, out), (2, ''), argument)
             self.assertRegex(err, message)
         self.assertEqual(rospy.get_param('/refused/battery_status_publisher', {}), {})
 
     def test_help_names_the_topic_and_every_parameter(self):
-        out, _ = start('help', '--help').communicate(timeout=TIMEOUT)
+        out, _ = self.start('help', '--help').communicate(timeout=TIMEOUT)
         for word in ('rumba/battery_status', 'rate', 'percentage', 'drain', 'location_x', 'brushes_up', '[Hz]'):
             self.assertIn(word, out)
 
