@@ -3,7 +3,7 @@
 import inspect
 import re
 import sys
-from typing import Callable, Iterable, Type, TypeVar
+from typing import Callable, List, Type, TypeVar
 
 import rospy
 
@@ -44,9 +44,9 @@ def _refuse(name: str, error: Exception) -> None:
     sys.exit(BAD_INPUT)
 
 
-def _check_command_line(arguments: Iterable[str], parameters: Iterable[str]) -> None:
-    for argument in arguments:
-        raise ConfigError(f'unknown argument {argument!r}: parameters are given as _name:=value; --help lists them')
+def _check_command_line(arguments: List[str], parameters: List[str]) -> None:
+    if arguments:
+        raise ConfigError(f'unknown argument {arguments[0]!r}: parameters are given as _name:=value; --help lists them')
     for name in rospy.names.load_mappings(sys.argv):
         if name in parameters:
             raise ConfigError(f'{name}:= remaps a topic: for the parameter write _{name}:=')
