@@ -1,7 +1,7 @@
 from catkin_pkg.python_setup import generate_distutils_setup
-from setuptools import setup
+from setuptools import find_packages, setup
 
 setup(**generate_distutils_setup(
-    packages=['rumba_sim', 'rumba_sim.model', 'rumba_sim.ros'],
+    packages=find_packages('src'),
     package_dir={'': 'src'},
 ))

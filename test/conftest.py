@@ -25,7 +25,7 @@ def workspace(tmp_path_factory, environment):
 
 
 @pytest.fixture(scope='session')
-def overlay(tmp_path_factory, environment, workspace):
+def overlay(tmp_path_factory, environment):
     """A stranger's packages alone, built from nothing over the install space of this repository's."""
     below = Workspace(tmp_path_factory.mktemp('below') / 'ws', OURS, environment)
     below.make('install')

@@ -27,8 +27,8 @@ class BatteryConfig:
                                     low=0.001, high=100.0)
     trickle_current: float = setting(0.06, 'charger, at the end of the taper', 'A', low=0.001, high=100.0)
     taper_start: float = setting(0.85, 'state of charge where the charger begins to taper', '0..1', low=0.0, high=0.99)
-    drain: float = setting(1.0, 'how many times faster than a real one this battery runs down and fills', '1',
-                           low=0.0, high=10000.0)
+    drain: float = setting(1.0, 'how many times faster than a real one this battery runs down and fills',
+                           low=0.0, high=1e4)
 
 
 class Battery:

@@ -24,7 +24,7 @@ class Settings:
 
     rate: float = setting(5.0, 'messages a second', 'Hz', low=0.01, high=1000.0)
     percentage: float = setting(100.0, 'charge to begin with', '%', low=0.0, high=100.0)
-    drain: float = setting(1.0, 'how many times faster than a real battery this one runs down', '', low=0.0, high=1e4)
+    drain: float = setting(1.0, 'how many times faster than a real battery this one runs down', low=0.0, high=1e4)
     location_x: float = setting(0.0, 'where the robot stands in the map frame', 'm')
     location_y: float = setting(0.0, 'where the robot stands in the map frame', 'm')
     orientation_theta: float = setting(0.0, 'where it looks, counter-clockwise from the x axis', 'rad')
