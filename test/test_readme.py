@@ -1,28 +1,68 @@
 """What the README promises is what runs."""
 
+import contextlib
 import re
+import time
 
 import catkin_pkg.packages
 import pytest
-from workspaces import ROOT
+from workspaces import ROOT, TIMEOUT
 
 README = (ROOT / 'README.md').read_text()
-TABLE = [re.findall(r'`([^`]+)`', row) for row in README.splitlines()
-         if re.match(r'\| `\w+` \| (publishes|subscribes) ', row)]
-NODES = sorted({row[0] for row in TABLE})
+INTERFACES = (ROOT / 'docs' / 'interfaces.md').read_text()
+TOPICS = [re.findall(r'`([^`]+)`', row) for row in README.splitlines()
+          if re.match(r'\| `\w+` \| (publishes|subscribes) ', row)]
+SERVICES = [re.findall(r'`([^`]+)`', row) for row in INTERFACES.splitlines() if re.match(r'\| `\w+` \| serves ', row)]
+NODES = sorted({row[0] for row in TOPICS})
 EVERY_NODE_HAS = {'/rosout [rosgraph_msgs/Log]'}
+OF_RECONFIGURE = re.compile(r'/tuning/|_logger')  # what dynamic_reconfigure and every node bring of their own
+COMMANDS = {
+    # At a speed other than 1, so that /clock is there too.
+    'simulator': 'rosrun rumba_sim simulator _speed:=2 _map:=studio',
+    # teleop_key wants a terminal.
+    'teleop_key': 'script -qec "rosrun rumba_sim teleop_key __ns:=/readme" /dev/null',
+}
+
+
+@pytest.fixture(scope='module')
+def running(workspace):
+    """The devel space of a workspace in which every node of the README runs in the namespace /readme."""
+    here = workspace.space('devel')
+    with contextlib.ExitStack() as nodes:
+        for node in NODES:
+            command = COMMANDS.get(node, f'rosrun rumba_sim {node}')
+            nodes.enter_context(here.running(command if '__ns' in command else f'{command} __ns:=/readme'))
+        deadline = time.monotonic() + TIMEOUT
+        while not {f'/readme/{node}' for node in NODES} <= set(here.run('rosnode list').split()):
+            assert time.monotonic() < deadline, here.run('rosnode list')
+        here.run('rostopic echo -n1 /readme/rumba/cleaning_status')  # the simulator is through with its start
+        yield here
+
+
+def info(space, node):
+    """Topics with their types, and services, of a node in /readme."""
+    text = space.run(f'rosnode info /readme/{node}')
+    topics = set(re.findall(r'^ \* (/\S+ \[\S+\])$', text, re.MULTILINE)) - EVERY_NODE_HAS
+    services = set(re.findall(r'^ \* (/\S+)$', text, re.MULTILINE))
+    return ({topic for topic in topics if not OF_RECONFIGURE.search(topic)},
+            {service for service in services if not OF_RECONFIGURE.search(service)})
+
+
+def resolved(name):
+    """A name of the tables as it is in the namespace /readme."""
+    return name if name.startswith('/') else f'/readme/{name}'
 
 
 @pytest.mark.parametrize('node', NODES)
-def test_the_table_of_topics_is_what_the_node_does(workspace, node):
-    here = workspace.space('devel')
-    promised = {f'/readme/{topic} [{message}]' for name, topic, message, *_ in TABLE if name == node}
-    with here.running('rosrun rumba_sim battery_status_publisher __ns:=/readme'), \
-            here.running('rosrun rumba_sim battery_status_listener __ns:=/readme') as listener:
-        assert any(line.startswith('battery 100 %') for line in listener.stdout)
-        info = here.run(f'rosnode info /readme/{node}')
-    topics = set(re.findall(r'^ \* (/\S+ \[\S+\])$', info, re.MULTILINE))
-    assert topics - EVERY_NODE_HAS == promised
+def test_the_table_of_topics_is_what_the_node_does(running, node):
+    assert info(running, node)[0] == {f'{resolved(topic)} [{kind}]' for name, topic, kind, *_ in TOPICS if name == node}
+
+
+@pytest.mark.parametrize('node', NODES)
+def test_the_table_of_services_is_what_the_node_serves(running, node):
+    promised = {resolved(service): kind for name, service, kind, *_ in SERVICES if name == node}
+    assert info(running, node)[1] == set(promised)
+    assert {service: running.run(f'rosservice type {service}').strip() for service in promised} == promised
 
 
 def test_every_installed_node_is_in_the_table():

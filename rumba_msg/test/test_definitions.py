@@ -31,10 +31,11 @@ MD5 = {
     'MissionStatus.msg': ['1168317ed6cf225f66c3b86579971a59'],
     'Kill.srv': ['d82dc6474dd88dad5e1615ab1b2ca74c'],
     'Spawn.srv': ['b632bbf32aa077e9544add486db4fe8a'],
+    'Step.srv': ['70fefd98c6c6d5e009e2a5b9432fedf7'],
     'TargetPosition.srv': ['dd76aff00a72b33e8d77950fa07ebddf'],
     'Teleport.srv': ['3bd059df70d5e80971945ad044457a3c'],
 }
-UNIT_OF_A_NUMBER = re.compile(r'\[(%|0\.\.1|m|m\^2|rad|s|m/s|rad/s)\]|constants? above|sum of the beams above')
+UNIT_OF_A_NUMBER = re.compile(r'\[(%|0\.\.1|m|m\^2|rad|s|m/s|rad/s|ticks)\]|constants? above|sum of the beams above')
 PARTS = [part for path in FILES for part in parts(path)]
 ROSIDL_PARSERS = {'.msg': 'parse_message_string', '.srv': 'parse_service_string', '.action': 'parse_action_string'}
 

@@ -1,6 +1,8 @@
 """The battery against closed forms."""
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 from pytest import approx
 
 from rumba_sim.model.battery import CELLS, Battery, BatteryConfig
@@ -93,3 +95,14 @@ def test_voltage_is_the_rest_voltage_less_the_loss_inside():
     assert Battery(CONFIG, 1.0).voltage == approx(CELLS * 1.47)
     assert Battery(CONFIG, 0.0).voltage == approx(CELLS * 1.0)
     assert Battery(CONFIG, 0.7).voltage == approx(CELLS * (1.27 + 1.34) / 2.0)
+
+
+@given(st.floats(0.0, 1.0), st.lists(st.tuples(st.floats(0.0, 1e4), st.floats(0.0, 20.0), st.booleans())))
+def test_whatever_happens_the_charge_stays_between_empty_and_full_and_flows_as_it_should(state_of_charge, steps):
+    battery = Battery(CONFIG, state_of_charge)
+    for dt, load, on_dock in steps:
+        before = battery.charge
+        battery.step(dt, load, on_dock)
+        assert 0.0 <= battery.charge <= CONFIG.capacity and 0 <= battery.percentage <= 100
+        assert 0.0 <= battery.current <= CONFIG.charge_current if on_dock else -load <= battery.current <= 0.0
+        assert battery.charge == approx(min(max(before + battery.current * dt / 3600.0, 0.0), CONFIG.capacity))

@@ -20,6 +20,21 @@ class Example:
     name: str = config.setting('rumba', 'who')
 
 
+@dataclasses.dataclass(frozen=True)
+class House:
+    """Settings with sections, one of them in another."""
+
+    @dataclasses.dataclass(frozen=True)
+    class Room:
+        """A section that holds a section."""
+
+        example: Example = config.section(Example, 'an example')
+        size: float = config.setting(4.0, 'how large', 'm', low=1.0, high=9.0)
+
+    room: Room = config.section(Room, 'where')
+    doors: int = config.setting(2, 'how many', low=0, high=5)
+
+
 def test_what_is_left_out_keeps_its_default():
     assert config.from_mapping(Example, {'count': 5}, 'x') == Example(count=5)
 
@@ -54,3 +69,42 @@ def test_a_description_has_a_line_for_each_setting_with_default_unit_meaning_and
     assert [line.split()[0] for line in lines] == config.names(Example)
     assert lines[0].split() == 'speed 0.3 [m/s] how fast; 0 to 0.5'.split()
     assert lines[3].split() == 'quiet False whether; true or false'.split()
+
+
+# --- sections -----------------------------------------------------------------------------------------------------
+
+def test_a_section_is_filled_from_a_nested_mapping_and_keeps_what_is_left_out():
+    house = config.from_mapping(House, {'room': {'example': {'count': 7}, 'size': 5}}, 'x')
+    assert house == House(room=House.Room(example=Example(count=7), size=5.0))
+    assert config.updated(house, {'room': {'example': {'speed': 0.1}}}, 'x') == House(
+        room=House.Room(example=Example(count=7, speed=0.1), size=5.0))
+    assert config.from_mapping(House, {'room': {}}, 'x') == House()
+
+
+@pytest.mark.parametrize('mapping, message', [
+    ({'room': {'example': {'speed': 2.0}}}, r'^here: room/example/speed is 2\.0: must be 0 to 0\.5 \[m/s\]$'),
+    ({'room': {'example': {'sped': 2.0}}}, r"^here: room/example/sped is unknown: did you mean 'speed'\?$"),
+    ({'room': {'siez': 2.0}}, r"^here: room/siez is unknown: did you mean 'size'\?$"),
+    ({'rom': {}}, r"^here: rom is unknown: did you mean 'room'\?$"),
+    ({'room': 4.0}, r'^here: room is 4\.0: must be a mapping of example, size$'),
+    ({'room': {'example': []}}, r'^here: room/example is \[\]: must be a mapping of speed, count, place, quiet, name$'),
+    ({'doors': {'size': 1}}, r"^here: doors is \{'size': 1\}: must be 0 to 5$"),
+    ({5: 1}, r'^here: 5 is unknown: known are room, doors$'),
+])
+def test_a_wrong_setting_in_a_section_is_named_by_its_path(mapping, message):
+    with pytest.raises(ConfigError, match=message):
+        config.from_mapping(House, mapping, 'here')
+
+
+def test_leaves_are_the_settings_by_their_paths_those_of_sections_last():
+    assert [path for path, _ in config.leaves(House)] == [
+        'doors', 'room/size', 'room/example/speed', 'room/example/count', 'room/example/place', 'room/example/quiet',
+        'room/example/name']
+    assert [line.split()[0] for line in config.describe(House).splitlines()] == [
+        path for path, _ in config.leaves(House)]
+
+
+def test_an_explanation_tells_meaning_range_and_unit():
+    fields = dict(config.leaves(House))
+    assert config.explain(fields['room/size']) == 'how large; 1 to 9 [m]'
+    assert config.explain(fields['room/example/quiet']) == 'whether; true or false'

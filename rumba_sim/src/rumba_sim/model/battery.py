@@ -3,6 +3,7 @@
 import dataclasses
 import math
 
+from rumba_sim.model import kernel
 from rumba_sim.model.config import setting
 
 CELLS = 12
@@ -10,7 +11,6 @@ CELLS = 12
 # chemistry, set so that the pack has its nominal 14.4 V at 10 % and about 18 V at the end of a charge
 # (iRobot Roomba 600 Open Interface specification; makers' data).
 REST_VOLTAGE = ((0.0, 1.00), (0.1, 1.20), (0.5, 1.27), (0.9, 1.34), (1.0, 1.47))
-SECONDS_PER_HOUR = 3600.0
 ROUNDING = 1e-6  # [%] lest 29 %, put into ampere-hours and taken back, be 30 %
 
 
@@ -23,6 +23,11 @@ class BatteryConfig:
     idle_current: float = setting(0.19, 'electronics alone (readings of owners)', 'A', low=0.0, high=100.0)
     brush_current: float = setting(0.5, 'brushes and vacuum while cleaning (published measurements)', 'A',
                                    low=0.0, high=100.0)
+    wheel_current_slow: float = setting(0.3, 'both wheels, as slow as they turn (published measurements)', 'A',
+                                        low=0.0, high=100.0)
+    wheel_current: float = setting(1.0, 'both wheels at wheel_speed (published measurements)', 'A',
+                                   low=0.0, high=100.0)
+    wheel_speed: float = setting(0.3, 'normal speed while cleaning (Create 3: 0.306)', 'm/s', low=0.01, high=10.0)
     charge_current: float = setting(1.25, 'charger, until the taper; fills the battery in about 3 h', 'A',
                                     low=0.001, high=100.0)
     trickle_current: float = setting(0.06, 'charger, at the end of the taper', 'A', low=0.001, high=100.0)
@@ -40,11 +45,11 @@ class Battery:
         current: through the terminals in the last step [A], negative while discharging.
     """
 
-    def __init__(self, config: BatteryConfig, state_of_charge: float = 1.0) -> None:
-        """Begin at rest with the given state of charge [0..1]."""
+    def __init__(self, config: BatteryConfig, state_of_charge: float = 1.0, current: float = 0.0) -> None:
+        """Begin with the given state of charge [0..1], and a current [A] that flowed last."""
         self.config = config
         self.charge = config.capacity * state_of_charge
-        self.current = 0.0
+        self.current = current
 
     def step(self, dt: float, load: float, on_dock: bool = False) -> None:
         """Let time pass.
@@ -56,16 +61,8 @@ class Battery:
             load: sum of the loads [A], not negative.
             on_dock: whether the charging contacts are closed.
         """
-        config = self.config
-        self.current = self._charger_current() if on_dock else -load if self.charge > 0.0 else 0.0
-        charge = self.charge + self.current * config.drain * dt / SECONDS_PER_HOUR
-        self.charge = min(max(charge, 0.0), config.capacity)
-
-    def _charger_current(self) -> float:
-        if self.charge >= self.config.capacity:
-            return 0.0
-        taper = (1.0 - self.state_of_charge) / (1.0 - self.config.taper_start)
-        return max(self.config.trickle_current, self.config.charge_current * min(1.0, taper))
+        self.current = kernel.battery_current(self.charge, self.config, load, on_dock)
+        self.charge = kernel.charge_after(self.charge, self.config, self.current, dt)
 
     @property
     def state_of_charge(self) -> float:

@@ -3,11 +3,12 @@
 import dataclasses
 import difflib
 import math
-from typing import Any, List, Mapping, Optional, Type, TypeVar
+from typing import Any, Iterator, List, Mapping, Optional, Tuple, Type, TypeVar
 
 from rumba_sim.model.errors import ConfigError
 
 Settings = TypeVar('Settings')
+Field = Any  # of dataclasses.Field: Python 3.8 cannot subscript it at run time
 
 
 def setting(default: Any, doc: str, unit: str = '', low: Optional[float] = None, high: Optional[float] = None) -> Any:
@@ -15,11 +16,16 @@ def setting(default: Any, doc: str, unit: str = '', low: Optional[float] = None,
 
     Args:
         default: value where the user gives none; its type is the type of the setting.
-        doc: what it is, for people.
+        doc: what it is, for people, and where its figure comes from.
         unit: unit of a number, as in `m/s`.
         low, high: the range of a number, both ends allowed; None for any finite number.
     """
     return dataclasses.field(default=default, metadata={'doc': doc, 'unit': unit, 'low': low, 'high': high})
+
+
+def section(cls: type, doc: str) -> Any:
+    """A dataclass field that holds further settings, of class `cls`."""
+    return dataclasses.field(default_factory=cls, metadata={'doc': doc, 'section': cls})
 
 
 def names(cls: type) -> List[str]:
@@ -29,58 +35,104 @@ def names(cls: type) -> List[str]:
 
 def describe(cls: type) -> str:
     """One line for each setting of a class: name, default, unit, meaning and range."""
-    return '\n'.join(
-        f'  {field.name:<18} {field.default!s:<6} {_unit(field):<7} {field.metadata["doc"]}; {_range(field)}'
-        for field in dataclasses.fields(cls))
+    rows = [(path, f'{field.default!s}', _unit(field), f'{field.metadata["doc"]}; {_range(field)}')
+            for path, field in leaves(cls)]
+    widths = [max(len(row[column]) for row in rows) for column in range(3)] if rows else []
+    return '\n'.join('  ' + '  '.join([*(text.ljust(width) for text, width in zip(row, widths)), row[3]])
+                     for row in rows)
+
+
+def explain(field: Field) -> str:
+    """Meaning, range and unit of a setting in one line."""
+    return f'{field.metadata["doc"]}; {_range(field)} {_unit(field)}'.rstrip()
+
+
+def leaves(cls: type, path: str = '') -> Iterator[Tuple[str, Field]]:
+    """Path, as in `battery/drain`, and field of each setting; those in sections come last."""
+    for field in sections_last(cls):
+        if 'section' in field.metadata:
+            yield from leaves(field.metadata['section'], f'{path}{field.name}/')
+        else:
+            yield path + field.name, field
+
+
+def sections_last(cls: type) -> List[Field]:
+    """The fields of a class of settings as people want to read them."""
+    return sorted(dataclasses.fields(cls), key=lambda field: 'section' in field.metadata)
 
 
 def from_mapping(cls: Type[Settings], mapping: Mapping[str, Any], where: str) -> Settings:
     """Settings of class `cls` from a mapping, as YAML or the parameter server give it.
 
     Args:
-        cls: a frozen dataclass, its fields made by `setting`.
+        cls: a frozen dataclass, its fields made by `setting` and `section`.
         mapping: value by field name; fields that it leaves out keep their default.
         where: what the mapping was read from, for the error message.
 
     Raises:
         ConfigError: a name is unknown, or a value has the wrong type or is out of range.
     """
-    fields = {field.name: field for field in dataclasses.fields(cls)}
-    for name in mapping:
+    return updated(cls(), mapping, where)
+
+
+def updated(settings: Settings, mapping: Mapping[str, Any], where: str) -> Settings:
+    """A copy of settings in which the values of a mapping, nested as they are, take the place of the old.
+
+    Raises:
+        ConfigError: as `from_mapping`.
+    """
+    try:
+        return _updated(settings, mapping, '')
+    except ConfigError as error:
+        raise ConfigError(f'{where}: {error}') from None
+
+
+def _updated(settings: Settings, mapping: Mapping[str, Any], path: str) -> Settings:
+    fields = {field.name: field for field in dataclasses.fields(settings)}
+    changes = {}
+    for name, value in mapping.items():
         if name not in fields:
-            raise ConfigError(f'{where}: {name} is unknown: {_nearest(name, list(fields))}')
-    return cls(**{name: _checked(fields[name], value, where) for name, value in mapping.items()})
+            raise ConfigError(f'{path}{name} is unknown: {nearest(name, list(fields))}')
+        if 'section' not in fields[name].metadata:
+            changes[name] = _checked(fields[name], value, path)
+        elif isinstance(value, Mapping):
+            changes[name] = _updated(getattr(settings, name), value, f'{path}{name}/')
+        else:
+            known = ', '.join(names(fields[name].metadata['section']))
+            raise ConfigError(f'{path}{name} is {value!r}: must be a mapping of {known}')
+    return dataclasses.replace(settings, **changes)
 
 
-def _nearest(name: str, known: List[str]) -> str:
-    close = difflib.get_close_matches(name, known, n=1)
+def nearest(name: Any, known: List[str]) -> str:
+    """What a user may have meant by an unknown name, as the end of a message."""
+    close = difflib.get_close_matches(str(name), known, n=1)
     return f'did you mean {close[0]!r}?' if close else f'known are {", ".join(known)}'
 
 
-def _checked(field: 'dataclasses.Field[Any]', value: Any, where: str) -> Any:
+def _checked(field: Field, value: Any, path: str) -> Any:
     wanted = type(field.default)
     if wanted is float and type(value) is int:
         value = float(value)
     if type(value) is not wanted or not _in_range(field, value):
-        raise ConfigError(f'{where}: {field.name} is {value!r}: must be {_range(field)} {_unit(field)}'.rstrip())
+        raise ConfigError(f'{path}{field.name} is {value!r}: must be {_range(field)} {_unit(field)}'.rstrip())
     return value
 
 
-def _in_range(field: 'dataclasses.Field[Any]', value: Any) -> bool:
+def _in_range(field: Field, value: Any) -> bool:
     low, high = field.metadata['low'], field.metadata['high']
     if isinstance(value, (bool, str)):
         return True
     return math.isfinite(value) and (low is None or value >= low) and (high is None or value <= high)
 
 
-def _range(field: 'dataclasses.Field[Any]') -> str:
+def _range(field: Field) -> str:
     wanted, low, high = type(field.default), field.metadata['low'], field.metadata['high']
     if wanted is bool:
         return 'true or false'
     if low is None or high is None:
         return {int: 'a whole number', float: 'a finite number', str: 'text'}[wanted]
-    return f'{low:g} to {high:g}'
+    return f'{low:.10g} to {high:.10g}'
 
 
-def _unit(field: 'dataclasses.Field[Any]') -> str:
+def _unit(field: Field) -> str:
     return f'[{field.metadata["unit"]}]' if field.metadata['unit'] else ''

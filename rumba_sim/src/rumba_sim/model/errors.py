@@ -7,3 +7,15 @@ class RumbaError(Exception):
 
 class ConfigError(RumbaError):
     """A setting is unknown, of the wrong type, or out of its range."""
+
+
+class MapError(RumbaError):
+    """A map cannot be read, or has no room for what was asked of it."""
+
+
+class CommandError(RumbaError):
+    """A command that no robot can follow."""
+
+
+class WorldError(RumbaError):
+    """The world cannot do what was asked of it: a name that is taken or unknown, a place that is not free."""

@@ -15,3 +15,16 @@ class Pose(NamedTuple):
 def wrap_angle(angle: float) -> float:
     """The same direction in (-pi, pi] [rad]."""
     return math.pi - (math.pi - angle) % (2.0 * math.pi)
+
+
+def compose(frame: Pose, pose: Pose) -> Pose:
+    """A pose given in a frame, as seen from where the frame's own pose is given."""
+    cos, sin = math.cos(frame.theta), math.sin(frame.theta)
+    return Pose(frame.x + cos * pose.x - sin * pose.y, frame.y + sin * pose.x + cos * pose.y,
+                wrap_angle(frame.theta + pose.theta))
+
+
+def inverse(frame: Pose) -> Pose:
+    """The pose, in a frame, of that against which the frame's own pose is given."""
+    cos, sin = math.cos(frame.theta), math.sin(frame.theta)
+    return Pose(-cos * frame.x - sin * frame.y, sin * frame.x - cos * frame.y, wrap_angle(-frame.theta))

@@ -1,35 +1,56 @@
 """What every node does alike: help, parameters, one clear line and exit code 2 for bad input, a quiet end."""
 
+import http.client
 import inspect
 import re
+import signal
 import sys
-from typing import Callable, List, Type, TypeVar
+import threading
+import xmlrpc.client
+from typing import Any, Callable, List, Sequence, Type, TypeVar
 
+import rosgraph
 import rospy
 
-from rumba_sim.model import config
-from rumba_sim.model.errors import ConfigError, RumbaError
+from rumba_sim.model import config, yaml_file
+from rumba_sim.model.errors import ConfigError, RumbaError, WorldError
 
 Settings = TypeVar('Settings')
 BAD_INPUT = 2
+PATIENCE = 2.0  # [s] with a node that the master knows but that does not answer
 
 
-def run(name: str, settings_class: Type[Settings], main: Callable[[Settings], None]) -> None:
+def run(name: str, settings_class: Type[Settings], main: Callable[[Settings], None], own_clock: bool = False,
+        own_parameters: Sequence[str] = (), is_single: bool = False) -> None:
     """Run a node until ROS shuts down; leaves the process with exit code 2 where its input is bad.
 
     Args:
         name: the node's name, unless remapped.
         settings_class: frozen dataclass of the private parameters, its fields made by `config.setting`.
         main: the node itself, called once the node is registered; its module's docstring is the node's help.
+        own_clock: the node is the source of time: it does not listen to /clock.
+        own_parameters: private parameters that the node itself writes; what an earlier run left there is deleted.
+        is_single: refuse to start while a node of the same name is alive, which rospy would end otherwise.
     """
     arguments = rospy.myargv()[1:]
     if '-h' in arguments or '--help' in arguments:
         print(inspect.getdoc(inspect.getmodule(main)), config.describe(settings_class), sep='\n\n')
         return
+    if '--config' in arguments:
+        print(yaml_file.document(settings_class()), end='')
+        return
     try:
         _check_command_line(arguments, config.names(settings_class))
-        rospy.init_node(name)
-        main(_parameters(settings_class))
+        if is_single:
+            _refuse_twin(name)
+        rospy.init_node(name, disable_rostime=own_clock)
+        for number in (signal.SIGINT, signal.SIGTERM):
+            signal.signal(number, _shut_down)
+        try:
+            main(_parameters(settings_class, own_parameters))
+        except RumbaError:
+            _take_parameters_back()
+            raise
     except RumbaError as error:
         _refuse(name, error)
     except rospy.ROSInterruptException:
@@ -37,6 +58,12 @@ def run(name: str, settings_class: Type[Settings], main: Callable[[Settings], No
     except rospy.ROSInitException as error:
         if not rospy.is_shutdown():
             _refuse(name, error)
+
+
+def _shut_down(number: int, _: Any) -> None:
+    """End ROS in a thread: rospy's own handler runs amid whatever the main thread does, and waits for ever for a lock
+    that the main thread holds, as when it was publishing."""
+    threading.Thread(target=rospy.signal_shutdown, args=[f'signal {number}']).start()
 
 
 def _refuse(name: str, error: Exception) -> None:
@@ -52,14 +79,51 @@ def _check_command_line(arguments: List[str], parameters: List[str]) -> None:
             raise ConfigError(f'{name}:= remaps a topic: for the parameter write _{name}:=')
 
 
-def _parameters(settings_class: Type[Settings]) -> Settings:
-    """The private parameters of this node.
+def _parameters(settings_class: Type[Settings], own: Sequence[str]) -> Settings:
+    """The private parameters of this node, over those of the file that its parameter `config` names."""
+    for name in own:
+        if rospy.has_param(f'~{name}'):
+            rospy.delete_param(f'~{name}')
+    parameters = rospy.get_param('~', {})
+    settings = settings_class()
+    path = parameters.get('config', '')
+    if 'config' in config.names(settings_class) and path:
+        settings = config.updated(settings, yaml_file.read_mapping(path, ConfigError), path)
+    return config.updated(settings, parameters, f'parameter of {rospy.get_name()}')
 
-    The parameter server outlives a node: what a refused command line put there is taken back, lest it spoil the next.
-    """
-    try:
-        return config.from_mapping(settings_class, rospy.get_param('~', {}), f'parameter of {rospy.get_name()}')
-    except ConfigError:
-        for assignment in filter(None, (re.match(r'_([^_]\w*):=', argument) for argument in sys.argv)):
+
+def _take_parameters_back() -> None:
+    """The parameter server outlives a node: what a refused command line put there must not spoil the next start."""
+    for assignment in filter(None, (re.match(r'_([^_]\w*(?:/\w+)*):=', argument) for argument in sys.argv)):
+        if rospy.has_param(f'~{assignment.group(1)}'):
             rospy.delete_param(f'~{assignment.group(1)}')
-        raise
+
+
+# --- who else is there --------------------------------------------------------------------------------------------
+
+class _Hasty(xmlrpc.client.Transport):
+    """Gives up on who does not answer."""
+
+    def make_connection(self, host: Any) -> http.client.HTTPConnection:
+        connection = super().make_connection(host)
+        connection.timeout = PATIENCE
+        return connection
+
+
+def _refuse_twin(name: str) -> None:
+    name = rosgraph.names.ns_join(rospy.get_namespace(), rospy.names.get_mappings().get('__name', name))
+    try:
+        xmlrpc.client.ServerProxy(rosgraph.Master(name).lookupNode(name), _Hasty()).getPid(name)
+    except (rosgraph.MasterException, xmlrpc.client.Error, http.client.HTTPException, OSError):
+        return  # no such node, or what a killed one left at the master, or no master yet
+    raise WorldError(f'a node {name} is here already: end it first')
+
+
+def is_served(service: str) -> bool:
+    """Whether somebody serves a service, and answers: a node that was killed leaves its services at the master."""
+    try:
+        rosgraph.Master(rospy.get_name()).lookupService(rospy.resolve_name(service))
+        rospy.wait_for_service(service, PATIENCE)
+    except (rosgraph.MasterException, rospy.ROSException):
+        return False
+    return True

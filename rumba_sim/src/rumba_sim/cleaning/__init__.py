@@ -1,0 +1,1 @@
+"""What a Rumba does to clean a floor, in plain Python: no ROS, no wall clock."""

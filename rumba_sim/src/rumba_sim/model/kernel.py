@@ -1,0 +1,444 @@
+"""What happens in one tick, for every robot: drive, collide, count, drain, sweep; and what laser and infrared see.
+
+Plain Python that `compiled` hands to numba whole: only numbers, arrays and records, and no imports but math and NumPy.
+The same functions run uncompiled, with the same results, some hundred times slower.
+
+Units: [m], [rad], [s], [A], [Ah]. `k` is the record of constants (CONSTANTS), `robots` an array of ROBOT, `field` the
+clearance [m] at the corners of the cells (rows + 1, columns + 1), `cells` a byte of the bits below for each cell
+(rows, columns), row 0 at the lowest y.
+"""
+
+import math
+from typing import Any, Tuple
+
+import numpy as np
+
+Record = Any  # an element of an array of one of the record types below
+Array = Any  # numpy.ndarray
+Triple = Tuple[float, float, float]
+
+WALL, CLIFF, CARPET, REACHABLE, SWEPT = 1, 2, 4, 8, 16
+LEFT, RIGHT = 1, 2  # bits of the bumper
+NO_BEAM, FORCE_FIELD, GREEN_BUOY, RED_BUOY = 0, 1, 4, 8  # rumba_msg/DockStatus
+INNER, OUTER = 0.26, 1.57  # [rad] how far the left receiver sees to the right, and to the left
+NEVER = -1
+TOUCH = 0.0005  # [m] closer than this is contact
+PUSH = 0.0001  # [m] a push leaves this much room, lest rounding leave an overlap
+PUSHES = 8  # how often a robot is pushed before it stays where it was
+NUDGE = 1e-7  # [cells] across the border of one, and the drift of a beam that counts as parallel to it
+HALF_DIAGONAL = 0.7072  # [cells] of a cell: no place in it is farther from the nearest corner
+
+ROBOT = np.dtype((np.record, np.dtype([(name, 'f8') for name in (
+    'x', 'y', 'theta', 'left_speed', 'right_speed', 'command_v', 'command_w', 'left_scale', 'right_scale',
+    'left_path', 'right_path', 'odom_x', 'odom_y', 'odom_theta', 'odom_v', 'odom_w', 'charge', 'current', 'distance',
+    'brush_time', 'contact_angle')] + [
+        (name, 'i8') for name in ('command_tick', 'left_ticks', 'right_ticks', 'bumps', 'alone_until')] + [
+            (name, 'u1') for name in ('bumper', 'brushes_up', 'docked', 'fallen')], align=True)))
+CONSTANTS = np.dtype((np.record, np.dtype([(name, 'f8') for name in (
+    'dt', 'origin_x', 'origin_y', 'resolution', 'radius', 'reach', 'wheel_base', 'ticks_per_metre', 'max_speed',
+    'max_turn_rate', 'acceleration', 'dead_band', 'noise', 'floor_traction', 'carpet_traction', 'bumper_half',
+    'overlap_half', 'range_min', 'range_max', 'range_noise', 'dock_x', 'dock_y', 'dock_theta', 'contact_distance',
+    'contact_angle', 'release_distance', 'release_angle', 'buoy_range', 'buoy_half', 'buoy_overlap_half', 'halo',
+    'brush_width', 'log_kept', 'capacity', 'idle_current', 'wheel_current_slow', 'wheel_current', 'wheel_speed',
+    'brush_current', 'charge_current', 'trickle_current', 'taper_start', 'drain')] + [
+        ('timeout_ticks', 'i8'), ('has_dock', 'u1'), ('has_layers', 'u1')], align=True)))
+TALLY = np.dtype((np.record, np.dtype([('swept', 'i8'), ('dirt', 'f8')], align=True)))
+
+
+def advance(robots: Array, constants: Array, field: Array, cells: Array, dirt: Array, tallies: Array,
+            noise: Array, tick: int, ticks: int) -> None:
+    """Let `ticks` ticks pass from `tick` on; `noise` (robots, any, 2) is normal, row t of it for tick t.
+
+    `constants` and `tallies` are arrays of one record.
+    """
+    k, tally = constants[0], tallies[0]
+    for now in range(tick, tick + ticks):
+        for me in range(len(robots)):
+            robot = robots[me]
+            drive(robot, k, now)
+            from_x, from_y, from_theta = robot.x, robot.y, robot.theta
+            toward_x, toward_y = move(robots, me, k, field, now)
+            traction = k.floor_traction
+            if k.has_layers:
+                traction = stand(robot, k, cells)
+            count(robot, k, traction, noise[me, now % noise.shape[1]])
+            touch(robots, me, k, field, now, toward_x, toward_y)
+            if not robot.brushes_up and robot.charge > 0.0:
+                robot.brush_time += k.dt
+                sweep(robot, k, cells, dirt, tally, from_x, from_y, from_theta)
+            if k.has_dock:
+                robot.docked = at_contacts(robot, k)
+            robot.current = battery_current(robot.charge, k, load(robot, k), robot.docked)
+            robot.charge = charge_after(robot.charge, k, robot.current, k.dt)
+
+
+# --- geometry -----------------------------------------------------------------------------------------------------
+
+def wrap(angle: float) -> float:
+    """The same direction in (-pi, pi]."""
+    return math.pi - (math.pi - angle) % (2.0 * math.pi)
+
+
+def arc(x: float, y: float, theta: float, way: float, turn: float) -> Triple:
+    """The pose after an exact arc: `way` along it, `turn` of the heading."""
+    half = 0.5 * turn
+    chord = way * (math.sin(half) / half) if abs(half) > 1e-6 else way
+    return x + chord * math.cos(theta + half), y + chord * math.sin(theta + half), wrap(theta + turn)
+
+
+def clearance(k: Record, field: Array, x: float, y: float) -> Triple:
+    """Distance to the nearest wall, bilinear between the corners of a cell, and its gradient along x and y."""
+    u, v = (x - k.origin_x) / k.resolution, (y - k.origin_y) / k.resolution
+    if not (0.0 <= u < field.shape[1] - 1 and 0.0 <= v < field.shape[0] - 1):
+        return 0.0, 0.0, 0.0
+    column, row = int(u), int(v)
+    u, v = u - column, v - row
+    lower = field[row, column + 1] - field[row, column]
+    upper = field[row + 1, column + 1] - field[row + 1, column]
+    left = field[row + 1, column] - field[row, column]
+    along_x = lower + v * (upper - lower)
+    return field[row, column] + u * along_x + v * left, along_x / k.resolution, (
+        left + u * (upper - lower)) / k.resolution
+
+
+def cell_bits(k: Record, cells: Array, x: float, y: float) -> int:
+    """The byte of the cell at a place; outside the map all is wall."""
+    u, v = (x - k.origin_x) / k.resolution, (y - k.origin_y) / k.resolution
+    if 0.0 <= u < cells.shape[1] and 0.0 <= v < cells.shape[0]:
+        return int(cells[int(v), int(u)])
+    return WALL
+
+
+# --- motion -------------------------------------------------------------------------------------------------------
+
+def drive(robot: Record, k: Record, now: int) -> None:
+    """Bring the wheels nearer to the speeds that the last command asks for, as far as limits allow."""
+    v, w = 0.0, 0.0
+    if robot.command_tick != NEVER and now - robot.command_tick < k.timeout_ticks and robot.charge > 0.0 and (
+            not robot.fallen):
+        v = min(max(robot.command_v, -k.max_speed), k.max_speed)
+        w = min(max(robot.command_w, -k.max_turn_rate), k.max_turn_rate)
+    left, right = v - 0.5 * w * k.wheel_base, v + 0.5 * w * k.wheel_base
+    fastest = max(abs(left), abs(right))
+    if fastest > k.max_speed:  # both alike, so that the arc stays the same
+        left, right = left * k.max_speed / fastest, right * k.max_speed / fastest
+    robot.left_speed = approach(robot.left_speed, left, k)
+    robot.right_speed = approach(robot.right_speed, right, k)
+
+
+def approach(speed: float, wanted: float, k: Record) -> float:
+    """The speed of a wheel after one tick of acceleration toward what is wanted."""
+    if abs(wanted) < k.dead_band:
+        wanted = 0.0
+    change = k.acceleration * k.dt
+    return min(max(wanted, speed - change), speed + change)
+
+
+def move(robots: Array, me: int, k: Record, field: Array, now: int) -> Tuple[float, float]:
+    """Follow the wheels for one tick; what is in the way is slid along, never entered.
+
+    Returns where the wheels led from where the robot came to be: (0, 0) where nothing was in the way.
+    """
+    robot = robots[me]
+    way = 0.5 * (robot.left_speed + robot.right_speed) * k.dt
+    turn = (robot.right_speed - robot.left_speed) / k.wheel_base * k.dt
+    if way == 0.0:
+        robot.theta = wrap(robot.theta + turn)
+        return 0.0, 0.0
+    to_x, to_y, robot.theta = arc(robot.x, robot.y, robot.theta, way, turn)
+    x, y = settle(robots, me, k, field, now, to_x, to_y)
+    robot.distance += math.hypot(x - robot.x, y - robot.y)
+    robot.x, robot.y = x, y
+    return to_x - x, to_y - y
+
+
+def settle(robots: Array, me: int, k: Record, field: Array, now: int, x: float, y: float) -> Tuple[float, float]:
+    """Where a robot comes to rest that wants to be at (x, y): pushed out of walls and robots, else where it was."""
+    for _ in range(PUSHES):
+        gap, along_x, along_y = clearance(k, field, x, y)
+        free = gap >= k.reach
+        if not free:
+            slope = math.hypot(along_x, along_y)
+            if slope < 1e-6:
+                break
+            push = (k.reach + PUSH - gap) / slope
+            x, y = x + push * along_x, y + push * along_y
+        if now >= robots[me].alone_until:
+            other, distance = nearest(robots, me, k, now, x, y)
+            if other >= 0 and distance < 2.0 * k.radius:
+                if distance < 1e-6:
+                    break
+                free = False
+                push = (2.0 * k.radius + PUSH - distance) / distance
+                x, y = x + push * (x - robots[other].x), y + push * (y - robots[other].y)
+        if free:
+            if math.hypot(x - robots[me].x, y - robots[me].y) > leap(k):
+                break
+            return x, y
+    return robots[me].x, robots[me].y
+
+
+def leap(k: Record) -> float:
+    """The farthest that one tick may take a robot: a push may double its way."""
+    return 2.0 * (k.max_speed * k.dt + PUSH)
+
+
+def nearest(robots: Array, me: int, k: Record, now: int, x: float, y: float) -> Tuple[int, float]:
+    """Index of the robot that is nearest to (x, y), -1 where there is none, and its distance.
+
+    Notes until when nobody can come near, so that robots far apart need not look.
+    """
+    other, square = -1, math.inf
+    for index in range(len(robots)):
+        if index != me:
+            dx, dy = robots[index].x - x, robots[index].y - y
+            if dx * dx + dy * dy < square:
+                other, square = index, dx * dx + dy * dy
+    distance = math.sqrt(square)
+    if other < 0:
+        robots[me].alone_until = now + 1000
+    else:
+        # Two robots approach each other, and this one may yet be pushed from (x, y).
+        robots[me].alone_until = now + int((distance - 2.0 * k.radius - TOUCH) / (2.0 * leap(k))) - 1
+    return other, distance
+
+
+def touch(robots: Array, me: int, k: Record, field: Array, now: int, toward_x: float, toward_y: float) -> None:
+    """Press the switches of the bumper where a wall or a robot touches the front, or is in the way (toward it)."""
+    robot = robots[me]
+    robot.contact_angle = math.nan
+    pressed = press(robot, k, toward_x, toward_y) if toward_x != 0.0 or toward_y != 0.0 else 0
+    gap, along_x, along_y = clearance(k, field, robot.x, robot.y)
+    if gap < k.reach + PUSH + TOUCH:
+        pressed |= press(robot, k, -along_x, -along_y)
+    if now >= robot.alone_until:
+        _, distance = nearest(robots, me, k, now, robot.x, robot.y)
+        if distance < 2.0 * k.radius + PUSH + TOUCH:
+            for other in range(len(robots)):
+                x, y = robots[other].x - robot.x, robots[other].y - robot.y
+                if other != me and math.hypot(x, y) < 2.0 * k.radius + PUSH + TOUCH:
+                    pressed |= press(robot, k, x, y)
+    if pressed and not robot.bumper:
+        robot.bumps += 1
+    robot.bumper = pressed
+
+
+def press(robot: Record, k: Record, toward_x: float, toward_y: float) -> int:
+    """Switches that a contact in this direction presses; notes the contact that is nearest to the front."""
+    angle = wrap(math.atan2(toward_y, toward_x) - robot.theta)
+    if not abs(angle) >= abs(robot.contact_angle):  # also where there was none, NaN
+        robot.contact_angle = angle
+    if abs(angle) > k.bumper_half:
+        return 0
+    return (LEFT if angle >= -k.overlap_half else 0) | (RIGHT if angle <= k.overlap_half else 0)
+
+
+def stand(robot: Record, k: Record, cells: Array) -> float:
+    """Fall, and lie there, where a wheel has no floor under it; returns how well the wheels hold."""
+    x, y = -0.5 * k.wheel_base * math.sin(robot.theta), 0.5 * k.wheel_base * math.cos(robot.theta)
+    left, right = cell_bits(k, cells, robot.x + x, robot.y + y), cell_bits(k, cells, robot.x - x, robot.y - y)
+    if (left | right) & CLIFF:
+        robot.fallen = True
+    return k.carpet_traction if left & right & CARPET else k.floor_traction
+
+
+def count(robot: Record, k: Record, traction: float, noise: Array) -> None:
+    """Encoder ticks of both wheels, slip, scale and noise included, and the pose that follows from them alone."""
+    left, right = robot.left_speed * k.dt, robot.right_speed * k.dt
+    left = left / traction * robot.left_scale + k.noise * math.sqrt(abs(left)) * noise[0]
+    right = right / traction * robot.right_scale + k.noise * math.sqrt(abs(right)) * noise[1]
+    robot.odom_v, robot.odom_w = 0.5 * (left + right) / k.dt, (right - left) / k.wheel_base / k.dt
+    robot.left_path += left
+    robot.right_path += right
+    left_ticks = math.floor(robot.left_path * k.ticks_per_metre)
+    right_ticks = math.floor(robot.right_path * k.ticks_per_metre)
+    left = (left_ticks - robot.left_ticks) / k.ticks_per_metre
+    right = (right_ticks - robot.right_ticks) / k.ticks_per_metre
+    robot.left_ticks, robot.right_ticks = left_ticks, right_ticks
+    if left != 0.0 or right != 0.0:
+        robot.odom_x, robot.odom_y, robot.odom_theta = arc(
+            robot.odom_x, robot.odom_y, robot.odom_theta, 0.5 * (left + right), (right - left) / k.wheel_base)
+
+
+# --- floor --------------------------------------------------------------------------------------------------------
+
+def sweep(robot: Record, k: Record, cells: Array, dirt: Array, tally: Record, from_x: float, from_y: float,
+          from_theta: float) -> None:
+    """Clean what the brush, a line across the middle of the robot, passes over in one tick.
+
+    A cell loses `pickup` of its dirt in one pass, however slow: each line takes the share of its way in the cell's.
+    """
+    turn = wrap(robot.theta - from_theta)
+    way = math.hypot(robot.x - from_x, robot.y - from_y)
+    if way == 0.0 and turn == 0.0:
+        return
+    lines = 1 + int((way + 0.5 * abs(turn) * k.brush_width) / k.resolution)
+    points = 2 + int(2.0 * k.brush_width / k.resolution)
+    kept = math.exp(k.log_kept * (way + 0.25 * abs(turn) * k.brush_width) / (lines * k.resolution))
+    for line in range(1, lines + 1):
+        share = line / lines
+        theta = from_theta + share * turn
+        x, y = from_x + share * (robot.x - from_x), from_y + share * (robot.y - from_y)
+        half_x, half_y = -0.5 * k.brush_width * math.sin(theta), 0.5 * k.brush_width * math.cos(theta)
+        last_row, last_column = -1, -1
+        for point in range(points):
+            side = 2.0 * point / (points - 1) - 1.0
+            column = int(math.floor((x + side * half_x - k.origin_x) / k.resolution))
+            row = int(math.floor((y + side * half_y - k.origin_y) / k.resolution))
+            if (row != last_row or column != last_column) and (
+                    0 <= row < cells.shape[0] and 0 <= column < cells.shape[1]):
+                last_row, last_column = row, column
+                clean(cells, dirt, tally, row, column, kept)
+
+
+def clean(cells: Array, dirt: Array, tally: Record, row: int, column: int, kept: float) -> None:
+    """One line of the brush over one cell."""
+    bits = int(cells[row, column])
+    if bits & (WALL | CLIFF):
+        return
+    before = float(dirt[row, column])
+    dirt[row, column] = before * kept
+    if bits & REACHABLE:
+        tally.dirt -= before - float(dirt[row, column])
+        if not bits & SWEPT:
+            tally.swept += 1
+    cells[row, column] = bits | SWEPT
+
+
+# --- energy -------------------------------------------------------------------------------------------------------
+
+def load(robot: Record, k: Record) -> float:
+    """Sum of the loads [A]: electronics, wheels by their speed, brushes."""
+    wheels = 0.5 * (abs(robot.left_speed) + abs(robot.right_speed))
+    current = k.idle_current
+    if wheels > 0.0:
+        current += k.wheel_current_slow + (k.wheel_current - k.wheel_current_slow) * wheels / k.wheel_speed
+    if not robot.brushes_up:
+        current += k.brush_current
+    return current
+
+
+def battery_current(charge: float, k: Record, load: float, on_dock: bool) -> float:
+    """Current into the battery [A], negative out of it: the charger tapers as the battery fills."""
+    if not on_dock:
+        return -load if charge > 0.0 else 0.0
+    if charge >= k.capacity:
+        return 0.0
+    taper = (1.0 - charge / k.capacity) / (1.0 - k.taper_start)
+    return max(k.trickle_current, k.charge_current * min(1.0, taper))
+
+
+def charge_after(charge: float, k: Record, current: float, dt: float) -> float:
+    """Charge [Ah] after a current [A] flowed for dt [s]."""
+    return min(max(charge + current * k.drain * dt / 3600.0, 0.0), k.capacity)
+
+
+# --- dock ---------------------------------------------------------------------------------------------------------
+
+def at_contacts(robot: Record, k: Record) -> bool:
+    """Whether the charging contacts are closed: they open later than they close."""
+    distance = math.hypot(robot.x - k.dock_x, robot.y - k.dock_y)
+    angle = abs(wrap(robot.theta - k.dock_theta))
+    if robot.docked:
+        return distance <= k.release_distance and angle <= k.release_angle
+    return distance <= k.contact_distance and angle <= k.contact_angle
+
+
+def infrared(robot: Record, k: Record, field: Array, cells: Array) -> Tuple[int, int, int]:
+    """Sums of the dock's beams that the receivers get: all around, front left, front right.
+
+    The dock sends from the wall in front of the docked robot, against the direction in which that robot looks.
+    """
+    if not k.has_dock:
+        return NO_BEAM, NO_BEAM, NO_BEAM
+    from_x = k.dock_x + k.radius * math.cos(k.dock_theta)
+    from_y = k.dock_y + k.radius * math.sin(k.dock_theta)
+    dx, dy = robot.x - from_x, robot.y - from_y
+    distance = math.hypot(dx, dy)
+    if distance < 1e-6 or cast(k, field, cells, from_x, from_y, dx / distance, dy / distance, distance) < distance:
+        return NO_BEAM, NO_BEAM, NO_BEAM
+    beams = FORCE_FIELD if distance <= k.halo else NO_BEAM
+    off_axis = wrap(math.atan2(dy, dx) - k.dock_theta - math.pi)  # positive: right of it for who faces the dock
+    if distance <= k.buoy_range:
+        if -k.buoy_overlap_half <= off_axis <= k.buoy_half:
+            beams |= GREEN_BUOY
+        if -k.buoy_half <= off_axis <= k.buoy_overlap_half:
+            beams |= RED_BUOY
+    bearing = wrap(math.atan2(-dy, -dx) - robot.theta)
+    left = beams if -INNER <= bearing <= OUTER else NO_BEAM
+    right = beams if -OUTER <= bearing <= INNER else NO_BEAM
+    return beams, left, right
+
+
+# --- laser --------------------------------------------------------------------------------------------------------
+
+def cast(k: Record, field: Array, cells: Array, x: float, y: float, along_x: float, along_y: float,
+         limit: float) -> float:
+    """Distance from (x, y) along a unit vector to the first wall, at most `limit`.
+
+    Far from walls it leaps by the clearance of the nearest corner, near them it goes from border to border of the
+    cells, so that the wall is met exactly. Counts in cells.
+    """
+    u, v, far = (x - k.origin_x) / k.resolution, (y - k.origin_y) / k.resolution, limit / k.resolution
+    way = 0.0
+    while way < far:
+        column, row = u + way * along_x, v + way * along_y
+        if not (0.0 <= column < cells.shape[1] and 0.0 <= row < cells.shape[0]):
+            return way * k.resolution
+        room = field[int(row + 0.5), int(column + 0.5)] / k.resolution - HALF_DIAGONAL
+        if room > 1.0:
+            way += room
+        elif cells[int(row), int(column)] & WALL:
+            return way * k.resolution
+        else:
+            way += min(to_border(column, along_x), to_border(row, along_y)) + NUDGE
+    return limit
+
+
+def to_border(place: float, along: float) -> float:
+    """Way [cells] until one coordinate [cells] that grows by `along` each step reaches the border of its cell.
+
+    A beam that runs along a border, but for rounding, never crosses it: a nudge would not bring it to the other side.
+    """
+    if along > NUDGE:
+        return (math.floor(place) + 1.0 - place) / along
+    if along < -NUDGE:
+        return (math.floor(place) - place) / along
+    return math.inf
+
+
+def scan(robots: Array, me: int, k: Record, field: Array, cells: Array, fan: Array, noise: Array,
+         ranges: Array) -> None:
+    """Fill `ranges` (beams) for a robot; `fan` (beams, 2) holds their directions in its frame, `noise` is normal."""
+    robot = robots[me]
+    cos, sin = math.cos(robot.theta), math.sin(robot.theta)
+    for beam in range(len(ranges)):
+        along_x = cos * fan[beam, 0] - sin * fan[beam, 1]
+        along_y = sin * fan[beam, 0] + cos * fan[beam, 1]
+        ranges[beam] = cast(k, field, cells, robot.x, robot.y, along_x, along_y, k.range_max)
+    for other in range(len(robots)):
+        if other != me:
+            see(robots[other].x - robot.x, robots[other].y - robot.y, robot.theta, k, ranges)
+    for beam in range(len(ranges)):
+        if ranges[beam] >= k.range_max:
+            ranges[beam] = math.inf
+        else:
+            ranges[beam] += k.range_noise * noise[beam]
+            if ranges[beam] < k.range_min:
+                ranges[beam] = -math.inf
+
+
+def see(dx: float, dy: float, theta: float, k: Record, ranges: Array) -> None:
+    """Shorten the beams that another robot at (dx, dy) from the laser stands in."""
+    distance = math.hypot(dx, dy)
+    if distance >= k.range_max + k.radius or distance <= k.radius:
+        return
+    step = 2.0 * math.pi / len(ranges)
+    half = math.asin(k.radius / distance)
+    middle = wrap(math.atan2(dy, dx) - theta) + math.pi  # beam 0 looks backward
+    for beam in range(math.ceil((middle - half) / step), math.floor((middle + half) / step) + 1):
+        off = beam * step - middle
+        side = distance * math.sin(off)
+        way = distance * math.cos(off) - math.sqrt(max(0.0, k.radius * k.radius - side * side))
+        index = beam % len(ranges)
+        ranges[index] = min(ranges[index], way)

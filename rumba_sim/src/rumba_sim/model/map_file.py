@@ -1,0 +1,233 @@
+"""Maps as map_server stores them: a YAML file that names an image; and what Rumba adds to it.
+
+map_server's keys: image, resolution [m a pixel], origin [x, y, yaw] of the lower left corner, negate,
+occupied_thresh, free_thresh, mode (trinary, scale or raw). Those of Rumba, all optional: dock and start,
+[x, y, theta] each, and cliff and carpet, images of the same size where dark pixels mark the cells.
+"""
+
+from __future__ import annotations
+
+import difflib
+import math
+import os
+import reprlib
+from typing import TYPE_CHECKING, Any, Dict, NamedTuple, Optional, Tuple, TypeVar, Union
+
+import numpy as np
+from scipy import ndimage
+
+from rumba_sim.model import map_image
+from rumba_sim.model.errors import MapError
+from rumba_sim.model.floor_plan import FREE, UNKNOWN, WALL, Bounds, FloorPlan
+from rumba_sim.model.geometry import Pose, wrap_angle
+from rumba_sim.model.map_image import Alpha, Picture
+from rumba_sim.model.yaml_file import read_mapping
+
+if TYPE_CHECKING:  # NumPy 1.17 of Ubuntu 20.04 has no numpy.typing
+    from numpy.typing import NDArray
+
+REQUIRED = ('image', 'resolution', 'origin', 'negate', 'occupied_thresh', 'free_thresh')
+OPTIONAL = ('mode', 'dock', 'start', 'cliff', 'carpet')
+MODES = ('trinary', 'scale', 'raw')
+FAR = 1e9  # [m] coordinates of maps on the grid of a country reach 1e7
+RESOLUTIONS = (1e-4, 10.0)  # [m]
+ROUNDING = 1e-6  # [cells] lest a quarter turn add a row
+TYPO = 0.75  # how alike a key must be to one of ours to be taken for a slip of the pen
+
+Cell = TypeVar('Cell', bound=np.generic)
+
+
+class Header(NamedTuple):
+    """What the YAML file of a map says, checked."""
+
+    path: str
+    image: str
+    resolution: float
+    origin: Pose
+    negate: bool
+    occupied_thresh: float
+    free_thresh: float
+    mode: str
+    dock: Optional[Pose]
+    start: Optional[Pose]
+    cliff: Optional[str]
+    carpet: Optional[str]
+
+
+def load(path: Union[str, os.PathLike[str]]) -> FloorPlan:
+    """Read a map and cut it to its free cells and one cell more around them.
+
+    The maps of SLAM are mostly unknown, so that this saves time and memory; the origin moves along, and the
+    coordinates of all things stay. A map whose origin has a yaw is drawn anew, parallel to the axes.
+
+    Args:
+        path: of the YAML file.
+
+    Raises:
+        MapError: the file, or one that it names, cannot be used; the message begins with that file's path.
+    """
+    header = read_header(os.fspath(path))
+    picture = map_image.read(header.image, Alpha.AVERAGE if header.mode == 'trinary' else Alpha.IGNORE)
+    occupancy = _occupancy(header, picture)
+    part = _around_free(occupancy)
+    occupancy = occupancy[part]
+    cliff = _layer(header, header.cliff, picture, part)
+    carpet = _layer(header, header.carpet, picture, part)
+    origin = _moved(header.origin, part[1].start * header.resolution, part[0].start * header.resolution)
+    if origin.theta != 0.0:
+        box = _box(origin.theta, occupancy.shape)
+        origin = Pose(origin.x + box.left * header.resolution, origin.y + box.bottom * header.resolution, 0.0)
+        occupancy = _turned(occupancy, header.origin.theta, box, UNKNOWN)
+        cliff = None if cliff is None else _turned(cliff, header.origin.theta, box, 0)
+        carpet = None if carpet is None else _turned(carpet, header.origin.theta, box, 0)
+    return FloorPlan(header.path, occupancy, header.resolution, (origin.x, origin.y), cliff=cliff, carpet=carpet,
+                     dock=header.dock, start=header.start)
+
+
+def read_header(path: str) -> Header:
+    """Read and check the YAML file of a map; its images are not looked at.
+
+    Raises:
+        MapError: it cannot be read, or a key is missing, misspelt or has a value that cannot be.
+    """
+    entries = _Entries(path, read_mapping(path, MapError))
+    header = Header(
+        path=path, image=entries.file('image') or '', resolution=entries.number('resolution', *RESOLUTIONS, unit=' m'),
+        origin=entries.pose('origin') or Pose(0.0, 0.0, 0.0), negate=bool(entries.choice('negate', (0, 1))),
+        occupied_thresh=entries.number('occupied_thresh', 0.0, 1.0),
+        free_thresh=entries.number('free_thresh', 0.0, 1.0), mode=entries.choice('mode', MODES),
+        dock=entries.pose('dock'), start=entries.pose('start'),
+        cliff=entries.file('cliff'), carpet=entries.file('carpet'))
+    if header.free_thresh > header.occupied_thresh:
+        raise MapError(f'{path}: free_thresh is {header.free_thresh:g}: '
+                       f'must not be above occupied_thresh, {header.occupied_thresh:g}')
+    return header
+
+
+class _Entries:
+    """The values of a map's YAML file, each given out checked."""
+
+    def __init__(self, path: str, values: Dict[Any, Any]) -> None:
+        self._path = path
+        self._values = {'mode': MODES[0], **values}
+        known = REQUIRED + OPTIONAL
+        for key in values:  # other tools put keys of their own into such files: only what looks like ours is wrong
+            close = difflib.get_close_matches(str(key)[:80].lower(), known, n=1, cutoff=TYPO)
+            if key not in known and close:
+                raise MapError(f'{path}: {key!r} is unknown: did you mean {close[0]!r}?')
+        for key in REQUIRED:
+            if key not in values:
+                raise MapError(f'{path}: {key} is missing')
+
+    def _wrong(self, key: str, right: str) -> MapError:
+        return MapError(f'{self._path}: {key} is {reprlib.repr(self._values[key])}: must be {right}')
+
+    def number(self, key: str, low: float, high: float, unit: str = '') -> float:
+        value = _number(self._values[key])
+        if value is None or not low <= value <= high:
+            raise self._wrong(key, f'{low:g} to {high:g}{unit}')
+        return value
+
+    def pose(self, key: str) -> Optional[Pose]:
+        values: Any = self._values.get(key)
+        if values is None and key in OPTIONAL:
+            return None
+        numbers = [_number(value) for value in values] if isinstance(values, list) else []
+        good = [number for number in numbers if number is not None and abs(number) <= FAR]
+        if not len(numbers) == len(good) == 3:
+            raise self._wrong(key, '[x, y, angle] in m, m, rad')
+        return Pose(good[0], good[1], wrap_angle(good[2]))
+
+    def choice(self, key: str, allowed: Tuple[Any, ...]) -> Any:
+        value = self._values[key]
+        if value not in allowed:
+            raise self._wrong(key, ' or '.join(str(word) for word in allowed))
+        return value
+
+    def file(self, key: str) -> Optional[str]:
+        value = self._values.get(key)
+        if value is None and key in OPTIONAL:
+            return None
+        if not isinstance(value, str) or not value:
+            raise self._wrong(key, 'the path of an image')
+        return os.path.join(os.path.dirname(self._path), value)
+
+
+def _number(value: Any) -> Optional[float]:
+    """A finite number, also where YAML 1.1 takes one for text, as it does 5e-2; else None."""
+    if isinstance(value, bool) or not isinstance(value, (int, float, str)):
+        return None
+    try:
+        number = float(value)
+    except (ValueError, OverflowError):
+        return None
+    return number if math.isfinite(number) else None
+
+
+def _occupancy(header: Header, picture: Picture) -> NDArray[np.int8]:
+    """int8 (rows, columns), row 0 at the bottom, after the rules of map_server of ROS Noetic.
+
+    What its modes scale and raw leave between free and occupied is unknown here. In mode raw the pixel is the
+    probability in percent, and more than 100 is unknown.
+    """
+    value = np.arange(picture.white + 1) / (picture.white / 255.0)
+    if header.negate:
+        value = 255.0 - value
+    probability = np.floor(value) / 100.0 if header.mode == 'raw' else (255.0 - value) / 255.0
+    table = np.full(value.shape, UNKNOWN, np.int8)
+    table[probability < header.free_thresh] = FREE
+    table[(probability > header.occupied_thresh) & (probability <= 1.0)] = WALL
+    return np.stack([table[row] for row in picture.levels[::-1]])  # all at once would take 8 bytes a pixel
+
+
+def _layer(header: Header, path: Optional[str], picture: Picture,
+           part: Tuple[slice, slice]) -> Optional[NDArray[np.bool_]]:
+    """bool (rows, columns), row 0 at the bottom: the dark pixels in a part of a layer of the map."""
+    if path is None:
+        return None
+    layer = map_image.read(path, Alpha.ON_WHITE)
+    if layer.levels.shape != picture.levels.shape:
+        rows, columns = layer.levels.shape
+        raise MapError(f'{path}: has {columns} x {rows} pixels, '
+                       f'{header.image} has {picture.levels.shape[1]} x {picture.levels.shape[0]}: must be the same')
+    return np.asarray(layer.levels[::-1][part] <= (layer.white - 1) // 2)
+
+
+def _around_free(occupancy: NDArray[np.int8]) -> Tuple[slice, slice]:
+    """The rows and columns from one before the first to one after the last that has a free cell."""
+    free = occupancy == FREE
+    return _span(free.any(axis=1)), _span(free.any(axis=0))
+
+
+def _span(used: NDArray[np.bool_]) -> slice:
+    places = np.flatnonzero(used)
+    if places.size == 0:
+        return slice(0, 1)
+    return slice(max(int(places[0]) - 1, 0), int(places[-1]) + 2)
+
+
+def _moved(origin: Pose, x: float, y: float) -> Pose:
+    """The origin of a grid that begins at (x, y) of this one [m]."""
+    cos, sin = math.cos(origin.theta), math.sin(origin.theta)
+    return Pose(origin.x + cos * x - sin * y, origin.y + sin * x + cos * y, origin.theta)
+
+
+def _box(theta: float, shape: Tuple[int, ...]) -> Bounds:
+    """Edges of the upright rectangle around a grid (rows, columns) turned about its origin, as whole cells."""
+    corners = [_moved(Pose(0.0, 0.0, theta), x, y) for x in (0, shape[1]) for y in (0, shape[0])]
+    left, bottom = min(corner.x for corner in corners), min(corner.y for corner in corners)
+    columns = math.ceil(max(corner.x for corner in corners) - left - ROUNDING)
+    rows = math.ceil(max(corner.y for corner in corners) - bottom - ROUNDING)
+    return Bounds(left, bottom, left + columns, bottom + rows)
+
+
+def _turned(layer: NDArray[Cell], theta: float, box: Bounds, beyond: int) -> NDArray[Cell]:
+    """A turned layer as an upright one: each cell is what lies under its centre, or `beyond` where nothing does."""
+    cos, sin = math.cos(theta), math.sin(theta)
+    x, y = box.left + 0.5, box.bottom + 0.5
+    # Indices count from the centre of a cell (-0.5), and the rim that is put around the layer shifts them (+1).
+    offset = (cos * y - sin * x + 0.5, sin * y + cos * x + 0.5)
+    shape = (round(box.top - box.bottom), round(box.right - box.left))
+    rimmed = np.pad(layer.astype(np.int8), 1, mode='constant', constant_values=beyond)
+    upright = ndimage.affine_transform(rimmed, [[cos, -sin], [sin, cos]], offset, shape, order=0, cval=beyond)
+    return np.asarray(upright, dtype=layer.dtype)

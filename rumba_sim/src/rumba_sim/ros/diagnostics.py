@@ -1,0 +1,78 @@
+"""What /diagnostics tells of the simulation and of each battery."""
+
+import time
+from typing import Callable
+
+import diagnostic_updater
+from diagnostic_msgs.msg import DiagnosticStatus
+
+from rumba_sim.model.robot import Robot
+
+Status = diagnostic_updater.DiagnosticStatusWrapper
+PERIOD = 1.0  # [s] of the wall clock (REP 107: 1 Hz)
+LOW, CRITICAL = 10, 3  # [%] (Create 3: goes home below 10 %, warns below 3 %)
+SLOW = 0.9  # share of the wanted speed below which the simulation is too slow
+
+
+class Diagnostics:
+    """Counts what passes, and tells it once a second of the wall clock."""
+
+    def __init__(self, hardware: str) -> None:
+        """Begin to count now."""
+        self._updater = diagnostic_updater.Updater()
+        self._updater.setHardwareID(hardware)
+        self._last = time.monotonic()
+        self._simulated = 0.0
+        self._speed, self._wanted, self._late, self._late_before = 0.0, 1.0, 0, 0
+        self._updater.add('simulation', self._simulation)
+
+    def add(self, robot: str, find: Callable[[], Robot]) -> None:
+        """Watch the battery of a robot."""
+        self._updater.add(f'battery of {robot}', lambda status: battery(status, find()))
+
+    def remove(self, robot: str) -> None:
+        """Watch the battery of a robot no longer."""
+        self._updater.removeByName(f'battery of {robot}')
+
+    def update(self, simulated: float, wanted: float, late: int) -> None:
+        """Tell, if it is time.
+
+        Args:
+            simulated: time that passed in the simulation [s].
+            wanted: speed [times real time]; 0: as fast as possible.
+            late: how often the simulator gave up to catch up.
+        """
+        now = time.monotonic()
+        if now - self._last < PERIOD:
+            return
+        self._speed, self._wanted = (simulated - self._simulated) / (now - self._last), wanted
+        self._late, self._late_before = late, self._late
+        self._last, self._simulated = now, simulated
+        self._updater.force_update()
+
+    def _simulation(self, status: Status) -> Status:
+        slow = self._speed < SLOW * self._wanted
+        if self._late > self._late_before:
+            status.summary(DiagnosticStatus.WARN, 'this machine is too slow for the wanted speed')
+        else:
+            status.summary(DiagnosticStatus.OK, 'paused or slowed down' if slow else 'as fast as wanted')
+        status.add('speed [times real time]', f'{self._speed:.2f}')
+        status.add('wanted speed [times real time]', f'{self._wanted:g}' if self._wanted else 'as fast as possible')
+        status.add('late ticks', str(self._late))
+        return status
+
+
+def battery(status: Status, robot: Robot) -> Status:
+    """Fill in the state of a battery."""
+    state = robot.battery
+    level, word = DiagnosticStatus.OK, 'charged'
+    if state.percentage < CRITICAL:
+        level, word = DiagnosticStatus.ERROR, 'nearly empty' if state.percentage else 'empty'
+    elif state.percentage < LOW:
+        level, word = DiagnosticStatus.WARN, 'low'
+    status.summary(level, f'{word}: {state.percentage} %')
+    status.add('charge [Ah]', f'{state.charge:.3f}')
+    status.add('voltage [V]', f'{state.voltage:.2f}')
+    status.add('current [A]', f'{state.current:.2f}')
+    status.add('on the dock', str(robot.is_docked))
+    return status

@@ -1,0 +1,21 @@
+"""Names of the frames of a robot, after REP 105."""
+
+from typing import NamedTuple
+
+MAP = 'map'
+FIRST = 'rumba'  # the robot whose frames need no prefix
+
+
+class Frames(NamedTuple):
+    """Where a robot's poses, velocities and readings are meant."""
+
+    odom: str
+    base_footprint: str
+    base_link: str
+    laser: str
+
+
+def frames(robot: str) -> Frames:
+    """The frames of a robot by its name: those of `rumba` are plain, all others have the robot's name before them."""
+    prefix = '' if robot == FIRST else f'{robot}/'
+    return Frames(*(prefix + name for name in Frames._fields))

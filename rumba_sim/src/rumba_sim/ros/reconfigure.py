@@ -1,0 +1,83 @@
+"""dynamic_reconfigure for settings: their unit, range and meaning stand in the settings themselves, and only there."""
+
+from typing import Any, Callable, Dict, List, Mapping
+
+from dynamic_reconfigure.encoding import Config
+from dynamic_reconfigure.server import Server
+
+from rumba_sim.model.config import leaves
+
+TYPES = {bool: 'bool', int: 'int', float: 'double', str: 'str'}
+UNLIMITED = 1e9
+
+
+class Description:
+    """A class of settings as dynamic_reconfigure's server wants it described, in place of a generated module.
+
+    A path such as `battery/drain` becomes the name `battery_drain`.
+    """
+
+    def __init__(self, settings: Any, paths: List[str]) -> None:
+        """Describe the settings at these paths, their present values the defaults."""
+        fields = {path: field for path, field in leaves(type(settings)) if path in paths}
+        values = {path: value_at(settings, path) for path in paths}
+        self.defaults = Config({_name(path): values[path] for path in paths})
+        self.min = Config({_name(path): _limit(fields[path], 'low') for path in paths})
+        self.max = Config({_name(path): _limit(fields[path], 'high') for path in paths})
+        self.config_description = {
+            'name': 'Default', 'type': '', 'state': True, 'id': 0, 'parent': 0, 'groups': [],
+            'parameters': [{
+                'name': _name(path), 'type': TYPES[type(values[path])], 'default': values[path],
+                'min': self.min[_name(path)], 'max': self.max[_name(path)], 'level': 0, 'edit_method': '',
+                'description': _text(fields[path])} for path in paths]}
+
+
+def serve(settings: Any, paths: List[str], namespace: str, apply: Callable[[Dict[str, Any]], Any]) -> Server:
+    """Offer settings to rqt_reconfigure and dynparam.
+
+    Args:
+        settings: a frozen dataclass, its fields made by `setting` and `section`.
+        paths: of those that may be changed, as `battery/drain`.
+        namespace: below the node's name, where the server keeps its parameters.
+        apply: called with a nested mapping of all of them; returns the settings that are then in force.
+    """
+    def callback(config: Config, _: int) -> Config:
+        in_force = apply(nested({path: config[_name(path)] for path in paths}))
+        config.update({_name(path): value_at(in_force, path) for path in paths})
+        return config
+    return Server(Description(settings, paths), callback, namespace)
+
+
+def nested(flat: Mapping[str, Any]) -> Dict[str, Any]:
+    """{'battery/drain': 2} as {'battery': {'drain': 2}}."""
+    result: Dict[str, Any] = {}
+    for path, value in flat.items():
+        *sections, name = path.split('/')
+        place = result
+        for part in sections:
+            place = place.setdefault(part, {})
+        place[name] = value
+    return result
+
+
+def value_at(settings: Any, path: str) -> Any:
+    """The value at a path such as `battery/drain`."""
+    for name in path.split('/'):
+        settings = getattr(settings, name)
+    return settings
+
+
+def _name(path: str) -> str:
+    return path.replace('/', '_')
+
+
+def _limit(field: Any, end: str) -> Any:
+    limit = field.metadata[end]
+    if type(field.default) in (bool, str):
+        return {bool: end == 'high', str: ''}[type(field.default)]
+    return type(field.default)((-UNLIMITED if end == 'low' else UNLIMITED) if limit is None else limit)
+
+
+def _text(field: Any) -> str:
+    unit = field.metadata['unit']
+    return field.metadata['doc'] + (f' [{unit}]' if unit else '')

@@ -1,0 +1,59 @@
+"""What callbacks ask of the loop that owns the world: they queue, it acts."""
+
+import concurrent.futures
+import queue
+import threading
+import time
+from typing import Any, Callable, Optional, Tuple
+
+import rospy
+
+
+class Requests:
+    """A queue of calls from any thread, made one by one in the thread that made this object."""
+
+    def __init__(self) -> None:
+        """Belong to the present thread."""
+        self._owner = threading.current_thread()
+        # Not a SimpleQueue: a signal whose handler takes longer than the timeout makes its get() wait for ever.
+        self._queue: 'queue.Queue[Tuple[Callable[[], Any], concurrent.futures.Future[Any]]]' = queue.Queue()
+
+    def call(self, function: Callable[[], Any]) -> Any:
+        """Have the owner call a function; returns its result, or raises what it raised.
+
+        Raises:
+            rospy.ROSInterruptException: the node ends before the owner came to it.
+        """
+        if threading.current_thread() is self._owner:
+            return function()
+        answer = self.post(function)
+        while not rospy.is_shutdown():
+            try:
+                return answer.result(timeout=0.5)
+            except concurrent.futures.TimeoutError:
+                continue
+        raise rospy.ROSInterruptException('the simulator ends')
+
+    def post(self, function: Callable[[], Any]) -> 'concurrent.futures.Future[Any]':
+        """Have the owner call a function, without waiting for it."""
+        answer: 'concurrent.futures.Future[Any]' = concurrent.futures.Future()
+        self._queue.put((function, answer))
+        return answer
+
+    def serve(self, until: float) -> None:
+        """Make the calls that are queued, and those that come until a time of `time.monotonic`."""
+        while True:
+            request = self._next(until - time.monotonic())
+            if request is None:
+                return
+            function, answer = request
+            try:
+                answer.set_result(function())
+            except Exception as error:  # for whoever asked
+                answer.set_exception(error)
+
+    def _next(self, seconds: float) -> Optional[Tuple[Callable[[], Any], 'concurrent.futures.Future[Any]']]:
+        try:
+            return self._queue.get(timeout=seconds) if seconds > 0.0 else self._queue.get_nowait()
+        except queue.Empty:
+            return None

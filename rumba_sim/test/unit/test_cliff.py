@@ -1,0 +1,77 @@
+"""Cliffs: what sees them, and what they do to a robot."""
+
+import math
+
+import pytest
+from pytest import approx
+
+from rooms import alone, drive, drove, room
+from rumba_sim.model.errors import WorldError
+from rumba_sim.model.geometry import Pose
+
+HOLE = (2.0, 1.0, 3.0, 2.5)
+AT_ONCE = {'acceleration': 1000.0}
+
+
+def around(x, y):
+    """A small hole about a place."""
+    return x - 0.03, y - 0.03, x + 0.03, y + 0.03
+
+
+@pytest.mark.parametrize('theta', [0.0, 1.0, -2.5])
+@pytest.mark.parametrize('sensor, angle', enumerate((1.05, 0.26, -0.26, -1.05)))
+def test_each_cliff_sensor_looks_where_it_is(theta, sensor, angle):
+    x, y = 2.0 + 0.15 * math.cos(theta + angle), 1.5 + 0.15 * math.sin(theta + angle)
+    world, robot = alone(Pose(1.0, 1.0, theta), room(4.0, 3.0, 0.01, cliff=around(x, y)))
+    assert world.cliffs('rumba') == [False] * 4
+    robot.state['x'], robot.state['y'] = 2.0, 1.5  # where a teleport would be refused
+    assert world.cliffs('rumba') == [index == sensor for index in range(4)]
+
+
+def test_front_sensors_warn_before_a_wheel_is_over_the_edge():
+    world, robot = alone(Pose(1.2, 1.8, 0.0), room(4.0, 3.0, 0.02, cliff=HOLE), drive=AT_ONCE)
+    first = {}
+    for pose in drive(world, 0.2, 0.0, 300):
+        for sensor, sees in enumerate(world.cliffs('rumba')):
+            if sees:
+                first.setdefault(sensor, pose.x)
+        if robot.has_fallen:
+            first.setdefault('fallen', pose.x)
+    assert first == approx({
+        1: 2.0 - 0.15 * math.cos(0.26), 2: 2.0 - 0.15 * math.cos(0.26),
+        0: 2.0 - 0.15 * math.cos(1.05), 3: 2.0 - 0.15 * math.cos(1.05), 'fallen': 2.0}, abs=0.005)
+
+
+def test_a_robot_with_no_floor_under_a_wheel_comes_to_rest_and_stays_until_it_is_put_elsewhere():
+    world, robot = alone(Pose(1.2, 1.8, 0.0), room(4.0, 3.0, cliff=HOLE))
+    rest = drove(world, 0.3, 0.0, 300)
+    assert robot.has_fallen and robot.twist == (0.0, 0.0)
+    assert rest.x == approx(2.0 + 0.3 ** 2 / 0.9 / 2.0, abs=0.01)
+    drove(world, -0.5, 1.0, 100)
+    assert robot.has_fallen and robot.pose == rest
+    world.teleport('rumba', Pose(1.0, 0.5, 0.0))
+    assert not robot.has_fallen
+    after = drove(world, 0.2, 0.0, 100)
+    assert not robot.has_fallen and after.x > 1.3
+
+
+@pytest.mark.parametrize('y, theta, falls', [
+    (0.9, 0.0, True), (0.86, 0.0, False),  # the left wheel is 0.1175 m to the left of the middle
+    (2.6, 0.0, True), (2.64, 0.0, False)])
+def test_one_wheel_is_enough_to_fall(y, theta, falls):
+    world, robot = alone(Pose(0.5, y, theta), room(5.0, 4.0, 0.02, cliff=HOLE))
+    drove(world, 0.3, 0.0, 500)
+    assert robot.has_fallen == falls
+
+
+def test_a_robot_that_rushes_at_a_ditch_does_not_glide_across():
+    world, robot = alone(Pose(1.0, 1.0, 0.0), room(5.0, 2.0, 0.02, cliff=(2.0, 0.0, 2.06, 2.0)))
+    drove(world, 0.5, 0.0, 300)
+    assert robot.has_fallen and robot.twist == (0.0, 0.0) and robot.pose.x < 2.2
+
+
+def test_nobody_is_put_over_a_cliff():
+    world, robot = alone(Pose(1.0, 0.5, 0.0), room(4.0, 3.0, cliff=HOLE))
+    with pytest.raises(WorldError, match=r'^room: pose at \(2\.50, 1\.50\) m is 0\.000 m from the nearest cliff'):
+        world.teleport('rumba', Pose(2.5, 1.5, 0.0))
+    assert robot.pose[:2] == (1.0, 0.5)

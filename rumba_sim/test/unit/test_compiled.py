@@ -1,0 +1,81 @@
+"""What numba makes of the kernel does what Python makes of it, but for the last bit of a sum."""
+
+import math
+
+import numpy as np
+import pytest
+
+from rooms import crooked
+from rumba_sim.model import kernel
+from rumba_sim.model.compiled import fast
+from rumba_sim.model.constants import constants
+from rumba_sim.model.geometry import Pose
+from rumba_sim.model.world import World
+
+DOCK = Pose(3.8, 1.0, 0.0)
+STARTS = [Pose(0.5, 0.5, 0.3), Pose(0.9, 0.5, 3.0), Pose(2.0, 1.3, -2.0), Pose(3.5, 1.0, 0.1), Pose(3.2, 2.6, 0.0)]
+ROUNDING = 1e-12
+
+
+class Copy:
+    """All that the kernel works on, apart from any world."""
+
+    def __init__(self, charge):
+        world = World(crooked(dock=DOCK, cliff=(3.6, 2.4, 4.0, 3.0), carpet=(0.0, 0.0, 1.0, 1.0)), seed=4)
+        self.robots = np.concatenate([
+            np.atleast_1d(world.spawn(str(number), start, charge).state) for number, start in enumerate(STARTS)
+        ]).astype(kernel.ROBOT)
+        self.constants = constants(world.config, world.plan, world.step_rate)
+        self.plan, self.floor = world.plan, world.floor
+        angles = np.linspace(-math.pi, math.pi, 360, endpoint=False)
+        self.fan = np.stack([np.cos(angles), np.sin(angles)], axis=1)
+        self.noise = np.random.default_rng(2).standard_normal((len(STARTS), 64, 2))
+
+    def run(self, functions, ticks):
+        """Drive about; returns the states after each command, and what was seen."""
+        rng = np.random.default_rng(1)
+        states, seen = [], []
+        for tick in range(0, ticks, 10):
+            for robot in self.robots:
+                robot.command_v, robot.command_w = rng.uniform(-0.1, 0.5), rng.uniform(-1.9, 1.9)
+                robot.command_tick = tick
+            functions.advance(self.robots, self.constants, self.plan.clearance, self.floor.cells, self.floor.dirt,
+                              self.floor.tally, self.noise, tick, 10)
+            states.append(np.array([[float(robot[name]) for name in kernel.ROBOT.names] for robot in self.robots]))
+            for robot in self.robots:
+                seen.append(functions.infrared(robot, self.constants[0], self.plan.clearance, self.floor.cells))
+        ranges = np.empty((len(STARTS), len(self.fan)))
+        for me in range(len(STARTS)):
+            functions.scan(self.robots, me, self.constants[0], self.plan.clearance, self.floor.cells, self.fan,
+                           self.noise.reshape(-1)[:len(self.fan)], ranges[me])
+        return np.array(states), seen, ranges
+
+
+@pytest.mark.parametrize('charge', [1.0, 0.00001])
+def test_compiled_and_plain_kernel_agree_but_for_rounding(charge):
+    plain, compiled = Copy(charge), Copy(charge)
+    states, seen, ranges = plain.run(kernel, 400)
+    fast_states, fast_seen, fast_ranges = compiled.run(fast, 400)
+    for place, name in enumerate(kernel.ROBOT.names):
+        np.testing.assert_allclose(fast_states[..., place], states[..., place], ROUNDING, ROUNDING, err_msg=name)
+    assert fast_seen == seen
+    np.testing.assert_allclose(fast_ranges, ranges, ROUNDING, ROUNDING)
+    np.testing.assert_array_equal(compiled.floor.cells, plain.floor.cells)
+    np.testing.assert_allclose(compiled.floor.dirt, plain.floor.dirt, 1e-6)  # 32 bits
+    np.testing.assert_allclose(compiled.floor.tally[0].tolist(), plain.floor.tally[0].tolist(), 1e-9)
+    if charge == 1.0:  # something of everything happened
+        columns = dict(zip(kernel.ROBOT.names, states.transpose(2, 0, 1)))
+        assert columns['bumps'].max() > 0 and columns['docked'].any() and columns['fallen'].any()
+        assert any(beams != (0, 0, 0) for beams in seen) and np.isfinite(ranges).any()
+        assert np.isnan(columns['contact_angle']).any() and not np.isnan(columns['contact_angle']).all()
+
+
+def test_every_function_of_the_kernel_is_compiled():
+    for name, function in vars(kernel).items():
+        if callable(function) and getattr(function, '__module__', '') == kernel.__name__:
+            assert getattr(fast, name).py_func.__name__ == name, name
+
+
+@pytest.mark.parametrize('angle', [0.0, math.pi, -math.pi, 3.5, -3.5, 100.0, math.nan])
+def test_a_compiled_angle_wraps_as_a_plain_one(angle):
+    np.testing.assert_equal(fast.wrap(angle), kernel.wrap(angle))

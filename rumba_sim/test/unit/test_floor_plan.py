@@ -1,0 +1,235 @@
+"""The floor plan against distances and ways that are found one cell at a time."""
+
+import math
+import pickle
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from pytest import approx
+
+from rumba_sim.model.errors import MapError
+from rumba_sim.model.floor_plan import FREE, MAX_CELLS, UNKNOWN, WALL, FloorPlan, check_size
+from rumba_sim.model.geometry import Pose
+
+SIGNS = {'#': WALL, '.': FREE, '?': UNKNOWN, '~': FREE}
+
+
+def drawn(text, resolution=1.0, origin=(0.0, 0.0), **kwargs):
+    """A floor plan from its picture: top line first, # wall, ? unknown, . free, ~ free and a cliff."""
+    lines = text.split()[::-1]
+    if '~' in text:
+        kwargs['cliff'] = np.array([[sign == '~' for sign in line] for line in lines])
+    return FloorPlan('flat', np.array([[SIGNS[sign] for sign in line] for line in lines], np.int8), resolution,
+                     origin, **kwargs)
+
+
+def distance_to_square(x, y, row, column):
+    """From a place to the square of a cell; all in cells."""
+    return math.hypot(max(column - x, 0.0, x - column - 1.0), max(row - y, 0.0, y - row - 1.0))
+
+
+def distance_to_blocked(blocked, x, y):
+    """From a place on the grid to the nearest blocked cell or the edge; all in cells."""
+    rows, columns = blocked.shape
+    edge = min(x, y, columns - x, rows - y)
+    return min([edge] + [distance_to_square(x, y, row, column) for row, column in np.argwhere(blocked)])
+
+
+@st.composite
+def grids(draw):
+    rows, columns = draw(st.integers(1, 7)), draw(st.integers(1, 9))
+    cells = draw(st.lists(st.sampled_from([FREE, FREE, FREE, WALL, UNKNOWN]), min_size=rows * columns,
+                          max_size=rows * columns))
+    grid = np.array(cells, np.int8).reshape(rows, columns)
+    grid[draw(st.integers(0, rows - 1)), draw(st.integers(0, columns - 1))] = FREE
+    return grid
+
+
+@settings(max_examples=60, deadline=None)
+@given(grids(), st.sampled_from([0.02, 0.05, 1.0]), st.data())
+def test_clearance_and_room_are_the_exact_distances_at_every_node(grid, resolution, data):
+    cliff = np.array(data.draw(st.lists(st.booleans(), min_size=grid.size, max_size=grid.size))).reshape(grid.shape)
+    plan = FloorPlan('flat', grid, resolution, (-1.25, 7.5), cliff=cliff)
+    assert plan.clearance.shape == plan.room.shape == (grid.shape[0] + 1, grid.shape[1] + 1)
+    assert plan.clearance.dtype == np.float64 and plan.clearance.flags.c_contiguous and plan.room.flags.c_contiguous
+    for row in range(grid.shape[0] + 1):
+        for column in range(grid.shape[1] + 1):
+            x, y = -1.25 + column * resolution, 7.5 + row * resolution
+            exact = distance_to_blocked(grid != FREE, column, row) * resolution
+            assert plan.clearance[row, column] == approx(exact)
+            assert plan.clearance_at(x, y) == approx(exact, abs=1e-9)
+            assert plan.room[row, column] == approx(
+                distance_to_blocked((grid != FREE) | cliff, column, row) * resolution)
+
+
+def test_between_nodes_clearance_is_interpolated_and_close_to_the_exact_distance():
+    plan = drawn('''
+        ########
+        #......#
+        #...#..#
+        #......#
+        #......#
+        ########''')
+    corners = plan.clearance[2:4, 2:4]
+    x_share, y_share = 0.3, 0.8
+    below = corners[0, 0] + x_share * (corners[0, 1] - corners[0, 0])
+    above = corners[1, 0] + x_share * (corners[1, 1] - corners[1, 0])
+    assert plan.clearance_at(2.3, 2.8) == approx(below + y_share * (above - below))
+    blocked = plan.occupancy != FREE
+    for x, y in np.random.default_rng(1).uniform((0.0, 0.0), (8.0, 6.0), (200, 2)):
+        assert plan.clearance_at(x, y) == approx(distance_to_blocked(blocked, x, y), abs=0.5)
+
+
+def test_inside_a_wall_beyond_the_grid_and_nowhere_clearance_is_zero():
+    plan = drawn('''
+        .....
+        .....
+        ..#..
+        .....''', origin=(-1.0, -2.0))
+    assert plan.clearance_at(-1.0 + 2.4, -2.0 + 1.7) == 0.0
+    for x, y in [(-5.0, 0.0), (4.5, 0.0), (0.0, 2.5), (0.0, -2.5), (math.nan, 0.0), (0.0, math.nan),
+                 (math.inf, 0.0), (0.0, -math.inf)]:
+        assert plan.clearance_at(x, y) == plan.room_at(x, y) == 0.0
+        assert not plan.contains(x, y)
+
+
+def test_a_cell_holds_its_centre_and_its_lower_left_edges():
+    plan = FloorPlan('flat', np.zeros((3, 5), np.int8), 0.5, (-1.0, 2.0))
+    assert (plan.rows, plan.columns, plan.bounds) == (3, 5, (-1.0, 2.0, 1.5, 3.5))
+    assert plan.cell(-1.0, 2.0) == (0, 0)
+    assert plan.cell(1.4, 2.6) == (1, 4)
+    assert plan.cell(-1.01, 1.99) == (-1, -1)
+    assert plan.centre(1, 4) == approx((1.25, 2.75))
+    assert plan.contains(-1.0, 2.0) and plan.contains(1.49, 3.49)
+    assert not plan.contains(1.5, 2.0) and not plan.contains(0.0, 3.5) and not plan.contains(-1.01, 2.0)
+
+
+def test_a_plan_keeps_its_own_copy_of_the_grid_and_can_be_sent_to_another_process():
+    grid = np.zeros((3, 5), np.int8)
+    plan = FloorPlan('flat', grid, 0.5, (0.0, 0.0), carpet=np.eye(3, 5, dtype=bool), dock=Pose(1.0, 0.5, 0.0))
+    grid[:] = WALL
+    copy = pickle.loads(pickle.dumps(plan))
+    assert copy.free.all() and copy.dock == plan.dock and (copy.carpet == np.eye(3, 5)).all()
+    assert copy.clearance_at(1.0, 0.5) == plan.clearance_at(1.0, 0.5) == 0.5
+
+
+def test_the_roomiest_place_is_far_from_walls_and_from_cliffs():
+    picture = '''
+        .........
+        .........
+        .........
+        .........
+        .......{0}{0}
+        ........{0}'''
+    assert drawn(picture.format('.'), origin=(10.0, 20.0)).roomiest() == Pose(13.0, 23.0, 0.0)
+    assert drawn('''
+        ..........
+        ..........
+        ..........
+        ~~~~~~~~~.
+        ..........
+        ..........''', origin=(10.0, 20.0)).roomiest() == Pose(11.0, 21.0, 0.0)
+
+
+def reachable_by_hand(plan, start, radius, brush_width):
+    """The definition, cell by cell."""
+    def fits(row, column):
+        inside = 0 <= row < plan.rows and 0 <= column < plan.columns
+        return inside and plan.room_at(*plan.centre(row, column)) >= radius - 1e-9
+
+    stands = set()
+    open_cells = [plan.cell(*start)]
+    while open_cells:
+        row, column = open_cells.pop()
+        stands.add((row, column))
+        open_cells += [cell for cell in ((row + 1, column), (row - 1, column), (row, column + 1), (row, column - 1))
+                       if cell not in stands and fits(*cell)]
+    swept = np.zeros((plan.rows, plan.columns), bool)
+    for row, column in np.ndindex(*swept.shape):
+        near = min(math.hypot(row - other[0], column - other[1]) for other in stands) * plan.resolution
+        swept[row, column] = near <= brush_width / 2.0 + 1e-9 and plan.occupancy[row, column] == FREE \
+            and not (plan.cliff is not None and plan.cliff[row, column])
+    return swept
+
+
+TWO_ROOMS = '''
+    ########################
+    #.........#............#
+    #.........#............#
+    #......................#
+    #......................#
+    #......................#
+    #.........#............#
+    #.........#........~~~~#
+    #.........#........~~~~#
+    ########################'''
+
+
+@pytest.mark.parametrize('radius, brush_width', [(0.1, 0.1), (0.09, 0.2), (0.2, 0.2), (0.2, 0.7), (0.15, 0.0)])
+@pytest.mark.parametrize('start', [(0.43, 0.51), (1.62, 0.58)])
+def test_reachable_cells_are_those_of_the_definition(radius, brush_width, start):
+    plan = drawn(TWO_ROOMS, resolution=0.1)
+    reached = plan.reachable(*start, radius, brush_width)
+    assert reached.dtype == np.bool_ and (reached == reachable_by_hand(plan, start, radius, brush_width)).all()
+
+
+def test_a_door_lets_through_what_is_narrower():
+    plan = drawn(TWO_ROOMS, resolution=0.1)
+    right = (slice(None), slice(11, None))
+    assert plan.reachable(0.5, 0.5, 0.1, 0.1)[right].any()
+    assert not plan.reachable(0.5, 0.5, 0.16, 0.1)[right].any()
+    assert plan.reachable(0.5, 0.5, 0.16, 0.1).sum() > 10
+
+
+def test_a_robot_keeps_off_a_cliff_and_does_not_begin_over_it():
+    plan = drawn(TWO_ROOMS, resolution=0.1)
+    assert plan.clearance_at(2.1, 0.2) == approx(0.1) and plan.room_at(2.1, 0.2) == 0.0
+    assert not (plan.reachable(1.5, 0.5, 0.1, 0.4) & plan.cliff).any()
+    with pytest.raises(MapError, match=r'^flat: start at \(2\.10, 0\.35\) m is 0\.050 m from the nearest cliff: '
+                                       r'a robot of radius 0\.174 m does not fit$'):
+        plan.reachable(2.1, 0.35, 0.174, 0.17)
+
+
+def test_a_start_that_fits_between_cell_centres_counts():
+    plan = drawn('''
+        ####
+        #..#
+        #..#
+        ####''')
+    assert plan.reachable(2.0, 2.0, 0.99, 0.1).sum() == 1
+
+
+@pytest.mark.parametrize('x, y, message', [
+    (0.5, 0.13, r'^flat: dock at \(0\.50, 0\.13\) m is 0\.030 m from the nearest wall: '
+                r'a robot of radius 0\.170 m does not fit$'),
+    (1.05, 0.2, r'^flat: dock at \(1\.05, 0\.20\) m is 0\.000 m from the nearest wall'),
+    (2.41, 0.2, r'^flat: dock at \(2\.41, 0\.20\) m lies outside the map \(x 0\.00 to 2\.40 m, y 0\.00 to 1\.00 m\)$'),
+    (-0.01, 0.2, r'lies outside the map'),
+    (math.nan, 0.2, r'lies outside the map'),
+])
+def test_a_place_where_the_robot_does_not_fit_is_refused_with_the_reason(x, y, message):
+    plan = drawn(TWO_ROOMS, resolution=0.1)
+    with pytest.raises(MapError, match=message):
+        plan.check_place(Pose(x, y, 0.0), 0.17, 'dock')
+
+
+def test_a_place_with_just_enough_room_is_good():
+    drawn(TWO_ROOMS, resolution=0.1).check_place(Pose(0.5, 0.3, 1.0), 0.2, 'dock')
+
+
+def test_a_grid_without_free_floor_is_refused():
+    with pytest.raises(MapError, match='^flat: no free floor'):
+        drawn('#?#')
+
+
+def test_a_layer_of_another_shape_is_refused():
+    with pytest.raises(MapError, match=r'^flat: carpet layer has \(rows, columns\) \(2, 3\), the map has \(3, 2\)'):
+        FloorPlan('flat', np.zeros((3, 2), np.int8), 0.1, (0.0, 0.0), carpet=np.zeros((2, 3), bool))
+
+
+def test_a_grid_that_is_too_large_is_refused_with_a_way_out():
+    check_size('flat', (5000, MAX_CELLS // 5000))
+    with pytest.raises(MapError, match='^flat: 5001 x 5000 cells are more than 25 million: cut the image'):
+        check_size('flat', (5000, 5001))

@@ -1,0 +1,207 @@
+"""Map files: every key that map_server knows, and one clear line for all that is wrong."""
+
+import itertools
+import math
+import os
+import random
+
+import numpy as np
+import pytest
+from PIL import Image
+from pytest import approx
+from sheets import CUT, G, PIXELS, W, grid, write
+
+from rumba_sim.model import map_file
+from rumba_sim.model.errors import MapError
+from rumba_sim.model.floor_plan import FREE, UNKNOWN, WALL
+
+
+def test_a_map_is_cut_to_its_free_cells_and_stays_where_it_is(tmp_path):
+    plan = map_file.load(write(tmp_path))
+    assert plan.name == str(tmp_path / 'flat.yaml')
+    assert plan.occupancy.tolist() == grid(CUT).tolist()
+    assert plan.resolution == 0.5 and plan.origin == approx((-0.5, 2.0))
+    assert plan.occupancy[plan.cell(0.25, 2.75)] == FREE and plan.occupancy[plan.cell(1.25, 4.75)] == FREE
+    assert (plan.cliff, plan.carpet, plan.dock, plan.start) == (None, None, None, None)
+
+
+def test_a_map_that_is_free_to_its_edges_is_not_cut(tmp_path):
+    plan = map_file.load(tmp_path / os.path.basename(write(tmp_path, np.full((3, 4), W, np.uint8))))
+    assert plan.occupancy.shape == (3, 4) and plan.free.all() and plan.origin == (-1.0, 2.0)
+
+
+def test_dock_start_and_layers(tmp_path):
+    layer = np.full(PIXELS.shape, 255, np.uint8)
+    layer[1, 3], layer[4, 2], layer[5, 2] = 0, 127, 128
+    Image.fromarray(layer).save(str(tmp_path / 'carpet.png'))
+    Image.fromarray(layer[:, ::-1].copy()).save(str(tmp_path / 'cliff.png'))
+    plan = map_file.load(write(tmp_path, dock='[1, 2.5, 7.0]', start='[1e-1, -2, -3.14]', carpet='carpet.png',
+                               cliff=tmp_path / 'cliff.png'))
+    assert plan.dock == approx((1.0, 2.5, 7.0 - 2.0 * math.pi)) and plan.start == approx((0.1, -2.0, -3.14))
+    assert np.argwhere(plan.carpet).tolist() == [[2, 1], [5, 2]]
+    assert np.argwhere(plan.cliff).tolist() == [[2, 2], [5, 1]]
+
+
+def by_the_rules(level, negate, mode, occupied, free):
+    """What map_server makes of a level of grey."""
+    level = 255 - level if negate else level
+    if mode == 'raw':
+        return UNKNOWN if level > 100 else WALL if level > 100 * occupied else FREE if level < 100 * free else UNKNOWN
+    probability = (255 - level) / 255.0
+    return WALL if probability > occupied else FREE if probability < free else UNKNOWN
+
+
+@pytest.mark.parametrize('mode, negate, thresholds', itertools.product(
+    [None, 'trinary', 'scale', 'raw'], [0, 1, 'true', 'false'], [(0.65, 0.196), (0.5, 0.5), (1.0, 1.0)]))
+def test_every_level_of_grey_is_what_map_server_makes_of_it(tmp_path, mode, negate, thresholds):
+    negated = negate in (1, 'true')
+    free = 255 if negated == (mode == 'raw') else 0
+    levels = np.pad(np.arange(256, dtype=np.uint8).reshape(16, 16), 1, mode='constant', constant_values=free)
+    plan = map_file.load(write(tmp_path, levels, mode=mode, negate=negate, occupied_thresh=thresholds[0],
+                               free_thresh=thresholds[1]))
+    assert plan.occupancy.tolist() == [[by_the_rules(int(level), negated, mode, *thresholds) for level in row]
+                                       for row in levels[::-1]]
+
+
+@pytest.mark.parametrize('turns', [1, 2, 3])
+def test_a_quarter_turn_of_the_origin_turns_the_map_and_its_layers(tmp_path, turns):
+    Image.fromarray(np.where(PIXELS == W, PIXELS.cumsum(axis=0) % 2 * 255, 255).astype(np.uint8)).save(
+        str(tmp_path / 'carpet.png'))
+    straight = map_file.load(write(tmp_path, carpet='carpet.png'))
+    turned = map_file.load(write(tmp_path, carpet='carpet.png', cliff='carpet.png',
+                                 origin=f'[-1.0, 2.0, {turns * math.pi / 2.0!r}]'))
+    assert turned.occupancy.tolist() == np.rot90(straight.occupancy, -turns).tolist()  # row 0 is at the bottom
+    assert turned.carpet.tolist() == turned.cliff.tolist() == np.rot90(straight.carpet, -turns).tolist()
+    x, y = 0.75, 1.25  # of a place that is free, from the origin
+    cos, sin = [(0, 1), (-1, 0), (0, -1)][turns - 1]
+    assert turned.occupancy[turned.cell(-1.0 + cos * x - sin * y, 2.0 + sin * x + cos * y)] \
+        == straight.occupancy[straight.cell(-1.0 + x, 2.0 + y)]
+    left, bottom = turned.centre(0, 0)
+    assert (left / 0.25 % 2.0, bottom / 0.25 % 2.0) == approx((1.0, 1.0))
+
+
+@pytest.mark.parametrize('yaw', [0.3, -0.7, 2.0, -3.0])
+def test_a_turned_map_has_in_each_cell_what_lies_under_its_centre(tmp_path, yaw):
+    pixels = np.kron(PIXELS, np.ones((3, 2), np.uint8))
+    plan = map_file.load(write(tmp_path, pixels, origin=f'[-1.0, 2.0, {yaw}]'))
+    occupancy = grid(pixels)
+    seen = set()
+    for row, column in np.ndindex(plan.rows, plan.columns):
+        x, y = plan.centre(row, column)
+        along = (math.cos(yaw) * (x + 1.0) + math.sin(yaw) * (y - 2.0)) / 0.5
+        across = (math.cos(yaw) * (y - 2.0) - math.sin(yaw) * (x + 1.0)) / 0.5
+        i, j = math.floor(across), math.floor(along)
+        on_sheet = 0 <= i < occupancy.shape[0] and 0 <= j < occupancy.shape[1]
+        if on_sheet and occupancy[i, j] == FREE or plan.occupancy[row, column] == FREE:
+            assert plan.occupancy[row, column] == occupancy[i, j]
+            seen.add((i, j))
+    assert len(seen) > 0.8 * (occupancy == FREE).sum()
+
+
+@pytest.mark.parametrize('changes, message', [
+    ({'image': None}, 'image is missing'),
+    ({'resolution': None}, 'resolution is missing'),
+    ({'origin': None}, 'origin is missing'),
+    ({'negate': None}, 'negate is missing'),
+    ({'occupied_thresh': None}, 'occupied_thresh is missing'),
+    ({'free_thresh': None}, 'free_thresh is missing'),
+    ({'image': '[1]'}, r'image is \[1\]: must be the path of an image'),
+    ({'image': "''"}, "image is '': must be the path of an image"),
+    ({'cliff': 3}, 'cliff is 3: must be the path of an image'),
+    ({'resolution': 0}, r'resolution is 0: must be 0\.0001 to 10 m'),
+    ({'resolution': -0.05}, r'resolution is -0\.05: must be'),
+    ({'resolution': '.nan'}, 'resolution is nan: must be'),
+    ({'resolution': '.inf'}, 'resolution is inf: must be'),
+    ({'resolution': '1' + '0' * 400}, 'resolution is 1000.*: must be'),
+    ({'resolution': 'fine'}, "resolution is 'fine': must be"),
+    ({'resolution': 'true'}, 'resolution is True: must be'),
+    ({'resolution': '~'}, 'resolution is None: must be'),
+    ({'origin': 5}, r'origin is 5: must be \[x, y, angle\] in m, m, rad'),
+    ({'origin': '[0, 0]'}, r'origin is \[0, 0\]: must be'),
+    ({'origin': '[0, 0, 0, 0]'}, r'origin is \[0, 0, 0, 0\]: must be'),
+    ({'origin': '[0, x, 0]'}, r"origin is \[0, 'x', 0\]: must be"),
+    ({'origin': '[0, 1e300, 0]'}, r'origin is .*: must be'),
+    ({'dock': '[0, .nan, 0]'}, r'dock is \[0, nan, 0\]: must be'),
+    ({'start': '{x: 1}'}, r"start is \{'x': 1\}: must be"),
+    ({'negate': 2}, 'negate is 2: must be 0 or 1'),
+    ({'negate': '[]'}, r'negate is \[\]: must be 0 or 1'),
+    ({'mode': 'binary'}, "mode is 'binary': must be trinary or scale or raw"),
+    ({'occupied_thresh': 1.1}, r'occupied_thresh is 1\.1: must be 0 to 1'),
+    ({'free_thresh': -0.1}, r'free_thresh is -0\.1: must be 0 to 1'),
+    ({'free_thresh': 0.7}, r'free_thresh is 0\.7: must not be above occupied_thresh, 0\.65'),
+    ({'dok': '[0, 0, 0]'}, "'dok' is unknown: did you mean 'dock'"),
+    ({'DOCK': '[0, 0, 0]'}, "'DOCK' is unknown: did you mean 'dock'"),
+    ({'Origin': '[0, 0, 0]'}, "'Origin' is unknown: did you mean 'origin'"),
+    ({'occupied_threshold': 0.5}, "'occupied_threshold' is unknown: did you mean 'occupied_thresh'"),
+])
+def test_a_wrong_key_or_value_is_named(tmp_path, changes, message):
+    path = write(tmp_path, **changes)
+    with pytest.raises(MapError, match=f'^{path}: {message}'):
+        map_file.load(path)
+
+
+def test_keys_of_other_tools_are_left_alone(tmp_path):
+    map_file.load(write(tmp_path, frame_id='map', type='occupancy', zones='[a, b]', name='home'))
+
+
+@pytest.mark.parametrize('content, message', [
+    (b'', ': image is missing'),
+    (b'[1, 2]', ': must hold keys and values'),
+    (b'image: [', ', line 1: is no YAML: '),
+    (b'a: 1\nb: !!python/object:os.system {}', ', line 2: is no YAML: could not determine a constructor'),
+    (b'a: 2020-13-45', ': is no YAML: month must be in 1..12'),
+    (b'[' * 5000, ': is no YAML: '),
+    (b'\x89PNG\r\n\x1a\n\xff\xfe\xfd', ': is not text'),
+    (b'a: \x00', ': is no YAML: '),
+], ids=lambda value: repr(value[:20]))
+def test_what_is_no_yaml_is_refused(tmp_path, content, message):
+    (tmp_path / 'flat.yaml').write_bytes(content)
+    with pytest.raises(MapError, match=f'^{tmp_path / "flat.yaml"}{message}') as caught:
+        map_file.load(str(tmp_path / 'flat.yaml'))
+    assert '\n' not in str(caught.value)
+
+
+def test_what_is_not_there_or_is_a_folder_is_named(tmp_path):
+    with pytest.raises(MapError, match='^/nowhere/flat.yaml: No such file or directory$'):
+        map_file.load('/nowhere/flat.yaml')
+    with pytest.raises(MapError, match=f'^{tmp_path}: Is a directory$'):
+        map_file.load(tmp_path)
+    with pytest.raises(MapError, match=f'^{tmp_path}/gone.png: No such file or directory$'):
+        map_file.load(write(tmp_path, image='gone.png'))
+    with pytest.raises(MapError, match=f'^{tmp_path}/: Is a directory$'):
+        map_file.load(write(tmp_path, image=f'{tmp_path}/'))
+    with pytest.raises(MapError, match=f'^{tmp_path}/gone.png: No such file or directory$'):
+        map_file.load(write(tmp_path, cliff='gone.png'))
+
+
+def test_a_map_without_free_floor_is_refused(tmp_path):
+    with pytest.raises(MapError, match=f'^{tmp_path}/flat.yaml: no free floor'):
+        map_file.load(write(tmp_path, np.full((40, 30), G, np.uint8)))
+
+
+def test_a_map_of_a_hundred_million_free_cells_is_refused_with_a_way_out(tmp_path):
+    (tmp_path / 'flat.pgm').write_bytes(b'P5\n10000 10000\n255\n' + b'\xff' * 100_000_000)
+    with pytest.raises(MapError, match='flat.yaml: 10000 x 10000 cells are more than 25 million: cut the image'):
+        map_file.load(write(tmp_path, image='flat.pgm'))
+    (tmp_path / 'flat.pgm').unlink()
+
+
+def test_a_damaged_file_gives_a_map_or_a_map_error(tmp_path):
+    dice = random.Random(5)
+    path = write(tmp_path, Image.fromarray(np.stack([PIXELS] * 4, axis=2)), dock='[1, 2, 3]', cliff='flat.png')
+    outcomes = set()
+    for name in ('flat.yaml', 'flat.png'):
+        good = (tmp_path / name).read_bytes()
+        for _ in range(400):
+            bad = bytearray(good)
+            for _ in range(dice.randint(1, 4)):
+                bad[dice.randrange(len(bad))] = dice.choice([dice.randrange(256), dice.choice(good)])
+            (tmp_path / name).write_bytes(bytes(bad[:dice.choice([len(bad), dice.randrange(len(bad))])]))
+            try:
+                map_file.load(path)
+                outcomes.add((name, 'map'))
+            except MapError as error:
+                assert '\n' not in str(error) and str(error).startswith(str(tmp_path)), error
+                outcomes.add((name, 'error'))
+        (tmp_path / name).write_bytes(good)
+    assert outcomes >= {('flat.yaml', 'map'), ('flat.yaml', 'error'), ('flat.png', 'error')}

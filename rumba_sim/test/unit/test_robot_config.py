@@ -1,0 +1,114 @@
+"""The settings of a robot: every one documented and in range, and felt where it should be."""
+
+import dataclasses
+import math
+import re
+
+import pytest
+from pytest import approx
+
+from rooms import crooked, quiet
+from rumba_sim.model.config import describe, from_mapping, leaves, updated
+from rumba_sim.model.constants import constants
+from rumba_sim.model.errors import ConfigError, MapError
+from rumba_sim.model.geometry import Pose
+from rumba_sim.model.robot_config import DockConfig, RobotConfig
+
+LEAVES = dict(leaves(RobotConfig))
+
+
+def nested(path, value):
+    """{'a': {'b': value}} of a/b."""
+    first, _, rest = path.partition('/')
+    return {first: nested(rest, value) if rest else value}
+
+
+@pytest.mark.parametrize('path', LEAVES)
+def test_every_setting_tells_its_meaning_and_has_a_range_that_holds_its_default(path):
+    field = LEAVES[path]
+    assert type(field.default) in (float, int)
+    assert field.metadata['doc'] and field.metadata['low'] <= field.default <= field.metadata['high']
+    section, _, name = path.partition('/')
+    at_limits = [field.metadata['low'], field.metadata['high']]
+    for limit in map(type(field.default), at_limits):
+        try:
+            settings = from_mapping(RobotConfig, nested(path, limit), 'here')
+        except ConfigError as error:  # a range may depend on another setting
+            assert path.startswith(('dock/contact', 'dock/release')) and 'must not be below' in str(error)
+        else:
+            assert getattr(getattr(settings, section), name) == limit
+
+
+@pytest.mark.parametrize('path', LEAVES)
+@pytest.mark.parametrize('side', ['low', 'high'])
+def test_a_value_beyond_its_range_is_refused_by_its_path(path, side):
+    field = LEAVES[path]
+    limit = field.metadata[side]
+    wrong = type(field.default)(limit - 1 if side == 'low' else limit * 2 + 1)
+    with pytest.raises(ConfigError, match=rf'^here: {path} is {re.escape(repr(wrong))}: must be '):
+        from_mapping(RobotConfig, nested(path, wrong), 'here')
+
+
+@pytest.mark.parametrize('mapping, message', [
+    ({'batery': {}}, r"^here: batery is unknown: did you mean 'battery'\?$"),
+    ({'battery': {'drian': 2.0}}, r"^here: battery/drian is unknown: did you mean 'drain'\?$"),
+    ({'battery': 3}, r'^here: battery is 3: must be a mapping of capacity, resistance, '),
+    ({'brush': None}, r'^here: brush is None: must be a mapping of width, pickup$'),
+    ({'laser': {'beams': 360.0}}, r'^here: laser/beams is 360\.0: must be 1 to 10000$'),
+    ({'drive': {'radius': '0.2'}}, r"^here: drive/radius is '0\.2': must be 0\.02 to 5 \[m\]$"),
+    ({'dock': {'release_distance': 0.05}}, r'release_distance is 0\.05: must not be below contact_distance, 0\.075$'),
+    ({'dock': {'contact_angle': 0.2}}, r'release_angle is 0\.157: must not be below contact_angle, 0\.2$'),
+])
+def test_a_wrong_setting_is_named_by_its_path(mapping, message):
+    with pytest.raises(ConfigError, match=message):
+        from_mapping(RobotConfig, mapping, 'here')
+
+
+def test_contacts_may_open_where_they_close():
+    dock = DockConfig(contact_distance=0.1, release_distance=0.1, contact_angle=0.157)
+    assert dock.release_angle == dock.contact_angle == 0.157
+
+
+def test_a_description_names_every_path_once():
+    lines = describe(RobotConfig).splitlines()
+    assert [line.split()[0] for line in lines] == list(LEAVES)
+    assert 'drive/wheel_base' in LEAVES and 'battery/drain' in LEAVES
+
+
+def test_a_change_leaves_the_rest_as_it_was():
+    config = updated(quiet(), {'battery': {'drain': 9.0}, 'laser': {'beams': 10}}, 'here')
+    assert config == dataclasses.replace(
+        quiet(), battery=dataclasses.replace(quiet().battery, drain=9.0),
+        laser=dataclasses.replace(quiet().laser, beams=10))
+
+
+# --- what the kernel gets of it -----------------------------------------------------------------------------------
+
+def test_the_kernel_gets_every_setting_that_has_its_name():
+    config = from_mapping(RobotConfig, {'drive': {'wheel_base': 0.3, 'dead_band': 0.02},
+                                        'battery': {'drain': 3.0, 'taper_start': 0.7}}, 'here')
+    k = constants(config, crooked(dock=Pose(3.8, 1.0, 0.5)), 40)[0]
+    assert (k.wheel_base, k.dead_band, k.drain, k.taper_start) == (0.3, 0.02, 3.0, 0.7)
+    assert (k.dt, k.timeout_ticks, k.resolution, k.origin_x) == (0.025, 20, 0.05, -0.05)
+    assert (k.has_dock, k.dock_x, k.dock_y, k.dock_theta) == (True, 3.8, 1.0, 0.5)
+    assert k.ticks_per_metre == approx(508.8 / (math.pi * 0.072))
+    assert math.exp(k.log_kept) == approx(0.1)
+    for name in k.dtype.names:
+        assert math.isfinite(float(k[name]))
+        if name not in ('origin_x', 'origin_y', 'has_layers', 'noise'):
+            assert float(k[name]) != 0.0, name
+
+
+@pytest.mark.parametrize('resolution', [0.02, 0.05, 0.1])
+def test_a_robot_keeps_off_walls_by_no_more_than_interpolation_may_err(resolution):
+    k = constants(RobotConfig(), crooked(resolution), 50)[0]
+    assert 0.0 < k.reach - 0.17425 < resolution ** 2
+
+
+def test_the_limits_of_speed_and_cell_size_are_still_allowed():
+    config = quiet(drive={'radius': 0.1, 'max_speed': 1.0})
+    assert constants(config, crooked(0.1), 10)[0].max_speed == 1.0
+    with pytest.raises(ConfigError, match=r'^drive/max_speed is 1: at 9 ticks a second must be at most 0\.9 \[m/s\]'):
+        constants(config, crooked(0.1), 9)
+    with pytest.raises(MapError, match=r'^room: cells of 0\.1 m are too coarse for a robot of radius 0\.09 m$'):
+        constants(quiet(drive={'radius': 0.09}), crooked(0.1), 50)
