@@ -50,6 +50,8 @@ def test_both_ends_of_a_range_and_whole_numbers_for_floats_are_allowed():
     ({'speed': math.nan}, r'speed is nan: must be 0 to 0\.5'),
     ({'speed': True}, r'speed is True: must be 0 to 0\.5'),
     ({'speed': 'fast'}, r"speed is 'fast': must be 0 to 0\.5"),
+    ({'place': 10 ** 400}, r'place is inf: must be a finite number'),
+    ({'count': 10 ** 400}, r'count is 10+: must be 1 to 9'),
     ({'place': math.inf}, r'place is inf: must be a finite number \[m\]'),
     ({'count': 2.0}, r'count is 2\.0: must be 1 to 9$'),
     ({'count': 0}, r'count is 0: must be 1 to 9'),

@@ -260,3 +260,12 @@ def test_a_second_of_driving_is_as_many_ticks_as_the_step_rate_says():
         assert world.time == 2.0
     for end in ends:
         assert end == approx(ends[0])
+
+
+def test_a_reset_gives_back_charge_and_brushes_as_they_were_at_first():
+    world = World(crooked())
+    world.spawn('rumba', state_of_charge=0.4, brushes_up=True)
+    world.robots['rumba'].brushes_up = False
+    world.step(1000)
+    world.reset()
+    assert world.robots['rumba'].brushes_up and world.robots['rumba'].battery.percentage == 40

@@ -8,6 +8,7 @@ from typing import Any, Iterator, List, Mapping, Optional, Tuple, Type, TypeVar
 from rumba_sim.model.errors import ConfigError
 
 Settings = TypeVar('Settings')
+LARGEST = 1e300  # what YAML may write as a whole number need not fit into a float
 Field = Any  # of dataclasses.Field: Python 3.8 cannot subscript it at run time
 
 
@@ -112,7 +113,7 @@ def nearest(name: Any, known: List[str]) -> str:
 def _checked(field: Field, value: Any, path: str) -> Any:
     wanted = type(field.default)
     if wanted is float and type(value) is int:
-        value = float(value)
+        value = float(value) if abs(value) < LARGEST else math.inf
     if type(value) is not wanted or not _in_range(field, value):
         raise ConfigError(f'{path}{field.name} is {value!r}: must be {_range(field)} {_unit(field)}'.rstrip())
     return value
@@ -122,7 +123,7 @@ def _in_range(field: Field, value: Any) -> bool:
     low, high = field.metadata['low'], field.metadata['high']
     if isinstance(value, (bool, str)):
         return True
-    return math.isfinite(value) and (low is None or value >= low) and (high is None or value <= high)
+    return abs(value) < LARGEST and (low is None or value >= low) and (high is None or value <= high)
 
 
 def _range(field: Field) -> str:

@@ -14,7 +14,7 @@ class Pose(NamedTuple):
 
 def wrap_angle(angle: float) -> float:
     """The same direction in (-pi, pi] [rad]."""
-    return math.pi - (math.pi - angle) % (2.0 * math.pi)
+    return angle if -math.pi < angle <= math.pi else math.pi - (math.pi - angle) % (2.0 * math.pi)
 
 
 def compose(frame: Pose, pose: Pose) -> Pose:

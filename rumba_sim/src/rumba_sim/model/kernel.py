@@ -76,7 +76,7 @@ def advance(robots: Array, constants: Array, field: Array, cells: Array, dirt: A
 
 def wrap(angle: float) -> float:
     """The same direction in (-pi, pi]."""
-    return math.pi - (math.pi - angle) % (2.0 * math.pi)
+    return angle if -math.pi < angle <= math.pi else math.pi - (math.pi - angle) % (2.0 * math.pi)
 
 
 def arc(x: float, y: float, theta: float, way: float, turn: float) -> Triple:

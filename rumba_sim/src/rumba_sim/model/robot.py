@@ -26,22 +26,28 @@ class Infrared(NamedTuple):
     right: int
 
 
+class Start(NamedTuple):
+    """How a robot began, and begins again after a reset."""
+
+    pose: Pose  # [m, rad] in the map frame
+    state_of_charge: float = 1.0  # [0..1]
+    brushes_up: bool = False
+
+
 class Robot:
     """A robot of a world, which moves it; made by `World.spawn`.
 
     Attributes:
         name: unique in its world.
-        start: pose where it was put first, and is put again by a reset [m, rad], map frame.
-        start_of_charge: state of charge that it began with, and begins with again after a reset [0..1].
+        start: how it began.
         config: its constants.
         state: its record (`kernel.ROBOT`) in the array of the world.
     """
 
-    def __init__(self, name: str, start: Pose, start_of_charge: float, config: RobotConfig, state: Record) -> None:
+    def __init__(self, name: str, start: Start, config: RobotConfig, state: Record) -> None:
         """Look at the record of a world."""
         self.name = name
         self.start = start
-        self.start_of_charge = start_of_charge
         self.config = config
         self.state = state
 
@@ -151,9 +157,10 @@ def put(state: Record, pose: Pose) -> None:
         state[name] = 0
 
 
-def begin(state: Record, pose: Pose, charge: float, scales: Array) -> None:
-    """Fill the record of a new robot: charge [Ah], scale errors of the left and right wheel."""
+def begin(state: Record, start: Start, capacity: float, scales: Array) -> None:
+    """Fill the record of a new robot: capacity of its battery [Ah], scale errors of the left and right wheel."""
     state.fill(0)
-    put(state, pose)
-    state['charge'] = charge
+    put(state, start.pose)
+    state['charge'] = capacity * start.state_of_charge
+    state['brushes_up'] = start.brushes_up
     state['left_scale'], state['right_scale'] = 1.0 + scales[0], 1.0 + scales[1]

@@ -14,7 +14,7 @@ from rumba_sim.model.floor import Floor
 from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.model.geometry import Pose, wrap_angle
 from rumba_sim.model.kernel import Array
-from rumba_sim.model.robot import Infrared, Robot
+from rumba_sim.model.robot import Infrared, Robot, Start
 from rumba_sim.model.robot_config import RobotConfig
 
 NOISE_TICKS = 256  # so many ticks of wheel noise are drawn at once
@@ -95,7 +95,7 @@ class World:
             ticks -= now
 
     def reset(self) -> None:
-        """Begin again as at first: dirty floor, tick 0, every robot where and as charged as it was put first."""
+        """Begin again as at first: dirty floor, tick 0, every robot as it began."""
         before = list(self.robots.values())
         for member in before:
             self.kill(member.name)
@@ -103,9 +103,9 @@ class World:
         self._begin()
         for member in before:
             try:
-                self.spawn(member.name, member.start, member.start_of_charge)
+                self.spawn(member.name, *member.start)
             except WorldError:  # it began where one that came before it had been
-                self.spawn(member.name, None, member.start_of_charge)
+                self.spawn(member.name, None, *member.start[1:])
 
     # --- robots ---------------------------------------------------------------------------------------------------
 
@@ -124,13 +124,15 @@ class World:
         for member in self.robots.values():
             member.config = config
 
-    def spawn(self, name: str, pose: Optional[Pose] = None, state_of_charge: float = 1.0) -> Robot:
+    def spawn(self, name: str, pose: Optional[Pose] = None, state_of_charge: float = 1.0,
+              brushes_up: bool = False) -> Robot:
         """Add a robot.
 
         Args:
             name: by which it is known; not taken.
             pose: where it stands [m, rad], map frame; None: the start, or the free place nearest to it.
             state_of_charge: of its battery [0..1].
+            brushes_up: whether its brushes are lifted.
 
         Raises:
             WorldError: the name is taken, the place is not free, or the state of charge is out of range.
@@ -139,17 +141,17 @@ class World:
             raise WorldError(f'{name!r} is taken: robots are {", ".join(self.robots)}')
         if not 0.0 <= state_of_charge <= 1.0:
             raise WorldError(f'state of charge is {state_of_charge}: must be 0 to 1')
-        pose = self._free_start() if pose is None else self._checked(pose, None)
+        start = Start(self._free_start() if pose is None else self._checked(pose, None), state_of_charge, brushes_up)
         number = self._spawned
         self._spawned += 1
         wheels, laser = self._generator(WHEELS, number), self._generator(LASER, number)
         state = np.zeros(1, kernel.ROBOT)
         scales = wheels.normal(0.0, self._config.odometry.scale_error, 2)
-        robot.begin(state[0], pose, self._config.battery.capacity * state_of_charge, scales)
+        robot.begin(state[0], start, self._config.battery.capacity, scales)
         self._wheels.append(wheels)
         self._lasers.append(laser)
         self._noise = np.concatenate([self._noise, wheels.standard_normal((1, NOISE_TICKS, 2))])
-        self.robots[name] = Robot(name, pose, state_of_charge, self._config, state[0])
+        self.robots[name] = Robot(name, start, self._config, state[0])
         self._take(np.concatenate([self._states, state]))
         return self.robots[name]
 

@@ -58,6 +58,9 @@ def run(name: str, settings_class: Type[Settings], main: Callable[[Settings], No
     except rospy.ROSInitException as error:
         if not rospy.is_shutdown():
             _refuse(name, error)
+    except Exception:
+        if not rospy.is_shutdown():  # else a topic was closed while the main thread was publishing
+            raise
 
 
 def _shut_down(number: int, _: Any) -> None:

@@ -19,7 +19,7 @@ from rumba_sim.model.world import World
 from rumba_sim.ros import conversions, node
 from rumba_sim.ros.frames import MAP, frames
 from rumba_sim.ros.requests import Requests
-from rumba_sim.ros.settings import Rates
+from rumba_sim.ros.settings import Due, Rates
 
 COMPLAINT_PERIOD = 1.0  # [s]
 
@@ -112,11 +112,10 @@ class RobotNode:
 
     # --- what it tells --------------------------------------------------------------------------------------------
 
-    def publish(self, rates: Rates, ticks: int, stamp: rospy.Time) -> List[TransformStamped]:
-        """Publish what is due, all with one stamp; returns the transforms that are due."""
+    def publish(self, due: Due, rates: Rates, stamp: rospy.Time) -> None:
+        """Publish what is due, all with one stamp."""
         self._stamp = stamp
         robot = self._robot
-        due = rates.due(ticks, self._world.step_rate)
         if due.scan:
             ranges = self._world.scan(self._name)
             self._tell('scan', lambda: conversions.scan(
@@ -137,7 +136,6 @@ class RobotNode:
             self._tell('cleaning_status', lambda: conversions.cleaning_status(
                 robot, self._world.floor, self._header(MAP)))
             self._tell('coverage', self._coverage_message)
-        return self._transforms() if due.odom else []
 
     def _publish_sensors(self) -> None:
         base = self._frames.base_link
@@ -166,7 +164,8 @@ class RobotNode:
             conversions.odometry_variance(robot.distance, config.odometry, wheel_base),
             [variance / tick ** 2 for variance in conversions.odometry_variance(way, config.odometry, wheel_base)])
 
-    def _transforms(self) -> List[TransformStamped]:
+    def transforms(self) -> List[TransformStamped]:
+        """Where it believes to be, and what corrects that, at the stamp of what was published last."""
         odometry = self._robot.odometry
         found = [conversions.transform(self._frames.odom, self._frames.base_footprint, odometry, self._stamp)]
         if self._has_localisation:

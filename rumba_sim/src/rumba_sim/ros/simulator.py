@@ -120,11 +120,12 @@ class Simulator:
         self._world.step()
         self._ticks += 1
         self._pace.tick()
-        transforms = []
+        rates = self._settings.rates
+        due = rates.due(self._ticks, self._settings.step_rate)
         for robot in self._nodes.values():
-            transforms += robot.publish(self._settings.rates, self._ticks, self._pace.stamp)
-        if transforms and self._tf.get_num_connections():
-            self._tf.publish(transforms)
+            robot.publish(due, rates, self._pace.stamp)
+        if due.odom and self._tf.get_num_connections():
+            self._tf.publish([part for robot in self._nodes.values() for part in robot.transforms()])
 
     # --- what services ask ----------------------------------------------------------------------------------------
 
@@ -134,8 +135,6 @@ class Simulator:
 
     def _reset(self) -> Tuple[str]:
         self._world.reset()
-        for robot in self._world.robots.values():
-            robot.brushes_up = self._settings.brushes_up
         return ('all is as it was at the beginning, but for the time',)
 
     def _step(self, ticks: int) -> Tuple[str]:
@@ -157,8 +156,7 @@ class Simulator:
         return name, ''
 
     def _spawn(self, name: str, pose: Any) -> None:
-        robot = self._world.spawn(name, pose, self._settings.percentage / 100.0)
-        robot.brushes_up = self._settings.brushes_up
+        self._world.spawn(name, pose, self._settings.percentage / 100.0, self._settings.brushes_up)
         try:
             self._nodes[name] = RobotNode(self._world, name, self._requests, self._settings.localisation,
                                           self._pace.stamp)
@@ -226,14 +224,14 @@ def map_path(name: str) -> str:
 
 
 def is_time_simulated(speed: float) -> bool:
-    """Whether nodes go by /clock; at a speed other than 1 they must, and those that start from now on will."""
-    if rospy.get_param('/use_sim_time', False):
-        return True
+    """Whether nodes go by /clock; at a speed other than 1 they must, those that start from now until the end."""
+    was_simulated = bool(rospy.get_param('/use_sim_time', False))
     if speed == 1.0:
-        return False
-    rospy.set_param('/use_sim_time', True)
+        return was_simulated
     rospy.on_shutdown(forget_simulated_time)
-    rospy.loginfo('speed is not 1: /use_sim_time is now true; nodes that were started before go by the wall clock')
+    if not was_simulated:
+        rospy.set_param('/use_sim_time', True)
+        rospy.loginfo('speed is not 1: /use_sim_time is now true; nodes that were started before go by the wall clock')
     return True
 
 

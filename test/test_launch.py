@@ -1,0 +1,54 @@
+"""The launch files explain themselves, and the demo shows a robot that moves, bumps and drains."""
+
+import re
+import xml.etree.ElementTree
+
+import pytest
+from workspaces import ROOT
+
+PACKAGE = ROOT / 'rumba_sim'
+LAUNCH_FILES = sorted((PACKAGE / 'launch').iterdir())
+LINE = re.compile(r'battery +(\d+) %   at \((-?[\d.]+), (-?[\d.]+)\) m')
+
+
+@pytest.mark.parametrize('path', LAUNCH_FILES, ids=lambda path: path.name)
+def test_every_argument_says_what_it_is_for(path):
+    for argument in xml.etree.ElementTree.parse(str(path)).getroot().iter('arg'):
+        assert 'value' in argument.attrib or len(argument.attrib.get('doc', '')) > 10, argument.attrib
+
+
+@pytest.mark.parametrize('path', LAUNCH_FILES, ids=lambda path: path.name)
+def test_the_page_of_interfaces_names_its_arguments(path):
+    row = re.search(rf'^\| `{path.name}` \|.*$', (ROOT / 'docs' / 'interfaces.md').read_text(), re.MULTILINE).group(0)
+    arguments = xml.etree.ElementTree.parse(str(path)).getroot().findall('arg')
+    assert re.findall(r'`([\w.]+)`', row.split(';')[0])[1:] == [argument.attrib['name'] for argument in arguments]
+
+
+def test_the_robot_in_the_demo_moves_bumps_and_drains(workspace):
+    with workspace.space('devel').running('roslaunch rumba_sim demo.launch speed:=10 drain:=100 map:=studio') as demo:
+        seen, bumped = [], False
+        for line in demo.stdout:
+            if LINE.match(line):
+                seen.append([float(figure) for figure in LINE.match(line).groups()])
+                bumped = bumped or 'bumper pressed' in line
+                places = {(round(x), round(y)) for _, x, y in seen}
+                if bumped and len(places) > 3 and seen[-1][0] < seen[0][0] - 2:
+                    return
+    raise AssertionError(f'the demo ended: {seen[-1:]}')
+
+
+def test_the_configuration_file_is_what_the_simulator_prints(workspace):
+    printed = workspace.space('devel').run('rosrun rumba_sim simulator --config')
+    assert printed == (PACKAGE / 'config' / 'rumba.yaml').read_text()
+
+
+def test_the_description_of_the_robot_has_its_size(workspace):
+    robot = xml.etree.ElementTree.parse(str(PACKAGE / 'urdf' / 'rumba.urdf')).getroot()
+    body = robot.find("link[@name='base_link']/visual/geometry/cylinder")
+    config = (PACKAGE / 'config' / 'rumba.yaml').read_text()
+    assert f'radius: {body.attrib["radius"]}\n' in config
+    wheels = [float(robot.find(f"joint[@name='{side}_wheel_joint']/origin").attrib['xyz'].split()[1])
+              for side in ('left', 'right')]
+    assert f'wheel_base: {wheels[0] - wheels[1]:g}\n' in config and wheels[0] > 0.0
+    links = {link.attrib['name'] for link in robot.iter('link')}
+    assert {parent.attrib['link'] for parent in robot.iter('parent')} <= links
