@@ -93,7 +93,8 @@ def test_an_unknown_command_is_refused():
 @pytest.mark.parametrize('argument', ['drian:=5', 'drain', '--screen'])
 def test_an_unknown_argument_of_run_is_refused(argument):
     assert rumba(ROOT, 'run', argument) == (
-        2, '', f"rumba: unknown argument '{argument}': NAME:=VALUE, where NAME is one of: drain percentage rate\n")
+        2, '', f"rumba: unknown argument '{argument}': NAME:=VALUE, where NAME is one of: "
+        'map speed seed drain percentage rviz\n')
 
 
 @pytest.mark.skipif(pathlib.Path('/opt/ros/noetic').exists(), reason='with ROS Noetic every system is supported')

@@ -35,13 +35,13 @@ class Keyboard:
         self._test = test
         self._ours, self._theirs = pty.openpty()
         self.found = self.attributes()
-        rospy.Subscriber(f'/{namespace}/rumba/cmd_vel', Twist, self._hear)
+        subscriber = rospy.Subscriber(f'/{namespace}/rumba/cmd_vel', Twist, self._hear)
         command = [*COMMAND, f'__ns:=/{namespace}', *arguments]
         if shell:
             command = ['sh', '-mc', shell.format(' '.join(command))]
         self.process = subprocess.Popen(['setsid', '--ctty', *command], stdin=self._theirs, stdout=self._theirs,
                                         stderr=self._theirs)
-        for cleanup in (self._close, self.process.wait, self.process.kill):
+        for cleanup in (self._close, self.process.wait, self.process.kill, subscriber.unregister):
             test.addCleanup(cleanup)
         self.wait_to_see(READY)
 

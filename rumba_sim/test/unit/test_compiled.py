@@ -43,10 +43,10 @@ class Copy:
                               self.floor.tally, self.noise, tick, 10)
             states.append(np.array([[float(robot[name]) for name in kernel.ROBOT.names] for robot in self.robots]))
             for robot in self.robots:
-                seen.append(functions.infrared(robot, self.constants[0], self.plan.clearance, self.floor.cells))
+                seen.append(functions.infrared(robot, self.constants[0], self.plan.leaps, self.floor.cells))
         ranges = np.empty((len(STARTS), len(self.fan)))
         for me in range(len(STARTS)):
-            functions.scan(self.robots, me, self.constants[0], self.plan.clearance, self.floor.cells, self.fan,
+            functions.scan(self.robots, me, self.constants[0], self.plan.leaps, self.floor.cells, self.fan,
                            self.noise.reshape(-1)[:len(self.fan)], ranges[me])
         return np.array(states), seen, ranges
 

@@ -164,7 +164,7 @@ def test_beams_along_the_borders_of_cells_are_exact_and_take_no_more_steps_than_
             angle = (turn - 2) * math.pi / 2.0  # its sine or cosine is nearly 0
             x, y = node * resolution, (80 - node) * resolution
             steps.clear()
-            way = kernel.cast(k, plan.clearance, cells, x, y, math.cos(angle), math.sin(angle), RANGE)
+            way = kernel.cast(k, plan.leaps, cells, x, y, math.cos(angle), math.sin(angle), RANGE)
             assert way == approx(ray(plan, x, y, angle + 1e-5), abs=1e-4)
             assert len(steps) < 200
 

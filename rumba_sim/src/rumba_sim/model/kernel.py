@@ -4,8 +4,8 @@ Plain Python that `compiled` hands to numba whole: only numbers, arrays and reco
 The same functions run uncompiled, with the same results, some hundred times slower.
 
 Units: [m], [rad], [s], [A], [Ah]. `k` is the record of constants (CONSTANTS), `robots` an array of ROBOT, `field` the
-clearance [m] at the corners of the cells (rows + 1, columns + 1), `cells` a byte of the bits below for each cell
-(rows, columns), row 0 at the lowest y.
+clearance [m] at the corners of the cells (rows + 1, columns + 1), `leaps` and `cells` a byte for each cell (rows,
+columns), row 0 at the lowest y: of how many cells are free on all sides of it, and of the bits below.
 """
 
 import math
@@ -26,7 +26,6 @@ TOUCH = 0.0005  # [m] closer than this is contact
 PUSH = 0.0001  # [m] a push leaves this much room, lest rounding leave an overlap
 PUSHES = 8  # how often a robot is pushed before it stays where it was
 NUDGE = 1e-7  # [cells] across the border of one, and the drift of a beam that counts as parallel to it
-HALF_DIAGONAL = 0.7072  # [cells] of a cell: no place in it is farther from the nearest corner
 
 ROBOT = np.dtype((np.record, np.dtype([(name, 'f8') for name in (
     'x', 'y', 'theta', 'left_speed', 'right_speed', 'command_v', 'command_w', 'left_scale', 'right_scale',
@@ -344,7 +343,7 @@ def at_contacts(robot: Record, k: Record) -> bool:
     return distance <= k.contact_distance and angle <= k.contact_angle
 
 
-def infrared(robot: Record, k: Record, field: Array, cells: Array) -> Tuple[int, int, int]:
+def infrared(robot: Record, k: Record, leaps: Array, cells: Array) -> Tuple[int, int, int]:
     """Sums of the dock's beams that the receivers get: all around, front left, front right.
 
     The dock sends from the wall in front of the docked robot, against the direction in which that robot looks.
@@ -355,7 +354,7 @@ def infrared(robot: Record, k: Record, field: Array, cells: Array) -> Tuple[int,
     from_y = k.dock_y + k.radius * math.sin(k.dock_theta)
     dx, dy = robot.x - from_x, robot.y - from_y
     distance = math.hypot(dx, dy)
-    if distance < 1e-6 or cast(k, field, cells, from_x, from_y, dx / distance, dy / distance, distance) < distance:
+    if distance < 1e-6 or cast(k, leaps, cells, from_x, from_y, dx / distance, dy / distance, distance) < distance:
         return NO_BEAM, NO_BEAM, NO_BEAM
     beams = FORCE_FIELD if distance <= k.halo else NO_BEAM
     off_axis = wrap(math.atan2(dy, dx) - k.dock_theta - math.pi)  # positive: right of it for who faces the dock
@@ -372,12 +371,12 @@ def infrared(robot: Record, k: Record, field: Array, cells: Array) -> Tuple[int,
 
 # --- laser --------------------------------------------------------------------------------------------------------
 
-def cast(k: Record, field: Array, cells: Array, x: float, y: float, along_x: float, along_y: float,
+def cast(k: Record, leaps: Array, cells: Array, x: float, y: float, along_x: float, along_y: float,
          limit: float) -> float:
     """Distance from (x, y) along a unit vector to the first wall, at most `limit`.
 
-    Far from walls it leaps by the clearance of the nearest corner, near them it goes from border to border of the
-    cells, so that the wall is met exactly. Counts in cells.
+    Far from walls it leaps, near them it goes from border to border of the cells, so that the wall is met exactly.
+    Counts in cells.
     """
     u, v, far = (x - k.origin_x) / k.resolution, (y - k.origin_y) / k.resolution, limit / k.resolution
     way = 0.0
@@ -385,9 +384,9 @@ def cast(k: Record, field: Array, cells: Array, x: float, y: float, along_x: flo
         column, row = u + way * along_x, v + way * along_y
         if not (0.0 <= column < cells.shape[1] and 0.0 <= row < cells.shape[0]):
             return way * k.resolution
-        room = field[int(row + 0.5), int(column + 0.5)] / k.resolution - HALF_DIAGONAL
-        if room > 1.0:
-            way += room
+        leap = int(leaps[int(row), int(column)])
+        if leap > 0:
+            way += leap
         elif cells[int(row), int(column)] & WALL:
             return way * k.resolution
         else:
@@ -407,7 +406,7 @@ def to_border(place: float, along: float) -> float:
     return math.inf
 
 
-def scan(robots: Array, me: int, k: Record, field: Array, cells: Array, fan: Array, noise: Array,
+def scan(robots: Array, me: int, k: Record, leaps: Array, cells: Array, fan: Array, noise: Array,
          ranges: Array) -> None:
     """Fill `ranges` (beams) for a robot; `fan` (beams, 2) holds their directions in its frame, `noise` is normal."""
     robot = robots[me]
@@ -415,7 +414,7 @@ def scan(robots: Array, me: int, k: Record, field: Array, cells: Array, fan: Arr
     for beam in range(len(ranges)):
         along_x = cos * fan[beam, 0] - sin * fan[beam, 1]
         along_y = sin * fan[beam, 0] + cos * fan[beam, 1]
-        ranges[beam] = cast(k, field, cells, robot.x, robot.y, along_x, along_y, k.range_max)
+        ranges[beam] = cast(k, leaps, cells, robot.x, robot.y, along_x, along_y, k.range_max)
     for other in range(len(robots)):
         if other != me:
             see(robots[other].x - robot.x, robots[other].y - robot.y, robot.theta, k, ranges)
@@ -430,9 +429,10 @@ def scan(robots: Array, me: int, k: Record, field: Array, cells: Array, fan: Arr
 
 def see(dx: float, dy: float, theta: float, k: Record, ranges: Array) -> None:
     """Shorten the beams that another robot at (dx, dy) from the laser stands in."""
-    distance = math.hypot(dx, dy)
-    if distance >= k.range_max + k.radius or distance <= k.radius:
+    square = dx * dx + dy * dy
+    if square >= (k.range_max + k.radius) ** 2 or square <= k.radius ** 2:
         return
+    distance = math.sqrt(square)
     step = 2.0 * math.pi / len(ranges)
     half = math.asin(k.radius / distance)
     middle = wrap(math.atan2(dy, dx) - theta) + math.pi  # beam 0 looks backward

@@ -227,13 +227,13 @@ class World:
         """
         index = self._index(name)
         ranges = np.empty(len(self._fan))
-        fast.scan(self._states, index, self._constants[0], self.plan.clearance, self.floor.cells, self._fan,
+        fast.scan(self._states, index, self._constants[0], self.plan.leaps, self.floor.cells, self._fan,
                   self._lasers[index].standard_normal(len(self._fan)), ranges)
         return ranges
 
     def infrared(self, name: str) -> Infrared:
         """What the receivers of a robot get from the dock."""
-        return Infrared(*fast.infrared(self._states[self._index(name)], self._constants[0], self.plan.clearance,
+        return Infrared(*fast.infrared(self._states[self._index(name)], self._constants[0], self.plan.leaps,
                                        self.floor.cells))
 
     def cliffs(self, name: str) -> List[bool]:

@@ -10,15 +10,13 @@ Parameters: none.
 
 import dataclasses
 import math
-import shutil
 import sys
 
 import rospy
 
 from rumba_msg.msg import BatteryStatus
 from rumba_sim.ros import node
-
-TO_LINE_START_AND_ERASE = '\r\x1b[K'
+from rumba_sim.ros.terminal import TO_LINE_START_AND_ERASE, width
 
 
 @dataclasses.dataclass(frozen=True)
@@ -49,7 +47,6 @@ def describe(status: BatteryStatus) -> str:
 
 def _show(line: str) -> None:
     if sys.stdout.isatty():
-        width = shutil.get_terminal_size().columns
-        print(TO_LINE_START_AND_ERASE + line[:width - 1], end='', flush=True)
+        print(TO_LINE_START_AND_ERASE + line[:width() - 1], end='', flush=True)
     else:
         print(line, flush=True)

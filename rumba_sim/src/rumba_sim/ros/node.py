@@ -59,7 +59,7 @@ def run(name: str, settings_class: Type[Settings], main: Callable[[Settings], No
         if not rospy.is_shutdown():
             _refuse(name, error)
     except Exception:
-        if not rospy.is_shutdown():  # else a topic was closed while the main thread was publishing
+        if not rospy.core.is_shutdown_requested():  # else a topic was closed while the main thread was publishing
             raise
 
 

@@ -22,6 +22,7 @@ from rumba_sim.ros.requests import Requests
 from rumba_sim.ros.settings import Due, Rates
 
 COMPLAINT_PERIOD = 1.0  # [s]
+QUEUE = 100  # messages that a subscriber may be behind, at speed 0 too, before it misses one
 
 
 class CoverageRequested(rospy.SubscribeListener):
@@ -57,7 +58,8 @@ class RobotNode:
         refuse_twin(name)
         coverage = CoverageRequested(requests, self._coverage_message)
         self._publishers = {
-            topic: rospy.Publisher(f'{name}/{topic}', message, queue_size=10, subscriber_listener=listener)
+            topic: rospy.Publisher(f'{name}/{topic}', message, queue_size=2 if message is OccupancyGrid else QUEUE,
+                                   subscriber_listener=listener)
             for topic, message, listener in (
                 ('battery_status', BatteryStatus, None), ('battery_state', BatteryState, None),
                 ('odom', Odometry, None), ('ground_truth', Odometry, None), ('scan', LaserScan, None),

@@ -37,7 +37,7 @@ from rumba_sim.model.world import World
 from rumba_sim.ros import conversions, node, reconfigure
 from rumba_sim.ros.diagnostics import Diagnostics
 from rumba_sim.ros.frames import FIRST
-from rumba_sim.ros.pace import Pace
+from rumba_sim.ros.pace import Pace, wake_on_time
 from rumba_sim.ros.requests import Requests
 from rumba_sim.ros.robot_node import RobotNode
 from rumba_sim.ros.settings import TUNABLE, Settings
@@ -106,6 +106,7 @@ class Simulator:
 
     def run(self) -> None:
         """Let time pass until ROS shuts down."""
+        wake_on_time()
         while not rospy.is_shutdown():
             self._diagnostics.update(self._ticks / self._settings.step_rate, self._pace.speed, self._pace.late)
             if self._is_paused:

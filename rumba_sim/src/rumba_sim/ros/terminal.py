@@ -40,6 +40,11 @@ def split_keys(text: str) -> Tuple[List[str], str]:
     return [ARROWS.get(key, key) for key in keys], rest
 
 
+def width() -> int:
+    """Columns of the terminal; 80 where it does not tell (Python below 3.10 then says 0)."""
+    return shutil.get_terminal_size().columns or 80
+
+
 class Terminal:
     """The terminal of standard input and output, taken over while in the context and given back at its end.
 
@@ -80,7 +85,7 @@ class Terminal:
 
     def show(self, line: str) -> None:
         """Put a text on the live line."""
-        line = line[:shutil.get_terminal_size().columns - 1]
+        line = line[:width() - 1]
         if line != self._shown:
             self._write(TO_LINE_START_AND_ERASE + line)
             self._shown = line

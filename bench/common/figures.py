@@ -1,0 +1,71 @@
+"""How figures are printed, and how CPU time and memory are read."""
+
+import os
+import pathlib
+import statistics
+import time
+
+CLOCK_TICKS = os.sysconf('SC_CLK_TCK')  # in a second, of what the kernel counts
+
+
+def heading(title):
+    """What was measured, above its figures."""
+    print(f'\n{title}', flush=True)
+
+
+def row(name, figure, at_least=None, below=None):
+    """A line: what, how much, and the bound with its verdict where there is one.
+
+    Args:
+        name: what was measured.
+        figure: how much.
+        at_least, below: the bound; give one of them, or none.
+    """
+    text = f'  {name:<78} {_short(figure):>11}'
+    if at_least is not None:
+        text += f'   at least {_short(at_least)}: {_verdict(figure >= at_least)}'
+    elif below is not None:
+        text += f'   below {_short(below)}: {_verdict(figure < below)}'
+    print(text, flush=True)
+
+
+def _verdict(is_met):
+    return 'met' if is_met else 'MISSED'
+
+
+def _short(figure):
+    """A number with three digits that count."""
+    return f'{figure:,.0f}' if abs(figure) >= 100.0 else f'{figure:.3g}'
+
+
+def per_cpu_second(work, amount, seconds=0.5, runs=5):
+    """How much work one second of CPU time does: the median of runs, each at least so many CPU seconds.
+
+    Args:
+        work: a function that does a portion of it.
+        amount: what one call counts for.
+        seconds: CPU time of a run.
+        runs: how many.
+    """
+    figures = []
+    for _ in range(runs):
+        calls, begin = 0, time.process_time()
+        while time.process_time() - begin < seconds or not calls:
+            work()
+            calls += 1
+        figures.append(calls * amount / (time.process_time() - begin))
+    return statistics.median(figures)
+
+
+def cpu_seconds(pid):
+    """CPU time of a process so far, its own and the kernel's for it."""
+    fields = pathlib.Path(f'/proc/{pid}/stat').read_text().rpartition(')')[2].split()
+    return (int(fields[11]) + int(fields[12])) / CLOCK_TICKS
+
+
+def resident_megabytes(pid='self'):
+    """Memory of a process that is in use now."""
+    for line in pathlib.Path(f'/proc/{pid}/status').read_text().splitlines():
+        if line.startswith('VmRSS:'):
+            return int(line.split()[1]) / 1024.0
+    raise ValueError(f'process {pid} has no memory')

@@ -1,0 +1,80 @@
+"""Whether memory grows: a day of simulated time in process, then the node as fast as it goes, alone and heard."""
+
+import math
+import os
+import random
+import subprocess
+import sys
+
+from common import figures, ros_session
+from rumba_sim.model import map_file
+from rumba_sim.model.config import updated
+from rumba_sim.model.robot_config import RobotConfig
+from rumba_sim.model.world import World
+from rumba_sim.ros.simulator import map_path
+
+MAP = 'studio'
+HOUR, DAY = 3600, 86400  # [s]
+STEP_RATE, SCAN_RATE = 50, 10  # [Hz]
+GROWTH = 5.0  # [%] below
+WARM, LONG = 5.0, 45.0  # [s] of the wall clock, through the node
+IN_PROCESS = '--in-process'
+
+
+def main():
+    """Measure and print."""
+    # A process of its own: this one has rospy and its threads.
+    subprocess.run([sys.executable, os.path.abspath(__file__), IN_PROCESS], check=True)
+    with ros_session.master(), ros_session.simulator(map=MAP, speed=0) as node:
+        figures.heading(f'Memory of the node at speed 0, one robot on the map {MAP}')
+        through_node('nobody listens', node)
+        with ros_session.listener():
+            through_node('one subscriber to each topic', node)
+
+
+def through_node(title, node):
+    """Memory of a node early, and later."""
+    before, _, _ = node.watch(WARM)
+    first = node.resident
+    simulated, _, _ = node.watch(LONG)
+    figures.row(f'{title}: after {before / HOUR:.2f} simulated hours [MB]', first)
+    figures.row(f'  {simulated / HOUR:.2f} simulated hours later [MB]', node.resident)
+    figures.row('  growth [%]', 100.0 * (node.resident / first - 1.0), below=GROWTH)
+
+
+def day():
+    """Memory of this process in the course of a simulated day: one robot bounces about, its laser on."""
+    config = updated(RobotConfig(), {'battery': {'drain': 0.05}}, 'bench')  # the battery lasts all day
+    world = World(map_file.load(map_path(MAP)), config, STEP_RATE, seed=1)
+    robot = world.spawn('rumba')
+    chance = random.Random(1)
+    turns_until, turn = 0, 0.0
+    first = 0.0
+    for scans in range(1, DAY * SCAN_RATE + 1):
+        if any(robot.bumper):
+            turn = math.copysign(1.5, chance.random() - 0.5)
+            turns_until = world.tick + chance.randint(STEP_RATE // 2, 2 * STEP_RATE)
+        if world.tick < turns_until:
+            robot.command(-0.05, turn, world.tick)
+        else:
+            robot.command(0.3, 0.0, world.tick)
+        world.step(STEP_RATE // SCAN_RATE)
+        world.scan('rumba')
+        if scans == HOUR * SCAN_RATE:
+            first = figures.resident_megabytes()
+        if scans % (HOUR * SCAN_RATE) == 0 and sys.stderr.isatty():
+            print(f'\r  {scans // (HOUR * SCAN_RATE)} of 24 hours', end='\r', file=sys.stderr)
+    assert robot.battery.percentage > 0 and robot.bumps > 24, 'it did not drive all day'
+    last = figures.resident_megabytes()
+    figures.heading(f'Memory of a process with a day of simulated time: one robot on the map {MAP}, {SCAN_RATE} scans '
+                    f'a second, {robot.distance / 1000.0:.1f} km, {robot.bumps} bumps')
+    figures.row('after an hour [MB]', first)
+    figures.row('after a day [MB]', last)
+    figures.row('  growth [%]', 100.0 * (last / first - 1.0), below=GROWTH)
+
+
+if __name__ == '__main__':
+    if IN_PROCESS in sys.argv:
+        day()
+    else:
+        main()

@@ -1,0 +1,92 @@
+"""How fast the model is, without ROS: ROOM20 with 1 to 1000 robots, with and without laser, in CPU time of one core.
+
+Every robot has its battery, noisy odometry, bumper, dirt and coverage; one call of World.step for each tick.
+"""
+
+import time
+
+from common import figures, room20
+
+STEPS = 250_000  # robot-steps in a CPU second, at least
+SCANS = 10_000  # scans in a CPU second, at least
+LASER_PERIOD = 0.1  # [s]
+ROBOTS = (1, 10, 100)
+SETTLED = 100  # ticks before measuring: the robots have their speed, and know who is far
+WORK = 20_000  # robot-steps in one portion of work
+
+
+def main():
+    """Measure and print."""
+    begin = time.process_time()
+    small = room20.populated(room20.room20(0.1), 2, 50)
+    room20.drive(small, 50, LASER_PERIOD)
+    figures.heading('World speed: robots on circles, 0.2 m/s and 1 rad/s; figures for one second of CPU time')
+    figures.row('warm-up: compiled code made, or found and loaded [CPU s]', time.process_time() - begin)
+    plans = {resolution: room20.room20(resolution) for resolution in (0.02, 0.05)}
+    for step_rate, resolution in ((50, 0.02), (50, 0.05), (10, 0.02), (10, 0.05)):
+        figures.heading(f'ROOM20, cells of {resolution * 100:.0f} cm, steps of {1.0 / step_rate:g} s, no laser')
+        for robots in ROBOTS:
+            steps(plans[resolution], robots, step_rate)
+    for step_rate, resolution in ((50, 0.02), (10, 0.05)):
+        figures.heading(f'ROOM20, cells of {resolution * 100:.0f} cm, steps of {1.0 / step_rate:g} s, '
+                        f'360 beams to 8 m every {LASER_PERIOD:g} s')
+        for robots in ROBOTS:
+            lasers(plans[resolution], robots, step_rate)
+    more_robots()
+    larger_map(plans[0.05])
+
+
+def measured_steps(plan, robots, step_rate, rooms=(1, 1), runs=5):
+    """Robot-steps in a CPU second."""
+    world = room20.populated(plan, robots, step_rate, rooms)
+    room20.drive(world, SETTLED)
+    ticks = max(1, WORK // robots)
+    figure = figures.per_cpu_second(lambda: room20.drive(world, ticks), ticks * robots, 0.4, runs)
+    room20.check(world)
+    return figure
+
+
+def measured_scans(plan, robots, step_rate, rooms=(1, 1)):
+    """Scans in a CPU second, of robots that stand."""
+    world = room20.populated(plan, robots, step_rate, rooms)
+    room20.drive(world, SETTLED)
+    return figures.per_cpu_second(lambda: room20.scan(world), robots, 0.4)
+
+
+def steps(plan, robots, step_rate):
+    """Figures without laser."""
+    figure = measured_steps(plan, robots, step_rate)
+    figures.row(f'{robots:>4} robots: robot-steps', figure, at_least=STEPS)
+    figures.row('             simulated seconds', figure / robots / step_rate)
+
+
+def lasers(plan, robots, step_rate):
+    """Figures with laser."""
+    figures.row(f'{robots:>4} robots: scans', measured_scans(plan, robots, step_rate), at_least=SCANS)
+    world = room20.populated(plan, robots, step_rate)
+    room20.drive(world, SETTLED)
+    ticks = round(step_rate * max(LASER_PERIOD, 10.0 / robots))
+    figures.row('             simulated seconds, steps and scans', figures.per_cpu_second(
+        lambda: room20.drive(world, ticks, LASER_PERIOD), ticks / step_rate, 0.4))
+    room20.check(world)
+
+
+def more_robots():
+    """The cost of a robot when there are ten times as many, as dense as before."""
+    figures.heading('1000 robots, as dense: ten such rooms in one, 100 x 40 m; cells of 5 cm, steps of 0.02 s')
+    for robots, rooms in ((100, (1, 1)), (1000, (5, 2))):
+        plan = room20.room20(0.05, rooms)
+        figures.row(f'{robots:>4} robots: robot-steps', measured_steps(plan, robots, 50, rooms))
+        figures.row('             scans', measured_scans(plan, robots, 50, rooms))
+
+
+def larger_map(plan):
+    """The cost of the same robots in the same room, the map around it sixteen times as large."""
+    figures.heading('The same 100 robots and pillars in a corner of a map of 80 x 80 m; cells of 5 cm, steps of 0.02 s')
+    for title, where in (('20 x 20 m', plan), ('80 x 80 m', room20.room20(0.05, side=80.0))):
+        figures.row(f'{title}: robot-steps', measured_steps(where, 100, 50))
+        figures.row('           scans', measured_scans(where, 100, 50))
+
+
+if __name__ == '__main__':
+    main()

@@ -1,0 +1,54 @@
+#!/usr/bin/env python3
+"""The simulator leaves when it is told to, in 2 s and with exit code 0, whatever it does just then."""
+
+import os
+import signal
+import socket
+import subprocess
+import unittest
+
+import rospy
+import rostest
+from simulators import TIMEOUT, Heard, Simulator, wait
+
+
+class SimulatorEndTest(unittest.TestCase):
+    """A simulator for each end."""
+
+    def test_both_signals_end_it_in_real_time_as_fast_as_possible_and_while_paused(self):
+        for speed in (1, 0):
+            for number in (signal.SIGINT, signal.SIGTERM):
+                with self.subTest(speed=speed, signal=number):
+                    simulator = Simulator(self, '_map:=field', f'_speed:={speed}')
+                    for topic in ('odom', 'scan', 'ground_truth'):
+                        Heard(self, f'/rumba/{topic}').find()
+                    if speed and number == signal.SIGTERM:
+                        simulator.does('pause')
+                    simulator.end(number)
+
+    def test_rosnode_kill_ends_it(self):
+        simulator = Simulator(self, '_map:=field', '_speed:=0')
+        Heard(self, '/rumba/odom').find()
+        subprocess.check_call(['rosnode', 'kill', '/simulator'], stdout=subprocess.DEVNULL)
+        self.assertEqual(simulator.process.wait(TIMEOUT), 0)
+
+    def test_the_end_of_the_master_is_no_reason_to_stay(self):
+        for speed, number in ((0, signal.SIGINT), (10, signal.SIGTERM)):
+            with self.subTest(speed=speed, signal=number):
+                with socket.socket() as free:
+                    free.bind(('localhost', 0))
+                    port = free.getsockname()[1]
+                uri = f'http://localhost:{port}'
+                master = subprocess.Popen(['rosmaster', '--core', '-p', str(port)], stdout=subprocess.DEVNULL)
+                self.addCleanup(master.wait)
+                self.addCleanup(master.kill)
+                simulator = Simulator(self, '_map:=field', f'_speed:={speed}', master=uri,
+                                      environment={**os.environ, 'ROS_MASTER_URI': uri})
+                master.terminate()
+                wait(self, lambda: master.poll() is not None)  # noqa: B023 (called at once)
+                simulator.end(number)
+
+
+if __name__ == '__main__':
+    rospy.init_node('test_simulator_end')
+    rostest.rosrun('rumba_sim', 'simulator_end', SimulatorEndTest)

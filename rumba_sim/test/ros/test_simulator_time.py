@@ -1,0 +1,142 @@
+#!/usr/bin/env python3
+"""The simulator's time: the clock, pause, step and reset, and what a step does to the tick."""
+
+import threading
+import unittest
+
+import rospy
+import rostest
+from simulators import STEP_RATE, TICK, Heard, Simulator, wait
+
+
+class SimulatorTimeTest(unittest.TestCase):
+    """A simulator for each test, on the empty field."""
+
+    def stepped(self, *arguments):
+        """A paused simulator, and the true poses of its robot at every tick."""
+        simulator = Simulator(self, '_map:=field', '_speed:=10', '_rates/ground_truth:=50', *arguments)
+        truth = Heard(self, '/rumba/ground_truth')
+        truth.find()
+        simulator.pause()
+        return simulator, truth
+
+    def test_the_clock_starts_above_zero_and_goes_on_over_a_reset(self):
+        simulator = Simulator(self, '_map:=field', '_speed:=10')
+        clock = Heard(self, '/clock')
+        for _ in range(3):
+            count = len(clock.messages)
+            wait(self, lambda: len(clock.messages) > count + 20)  # noqa: B023 (called at once)
+            simulator.does('reset')
+        wait(self, lambda: len(clock.messages) > count + 40)
+        times = [message.clock.to_nsec() for message in clock.messages]
+        self.assertGreater(times[0], 0)
+        self.assertEqual(times, sorted(set(times)))
+        self.assertTrue(all(time % TICK == 0 for time in times))
+        # Whoever starts later is told to go by that clock, and no longer when it ends.
+        self.assertTrue(rospy.get_param('/use_sim_time'))
+        simulator.end()
+        self.assertFalse(rospy.has_param('/use_sim_time'))
+
+    def test_while_paused_the_time_is_told_again_and_nothing_else_happens(self):
+        simulator, truth = self.stepped()
+        for ticks in (0, 1_000_001, 2 ** 32 - 1):
+            simulator.refuses(f'^ticks is {ticks}: must be 1 to 1000000$', 'step', ticks)
+        simulator.does('pause')
+        clock = Heard(self, '/clock')
+        wait(self, lambda: len(clock.messages) >= 5)
+        self.assertEqual({message.clock.to_nsec() for message in clock.messages}, {simulator.ticks * TICK})
+        simulator.step()
+        truth.at(simulator.ticks)
+        self.assertEqual(truth.messages[-1].header.stamp.to_nsec(), simulator.ticks * TICK)
+        for _ in range(2):
+            simulator.does('resume')
+        clock.find(lambda message: message.clock.to_nsec() > (simulator.ticks + 20) * TICK)
+        simulator.refuses('^the world is running: pause it first$', 'step', 1)
+
+    def test_a_step_is_exact_to_the_tick_and_the_robot_stops_when_no_command_comes(self):
+        simulator, truth = self.stepped('_drive/command_timeout:=2')
+        simulator.drive(0.3, 0.0, truth)
+        clock = Heard(self, '/clock')
+        before = simulator.ticks
+        for ticks in (1, 1, 7, 50):
+            simulator.step(ticks)
+            now = clock.find(lambda message: message.clock.to_nsec() >= simulator.ticks * TICK)
+            self.assertEqual(now.clock.to_nsec(), simulator.ticks * TICK)
+            # 0.9 m/s^2 up to 0.3 m/s, in steps of a tick, from the middle of the field.
+            passed = simulator.ticks - before + 1
+            way = sum(min(0.3, 0.9 * tick / STEP_RATE) for tick in range(1, passed + 1)) / STEP_RATE
+            place = truth.at(simulator.ticks).pose.pose.position
+            self.assertAlmostEqual(place.x - 5.544444, way, delta=1e-9)
+            self.assertAlmostEqual(place.y - 5.544444, 0.0, delta=1e-9)
+        # In the 100 ticks of the timeout it was commanded; from 0.3 m/s it comes to rest in 16.7 ticks.
+        simulator.step(100)
+        speeds = [truth.at(before + tick).twist.twist.linear.x for tick in (99, 100, 115, 116)]
+        self.assertEqual((speeds[0], speeds[3]), (0.3, 0.0))
+        self.assertAlmostEqual(speeds[1], 0.3 - 0.018, delta=1e-9)
+        self.assertGreater(speeds[2], 0.0)
+
+    def test_no_message_of_a_step_of_a_hundred_ticks_is_lost(self):
+        simulator, truth = self.stepped()
+        truth.messages.clear()
+        first = simulator.ticks
+        simulator.step(100)
+        truth.at(simulator.ticks)
+        self.assertEqual([message.header.stamp.to_nsec() // TICK for message in truth.messages][-100:],
+                         list(range(first + 1, simulator.ticks + 1)))
+
+    def test_a_long_step_does_not_hold_up_the_end(self):
+        simulator = Simulator(self, '_map:=field', '_speed:=10')
+        clock = Heard(self, '/clock')
+        simulator.pause()
+
+        def step():
+            try:
+                simulator.call('step', 1_000_000)
+            except rospy.ServiceException:
+                pass
+        thread = threading.Thread(target=step)
+        thread.start()
+        clock.find(lambda message: message.clock.to_nsec() > (simulator.ticks + 100) * TICK)
+        simulator.end()
+        thread.join()
+
+    def test_reset_begins_anew_but_for_the_time(self):
+        simulator, truth = self.stepped('_brushes_up:=true', '_percentage:=50', '_battery/drain:=100',
+                                        '_rates/battery:=50')
+        state, status = Heard(self, '/rumba/battery_state'), Heard(self, '/rumba/battery_status')
+        simulator.drive(0.3, 0.5, truth)
+        simulator.step(100)
+        before = simulator.ticks
+        self.assertGreater(abs(truth.at(before).pose.pose.position.x - 5.544444), 0.01)
+        wait(self, lambda: state.messages and state.messages[-1].percentage < 0.499)
+        simulator.does('rumba/set_brushes_up', False)
+        simulator.does('reset')
+        simulator.step()
+        self.assertEqual(simulator.ticks, before + 1)
+        begun = truth.at(simulator.ticks)
+        self.assertAlmostEqual(begun.pose.pose.position.x, 5.544444)
+        self.assertEqual((begun.pose.pose.orientation.z, begun.twist.twist.linear.x), (0.0, 0.0))
+        self.assertAlmostEqual(state.at(simulator.ticks).percentage, 0.5, delta=1e-3)
+        wait(self, lambda: status.messages[-1].brushes_up, 'the brushes')
+
+    def test_in_real_time_there_is_no_clock_and_stamps_are_those_of_the_wall(self):
+        Simulator(self, '_map:=field')
+        before = rospy.Time.now()
+        odom = Heard(self, '/rumba/odom').find()
+        self.assertLessEqual(before, odom.header.stamp)
+        self.assertLessEqual(odom.header.stamp, rospy.Time.now())
+        self.assertNotIn('/clock', dict(rospy.get_published_topics()))
+        self.assertFalse(rospy.has_param('/use_sim_time'))
+
+    def test_in_real_time_of_a_clock_where_use_sim_time_says_so(self):
+        rospy.set_param('/use_sim_time', True)
+        self.addCleanup(rospy.delete_param, '/use_sim_time')
+        simulator = Simulator(self, '_map:=field')
+        Heard(self, '/clock').find(lambda message: message.clock.to_sec() > 0.5)
+        simulator.end()
+        self.assertTrue(rospy.get_param('/use_sim_time'))
+
+
+if __name__ == '__main__':
+    rospy.init_node('test_simulator_time')
+    rostest.rosrun('rumba_sim', 'simulator_time', SimulatorTimeTest)

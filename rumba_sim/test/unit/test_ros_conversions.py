@@ -1,0 +1,80 @@
+"""From the model to messages: units, signs and frames, without ROS."""
+
+import math
+
+import numpy as np
+import pytest
+from sensor_msgs.msg import BatteryState
+from std_msgs.msg import Header
+
+from rumba_sim.model.battery import Battery, BatteryConfig
+from rumba_sim.model.geometry import Pose
+from rumba_sim.model.robot import Twist
+from rumba_sim.model.robot_config import LaserConfig, OdometryConfig
+from rumba_sim.ros import conversions
+from rumba_sim.ros.frames import frames
+
+HEADER = Header(frame_id='base')
+
+
+@pytest.mark.parametrize('charge, is_docked, status', [
+    (0.5, False, BatteryState.POWER_SUPPLY_STATUS_DISCHARGING),
+    (1.0, False, BatteryState.POWER_SUPPLY_STATUS_DISCHARGING),
+    (0.999, True, BatteryState.POWER_SUPPLY_STATUS_CHARGING), (1.0, True, BatteryState.POWER_SUPPLY_STATUS_FULL)])
+def test_the_status_of_the_battery_follows_dock_and_charge(charge, is_docked, status):
+    message = conversions.battery_state(Battery(BatteryConfig(), charge, -0.7), is_docked, HEADER)
+    assert message.power_supply_status == status
+    assert message.percentage == pytest.approx(charge)
+    assert message.charge == pytest.approx(2.7 * charge)
+    assert message.current == -0.7
+    assert message.power_supply_technology == BatteryState.POWER_SUPPLY_TECHNOLOGY_NIMH
+
+
+def test_an_empty_battery_is_dead():
+    message = conversions.battery_state(Battery(BatteryConfig(), 0.0), False, HEADER)
+    assert (message.percentage, message.power_supply_health) == (0.0, BatteryState.POWER_SUPPLY_HEALTH_DEAD)
+
+
+def test_what_a_battery_does_not_measure_is_nan():
+    message = conversions.battery_state(Battery(BatteryConfig(), 0.5), False, HEADER)
+    assert len(message.cell_voltage) == 12 and all(map(math.isnan, message.cell_voltage))
+    for name in {'temperature', 'cell_temperature'} & set(message.__slots__):
+        assert np.isnan(getattr(message, name)).all()
+
+
+@pytest.mark.parametrize('beams', [1, 7, 360, 1000])
+def test_the_angles_of_a_scan_fit_its_ranges(beams):
+    message = conversions.scan(np.full(beams, 2.0), LaserConfig(beams=beams), 0.1, HEADER)
+    assert len(message.ranges) == beams
+    assert message.angle_min == -math.pi
+    assert message.angle_max == message.angle_min + (beams - 1) * message.angle_increment
+    assert beams * message.angle_increment == pytest.approx(2.0 * math.pi)
+
+
+def test_a_quaternion_turns_counter_clockwise():
+    turn = conversions.quaternion(math.pi / 2.0)
+    assert (turn.x, turn.y) == (0.0, 0.0)
+    assert (turn.z, turn.w) == pytest.approx((math.sqrt(0.5), math.sqrt(0.5)))
+
+
+def test_odometry_holds_pose_twist_and_variances_at_their_places():
+    message = conversions.odometry(Pose(1.0, -2.0, 0.5), Twist(0.3, -0.7), HEADER, 'child', (0.01, 0.02), (0.03, 0.04))
+    assert (message.pose.pose.position.x, message.pose.pose.position.y) == (1.0, -2.0)
+    assert (message.twist.twist.linear.x, message.twist.twist.angular.z) == (0.3, -0.7)
+    assert (message.header.frame_id, message.child_frame_id) == ('base', 'child')
+    diagonals = [[part.covariance[7 * place] for place in range(6)] for part in (message.pose, message.twist)]
+    assert diagonals == [[0.01, 0.01, 1e-6, 1e-6, 1e-6, 0.02], [0.03, 0.03, 1e-6, 1e-6, 1e-6, 0.04]]
+    assert sum(map(bool, message.pose.covariance)) == 6
+
+
+def test_the_variance_of_odometry_is_that_of_two_wheels():
+    """After 2 m each wheel errs by 2 m * 0.01 and 0.002 m * sqrt(2); heading is their difference over the base."""
+    wheel = (2.0 * 0.01) ** 2 + 0.002 ** 2 * 2.0
+    place, heading = conversions.odometry_variance(2.0, OdometryConfig(), 0.235)
+    assert place == pytest.approx(wheel / 2.0)
+    assert heading == pytest.approx(2.0 * wheel / 0.235 ** 2)
+
+
+def test_frames_of_the_first_robot_are_plain_and_others_prefixed():
+    assert frames('rumba') == ('odom', 'base_footprint', 'base_link', 'laser')
+    assert frames('rumba2') == ('rumba2/odom', 'rumba2/base_footprint', 'rumba2/base_link', 'rumba2/laser')
