@@ -3,6 +3,8 @@
 import math
 from typing import NamedTuple
 
+from rumba_sim.model import kernel
+
 
 class Pose(NamedTuple):
     """Where something stands: x and y [m], theta [rad] in (-pi, pi]."""
@@ -14,7 +16,7 @@ class Pose(NamedTuple):
 
 def wrap_angle(angle: float) -> float:
     """The same direction in (-pi, pi] [rad]."""
-    return angle if -math.pi < angle <= math.pi else math.pi - (math.pi - angle) % (2.0 * math.pi)
+    return kernel.wrap(angle)
 
 
 def compose(frame: Pose, pose: Pose) -> Pose:

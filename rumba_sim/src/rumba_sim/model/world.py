@@ -62,7 +62,7 @@ class World:
         self.floor = Floor(self.plan, self._config, self.start, self._generator(FLOOR, 0))
 
     def _checked_start(self) -> Pose:
-        """Where the first robot begins: the dock, else the plan's start, else where there is most room."""
+        """Where the first robot begins: the plan's start, else the dock, else where there is most room."""
         radius = float(self._constants[0]['reach'])
         for what, pose in (('dock', self.plan.dock), ('start', self.plan.start)):
             if pose is not None:

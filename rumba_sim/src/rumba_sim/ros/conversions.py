@@ -20,7 +20,6 @@ from rumba_sim.model.robot_config import TURN, LaserConfig, OdometryConfig
 from rumba_sim.ros.frames import MAP, Frames
 
 KNOWN = 1e-6  # variance of what is known: a robot on a floor does not rise, roll or pitch
-WHEEL_RADIUS = 0.036  # [m] height of base_link over base_footprint
 LASER_HEIGHT = 0.07  # [m] of laser over base_link
 
 
@@ -108,10 +107,10 @@ def transform(frame: str, child: str, pose: Pose, stamp: object, height: float =
                             Transform(Vector3(pose.x, pose.y, height), quaternion(pose.theta)))
 
 
-def static_transforms(frames: Frames, stamp: object) -> List[TransformStamped]:
-    """Where the parts of a robot sit that do not move."""
+def static_transforms(frames: Frames, stamp: object, wheel_diameter: float) -> List[TransformStamped]:
+    """Where the parts of a robot sit that do not move: base_link in the axle of its wheels [m]."""
     here = Pose(0.0, 0.0, 0.0)
-    return [transform(frames.base_footprint, frames.base_link, here, stamp, WHEEL_RADIUS),
+    return [transform(frames.base_footprint, frames.base_link, here, stamp, 0.5 * wheel_diameter),
             transform(frames.base_link, frames.laser, here, stamp, LASER_HEIGHT)]
 
 

@@ -177,7 +177,7 @@ class RobotNode:
 
     def static_transforms(self) -> List[TransformStamped]:
         """Where the parts of the robot sit that do not move."""
-        return conversions.static_transforms(self._frames, self._stamp)
+        return conversions.static_transforms(self._frames, self._stamp, self._robot.config.drive.wheel_diameter)
 
     def _coverage_message(self) -> OccupancyGrid:
         return conversions.grid(self._world.plan, self._world.floor.swept(), self._stamp)

@@ -29,6 +29,7 @@ from std_srvs.srv import SetBool
 
 from rumba_msg.msg import BatteryStatus
 from rumba_sim.model.config import setting
+from rumba_sim.model.robot_config import DriveConfig
 from rumba_sim.ros import node
 from rumba_sim.ros.terminal import CTRL_C, CTRL_D, ESCAPE, Terminal
 
@@ -61,8 +62,8 @@ MOVES = {
 }
 # Factors of the linear and of the angular speed.
 SPEEDS = {'q': (1.1, 1.1), 'z': (0.9, 0.9), 'w': (1.1, 1.0), 'x': (0.9, 1.0), 'e': (1.0, 1.1), 'c': (1.0, 0.9)}
-LINEAR_RANGE = (0.02, 0.5)
-ANGULAR_RANGE = (0.1, 1.9)
+LINEAR_RANGE = (0.02, DriveConfig.max_speed)
+ANGULAR_RANGE = (0.1, DriveConfig.max_turn_rate)
 
 # A single message could get lost on a poor connection.
 ZEROS = 3
