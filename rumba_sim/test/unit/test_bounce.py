@@ -32,7 +32,7 @@ def turn_after(bumper=(False, False), cliffs=(False,) * 4, seed=1):
 
 
 def test_it_goes_straight_ahead_with_brushes_down_while_nothing_is_in_the_way():
-    assert answers(Bounce(np.random.default_rng(1)), 50) == [(Bounce.SPEED, 0.0, False)] * 50
+    assert answers(Bounce(np.random.default_rng(1)), 50) == [(0.3, 0.0, False)] * 50
 
 
 @pytest.mark.parametrize('contact, sign', [
@@ -53,7 +53,7 @@ def test_taken_up_again_it_goes_ahead():
     answers(bounce, 1, bumper=BOTH)
     bounce.terminate()
     bounce.initialise()
-    assert answers(bounce, 1)[0].v == Bounce.SPEED
+    assert answers(bounce, 1)[0].v == 0.3
 
 
 def test_in_ten_minutes_it_cleans_most_of_an_empty_room():

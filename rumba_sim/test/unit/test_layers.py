@@ -1,4 +1,4 @@
-"""Arrows point one way: model <- cleaning <- ros, viewer <- scripts; ROS and Qt stay out of what is pure."""
+"""Arrows point one way: model <- cleaning <- evaluation <- ros, viewer <- scripts; what is pure knows no ROS, no Qt."""
 
 import ast
 import pathlib
@@ -10,11 +10,12 @@ SOURCE = PACKAGE / 'src' / 'rumba_sim'
 LAYERS = {
     'model': {'model'},
     'cleaning': {'model', 'cleaning'},
-    'ros': {'model', 'cleaning', 'ros'},
+    'evaluation': {'model', 'cleaning', 'evaluation'},
+    'ros': {'model', 'cleaning', 'evaluation', 'ros'},
     'viewer': {'model', 'ros', 'viewer'},
 }
-PURE = ('model', 'cleaning')
-NOT_PURE = ('rospy', 'roslib', 'rospkg', 'actionlib', 'tf', 'tf2', 'python_qt_binding', 'PyQt5')
+PURE = ('model', 'cleaning', 'evaluation')
+NOT_PURE = ('rospy', 'roslib', 'rospkg', 'actionlib', 'rosbag', 'tf', 'tf2', 'python_qt_binding', 'PyQt5')
 MODULES = sorted(SOURCE.glob('*/**/*.py'))
 
 

@@ -6,6 +6,8 @@ import math
 import numpy as np
 
 from rumba_sim.cleaning.behaviour import Behaviour, Command, Observation
+from rumba_sim.cleaning.context import Context
+from rumba_sim.cleaning.strategies import strategy
 
 
 class _Phase(enum.Enum):
@@ -19,27 +21,26 @@ class _Phase(enum.Enum):
 class Bounce(Behaviour):
     """Goes ahead; at a contact or a cliff it backs off a little and turns away, by an angle drawn at random."""
 
-    SPEED = 0.3  # [m/s] (Create 3: 0.306 is its safe speed)
     TURN_RATE = 1.5  # [rad/s]
     BACK_SPEED, BACK_WAY = 0.1, 0.05  # [m/s], [m]
     TURNS = (0.3 * math.pi, 0.9 * math.pi)  # [rad] least and largest turn
 
-    def __init__(self, generator: np.random.Generator) -> None:
-        """Draw the angles from a generator."""
+    def __init__(self, generator: np.random.Generator, speed: float = 0.3) -> None:
+        """Draw the angles from a generator; go ahead at a speed [m/s] (Create 3: 0.306 is its safe speed)."""
         self._generator = generator
+        self._speed = speed
         self.initialise()
 
     def initialise(self) -> None:
         """Begin by going ahead."""
+        super().initialise()
         self._phase = _Phase.AHEAD
         self._remaining = 0.0  # [s] of the phase
         self._side = 1.0  # turn to the left: 1, to the right: -1
 
     def update(self, observation: Observation) -> Command:
         """Ahead, back, turn, ahead."""
-        left, right = observation.bumper
-        far_left, near_left, near_right, far_right = observation.cliffs
-        left, right = left or far_left or near_left, right or near_right or far_right
+        left, right = observation.contact
         if self._phase is _Phase.AHEAD:
             if left or right:
                 self._side = -1.0 if left and not right else 1.0 if right and not left else self._random_side()
@@ -51,7 +52,7 @@ class Bounce(Behaviour):
             elif self._remaining <= 0.0:
                 self._enter(_Phase.AHEAD, 0.0)
         return {
-            _Phase.AHEAD: Command(self.SPEED, 0.0),
+            _Phase.AHEAD: Command(self._speed, 0.0),
             _Phase.BACK: Command(-self.BACK_SPEED, 0.0),
             _Phase.TURN: Command(0.0, self._side * self.TURN_RATE),
         }[self._phase]
@@ -62,3 +63,9 @@ class Bounce(Behaviour):
 
     def _random_side(self) -> float:
         return 1.0 if self._generator.random() < 0.5 else -1.0
+
+
+@strategy('bounce')
+def bounce(context: Context) -> Bounce:
+    """The strategy, for a robot's context."""
+    return Bounce(context.generator, context.config.speed)

@@ -19,3 +19,7 @@ class CommandError(RumbaError):
 
 class WorldError(RumbaError):
     """The world cannot do what was asked of it: a name that is taken or unknown, a place that is not free."""
+
+
+class StrategyError(RumbaError):
+    """No cleaning strategy has this name, or two would."""

@@ -1,0 +1,100 @@
+"""Drives along routes, and notices what is in the way."""
+
+import enum
+import math
+from typing import Optional
+
+from rumba_sim.cleaning.behaviour import Command, Observation
+from rumba_sim.cleaning.context import Context
+from rumba_sim.cleaning.follower import Follower, Route
+from rumba_sim.cleaning.ground import Ground
+from rumba_sim.model.geometry import Pose
+
+KNOWN = 0.03  # [m] a contact so near a known obstacle is a contact with that
+SIDE = 0.74  # [rad] about where a contact is that presses one switch alone
+OBSTACLE = 0.05  # [m] radius of what a contact tells of
+GAP = 0.02  # [m] from the body to that
+BACK_SPEED, BACK_WAY = 0.15, 0.08  # [m/s], [m]
+PATIENCE = 4.0  # [s] without progress: longer than any turn takes
+PROGRESS = 0.01  # [m]
+
+
+class Going(enum.Enum):
+    """How a travel goes."""
+
+    ON = 'on the way'
+    ARRIVED = 'at the end of the route'
+    BLOCKED = 'something unknown was in the way: it is marked on the ground, and another route is needed'
+    LOST = 'far off the route: another route is needed'
+
+
+class Travel:
+    """Along one route.
+
+    Attributes:
+        going: how it goes; what `update` answers is of use only while it is ON.
+    """
+
+    def __init__(self, context: Context, route: Route) -> None:
+        """Follow a route."""
+        self._context = context
+        self._follower = Follower(route, context.robot.drive)
+        self._back = 0.0  # [s] still to back off
+        self._nearest = math.inf  # [m] least way that was left
+        self._waited = 0.0  # [s] since then
+        self._was_touching = True
+        self.going = Going.ON
+
+    @property
+    def remaining(self) -> float:
+        """Way left [m]."""
+        return self._follower.remaining
+
+    def rest(self) -> Optional[Route]:
+        """What of the route is left; None where nothing is."""
+        return self._follower.rest()
+
+    def update(self, observation: Observation, brushes_up: bool) -> Command:
+        """What to do now."""
+        if self._back > 0.0:
+            self._back -= observation.dt
+            if self._back <= 0.0:
+                self.going = Going.BLOCKED
+            return Command(-BACK_SPEED, 0.0, brushes_up)
+        if self._is_blocked(observation):
+            self._back = BACK_WAY / BACK_SPEED
+            return Command(-BACK_SPEED, 0.0, brushes_up)
+        v, w = self._follower.update(observation.pose, observation.dt)
+        if self._follower.is_lost:
+            self.going = Going.LOST
+        elif self._follower.is_done:
+            self.going = Going.ARRIVED
+        return Command(v, w, brushes_up)
+
+    def _is_blocked(self, observation: Observation) -> bool:
+        """Whether something is in the way that the ground does not show; marks it."""
+        left, right = observation.contact
+        touches = (left or right) and not self._was_touching
+        self._was_touching = left or right
+        if self._follower.remaining < self._nearest - PROGRESS:
+            self._nearest, self._waited = self._follower.remaining, 0.0
+        else:
+            self._waited += observation.dt
+        is_stuck = self._waited > PATIENCE
+        if is_stuck or touches and (any(observation.cliffs) or not _is_known(self._context.ground, observation.pose)):
+            mark(self._context, observation.pose, 0.0 if left == right else SIDE if left else -SIDE)
+            return True
+        return False
+
+
+def mark(context: Context, pose: Pose, angle: float) -> None:
+    """Remember an obstacle that the body touches at an angle from its front [rad]."""
+    away = context.robot.drive.radius + GAP + OBSTACLE
+    context.ground.mark(pose.x + away * math.cos(pose.theta + angle), pose.y + away * math.sin(pose.theta + angle),
+                        OBSTACLE)
+
+
+def _is_known(ground: Ground, pose: Pose) -> bool:
+    """Whether the ground shows an obstacle that a robot here touches."""
+    row, column = ground.node(pose.x, pose.y)
+    return bool(ground.room[row, column] < ground.reach + KNOWN)

@@ -1,0 +1,89 @@
+"""wall_follow: along the walls, with the bumper alone: lean toward the wall, touch it, turn off a little."""
+
+import enum
+import math
+from typing import Optional
+
+from rumba_sim.cleaning.behaviour import Behaviour, Command, Observation
+from rumba_sim.cleaning.context import Context
+from rumba_sim.cleaning.follower import turn_rate
+from rumba_sim.cleaning.strategies import strategy
+from rumba_sim.model.geometry import Pose, wrap_angle
+
+LEAN = 0.8  # [1/m] curvature of the way back to the wall
+CLOSE = 0.25  # [m] radius of the way around a corner where the wall is lost
+LOST = 0.5  # [m] of leaning without a touch
+BACK_SPEED, BACK_WAY = 0.1, 0.02  # [m/s], [m]
+OFF_SIDE, OFF_FRONT = 0.35, 0.9  # [rad] to turn off a wall at the side, and ahead
+HEADING = 0.05  # [rad]
+ROUND = 0.3  # [m] so near the first touch, after ...
+LEAST_ROUND = 3.0  # [m] ... so long a way, the round is done
+
+
+class _Phase(enum.Enum):
+    AHEAD = 'straight on, until something is in the way'
+    LEAN = 'along the wall, toward it'
+    BACK = 'off it'
+    TURN = 'away from it'
+
+
+@strategy('wall_follow')
+class WallFollow(Behaviour):
+    """Keeps the wall to the right, once around."""
+
+    def __init__(self, context: Context) -> None:
+        """Take the speed of a context."""
+        self._drive = context.robot.drive
+        self._speed = context.config.speed
+        self.initialise()
+
+    def initialise(self) -> None:
+        """Begin with looking for a wall."""
+        super().initialise()
+        self._phase = _Phase.AHEAD
+        self._first: Optional[Pose] = None
+        self._last: Optional[Pose] = None
+        self._way = 0.0  # [m] since the first touch
+        self._leaning = 0.0  # [m] since the last
+        self._heading = 0.0
+        self._back = 0.0  # [s]
+
+    def update(self, observation: Observation) -> Command:
+        """Ahead or leaning until a touch, then back and turn."""
+        pose = observation.pose
+        step = math.hypot(pose.x - self._last.x, pose.y - self._last.y) if self._last is not None else 0.0
+        self._last = pose
+        self._way += step
+        if self._phase in (_Phase.AHEAD, _Phase.LEAN) and any(observation.contact):
+            return self._touch(observation)
+        if self._phase is _Phase.BACK:
+            self._back -= observation.dt
+            if self._back > 0.0:
+                return Command(-BACK_SPEED, 0.0)
+            self._phase = _Phase.TURN
+        if self._phase is _Phase.TURN:
+            angle = wrap_angle(self._heading - pose.theta)
+            if abs(angle) > HEADING:
+                return Command(0.0, turn_rate(angle, observation.dt, self._drive))
+            self._phase, self._leaning = _Phase.LEAN, 0.0
+        if self._phase is _Phase.AHEAD:
+            return Command(self._speed, 0.0)
+        return self._lean(step)
+
+    def _touch(self, observation: Observation) -> Command:
+        pose = observation.pose
+        if self._first is None:
+            self._first, self._way = pose, 0.0
+        elif self._way > LEAST_ROUND and math.hypot(pose.x - self._first.x, pose.y - self._first.y) < ROUND:
+            return self.succeed(f'once around, {self._way:.1f} m')
+        left, _ = observation.contact
+        self._phase, self._back = _Phase.BACK, BACK_WAY / BACK_SPEED
+        self._heading = wrap_angle(pose.theta + (OFF_FRONT if left else OFF_SIDE))
+        return Command(-BACK_SPEED, 0.0)
+
+    def _lean(self, step: float) -> Command:
+        """To the right; sharply where the wall ends."""
+        self._leaning += step
+        curvature = LEAN if self._leaning < LOST else 1.0 / CLOSE
+        v = min(self._speed, self._drive.max_turn_rate / curvature)
+        return Command(v, -v * curvature)
