@@ -12,6 +12,7 @@ import numpy as np
 from scipy import ndimage
 
 from rumba_sim.cleaning.ground import MARGIN, Ground
+from rumba_sim.cleaning.turned_floor import TurnedFloor
 from rumba_sim.model.kernel import Array
 
 GAP = 0.5  # [m] of floor that needs no sweeping, and still does not part a lane in two
@@ -40,7 +41,7 @@ class _Lane(NamedTuple):
     across: float
 
 
-def cells(ground: Ground, missed: Array, brush: float, speed: float) -> List[Cell]:
+def cells(ground: Ground, missed: Array, brush: float, speed: float, angle: float = 0.0) -> List[Cell]:
     """Cells whose lanes clean what was missed, bool (rows, columns), but for crumbs.
 
     Args:
@@ -48,52 +49,67 @@ def cells(ground: Ground, missed: Array, brush: float, speed: float) -> List[Cel
         missed: what there is to clean.
         brush: width of the brush [m].
         speed: along the lanes [m/s].
+        angle: between the lanes and the map's axes [rad].
     """
-    found = []
-    left = missed
+    found: List[Cell] = []
+    floor = TurnedFloor(ground, missed, angle)
+    left = floor.missed.copy()
     rate = brush * speed
-    margin = math.ceil(brush / ground.plan.resolution)
-    while left.any():
-        rows, columns = (slice(max(part.start - margin, 0), part.stop + margin)
-                         for part in ndimage.find_objects(left.astype(np.int8))[0])
-        grids = [_Grid(ground, left, rows, columns, brush, along_x) for along_x in (True, False)]
-        choices = [(cell, grid, lanes) for grid in grids for cell, lanes in grid.cells(speed)]
+    while left.any():  # the best cell, with all others that have no better one near, until none is worth it
+        grids = [_Grid(floor, left, ground.reach + MARGIN, brush, along_x) for along_x in (True, False)]
+        choices = [(cell.area - USUAL * rate * cell.time, cell, grid, lanes)
+                   for grid in grids for cell, lanes in grid.cells(speed) if cell.area > POOR * rate * cell.time]
         if not choices:
             break
-        cell, grid, lanes = max(choices, key=lambda choice: choice[0].area - USUAL * rate * choice[0].time)
-        if cell.area < POOR * rate * cell.time:
-            break
-        found.append(cell)
-        left = left.copy()
-        left[rows, columns] = grid.without(lanes)
+        claimed = np.zeros_like(left)
+        for _, cell, grid, lanes in sorted(choices, key=lambda choice: -choice[0]):
+            window = grid.window(lanes)
+            if not claimed[window].any():
+                grid.take(lanes, left)
+                found.append(cell)
+            claimed[window] = True
     return found
 
 
 class _Grid:
     """What is to be cleaned, turned so that lanes run along its columns."""
 
-    def __init__(self, ground: Ground, missed: Array, rows: slice, columns: slice, brush: float,
-                 along_x: bool) -> None:
-        missed = missed[rows, columns]
-        self._missed = missed if along_x else missed.T
-        room = ground.room[rows.start:rows.stop + 1, columns.start:columns.stop + 1]  # a node more than cells
+    def __init__(self, floor: TurnedFloor, missed: Array, reach: float, brush: float, along_x: bool) -> None:
+        margin = math.ceil(brush / floor.resolution)
+        self._window = tuple(slice(max(part.start - margin, 0), part.stop + margin)
+                             for part in ndimage.find_objects(missed.astype(np.int8))[0])
+        rows, columns = self._window
+        room = floor.room[rows.start:rows.stop + 1, columns.start:columns.stop + 1]  # a node more than cells
         self._room = room if along_x else room.T
         self._along_x = along_x
-        self._resolution = ground.plan.resolution
-        corner = np.array([columns.start, rows.start]) * self._resolution + ground.plan.origin
-        self._corner = corner if along_x else corner[::-1]
+        self._missed = self._turned(missed)
+        self._floor = floor
+        self._resolution = floor.resolution
         self._half = 0.5 * brush / self._resolution
-        self._fits = ground.reach + MARGIN
+        self._fits = reach
         self._gap = int(GAP / self._resolution)
         self._least = max(int(LEAST / self._resolution), 1)
         self._left = self._missed
 
-    def without(self, lanes: List[_Lane]) -> Array:
-        """What these lanes leave, turned back."""
-        left = self._missed.copy()
+    def _turned(self, missed: Array) -> Array:
+        """A view of what was missed as this grid sees it."""
+        return missed[self._window] if self._along_x else missed[self._window].T
+
+    def window(self, lanes: List[_Lane]) -> Tuple[slice, slice]:
+        """Where lanes are, and as much around them as tells on other cells: rows and columns."""
+        margin = math.ceil(self._half)
+        across = [lane.across for lane in lanes]
+        rows = slice(int(min(across)) - 2 * margin, int(max(across)) + 2 * margin + 1)
+        columns = slice(min(lane.first for lane in lanes) - margin, max(lane.last for lane in lanes) + margin)
+        rows, columns = (rows, columns) if self._along_x else (columns, rows)
+        return tuple(slice(max(part.start + whole.start, 0), part.stop + whole.start)
+                     for part, whole in zip((rows, columns), self._window))
+
+    def take(self, lanes: List[_Lane], missed: Array) -> None:
+        """Clean with lanes what was missed."""
+        view = self._turned(missed)
         for lane in lanes:
-            left[self._band(lane.across), lane.first:lane.last] = False
-        return left if self._along_x else left.T
+            view[self._band(lane.across), lane.first:lane.last] = False
 
     def cells(self, speed: float) -> List[Tuple[Cell, List[_Lane]]]:
         """All cells, from the lowest lane upward."""
@@ -103,31 +119,32 @@ class _Grid:
             run = self._lowest(0, len(self._left), (0, self._left.shape[1]))
             if run is None:
                 return found
-            before = np.count_nonzero(self._left)
-            lanes = self._grow(*run)
+            lanes, count = self._grow(*run)
             if lanes:
-                area = (before - np.count_nonzero(self._left)) * self._resolution ** 2
+                area = count * self._resolution ** 2
                 time = CELL + sum((lane.last - lane.first) * self._resolution / speed + TURN for lane in lanes)
                 found.append((Cell([self._metres(lane) for lane in lanes], area, time), lanes))
 
-    def _grow(self, row: int, run: Run) -> List[_Lane]:
-        """The lanes of one cell, from its lowest row on; what they clean is left no more."""
+    def _grow(self, row: int, run: Run) -> Tuple[List[_Lane], int]:
+        """The lanes of one cell, from its lowest row on, and how much they clean; that is left no more."""
         lanes: List[_Lane] = []
+        count = 0
         while True:
             lane = self._lane(row, run, lanes[-1].across if lanes else None)
             if lane is None:
                 self._left[row, run[0]:run[1]] = False
-                return lanes
+                return lanes, count
             if lanes and not 1.0 / ALIKE < (lane.last - lane.first) / (lanes[-1].last - lanes[-1].first) < ALIKE:
-                return lanes
+                return lanes, count
             band = self._band(lane.across)
+            count += np.count_nonzero(self._left[band, lane.first:lane.last])
             self._left[band, lane.first:lane.last] = False
             self._left[row, max(run[0], lane.first):min(run[1], lane.last)] = False
             lanes.append(lane)
             above = self._lowest(band.stop - 1, min(int(lane.across + 3.0 * self._half), len(self._left)),
                                  (lane.first, lane.last))
             if above is None:
-                return lanes
+                return lanes, count
             row, run = above
 
     def _lowest(self, bottom: int, top: int, columns: Run) -> Optional[Tuple[int, Run]]:
@@ -168,8 +185,9 @@ class _Grid:
         return slice(max(math.floor(across - self._half + 0.5), 0), max(math.floor(across + self._half + 0.5), 0))
 
     def _metres(self, lane: _Lane) -> Array:
-        ends = np.array([[lane.first, lane.across], [lane.last, lane.across]]) * self._resolution + self._corner
-        return ends if self._along_x else ends[:, ::-1]
+        ends = np.array([[lane.first, lane.across], [lane.last, lane.across]])
+        rows, columns = self._window
+        return self._floor.places((ends if self._along_x else ends[:, ::-1]) + (columns.start, rows.start))
 
 
 def _runs(flags: Array, gap: int) -> List[Run]:

@@ -11,12 +11,14 @@ from rumba_sim.cleaning.ground import Ground
 from rumba_sim.cleaning.lanes import cells
 from rumba_sim.cleaning.links import cell_manners
 from rumba_sim.cleaning.rooms import rooms
-from rumba_sim.cleaning.tour import Distances, Stretch, tour
+from rumba_sim.cleaning.tour import Stretch, tour
+from rumba_sim.cleaning.turned_floor import main_direction
 from rumba_sim.cleaning.walls import Wall, walls
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.kernel import Array
 
-ENTRIES = 10  # places of a closed way from one at which it may be begun to the next
+ENTRIES = 16  # places of a closed way at which it may be begun, at most ...
+APART = 10  # ... and so many of its places apart, at least
 
 Rooms = Dict[int, List[Stretch]]
 
@@ -33,8 +35,9 @@ def plan(context: Context, pose: Pose) -> Optional[Route]:
     found: Rooms = {}
     for wall in walls(ground, missed, labels, brush):
         found.setdefault(wall.room, []).append(Stretch(_manners(wall)))
+    angle = main_direction(ground)
     for label, part in _by_room(ground, missed, labels).items():
-        for cell in cells(ground, part, brush, context.config.speed):
+        for cell in cells(ground, part, brush, context.config.speed, angle):
             found.setdefault(label, []).append(Stretch(cell_manners(ground, cell.lanes)))
     if found:
         return with_crumbs(context, _route(context, start, found))
@@ -49,7 +52,7 @@ def _manners(wall: Wall) -> List[Array]:
     if not wall.is_closed:
         return [wall.places, wall.places[::-1]]
     turned = [np.concatenate([wall.places[index:-1], wall.places[:index + 1]])
-              for index in range(0, len(wall.places) - 1, ENTRIES)]
+              for index in range(0, len(wall.places) - 1, max(APART, len(wall.places) // ENTRIES))]
     return turned + [places[::-1] for places in turned]
 
 
@@ -59,19 +62,18 @@ def _by_room(ground: Ground, missed: Array, labels: Array) -> Dict[int, Array]:
     nodes = ground.standing(indices)
     of_cells = np.zeros(missed.shape, labels.dtype)
     of_cells[missed] = labels[nodes[:, 0], nodes[:, 1]]
-    return {int(label): of_cells == label for label in np.unique(of_cells[missed])}
+    return {int(label): missed & (of_cells == label) for label in np.unique(of_cells[missed])}
 
 
 def _route(context: Context, start: Array, found: Rooms) -> Optional[Route]:
     """Through all rooms; what cannot be reached is left out."""
     config, ground = context.config, context.ground
-    distances = Distances(ground)
     places, speeds = [start[np.newaxis]], []
     doors = {room: _middle(stretches) for room, stretches in found.items()}
-    order = [list(doors)[index] for index, _ in tour(start, [Stretch([door]) for door in doors.values()], distances)]
+    order = [list(doors)[index] for index, _ in tour(ground, start, [Stretch([door]) for door in doors.values()])]
     for room, following in zip(order, [*order[1:], None]):
         end = doors[following][0] if following is not None else None
-        for index, manner in tour(places[-1][-1], found[room], distances, end):
+        for index, manner in tour(ground, places[-1][-1], found[room], end):
             stretch = found[room][index].manners[manner]
             way = ground.way(places[-1][-1], stretch[0])
             if way is not None:

@@ -20,4 +20,4 @@ def rooms(ground: Ground) -> Array:
     has_seed[regions[seeds > 0]] = True
     narrow = ground.fits & ~has_seed[regions]
     seeds = np.where(narrow, regions + seeds.max(), seeds)
-    return np.asarray(segmentation.watershed(-ground.room, seeds, mask=ground.fits))
+    return np.asarray(segmentation.watershed(-ground.room, seeds, connectivity=2, mask=ground.fits))

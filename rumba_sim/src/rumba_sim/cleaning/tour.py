@@ -1,5 +1,6 @@
 """In which order, and from which end, to drive a number of ways, so that the way between them is short."""
 
+import math
 from typing import List, NamedTuple, Optional, Sequence, Tuple
 
 import numpy as np
@@ -9,8 +10,9 @@ from scipy.sparse import csgraph
 from rumba_sim.cleaning.ground import Ground
 from rumba_sim.model.kernel import Array
 
-COARSE = 0.08  # [m] between the nodes on which distances are counted
+NODES = 12_000  # of the graph on which distances are counted, at most about
 FAR = 1e6  # [m] what cannot be reached
+AROUND = 1.5  # [m] around the places, ways are looked for first
 ROUNDS = 20
 TOGETHER = (1, 2, 3, 4, 6)  # so many ways that follow each other are tried elsewhere
 BETTER = 1e-6  # [m]
@@ -23,63 +25,70 @@ class Stretch(NamedTuple):
     manners: List[Array]  # float64 (any, 2) [m] each
 
 
-class Distances:
-    """Lengths of the shortest ways on a ground."""
+def distances(ground: Ground, starts: Array, ends: Array) -> Array:
+    """Length of the shortest way from each of the places (n, 2) to each of (m, 2): float64 (n, m) [m], about.
 
-    def __init__(self, ground: Ground) -> None:
-        """Make a coarse graph of where the robot can stand."""
-        self._ground = ground
-        self._step = max(int(round(COARSE / ground.plan.resolution)), 1)
-        step = self._step
-        rows, columns = (-(-size // step) for size in ground.fits.shape)
-        fits = np.zeros((rows * step, columns * step), np.bool_)
-        fits[:ground.fits.shape[0], :ground.fits.shape[1]] = ground.fits
-        free = fits.reshape(rows, step, columns, step).any(axis=(1, 3))
-        numbers = np.arange(free.size).reshape(free.shape)
-        self._columns = columns
-        starts, ends, lengths = [], [], []
-        for down, right, length in NEIGHBOURS:
-            one = (slice(0, rows - down), slice(max(0, -right), columns - max(right, 0)))
-            other = (slice(down, rows), slice(max(right, 0), columns + min(right, 0)))
-            both = free[one] & free[other]
-            starts.append(numbers[one][both])
-            ends.append(numbers[other][both])
-            lengths.append(np.full(len(starts[-1]), length * step * ground.plan.resolution))
-        self._graph = sparse.csr_matrix(
-            (np.concatenate(lengths), (np.concatenate(starts), np.concatenate(ends))), (free.size, free.size))
-
-    def between(self, starts: Array, ends: Array) -> Array:
-        """From each of the places (n, 2) to each of (m, 2): float64 (n, m) [m], at least; FAR where there is no way."""
-        sources, which = np.unique(self._numbers(starts), return_inverse=True)
-        on_grid = csgraph.dijkstra(self._graph, directed=False, indices=sources)[which][:, self._numbers(ends)]
-        straight = np.hypot(*(starts[:, np.newaxis] - ends[np.newaxis]).transpose(2, 0, 1))
-        return np.minimum(np.maximum(on_grid, straight), FAR)
-
-    def _numbers(self, places: Array) -> Array:
-        nodes = self._ground.standing(self._ground.nodes(places)) // self._step
-        return nodes[:, 0] * self._columns + nodes[:, 1]
+    FAR where there is no way.
+    """
+    straight = np.hypot(*(starts[:, np.newaxis] - ends[np.newaxis]).transpose(2, 0, 1))
+    nodes = [ground.standing(ground.nodes(places)) for places in (starts, ends)]
+    both = np.concatenate(nodes)
+    around = int(AROUND / ground.plan.resolution)
+    on_grid = _on_grid(ground.fits, nodes, np.maximum(both.min(axis=0) - around, 0), both.max(axis=0) + around + 1)
+    if not np.isfinite(on_grid).all():
+        on_grid = _on_grid(ground.fits, nodes, np.array([0, 0]), np.array(ground.fits.shape))
+    return np.minimum(np.maximum(on_grid * ground.plan.resolution, straight), FAR)
 
 
-def tour(start: Array, stretches: Sequence[Stretch], distances: Distances,
+def _on_grid(fits: Array, nodes: List[Array], low: Array, high: Array) -> Array:
+    """Lengths within a window of the nodes, on a coarser graph of where the robot can stand [nodes]."""
+    fits = fits[low[0]:high[0], low[1]:high[1]]
+    step = max(math.ceil(math.sqrt(fits.size / NODES)), 1)
+    rows, columns = (-(-size // step) for size in fits.shape)
+    padded = np.zeros((rows * step, columns * step), np.bool_)
+    padded[:fits.shape[0], :fits.shape[1]] = fits
+    free = padded.reshape(rows, step, columns, step).any(axis=(1, 3))
+    starts, ends = (((places - low) // step) @ np.array([columns, 1]) for places in nodes)
+    sources, which = np.unique(starts, return_inverse=True)
+    return np.asarray(csgraph.dijkstra(_graph(free), indices=sources)[which][:, ends] * step)
+
+
+def _graph(free: Array) -> sparse.csr_matrix:
+    """A node for each element of bool (rows, columns), edges between free neighbours."""
+    rows, columns = free.shape
+    numbers = np.arange(free.size).reshape(free.shape)
+    starts, ends, lengths = [], [], []
+    for down, right, length in NEIGHBOURS:
+        one = (slice(0, rows - down), slice(max(0, -right), columns - max(right, 0)))
+        other = (slice(down, rows), slice(max(right, 0), columns + min(right, 0)))
+        both = free[one] & free[other]
+        starts.append(numbers[one][both])
+        ends.append(numbers[other][both])
+        lengths.append(np.full(len(starts[-1]), length))
+    there, back = np.concatenate(starts + ends), np.concatenate(ends + starts)
+    return sparse.csr_matrix((np.concatenate(lengths + lengths), (there, back)), (free.size, free.size))
+
+
+def tour(ground: Ground, start: Array, stretches: Sequence[Stretch],
          end: Optional[Array] = None) -> List[Tuple[int, int]]:
     """The order in which to drive stretches, each as (its index, its manner).
 
     Cheapest insertion, then moving one or a few together to where they cost less, as long as that helps.
 
     Args:
+        ground: where the robot can stand.
         start: place (2) from which it begins.
         stretches: what is to be driven.
-        distances: on the same ground.
         end: place (2) near which it had best end; None: anywhere.
     """
-    planner = _Planner(start, stretches, distances, end)
+    planner = _Planner(ground, start, stretches, end)
     return [planner.manners[index] for index in planner.best()]
 
 
 class _Planner:
     """Every manner of every stretch has an index; a tour is a list of these, one for each stretch."""
 
-    def __init__(self, start: Array, stretches: Sequence[Stretch], distances: Distances, end: Optional[Array]) -> None:
+    def __init__(self, ground: Ground, start: Array, stretches: Sequence[Stretch], end: Optional[Array]) -> None:
         self.manners = [(index, manner) for index, stretch in enumerate(stretches)
                         for manner in range(len(stretch.manners))]
         entries = np.array([stretches[index].manners[manner][0] for index, manner in self.manners])
@@ -87,10 +96,10 @@ class _Planner:
         self._of_stretch = [np.flatnonzero([index == stretch for index, _ in self.manners])
                             for stretch in range(len(stretches))]
         self._start = len(exits)  # what comes before the first stretch, as an index
-        self._costs = distances.between(np.vstack([exits, start]), entries)  # from exit to entry
+        self._costs = distances(ground, np.vstack([exits, start]), entries)  # from exit to entry
         self._last = np.zeros(len(exits) + 1)  # from exit to the end of the tour
         if end is not None:
-            self._last[:-1] = distances.between(exits, end[np.newaxis])[:, 0]
+            self._last[:-1] = distances(ground, exits, end[np.newaxis])[:, 0]
 
     def best(self) -> List[int]:
         """A good tour."""
