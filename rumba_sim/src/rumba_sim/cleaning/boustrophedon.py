@@ -11,9 +11,9 @@ from rumba_sim.cleaning.strategies import strategy
 from rumba_sim.cleaning.travel import Going, Travel
 from rumba_sim.model.geometry import Pose
 
-WORTH = 0.0005  # of coverage: a round that gains less is the last
+WORTH = 0.002  # of coverage: a round that gains less is the last
 ROUNDS = 8  # with what was missed in the round before
-RETRIES = 3  # rounds in which obstacles that were met may be gone
+RETRIES = 1  # rounds in which obstacles that were met may be gone
 
 
 @strategy('boustrophedon')

@@ -38,7 +38,8 @@ def with_crumbs(context: Context, route: Optional[Route]) -> Optional[Route]:
     drive(expected, route.places)
     missing = (context.config.target_coverage + SURPLUS - expected.coverage) * expected.reachable_area
     detours: Dict[int, List[Array]] = {}
-    for crumb in crumbs(context.ground, expected.missed()):
+    near = context.ground.within(0.5 * context.robot.brush.width)
+    for crumb in crumbs(context.ground, expected.missed() & near):
         if missing <= 0.0:
             break
         index = _nearest(context.ground, route.places, crumb.places)

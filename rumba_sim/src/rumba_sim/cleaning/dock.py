@@ -3,8 +3,6 @@
 import math
 from typing import Optional
 
-import numpy as np
-
 from rumba_sim.cleaning.behaviour import Behaviour, Command, Observation, Status
 from rumba_sim.cleaning.context import Context
 from rumba_sim.cleaning.go_to import GoTo
@@ -12,8 +10,8 @@ from rumba_sim.cleaning.homing import BUOYS, Homing
 from rumba_sim.model.errors import MapError
 from rumba_sim.model.geometry import Pose
 
-BEFORE = np.arange(0.8, 0.2, -0.05)  # [m] before the dock, on its axis: where homing begins, at the first that is free
-TRIES = 6
+BEFORE = (0.8, 0.7, 0.6, 0.5, 0.4, 0.3)  # [m] before the dock, on its axis: where homing begins, at the first that is free
+TRIES = 3
 
 
 class Dock(Behaviour):
@@ -78,8 +76,8 @@ def approach(context: Context) -> Pose:
     if dock is None:
         raise MapError(f'{context.plan.name}: no dock on the map: its YAML file may name one, dock: [x, y, theta]')
     for distance in BEFORE:
-        place = np.array([[dock.x - distance * math.cos(dock.theta), dock.y - distance * math.sin(dock.theta)]])
-        if context.ground.are_free(place)[0]:
-            return Pose(float(place[0, 0]), float(place[0, 1]), dock.theta)
+        x, y = dock.x - distance * math.cos(dock.theta), dock.y - distance * math.sin(dock.theta)
+        if context.plan.room_at(x, y) > context.ground.reach:
+            return Pose(x, y, dock.theta)
     raise MapError(f'{context.plan.name}: no room before the dock at ({dock.x:.2f}, {dock.y:.2f}) m: '
                    f'a robot of radius {context.robot.drive.radius:.3f} m cannot drive up to it')

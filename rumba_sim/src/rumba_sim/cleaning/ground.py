@@ -1,6 +1,7 @@
 """Where a robot can stand and how it gets from place to place: the floor plan, and the obstacles that it met."""
 
-from typing import Optional, Tuple
+import math
+from typing import List, Optional, Tuple
 
 import numpy as np
 from scipy import ndimage
@@ -13,6 +14,7 @@ from rumba_sim.model.robot_config import RobotConfig
 
 ANY_RATE = 50  # [Hz] how near a robot can come to a wall does not depend on it
 MARGIN = 0.003  # [m] that ways keep off what a robot would touch
+GROWTH, LARGEST = 0.02, 0.25  # [m] of the radius of an obstacle that is met again
 EASE = 0.04  # [m] of room to spare beside a straight way
 AT_ONCE = 0.4  # [m] so near a place is driven to without regard to that
 DETOUR = 2.0  # [m] around both ends a way is looked for first
@@ -39,11 +41,19 @@ class Ground:
     def forget(self) -> None:
         """Forget all obstacles that were met."""
         self.room = self.plan.room.copy()
-        self.has_marks = False
+        self._marks: List[Tuple[float, float, float]] = []  # x, y, radius [m]
         self._changed()
 
+    @property
+    def has_marks(self) -> bool:
+        """Whether obstacles were met."""
+        return bool(self._marks)
+
     def mark(self, x: float, y: float, radius: float) -> None:
-        """Remember that there is a round obstacle."""
+        """Remember that there is a round obstacle; one that is met again is larger than it was thought to be."""
+        again = [other for mark_x, mark_y, other in self._marks if math.hypot(mark_x - x, mark_y - y) < radius + other]
+        radius = min(max([radius, *(other + GROWTH for other in again)]), LARGEST)
+        self._marks.append((x, y, radius))
         rows, columns = self.room.shape
         res = self.plan.resolution
         row, column = self.node(x, y)
@@ -53,12 +63,11 @@ class Ground:
         distance = np.hypot(near_x * res + self.plan.origin[0] - x, near_y * res + self.plan.origin[1] - y) - radius
         window = self.room[top:row + size + 1, left:column + size + 1]
         np.minimum(window, np.maximum(distance, 0.0), out=window)
-        self.has_marks = True
         self._changed()
 
     def _changed(self) -> None:
         self.fits = self.room >= self.reach + MARGIN
-        self._marked = ~self.fits & (self.plan.room >= self.reach + MARGIN)
+        self._marked = ~self.fits & (self.room < self.plan.room)
         self._nearest: Optional[Array] = None
 
     # --- places and nodes -----------------------------------------------------------------------------------------
@@ -92,6 +101,11 @@ class Ground:
         """The node nearest to a place at which the robot can stand."""
         row, column = self.standing(self.nodes(np.array([[x, y]])))[0]
         return int(row), int(column)
+
+    def within(self, distance: float) -> Array:
+        """Cells whose middle lies so near, or a cell more, to where the robot can stand: bool (rows, columns)."""
+        away = ndimage.distance_transform_edt(~self.fits)[:-1, :-1] * self.plan.resolution
+        return np.asarray(away <= distance + self.plan.resolution)
 
     # --- ways -----------------------------------------------------------------------------------------------------
 

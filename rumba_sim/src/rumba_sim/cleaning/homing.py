@@ -25,6 +25,8 @@ RETREAT = 0.35  # [m]
 PRESSING = 1.5  # [s] against something that is not the dock
 LOST = 8.0  # [s] without any beam
 STEER = 2.0  # [1/s]
+RETREATS = 3
+PATIENCE = 120.0  # [s] from the first beam to the contacts: three times what it takes at most
 
 
 class _Phase(enum.Enum):
@@ -51,6 +53,8 @@ class Homing(Behaviour):
         self._side = 1.0  # turn to the left: 1
         self._lost = 0.0  # [s]
         self._pressed = 0.0  # [s]
+        self._retreats = 0
+        self._time = 0.0  # [s]
         self._is_near = False
         self._enter(_Phase.SEEK, None)
 
@@ -62,6 +66,9 @@ class Homing(Behaviour):
         self._lost = 0.0 if beams & BUOYS else self._lost + observation.dt
         if self._lost > LOST:
             return self.fail('the beams of the dock are lost')
+        self._time += observation.dt
+        if self._time > PATIENCE or self._retreats > RETREATS:
+            return self.fail('something keeps the robot from the contacts')
         return {
             _Phase.SEEK: self._seek, _Phase.EDGE: self._edge, _Phase.FACE: self._face, _Phase.ASIDE: self._turn_aside,
             _Phase.CROSS: self._cross, _Phase.AHEAD: self._ahead, _Phase.RETREAT: self._retreat,
@@ -147,6 +154,7 @@ class Homing(Behaviour):
         self._pressed = self._pressed + observation.dt if any(observation.bumper) else 0.0
         if self._pressed > PRESSING:
             self._pressed = 0.0
+            self._retreats += 1
             self._enter(_Phase.RETREAT, observation.pose)
         return Command(speed, STEER * wrap_angle(self._heading - observation.pose.theta), brushes_up=True)
 

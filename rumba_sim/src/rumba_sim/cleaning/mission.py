@@ -20,7 +20,7 @@ LEAP = 0.5  # [m] from one update to the next: somebody put the robot elsewhere
 OFF = 1.0  # [s] off the contacts while charging, until that counts
 GAIN = 0.002  # of coverage that a charge must bring, once it is ...
 VAIN = 3  # ... so many charges that brought less
-HOMES = 3  # attempts to get home
+HOMES = 2  # attempts to get home
 START = 0.1  # charge beyond what the way home needs, without which a mission begins with charging
 
 

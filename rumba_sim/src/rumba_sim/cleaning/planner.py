@@ -31,7 +31,7 @@ def plan(context: Context, pose: Pose) -> Optional[Route]:
     ground, brush = context.ground, context.robot.brush.width
     start = np.array([pose.x, pose.y])
     labels = rooms(ground)
-    missed = context.swept.missed()
+    missed = context.swept.missed() & ground.within(0.5 * brush)
     found: Rooms = {}
     for wall in walls(ground, missed, labels, brush):
         found.setdefault(wall.room, []).append(Stretch(_manners(wall)))
@@ -41,7 +41,7 @@ def plan(context: Context, pose: Pose) -> Optional[Route]:
             found.setdefault(label, []).append(Stretch(cell_manners(ground, cell.lanes)))
     if found:
         return with_crumbs(context, _route(context, start, found))
-    for crumb in crumbs(ground, context.swept.missed()):
+    for crumb in crumbs(ground, context.swept.missed() & ground.within(0.5 * brush)):
         room = int(labels[ground.node(*crumb.places[0])])
         found.setdefault(room, []).append(Stretch([crumb.places]))
     return _route(context, start, found)
