@@ -5,6 +5,7 @@ import math
 
 import numpy as np
 
+from rumba_sim.cleaning import recoil
 from rumba_sim.cleaning.behaviour import Behaviour, Command, Observation
 from rumba_sim.cleaning.context import Context
 from rumba_sim.cleaning.strategies import strategy
@@ -22,7 +23,6 @@ class Bounce(Behaviour):
     """Goes ahead; at a contact or a cliff it backs off a little and turns away, by an angle drawn at random."""
 
     TURN_RATE = 1.5  # [rad/s]
-    BACK_SPEED, BACK_WAY = 0.1, 0.05  # [m/s], [m]
     TURNS = (0.3 * math.pi, 0.9 * math.pi)  # [rad] least and largest turn
 
     def __init__(self, generator: np.random.Generator, speed: float = 0.3) -> None:
@@ -44,16 +44,16 @@ class Bounce(Behaviour):
         if self._phase is _Phase.AHEAD:
             if left or right:
                 self._side = -1.0 if left and not right else 1.0 if right and not left else self._random_side()
-                self._enter(_Phase.BACK, self.BACK_WAY / self.BACK_SPEED)
+                self._enter(_Phase.BACK, recoil.time_back(observation))
         else:
             self._remaining -= observation.dt
             if self._remaining <= 0.0 and self._phase is _Phase.BACK:
                 self._enter(_Phase.TURN, self._generator.uniform(*self.TURNS) / self.TURN_RATE)
-            elif self._remaining <= 0.0:
+            elif self._remaining <= 0.0 and not any(observation.cliffs):
                 self._enter(_Phase.AHEAD, 0.0)
         return {
             _Phase.AHEAD: Command(self._speed, 0.0),
-            _Phase.BACK: Command(-self.BACK_SPEED, 0.0),
+            _Phase.BACK: Command(-recoil.SPEED, 0.0),
             _Phase.TURN: Command(0.0, self._side * self.TURN_RATE),
         }[self._phase]
 

@@ -4,6 +4,7 @@ import enum
 import math
 from typing import Optional
 
+from rumba_sim.cleaning import recoil
 from rumba_sim.cleaning.behaviour import Command, Observation
 from rumba_sim.cleaning.context import Context
 from rumba_sim.cleaning.follower import Follower, Route
@@ -14,7 +15,6 @@ KNOWN = 0.03  # [m] a contact so near a known obstacle is a contact with that
 SIDE = 0.74  # [rad] about where a contact is that presses one switch alone
 OBSTACLE = 0.05  # [m] radius of what a contact tells of
 GAP = 0.02  # [m] from the body to that
-BACK_SPEED, BACK_WAY = 0.15, 0.08  # [m/s], [m]
 PATIENCE = 4.0  # [s] without progress: longer than any turn takes
 PROGRESS = 0.01  # [m]
 
@@ -42,7 +42,7 @@ class Travel:
         self._back = 0.0  # [s] still to back off
         self._nearest = math.inf  # [m] least way that was left
         self._waited = 0.0  # [s] since then
-        self._was_touching = True
+        self._was_touching = True  # what is felt at once was felt, and dealt with, before
         self.going = Going.ON
 
     @property
@@ -60,10 +60,10 @@ class Travel:
             self._back -= observation.dt
             if self._back <= 0.0:
                 self.going = Going.BLOCKED
-            return Command(-BACK_SPEED, 0.0, brushes_up)
+            return Command(-recoil.SPEED, 0.0, brushes_up)
         if self._is_blocked(observation):
-            self._back = BACK_WAY / BACK_SPEED
-            return Command(-BACK_SPEED, 0.0, brushes_up)
+            self._back = recoil.time_back(observation)
+            return Command(-recoil.SPEED, 0.0, brushes_up)
         v, w = self._follower.update(observation.pose, observation.dt)
         if self._follower.is_lost:
             self.going = Going.LOST

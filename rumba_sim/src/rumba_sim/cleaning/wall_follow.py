@@ -4,17 +4,19 @@ import enum
 import math
 from typing import Optional
 
+from rumba_sim.cleaning import recoil
 from rumba_sim.cleaning.behaviour import Behaviour, Command, Observation
 from rumba_sim.cleaning.context import Context
 from rumba_sim.cleaning.follower import turn_rate
 from rumba_sim.cleaning.strategies import strategy
 from rumba_sim.model.geometry import Pose, wrap_angle
 
-LEAN = 0.8  # [1/m] curvature of the way back to the wall
-CLOSE = 0.25  # [m] radius of the way around a corner where the wall is lost
-LOST = 0.5  # [m] of leaning without a touch
-BACK_SPEED, BACK_WAY = 0.1, 0.02  # [m/s], [m]
+LEAN = 1.5  # [1/m] curvature of the way back to the wall
+CLOSE = 0.25  # [m] radius of the way around a corner where the wall is lost ...
+LOST = 0.6  # [m] ... after so long a way without a touch
+GONE = 2.0  # [m] without a touch: another wall is looked for
 OFF_SIDE, OFF_FRONT = 0.35, 0.9  # [rad] to turn off a wall at the side, and ahead
+SOON = 0.15  # [m] after a touch: another one so soon says that the robot must turn farther
 HEADING = 0.05  # [rad]
 ROUND = 0.3  # [m] so near the first touch, after ...
 LEAST_ROUND = 3.0  # [m] ... so long a way, the round is done
@@ -41,30 +43,34 @@ class WallFollow(Behaviour):
         """Begin with looking for a wall."""
         super().initialise()
         self._phase = _Phase.AHEAD
-        self._first: Optional[Pose] = None
-        self._last: Optional[Pose] = None
+        self._first: Optional[Pose] = None  # touch
+        self._last: Optional[Pose] = None  # observation
         self._way = 0.0  # [m] since the first touch
-        self._leaning = 0.0  # [m] since the last
-        self._heading = 0.0
-        self._back = 0.0  # [s]
+        self._leaning = math.inf  # [m] since the last
+        self._off = 0.0  # [rad] that it turned then
+        self._heading = 0.0  # [rad] to turn to
+        self._back = 0.0  # [s] to drive back
 
     def update(self, observation: Observation) -> Command:
         """Ahead or leaning until a touch, then back and turn."""
-        pose = observation.pose
-        step = math.hypot(pose.x - self._last.x, pose.y - self._last.y) if self._last is not None else 0.0
+        pose, last = observation.pose, self._last or observation.pose
         self._last = pose
+        step = math.hypot(pose.x - last.x, pose.y - last.y)
         self._way += step
         if self._phase in (_Phase.AHEAD, _Phase.LEAN) and any(observation.contact):
             return self._touch(observation)
         if self._phase is _Phase.BACK:
             self._back -= observation.dt
             if self._back > 0.0:
-                return Command(-BACK_SPEED, 0.0)
+                return Command(-recoil.SPEED, 0.0)
             self._phase = _Phase.TURN
         if self._phase is _Phase.TURN:
             angle = wrap_angle(self._heading - pose.theta)
             if abs(angle) > HEADING:
                 return Command(0.0, turn_rate(angle, observation.dt, self._drive))
+            if any(observation.cliffs):
+                self._heading = wrap_angle(self._heading + OFF_SIDE)
+                return Command(0.0, 0.0)
             self._phase, self._leaning = _Phase.LEAN, 0.0
         if self._phase is _Phase.AHEAD:
             return Command(self._speed, 0.0)
@@ -77,13 +83,16 @@ class WallFollow(Behaviour):
         elif self._way > LEAST_ROUND and math.hypot(pose.x - self._first.x, pose.y - self._first.y) < ROUND:
             return self.succeed(f'once around, {self._way:.1f} m')
         left, _ = observation.contact
-        self._phase, self._back = _Phase.BACK, BACK_WAY / BACK_SPEED
-        self._heading = wrap_angle(pose.theta + (OFF_FRONT if left else OFF_SIDE))
-        return Command(-BACK_SPEED, 0.0)
+        self._off = (self._off if self._leaning < SOON else 0.0) + (OFF_FRONT if left else OFF_SIDE)
+        self._phase, self._back = _Phase.BACK, recoil.time_back(observation)
+        self._heading = wrap_angle(pose.theta + min(self._off, math.pi))
+        return Command(-recoil.SPEED, 0.0)
 
     def _lean(self, step: float) -> Command:
         """To the right; sharply where the wall ends."""
         self._leaning += step
+        if self._leaning > GONE:
+            self._phase = _Phase.AHEAD
         curvature = LEAN if self._leaning < LOST else 1.0 / CLOSE
         v = min(self._speed, self._drive.max_turn_rate / curvature)
         return Command(v, -v * curvature)
