@@ -10,7 +10,8 @@ from rumba_sim.cleaning.homing import BUOYS, Homing
 from rumba_sim.model.errors import MapError
 from rumba_sim.model.geometry import Pose
 
-BEFORE = (0.8, 0.7, 0.6, 0.5, 0.4, 0.3)  # [m] before the dock, on its axis: where homing begins, at the first that is free
+STEP = 0.05  # [m]
+BEFORE = (16, 14, 12, 10, 8, 6)  # steps before the dock, on its axis: homing begins where all the way is free
 TRIES = 3
 
 
@@ -75,9 +76,10 @@ def approach(context: Context) -> Pose:
     dock = context.plan.dock
     if dock is None:
         raise MapError(f'{context.plan.name}: no dock on the map: its YAML file may name one, dock: [x, y, theta]')
-    for distance in BEFORE:
-        x, y = dock.x - distance * math.cos(dock.theta), dock.y - distance * math.sin(dock.theta)
-        if context.plan.room_at(x, y) > context.ground.reach:
-            return Pose(x, y, dock.theta)
+    for steps in BEFORE:
+        line = [Pose(dock.x - step * STEP * math.cos(dock.theta), dock.y - step * STEP * math.sin(dock.theta),
+                     dock.theta) for step in range(1, steps + 1)]
+        if all(context.plan.room_at(pose.x, pose.y) > context.ground.reach for pose in line):
+            return line[-1]
     raise MapError(f'{context.plan.name}: no room before the dock at ({dock.x:.2f}, {dock.y:.2f}) m: '
                    f'a robot of radius {context.robot.drive.radius:.3f} m cannot drive up to it')

@@ -26,6 +26,8 @@ CREEP = 0.03  # [m/s] no slower to the end
 TENDERNESS = 0.7  # share of the acceleration that is counted on for stopping
 SHORTEST = 1e-3  # [m] of a part of a route
 LEAST_DT = 0.02  # [s]
+HEADING, RESTS = 0.02, 0.005  # [rad] so near a heading, and turned by so little since the last look, a turn is done
+SLOWEST = 2.5  # times the rate at which wheels begin to move
 
 Place = Tuple[float, float]
 
@@ -143,16 +145,45 @@ class Follower:
         self._is_turning = False
         curvature = 2.0 * math.sin(bearing) / max(math.hypot(x - pose.x, y - pose.y), 0.5 * LEAST_AHEAD)
         v = min(limit, self._drive.max_speed, self._drive.max_turn_rate / max(abs(curvature), 1e-6))
-        v = min(v, max(math.sqrt(2.0 * TENDERNESS * self._drive.acceleration * left), CREEP), max(left / dt, CREEP))
+        v = min(v, max(fastest(left, dt, self._drive.acceleration), CREEP))
         return v, v * curvature
 
 
 def turn_rate(angle: float, dt: float, drive: DriveConfig) -> float:
     """The rate [rad/s] at which to turn on the spot while an angle [rad] is left, so as to stop there."""
-    stopping = math.sqrt(2.0 * TENDERNESS * 2.0 * drive.acceleration / drive.wheel_base * abs(angle))
-    slowest = 2.5 * drive.dead_band / drive.wheel_base
-    rate = max(min(drive.max_turn_rate, stopping, abs(angle) / max(dt, LEAST_DT)), slowest)
+    spin = 2.0 * drive.acceleration / drive.wheel_base  # [rad/s^2]
+    slowest = SLOWEST * drive.dead_band / drive.wheel_base
+    rate = max(min(drive.max_turn_rate, fastest(abs(angle), dt, spin)), slowest)
     return math.copysign(rate, angle)
+
+
+def fastest(way: float, dt: float, acceleration: float) -> float:
+    """The speed at which one can go on for dt and still stop at the end of a way [m, or rad]."""
+    counted = TENDERNESS * acceleration
+    return math.sqrt((counted * dt) ** 2 + 2.0 * counted * way) - counted * dt
+
+
+class Turn:
+    """Turns to a heading on the spot, and comes to rest there.
+
+    Attributes:
+        is_done: the heading is reached, and the robot turns no more.
+    """
+
+    def __init__(self, heading: float, drive: DriveConfig) -> None:
+        """Turn to a heading [rad], map frame, or whatever frame the poses are in."""
+        self.heading = heading
+        self._drive = drive
+        self._last = math.inf
+        self.is_done = False
+
+    def update(self, pose: Pose, dt: float) -> float:
+        """Turn rate [rad/s] for now."""
+        angle = wrap_angle(self.heading - pose.theta)
+        is_there, rests = abs(angle) < HEADING, abs(pose.theta - self._last) < RESTS
+        self._last = pose.theta
+        self.is_done = is_there and rests
+        return 0.0 if is_there else turn_rate(angle, max(dt, LEAST_DT), self._drive)
 
 
 def _pieces(route: Route) -> List[_Piece]:

@@ -7,11 +7,10 @@ import numpy as np
 
 from rumba_sim.cleaning.behaviour import Behaviour, Command, Observation
 from rumba_sim.cleaning.context import Context
-from rumba_sim.cleaning.follower import Route, turn_rate
+from rumba_sim.cleaning.follower import Route, Turn
 from rumba_sim.cleaning.travel import Going, Travel
-from rumba_sim.model.geometry import Pose, wrap_angle
+from rumba_sim.model.geometry import Pose
 
-HEADING = 0.03  # [rad] so near is the heading that was asked for
 TRIES = 30  # times that something unknown may be in the way
 
 
@@ -33,7 +32,7 @@ class GoTo(Behaviour):
         """Begin with looking for a way."""
         super().initialise()
         self._travel: Optional[Travel] = None
-        self._has_arrived = False
+        self._turn: Optional[Turn] = None  # at the end
         self._tries = 0
 
     @property
@@ -43,8 +42,8 @@ class GoTo(Behaviour):
 
     def update(self, observation: Observation) -> Command:
         """Along the way, then turn."""
-        if self._has_arrived:
-            return self._turn(observation)
+        if self._turn is not None:
+            return self._turned(self._turn, observation)
         if self._travel is None:
             route = self._route(observation.pose)
             if route is None:
@@ -53,7 +52,8 @@ class GoTo(Behaviour):
             self._travel = Travel(self._context, route)
         command = self._travel.update(observation, brushes_up=True)
         if self._travel.going is Going.ARRIVED:
-            self._has_arrived = True
+            any_heading = math.isnan(self._target.theta)
+            self._turn = Turn(observation.pose.theta if any_heading else self._target.theta, self._context.robot.drive)
         elif self._travel.going is not Going.ON:
             self._travel = None
             self._tries += 1
@@ -71,9 +71,9 @@ class GoTo(Behaviour):
             way = ground.way(*ends)
         return None if way is None else Route(way, np.full(len(way) - 1, self._context.config.transit_speed))
 
-    def _turn(self, observation: Observation) -> Command:
-        angle = wrap_angle(self._target.theta - observation.pose.theta)
-        if math.isnan(angle) or abs(angle) < HEADING:
-            pose = observation.pose
+    def _turned(self, turn: Turn, observation: Observation) -> Command:
+        pose = observation.pose
+        rate = turn.update(pose, observation.dt)
+        if turn.is_done:
             return self.succeed(f'at ({pose.x:.2f}, {pose.y:.2f}) m')
-        return Command(0.0, turn_rate(angle, observation.dt, self._context.robot.drive), brushes_up=True)
+        return Command(0.0, rate, brushes_up=True)

@@ -11,13 +11,12 @@ from typing import Optional
 
 from rumba_sim.cleaning.behaviour import Behaviour, Command, Observation
 from rumba_sim.cleaning.context import Context
-from rumba_sim.cleaning.follower import turn_rate
+from rumba_sim.cleaning.follower import Turn
 from rumba_sim.model.geometry import Pose, wrap_angle
 from rumba_sim.model.kernel import FORCE_FIELD, GREEN_BUOY, RED_BUOY
 
 BUOYS = GREEN_BUOY | RED_BUOY
 SCAN_RATE = 0.7  # [rad/s] while looking for where the receivers begin and cease to get the beams
-HEADING = 0.02  # [rad]
 ASIDE = 1.05  # [rad] off the dock's direction, to get onto its axis
 FAR_SPEED, NEAR_SPEED = 0.2, 0.1  # [m/s] outside and inside the force field
 AGAIN = 0.4  # [m] after which the direction is taken anew
@@ -78,6 +77,7 @@ class Homing(Behaviour):
         self._phase = phase
         self._since = pose
         self._heading = heading
+        self._turn = Turn(heading, self._context.robot.drive)
 
     def _driven(self, pose: Pose) -> float:
         return math.hypot(pose.x - self._since.x, pose.y - self._since.y) if self._since is not None else 0.0
@@ -107,8 +107,9 @@ class Homing(Behaviour):
         return Command(0.0, self._side * SCAN_RATE, brushes_up=True)
 
     def _face(self, observation: Observation) -> Command:
-        if not self._has_turned(observation):
-            return self._turning(observation)
+        rate = self._turn.update(observation.pose, observation.dt)
+        if not self._turn.is_done:
+            return Command(0.0, rate, brushes_up=True)
         beams = observation.infrared.omni
         if beams & BUOYS == BUOYS:
             self._enter(_Phase.AHEAD, observation.pose, self._heading)
@@ -120,16 +121,10 @@ class Homing(Behaviour):
         return Command(0.0, 0.0, brushes_up=True)
 
     def _turn_aside(self, observation: Observation) -> Command:
-        if self._has_turned(observation):
+        rate = self._turn.update(observation.pose, observation.dt)
+        if self._turn.is_done:
             self._enter(_Phase.CROSS, observation.pose, self._heading)
-        return self._turning(observation)
-
-    def _has_turned(self, observation: Observation) -> bool:
-        return abs(wrap_angle(self._heading - observation.pose.theta)) < HEADING
-
-    def _turning(self, observation: Observation) -> Command:
-        angle = wrap_angle(self._heading - observation.pose.theta)
-        return Command(0.0, turn_rate(angle, observation.dt, self._context.robot.drive), brushes_up=True)
+        return Command(0.0, rate, brushes_up=True)
 
     # --- driving --------------------------------------------------------------------------------------------------
 

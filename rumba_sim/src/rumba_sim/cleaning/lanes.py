@@ -102,8 +102,9 @@ class _Grid:
         rows = slice(int(min(across)) - 2 * margin, int(max(across)) + 2 * margin + 1)
         columns = slice(min(lane.first for lane in lanes) - margin, max(lane.last for lane in lanes) + margin)
         rows, columns = (rows, columns) if self._along_x else (columns, rows)
-        return tuple(slice(max(part.start + whole.start, 0), part.stop + whole.start)
-                     for part, whole in zip((rows, columns), self._window))
+        top, left = self._window[0].start, self._window[1].start
+        return (slice(max(rows.start + top, 0), rows.stop + top),
+                slice(max(columns.start + left, 0), columns.stop + left))
 
     def take(self, lanes: List[_Lane], missed: Array) -> None:
         """Clean with lanes what was missed."""

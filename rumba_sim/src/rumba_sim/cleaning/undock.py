@@ -5,14 +5,13 @@ from typing import Optional
 
 from rumba_sim.cleaning.behaviour import Behaviour, Command, Observation
 from rumba_sim.cleaning.context import Context
-from rumba_sim.cleaning.follower import turn_rate
+from rumba_sim.cleaning.follower import Turn
 from rumba_sim.model.geometry import Pose, wrap_angle
 
 WAY = 0.4  # [m] backward (create3_sim)
 SPEED = 0.2  # [m/s]
 PATIENCE = 4.0  # [s] without moving: something is behind the robot
 PROGRESS = 0.005  # [m] in an update
-HEADING = 0.05  # [rad]
 
 
 class Undock(Behaviour):
@@ -28,7 +27,7 @@ class Undock(Behaviour):
         """Begin by backing off."""
         super().initialise()
         self._start: Optional[Pose] = None
-        self._heading: Optional[float] = None
+        self._turn: Optional[Turn] = None
         self._way = 0.0
         self._waited = 0.0
 
@@ -40,11 +39,9 @@ class Undock(Behaviour):
     def update(self, observation: Observation) -> Command:
         """Back, turn."""
         pose = observation.pose
-        if self._heading is not None:
-            angle = wrap_angle(self._heading - pose.theta)
-            if abs(angle) < HEADING:
-                return self.succeed('free')
-            return Command(0.0, turn_rate(angle, observation.dt, self._context.robot.drive), brushes_up=True)
+        if self._turn is not None:
+            rate = self._turn.update(pose, observation.dt)
+            return self.succeed('free') if self._turn.is_done else Command(0.0, rate, brushes_up=True)
         if self._start is None:
             if not observation.is_docked:
                 return self.succeed('was not docked')
@@ -58,5 +55,5 @@ class Undock(Behaviour):
         if is_blocked or self._way >= WAY:
             if not self._turns:
                 return self.succeed('free')
-            self._heading = wrap_angle(pose.theta + math.pi)
+            self._turn = Turn(wrap_angle(pose.theta + math.pi), self._context.robot.drive)
         return Command(-SPEED, 0.0, brushes_up=True)

@@ -1,0 +1,45 @@
+"""Has robots of a world do what behaviours say."""
+
+from rumba_sim.cleaning.behaviour import Status
+from rumba_sim.cleaning.cleaning_config import CleaningConfig
+from rumba_sim.cleaning.context import Context
+from rumba_sim.evaluation.trial import CONTROL_DT, CONTROL_TICKS, observe
+from rumba_sim.model.floor_plan import WALL, FloorPlan
+
+
+def context_of(plan, world, seed=1, **changes):
+    """What a robot of a world, whose floor may differ from the plan, knows."""
+    return Context(plan, world.config, CleaningConfig(**changes), seed)
+
+
+def steps(behaviour, world, name='rumba', seconds=600.0):
+    """Update a behaviour until it ends or the time is up; yields each observation and what was answered."""
+    end = world.time + seconds
+    dt = 0.0
+    while behaviour.status is Status.RUNNING and world.time < end:
+        observation = observe(world, name, dt)
+        command = behaviour.update(observation)
+        yield observation, command
+        robot = world.robots[name]
+        robot.brushes_up = command.brushes_up
+        robot.command(command.v, command.w, world.tick)
+        world.step(CONTROL_TICKS)
+        dt = CONTROL_DT
+
+
+def run(behaviour, world, name='rumba', seconds=600.0):
+    """Update a behaviour until it ends or the time is up; returns the seconds that this took."""
+    start = world.time
+    for _ in steps(behaviour, world, name, seconds):
+        pass
+    return world.time - start
+
+
+def with_box(plan, box):
+    """The plan with something in the box (left, bottom, right, top) [m] that it does not show."""
+    left, bottom, right, top = box
+    (row, column), (last_row, last_column) = plan.cell(left, bottom), plan.cell(right, top)
+    occupancy = plan.occupancy.copy()
+    occupancy[row:last_row, column:last_column] = WALL
+    return FloorPlan(plan.name, occupancy, plan.resolution, plan.origin, cliff=plan.cliff, carpet=plan.carpet,
+                     dock=plan.dock, start=plan.start)
