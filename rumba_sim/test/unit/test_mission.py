@@ -198,7 +198,7 @@ def test_a_target_out_of_range_is_refused(target):
 
 
 def test_an_unknown_strategy_is_refused_with_those_that_are_known():
-    with pytest.raises(StrategyError, match="unknown strategy 'zigzag': known are bounce, boustrophedon, spiral"):
+    with pytest.raises(StrategyError, match="unknown strategy 'zigzag': known are .*boustrophedon.*spiral"):
         mission(strategy='zigzag')
 
 

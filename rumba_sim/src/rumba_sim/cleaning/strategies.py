@@ -43,7 +43,7 @@ def load(modules: str) -> None:
     for module in filter(None, (part.strip() for part in modules.split(','))):
         try:
             importlib.import_module(module)
-        except ImportError as error:
+        except (ImportError, SyntaxError, TypeError) as error:  # TypeError: a relative name
             raise StrategyError(f'strategies of {module!r}: {error}; a module is named as in Python, '
                                 'my_package.my_module, and must be on the Python path') from None
 

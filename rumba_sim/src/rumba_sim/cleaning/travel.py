@@ -17,6 +17,7 @@ OBSTACLE = 0.05  # [m] radius of what a contact tells of
 GAP = 0.02  # [m] from the body to that
 PATIENCE = 4.0  # [s] without progress: longer than any turn takes
 PROGRESS = 0.01  # [m]
+LONGEST = 0.5  # [s] of one update that count as waiting: in a longer one a route was planned
 
 
 class Going(enum.Enum):
@@ -79,7 +80,7 @@ class Travel:
         if self._follower.remaining < self._nearest - PROGRESS:
             self._nearest, self._waited = self._follower.remaining, 0.0
         else:
-            self._waited += observation.dt
+            self._waited += min(observation.dt, LONGEST)
         is_stuck = self._waited > PATIENCE
         if is_stuck or touches and (any(observation.cliffs) or not _is_known(self._context.ground, observation.pose)):
             mark(self._context, observation.pose, 0.0 if left == right else SIDE if left else -SIDE)

@@ -1,0 +1,1 @@
+"""A cleaning strategy for Rumba."""
