@@ -27,10 +27,10 @@ class Swept:
         """Know the walls, and nothing swept or reachable yet: `begin` follows."""
         self._plan = plan
         self._config = config
-        self._constants = constants(config, plan, ANY_RATE)
+        self._constants = constants(config, plan, ANY_RATE)[0]
         self._dirt = np.zeros((plan.rows, plan.columns), np.float32)
-        self._tally = np.zeros(1, kernel.TALLY)
-        self._brush = np.zeros(1, kernel.ROBOT)
+        self._tally = np.zeros(1, kernel.TALLY)[0]
+        self._brush = np.zeros(1, kernel.ROBOT)[0]
         self._last: Optional[Pose] = None
         self.cells = np.where(plan.free, 0, kernel.WALL).astype(np.uint8)
         if plan.cliff is not None:
@@ -47,7 +47,7 @@ class Swept:
         self.cells &= kernel.WALL | kernel.CLIFF
         self.cells[reachable] |= kernel.REACHABLE
         self._reachable = int(np.count_nonzero(reachable))
-        self._tally[0]['swept'] = 0
+        self._tally['swept'] = 0
         self._last = None
 
     def copy(self) -> 'Swept':
@@ -55,7 +55,7 @@ class Swept:
         other = Swept(self._plan, self._config)
         other.cells[:] = self.cells
         other._reachable = self._reachable
-        other._tally[:] = self._tally
+        other._tally['swept'] = self._tally['swept']
         return other
 
     def follow(self, pose: Pose, brushes_up: bool) -> None:
@@ -66,14 +66,13 @@ class Swept:
 
     def sweep(self, start: Pose, end: Pose) -> None:
         """The brush went from one pose to another, not far away."""
-        brush = self._brush[0]
-        brush['x'], brush['y'], brush['theta'] = end
-        fast.sweep(brush, self._constants[0], self.cells, self._dirt, self._tally[0], *start)
+        self._brush['x'], self._brush['y'], self._brush['theta'] = end
+        fast.sweep(self._brush, self._constants, self.cells, self._dirt, self._tally, *start)
 
     @property
     def coverage(self) -> float:
         """Share of the reachable cells that was swept [0..1]; 1 where nothing can be reached."""
-        return int(self._tally[0]['swept']) / self._reachable if self._reachable else 1.0
+        return int(self._tally['swept']) / self._reachable if self._reachable else 1.0
 
     @property
     def reachable_area(self) -> float:

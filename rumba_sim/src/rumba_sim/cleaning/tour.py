@@ -10,7 +10,7 @@ from scipy.sparse import csgraph
 from rumba_sim.cleaning.ground import Ground
 from rumba_sim.model.kernel import Array
 
-NODES = 12_000  # of the graph on which distances are counted, at most about
+NODES = 6_000  # of the graph on which distances are counted, at most about
 FAR = 1e6  # [m] what cannot be reached
 AROUND = 1.5  # [m] around the places, ways are looked for first
 ROUNDS = 20

@@ -1,0 +1,32 @@
+"""An office floor to plan on: rooms with a door each along both sides of a corridor, and furniture."""
+
+import numpy as np
+
+from rumba_sim.model.floor_plan import FREE, WALL, FloorPlan
+
+CORRIDOR, DOOR = 2.0, 0.9  # [m]
+ROOMS = (3.0, 6.0)  # [m] least and largest width
+FURNITURE = (0.3, 1.6)  # [m] least and largest side
+
+
+def office(rows, columns, resolution, furniture, seed):
+    """A floor plan of so many cells of a resolution [m], with so many pieces of furniture."""
+    generator = np.random.default_rng(seed)
+    grid = np.full((rows, columns), WALL, np.int8)
+    grid[2:-2, 2:-2] = FREE
+    low, high = (round((rows * resolution + side * CORRIDOR) / 2.0 / resolution) for side in (-1.0, 1.0))
+    for wall, part in ((low, slice(0, low)), (high, slice(high, rows))):
+        grid[wall:wall + 2] = WALL
+        left = 0
+        while left < columns:
+            right = min(left + round(generator.uniform(*ROOMS) / resolution), columns)
+            grid[part, right:right + 2] = WALL
+            middle, half = (left + right) // 2, round(DOOR / 2.0 / resolution)
+            grid[wall:wall + 2, middle - half:middle + half] = FREE
+            left = right
+    for _ in range(furniture):
+        height, width = (generator.uniform(*FURNITURE, 2) / resolution).astype(int)
+        row, column = generator.integers(rows), generator.integers(columns)
+        if not low - height - round(DOOR / resolution) < row < high + round(DOOR / resolution):
+            grid[row:row + height, column:column + width] = WALL
+    return FloorPlan('office', grid, resolution, (0.0, 0.0))
