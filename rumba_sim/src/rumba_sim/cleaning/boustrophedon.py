@@ -12,13 +12,15 @@ from rumba_sim.cleaning.travel import Going, Travel
 from rumba_sim.model.geometry import Pose
 
 WORTH = 0.002  # of coverage: a round that gains less is the last
-ROUNDS = 8  # with what was missed in the round before
-RETRIES = 1  # rounds in which obstacles that were met may be gone
+ROUNDS = 20  # with what was missed in the round before
 
 
 @strategy('boustrophedon')
 class Boustrophedon(Behaviour):
-    """Cleans what was missed, round by round, until a round gains nothing more."""
+    """Cleans what was missed, round by round, until a round gains nothing more.
+
+    Obstacles that were met are forgotten then, since they may be gone, as long as that helps.
+    """
 
     def __init__(self, context: Context) -> None:
         """Clean the floor plan of a context."""
@@ -30,7 +32,7 @@ class Boustrophedon(Behaviour):
         super().initialise()
         self._travel: Optional[Travel] = None
         self._rounds = 0
-        self._retries = 0
+        self._forgot_at = -1.0  # coverage when obstacles that were met were forgotten
         self._before = -1.0  # coverage when the round began
 
     def update(self, observation: Observation) -> Command:
@@ -57,8 +59,8 @@ class Boustrophedon(Behaviour):
         self._before = coverage
         self._rounds += 1
         route = plan(self._context, pose) if is_worth else None
-        if route is None and self._context.ground.has_marks and self._retries < RETRIES:
-            self._retries += 1
+        if route is None and self._context.ground.has_marks and coverage > self._forgot_at + WORTH:
+            self._forgot_at = coverage
             self._context.ground.forget()
             route = plan(self._context, pose)
         return route

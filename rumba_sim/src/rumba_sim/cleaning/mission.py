@@ -154,7 +154,7 @@ class Mission(Behaviour):
                 return self._close(Status.FAILED, f'{_percent(coverage)} swept: the battery is low, and no way leads '
                                                   'to a dock')
         command = self._cleaning.update(observation)
-        self.message = f'{_percent(coverage)} swept; {self._cleaning.message}'
+        self.message = '; '.join(filter(None, [f'{_percent(coverage)} swept', self._cleaning.message]))
         if self._cleaning.status is not Status.RUNNING:
             return self._close(self._cleaning.status, f'{_percent(coverage)} swept: {self._cleaning.message}')
         return command
