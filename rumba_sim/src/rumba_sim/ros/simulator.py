@@ -17,11 +17,10 @@ step (rumba_msg/Step), spawn (rumba_msg/Spawn) and kill (rumba_msg/Kill). rqt_re
 Parameters, as in `rosrun rumba_sim simulator _map:=studio _speed:=10 _battery/drain:=60`:
 """
 
-import pathlib
+import os
 import re
 from typing import Any, Callable, Dict, Tuple
 
-import rospkg
 import rospy
 from nav_msgs.msg import OccupancyGrid
 from nav_msgs.srv import GetMap, GetMapResponse
@@ -31,12 +30,13 @@ from tf2_msgs.msg import TFMessage
 from rumba_msg.srv import Kill, KillResponse, Spawn, SpawnResponse, Step, StepResponse
 from rumba_sim.model import map_file
 from rumba_sim.model.config import updated
-from rumba_sim.model.errors import ConfigError, MapError, RumbaError, WorldError
+from rumba_sim.model.errors import ConfigError, RumbaError, WorldError
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.world import World
 from rumba_sim.ros import conversions, node, reconfigure
 from rumba_sim.ros.diagnostics import Diagnostics
 from rumba_sim.ros.frames import FIRST
+from rumba_sim.ros.maps import FLOOR_PLAN, map_path
 from rumba_sim.ros.pace import Pace, wake_on_time
 from rumba_sim.ros.requests import Requests
 from rumba_sim.ros.robot_node import RobotNode
@@ -49,8 +49,8 @@ MAX_STEP = 1_000_000  # ticks of one call
 
 def main() -> None:
     """Run the node."""
-    node.run('simulator', Settings, lambda settings: Simulator(settings).run(), own_clock=True, own_parameters=[TUNING],
-             is_single=True)
+    node.run('simulator', Settings, lambda settings: Simulator(settings).run(), own_clock=True,
+             own_parameters=[TUNING, FLOOR_PLAN], is_single=True)
 
 
 class Simulator:
@@ -67,7 +67,8 @@ class Simulator:
         self._requests = Requests()
         self._is_paused = False
         self._ticks = 0
-        self._world = World(map_file.load(map_path(settings.map)), settings.robot, settings.step_rate, settings.seed)
+        path = map_path(settings.map)
+        self._world = World(map_file.load(path), settings.robot, settings.step_rate, settings.seed)
         self._pace = Pace(settings.step_rate, settings.speed, is_time_simulated(settings.speed))
         self._diagnostics = Diagnostics(settings.map)
         self._tf = rospy.Publisher('/tf', TFMessage, queue_size=100)
@@ -78,6 +79,7 @@ class Simulator:
         self._map = conversions.grid(self._world.plan, self._world.plan.occupancy, self._pace.stamp)
         self._map_publisher = rospy.Publisher('/map', OccupancyGrid, queue_size=1, latch=True)
         self._map_publisher.publish(self._map)
+        rospy.set_param(f'~{FLOOR_PLAN}', os.path.abspath(path))  # before the services, which tell that it is true
         self._serve()
 
     def _serve(self) -> None:
@@ -206,22 +208,6 @@ def refuse_second() -> None:
     if node.is_served('/static_map'):
         raise WorldError('/static_map is served already: end the other simulator, or map_server, or give this one a '
                          'master of its own with ROS_MASTER_URI')
-
-
-def map_path(name: str) -> str:
-    """The path of a map of this package by its name; a path is a path.
-
-    Raises:
-        MapError: no map of this package has that name.
-    """
-    if '/' in name or name.endswith(('.yaml', '.yml')):
-        return name
-    maps = pathlib.Path(rospkg.RosPack().get_path('rumba_sim'), 'maps')
-    known = {path.stem: str(path) for path in sorted(maps.glob('*.yaml'))}
-    if name not in known:
-        raise MapError(f'there is no map {name!r}: give the path of a map_server YAML file, or one of '
-                       + ', '.join(known))
-    return known[name]
 
 
 def is_time_simulated(speed: float) -> bool:
