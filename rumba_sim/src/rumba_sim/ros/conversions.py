@@ -1,15 +1,18 @@
-"""From the model to messages: pure functions."""
+"""From the model to messages, and back: pure functions."""
 
 import math
 from typing import List, Sequence
 
 from geometry_msgs.msg import Pose as PoseMessage
-from geometry_msgs.msg import Point, Quaternion, Transform, TransformStamped, Vector3
+from geometry_msgs.msg import Point, Pose2D, Quaternion, Transform, TransformStamped, Vector3
+from geometry_msgs.msg import Twist as TwistMessage
 from nav_msgs.msg import MapMetaData, OccupancyGrid, Odometry
 from sensor_msgs.msg import BatteryState, LaserScan
 from std_msgs.msg import Header
 
-from rumba_msg.msg import BatteryStatus, Bumper, CleaningStatus, Cliff, DockStatus
+from rumba_msg.msg import BatteryStatus, Bumper, CleaningStatus, Cliff, DockStatus, MissionStatus
+from rumba_sim.cleaning.behaviour import Command, Observation
+from rumba_sim.cleaning.mission import State
 from rumba_sim.model.battery import CELLS, Battery
 from rumba_sim.model.floor import Floor
 from rumba_sim.model.floor_plan import FloorPlan
@@ -145,6 +148,11 @@ def cleaning_status(robot: Robot, floor: Floor, header: Header) -> CleaningStatu
                           robot.distance, robot.brush_time)
 
 
+def no_cleaning_status() -> CleaningStatus:
+    """What is said of the floor where nobody measures it."""
+    return CleaningStatus(Header(), *[math.nan] * 6)
+
+
 def grid(plan: FloorPlan, cells: Array, stamp: object) -> OccupancyGrid:
     """Values (rows, columns) int8 on the cells of a plan: its occupancy, or what was swept."""
     left, bottom = plan.origin
@@ -152,3 +160,37 @@ def grid(plan: FloorPlan, cells: Array, stamp: object) -> OccupancyGrid:
                        origin=PoseMessage(Point(left, bottom, 0.0), quaternion(0.0)))
     # A list is packed several times faster than an array.
     return OccupancyGrid(Header(stamp=stamp, frame_id=MAP), info, cells.ravel().tolist())
+
+
+# --- the cleaner ---------------------------------------------------------------------------------------------------
+
+def plane_pose(transform: Transform) -> Pose:
+    """A transform as a pose in the plane."""
+    rotation = transform.rotation
+    theta = math.atan2(2.0 * (rotation.w * rotation.z + rotation.x * rotation.y),
+                       1.0 - 2.0 * (rotation.y * rotation.y + rotation.z * rotation.z))
+    return Pose(transform.translation.x, transform.translation.y, theta)
+
+
+def observation(pose: Pose, bumper: Bumper, cliff: Cliff, dock: DockStatus, state_of_charge: float) -> Observation:
+    """What a robot knows, for its behaviours; dt is 0."""
+    return Observation(
+        dt=0.0, pose=pose, bumper=(bumper.is_left_pressed, bumper.is_right_pressed),
+        cliffs=(cliff.is_cliff_left, cliff.is_cliff_front_left, cliff.is_cliff_front_right, cliff.is_cliff_right),
+        state_of_charge=state_of_charge, is_docked=dock.is_docked,
+        infrared=Infrared(dock.infrared_omni, dock.infrared_left, dock.infrared_right))
+
+
+def velocity(command: Command) -> TwistMessage:
+    """A command, but for the brushes."""
+    return TwistMessage(Vector3(command.v, 0.0, 0.0), Vector3(0.0, 0.0, command.w))
+
+
+def pose_message(pose: Pose) -> Pose2D:
+    """A pose in the plane."""
+    return Pose2D(*pose)
+
+
+def mission_status(state: State, strategy: str, message: str, stamp: object) -> MissionStatus:
+    """What a robot is doing."""
+    return MissionStatus(Header(stamp=stamp, frame_id=MAP), int(state), strategy, message)

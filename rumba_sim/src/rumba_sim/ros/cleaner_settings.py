@@ -1,0 +1,45 @@
+"""The parameters of the cleaner, and what it takes from the simulator beside it."""
+
+import dataclasses
+
+import rosgraph
+import rospy
+
+from rumba_sim.cleaning.cleaning_config import CleaningConfig
+from rumba_sim.model import yaml_file
+from rumba_sim.model.config import names, setting, updated
+from rumba_sim.model.errors import ConfigError
+from rumba_sim.model.robot_config import RobotConfig
+
+
+@dataclasses.dataclass(frozen=True)
+class Settings(CleaningConfig):
+    """The node's private parameters: how a robot shall work, which, and where."""
+
+    robot: str = setting('rumba', 'name of the robot, below which its topics are')
+    map: str = setting('', 'name of a map of this package, or path of a map_server YAML file; empty: that of the '
+                           'simulator')
+    seed: int = setting(1, 'of all that is random', '', 0, 2 ** 31 - 1)
+    strategies: str = setting('', 'Python modules to import for further strategies, with commas between them')
+    autostart: bool = setting(False, 'whether to begin with a goal of clean, without waiting for one')
+
+    def __post_init__(self) -> None:
+        """Names of topics are made of the robot's name."""
+        if not rosgraph.names.is_legal_base_name(self.robot):
+            raise ConfigError(f'robot is {self.robot!r}: must be letters, digits and _, beginning with a letter')
+
+    @property
+    def cleaning(self) -> CleaningConfig:
+        """The part that says how to work."""
+        return CleaningConfig(**{name: getattr(self, name) for name in names(CleaningConfig)})
+
+
+def robot_of_simulator() -> RobotConfig:
+    """What the robots of the simulator of this namespace are like, by its parameters; the usual ones without it."""
+    parameters = rospy.get_param('simulator', {})
+    path = parameters.get('config', '')
+    config = RobotConfig()
+    for mapping in ([yaml_file.read_mapping(path, ConfigError)] if path else []) + [parameters]:
+        known = {name: mapping[name] for name in names(RobotConfig) if name in mapping}
+        config = updated(config, known, f'parameter of {rospy.resolve_name("simulator")}')
+    return config
