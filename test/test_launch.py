@@ -1,4 +1,4 @@
-"""The launch files explain themselves, and the demo shows a robot that moves, bumps and drains."""
+"""The launch files explain themselves, and the demo shows a robot that cleans, bumps and drains."""
 
 import re
 import xml.etree.ElementTree
@@ -8,6 +8,7 @@ from workspaces import ROOT
 
 PACKAGE = ROOT / 'rumba_sim'
 LAUNCH_FILES = sorted((PACKAGE / 'launch').iterdir())
+DEMO = 'roslaunch rumba_sim demo.launch speed:=10 map:=studio'
 LINE = re.compile(r'battery +(\d+) %   at \((-?[\d.]+), (-?[\d.]+)\) m')
 
 
@@ -25,7 +26,7 @@ def test_the_page_of_interfaces_names_its_arguments(path):
 
 
 def test_the_robot_in_the_demo_moves_bumps_and_drains(workspace):
-    with workspace.space('devel').running('roslaunch rumba_sim demo.launch speed:=10 drain:=100 map:=studio') as demo:
+    with workspace.space('devel').running(f'{DEMO} drain:=100 strategy:=bounce') as demo:
         seen, bumped = [], False
         for line in demo.stdout:
             if LINE.match(line):
@@ -35,6 +36,19 @@ def test_the_robot_in_the_demo_moves_bumps_and_drains(workspace):
                 if bumped and len(places) > 3 and seen[-1][0] < seen[0][0] - 2:
                     return
     raise AssertionError(f'the demo ended: {seen[-1:]}')
+
+
+def test_the_demo_shows_a_mission_from_dock_to_dock_and_reports(workspace):
+    wanted = ['rumba: undocking', 'rumba: cleaning by boustrophedon', 'rumba: going home', 'rumba: docking',
+              'rumba: done after ']
+    with workspace.space('devel').running(f'{DEMO} target_coverage:=0.1') as demo:
+        for line in demo.stdout:
+            if wanted[0] in line:
+                del wanted[0]
+            if not wanted:
+                assert re.search(r'm, 0 charges; the floor is 1\d\.\d % clean: 10\.\d % swept$', line), line
+                return
+    raise AssertionError(f'the demo ended before: {wanted[0]}')
 
 
 def test_the_configuration_file_is_what_the_simulator_prints(workspace):

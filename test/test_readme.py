@@ -12,9 +12,13 @@ README = (ROOT / 'README.md').read_text()
 INTERFACES = (ROOT / 'docs' / 'interfaces.md').read_text()
 TOPICS = [re.findall(r'`([^`]+)`', row) for row in README.splitlines()
           if re.match(r'\| `\w+` \| (publishes|subscribes) ', row)]
+ACTIONS = [re.findall(r'`([^`]+)`', row) for row in README.splitlines()
+           if re.match(r'\| `\w+` \| serves action ', row)]
 SERVICES = [re.findall(r'`([^`]+)`', row) for row in INTERFACES.splitlines() if re.match(r'\| `\w+` \| serves ', row)]
 NODES = sorted({row[0] for row in TOPICS})
-EVERY_NODE_HAS = {'/rosout [rosgraph_msgs/Log]'}
+EVERY_NODE_HAS = {'/rosout [rosgraph_msgs/Log]', '/clock [rosgraph_msgs/Clock]'}  # the latter in simulated time
+OF_ACTION = {'goal': '{}Goal', 'feedback': '{}Feedback', 'result': '{}Result', 'cancel': 'actionlib_msgs/GoalID',
+             'status': 'actionlib_msgs/GoalStatusArray'}
 OF_RECONFIGURE = re.compile(r'/tuning/|_logger')  # what dynamic_reconfigure and every node bring of their own
 COMMANDS = {
     # At a speed other than 1, so that /clock is there too.
@@ -42,7 +46,7 @@ def running(workspace):
 def info(space, node):
     """Topics with their types, and services, of a node in /readme."""
     text = space.run(f'rosnode info /readme/{node}')
-    topics = set(re.findall(r'^ \* (/\S+ \[\S+\])$', text, re.MULTILINE)) - EVERY_NODE_HAS
+    topics = set(re.findall(r'^ \* (/\S+ \[\S+\])$', text, re.MULTILINE))
     services = set(re.findall(r'^ \* (/\S+)$', text, re.MULTILINE))
     return ({topic for topic in topics if not OF_RECONFIGURE.search(topic)},
             {service for service in services if not OF_RECONFIGURE.search(service)})
@@ -55,7 +59,11 @@ def resolved(name):
 
 @pytest.mark.parametrize('node', NODES)
 def test_the_table_of_topics_is_what_the_node_does(running, node):
-    assert info(running, node)[0] == {f'{resolved(topic)} [{kind}]' for name, topic, kind, *_ in TOPICS if name == node}
+    promised = {f'{resolved(topic)} [{kind}]' for name, topic, kind, *_ in TOPICS if name == node}
+    for name, action, kind, *_ in ACTIONS:
+        if name == node:
+            promised |= {f'{resolved(action)}/{part} [{form.format(kind)}]' for part, form in OF_ACTION.items()}
+    assert info(running, node)[0] - (EVERY_NODE_HAS - promised) == promised
 
 
 @pytest.mark.parametrize('node', NODES)
@@ -65,8 +73,9 @@ def test_the_table_of_services_is_what_the_node_serves(running, node):
     assert {service: running.run(f'rosservice type {service}').strip() for service in promised} == promised
 
 
-def test_every_installed_node_is_in_the_table():
-    assert NODES == sorted(path.name for path in (ROOT / 'rumba_sim' / 'scripts').iterdir())
+def test_every_installed_node_is_in_the_table_and_every_other_program_is_named():
+    others = re.findall(r'^`rosrun rumba_sim (\w+)`', README, re.MULTILINE)
+    assert sorted(NODES + others) == sorted(path.name for path in (ROOT / 'rumba_sim' / 'scripts').iterdir())
 
 
 def test_what_echo_prints_in_the_readme_is_what_it_prints(workspace):

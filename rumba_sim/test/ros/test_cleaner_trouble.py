@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
-"""The cleaner where something happens to the robot: it goes away, its time stands still, its battery runs out."""
+"""The cleaner where something is wrong: with its parameters, or with a robot that goes away, or whose battery does."""
 
 import signal
+import subprocess
 import time
 import unittest
 
@@ -14,6 +15,18 @@ from simulators import TIMEOUT, Heard, Simulator
 
 from rumba_msg.msg import CleanGoal, MissionStatus, UndockGoal
 
+BAD_STARTS = (
+    (r"^cleaner: unknown strategy 'zigzag': known are bounce, boustrophedon, spiral, wall_follow\n$",
+     '_strategy:=zigzag'),
+    (r"^cleaner: strategies of 'no\.such': No module named 'no'; a module is named as in Python, ",
+     '_strategies:=no.such'),
+    (r"^cleaner: there is no map 'moon': give the path of a map_server YAML file, or one of ", '_map:=moon'),
+    (r"^cleaner: parameter of /bad_\d: robot is 'a/b': must be letters, digits and _, beginning with a letter\n$",
+     '_robot:=a/b'),
+    (r'^cleaner: parameter of /bad_\d: time_limit/dock is 0: must be 1 to 10000000 \[s\]\n$', '_time_limit/dock:=0'),
+    (r"^cleaner: parameter of /bad_\d: sped is unknown: did you mean 'speed'\?\n$", '_sped:=2'),
+    (r'^cleaner: no simulator tells its map, /nowhere/simulator/floor_plan: start one, or name a map: _map:=studio\n$',
+     '__ns:=/nowhere'))
 LONGER_THAN_A_ROBOT_IS_MISSED = 3.0  # [s]
 
 
@@ -26,6 +39,10 @@ class CleanerTroubleTest(unittest.TestCase):
         cls.cleaner = Cleaner(cls.fixture)
         cls.simulator = Simulator(cls.fixture, '_map:=studio', '_speed:=10')
         cls.cleaner.connect()
+        # One of them takes 10 s to give up.
+        cls.bad = [subprocess.Popen(['rosrun', 'rumba_sim', 'cleaner', f'__name:=bad_{number}', argument],
+                                    stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True)
+                   for number, (_, argument) in enumerate(BAD_STARTS)]
 
     @classmethod
     def tearDownClass(cls):
@@ -75,7 +92,15 @@ class CleanerTroubleTest(unittest.TestCase):
                 self.assertEqual(stranded.message, 'the battery is empty')
         tuning.update_configuration({'battery_drain': 1.0})
 
-    def test_5_a_simulator_that_was_killed_is_no_robot_any_more(self):
+    def test_5_bad_input_gets_one_line_and_exit_code_2_and_is_forgotten(self):
+        for number, ((message, argument), process) in enumerate(zip(BAD_STARTS, self.bad)):
+            with self.subTest(argument):
+                out, error = process.communicate(timeout=TIMEOUT)
+                self.assertRegex(error, message)
+                self.assertEqual((process.returncode, out, error.count('\n')), (2, '', 1))
+                self.assertFalse(any(value != {} for value in rospy.get_param(f'/bad_{number}', {}).values()))
+
+    def test_6_a_simulator_that_was_killed_is_no_robot_any_more(self):
         self.simulator.does('reset')
         goal = self.cleaner.send('go_to', go_to(0.7, 2.4, 0.0))
         self.cleaner.waits_to_drive()

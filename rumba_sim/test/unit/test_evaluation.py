@@ -159,7 +159,7 @@ def test_strategies_of_other_packages_are_imported(run, tmp_path, monkeypatch):
 
 
 @pytest.mark.parametrize('arguments, message', [
-    (('--strategies', 'tidy'), "unknown strategy 'tidy': known are ahead, bounce, boustrophedon, crash"),
+    (('--strategies', 'tidy', 'turn'), "unknown strategy 'tidy': known are ahead, bounce, boustrophedon, crash"),
     (('--maps', 'moon'), "there is no map 'moon'"),
     (('--seeds', 'many'), "argument --seeds: 'many' must be a number of seeds, as in 10, or the first and the last"),
     (('--seeds', '9-3'), "argument --seeds: '9-3' must be"), (('--seeds', '0'), "argument --seeds: '0' must be"),
@@ -172,11 +172,10 @@ def test_strategies_of_other_packages_are_imported(run, tmp_path, monkeypatch):
     (('--start', 'here'), "argument --start: invalid choice: 'here'"),
     (('--output', '/proc/none'), '/proc/none: .*: --output must be a folder that can be written to'),
     (('--import', 'nowhere'), "strategies of 'nowhere': No module named 'nowhere'"),
-    (('--scheduler', 'here'), '--scheduler here: must be the address of a Dask scheduler, as in tcp://'),
     (('--sedes', '3'), 'unrecognized arguments: --sedes 3')])
-def test_bad_input_is_named_in_one_line(run, arguments, message):
+def test_bad_input_is_named_in_one_line_before_anything_is_done(run, tmp_path, arguments, message):
     code, output, errors = run(*arguments)
-    assert (code, output) == (2, '')
+    assert (code, output) == (2, '') and not (tmp_path / 'out').exists()
     assert re.match(f'evaluate: .*{re.escape(message) if ".*" not in message else message}', errors), errors
     assert errors.count('\n') == 1
 

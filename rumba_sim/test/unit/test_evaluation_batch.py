@@ -10,6 +10,7 @@ from concurrent.futures import BrokenExecutor, CancelledError
 import pytest
 from evaluations import case, know_manners, small_map
 
+from rumba_sim.cleaning import strategies
 from rumba_sim.evaluation import batch
 from rumba_sim.evaluation.batch import Job
 from rumba_sim.evaluation.cases import Conditions
@@ -17,11 +18,11 @@ from rumba_sim.model.errors import ConfigError
 
 PATIENCE = 10.0  # [s]
 PARENT = '''
-import os, sys, time
+import os, time
 from rumba_sim.evaluation import batch
 
 def rest(_):
-    print(os.getpid(), flush=True)
+    os.write(1, b'%d\\n' % os.getpid())
     time.sleep(600.0)
 
 with batch.local(2) as executor:
@@ -52,10 +53,13 @@ def is_alive(process):
 def test_workers_end_with_the_process_that_began_them(number):
     with subprocess.Popen([sys.executable, '-c', PARENT], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
                           env={**os.environ, 'PYTHONPATH': os.pathsep.join(sys.path)}) as parent:
-        workers = [int(parent.stdout.readline()) for _ in range(2)]
-        assert all(is_alive(worker) for worker in workers)
-        parent.send_signal(number)
-        parent.wait(PATIENCE)
+        try:
+            workers = [int(parent.stdout.readline()) for _ in range(2)]
+            assert all(is_alive(worker) for worker in workers)
+            parent.send_signal(number)
+            parent.wait(PATIENCE)
+        finally:
+            parent.kill()
     until = time.monotonic() + PATIENCE
     while any(is_alive(worker) for worker in workers):
         assert time.monotonic() < until
@@ -72,6 +76,12 @@ def test_a_path_leads_from_the_start_to_the_end(tmp_path):
     assert traced.missed.sum() * plan.resolution ** 2 == pytest.approx(
         (1.0 - traced.result.coverage) * traced.result.area)
     assert traced.result == batch.run(traced.job)
+
+
+def test_a_worker_imports_the_strategies_of_a_job_itself(tmp_path, monkeypatch):
+    monkeypatch.setattr(strategies, '_factories', {})
+    monkeypatch.delitem(sys.modules, 'manners')
+    assert batch.run(job(tmp_path, 'turn', bound=0.01)).outcome == 'time out'
 
 
 def test_a_worker_reads_a_map_once(tmp_path):
@@ -101,9 +111,12 @@ def test_without_dask_the_package_is_named(monkeypatch):
             pass
 
 
-def test_a_scheduler_that_does_not_answer_is_named(monkeypatch):
+@pytest.mark.parametrize('address, message', [
+    ('tcp://127.0.0.1:1', 'no Dask scheduler answers there'),
+    ('here', 'must be the address of a Dask scheduler, as in tcp://10.0.0.1:8786')])
+def test_a_scheduler_that_is_not_there_is_named(monkeypatch, address, message):
     pytest.importorskip('distributed', reason='Dask is optional: the package python3-distributed')
     monkeypatch.setattr(batch, 'PATIENCE', 0.5)
-    with pytest.raises(ConfigError, match='--scheduler tcp://127.0.0.1:1: no Dask scheduler answers there'):
-        with batch.remote('tcp://127.0.0.1:1'):
+    with pytest.raises(ConfigError, match=f'--scheduler {address}: {message}'):
+        with batch.remote(address):
             pass

@@ -54,7 +54,7 @@ def test_a_path_shows_what_was_missed(tmp_path):
     shares = []
     for width in (0, 20, 40):
         missed[60:100, 120:120 + width] = True
-        path = np.random.default_rng(1).uniform(0.5, 2.5, (30_000, 2)).astype(np.float32)[::1 + 100 * (width > 0)]
+        path = np.random.default_rng(1).uniform(0.5, 2.5, (200, 2)).astype(np.float32)
         job = Job(case(), Conditions(), 'room.yaml', '')
         plots.draw_path(str(tmp_path), plan, Trace(job, steady(1.5), [path], missed))
         shares.append(share(picture(tmp_path / 'path_room_bounce_1.png'), MISSED))

@@ -120,6 +120,16 @@ def test_charging_time_is_told_apart():
     assert all(seconds <= trial.working_time for seconds in result.curve)
 
 
+def test_at_the_dock_the_charger_feeds_the_loads():
+    trial = Trial(room(2.0, 1.5, dock=Pose(1.82, 0.75, 0.0)), 'wait')
+    trial.world.robots['rumba'].state['charge'] *= 0.1
+    for _ in range(100):
+        trial.step()
+    result = trial.result()
+    assert trial.missions[0].state is State.CHARGING and result.docked == 1
+    assert (result.charge_used, result.energy) == (0.0, 0.0) and trial.working_time == pytest.approx(0.0, abs=0.11)
+
+
 def test_boustrophedon_cleans_a_room_and_comes_home():
     result = ran(room(2.0, 1.5, dock=Pose(1.82, 0.75, 0.0)), 'boustrophedon').result()
     assert result.outcome == 'succeeded' and result.docked == 1 and not result.penetrated

@@ -1,0 +1,28 @@
+"""A stranger's strategy, in a package of its own, cleans: in process, and named to the nodes."""
+
+import pytest
+
+MISSION = '''
+from rumba_sim.cleaning import strategies
+from rumba_sim.evaluation.trial import Trial
+from rumba_sim.model import map_file
+strategies.load("zigzag_strategy.zigzag")
+trial = Trial(map_file.load("{maps}/studio.yaml"), "zigzag", seed=3)
+while trial.world.floor.coverage < 0.5 and not trial.is_over:
+    trial.step()
+print(trial.missions[0].strategy, trial.world.floor.coverage >= 0.5)
+'''
+
+
+@pytest.mark.parametrize('space', ['devel', 'install'])
+def test_it_cleans_half_the_studio_in_process(overlay, space):
+    stranger = overlay.space(space)
+    maps = stranger.run('rospack find rumba_sim').strip() + '/maps'
+    assert stranger.run(f"python3 -c '{MISSION.format(maps=maps)}'", timeout=300.0) == 'zigzag True\n'
+
+
+def test_the_evaluation_knows_it_by_its_module(overlay, tmp_path):
+    stranger = overlay.space('devel')
+    output = stranger.run(f'rosrun rumba_sim evaluate --import zigzag_strategy.zigzag --strategies zigzag --maps studio '
+                          f'--seeds 1 --target 0.3 --no-plots --output {tmp_path}', timeout=300.0)
+    assert 'zigzag' in output
