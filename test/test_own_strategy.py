@@ -23,6 +23,6 @@ def test_it_cleans_half_the_studio_in_process(overlay, space):
 
 def test_the_evaluation_knows_it_by_its_module(overlay, tmp_path):
     stranger = overlay.space('devel')
-    output = stranger.run(f'rosrun rumba_sim evaluate --import zigzag_strategy.zigzag --strategies zigzag --maps studio '
-                          f'--seeds 1 --target 0.3 --no-plots --output {tmp_path}', timeout=300.0)
+    output = stranger.run('rosrun rumba_sim evaluate --import zigzag_strategy.zigzag --strategies zigzag '
+                          f'--maps studio --seeds 1 --target 0.3 --no-plots --output {tmp_path}', timeout=300.0)
     assert 'zigzag' in output

@@ -3,15 +3,17 @@
 import signal
 import subprocess
 import time
+import unittest
 
 import actionlib
 import rospy
 from actionlib_msgs.msg import GoalStatus
 from geometry_msgs.msg import Pose2D, Twist
-from simulators import ENDS_WITHIN, TIMEOUT, Heard, lookup, wait
+from simulators import TIMEOUT, Heard, lookup, wait
 
 from rumba_msg.msg import CleanAction, DockAction, GoToAction, GoToGoal, MissionStatus, UndockAction
 
+ENDS_WITHIN = 5.0  # [s]: it has thirty topics to take back
 ACTIONS = {'clean': CleanAction, 'dock': DockAction, 'undock': UndockAction, 'go_to': GoToAction}
 ENDS = {GoalStatus.PREEMPTED: 'preempted', GoalStatus.SUCCEEDED: 'succeeded', GoalStatus.ABORTED: 'aborted',
         GoalStatus.REJECTED: 'rejected', GoalStatus.RECALLED: 'recalled', GoalStatus.LOST: 'lost'}
@@ -20,6 +22,13 @@ ENDS = {GoalStatus.PREEMPTED: 'preempted', GoalStatus.SUCCEEDED: 'succeeded', Go
 def go_to(x, y, theta=float('nan'), time_limit=0.0):
     """A goal of go_to."""
     return GoToGoal(Pose2D(x, y, theta), time_limit)
+
+
+def shared(test_class):
+    """A test whose cleanups are those of a whole class of tests."""
+    test = unittest.TestCase()
+    test.addCleanup = test_class.addClassCleanup
+    return test
 
 
 class Cleaner:

@@ -6,7 +6,7 @@ import unittest
 
 import rospy
 import rostest
-from cleaners import Cleaner, go_to
+from cleaners import Cleaner, go_to, shared
 from simulators import Commands, Heard, Simulator, wait
 
 from rumba_msg.msg import CleanGoal, DockGoal, GoToActionFeedback, MissionStatus, UndockGoal
@@ -20,14 +20,10 @@ class CleanerActionsTest(unittest.TestCase):
 
     @classmethod
     def setUpClass(cls):
-        cls.fixture = unittest.TestCase()
-        cls.cleaner = Cleaner(cls.fixture)
-        cls.simulator = Simulator(cls.fixture, '_map:=studio', '_speed:=10', '_rates/ground_truth:=50')
+        fixture = shared(cls)
+        cls.cleaner = Cleaner(fixture)
+        cls.simulator = Simulator(fixture, '_map:=studio', '_speed:=10', '_rates/ground_truth:=50')
         cls.cleaner.connect()
-
-    @classmethod
-    def tearDownClass(cls):
-        assert cls.fixture.doCleanups(), 'the end was not clean'
 
     def setUp(self):
         self.simulator.does('reset')

@@ -8,7 +8,7 @@ import unittest
 
 import rospy
 import rostest
-from cleaners import Cleaner, go_to
+from cleaners import Cleaner, go_to, shared
 from dynamic_reconfigure.client import Client
 from geometry_msgs.msg import Pose2D
 from simulators import TIMEOUT, Heard, Simulator
@@ -35,18 +35,14 @@ class CleanerTroubleTest(unittest.TestCase):
 
     @classmethod
     def setUpClass(cls):
-        cls.fixture = unittest.TestCase()
-        cls.cleaner = Cleaner(cls.fixture)
-        cls.simulator = Simulator(cls.fixture, '_map:=studio', '_speed:=10')
+        fixture = shared(cls)
+        cls.cleaner = Cleaner(fixture)
+        cls.simulator = Simulator(fixture, '_map:=studio', '_speed:=10')
         cls.cleaner.connect()
         # One of them takes 10 s to give up.
         cls.bad = [subprocess.Popen(['rosrun', 'rumba_sim', 'cleaner', f'__name:=bad_{number}', argument],
                                     stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True)
                    for number, (_, argument) in enumerate(BAD_STARTS)]
-
-    @classmethod
-    def tearDownClass(cls):
-        assert cls.fixture.doCleanups(), 'the end was not clean'
 
     def test_1_a_robot_that_is_gone_is_given_up_and_one_that_comes_back_is_served(self):
         goal = self.cleaner.send('clean', CleanGoal())
