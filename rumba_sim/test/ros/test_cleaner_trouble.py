@@ -23,7 +23,7 @@ BAD_STARTS = (
     (r"^cleaner: there is no map 'moon': give the path of a map_server YAML file, or one of ", '_map:=moon'),
     (r"^cleaner: parameter of /bad_\d: robot is 'a/b': must be letters, digits and _, beginning with a letter\n$",
      '_robot:=a/b'),
-    (r'^cleaner: parameter of /bad_\d: time_limit/dock is 0: must be 1 to 10000000 \[s\]\n$', '_time_limit/dock:=0'),
+    (r'^cleaner: parameter of /bad_\d: time_limit/dock is 0\.0: must be 1 to 10000000 \[s\]\n$', '_time_limit/dock:=0'),
     (r"^cleaner: parameter of /bad_\d: sped is unknown: did you mean 'speed'\?\n$", '_sped:=2'),
     (r'^cleaner: no simulator tells its map, /nowhere/simulator/floor_plan: start one, or name a map: _map:=studio\n$',
      '__ns:=/nowhere'))

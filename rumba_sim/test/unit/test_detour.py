@@ -97,6 +97,15 @@ def test_the_end_of_a_route_under_an_obstacle_is_left_out():
     assert (around.places[-1] == (3.0, 1.5)).all() and len(around.speeds) == len(around.places) - 1
 
 
+def test_after_a_place_that_no_way_leads_to_the_next_is_gone_to_around_what_is_between():
+    plan = room(4.0, 3.0, boxes=[(2.8, 0.0, 2.9, 3.0), (1.4, 0.9, 1.8, 1.1)])
+    context = obstructed((2.2, 1.5), plan=plan)
+    rest = Route(np.array([[1.0, 1.5], [3.4, 1.5], [2.3, 0.4]]), np.array([0.2, 0.2]))  # the second: behind the wall
+    around = detour(context, START, rest)
+    assert (around.places[-1] == (2.3, 0.4)).all() and not holds(around, (3.4, 1.5))
+    assert min(distances(plan, along(around.places))) >= context.ground.reach
+
+
 @pytest.mark.parametrize('rest', [lane(3.2, 3.8), lane(1.9, 2.1, step=0.1)])
 def test_where_nothing_can_be_reached_there_is_no_detour(rest):
     context = obstructed(POST, plan=room(4.0, 3.0, boxes=[(2.8, 0.0, 2.9, 3.0)]), radius=0.2)

@@ -113,6 +113,20 @@ def test_no_limit_of_the_drive_nor_speed_of_a_part_is_exceeded():
     assert run.commands[:, 0].max() == DRIVE.max_speed and math.hypot(*(run.poses[-1, :2] - (13.0, 10.0))) < 0.02
 
 
+def test_a_robot_that_is_turned_around_on_its_way_turns_back_before_it_drives_on():
+    world, robot = alone(Pose(10.0, 10.0, 0.0))
+    follower = Follower(route([(10.0, 10.0), (12.0, 10.0)]), DRIVE)
+    poses = []
+    while not follower.is_done:
+        if world.tick == 100:
+            world.teleport('rumba', robot.pose._replace(theta=3.0))
+        poses += drive(world, robot, follower.update(robot.pose, DT), TICKS)
+        assert world.time < 15.0
+    poses = np.array(poses)
+    turning = (abs(poses[:, 2]) > 0.7)
+    assert np.hypot(*np.ptp(poses[turning, :2], axis=0)) < 1e-9 and max(abs(poses[:, 1] - 10.0)) < 0.03
+
+
 # --- bends and corners ---------------------------------------------------------------------------------------------
 
 @pytest.mark.parametrize('side', [1.0, -1.0])
@@ -271,6 +285,14 @@ def test_a_turn_ends_at_rest_at_its_heading_without_a_swing_and_in_good_time(ang
     after = drive(world, robot, (0.0, 0.0), 50)[-1]
     assert most <= 0.05 and abs(wrap_angle(after.theta - 0.4 - angle)) <= 0.03
     assert abs(wrap_angle(after.theta - before.theta)) < 0.01 and after[:2] == (10.0, 10.0)
+
+
+def test_a_turn_is_done_once_the_robot_rests_at_the_heading_and_not_when_it_swings_by():
+    turn = Turn(1.0, DRIVE)
+    for theta, is_done in ((0.9, False), (0.99, False), (1.005, False), (1.006, True), (1.2, False), (1.01, False),
+                           (1.01, True)):
+        rate = turn.update(Pose(0.0, 0.0, theta), DT)
+        assert turn.is_done == is_done and (rate == 0.0) == (abs(theta - 1.0) < 0.02), theta
 
 
 @pytest.mark.parametrize('angle', [0.1, -1.2, 3.0])

@@ -182,6 +182,18 @@ def test_a_straight_line_is_as_roomy_as_it_is_asked_to_be():
     assert not ground(closed_off()).is_straight(np.array([0.5, 1.0]), np.array([3.5, 1.0]))
 
 
+@settings(max_examples=100)
+@given(NAMES, INDEX, INDEX)
+def test_a_line_is_straight_where_the_exact_distance_along_it_says_so(name, first, second):
+    floor = GROUNDS[name]
+    places = standing_places(floor)
+    ends = np.array([places[first % len(places)], places[second % len(places)]])
+    least = min(distances(floor.plan, along(ends))) - floor.reach
+    off_node = 0.75 * floor.plan.resolution  # so far is a place from the nearest node, at most
+    if abs(least - MARGIN) > off_node:
+        assert floor.is_straight(*ends) == (least > MARGIN)
+
+
 # --- lengths -------------------------------------------------------------------------------------------------------
 
 @RESOLUTIONS

@@ -9,11 +9,11 @@ from hypothesis import strategies as st
 from pytest import approx
 
 from floors import BRUSH, along, ground, length, part_of, tilted
-from rooms import RADIUS, distances, quiet, room
+from rooms import RADIUS, crooked, distances, quiet, room
 from rumba_sim.cleaning import crumbs
 from rumba_sim.cleaning.lanes import cells
 from rumba_sim.cleaning.swept import Swept
-from rumba_sim.cleaning.turned_floor import main_direction
+from rumba_sim.cleaning.turned_floor import TurnedFloor, main_direction
 from rumba_sim.model.floor_plan import FREE, WALL, FloorPlan
 
 SPEED = 0.3
@@ -203,9 +203,32 @@ def test_the_main_direction_is_that_of_the_walls(resolution, degrees):
 
 
 def test_of_walls_in_several_directions_those_that_are_longer_count():
-    slanting = [(0.5 + 0.01 * step - 0.03, 2.0 + 0.01 * step - 0.03, 0.5 + 0.01 * step + 0.03, 2.0 + 0.01 * step + 0.03)
-                for step in range(80)]
+    slanting = [(0.8 + way, 1.5 + 0.58 * way, 0.85 + way, 1.55 + 0.58 * way) for way in np.arange(0.0, 1.5, 0.01)]
     assert main_direction(ground(room(4.0, 4.0, 0.02, slanting))) == 0.0
+
+
+@pytest.mark.parametrize('angle', [0.0, 0.35, -0.7])
+def test_a_turned_floor_is_the_floor_itself_cell_by_cell(angle):
+    plan = crooked(0.1)
+    floor = ground(plan)
+    missed = plan.free & (np.random.default_rng(9).random(plan.occupancy.shape) < 0.5)
+    turned = TurnedFloor(floor, missed, angle)
+    rows, columns = turned.missed.shape
+    assert turned.room.shape == (rows + 1, columns + 1) and turned.resolution == 0.1
+    seen = np.zeros_like(missed)
+    for row, column in np.ndindex(rows, columns):
+        (x, y), = turned.places(np.array([[column + 0.5, row + 0.5]]))
+        cell = plan.cell(x, y)
+        inside = 0 <= cell[0] < plan.rows and 0 <= cell[1] < plan.columns
+        assert turned.missed[row, column] == (inside and missed[cell])
+        if inside:
+            seen[cell] = True
+    assert seen.mean() > 0.75  # a turned grid leaves out some cells and has others twice
+    for row, column in np.ndindex(rows + 1, columns + 1):
+        (x, y), = turned.places(np.array([[column, row]]))
+        if turned.room[row, column] > 0.1:
+            assert turned.room[row, column] == approx(floor.plan.room_at(x, y), abs=1e-9)
+    assert (turned.room > 0.1).sum() > 0.5 * (plan.room > 0.1).sum()
 
 
 @pytest.mark.parametrize('degrees', [20, -20])

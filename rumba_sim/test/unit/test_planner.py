@@ -9,9 +9,10 @@ from pytest import approx
 
 from floors import BRUSH, along, knowing, length, tilted, wiped
 from rooms import crooked, distances, quiet, room
-from rumba_sim.cleaning import crumbs
+from rumba_sim.cleaning import crumbs, planner
 from rumba_sim.cleaning.follower import Follower
 from rumba_sim.cleaning.planner import plan
+from rumba_sim.cleaning.tour import tour
 from rumba_sim.model import map_file
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.world import World
@@ -95,6 +96,24 @@ def test_a_plan_keeps_to_one_room_before_it_goes_to_the_next():
     inside = np.min(abs(dense[:, :1] - [1.95, 4.05]), axis=1) > 0.3
     changes = np.count_nonzero(np.diff(rooms[inside]))
     assert changes == 2 and rooms[inside][0] == 0 and rooms[inside][-1] == 2
+
+
+def test_a_plan_leaves_each_room_near_the_next_one_and_goes_on_from_there(monkeypatch):
+    calls = []
+
+    def spy(floor, start, stretches, end=None):
+        calls.append((start, end))
+        return tour(floor, start, stretches, end)
+
+    monkeypatch.setattr(planner, 'tour', spy)
+    route = plan(knowing(FLOORS['two doors'](), START), START)
+    order, *rooms = calls
+    assert len(rooms) == 3 and tuple(order[0]) == tuple(rooms[0][0]) == START[:2]
+    for (start, _), edges in zip(rooms[1:], ((0.0, 2.3), (2.0, 4.4))):  # in the room before, doors included
+        assert edges[0] < start[0] < edges[1] and tuple(start) in set(map(tuple, route.places.tolist()))
+    for (_, end), edges in zip(rooms, ((1.7, 4.4), (3.7, 6.0))):
+        assert edges[0] < end[0] < edges[1]
+    assert rooms[2][1] is None
 
 
 def test_between_its_lanes_a_plan_goes_faster():

@@ -29,7 +29,7 @@ def test_it_goes_once_around_a_room_near_the_wall():
     assert behaviour.message.startswith('once around, 1')
     touched = next(index for index, pose in enumerate(poses) if plan.clearance_at(pose.x, pose.y) < RADIUS + 0.02)
     away = [plan.clearance_at(pose.x, pose.y) - RADIUS for pose in poses[touched:]]
-    assert np.quantile(away, 0.9) < 0.12
+    assert np.quantile(away, 0.9) < 0.2
     angles = np.unwrap([math.atan2(pose.y - 1.5, pose.x - 2.0) for pose in poses[touched:]])
     assert angles[-1] - angles[0] == pytest.approx(2.0 * math.pi, abs=0.6)  # counter-clockwise: the wall to the right
 

@@ -43,6 +43,7 @@ class Travel:
         self._back = 0.0  # [s] still to back off
         self._nearest = math.inf  # [m] least way that was left
         self._waited = 0.0  # [s] since then
+        self._is_first = True  # update
         self._was_touching = True  # what is felt at once was felt, and dealt with, before
         self.going = Going.ON
 
@@ -57,6 +58,9 @@ class Travel:
 
     def update(self, observation: Observation, brushes_up: bool) -> Command:
         """What to do now."""
+        if self._is_first and _is_at_edge(self._context.ground, observation):
+            self._back = recoil.CLIFF / recoil.SPEED
+        self._is_first = False
         if self._back > 0.0:
             self._back -= observation.dt
             if self._back <= 0.0:
@@ -93,6 +97,14 @@ def mark(context: Context, pose: Pose, angle: float) -> None:
     away = context.robot.drive.radius + GAP + OBSTACLE
     context.ground.mark(pose.x + away * math.cos(pose.theta + angle), pose.y + away * math.sin(pose.theta + angle),
                         OBSTACLE)
+
+
+def _is_at_edge(ground: Ground, observation: Observation) -> bool:
+    """Whether a robot that turned here might swing a wheel over a cliff, and the way back leads away from it."""
+    pose = observation.pose
+    behind = pose.x - recoil.CLIFF * math.cos(pose.theta), pose.y - recoil.CLIFF * math.sin(pose.theta)
+    here, there = ground.plan.room_at(pose.x, pose.y), ground.plan.room_at(*behind)
+    return here < ground.reach - KNOWN and there > here
 
 
 def _is_known(ground: Ground, pose: Pose) -> bool:

@@ -13,6 +13,7 @@ from rumba_sim.model.geometry import Pose, wrap_angle
 
 LEAN = 1.5  # [1/m] curvature of the way back to the wall
 CLOSE = 0.25  # [m] radius of the way around a corner where the wall is lost ...
+CAREFUL = 0.15  # [m/s] there: a wheel must not swing over a cliff before the robot can stop
 LOST = 0.6  # [m] ... after so long a way without a touch
 GONE = 2.0  # [m] without a touch: another wall is looked for
 OFF_SIDE, OFF_FRONT = 0.35, 0.9  # [rad] to turn off a wall at the side, and ahead
@@ -93,6 +94,7 @@ class WallFollow(Behaviour):
         self._leaning += step
         if self._leaning > GONE:
             self._phase = _Phase.AHEAD
-        curvature = LEAN if self._leaning < LOST else 1.0 / CLOSE
-        v = min(self._speed, self._drive.max_turn_rate / curvature)
+        is_lost = self._leaning > LOST
+        curvature = 1.0 / CLOSE if is_lost else LEAN
+        v = min(self._speed, CAREFUL if is_lost else math.inf, self._drive.max_turn_rate / curvature)
         return Command(v, -v * curvature)

@@ -244,7 +244,8 @@ class Cleaner:
 
     def _rest(self) -> None:
         self._wheels.stop()
-        self._brushes.want(STOP.brushes_up)
+        if not self._senses.is_alone:
+            self._brushes.want(STOP.brushes_up)
 
     def _settle(self, run: Run, pose: Pose) -> None:
         """Answer once the robot is at rest and the figures are those of the end."""
