@@ -90,6 +90,22 @@ def test_the_way_past_a_long_crumb_is_a_line_along_it(box, axis):
     assert crumb.places[:, 1 - axis] == approx(1.03, abs=0.04)
 
 
+def test_past_a_crumb_around_a_corner_the_way_bends():
+    floor_plan = room(4.0, 3.0, 0.02)
+    floor = ground(floor_plan)
+    missed = part_of(floor_plan, (1.0, 1.0, 1.5, 1.06), (1.0, 1.06, 1.06, 1.5))
+    places = np.concatenate([crumb.places for crumb in crumbs(floor, missed)])
+    for corner in ((1.5, 1.0), (1.0, 1.5), (1.0, 1.0)):
+        assert min(np.hypot(*(places - corner).T)) < 0.12
+
+
+def test_past_a_speck_the_robot_turns_on_the_spot():
+    floor_plan = room(4.0, 3.0, 0.02)
+    crumb, = crumbs(ground(floor_plan), part_of(floor_plan, (1.0, 1.0, 1.04, 1.04)))
+    assert (crumb.places[0] == crumb.places[-1]).all() and 0.02 < length(crumb.places) < 0.1
+    assert max(np.hypot(*(crumb.places - (1.02, 1.02)).T)) < 0.06
+
+
 def test_a_crumb_beside_a_wall_is_passed_from_where_the_robot_can_stand():
     floor_plan = crooked(0.02)
     floor = ground(floor_plan)

@@ -205,6 +205,7 @@ def test_lengths_in_a_straight_corridor_are_those_of_the_corridor(resolution):
     for x in np.arange(0.3, 3.8, 0.1):
         assert lengths[row, floor.node(x, 0.3)[1]] == approx(abs(x - 3.0), abs=1e-9)
     assert np.isinf(lengths[~floor.fits]).all() and np.isfinite(lengths[floor.fits]).all()
+    assert (floor.lengths_to(3.0, 0.03)[floor.fits] <= lengths[floor.fits] + 0.15).all()  # too near to a wall to stand
 
 
 def test_lengths_go_straight_and_diagonally_and_around_walls():

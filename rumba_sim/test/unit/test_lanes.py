@@ -11,7 +11,7 @@ from pytest import approx
 from floors import BRUSH, along, ground, length, part_of, tilted
 from rooms import RADIUS, crooked, distances, quiet, room
 from rumba_sim.cleaning import crumbs
-from rumba_sim.cleaning.lanes import cells
+from rumba_sim.cleaning.lanes import CELL, TURN, cells
 from rumba_sim.cleaning.swept import Swept
 from rumba_sim.cleaning.turned_floor import TurnedFloor, main_direction
 from rumba_sim.model.floor_plan import FREE, WALL, FloorPlan
@@ -78,7 +78,8 @@ def test_a_rectangle_is_one_cell_with_lanes_along_its_longer_side_a_brush_apart(
     assert max(np.diff(places)) <= BRUSH + 1e-9
     for lane in cell.lanes:
         assert lane[:, along_lanes] == approx([0.3, 0.3 + sides[along_lanes]])
-    assert cell.time > sum(length(lane) for lane in cell.lanes) / SPEED
+    turns = cell.time - sum(length(lane) for lane in cell.lanes) / SPEED
+    assert turns == approx(CELL + TURN * len(cell.lanes)) and turns > 2.0 + 2.0 * len(cell.lanes)
 
 
 @FINE
@@ -161,6 +162,23 @@ def test_a_lane_goes_on_over_a_short_piece_of_clean_floor_and_ends_at_a_long_one
         approx([3.2, 5.5])] * 3
 
 
+def test_strips_that_lie_apart_are_cells_of_their_own():
+    plan = room(4.0, 3.0)
+    found = cells(ground(plan), part_of(plan, (0.5, 0.4, 3.5, 0.9), (0.5, 1.6, 3.5, 2.1)), BRUSH, SPEED)
+    assert sorted(round(cell.lanes[0][0, 1], 1) for cell in found) == [0.5, 1.7]
+    assert [len(cell.lanes) for cell in found] == [3, 3]
+
+
+@FINE
+def test_among_pillars_no_floor_is_counted_twice(resolution):
+    plan = crooked(resolution, cliff=(3.4, 2.4, 4.0, 3.0))
+    missed = all_of(plan)
+    found = cells(ground(plan), missed, BRUSH, SPEED)
+    assert 0.95 <= share(found, missed, plan) <= 1.0 + 1e-9
+    promised = sum(cell.area for cell in found)
+    assert promised <= area(missed & cleaned(found, plan, (0.5, 0.5)), plan) + 0.01 * promised
+
+
 def test_a_strip_that_is_narrower_than_the_brush_is_one_lane():
     plan = room(4.0, 3.0, 0.02)
     cell, = cells(ground(plan), part_of(plan, (0.5, 1.4, 3.0, 1.5)), BRUSH, SPEED)
@@ -200,6 +218,11 @@ def test_floor_where_the_robot_cannot_stand_makes_no_cells():
 def test_the_main_direction_is_that_of_the_walls(resolution, degrees):
     found = math.degrees(main_direction(ground(tilted(4.0, 2.5, math.radians(degrees), resolution))))
     assert -45.0 <= found <= 45.0 and abs((found - degrees + 45.0) % 90.0 - 45.0) <= 1.5
+
+
+@pytest.mark.parametrize('degrees', [1.0, -2.0])
+def test_a_floor_that_is_turned_by_hardly_anything_is_taken_as_not_turned(degrees):
+    assert main_direction(ground(tilted(4.0, 2.5, math.radians(degrees), 0.02))) == 0.0
 
 
 def test_of_walls_in_several_directions_those_that_are_longer_count():

@@ -99,10 +99,11 @@ def test_a_plan_keeps_to_one_room_before_it_goes_to_the_next():
 
 
 def test_a_plan_leaves_each_room_near_the_next_one_and_goes_on_from_there(monkeypatch):
-    calls = []
+    calls, entries = [], []
 
     def spy(floor, start, stretches, end=None):
         calls.append((start, end))
+        entries.append([len({tuple(manner[0]) for manner in stretch.manners}) for stretch in stretches])
         return tour(floor, start, stretches, end)
 
     monkeypatch.setattr(planner, 'tour', spy)
@@ -114,6 +115,7 @@ def test_a_plan_leaves_each_room_near_the_next_one_and_goes_on_from_there(monkey
     for (_, end), edges in zip(rooms, ((1.7, 4.4), (3.7, 6.0))):
         assert edges[0] < end[0] < edges[1]
     assert rooms[2][1] is None
+    assert min(min(counts) for counts in entries[1:]) >= 2  # each stretch can be begun from either end
 
 
 def test_between_its_lanes_a_plan_goes_faster():

@@ -132,6 +132,7 @@ def test_a_few_specks_beside_a_wall_need_no_way_along_it():
     specks = np.zeros(plan.occupancy.shape, bool)
     specks[13, 30:170:20] = True
     assert reachable(plan)[specks].all() and ways(plan, specks) == []
+    assert ways(plan, reachable(plan, (1.0, 0.0, 1.05, 0.4))) == []
 
 
 # --- rooms ---------------------------------------------------------------------------------------------------------
