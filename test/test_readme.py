@@ -17,8 +17,9 @@ ACTIONS = [re.findall(r'`([^`]+)`', row) for row in README.splitlines()
 SERVICES = [re.findall(r'`([^`]+)`', row) for row in INTERFACES.splitlines() if re.match(r'\| `\w+` \| serves ', row)]
 NODES = sorted({row[0] for row in TOPICS})
 EVERY_NODE_HAS = {'/rosout [rosgraph_msgs/Log]', '/clock [rosgraph_msgs/Clock]'}  # the latter in simulated time
-OF_ACTION = {'goal': '{}Goal', 'feedback': '{}Feedback', 'result': '{}Result', 'cancel': 'actionlib_msgs/GoalID',
-             'status': 'actionlib_msgs/GoalStatusArray'}
+# rosnode knows no type of what nobody publishes.
+OF_ACTION = {'goal': 'unknown type', 'cancel': 'unknown type', 'status': 'actionlib_msgs/GoalStatusArray',
+             'feedback': '{}Feedback', 'result': '{}Result'}
 OF_RECONFIGURE = re.compile(r'/tuning/|_logger')  # what dynamic_reconfigure and every node bring of their own
 COMMANDS = {
     # At a speed other than 1, so that /clock is there too.
@@ -46,7 +47,7 @@ def running(workspace):
 def info(space, node):
     """Topics with their types, and services, of a node in /readme."""
     text = space.run(f'rosnode info /readme/{node}')
-    topics = set(re.findall(r'^ \* (/\S+ \[\S+\])$', text, re.MULTILINE))
+    topics = set(re.findall(r'^ \* (/\S+ \[.+\])$', text, re.MULTILINE))
     services = set(re.findall(r'^ \* (/\S+)$', text, re.MULTILINE))
     return ({topic for topic in topics if not OF_RECONFIGURE.search(topic)},
             {service for service in services if not OF_RECONFIGURE.search(service)})

@@ -33,6 +33,9 @@ class Breaks(Behaviour):
     def update(self, observation):
         self.updates += 1
         return Command(0.1, 0.0) if self.updates < 9 else 1 / 0
+@strategy('never_begins')
+def never_begins(context):
+    return context.no_such_thing
 """
 
 
@@ -110,6 +113,8 @@ class CleanerPlacesTest(unittest.TestCase):
         answer = cleaner.send('clean', CleanGoal()).ends('aborted')
         self.assertEqual(answer.message, 'ZeroDivisionError: division by zero')
         truth.fresh(lambda message: message.twist.twist.linear.x == 0.0)
+        cleaner.refuses("^AttributeError: 'Context' object has no attribute 'no_such_thing'$", 'clean',
+                        CleanGoal('never_begins', 0.0, 0.0))
         cleaner.send('go_to', go_to(2.0, 2.5)).ends('succeeded')
 
 

@@ -218,7 +218,7 @@ def test_the_rest_holds_the_places_and_speeds_that_are_still_to_come():
         count = len(rest.places)
         lengths.add(count)
         assert (rest.places == np.array(ZIGZAG)[[1, 2, 3, 4, 6]][-count:]).all()
-        assert rest.speeds.tolist() == speeds[[1, 2, 3, 5]][-count + 1:].tolist()
+        assert rest.speeds.tolist() == speeds[[1, 2, 3, 5]][5 - count:].tolist()
         assert length(rest.places) <= follower.remaining + 1e-9
         assert follower.remaining - length(rest.places) == approx(
             math.hypot(*(rest.places[0] - robot.pose[:2])), abs=0.15)

@@ -13,7 +13,7 @@ from rumba_sim.cleaning import crumbs, planner
 from rumba_sim.cleaning.follower import Follower
 from rumba_sim.cleaning.planner import plan
 from rumba_sim.cleaning.tour import tour
-from rumba_sim.model import map_file
+from rumba_sim.model import kernel, map_file
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.world import World
 
@@ -169,3 +169,9 @@ def test_what_cannot_be_reached_is_left_out():
     assert plan(context, START) is None  # all that there is to clean lies beyond the wall
     route = plan(context, Pose(4.0, 1.0, 0.0))
     assert route.places[:, 0].min() > 2.9 and driven(context, route).coverage >= 0.99
+
+
+def test_where_nothing_is_missed_there_is_nothing_to_plan():
+    context = knowing(crooked(), START)
+    context.swept.cells[context.swept.cells & kernel.REACHABLE > 0] |= kernel.SWEPT
+    assert plan(context, START) is None

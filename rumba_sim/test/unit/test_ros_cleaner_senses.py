@@ -130,10 +130,22 @@ def test_what_is_missing_is_named(monkeypatch):
         'nobody tells where it is: tf has no map -> rumba2/odom -> rumba2/base_footprint')
     robot.stands()
     robot.reads(1.0, ['bumper', 'dock_status'])
-    assert robot.senses.missing() == 'no reading of cliff'
+    assert robot.senses.missing() == 'nobody tells cliff'
     assert robot.senses.look() is None
     robot.reads(1.0, ['cliff'])
     assert robot.senses.look().state_of_charge == 0.0
+    robot.reads(1.1, ['dock_status'])
+    assert robot.senses.missing() == 'nobody tells bumper and cliff'
+
+
+def test_readings_that_are_not_complete_are_counted(robot):
+    robot.reads(1.0)
+    assert robot.senses.unread == 0
+    for seconds in (1.1, 1.2, 1.3):
+        robot.reads(seconds, ['bumper', 'dock_status'])
+    assert robot.senses.unread == 3
+    robot.reads(1.3, ['cliff'])
+    assert robot.senses.unread == 0
 
 
 def test_a_robot_is_alone_without_any_publisher(robot):

@@ -111,7 +111,7 @@ class Follower:
         places, speeds = piece.places[first:], piece.speeds[first:]
         for piece in others:
             places, speeds = places + piece.places[1:], speeds + piece.speeds
-        return Route(np.array(places), np.array(speeds)) if speeds else None
+        return Route(np.array(places), np.array(speeds, np.float64))
 
     def update(self, pose: Pose, dt: float) -> Tuple[float, float]:
         """Velocity forward [m/s] and counter-clockwise [rad/s] that leads along the route from a pose."""
@@ -136,7 +136,7 @@ class Follower:
         self._after = sum(piece.length for piece in self._pieces[1:])
 
     def _pursue(self, piece: _Piece, pose: Pose, dt: float, left: float) -> Tuple[float, float]:
-        limit = piece.speeds[piece.index(self._way)]
+        limit = min(piece.speeds[piece.index(self._way)], self._drive.max_speed)
         x, y = piece.at(self._way + max(AHEAD * limit, LEAST_AHEAD))
         bearing = wrap_angle(math.atan2(y - pose.y, x - pose.x) - pose.theta)
         if abs(bearing) > (BESIDE if self._is_turning else BEHIND):
@@ -144,7 +144,7 @@ class Follower:
             return 0.0, turn_rate(bearing, dt, self._drive)
         self._is_turning = False
         curvature = 2.0 * math.sin(bearing) / max(math.hypot(x - pose.x, y - pose.y), 0.5 * LEAST_AHEAD)
-        v = min(limit, self._drive.max_speed, self._drive.max_turn_rate / max(abs(curvature), 1e-6))
+        v = min(limit, self._drive.max_turn_rate / max(abs(curvature), 1e-6))
         v = min(v, max(fastest(left, dt, self._drive.acceleration), CREEP))
         return v, v * curvature
 

@@ -67,6 +67,8 @@ def _by_room(ground: Ground, missed: Array, labels: Array) -> Dict[int, Array]:
 
 def _route(context: Context, start: Array, found: Rooms) -> Optional[Route]:
     """Through all rooms; what cannot be reached is left out."""
+    if not found:
+        return None
     config, ground = context.config, context.ground
     places, speeds = [start[np.newaxis]], []
     doors = {room: _middle(stretches) for room, stretches in found.items()}

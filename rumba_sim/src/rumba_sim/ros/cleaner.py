@@ -48,7 +48,8 @@ from rumba_sim.ros.robot_senses import SECOND, Senses
 PERIOD = 0.2  # [s] of the wall clock, to look after a robot that is silent
 SILENCE = 2.0  # [s] of the wall clock, of a robot that is gone
 FIRST_SILENCE = 10.0  # [s] of the wall clock, of one that was never heard: it may be about to come
-PATIENCE = 5 * SECOND  # [ns] with a robot that does not tell all that a behaviour must know
+PATIENCE = 5 * SECOND  # [ns] with a robot that does not tell all that a behaviour must know ...
+UNREAD = 50  # ... or so many times dock_status without bumper or cliff
 SETTLING = 2 * SECOND  # [ns] from the end to the result, at most: the robot comes to rest, and the figures come ...
 SETTLING_WALL = 5.0  # [s] ... unless time stands still
 REST = 0.001  # [m], [rad] from one reading to the next is none
@@ -161,9 +162,10 @@ class Cleaner:
         handle.set_accepted()
         try:
             new = Run(activity(self._context(), handle.get_goal()), handle, self._senses)
-        except RumbaError as error:
-            self._announcer.say(f'{name}: refused: {error}')
-            handle.set_aborted(activity.result(self._senses, str(error)), str(error))
+        except Exception as error:
+            message = _why(error)
+            self._announcer.say(f'{name}: refused: {message}')
+            handle.set_aborted(activity.result(self._senses, message), message)
             return
         if self._run is not None:
             self._close(self._run, None, f'pre-empted by a goal of {name}')
@@ -180,8 +182,11 @@ class Cleaner:
         """Answer whoever asked; an outcome of None: somebody wants something else."""
         if run.outcome is Status.RUNNING:
             self._rest()
-        run.activity.behaviour.terminate()
         self._run = None
+        try:
+            run.activity.behaviour.terminate()
+        except Exception as error:
+            _why(error)
         result = run.activity.result(self._senses, message)
         seconds = (self._senses.passed - run.begun) / SECOND
         report = run.activity.report(run.before, self._senses.cleaning)
@@ -232,15 +237,12 @@ class Cleaner:
             run.handle.publish_feedback(run.activity.feedback(self._senses, self._announcer.status))
 
     def _update(self, run: Run, observation: Observation) -> Command:
-        """What the behaviour says; where that goes wrong, it has failed: a strategy may be anybody's."""
+        """What the behaviour says; where that goes wrong, it has failed."""
         behaviour = run.activity.behaviour
         try:
             return behaviour.update(observation)
-        except RumbaError as error:
-            return behaviour.fail(str(error))
         except Exception as error:
-            rospy.logerr(traceback.format_exc())
-            return behaviour.fail(f'{type(error).__name__}: {error}')
+            return behaviour.fail(_why(error))
 
     def _rest(self) -> None:
         self._wheels.stop()
@@ -265,5 +267,15 @@ class Cleaner:
         silence = SILENCE if self._senses.stamp is not None else FIRST_SILENCE
         if self._senses.is_alone and now - max(self._senses.heard, run.since) > silence:
             self._close(run, Status.FAILED, 'the robot is gone')
+        elif self._senses.unread > UNREAD:
+            self._close(run, Status.FAILED, self._senses.missing())
         elif run.outcome is not Status.RUNNING and now - run.since > SETTLING_WALL:
             self._close(run, run.outcome, run.message)
+
+
+def _why(error: Exception) -> str:
+    """What went wrong, for a person; of a strategy, which may be anybody's, the log tells where."""
+    if isinstance(error, RumbaError):
+        return str(error)
+    rospy.logerr(traceback.format_exc())
+    return f'{type(error).__name__}: {error}'

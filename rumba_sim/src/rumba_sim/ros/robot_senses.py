@@ -3,7 +3,7 @@
 import math
 import threading
 import time
-from typing import Any, Callable, Dict, Optional
+from typing import Any, Callable, Dict, List, Optional
 
 import rospy
 import tf2_ros
@@ -18,6 +18,7 @@ from rumba_sim.ros.frames import MAP, frames
 SECOND = 1_000_000_000  # [ns]
 PAUSE = SECOND  # [ns] between two stamps, no time of the robot's: a pause in real time, a reset, another simulator
 QUEUE = 100  # messages that this node may be behind in reading a topic
+CLOCK = 'dock_status'  # the simulator publishes it last
 READING = {'bumper': Bumper, 'cliff': Cliff, 'dock_status': DockStatus}
 
 
@@ -31,7 +32,8 @@ class Senses:
     Attributes:
         passed: [ns] of the robot's time, as the stamps of readings tell it, without pauses.
         stamp: of the newest complete reading; None before the first.
-        heard: when that came, as a time of `time.monotonic`.
+        heard: when any part of a reading came last, as a time of `time.monotonic`.
+        unread: how many times dock_status came since the newest complete reading.
         cleaning: the newest CleaningStatus; None before the first.
     """
 
@@ -46,6 +48,7 @@ class Senses:
         self.passed = 0
         self.stamp: Optional[rospy.Time] = None
         self.heard = -math.inf
+        self.unread = 0
         self.cleaning: Optional[CleaningStatus] = None
         self._buffer = tf2_ros.Buffer(debug=False)
         self._listener = tf2_ros.TransformListener(self._buffer, queue_size=QUEUE)
@@ -65,15 +68,22 @@ class Senses:
     def _on_part(self, message: Any, topic: str) -> None:
         with self._lock:
             self._newest[topic] = message
-            if len(self._newest) < len(READING):
+            self.heard = time.monotonic()
+            self.unread += topic == CLOCK
+            if self._late() or self._newest[CLOCK].header.stamp == self.stamp:
                 return
-            stamp = self._newest['dock_status'].header.stamp
-            if stamp == self.stamp or any(part.header.stamp < stamp for part in self._newest.values()):
-                return
+            stamp = self._newest[CLOCK].header.stamp
             gap = (stamp - self.stamp).to_nsec() if self.stamp is not None else 0
             self.passed += gap if 0 < gap <= PAUSE else 0
-            self.stamp, self.heard = stamp, time.monotonic()
+            self.stamp, self.unread = stamp, 0
         self._on_reading()
+
+    def _late(self) -> List[str]:
+        """The topics that are missing for a complete reading."""
+        if CLOCK not in self._newest:
+            return [CLOCK]
+        stamp = self._newest[CLOCK].header.stamp
+        return [topic for topic in READING if topic not in self._newest or self._newest[topic].header.stamp < stamp]
 
     # --- what is known ----------------------------------------------------------------------------------------------
 
@@ -115,7 +125,7 @@ class Senses:
             return 'nobody tells the charge of its battery'
         if self.pose() is None:
             return f'nobody tells where it is: tf has no {MAP} -> {self._frames.odom} -> {self._frames.base_footprint}'
-        return 'no reading of ' + ', '.join(topic for topic in READING if topic not in self._newest)
+        return f'nobody tells {" and ".join(self._late())}'
 
     @property
     def is_alone(self) -> bool:
