@@ -3,7 +3,8 @@
 from rumba_sim.cleaning.behaviour import Behaviour, Command
 from rumba_sim.cleaning.strategies import strategy
 
-BACK, TURN = 1.0, 1.6  # [s]
+BACK = 1.5  # [s]
+TURN = (0.8, 1.6)  # [s] least and longest: one turn for ever would end in a circle that leaves the rest of the floor
 
 
 @strategy('zigzag')
@@ -12,23 +13,26 @@ class Zigzag(Behaviour):
 
     def __init__(self, context):
         self._speed = context.config.speed
+        self._generator = context.generator
         self.initialise()
 
     def initialise(self):
         """Begin by going ahead."""
         super().initialise()
         self._side = 1.0
-        self._since = None  # [s] since the last contact; None before the first
+        self._since = None  # [s] since the last contact; None where the way ahead is free
+        self._turn = TURN[0]
 
     def update(self, observation):
         """Ahead, back, turn."""
-        if self._since is not None:
-            self._since += observation.dt
-        is_ahead = self._since is None or self._since > BACK + TURN
-        if is_ahead and any(observation.contact):
-            self._side, self._since = -self._side, 0.0
-        if self._since is None or self._since > BACK + TURN:
-            return Command(self._speed, 0.0)
+        if self._since is None:
+            if not any(observation.contact):
+                return Command(self._speed, 0.0)
+            self._side, self._since, self._turn = -self._side, 0.0, self._generator.uniform(*TURN)
+        self._since += observation.dt
         if self._since < BACK:
             return Command(-0.1, 0.0)
+        if self._since > BACK + self._turn:
+            self._since = None
         return Command(0.0, self._side * 1.7)
+
