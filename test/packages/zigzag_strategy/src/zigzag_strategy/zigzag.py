@@ -35,4 +35,3 @@ class Zigzag(Behaviour):
         if self._since > BACK + self._turn:
             self._since = None
         return Command(0.0, self._side * 1.7)
-
