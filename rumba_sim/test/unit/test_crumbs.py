@@ -62,6 +62,13 @@ def test_a_sharp_turn_on_paper_sweeps_the_disc_of_the_brush():
     assert 0.6 * np.pi / 2.0 * 0.085 ** 2 < np.count_nonzero(beyond) * 0.02 ** 2 < 1.2 * np.pi / 2.0 * 0.085 ** 2
 
 
+def test_a_turn_on_the_spot_on_paper_sweeps_a_disc():
+    context = knowing(room(4.0, 3.0, 0.02), START)
+    drive(context.swept, np.array([[1.0, 1.5], [1.03, 1.5], [1.0, 1.5]]))
+    area = np.count_nonzero(context.swept.cells & kernel.SWEPT) * 0.02 ** 2
+    assert 0.6 * np.pi * 0.085 ** 2 < area < 1.6 * np.pi * 0.085 ** 2
+
+
 # --- crumbs --------------------------------------------------------------------------------------------------------
 
 def test_crumbs_are_as_large_as_their_cells_and_the_largest_comes_first():
@@ -162,13 +169,13 @@ def test_a_detour_comes_back_to_its_route_and_what_was_planned_stays():
     context = missed_alone(room(4.0, 3.0, 0.02), *CRUMBS, target_coverage=1.0)
     lane = Route(np.array([[0.6, 0.8], [1.2, 0.8], [2.0, 0.8], [2.8, 0.8], [3.4, 0.8]]), np.array([0.1, 0.2, 0.3, 0.4]))
     route = with_crumbs(context, lane)
-    places = route.places.tolist()
-    at = [places.index(place) for place in lane.places.tolist()]
-    assert at == sorted(at) and len(places) > 10 and len(route.speeds) == len(places) - 1
-    assert places[-1] == lane.places[-1].tolist() and length(route.places) < length(lane.places) + 4.0
-    for index, place in enumerate(lane.places[1:].tolist()):
-        last = len(places) - 1 - places[::-1].index(lane.places[index].tolist())
-        assert places[last + 1] == place and route.speeds[last] == lane.speeds[index]
+    at = [int(np.flatnonzero((route.places == place).all(axis=1))[-1]) for place in lane.places]
+    assert at == sorted(at) and at[-1] == len(route.places) - 1 == len(route.speeds)
+    assert (route.places[:, 1] != 0.8).any() and length(route.places) < length(lane.places) + 4.0
+    on_lane = (route.places[:-1, 1] == 0.8) & (route.places[1:, 1] == 0.8)
+    middles = 0.5 * (route.places[:-1, 0] + route.places[1:, 0])
+    legs = np.searchsorted(lane.places[:, 0], middles) - 1
+    assert (route.speeds == lane.speeds[legs])[on_lane].all()
 
 
 def test_a_crumb_that_is_far_from_the_route_or_behind_a_wall_is_left():
@@ -176,5 +183,13 @@ def test_a_crumb_that_is_far_from_the_route_or_behind_a_wall_is_left():
     lane = Route(np.array([[0.6, 0.8], [2.1, 0.8], [3.4, 0.8]]), np.array([0.3, 0.3]))
     for plan_of, box in ((room(4.0, 3.0, 0.02), far), (room(4.0, 3.0, 0.02, [(1.0, 1.06, 3.0, 1.1)]), behind)):
         context = missed_alone(plan_of, box, target_coverage=1.0)
-        assert (with_crumbs(context, lane).places == lane.places).all()
+        route = with_crumbs(context, lane)
+        assert (route.places[:, 1] == 0.8).all() and (np.diff(route.places[:, 0]) > 0.0).all()
     assert with_crumbs(context, None) is None
+
+
+def test_a_crumb_beside_the_middle_of_a_long_lane_is_visited():
+    context = missed_alone(room(4.0, 3.0, 0.02), (1.9, 1.2, 2.2, 1.26), target_coverage=1.0)
+    lane = Route(np.array([[0.5, 0.8], [3.5, 0.8]]), np.array([0.2]))
+    missed = driven(context, with_crumbs(context, lane)).missed()
+    assert np.count_nonzero(missed) < 0.1 * np.count_nonzero(context.swept.missed())

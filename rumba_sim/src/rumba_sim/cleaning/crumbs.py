@@ -1,6 +1,6 @@
 """Ways to small places that neither lanes nor ways along walls clean."""
 
-from typing import Dict, List, NamedTuple, Optional
+from typing import Dict, List, NamedTuple, Optional, Tuple
 
 import numpy as np
 from scipy import ndimage
@@ -9,7 +9,6 @@ from rumba_sim.cleaning.context import Context
 from rumba_sim.cleaning.follower import Route
 from rumba_sim.cleaning.ground import Ground
 from rumba_sim.cleaning.swept import Swept
-from rumba_sim.cleaning.walls import resampled
 from rumba_sim.model.geometry import Pose, wrap_angle
 from rumba_sim.model.kernel import Array
 
@@ -17,7 +16,8 @@ TOGETHER = 0.1  # [m] crumbs so near each other are one
 STEP = 0.06  # [m] between the places of a way past a crumb
 SURPLUS = 0.002  # of coverage that is planned beyond the target, since no robot drives just as planned
 DETOUR = 0.6  # [m] to a crumb that is worth it on the way
-TRIES = 50  # places of a route from which a crumb is looked at
+TRIES = 50  # places of a route from which a crumb is looked at, ...
+APART = 0.2  # [m] ... so far from each other at most
 RESOLUTION = 0.05  # [m] from pose to pose of what is planned
 SHARP = 0.3  # [rad] a turn that sweeps more than the way before and after it
 PIROUETTE = 0.03  # [m] out and back again, so that the robot turns on the spot and its brush sweeps a disc
@@ -34,8 +34,10 @@ def with_crumbs(context: Context, route: Optional[Route]) -> Optional[Route]:
     """The route, with detours to the largest crumbs that it would leave, until the target is met."""
     if route is None:
         return None
+    dense, legs = _dense(route.places, APART)
+    route = Route(dense, route.speeds[legs])
     expected = context.swept.copy()
-    drive(expected, route.places)
+    drive(expected, dense)
     missing = (context.config.target_coverage + SURPLUS - expected.coverage) * expected.reachable_area
     detours: Dict[int, List[Array]] = {}
     near = context.ground.within(0.5 * context.robot.brush.width)
@@ -67,12 +69,22 @@ def _nearest(ground: Ground, places: Array, crumb: Array) -> Optional[int]:
     return None
 
 
+def _dense(places: Array, step: float) -> Tuple[Array, Array]:
+    """A way with more places, a step [m] apart at most; and on which of its legs each of them, but the first, lies."""
+    legs = np.diff(places, axis=0)
+    counts = np.ceil(np.hypot(*legs.T) / step).astype(np.intp)  # 0 for a leg without length
+    indices = np.repeat(np.arange(len(legs)), counts)
+    shares = (np.arange(len(indices)) - np.repeat(np.cumsum(counts) - counts, counts) + 1) / counts[indices]
+    between = places[indices + 1] - (1.0 - shares)[:, np.newaxis] * legs[indices]
+    return np.concatenate([places[:1], between]), indices
+
+
 def drive(swept: Swept, places: Array) -> None:
     """Sweep along a way as if it were driven."""
-    dense = resampled(places, RESOLUTION)
-    headings = np.arctan2(*np.diff(dense, axis=0).T[::-1]).tolist()
-    before = Pose(float(dense[0, 0]), float(dense[0, 1]), headings[0])
-    for (x, y), theta in zip(dense[1:].tolist(), headings):
+    places, _ = _dense(places, RESOLUTION)
+    headings = np.arctan2(*np.diff(places, axis=0).T[::-1]).tolist()
+    before = Pose(float(places[0, 0]), float(places[0, 1]), headings[0])
+    for (x, y), theta in zip(places[1:].tolist(), headings):
         turned = before._replace(theta=theta)
         if abs(wrap_angle(theta - before.theta)) > SHARP:
             swept.sweep(before, turned)
@@ -99,17 +111,20 @@ def _past(ground: Ground, cells: Array) -> List[Array]:
     middle = places.mean(axis=0)
     axis = np.linalg.svd(places - middle, full_matrices=False)[2][0]
     along = (places - middle) @ axis
-    ways: List[List[Array]] = []
-    last = -np.inf
+    groups: List[List[int]] = []
     for index in np.argsort(along, kind='stable'):
-        if not ways or not ground.is_straight(ways[-1][-1], places[index]):
-            ways.append([places[index]])
-        elif along[index] - last < STEP:
-            continue
-        else:
-            ways[-1].append(places[index])
-        last = along[index]
-    return [_eased(ground, np.array(way)) if len(way) > 2 else _pirouette(ground, way[0]) for way in ways]
+        if not groups or not ground.is_straight(places[groups[-1][-1]], places[index]):
+            groups.append([])
+        groups[-1].append(index)
+    return [_way(ground, places[group], along[group]) for group in groups]
+
+
+def _way(ground: Ground, places: Array, along: Array) -> Array:
+    """Past places that are sorted by how far along they lie [m]: a line, or a turn in the middle of a few."""
+    if along[-1] - along[0] < 2.0 * STEP:
+        return _pirouette(ground, places[int(np.argmin(np.hypot(*(places - places.mean(axis=0)).T)))])
+    steps = ((along - along[0]) / STEP).astype(np.intp)
+    return _eased(ground, places[np.unique(steps, return_index=True)[1]])
 
 
 def _eased(ground: Ground, way: Array) -> Array:

@@ -15,7 +15,8 @@ from rumba_sim.model.geometry import Pose, wrap_angle
 from rumba_sim.model.kernel import Array
 from rumba_sim.model.robot_config import DriveConfig
 
-HAIRPIN = 2.6  # [rad] a corner so sharp is driven to, and turned in
+HAIRPIN = 2.6  # [rad] a corner so sharp is driven to, and turned in, ...
+SHARP = 1.2  # [rad] ... as is one like this beside a leg shorter than the way that the robot looks ahead
 AHEAD = 0.5  # [s] how far ahead the pursued place is
 LEAST_AHEAD = 0.08  # [m]
 BEHIND, BESIDE = 2.0, 0.5  # [rad] off the heading: turn on the spot beyond the first, until within the second
@@ -191,15 +192,16 @@ def _pieces(route: Route) -> List[_Piece]:
     pieces: List[_Piece] = []
     places: List[Place] = [(float(route.places[0][0]), float(route.places[0][1]))]
     speeds: List[float] = []
-    heading = 0.0
+    heading = last = 0.0
     for (x, y), speed in zip(route.places[1:].tolist(), route.speeds.tolist()):
         dx, dy = x - places[-1][0], y - places[-1][1]
-        if math.hypot(dx, dy) < SHORTEST:
+        step, bearing = math.hypot(dx, dy), math.atan2(dy, dx)
+        if step < SHORTEST:
             continue
-        if speeds and abs(wrap_angle(math.atan2(dy, dx) - heading)) > HAIRPIN:
+        if speeds and abs(wrap_angle(bearing - heading)) > (HAIRPIN if min(step, last) > LEAST_AHEAD else SHARP):
             pieces.append(_Piece(places, speeds))
             places, speeds = places[-1:], []
-        heading = math.atan2(dy, dx)
+        heading, last = bearing, step
         places.append((x, y))
         speeds.append(speed)
     if speeds:
