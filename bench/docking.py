@@ -1,0 +1,74 @@
+"""How many robots find home, from 200 places at random on each map that has a dock, and how long that takes them."""
+
+import pathlib
+import statistics
+
+import numpy as np
+
+from common import figures
+from rumba_sim.cleaning.behaviour import Status
+from rumba_sim.cleaning.cleaning_config import CleaningConfig
+from rumba_sim.cleaning.context import Context
+from rumba_sim.cleaning.dock import Dock
+from rumba_sim.cleaning.homing import BUOYS
+from rumba_sim.evaluation import starts
+from rumba_sim.evaluation.trial import CONTROL_DT, CONTROL_TICKS, observe
+from rumba_sim.model import map_file
+from rumba_sim.model.world import World
+
+MAPS = pathlib.Path(__file__).resolve().parents[1] / 'rumba_sim' / 'maps'
+STARTS = 200
+LIMIT = 600.0  # [s] for the way home
+
+
+def main():
+    """Drive home, and print."""
+    for name in ('studio', 'apartment'):
+        floor = map_file.load(MAPS / f'{name}.yaml')
+        figures.heading(f'The way home on the map {name}, from {STARTS} places')
+        measure('anywhere', [begun(floor, seed) for seed in range(STARTS)])
+        measure('in the field of the buoys', in_field(floor))
+
+
+def begun(floor, seed):
+    """A world with a robot somewhere, and the behaviour that leads it home; the same for the same seed."""
+    world = World(floor, seed=seed)
+    pose, = starts.anywhere(floor, world.config, world.start, 1, np.random.default_rng(seed))
+    world.spawn('rumba', pose)
+    return world, Dock(Context(floor, world.config, CleaningConfig(), seed))
+
+
+def in_field(floor):
+    """Worlds with a robot that sees a buoy of the dock."""
+    worlds, seed = [], 0
+    while len(worlds) < STARTS:
+        world, behaviour = begun(floor, seed)
+        if world.infrared('rumba').omni & BUOYS:
+            worlds.append((world, behaviour))
+        seed += 1
+    return worlds
+
+
+def measure(title, worlds):
+    """Bring all home."""
+    seconds = [run(world, behaviour) for world, behaviour in worlds]
+    docked = sum(world.robots['rumba'].is_docked for world, _ in worlds)
+    figures.row(f'{title}: at the contacts', docked, at_least=STARTS)
+    figures.row('    median time [s]', statistics.median(seconds))
+    figures.row('    longest time [s]', max(seconds))
+
+
+def run(world, behaviour):
+    """Follow a behaviour to its end; returns how long that took [s]."""
+    dt, robot = 0.0, world.robots['rumba']
+    while behaviour.status is Status.RUNNING and world.time < LIMIT:
+        command = behaviour.update(observe(world, 'rumba', dt))
+        robot.brushes_up = command.brushes_up
+        robot.command(command.v, command.w, world.tick)
+        world.step(CONTROL_TICKS)
+        dt = CONTROL_DT
+    return world.time
+
+
+if __name__ == '__main__':
+    main()
