@@ -15,14 +15,14 @@ from rumba_sim.model.geometry import Pose, wrap_angle
 from rumba_sim.model.kernel import Array
 from rumba_sim.model.robot_config import DriveConfig
 
-HAIRPIN = 2.6  # [rad] a corner so sharp is driven to, and turned in, ...
-SHARP = 1.2  # [rad] ... as is one like this beside a leg shorter than the way that the robot looks ahead
+HAIRPIN = 2.6  # [rad] a corner so sharp is driven to, and turned in
 AHEAD = 0.5  # [s] how far ahead the pursued place is
 LEAST_AHEAD = 0.08  # [m]
 BEHIND, BESIDE = 2.0, 0.5  # [rad] off the heading: turn on the spot beyond the first, until within the second
 WINDOW = 0.3  # [m] along the route in which the nearest place is looked for
 LOST = 0.35  # [m] off the route: somebody put the robot elsewhere
 ARRIVED = 0.01  # [m]
+STALL = 3.0  # [s] without a step along the route: it bends back to the robot, which turns around a place beside it
 CREEP = 0.03  # [m/s] no slower to the end
 TENDERNESS = 0.7  # share of the acceleration that is counted on for stopping
 SHORTEST = 1e-3  # [m] of a part of a route
@@ -93,6 +93,7 @@ class Follower:
         self._pieces = _pieces(route)
         self._drive = drive
         self._way = 0.0
+        self._stalled = 0.0  # [s]
         self._is_turning = True
         self.is_done = not self._pieces
         self.is_lost = False
@@ -119,7 +120,8 @@ class Follower:
         dt = max(dt, LEAST_DT)
         while self._pieces:
             piece = self._pieces[0]
-            self._way, off = piece.nearest(pose, self._way)
+            way, off = piece.nearest(pose, self._way)
+            self._go_along(way, dt)
             self.is_lost = off > LOST
             left = piece.length - self._way
             if left < SHORTEST or (left < LEAST_AHEAD and math.hypot(
@@ -130,9 +132,16 @@ class Follower:
         self.is_done = True
         return 0.0, 0.0
 
+    def _go_along(self, way: float, dt: float) -> None:
+        self._stalled = self._stalled + dt if way < self._way + SHORTEST else 0.0
+        self._way = way
+        if self._stalled > STALL:
+            self._stalled = 0.0
+            self._way = min(way + LEAST_AHEAD, self._pieces[0].length)
+
     def _next_piece(self) -> None:
         del self._pieces[0]
-        self._way = 0.0
+        self._way = self._stalled = 0.0
         self._is_turning = True
         self._after = sum(piece.length for piece in self._pieces[1:])
 
@@ -192,16 +201,15 @@ def _pieces(route: Route) -> List[_Piece]:
     pieces: List[_Piece] = []
     places: List[Place] = [(float(route.places[0][0]), float(route.places[0][1]))]
     speeds: List[float] = []
-    heading = last = 0.0
+    heading = 0.0
     for (x, y), speed in zip(route.places[1:].tolist(), route.speeds.tolist()):
         dx, dy = x - places[-1][0], y - places[-1][1]
-        step, bearing = math.hypot(dx, dy), math.atan2(dy, dx)
-        if step < SHORTEST:
+        if math.hypot(dx, dy) < SHORTEST:
             continue
-        if speeds and abs(wrap_angle(bearing - heading)) > (HAIRPIN if min(step, last) > LEAST_AHEAD else SHARP):
+        if speeds and abs(wrap_angle(math.atan2(dy, dx) - heading)) > HAIRPIN:
             pieces.append(_Piece(places, speeds))
             places, speeds = places[-1:], []
-        heading, last = bearing, step
+        heading = math.atan2(dy, dx)
         places.append((x, y))
         speeds.append(speed)
     if speeds:
