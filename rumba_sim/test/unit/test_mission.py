@@ -2,6 +2,7 @@
 
 import itertools
 import math
+import re
 
 import pytest
 from drivers import context_of, run, steps, with_box
@@ -113,6 +114,15 @@ def test_a_dock_that_no_way_leads_to_is_as_none():
     assert State.RETURNING not in states(behaviour, world)
     assert behaviour.status is Status.SUCCEEDED
     assert world.floor.coverage >= 0.98
+
+
+def test_where_another_robot_keeps_the_dock_it_says_so_and_how_much_is_swept():
+    world, behaviour = mission(start=Pose(0.4, 0.4, 0.0), target=0.3)
+    world.spawn('rumba2', DOCK, brushes_up=True)
+    run(behaviour, world)
+    assert (behaviour.status, behaviour.state) == (Status.FAILED, State.STRANDED)
+    assert re.fullmatch(r'3\d\.\d % swept: 3 attempts to dock failed: something keeps the robot from the contacts',
+                        behaviour.message)
 
 
 def test_an_empty_battery_strands_it():

@@ -22,7 +22,7 @@ BEHIND, BESIDE = 2.0, 0.5  # [rad] off the heading: turn on the spot beyond the 
 WINDOW = 0.3  # [m] along the route in which the nearest place is looked for
 LOST = 0.35  # [m] off the route: somebody put the robot elsewhere
 ARRIVED = 0.01  # [m]
-STALL = 3.0  # [s] without a step along the route: it bends back to the robot, which turns around a place beside it
+STALL = 3.0  # [s] of turning without a step along the route: it bends back to the robot, which spins beside it
 CREEP = 0.03  # [m/s] no slower to the end
 TENDERNESS = 0.7  # share of the acceleration that is counted on for stopping
 SHORTEST = 1e-3  # [m] of a part of a route
@@ -93,7 +93,7 @@ class Follower:
         self._pieces = _pieces(route)
         self._drive = drive
         self._way = 0.0
-        self._stalled = 0.0  # [s]
+        self._turned = 0.0  # [s] on the spot, since the last step along the route
         self._is_turning = True
         self.is_done = not self._pieces
         self.is_lost = False
@@ -121,7 +121,7 @@ class Follower:
         while self._pieces:
             piece = self._pieces[0]
             way, off = piece.nearest(pose, self._way)
-            self._go_along(way, dt)
+            self._go_along(way)
             self.is_lost = off > LOST
             left = piece.length - self._way
             if left < SHORTEST or (left < LEAST_AHEAD and math.hypot(
@@ -132,16 +132,17 @@ class Follower:
         self.is_done = True
         return 0.0, 0.0
 
-    def _go_along(self, way: float, dt: float) -> None:
-        self._stalled = self._stalled + dt if way < self._way + SHORTEST else 0.0
+    def _go_along(self, way: float) -> None:
+        if way > self._way + SHORTEST:
+            self._turned = 0.0
         self._way = way
-        if self._stalled > STALL:
-            self._stalled = 0.0
+        if self._turned > STALL:
+            self._turned = 0.0
             self._way = min(way + LEAST_AHEAD, self._pieces[0].length)
 
     def _next_piece(self) -> None:
         del self._pieces[0]
-        self._way = self._stalled = 0.0
+        self._way = self._turned = 0.0
         self._is_turning = True
         self._after = sum(piece.length for piece in self._pieces[1:])
 
@@ -151,6 +152,7 @@ class Follower:
         bearing = wrap_angle(math.atan2(y - pose.y, x - pose.x) - pose.theta)
         if abs(bearing) > (BESIDE if self._is_turning else BEHIND):
             self._is_turning = True
+            self._turned += dt
             return 0.0, turn_rate(bearing, dt, self._drive)
         self._is_turning = False
         curvature = 2.0 * math.sin(bearing) / max(math.hypot(x - pose.x, y - pose.y), 0.5 * LEAST_AHEAD)

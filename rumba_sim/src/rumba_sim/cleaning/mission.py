@@ -167,7 +167,7 @@ class Mission(Behaviour):
         if self._part.status is Status.FAILED:
             self._homes += 1
             if self._homes >= HOMES:
-                return self._strand(self._part.message)
+                return self._strand(f'{_percent(self._context.swept.coverage)} swept: {self._part.message}')
             self._part.initialise()
         elif self._part.status is Status.SUCCEEDED:
             self._homes = 0
