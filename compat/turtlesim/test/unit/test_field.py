@@ -77,7 +77,8 @@ def test_names_are_numbered_and_numbers_are_not_used_twice(field):
 @pytest.mark.parametrize('name, x, message', [
     ('turtle1', 1.0, r'a turtle named \[turtle1\] is here already'),
     ('two words', 1.0, "'two words' is no name: must be letters, digits, _ and /, and begin with a letter"),
-    ('7up', 1.0, "'7up' is no name"), ('a//b', 1.0, "'a//b' is no name"), ('schildkröte', 1.0, 'is no name'),
+    ('7up', 1.0, "'7up' is no name"), ('/abs', 1.0, "'/abs' is no name"), ('a//b', 1.0, "'a//b' is no name"),
+    ('schildkröte', 1.0, "'schildkröte' is no name"),
     ('new', math.nan, 'spawn new: x is nan: must be a number from ')])
 def test_a_bad_spawn_is_refused_and_changes_nothing(field, name, x, message):
     with pytest.raises(TurtlesimError, match=message):
@@ -126,6 +127,19 @@ def test_a_slow_turtle_draws_the_same_line_as_a_fast_one(field):
     field.reset(BACKGROUND)
     drive(field, 'turtle1', (2.0, 0.0, 0.0), 10)
     assert ImageChops.difference(slow, bare(field)).getbbox() is None
+
+
+def test_who_comes_or_goes_between_move_and_draw_leaves_no_gap_in_the_lines_of_others(field):
+    field.spawn('gone', 1.0, 1.0, 0.0)
+    field.spawn('last', 1.0, 9.0, 0.0)
+    field.command('last', (60.0, 0.0, 0.0))
+    field.move()
+    field.spawn('new', 9.0, 1.0, 0.0)
+    field.kill('gone')
+    field.draw()
+    picture = bare(field)
+    assert at(picture, 1.5, 9.0) == PEN
+    assert coloured(picture) < 3 * 50
 
 
 @pytest.mark.parametrize('width', [1, 2, 3, 8])
