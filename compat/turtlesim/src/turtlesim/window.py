@@ -46,12 +46,6 @@ class Window:
         """Let Qt do what is due."""
         self._application.processEvents()
 
-    def grab(self) -> Image.Image:
-        """What it shows, as an RGB image."""
-        image = self._label.grab().toImage().convertToFormat(self._gui.QImage.Format_RGBA8888)
-        data = image.constBits().asstring(image.sizeInBytes())
-        return Image.frombytes('RGBA', (image.width(), image.height()), data).convert('RGB')
-
 
 def why_none() -> str:
     """Why there can be no window: a few words, or none where there can be one."""

@@ -2,6 +2,7 @@
 """turtlesim_node does what turtlesim's documentation promises."""
 
 import os
+import pathlib
 import signal
 import subprocess
 import tempfile
@@ -12,6 +13,7 @@ import rospy
 import rostest
 from nodes import TIMEOUT, Heard, Turtlesim, commander, wait
 
+README = (pathlib.Path(__file__).resolve().parents[2] / 'README.md').read_text()
 MIDDLE = 5.544444
 BACKGROUND, PEN = (69, 86, 255), (0xb3, 0xb8, 0xff)
 
@@ -40,6 +42,8 @@ class TurtlesimNodeTest(unittest.TestCase):
             {name for name in of_node(services) if '_logger' not in name},
             {'/clear', '/reset', '/spawn', '/kill', '/turtlesim/save_png', '/turtle1/set_pen',
              '/turtle1/teleport_absolute', '/turtle1/teleport_relative'})
+        for name in (of_node(publishers) | of_node(subscribers) | of_node(services)) - {'/rosout'}:
+            self.assertTrue('_logger' in name or f'`{name[1:]}`' in README, name)
         self.assertEqual(rospy.get_param('/turtlesim'), {'background_r': 69, 'background_g': 86, 'background_b': 255})
 
     def test_a_command_is_driven_for_a_second_while_poses_come(self):

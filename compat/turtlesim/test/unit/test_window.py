@@ -4,7 +4,7 @@ import subprocess
 import sys
 
 import pytest
-from PIL import ImageChops
+from PIL import Image, ImageChops
 
 from turtlesim import window
 from turtlesim.model.field import Field
@@ -17,7 +17,7 @@ shown = Window('a field')
 for path in sys.argv[2:]:
     shown.show(Image.open(path).convert('RGB'))
     shown.poll()
-shown.grab().save(sys.argv[1])
+shown._label.grab().save(sys.argv[1])
 assert shown.is_open
 shown._label.close()
 assert not shown.is_open
@@ -41,7 +41,7 @@ def test_it_shows_the_last_picture_pixel_by_pixel(tmp_path, monkeypatch):
     paths = [str(tmp_path / name) for name in ('shown.png', 'first.png', 'second.png')]
     # In a process of its own: Qt ends the one that it cannot serve.
     subprocess.run([sys.executable, '-c', SHOW, *paths], check=True, timeout=60.0)
-    shown = window.Image.open(paths[0])
+    shown = Image.open(paths[0]).convert('RGB')
     assert shown.size == (500, 500)
     assert ImageChops.difference(shown, field.picture()).getbbox() is None
     assert shown.getpixel((450, 450)) == (10, 20, 200) and shown.getpixel((90, 94)) != (10, 20, 200)
