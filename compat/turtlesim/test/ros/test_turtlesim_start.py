@@ -72,7 +72,10 @@ class TurtlesimStartTest(unittest.TestCase):
         self.assertLess(took, 8.0)
         times = [message.clock.to_nsec() for message in clock.messages]
         times = times[:times.index(last.clock.to_nsec()) + 1]
-        self.assertEqual({later - earlier for earlier, later in zip(times, times[1:])}, {STEP})
+        differences = [later - earlier for earlier, later in zip(times, times[1:])]
+        self.assertTrue(all(difference > 0 and difference % STEP == 0 for difference in differences), differences)
+        # A listener that a busy machine holds up may miss some.
+        self.assertGreater(differences.count(STEP), 0.9 * len(differences))
         commander(self)(2.0, 0.0, 0.0)
         end = pose.find(lambda pose: pose.x > 7.0 and pose.linear_velocity == 0.0)
         self.assertAlmostEqual(end.x, MIDDLE + 2.0 * 63 * 0.016, 5)

@@ -14,6 +14,7 @@ from turtlesim.model.turtles import STEP
 STEP_NS = round(STEP * 1e9)
 LATE = 0.1  # [s] behind the wall clock by more, the node gives up to catch up
 TIMER_SLACK = 1000  # [ns]
+QUEUE = 100  # messages that a node may be behind before it misses one
 
 
 class Pace:
@@ -38,7 +39,7 @@ class Pace:
             rospy.on_shutdown(_forget_simulated_time)
             rospy.set_param('/use_sim_time', True)
             rospy.loginfo('speed is not 1: /use_sim_time is now true, for nodes that start from now on')
-            self._clock = rospy.Publisher('/clock', Clock, queue_size=10)
+            self._clock = rospy.Publisher('/clock', Clock, queue_size=QUEUE)
         self._due = time.monotonic()
 
     def step(self) -> None:
