@@ -75,12 +75,12 @@ class Node:
 class Turtlesim(Node):
     """turtlesim_node, once it serves all that it does."""
 
-    def __init__(self, test, *arguments, **options):
-        for name in ('/turtlesim', '/use_sim_time'):
-            if rospy.has_param(name):
-                rospy.delete_param(name)
+    def __init__(self, test, *arguments, name='/turtlesim', **options):
+        for left in ('/turtlesim', '/use_sim_time'):
+            if rospy.has_param(left):
+                rospy.delete_param(left)
         super().__init__(test, 'rosrun', 'turtlesim', 'turtlesim_node', *arguments, **options)
-        wait(test, lambda: self.process.poll() is not None or is_served('/turtlesim/save_png'), 'turtlesim_node')
+        wait(test, lambda: self.process.poll() is not None or is_served(f'{name}/save_png'), 'turtlesim_node')
         test.assertIsNone(self.process.poll(), 'turtlesim_node ended')
 
     def call(self, service, *arguments):

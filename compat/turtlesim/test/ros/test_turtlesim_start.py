@@ -99,6 +99,14 @@ class TurtlesimStartTest(unittest.TestCase):
         first = clock.fresh().clock
         wait(self, lambda: (clock.messages[-1].clock - first).to_sec() > 1.0, 'time')
 
+    def test_what_a_killed_one_left_at_the_master_is_in_nobody_s_way(self):
+        killed = Turtlesim(self, '_speed:=2', '__ns:=/killed', name='/killed/turtlesim')
+        killed.process.kill()
+        killed.process.wait(TIMEOUT)
+        self.assertIn('/clock', dict(rospy.get_published_topics()))
+        Turtlesim(self, '_speed:=2')
+        Heard(self, '/turtle1/pose').find()
+
 
 if __name__ == '__main__':
     rospy.init_node('test_turtlesim_start', disable_rostime=True)

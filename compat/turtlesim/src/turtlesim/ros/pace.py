@@ -1,6 +1,7 @@
 """How fast time passes, and what /clock tells."""
 
 import contextlib
+import socket
 import time
 from typing import Optional
 
@@ -13,6 +14,7 @@ from turtlesim.model.turtles import STEP
 
 STEP_NS = round(STEP * 1e9)
 LATE = 0.1  # [s] behind the wall clock by more, the node gives up to catch up
+PATIENCE = 2.0  # [s] with a node that the master knows but that does not answer
 TIMER_SLACK = 1000  # [ns]
 QUEUE = 100  # messages that a node may be behind before it misses one
 
@@ -70,12 +72,22 @@ def wake_on_time() -> None:
 
 
 def _refuse_second_clock() -> None:
-    me = rospy.get_name()
-    publishers, _, _ = rosgraph.Master(me).getSystemState()
-    others = [node for topic, nodes in publishers if topic == '/clock' for node in nodes if node != me]
-    if others:
-        raise TurtlesimError(f'speed is not 1, but {others[0]} tells the time on /clock already: end it first, '
-                             'or run this with _speed:=1')
+    master = rosgraph.Master(rospy.get_name())
+    publishers, _, _ = master.getSystemState()
+    for node in dict(publishers).get('/clock', []):
+        if node != rospy.get_name() and _answers(master, node):
+            raise TurtlesimError(f'speed is not 1, but {node} tells the time on /clock already: end it first, '
+                                 'or run this with _speed:=1')
+
+
+def _answers(master: rosgraph.Master, node: str) -> bool:
+    """Whether a node is there: one that was killed leaves its topics at the master."""
+    try:
+        address = rosgraph.network.parse_http_host_and_port(master.lookupNode(node))
+        socket.create_connection(address, PATIENCE).close()
+    except (rosgraph.MasterException, OSError):
+        return False
+    return True
 
 
 def _forget_simulated_time() -> None:
