@@ -10,7 +10,7 @@ from turtlesim.model.turtles import METRE
 
 SHELLS = ('#3f8f4f', '#c8693a', '#b0a030', '#8a5fb0', '#3a9a9a', '#c25073', '#7a6a55', '#d8d8d0')
 SKIN, EYE, SEAM = '#8fcf6a', '#20301c', '#24402a'
-FINER = 4  # times as large is it drawn, then made smaller: smooth edges
+FINER = 3  # times as large is it drawn, then made smaller: smooth edges
 HEADINGS = 120  # different pictures of one turtle
 # In a square from -1 to 1, looking along x, y up: left, bottom, right, top.
 LEGS = [(x - 0.22, y - 0.18, x + 0.22, y + 0.18) for x in (0.42, -0.45) for y in (0.52, -0.52)]
@@ -38,8 +38,8 @@ def portrait(number: int, theta: float) -> Image.Image:
 
 @functools.lru_cache(maxsize=len(SHELLS) * HEADINGS)
 def _portrait(shell: int, heading: int) -> Image.Image:
-    rotated = _looking_right(SHELLS[shell]).rotate(360.0 * heading / HEADINGS, Image.BICUBIC)
-    return rotated.resize((METRE, METRE), Image.LANCZOS)
+    rotated = _looking_right(SHELLS[shell]).rotate(360.0 * heading / HEADINGS, Image.BILINEAR)
+    return rotated.resize((METRE, METRE), Image.BOX)
 
 
 @functools.lru_cache(maxsize=len(SHELLS))
