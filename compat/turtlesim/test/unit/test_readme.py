@@ -1,0 +1,31 @@
+"""The README names all that the nodes have, and nothing that they have not."""
+
+import pathlib
+import re
+
+from turtlesim.ros import turtle_teleop_key, turtlesim_node
+
+PACKAGE = pathlib.Path(__file__).resolve().parents[2]
+README = (PACKAGE / 'README.md').read_text()
+
+
+def test_every_parameter_is_there_with_its_default():
+    rows = dict(re.findall(r'^\| `~(\w+)`[^|]* \| ([^|]+) \|', README, re.MULTILINE))
+    background = ', '.join(str(turtlesim_node.PARAMETERS[name].default) for name in turtlesim_node.BACKGROUND)
+    expected = {name: f'{parameter.default:g}' if isinstance(parameter.default, float) else str(parameter.default)
+                for name, parameter in turtlesim_node.PARAMETERS.items() if name not in turtlesim_node.BACKGROUND}
+    assert rows == {**expected, 'background_r': background}
+    for name, parameter in turtle_teleop_key.PARAMETERS.items():
+        assert f'_{name}:={parameter.default:g}' in README
+
+
+def test_every_program_and_launch_file_is_there():
+    assert set(re.findall(r'^\| `rosrun turtlesim (\w+)', README, re.MULTILINE)) == {
+        path.name for path in (PACKAGE / 'scripts').iterdir()}
+    assert set(re.findall(r'^\| `roslaunch turtlesim ([\w.]+)`', README, re.MULTILINE)) == {
+        path.name for path in (PACKAGE / 'launch').iterdir()}
+
+
+def test_every_definition_is_there():
+    for path in [*(PACKAGE / 'msg').iterdir(), *(PACKAGE / 'srv').iterdir()]:
+        assert re.search(rf'`(turtlesim/)?{path.stem}`', README), path.name
