@@ -1,0 +1,1 @@
+"""A stand-in for turtlesim: turtles that draw on a field, with or without a window."""

@@ -1,0 +1,49 @@
+"""What pens drew: an image that knows nothing of turtles."""
+
+from typing import Any, NamedTuple, Sequence, Tuple
+
+from PIL import Image, ImageDraw
+
+from turtlesim.model.turtles import PIXELS
+
+Colour = Tuple[int, int, int]  # red, green, blue: 0..255
+Pixel = Sequence[int]  # column from the left, row from the top
+
+
+class Pen(NamedTuple):
+    """With what a turtle draws."""
+
+    colour: Colour = (0xb3, 0xb8, 0xff)
+    width: int = 3  # [pixels]
+    is_down: bool = True
+
+
+class Canvas:
+    """The field as an image.
+
+    Attributes:
+        image: PIXELS x PIXELS, RGB.
+    """
+
+    def __init__(self, background: Colour) -> None:
+        """Begin with one colour all over."""
+        self.clear(background)
+
+    def clear(self, background: Colour) -> None:
+        """Forget all lines."""
+        self.image = Image.new('RGB', (PIXELS, PIXELS), background)
+        self._draw = ImageDraw.Draw(self.image)
+        self._pixels: Any = self.image.load()
+
+    def line(self, start: Pixel, end: Pixel, pen: Pen) -> None:
+        """Draw a straight line with round ends, so that lines that meet leave no gap."""
+        self._draw.line([*start, *end], pen.colour, pen.width)
+        if pen.width > 1:
+            for column, row in (start, end):
+                left, top = column - (pen.width - 1) // 2, row - (pen.width - 1) // 2
+                self._draw.ellipse([left, top, left + pen.width - 1, top + pen.width - 1], pen.colour)
+
+    def colour(self, pixel: Pixel) -> Colour:
+        """What is at a pixel."""
+        colour: Colour = self._pixels[tuple(pixel)]
+        return colour

@@ -1,0 +1,211 @@
+"""The field: turtles by name, their pens, and what they drew."""
+
+from __future__ import annotations
+
+import math
+import re
+from typing import TYPE_CHECKING, Dict, List, NamedTuple, Sequence
+
+import numpy as np
+from PIL import Image
+
+from turtlesim.model.canvas import Canvas, Colour, Pen
+from turtlesim.model.errors import TurtlesimError
+from turtlesim.model.portrait import portrait
+from turtlesim.model.turtles import EXTENT, METRE, PIXELS, Turtles, check_numbers
+
+if TYPE_CHECKING:  # NumPy 1.17 of Ubuntu 20.04 has no numpy.typing
+    from numpy.typing import NDArray
+
+NAME = re.compile(r'/?[A-Za-z]\w*(/[A-Za-z]\w*)*', re.ASCII)
+
+
+class WallHit(NamedTuple):
+    """Who was stopped at a wall, and where it would be otherwise [m]."""
+
+    name: str
+    x: float
+    y: float
+
+
+class Field:
+    """The turtles and their drawing; time passes by `move`, then `draw`.
+
+    Attributes:
+        changes: grows whenever the picture may have changed.
+        hits: who was stopped at a wall, until somebody empties the list.
+    """
+
+    def __init__(self, background: Colour) -> None:
+        """Begin with turtle1 in the middle."""
+        self.changes = 0
+        self.reset(background)
+
+    def reset(self, background: Colour) -> None:
+        """As it was at the beginning, on whatever background."""
+        self.changes += 1
+        self._rows: Dict[str, int] = {}
+        self.hits: List[WallHit] = []
+        self._turtles = Turtles()
+        self._pens: List[Pen] = []
+        self._numbers: List[int] = []  # how many had come before: the colour
+        self._came = 0
+        self._named = 0
+        self._is_drawn = True
+        self._at: NDArray[np.int64] = np.zeros((0, 2), np.int64)  # pixels that the pens reached
+        self._canvas = Canvas(background)
+        self.spawn('', 0.5 * EXTENT, 0.5 * EXTENT, 0.0)
+
+    def clear(self, background: Colour) -> None:
+        """Forget all lines."""
+        self.changes += 1
+        self._canvas.clear(background)
+
+    # --- turtles --------------------------------------------------------------------------------------------------
+
+    @property
+    def names(self) -> List[str]:
+        """Of the turtles, in the order of `readings`."""
+        return list(self._rows)
+
+    def __contains__(self, name: str) -> bool:
+        """Whether there is a turtle of that name."""
+        return name in self._rows
+
+    def pose(self, name: str) -> List[float]:
+        """x, y [m] and theta [rad] of a turtle."""
+        pose: List[float] = self._turtles.poses[self._row(name)].tolist()
+        return pose
+
+    def spawn(self, name: str, x: float, y: float, theta: float) -> str:
+        """One more turtle, at x, y [m], looking along theta [rad]; returns its name.
+
+        Args:
+            name: where empty, the next of turtle1, turtle2, ... that is free; numbers are not used twice.
+
+        Raises:
+            TurtlesimError: the name is taken, or none, or a number is not finite.
+        """
+        check_numbers(f'spawn {name}'.strip(), x=x, y=y, theta=theta)
+        if name and not NAME.fullmatch(name):
+            raise TurtlesimError(f'{name!r} is no name: must be letters, digits, _ and /, and begin with a letter')
+        if name in self._rows:
+            raise TurtlesimError(f'a turtle named [{name}] is here already')
+        name = name or self._next_name()
+        self.changes += 1
+        self._rows[name] = len(self._rows)
+        self._numbers.append(self._came)
+        self._came += 1
+        self._pens.append(Pen())
+        self._turtles.add((x, y, theta))
+        self._clamp()
+        self._at = self._pixels()
+        return name
+
+    def kill(self, name: str) -> None:
+        """One turtle less; what it drew stays.
+
+        Raises:
+            TurtlesimError: there is none of that name.
+        """
+        row = self._row(name)
+        self.changes += 1
+        del self._rows[name], self._pens[row], self._numbers[row]
+        self._rows = {name: row for row, name in enumerate(self._rows)}
+        self._turtles.remove(row)
+        self._at = np.delete(self._at, row, axis=0)
+
+    def command(self, name: str, velocity: Sequence[float]) -> None:
+        """Drive: forward, to the left [m/s], counter-clockwise [rad/s], for a second at most."""
+        self._turtles.command(self._row(name), velocity)
+
+    def set_pen(self, name: str, pen: Pen) -> None:
+        """Draw with another pen from now on."""
+        self._pens[self._row(name)] = pen
+
+    def teleport(self, name: str, x: float, y: float, theta: float) -> None:
+        """Put a turtle at x, y [m], looking along theta [rad]; a pen that is down draws the way.
+
+        Raises:
+            TurtlesimError: there is none of that name, or a number is not finite.
+        """
+        check_numbers(f'teleport {name}', x=x, y=y, theta=theta)
+        self._turtles.place(self._row(name), (x, y, theta))
+        self._clamp()
+        self._is_drawn = False
+        self.draw()
+
+    def teleport_relative(self, name: str, linear: float, angular: float) -> None:
+        """Turn a turtle by an angle [rad], then put it forward [m]; a pen that is down draws the way.
+
+        Raises:
+            TurtlesimError: there is none of that name, or a number is not finite.
+        """
+        check_numbers(f'teleport {name}', linear=linear, angular=angular)
+        x, y, theta = self.pose(name)
+        theta += angular
+        self.teleport(name, x + linear * math.cos(theta), y + linear * math.sin(theta), theta)
+
+    def _next_name(self) -> str:
+        while True:
+            self._named += 1
+            name = f'turtle{self._named}'
+            if name not in self._rows:
+                return name
+
+    def _row(self, name: str) -> int:
+        try:
+            return self._rows[name]
+        except KeyError:
+            raise TurtlesimError(f'there is no turtle [{name}]: here are {", ".join(self._rows) or "none"}') from None
+
+    # --- time -----------------------------------------------------------------------------------------------------
+
+    def move(self) -> None:
+        """Let one step of 16 ms pass; lines are not drawn yet, so that sensors see what was there before."""
+        if self._turtles.step():
+            self._clamp()
+            self._is_drawn = False
+
+    def draw(self) -> None:
+        """Draw from where the pens were to where they are."""
+        if self._is_drawn:
+            return
+        self._is_drawn = True
+        self.changes += 1
+        before, self._at = self._at, self._pixels()
+        for row in np.flatnonzero((before != self._at).any(axis=1)).tolist():
+            if self._pens[row].is_down:
+                self._canvas.line(before[row].tolist(), self._at[row].tolist(), self._pens[row])
+
+    def _clamp(self) -> None:
+        hits = self._turtles.clamp()
+        if hits:
+            names = self.names
+            self.hits += [WallHit(names[row], x, y) for row, x, y in hits]
+
+    def _pixels(self) -> NDArray[np.int64]:
+        pixels: NDArray[np.int64] = np.rint(
+            METRE * self._turtles.poses[:, :2] * (1, -1) + (0, PIXELS - 1)).astype(np.int64)
+        return pixels
+
+    # --- what there is to see -------------------------------------------------------------------------------------
+
+    def readings(self) -> NDArray[np.float32]:
+        """What poses tell: shape (n, 5): x, y [m], theta [rad], speed [m/s], turn rate [rad/s]."""
+        poses, velocities = self._turtles.poses, self._turtles.velocities
+        speeds = np.hypot(velocities[:, 0], velocities[:, 1])
+        return np.column_stack([poses, speeds, velocities[:, 2]]).astype(np.float32)
+
+    def colour(self, name: str) -> Colour:
+        """What is under a turtle."""
+        x, y, _ = self.pose(name)
+        return self._canvas.colour((round(METRE * x), round(PIXELS - 1 - METRE * y)))
+
+    def picture(self) -> Image.Image:
+        """The field with its turtles, those that came last on top: an RGB image, y up."""
+        picture = self._canvas.image.copy()
+        for number, (column, row), theta in zip(self._numbers, self._at.tolist(), self._turtles.poses[:, 2].tolist()):
+            turtle = portrait(number, theta)
+            picture.paste(turtle, (column - METRE // 2, row - METRE // 2), turtle)
+        return picture

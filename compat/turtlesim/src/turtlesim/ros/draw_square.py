@@ -1,0 +1,38 @@
+"""draw_square: has turtle1 draw a square of 2 m, again and again.
+
+It waits for turtle1/pose (turtlesim/Pose), calls reset (std_srvs/Empty), then publishes
+  turtle1/cmd_vel    geometry_msgs/Twist, one for each pose that comes
+"""
+
+import queue
+
+import rospy
+from geometry_msgs.msg import Twist, Vector3
+from std_srvs.srv import Empty
+
+from turtlesim.model.square import Square
+from turtlesim.msg import Pose
+from turtlesim.ros import node
+
+
+def main() -> None:
+    """Run the node."""
+    node.run('draw_square', {}, draw)
+
+
+def draw() -> None:
+    """Draw until ROS shuts down."""
+    publisher = rospy.Publisher('turtle1/cmd_vel', Twist, queue_size=1)
+    rospy.wait_for_message('turtle1/pose', Pose)
+    rospy.wait_for_service('reset')
+    rospy.ServiceProxy('reset', Empty)()
+    square = Square()
+    poses: 'queue.Queue[Pose]' = queue.Queue()
+    rospy.Subscriber('turtle1/pose', Pose, poses.put, queue_size=1, tcp_nodelay=True)
+    while not rospy.is_shutdown():
+        try:
+            pose = poses.get(timeout=0.5)
+        except queue.Empty:
+            continue
+        speed, turn_rate = square.command(pose.x, pose.y, pose.theta)
+        publisher.publish(Twist(Vector3(speed, 0.0, 0.0), Vector3(0.0, 0.0, turn_rate)))

@@ -1,0 +1,83 @@
+"""What one turtle is told and asked: its command topic and its services, below its name."""
+
+from typing import Any, Callable, List
+
+import rospy
+from geometry_msgs.msg import Twist
+
+from turtlesim.model.canvas import Pen
+from turtlesim.model.errors import TurtlesimError
+from turtlesim.model.field import Field
+from turtlesim.model.turtles import check_numbers
+from turtlesim.ros.requests import Requests
+from turtlesim.srv import (SetPen, SetPenResponse, TeleportAbsolute, TeleportAbsoluteResponse, TeleportRelative,
+                           TeleportRelativeResponse)
+
+COMPLAINT_PERIOD = 1.0  # [s]
+
+
+class Ears:
+    """The topic that a turtle obeys, and its services."""
+
+    def __init__(self, name: str, field: Field, requests: Requests,
+                 command: Callable[[str, List[float]], None]) -> None:
+        """Open them.
+
+        Args:
+            name: of the turtle.
+            field: where it is; touched by `requests` only.
+            requests: the way to the loop that owns the field.
+            command: takes the turtle's name and a velocity: forward, to the left [m/s], counter-clockwise [rad/s].
+        """
+        self._name = name
+        self._field = field
+        self._requests = requests
+        self._command = command
+        self._subscriber = rospy.Subscriber(f'{name}/cmd_vel', Twist, self._on_command, queue_size=1, tcp_nodelay=True)
+        self._services = [
+            rospy.Service(f'{name}/set_pen', SetPen, self._on_pen),
+            rospy.Service(f'{name}/teleport_absolute', TeleportAbsolute, self._on_absolute),
+            rospy.Service(f'{name}/teleport_relative', TeleportRelative, self._on_relative)]
+
+    def close(self) -> None:
+        """Close them."""
+        for service in self._services:
+            service.shutdown('the turtle is gone')
+        self._subscriber.unregister()
+
+    def _on_command(self, twist: Twist) -> None:
+        velocity = [twist.linear.x, twist.linear.y, twist.angular.z]
+        try:
+            check_numbers(f'{self._name}/cmd_vel', **dict(zip(('linear.x', 'linear.y', 'angular.z'), velocity)))
+        except TurtlesimError as error:
+            rospy.logerr_throttle(COMPLAINT_PERIOD, f'{error}; ignored')
+        else:
+            self._command(self._name, velocity)
+
+    def _on_pen(self, request: Any) -> SetPenResponse:
+        pen = Pen((request.r, request.g, request.b), max(1, request.width), not request.off)
+        answered(self._requests.call, lambda: self._field.set_pen(self._name, pen))
+        return SetPenResponse()
+
+    def _on_absolute(self, request: Any) -> TeleportAbsoluteResponse:
+        answered(self._requests.call,
+                 lambda: self._field.teleport(self._name, request.x, request.y, request.theta))
+        return TeleportAbsoluteResponse()
+
+    def _on_relative(self, request: Any) -> TeleportRelativeResponse:
+        answered(self._requests.call,
+                 lambda: self._field.teleport_relative(self._name, request.linear, request.angular))
+        return TeleportRelativeResponse()
+
+
+def answered(function: Callable[..., Any], *arguments: Any) -> Any:
+    """What a function returns, for the answer of a service.
+
+    Raises:
+        rospy.ServiceException: what went wrong, which the log tells too; the caller sees its call fail.
+    """
+    try:
+        return function(*arguments)
+    except TurtlesimError as error:
+        rospy.logerr(str(error))
+        raise rospy.ServiceException(str(error)) from error

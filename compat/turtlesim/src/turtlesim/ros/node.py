@@ -1,0 +1,118 @@
+"""What every node does alike: help, parameters, one clear line and exit code 2 for bad input, a quiet end."""
+
+import inspect
+import re
+import signal
+import sys
+import threading
+from typing import Any, Callable, Dict, List, NamedTuple
+
+import rospy
+
+from turtlesim.model.errors import TurtlesimError
+
+BAD_INPUT = 2
+
+
+class Parameter(NamedTuple):
+    """A private parameter: its default, whether a value is good, which are, and what it is for."""
+
+    default: Any
+    is_good: Callable[[Any], bool]
+    range: str
+    meaning: str
+
+
+Parameters = Dict[str, Parameter]
+
+
+def number(default: float, low: float, high: float, meaning: str) -> Parameter:
+    """A parameter that is a number in a range, both ends allowed."""
+    return Parameter(default, lambda value: type(value) in (int, float) and low <= value <= high,
+                     f'{low:g} to {high:g}', meaning)
+
+
+def read(parameters: Parameters, *names: str) -> List[Any]:
+    """What the parameter server says now.
+
+    Raises:
+        TurtlesimError: a value is of the wrong type or out of range.
+    """
+    values = []
+    for name in names:
+        value = rospy.get_param(f'~{name}', parameters[name].default)
+        if not parameters[name].is_good(value):
+            raise TurtlesimError(f'parameter {rospy.resolve_name(f"~{name}")} is {value!r}: '
+                                 f'must be {parameters[name].range}')
+        values.append(value)
+    return values
+
+
+def run(name: str, parameters: Parameters, main: Callable[[], None], own_clock: bool = False) -> None:
+    """Run a node until ROS shuts down; leaves the process with exit code 2 where its input is bad.
+
+    Args:
+        name: the node's name, unless remapped.
+        parameters: the private parameters, by name.
+        main: the node itself, called once the node is registered; its module's docstring is the node's help.
+        own_clock: the node does not listen to /clock.
+    """
+    arguments = rospy.myargv()[1:]
+    if '-h' in arguments or '--help' in arguments:
+        print(inspect.getdoc(inspect.getmodule(main)), *map(_describe, parameters.items()), sep='\n')
+        return
+    try:
+        _check_command_line(arguments, parameters)
+        rospy.init_node(name, disable_rostime=own_clock)
+        for ending in (signal.SIGINT, signal.SIGTERM):
+            signal.signal(ending, _shut_down)
+        try:
+            read(parameters, *parameters)
+            main()
+        except TurtlesimError:
+            _take_parameters_back()
+            raise
+    except TurtlesimError as error:
+        print(f'{name}: {error}', file=sys.stderr)
+        sys.exit(BAD_INPUT)
+    except rospy.ROSInterruptException:
+        pass
+    except Exception:
+        if not rospy.core.is_shutdown_requested():  # else a topic was closed while the main thread was publishing
+            raise
+
+
+def _describe(item: Any) -> str:
+    name, parameter = item
+    return f'  {name:<13} {parameter.meaning}: {parameter.range}; default {parameter.default}'
+
+
+def _shut_down(ending: int, _: Any) -> None:
+    """End ROS in a thread: rospy's own handler runs amid whatever the main thread does, and waits for ever for a lock
+    that the main thread holds, as when it was publishing."""
+    threading.Thread(target=rospy.signal_shutdown, args=[f'signal {ending}']).start()
+
+
+def _check_command_line(arguments: List[str], parameters: Parameters) -> None:
+    known = f'known are {", ".join(f"_{name}:=" for name in parameters) or "none"}'
+    if arguments:
+        raise TurtlesimError(f'unknown argument {arguments[0]!r}: {known}; --help tells more')
+    for name in rospy.names.load_mappings(sys.argv):
+        if name in parameters:
+            raise TurtlesimError(f'{name}:= remaps a topic: for the parameter write _{name}:=')
+    for name in _assigned():
+        if name not in parameters:
+            raise TurtlesimError(f'unknown parameter _{name}: {known}')
+
+
+def _assigned() -> List[str]:
+    """Names of the private parameters on the command line."""
+    found = (re.match(r'_([^_].*?):=', argument) for argument in sys.argv)
+    return [assignment.group(1) for assignment in found if assignment]
+
+
+def _take_parameters_back() -> None:
+    """The parameter server outlives a node: what a refused command line put there must not spoil the next start."""
+    for name in _assigned():
+        if rospy.has_param(f'~{name}'):
+            rospy.delete_param(f'~{name}')

@@ -1,0 +1,87 @@
+"""turtle_teleop_key: drives turtle1 by the arrow keys of the terminal that it runs in; q leaves.
+
+A turtle does what a key says for a second, unless another key comes: who holds a key drives on.
+
+Publishes:
+  turtle1/cmd_vel    geometry_msgs/Twist, one for each key
+
+Parameters, as in `rosrun turtlesim turtle_teleop_key _scale_linear:=1`:
+"""
+
+import contextlib
+import os
+import re
+import select
+import sys
+import termios
+import tty
+from typing import Iterator, List
+
+import rospy
+from geometry_msgs.msg import Twist, Vector3
+
+from turtlesim.model.errors import TurtlesimError
+from turtlesim.ros import node
+
+HELP = """\
+Arrow keys move {topic}: up and down forward and backward, left and right turn.
+q leaves."""
+PARAMETERS: node.Parameters = {
+    'scale_linear': node.number(2.0, 0.0, 1000.0, 'speed of a key [m/s]'),
+    'scale_angular': node.number(2.0, 0.0, 1000.0, 'turn rate of a key [rad/s]'),
+}
+# What a terminal sends for an arrow key ends so, in either of its modes; shares of the speed and of the turn rate.
+MOVES = {'A': (1.0, 0.0), 'B': (-1.0, 0.0), 'C': (0.0, -1.0), 'D': (0.0, 1.0)}
+KEY = re.compile(r'\x1b[[O][A-D]|.', re.DOTALL)
+QUIT = ('q', 'Q', '\x04')  # the last: Ctrl-D, also where the terminal is gone
+POLL = 0.1  # [s] between looks whether ROS has shut down
+
+
+def main() -> None:
+    """Run the node."""
+    node.run('teleop_turtle', PARAMETERS, drive)
+
+
+def drive() -> None:
+    """Drive as keys say until q, or until ROS shuts down.
+
+    Raises:
+        TurtlesimError: standard input is no terminal.
+    """
+    if not sys.stdin.isatty():
+        raise TurtlesimError('needs a terminal for its input: start it with rosrun')
+    speed, turn_rate = node.read(PARAMETERS, 'scale_linear', 'scale_angular')
+    publisher = rospy.Publisher('turtle1/cmd_vel', Twist, queue_size=10)
+    print(HELP.format(topic=publisher.resolved_name), flush=True)
+    with single_keys():
+        while not rospy.is_shutdown():
+            for key in next_keys():
+                if key in QUIT:
+                    return
+                if len(key) > 1:
+                    forward, turn = MOVES[key[-1]]
+                    publisher.publish(Twist(Vector3(forward * speed, 0.0, 0.0), Vector3(0.0, 0.0, turn * turn_rate)))
+
+
+@contextlib.contextmanager
+def single_keys() -> Iterator[None]:
+    """Have the terminal give every key at once and show none; it is left as it was found."""
+    found = termios.tcgetattr(sys.stdin)
+    tty.setcbreak(sys.stdin)
+    try:
+        yield
+    finally:
+        with contextlib.suppress(termios.error):  # the terminal is gone
+            # Keys that were not read yet were meant for the turtle: the shell must not get them.
+            termios.tcsetattr(sys.stdin, termios.TCSAFLUSH, found)
+
+
+def next_keys() -> List[str]:
+    """The keys typed since the last call; waits a moment where there are none."""
+    if not select.select([sys.stdin], [], [], POLL)[0]:
+        return []
+    try:
+        text = os.read(sys.stdin.fileno(), 1000).decode('latin-1')
+    except OSError:
+        text = ''
+    return KEY.findall(text or '\x04')

@@ -1,0 +1,225 @@
+"""turtlesim_node: turtles that draw on a field of 500 x 500 pixels, 11.09 x 11.09 m, with or without a window.
+
+For each turtle, below its name (turtle1, turtle2, ...), it publishes every 16 ms
+  pose               turtlesim/Pose           color_sensor       turtlesim/Color
+subscribes to
+  cmd_vel            geometry_msgs/Twist: linear.x, linear.y [m/s], angular.z [rad/s], held for 1 s
+and serves
+  set_pen            turtlesim/SetPen         teleport_absolute  turtlesim/TeleportAbsolute
+                                              teleport_relative  turtlesim/TeleportRelative
+It serves clear, reset (std_srvs/Empty), spawn (turtlesim/Spawn), kill (turtlesim/Kill), and below its own name
+save_png (std_srvs/Trigger), which writes a picture of the field. At a speed other than 1 it publishes /clock.
+
+Parameters, as in `rosrun turtlesim turtlesim_node _gui:=false _speed:=10`:
+"""
+
+import os
+import queue
+import sys
+import threading
+import time
+from typing import Any, Dict, List, Optional, Tuple
+
+import rospy
+from std_srvs.srv import Empty, EmptyResponse, Trigger, TriggerResponse
+
+from turtlesim import window
+from turtlesim.model.canvas import Colour
+from turtlesim.model.errors import TurtlesimError
+from turtlesim.model.field import Field
+from turtlesim.ros import node
+from turtlesim.ros.audience import Audience, Voice
+from turtlesim.ros.ears import COMPLAINT_PERIOD, Ears, answered
+from turtlesim.ros.pace import Pace, wake_on_time
+from turtlesim.ros.requests import Requests
+from turtlesim.srv import Kill, KillResponse, Spawn, SpawnResponse
+
+BACKGROUND = ('background_r', 'background_g', 'background_b')
+PARAMETERS: node.Parameters = {
+    **{name: node.Parameter(default, lambda value: type(value) is int and 0 <= value <= 255, '0 to 255',
+                            'colour of the field; clear and reset read it again')
+       for name, default in zip(BACKGROUND, (69, 86, 255))},
+    'speed': node.number(1.0, 0.0, 1e6, 'times real time, 0 as fast as possible; other than 1 time is simulated'),
+    'gui': node.Parameter('auto', lambda value: value in (True, False, 'auto'), 'true, false or auto',
+                          'whether to open a window; auto: where there is a display'),
+    'png_path': node.Parameter('turtlesim.png', lambda value: type(value) is str and value != '', 'a path',
+                               'the file that save_png writes; it reads this again'),
+}
+FRAME_PERIOD = 1.0 / 30.0  # [s] between pictures in the window
+
+
+def main() -> None:
+    """Run the node."""
+    window.take_platform(sys.argv)
+    node.run('turtlesim', PARAMETERS, lambda: Turtlesim().run(), own_clock=True)
+
+
+class Turtlesim:
+    """The field, the loop that owns it, and the turtles' voices and ears."""
+
+    def __init__(self) -> None:
+        """Open all topics and services.
+
+        Raises:
+            TurtlesimError: a parameter is bad, there can be no window, or somebody else tells the time.
+        """
+        gui, speed = node.read(PARAMETERS, 'gui', 'speed')
+        background = read_background()
+        for name, value in zip(BACKGROUND, background):
+            rospy.set_param(f'~{name}', value)
+        self._window = open_window(gui)
+        self._shown = -1  # of the field's changes
+        self._window_due = time.monotonic()
+        self._pace = Pace(speed)
+        self._requests = Requests()
+        self._commands: 'queue.SimpleQueue[Tuple[str, List[float]]]' = queue.SimpleQueue()
+        self._complained: Dict[str, float] = {}  # by turtle: when the log last said that it hit a wall
+        self._field = Field(background)
+        self._changing = threading.Lock()  # held while turtles come and go
+        self._ears: Dict[str, Ears] = {}
+        self._voices: Dict[str, Voice] = {}
+        self._audience = Audience(self._field, self._voices)
+        self._open('turtle1')
+        for service, kind, handler in (('clear', Empty, self._on_clear), ('reset', Empty, self._on_reset),
+                                       ('spawn', Spawn, self._on_spawn), ('kill', Kill, self._on_kill),
+                                       ('~save_png', Trigger, self._on_save_png)):
+            rospy.Service(service, kind, handler)
+
+    # --- the loop -------------------------------------------------------------------------------------------------
+
+    def run(self) -> None:
+        """Let time pass until ROS shuts down."""
+        wake_on_time()
+        while not rospy.is_shutdown():
+            self._obey()
+            self._field.move()
+            self._pace.step()
+            self._audience.tell()
+            self._field.draw()
+            self._complain()
+            if self._window is not None:
+                self._show(self._window)
+            self._requests.serve(self._pace.next_step())
+
+    def _obey(self) -> None:
+        while not self._commands.empty():
+            name, velocity = self._commands.get()
+            if name in self._field:
+                self._field.command(name, velocity)
+
+    def _complain(self) -> None:
+        """Tell once a second of every turtle that pushes against a wall."""
+        if not self._field.hits:
+            return
+        now = time.monotonic()
+        for name, x, y in self._field.hits:
+            if now >= self._complained.get(name, now):
+                rospy.logwarn(f'Oh no! I hit the wall! (Clamping from [x={x:f}, y={y:f}])')
+                self._complained[name] = now + COMPLAINT_PERIOD
+        self._field.hits.clear()
+
+    def _show(self, shown: window.Window) -> None:
+        now = time.monotonic()
+        if now < self._window_due:
+            return
+        self._window_due = now + FRAME_PERIOD
+        if self._shown != self._field.changes:
+            self._shown = self._field.changes
+            shown.show(self._field.picture())
+        shown.poll()
+        if not shown.is_open:
+            rospy.signal_shutdown('the window was closed')
+
+    # --- turtles come and go, in the threads of the services ------------------------------------------------------
+
+    def _open(self, name: str) -> None:
+        self._voices[name] = Voice(name, self._audience.changed)
+        self._ears[name] = Ears(name, self._field, self._requests, lambda *command: self._commands.put(command))
+        self._audience.changed()
+        x, y, theta = self._requests.call(lambda: self._field.pose(name))
+        rospy.loginfo(f'Spawning turtle [{name}] at x=[{x:f}], y=[{y:f}], theta=[{theta:f}]')
+
+    def _close(self, name: str) -> None:
+        self._voices.pop(name).close()
+        self._ears.pop(name).close()
+
+    def _on_spawn(self, request: Any) -> SpawnResponse:
+        with self._changing:
+            name = answered(self._requests.call,
+                            lambda: self._field.spawn(request.name, request.x, request.y, request.theta))
+            self._open(name)
+        return SpawnResponse(name)
+
+    def _on_kill(self, request: Any) -> KillResponse:
+        def kill() -> None:
+            self._field.kill(request.name)
+            self._audience.changed()
+
+        with self._changing:
+            answered(self._requests.call, kill)
+            self._close(request.name)
+        return KillResponse()
+
+    def _on_reset(self, _: Any) -> EmptyResponse:
+        """Begin anew; turtle1, if it is there, keeps its topics and whoever listens to them."""
+        def reset() -> None:
+            self._field.reset(background)
+            self._audience.changed()
+
+        with self._changing:
+            background = answered(read_background)
+            rospy.loginfo('Resetting turtlesim.')
+            self._requests.call(reset)
+            for name in set(self._voices) - {'turtle1'}:
+                self._close(name)
+            if 'turtle1' not in self._voices:
+                self._open('turtle1')
+        return EmptyResponse()
+
+    # --- the drawing ----------------------------------------------------------------------------------------------
+
+    def _on_clear(self, _: Any) -> EmptyResponse:
+        background = answered(read_background)
+        rospy.loginfo('Clearing turtlesim.')
+        self._requests.call(lambda: self._field.clear(background))
+        return EmptyResponse()
+
+    def _on_save_png(self, _: Any) -> TriggerResponse:
+        picture = self._requests.call(self._field.picture)
+        try:
+            [path] = node.read(PARAMETERS, 'png_path')
+            path = os.path.abspath(os.path.expanduser(path))
+            picture.save(path, 'PNG')
+        except (OSError, TurtlesimError) as error:
+            return TriggerResponse(False, str(error))
+        return TriggerResponse(True, f'saved {path}')
+
+
+def read_background() -> Colour:
+    """The colour that the parameters say now.
+
+    Raises:
+        TurtlesimError: one of them is bad.
+    """
+    red, green, blue = node.read(PARAMETERS, *BACKGROUND)
+    return red, green, blue
+
+
+def open_window(gui: Any) -> Optional[window.Window]:
+    """A window, where one is wanted.
+
+    Args:
+        gui: True, False or 'auto'.
+
+    Raises:
+        TurtlesimError: one is wanted in any case, and there can be none.
+    """
+    if gui is False or gui == 'auto' and window.is_unseen():
+        return None
+    why_none = window.why_none()
+    if not why_none:
+        return window.Window(f'TurtleSim {rospy.get_name()}')
+    if gui is True:
+        raise TurtlesimError(f'gui is true, but {why_none}')
+    rospy.loginfo(f'no window: {why_none}')
+    return None
