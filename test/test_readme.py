@@ -25,7 +25,8 @@ COMMANDS = {
     # At a speed other than 1, so that /clock is there too.
     'simulator': 'rosrun rumba_sim simulator _speed:=2 _map:=studio',
     # Asked for all of its conditions, the first of which nobody meets.
-    'mission_test': 'rosrun rumba_sim mission_test _coverage:=1 _reach:="9 9" _docked:=true _collisions:=0 _battery:=1',
+    'mission_test': 'rosrun rumba_sim mission_test _coverage:=1 _reach:="9 9" _docked:=true _collisions:=0 _battery:=1 '
+                    '_time_limit:=100000',
     # teleop_key wants a terminal.
     'teleop_key': 'script -qec "rosrun rumba_sim teleop_key __ns:=/readme" /dev/null',
 }

@@ -57,18 +57,45 @@ def advance(robots: Array, constants: Array, field: Array, cells: Array, dirt: A
             drive(robot, k, now)
             from_x, from_y, from_theta = robot.x, robot.y, robot.theta
             toward_x, toward_y = move(robots, me, k, field, now)
-            traction = k.floor_traction
-            if k.has_layers:
-                traction = stand(robot, k, cells)
-            count(robot, k, traction, noise[me, now % noise.shape[1]])
-            touch(robots, me, k, field, now, toward_x, toward_y)
-            if not robot.brushes_up and robot.charge > 0.0:
-                robot.brush_time += k.dt
-                sweep(robot, k, cells, dirt, tally, from_x, from_y, from_theta)
-            if k.has_dock:
-                robot.docked = at_contacts(robot, k)
-            robot.current = battery_current(robot.charge, k, load(robot, k), robot.docked)
-            robot.charge = charge_after(robot.charge, k, robot.current, k.dt)
+            live(robots, me, k, field, cells, dirt, tally, noise, now, from_x, from_y, from_theta, toward_x, toward_y)
+
+
+def follow(robots: Array, constants: Array, field: Array, cells: Array, dirt: Array, tallies: Array, noise: Array,
+           tick: int, x: float, y: float, theta: float, is_driven: bool) -> None:
+    """Let one tick pass in which something else brings the only robot to a pose: its wheels turn as they must.
+
+    A robot that was not driven was carried: neither wheels nor brush notice.
+    """
+    robot, k = robots[0], constants[0]
+    from_x, from_y, from_theta = robot.x, robot.y, robot.theta
+    if not is_driven:
+        from_x, from_y, from_theta = x, y, theta
+    turn = wrap(theta - from_theta)
+    along = from_theta + 0.5 * turn
+    way = (x - from_x) * math.cos(along) + (y - from_y) * math.sin(along)
+    robot.left_speed = (way - 0.5 * turn * k.wheel_base) / k.dt
+    robot.right_speed = (way + 0.5 * turn * k.wheel_base) / k.dt
+    robot.x, robot.y, robot.theta = x, y, theta
+    robot.distance += abs(way)
+    live(robots, 0, k, field, cells, dirt, tallies[0], noise, tick, from_x, from_y, from_theta, 0.0, 0.0)
+
+
+def live(robots: Array, me: int, k: Record, field: Array, cells: Array, dirt: Array, tally: Record, noise: Array,
+         now: int, from_x: float, from_y: float, from_theta: float, toward_x: float, toward_y: float) -> None:
+    """All that a tick brings a robot once it has moved; what was in the way lies `toward` (as `move` returns it)."""
+    robot = robots[me]
+    traction = k.floor_traction
+    if k.has_layers:
+        traction = stand(robot, k, cells)
+    count(robot, k, traction, noise[me, now % noise.shape[1]])
+    touch(robots, me, k, field, now, toward_x, toward_y)
+    if not robot.brushes_up and robot.charge > 0.0:
+        robot.brush_time += k.dt
+        sweep(robot, k, cells, dirt, tally, from_x, from_y, from_theta)
+    if k.has_dock:
+        robot.docked = at_contacts(robot, k)
+    robot.current = battery_current(robot.charge, k, load(robot, k), robot.docked)
+    robot.charge = charge_after(robot.charge, k, robot.current, k.dt)
 
 
 # --- geometry -----------------------------------------------------------------------------------------------------
@@ -149,6 +176,15 @@ def move(robots: Array, me: int, k: Record, field: Array, now: int) -> Tuple[flo
     robot.distance += math.hypot(x - robot.x, y - robot.y)
     robot.x, robot.y = x, y
     return to_x - x, to_y - y
+
+
+def halted(robot: Record, k: Record, field: Array, v: float) -> float:
+    """As much of a speed, forward, as does not lead a robot into a wall within a tick."""
+    gap, along_x, along_y = clearance(k, field, robot.x, robot.y)
+    nearer = -v * k.dt * (along_x * math.cos(robot.theta) + along_y * math.sin(robot.theta))
+    if nearer <= 0.0 or gap - nearer >= k.reach:
+        return v
+    return v * max(gap - k.reach, 0.0) / nearer
 
 
 def settle(robots: Array, me: int, k: Record, field: Array, now: int, x: float, y: float) -> Tuple[float, float]:

@@ -35,7 +35,7 @@ class World:
         tick: how many ticks have passed since the beginning or the last reset.
     """
 
-    def __init__(self, plan: FloorPlan, config: Optional[RobotConfig] = None, step_rate: int = 50,
+    def __init__(self, plan: FloorPlan, config: Optional[RobotConfig] = None, step_rate: float = 50,
                  seed: int = 0) -> None:
         """A world without robots.
 
@@ -84,15 +84,19 @@ class World:
     def step(self, ticks: int = 1) -> None:
         """Let so many ticks pass."""
         while ticks > 0:
-            place = self.tick % NOISE_TICKS
-            if place == 0:
-                for row, generator in zip(self._noise, self._wheels):
-                    generator.standard_normal(out=row)
-            now = min(ticks, NOISE_TICKS - place)
+            now = min(ticks, self._draw_noise())
             fast.advance(self._states, self._constants, self.plan.clearance, self.floor.cells, self.floor.dirt,
                          self.floor.tally, self._noise, self.tick, now)
             self.tick += now
             ticks -= now
+
+    def _draw_noise(self) -> int:
+        """Have noise of the wheels ready for the next ticks; returns for how many."""
+        place = self.tick % NOISE_TICKS
+        if place == 0:
+            for row, generator in zip(self._noise, self._wheels):
+                generator.standard_normal(out=row)
+        return NOISE_TICKS - place
 
     def reset(self) -> None:
         """Begin again as at first: dirty floor, tick 0, every robot as it began."""
