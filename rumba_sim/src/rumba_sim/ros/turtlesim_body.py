@@ -45,7 +45,7 @@ from rumba_sim.ros.turtle import Pen, Turtle
 
 RATES = Rates(scan=0)
 FRAME_NS = round(1e9 / FRAME_RATE)
-ASTRAY = 1_000_000_000  # [ns] by which counted time may be off /clock
+ASTRAY = 10_000_000_000  # [ns] by which counted time may be behind /clock
 PERIOD = 0.1  # [s] of the wall clock
 LANDING = 10  # frames after a teleport in which the pen stays up: turtlesim draws when it comes to it
 
@@ -108,7 +108,7 @@ class TurtlesimBody:
         self._requests = Requests()
         self._motion = TurtleMotion()
         self._ticks = self._landed = 0
-        self._stamp = rospy.Time.now()
+        self._stamp = self._clock = rospy.Time.now()
         self._turtle = Turtle(settings.turtle, lambda pose: self._requests.post(lambda: self._on_pose(pose)))
         self._node = TurtleNode(self._world, settings.robot, self._requests, settings.localisation, self._stamp,
                                 self._teleport)
@@ -150,12 +150,13 @@ class TurtlesimBody:
 
     def _next_stamp(self) -> rospy.Time:
         """In real time that of the wall clock. In simulated time poses are counted, since /clock comes on another way,
-        and is taken where it is far off: turtlesim was started anew, or poses got lost."""
-        now = rospy.Time.now()
+        and is taken where it ran back, or is far ahead: turtlesim was started anew, or poses got lost."""
+        now, before = rospy.Time.now(), self._clock
+        self._clock = now
         if rospy.rostime.is_wallclock():
             return max(now, self._stamp)
         counted = self._stamp.to_nsec() + FRAME_NS
-        if now and abs(now.to_nsec() - counted) > ASTRAY:
+        if now < before or now.to_nsec() - counted > ASTRAY:
             return now
         return rospy.Time(*divmod(counted, 1_000_000_000))
 
