@@ -3,7 +3,7 @@
 import pytest
 from workspaces import ROOT, Workspace, clean_environment, roscore
 
-OURS = [path.parent for path in sorted(ROOT.glob('*/package.xml'))]
+OURS = [path.parent for pattern in ('*', 'compat/*') for path in sorted(ROOT.glob(f'{pattern}/package.xml'))]
 STRANGERS = sorted((ROOT / 'test' / 'packages').iterdir())
 
 

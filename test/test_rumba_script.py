@@ -143,3 +143,28 @@ def test_a_python_that_shadows_the_system_s_does_no_harm(checkout, tmp_path):
     python, sample = out.splitlines()
     assert (code, python) == (0, '/usr/bin/python3')
     assert sample.endswith('/src/sample')
+
+
+def test_a_package_of_compat_is_built_where_the_system_has_none_and_leaves_where_it_has(checkout, tmp_path):
+    build_file = 'cmake_minimum_required(VERSION 3.5)\nproject({})\nfind_package(catkin REQUIRED)\ncatkin_package()\n'
+    for name in ('lacking', 'std_srvs'):
+        (checkout / 'compat' / name).mkdir(parents=True)
+        (checkout / 'compat' / name / 'package.xml').write_text(SAMPLE['package.xml'].replace('sample', name))
+        (checkout / 'compat' / name / 'CMakeLists.txt').write_text(build_file.format(name))
+    (checkout / 'compat' / 'CATKIN_IGNORE').touch()
+
+    def found():
+        code, out, error = rumba(checkout, 'shell', 'sh', '-c', 'rospack find lacking; rospack find std_srvs',
+                                 XDG_CACHE_HOME=str(tmp_path / 'cache'))
+        assert code == 0, error
+        return out.splitlines()
+
+    lacking, srvs = found()
+    source = (checkout / '.ws').resolve() / 'src'
+    assert (lacking, srvs.endswith('/share/std_srvs')) == (str(source / 'lacking'), True)
+    # As it is when a package appears in the system that was lacking at the last build.
+    (source / 'std_srvs').symlink_to(checkout / 'compat' / 'std_srvs')
+    built = source.parent / 'devel' / 'built_of_std_srvs'
+    built.touch()
+    assert found() == [lacking, srvs]
+    assert not (source / 'std_srvs').exists() and not built.exists()

@@ -48,3 +48,13 @@ def test_the_demo_shows_live_status_and_publishes_at_the_name_of_the_lesson(work
     with here.running('roslaunch rumba_sim demo.launch percentage:=50 drain:=0') as demo:
         assert any(line.startswith('battery  50 %') for line in demo.stdout)
         assert here.run('rostopic echo -n1 /rumba/battery_status').startswith('percentage_battery: 50\n')
+
+
+def test_the_stand_in_for_turtlesim_runs(workspace, space):
+    here = workspace.space(space)
+    assert here.run('rosmsg md5 turtlesim/Pose') == '863b248d5016ca62ea2e895ae5265cf9\n'
+    with here.running(f'rosrun turtlesim turtlesim_node __ns:=/{space}'):
+        assert here.run(f'rostopic echo -n1 /{space}/turtle1/pose').startswith('x: 5.54444456')
+        here.run(f'rosservice call /{space}/spawn 2 3 0 bob')
+        with here.running(f'rosrun turtlesim mimic __ns:=/{space} input:=turtle1 output:=bob'):
+            assert here.run(f'rostopic echo -n1 /{space}/bob/cmd_vel').startswith('linear: \n  x: 0.0\n')

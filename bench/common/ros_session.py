@@ -21,9 +21,9 @@ SPEED = 'speed [times real time]'  # what the simulator calls it in /diagnostics
 
 
 @contextlib.contextmanager
-def process(command):
-    """A process that runs as long as the block; its output is thrown away."""
-    started = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True)
+def process(command, stdout=subprocess.DEVNULL):
+    """A process that runs as long as the block; its output is thrown away, unless it goes elsewhere."""
+    started = subprocess.Popen(command, stdout=stdout, stderr=subprocess.DEVNULL, start_new_session=True)
     try:
         yield started
     finally:

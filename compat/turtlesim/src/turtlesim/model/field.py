@@ -17,7 +17,7 @@ from turtlesim.model.turtles import EXTENT, METRE, PIXELS, Turtles, check_number
 if TYPE_CHECKING:  # NumPy 1.17 of Ubuntu 20.04 has no numpy.typing
     from numpy.typing import NDArray
 
-NAME = re.compile(r'/?[A-Za-z]\w*(/[A-Za-z]\w*)*', re.ASCII)
+NAME = re.compile(r'[A-Za-z]\w*(/[A-Za-z]\w*)*', re.ASCII)
 
 
 class WallHit(NamedTuple):
@@ -99,7 +99,7 @@ class Field:
         self._pens.append(Pen())
         self._turtles.add((x, y, theta))
         self._clamp()
-        self._at = self._pixels()
+        self._at = np.vstack([self._at, self._pixels()[-1:]])
         return name
 
     def kill(self, name: str) -> None:

@@ -41,7 +41,7 @@ class Turtles:
         self.poses: NDArray[np.float64] = np.zeros((0, 3))
         self.velocities: NDArray[np.float64] = np.zeros((0, 3))
         self._held_until: NDArray[np.int64] = np.zeros(0, np.int64)
-        self._all_held_until = 0
+        self._all_held_until = -1
         self._steps = 0
 
     def add(self, pose: Sequence[float]) -> None:

@@ -10,6 +10,7 @@ import rospy
 from geometry_msgs.msg import Twist, Vector3
 from std_srvs.srv import Empty
 
+from turtlesim.model.errors import TurtlesimError
 from turtlesim.model.square import Square
 from turtlesim.msg import Pose
 from turtlesim.ros import node
@@ -21,11 +22,18 @@ def main() -> None:
 
 
 def draw() -> None:
-    """Draw until ROS shuts down."""
+    """Draw until ROS shuts down.
+
+    Raises:
+        TurtlesimError: turtlesim refuses to begin anew.
+    """
     publisher = rospy.Publisher('turtle1/cmd_vel', Twist, queue_size=1)
     rospy.wait_for_message('turtle1/pose', Pose)
     rospy.wait_for_service('reset')
-    rospy.ServiceProxy('reset', Empty)()
+    try:
+        rospy.ServiceProxy('reset', Empty)()
+    except rospy.ServiceException as error:
+        raise TurtlesimError(f'reset: {error}') from error
     square = Square()
     poses: 'queue.Queue[Pose]' = queue.Queue()
     rospy.Subscriber('turtle1/pose', Pose, poses.put, queue_size=1, tcp_nodelay=True)

@@ -2,6 +2,7 @@
 
 import contextlib
 import time
+from typing import Optional
 
 import rosgraph
 import rospy
@@ -19,16 +20,21 @@ class Pace:
     """Waits for the wall clock as far as the speed asks; at a speed other than 1 time is simulated, told on /clock."""
 
     def __init__(self, speed: float) -> None:
-        """Begin now, at a speed in times real time; 0: as fast as possible.
+        """Go at a speed in times real time; 0: as fast as possible.
 
         Raises:
             TurtlesimError: somebody else tells the time.
         """
         self._speed = speed
         self._steps = 0
-        self._clock = None
+        self._due = 0.0
+        self._clock: Optional[rospy.Publisher] = None
         if speed != 1.0:
             _refuse_second_clock()
+
+    def begin(self) -> None:
+        """Let time begin."""
+        if self._speed != 1.0:
             rospy.on_shutdown(_forget_simulated_time)
             rospy.set_param('/use_sim_time', True)
             rospy.loginfo('speed is not 1: /use_sim_time is now true, for nodes that start from now on')

@@ -32,7 +32,7 @@ PARAMETERS: node.Parameters = {
 }
 # What a terminal sends for an arrow key ends so, in either of its modes; shares of the speed and of the turn rate.
 MOVES = {'A': (1.0, 0.0), 'B': (-1.0, 0.0), 'C': (0.0, -1.0), 'D': (0.0, 1.0)}
-KEY = re.compile(r'\x1b[[O][A-D]|.', re.DOTALL)
+KEY = re.compile(r'\x1b[\[O][A-D]|.', re.DOTALL)
 QUIT = ('q', 'Q', '\x04')  # the last: Ctrl-D, also where the terminal is gone
 POLL = 0.1  # [s] between looks whether ROS has shut down
 

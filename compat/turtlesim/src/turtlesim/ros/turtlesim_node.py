@@ -65,12 +65,10 @@ class Turtlesim:
         """
         gui, speed = node.read(PARAMETERS, 'gui', 'speed')
         background = read_background()
-        for name, value in zip(BACKGROUND, background):
-            rospy.set_param(f'~{name}', value)
+        self._pace = Pace(speed)
         self._window = open_window(gui)
         self._shown = -1  # of the field's changes
         self._window_due = time.monotonic()
-        self._pace = Pace(speed)
         self._requests = Requests()
         self._commands: 'queue.SimpleQueue[Tuple[str, List[float]]]' = queue.SimpleQueue()
         self._complained: Dict[str, float] = {}  # by turtle: when the log last said that it hit a wall
@@ -79,6 +77,9 @@ class Turtlesim:
         self._ears: Dict[str, Ears] = {}
         self._voices: Dict[str, Voice] = {}
         self._audience = Audience(self._field, self._voices)
+        for name, value in zip(BACKGROUND, background):
+            rospy.set_param(f'~{name}', value)
+        self._pace.begin()
         self._open('turtle1')
         for service, kind, handler in (('clear', Empty, self._on_clear), ('reset', Empty, self._on_reset),
                                        ('spawn', Spawn, self._on_spawn), ('kill', Kill, self._on_kill),

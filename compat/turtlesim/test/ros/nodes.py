@@ -1,0 +1,131 @@
+"""What the tests of the nodes share: a node as a user starts it, and what it says and is asked."""
+
+import os
+import signal
+import subprocess
+import time
+
+import rosgraph
+import rospy
+from geometry_msgs.msg import Twist, Vector3
+from PIL import Image
+from rosgraph_msgs.msg import Clock, Log
+from std_srvs.srv import Empty, Trigger
+
+import turtlesim.ros  # noqa: F401 (lets rospy of Debian 11 end cleanly)
+from turtlesim.msg import Color, Pose
+from turtlesim.srv import Kill, SetPen, Spawn, TeleportAbsolute, TeleportRelative
+
+TIMEOUT = 30.0
+ENDS_WITHIN = 5.0  # [s]: a deadlock lasts longer, a busy machine does not
+TOPICS = {'pose': Pose, 'color_sensor': Color, 'clock': Clock, 'rosout': Log, 'cmd_vel': Twist}
+SERVICES = {'clear': Empty, 'reset': Empty, 'spawn': Spawn, 'kill': Kill, 'save_png': Trigger, 'set_pen': SetPen,
+            'teleport_absolute': TeleportAbsolute, 'teleport_relative': TeleportRelative}
+
+
+def wait(test, condition, what='it'):
+    """Wait until a condition holds; returns what it returned."""
+    end = time.monotonic() + TIMEOUT
+    while True:
+        result = condition()
+        if result:
+            return result
+        test.assertLess(time.monotonic(), end, f'waited in vain for {what}')
+        time.sleep(0.005)
+
+
+def is_served(service):
+    """Whether the master knows a service."""
+    try:
+        return bool(rosgraph.Master('/test').lookupService(service))
+    except rosgraph.MasterException:
+        return False
+
+
+def without_display(**more):
+    """This process's environment without any display."""
+    kept = {name: value for name, value in os.environ.items()
+            if name not in ('DISPLAY', 'WAYLAND_DISPLAY', 'QT_QPA_PLATFORM')}
+    return {**kept, **more}
+
+
+class Node:
+    """A process that ends with its test."""
+
+    def __init__(self, test, *command, **options):
+        self._test = test
+        self.process = subprocess.Popen(command, env=options.pop('env', without_display()), **options)
+        test.addCleanup(self.end)
+
+    def end(self, number=signal.SIGINT):
+        """End it, in time and cleanly."""
+        if self.process.returncode is None:
+            begin = time.monotonic()
+            self.process.send_signal(number)
+            try:
+                self._test.assertEqual(self.process.wait(TIMEOUT), 0)
+                self._test.assertLess(time.monotonic() - begin, ENDS_WITHIN)
+            finally:
+                self.process.kill()
+                self.process.wait()
+        if self.process.stdout is not None:
+            self._test.addCleanup(self.process.stdout.close)
+
+
+class Turtlesim(Node):
+    """turtlesim_node, once it serves all that it does."""
+
+    def __init__(self, test, *arguments, **options):
+        for name in ('/turtlesim', '/use_sim_time'):
+            if rospy.has_param(name):
+                rospy.delete_param(name)
+        super().__init__(test, 'rosrun', 'turtlesim', 'turtlesim_node', *arguments, **options)
+        wait(test, lambda: self.process.poll() is not None or is_served('/turtlesim/save_png'), 'turtlesim_node')
+        test.assertIsNone(self.process.poll(), 'turtlesim_node ended')
+
+    def call(self, service, *arguments):
+        """The answer of a service."""
+        return rospy.ServiceProxy(f'/{service}', SERVICES[service.split('/')[-1]])(*arguments)
+
+    def refuses(self, pattern, service, *arguments):
+        """Call a service that must fail, and say why."""
+        with self._test.assertRaisesRegex(rospy.ServiceException, f'service cannot process request: {pattern}'):
+            self.call(service, *arguments)
+
+    def picture(self):
+        """What save_png writes."""
+        answer = self.call('turtlesim/save_png')
+        self._test.assertTrue(answer.success, answer.message)
+        self._test.assertTrue(answer.message.startswith('saved /'), answer.message)
+        return Image.open(answer.message[len('saved '):]).convert('RGB')
+
+
+class Heard:
+    """The messages of a topic, from the moment when the publisher is connected."""
+
+    def __init__(self, test, topic):
+        self._test = test
+        self._topic = topic
+        self.messages = []
+        subscriber = rospy.Subscriber(topic, TOPICS[topic.split('/')[-1]], self.messages.append)
+        test.addCleanup(subscriber.unregister)
+        wait(test, subscriber.get_num_connections, f'a publisher of {topic}')
+
+    def find(self, condition=lambda message: True):
+        """The first message for which a condition holds."""
+        return wait(self._test, lambda: next(filter(condition, self.messages[:]), None), f'a message on {self._topic}')
+
+    def fresh(self, condition=lambda message: True):
+        """The first such message that comes from now on; one may have been on its way already."""
+        self.messages.clear()
+        self.find()
+        self.messages.clear()
+        return self.find(condition)
+
+
+def commander(test, turtle='turtle1'):
+    """A function that commands a turtle which listens: forward, to the left [m/s], counter-clockwise [rad/s]."""
+    publisher = rospy.Publisher(f'/{turtle}/cmd_vel', Twist, queue_size=100)
+    test.addCleanup(publisher.unregister)
+    wait(test, publisher.get_num_connections, f'{turtle} to listen')
+    return lambda forward, left, turn: publisher.publish(Twist(Vector3(forward, left, 0.0), Vector3(0.0, 0.0, turn)))

@@ -1,0 +1,96 @@
+#!/usr/bin/env python3
+"""turtle_teleop_key, draw_square and mimic do their jobs."""
+
+import os
+import pty
+import signal
+import subprocess
+import termios
+import unittest
+
+import rospy
+import rostest
+from nodes import TIMEOUT, Heard, Node, Turtlesim, commander, wait
+
+MIDDLE = 5.544444
+
+
+class ClientsTest(unittest.TestCase):
+    """Clients, each with nodes of its own to talk to."""
+
+    def teleop(self, *arguments):
+        """turtle_teleop_key in a terminal; returns the node, the terminal's end of ours and its own, and settings."""
+        ours, theirs = pty.openpty()
+        for end in (ours, theirs):
+            self.addCleanup(os.close, end)
+        found = termios.tcgetattr(theirs)
+        node = Node(self, 'setsid', '--ctty', 'rosrun', 'turtlesim', 'turtle_teleop_key', *arguments, stdin=theirs,
+                    stdout=theirs, stderr=theirs)
+        wait(self, lambda: b'q leaves' in os.read(ours, 10000), 'its help')
+        return node, ours, theirs, found
+
+    def test_arrow_keys_drive_and_q_leaves_the_terminal_as_it_was(self):
+        node, keyboard, terminal, found = self.teleop('_scale_linear:=1.5')
+        heard = Heard(self, '/turtle1/cmd_vel')
+        wait(self, lambda: not termios.tcgetattr(terminal)[3] & termios.ECHO, 'a terminal that is silent')
+        # Until the connection stands, what is typed goes nowhere.
+        wait(self, lambda: (os.write(keyboard, b'\x1b[D'), heard.messages)[1], 'the first command')
+        os.write(keyboard, b'\x1b[A\x1b[B\x1bOBxA\x1b[C')
+        wait(self, lambda: heard.messages[-1].angular.z == -2.0, 'the last command')
+        commands = [(twist.linear.x, twist.angular.z) for twist in heard.messages]
+        self.assertEqual(set(commands[:-4]), {(0.0, 2.0)})
+        self.assertEqual(commands[-4:], [(1.5, 0.0), (-1.5, 0.0), (-1.5, 0.0), (0.0, -2.0)])
+        os.write(keyboard, b'q')
+        wait(self, lambda: node.process.poll() is not None, 'the end')
+        self.assertEqual(node.process.returncode, 0)
+        self.assertEqual(termios.tcgetattr(terminal), found)
+
+    def test_a_signal_leaves_the_terminal_as_it_was(self):
+        node, _, terminal, found = self.teleop()
+        wait(self, lambda: termios.tcgetattr(terminal) != found, 'single keys')
+        node.end(signal.SIGTERM)
+        self.assertEqual(termios.tcgetattr(terminal), found)
+
+    def test_the_keys_drive_turtle1(self):
+        Turtlesim(self)
+        pose = Heard(self, '/turtle1/pose')
+        _, keyboard, _, _ = self.teleop()
+        wait(self, lambda: (os.write(keyboard, b'\x1b[A'), pose.messages[-1].x > MIDDLE + 1.0)[1], 'a drive')
+
+    def test_without_a_terminal_or_with_a_bad_scale_one_line_and_exit_code_2(self):
+        ours, theirs = pty.openpty()
+        for stdin, argument, pattern in ((subprocess.DEVNULL, '_scale_linear:=1', 'needs a terminal for its input: '),
+                                         (theirs, '_scale_angular:=-1', '.*scale_angular is -1: must be 0 to 1000')):
+            done = subprocess.run(['rosrun', 'turtlesim', 'turtle_teleop_key', argument], stdin=stdin,
+                                  stderr=subprocess.PIPE, universal_newlines=True, timeout=TIMEOUT, check=False)
+            self.assertEqual(done.returncode, 2)
+            self.assertRegex(done.stderr, rf'\Ateleop_turtle: {pattern}[^\n]*\n\Z')
+        os.close(ours)
+        os.close(theirs)
+
+    def test_draw_square_begins_anew_and_draws_a_square_of_2_m(self):
+        node = Turtlesim(self, '_speed:=5')
+        node.call('turtle1/teleport_absolute', 1.0, 1.0, 2.0)
+        pose = Heard(self, '/turtle1/pose')
+        Node(self, 'rosrun', 'turtlesim', 'draw_square')
+        for x, y in ((0.0, 0.0), (2.0, 0.0), (2.0, 2.0), (0.0, 2.0), (0.0, 0.0)):
+            pose.messages.clear()
+            pose.find(lambda pose, x=x, y=y: abs(pose.x - MIDDLE - x) < 0.1 and abs(pose.y - MIDDLE - y) < 0.1)
+
+    def test_mimic_moves_one_turtle_as_another_in_two_fields(self):
+        Node(self, 'roslaunch', 'turtlesim', 'multisim.launch', stdout=subprocess.DEVNULL)
+        Node(self, 'rosrun', 'turtlesim', 'mimic', 'input:=turtlesim1/turtle1', 'output:=turtlesim2/turtle1')
+        first, second = Heard(self, '/turtlesim1/turtle1/pose'), Heard(self, '/turtlesim2/turtle1/pose')
+        Heard(self, '/turtlesim2/turtle1/cmd_vel').find()
+        commander(self, 'turtlesim1/turtle1')(1.0, 0.0, 0.8)
+        end = first.find(lambda pose: pose.theta > 0.7 and pose.linear_velocity == 0.0)
+        copy = second.find(lambda pose: pose.theta > 0.7 and pose.linear_velocity == 0.0)
+        # The copy begins a step or two later and ends as much later, or a step more or less.
+        self.assertAlmostEqual(copy.x, end.x, delta=0.1)
+        self.assertAlmostEqual(copy.y, end.y, delta=0.1)
+        self.assertAlmostEqual(copy.theta, end.theta, delta=0.1)
+
+
+if __name__ == '__main__':
+    rospy.init_node('test_clients', disable_rostime=True)
+    rostest.rosrun('turtlesim', 'clients', ClientsTest)

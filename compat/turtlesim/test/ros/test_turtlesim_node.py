@@ -1,0 +1,184 @@
+#!/usr/bin/env python3
+"""turtlesim_node does what turtlesim's documentation promises."""
+
+import os
+import signal
+import subprocess
+import tempfile
+import unittest
+
+import rosgraph
+import rospy
+import rostest
+from nodes import TIMEOUT, Heard, Turtlesim, commander, wait
+
+MIDDLE = 5.544444
+BACKGROUND, PEN = (69, 86, 255), (0xb3, 0xb8, 0xff)
+
+
+def rgb(message):
+    """A colour message as a triple."""
+    return message.r, message.g, message.b
+
+
+class TurtlesimNodeTest(unittest.TestCase):
+    """A node for each test, in real time, without a display."""
+
+    def test_its_topics_services_and_parameters_are_those_of_turtlesim(self):
+        Turtlesim(self)
+        publishers, subscribers, services = rosgraph.Master('/test').getSystemState()
+        topics = dict(rosgraph.Master('/test').getTopicTypes())
+
+        def of_node(pairs):
+            return {name for name, nodes in pairs if '/turtlesim' in nodes}
+
+        self.assertEqual(of_node(publishers), {'/rosout', '/turtle1/pose', '/turtle1/color_sensor'})
+        self.assertEqual(of_node(subscribers), {'/turtle1/cmd_vel'})
+        self.assertEqual((topics['/turtle1/pose'], topics['/turtle1/color_sensor']),
+                         ('turtlesim/Pose', 'turtlesim/Color'))
+        self.assertEqual(
+            {name for name in of_node(services) if '_logger' not in name},
+            {'/clear', '/reset', '/spawn', '/kill', '/turtlesim/save_png', '/turtle1/set_pen',
+             '/turtle1/teleport_absolute', '/turtle1/teleport_relative'})
+        self.assertEqual(rospy.get_param('/turtlesim'), {'background_r': 69, 'background_g': 86, 'background_b': 255})
+
+    def test_a_command_is_driven_for_a_second_while_poses_come(self):
+        Turtlesim(self)
+        pose = Heard(self, '/turtle1/pose')
+        first = pose.find()
+        self.assertAlmostEqual(first.x, MIDDLE, 5)
+        self.assertAlmostEqual(first.y, MIDDLE, 5)
+        self.assertEqual((first.theta, first.linear_velocity, first.angular_velocity), (0.0, 0.0, 0.0))
+        pose.messages.clear()
+        commander(self)(2.0, 0.0, 0.0)
+        pose.find(lambda pose: pose.linear_velocity == 2.0)
+        last = pose.find(lambda pose: pose.x > 7.0 and pose.linear_velocity == 0.0)
+        # 63 steps of 16 ms begin within a second.
+        self.assertAlmostEqual(last.x, MIDDLE + 2.0 * 63 * 0.016, 5)
+        moving = [pose for pose in pose.messages if pose.linear_velocity]
+        self.assertEqual(len(moving), 63)
+        self.assertEqual(len({pose.x for pose in moving}), 63)
+
+    def test_linear_y_goes_to_the_left_and_angular_z_turns_left(self):
+        Turtlesim(self)
+        pose, drive = Heard(self, '/turtle1/pose'), commander(self)
+        drive(0.0, 1.0, 0.0)
+        end = pose.find(lambda pose: pose.y > MIDDLE + 1.0 and pose.linear_velocity == 0.0)
+        self.assertAlmostEqual(end.x, MIDDLE, 5)
+        drive(0.0, 0.0, 1.5)
+        end = pose.find(lambda pose: pose.theta > 1.0 and pose.angular_velocity == 0.0)
+        self.assertAlmostEqual(end.theta, 1.5 * 63 * 0.016, 5)
+
+    def test_turtles_are_spawned_and_killed_and_what_cannot_be_is_an_error(self):
+        node = Turtlesim(self)
+        log = Heard(self, '/rosout')
+        self.assertEqual(node.call('spawn', 2.0, 3.0, 1.0, '').name, 'turtle2')
+        self.assertEqual(node.call('spawn', 4.0, 3.0, 1.0, 'bob').name, 'bob')
+        pose = Heard(self, '/bob/pose').find()
+        self.assertEqual((pose.x, pose.y, pose.theta), (4.0, 3.0, 1.0))
+        node.refuses(r'a turtle named \[bob\] is here already', 'spawn', 1.0, 1.0, 0.0, 'bob')
+        node.refuses(r"'a b' is no name", 'spawn', 1.0, 1.0, 0.0, 'a b')
+        node.refuses(r'spawn new: theta is nan', 'spawn', 1.0, 1.0, float('nan'), 'new')
+        node.refuses(r'there is no turtle \[bib\]: here are turtle1, turtle2, bob', 'kill', 'bib')
+        log.find(lambda line: line.level == line.ERROR and 'there is no turtle [bib]' in line.msg)
+        node.call('kill', 'bob')
+        published = {topic for topic, _ in rospy.get_published_topics()}
+        self.assertTrue({'/turtle1/pose', '/turtle2/pose'} <= published and '/bob/pose' not in published)
+        self.assertEqual(node.call('spawn', 7.0, 8.0, 0.0, 'bob').name, 'bob')
+        Heard(self, '/bob/pose').find(lambda pose: (pose.x, pose.y) == (7.0, 8.0))
+
+    def test_a_turtle_draws_and_sees_what_is_drawn(self):
+        with tempfile.TemporaryDirectory() as folder:
+            node = Turtlesim(self, f'_png_path:={folder}/field.png')
+            colour = Heard(self, '/turtle1/color_sensor')
+            self.assertEqual(rgb(colour.find()), BACKGROUND)
+            node.call('turtle1/set_pen', 200, 10, 20, 5, 0)
+            node.call('turtle1/teleport_absolute', 9.0, 2.0, 0.0)
+            self.assertEqual(rgb(colour.fresh()), (200, 10, 20))
+            node.call('turtle1/set_pen', 1, 2, 3, 5, 1)
+            node.call('turtle1/teleport_relative', 2.0, 3.0)
+            node.call('kill', 'turtle1')
+            picture = node.picture()
+        self.assertEqual(picture.size, (500, 500))
+        row = 499 - 2 * 45
+        self.assertEqual([picture.getpixel((9 * 45, row)), picture.getpixel((9 * 45, 2 * 45))],
+                         [(200, 10, 20), BACKGROUND])
+        halfway = round(45 * (9.0 + MIDDLE) / 2), round(499 - 45 * (2.0 + MIDDLE) / 2)
+        self.assertEqual(picture.getpixel(halfway), (200, 10, 20))
+        self.assertEqual(set(picture.getdata()), {BACKGROUND, (200, 10, 20)})
+
+    def test_clear_and_reset_read_the_background_again(self):
+        with tempfile.TemporaryDirectory() as folder:
+            node = Turtlesim(self, '_background_r:=1', '_background_g:=2', f'_png_path:={folder}/field.png')
+            self.assertEqual(rospy.get_param('/turtlesim/background_r'), 1)
+            node.call('spawn', 1.0, 1.0, 0.0, 'bob')
+            node.call('turtle1/teleport_absolute', 9.0, 2.0, 0.0)
+            self.assertEqual(node.picture().getpixel((0, 0)), (1, 2, 255))
+            rospy.set_param('/turtlesim/background_r', 300)
+            for service in ('clear', 'reset'):
+                node.refuses('parameter /turtlesim/background_r is 300: must be 0 to 255', service)
+            self.assertEqual(node.picture().getpixel((0, 0)), (1, 2, 255))
+            rospy.set_param('/turtlesim/background_r', 30)
+            pose = Heard(self, '/turtle1/pose')
+            node.call('clear')
+            self.assertEqual(node.picture().getpixel((0, 0)), (30, 2, 255))
+            self.assertAlmostEqual(pose.fresh().x, 9.0)
+            rospy.set_param('/turtlesim/background_b', 5)
+            node.call('reset')
+            self.assertEqual(node.picture().getpixel((0, 0)), (30, 2, 5))
+        # Who listened to turtle1 hears it still.
+        self.assertAlmostEqual(pose.fresh().x, MIDDLE, 5)
+        self.assertNotIn('/bob/pose', {topic for topic, _ in rospy.get_published_topics()})
+        node.call('kill', 'turtle1')
+        node.call('reset')
+        Heard(self, '/turtle1/pose').find()
+
+    def test_a_picture_that_cannot_be_written_is_told(self):
+        node = Turtlesim(self, '_png_path:=/no/where/field.png')
+        answer = node.call('turtlesim/save_png')
+        self.assertFalse(answer.success)
+        self.assertRegex(answer.message, r"No such file or directory: '/no/where/field\.png'")
+        with tempfile.TemporaryDirectory() as folder:
+            rospy.set_param('/turtlesim/png_path', os.path.join(folder, 'other.png'))
+            self.assertEqual(node.picture().size, (500, 500))
+
+    def test_what_no_turtle_can_do_is_refused_and_the_world_goes_on(self):
+        node = Turtlesim(self)
+        pose, log, drive = Heard(self, '/turtle1/pose'), Heard(self, '/rosout'), commander(self)
+        before = pose.fresh()
+        for command in ((float('nan'), 0.0, 0.0), (0.0, float('inf'), 0.0), (0.0, 0.0, float('-inf'))):
+            drive(*command)
+        log.find(lambda line: line.level == line.ERROR and line.msg == (
+            'turtle1/cmd_vel: linear.x is nan: must be a number from -1e+09 to 1e+09; ignored'))
+        node.refuses('teleport turtle1: y is nan: ', 'turtle1/teleport_absolute', 1.0, float('nan'), 0.0)
+        node.refuses('teleport turtle1: angular is inf: ', 'turtle1/teleport_relative', 1.0, float('inf'))
+        self.assertEqual(pose.fresh(), before)
+        drive(1.0, 0.0, 0.0)
+        pose.find(lambda pose: pose.x > MIDDLE + 0.9)
+
+    def test_a_turtle_stops_at_the_wall_and_the_log_says_so(self):
+        Turtlesim(self)
+        pose, log = Heard(self, '/turtle1/pose'), Heard(self, '/rosout')
+        commander(self)(0.0, -10.0, 0.0)
+        line = log.find(lambda line: 'hit the wall' in line.msg)
+        self.assertEqual(line.level, line.WARN)
+        self.assertRegex(line.msg, r'^Oh no! I hit the wall! \(Clamping from \[x=5\.544444, y=-0\.\d{6}\]\)$')
+        end = pose.find(lambda pose: pose.y == 0.0 and pose.linear_velocity == 0.0)
+        self.assertAlmostEqual(end.x, MIDDLE, 5)
+        # 29 steps press against the wall; the log is told once a second.
+        self.assertLessEqual(len([line for line in log.messages if 'hit the wall' in line.msg]), 2)
+
+    def test_whatever_ends_it_the_end_is_clean(self):
+        for number in (signal.SIGINT, signal.SIGTERM):
+            node = Turtlesim(self)
+            pose = Heard(self, '/turtle1/pose')
+            pose.find()
+            node.end(number)
+        node = Turtlesim(self)
+        subprocess.run(['rosnode', 'kill', '/turtlesim'], stdout=subprocess.DEVNULL, check=True, timeout=TIMEOUT)
+        wait(self, lambda: node.process.poll() == 0, 'the end')
+
+
+if __name__ == '__main__':
+    rospy.init_node('test_turtlesim_node')
+    rostest.rosrun('turtlesim', 'turtlesim_node', TurtlesimNodeTest)

@@ -1,0 +1,102 @@
+#!/usr/bin/env python3
+"""How turtlesim_node begins: with or without a window, at any speed, or not at all."""
+
+import subprocess
+import time
+import unittest
+
+import rospy
+import rostest
+from nodes import TIMEOUT, Heard, Turtlesim, commander, wait, without_display
+
+MIDDLE = 5.544444
+STEP = 16_000_000  # [ns]
+
+
+class TurtlesimStartTest(unittest.TestCase):
+    """A node for each test."""
+
+    def assert_refused(self, pattern, *arguments):
+        """What a user sees, of a node that is started and refuses."""
+        done = subprocess.run(['rosrun', 'turtlesim', 'turtlesim_node', *arguments], stdout=subprocess.PIPE,
+                              stderr=subprocess.PIPE, universal_newlines=True, timeout=TIMEOUT, check=False,
+                              env=without_display())
+        self.assertEqual((done.returncode, done.stdout), (2, ''), done.stderr)
+        self.assertRegex(done.stderr, rf'\Aturtlesim: {pattern}[^\n]*\n\Z')
+
+    def test_bad_input_gets_one_line_and_exit_code_2_and_is_forgotten(self):
+        if rospy.has_param('/turtlesim'):
+            rospy.delete_param('/turtlesim')
+        for pattern, *arguments in (
+                ('parameter /turtlesim/background_r is 300: must be 0 to 255', '_background_r:=300'),
+                ('parameter /turtlesim/speed is -1: must be 0 to 1e', '_speed:=-1'),
+                ("parameter /turtlesim/gui is 'perhaps': must be true, false or auto", '_gui:=perhaps'),
+                ('gui is true, but there is no display', '_gui:=true'),
+                ('unknown parameter _spede: known are _background_r:=, ', '_spede:=2'),
+                ("unknown argument 'fast': known are ", 'fast'),
+                ('speed:= remaps a topic: for the parameter write _speed:=', 'speed:=2')):
+            with self.subTest(arguments):
+                self.assert_refused(pattern, *arguments)
+                self.assertFalse(rospy.get_param('/turtlesim', {}))
+        self.assertFalse(rospy.has_param('/use_sim_time'))
+
+    def test_help_names_every_parameter(self):
+        done = subprocess.run(['rosrun', 'turtlesim', 'turtlesim_node', '--help'], stdout=subprocess.PIPE, check=True,
+                              universal_newlines=True, timeout=TIMEOUT)
+        for name in ('background_r', 'background_g', 'background_b', 'speed', 'gui', 'png_path'):
+            self.assertRegex(done.stdout, rf'\n  {name} +\w')
+
+    def test_without_a_display_one_line_says_so_and_all_works(self):
+        node = Turtlesim(self, stdout=subprocess.PIPE, universal_newlines=True)
+        Heard(self, '/turtle1/pose').find()
+        node.end()
+        self.assertRegex(node.process.stdout.read(), r'\A\[INFO\] \S+: no window: there is no display\n')
+
+    def test_with_qt_s_offscreen_platform_a_window_can_be_had(self):
+        node = Turtlesim(self, '_gui:=true', '-platform', 'offscreen', stdout=subprocess.PIPE, universal_newlines=True)
+        pose = Heard(self, '/turtle1/pose')
+        commander(self)(1.0, 0.0, 0.0)
+        pose.find(lambda pose: pose.x > MIDDLE + 0.9)
+        node.end()
+        self.assertNotIn('no window', node.process.stdout.read())
+
+    def test_faster_than_real_time_the_clock_tells_every_step_and_commands_last_a_second_of_it(self):
+        node = Turtlesim(self, '_speed:=10')
+        self.assertTrue(rospy.get_param('/use_sim_time'))
+        clock, pose = Heard(self, '/clock'), Heard(self, '/turtle1/pose')
+        begin, first = time.monotonic(), clock.fresh().clock.to_nsec()
+        last = clock.find(lambda message: message.clock.to_nsec() >= first + 10_000_000_000)
+        took = time.monotonic() - begin
+        # The clock was on its way for a moment, and a busy machine may be late by much.
+        self.assertGreater(took, 0.8)
+        self.assertLess(took, 8.0)
+        times = [message.clock.to_nsec() for message in clock.messages]
+        times = times[:times.index(last.clock.to_nsec()) + 1]
+        self.assertEqual({later - earlier for earlier, later in zip(times, times[1:])}, {STEP})
+        commander(self)(2.0, 0.0, 0.0)
+        end = pose.find(lambda pose: pose.x > 7.0 and pose.linear_velocity == 0.0)
+        self.assertAlmostEqual(end.x, MIDDLE + 2.0 * 63 * 0.016, 5)
+        node.end()
+        self.assertFalse(rospy.has_param('/use_sim_time'))
+
+    def test_as_fast_as_possible_services_are_answered(self):
+        node = Turtlesim(self, '_speed:=0')
+        clock = Heard(self, '/clock')
+        clock.find(lambda message: message.clock.to_sec() > 60.0)
+        node.call('turtle1/teleport_absolute', 2.0, 3.0, 1.0)
+        pose = Heard(self, '/turtle1/pose').find()
+        self.assertEqual((pose.x, pose.y, pose.theta), (2.0, 3.0, 1.0))
+
+    def test_two_that_would_tell_the_time_are_one_too_many(self):
+        Turtlesim(self, '_speed:=2')
+        self.assert_refused('speed is not 1, but /turtlesim tells the time on /clock already',
+                            '__ns:=/other', '_speed:=3')
+        self.assertTrue(rospy.get_param('/use_sim_time'))
+        clock = Heard(self, '/clock')
+        first = clock.fresh().clock
+        wait(self, lambda: (clock.messages[-1].clock - first).to_sec() > 1.0, 'time')
+
+
+if __name__ == '__main__':
+    rospy.init_node('test_turtlesim_start', disable_rostime=True)
+    rostest.rosrun('turtlesim', 'turtlesim_start', TurtlesimStartTest)
