@@ -7,7 +7,6 @@ from rooms import room
 
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.guided_world import GuidedWorld
-from rumba_sim.model.robot import Start
 from rumba_sim.model.robot_config import OdometryConfig, RobotConfig
 from rumba_sim.model.world import World
 
@@ -18,8 +17,8 @@ BEGIN = Pose(1.0, 1.5, 0.0)
 
 def guided(state_of_charge=1.0, brushes_up=False, plan=None, config=EXACT):
     """A robot in a room of 8 x 3 m."""
-    return GuidedWorld(plan or room(8.0, 3.0, start=BEGIN), 'rumba', Start(BEGIN, state_of_charge, brushes_up), config,
-                       RATE)
+    return GuidedWorld(plan or room(8.0, 3.0, start=BEGIN), config, RATE, state_of_charge=state_of_charge,
+                       brushes_up=brushes_up)
 
 
 def drive(world, way, seconds):
@@ -47,7 +46,7 @@ def test_what_a_way_costs_and_cleans_is_that_of_a_robot_that_drives_it():
 
 def test_a_robot_that_is_led_along_the_way_of_another_has_the_same_battery_floor_and_odometry():
     plan = room(8.0, 3.0, start=BEGIN)
-    free, led = World(plan, RobotConfig(), seed=3), GuidedWorld(plan, 'rumba', Start(BEGIN), RobotConfig(), seed=3)
+    free, led = World(plan, RobotConfig(), seed=3), GuidedWorld(plan, RobotConfig(), seed=3)
     robot = free.spawn('rumba', BEGIN)
     for tick in range(1000):
         robot.command(0.25, 0.5 * math.cos(0.01 * tick), free.tick)

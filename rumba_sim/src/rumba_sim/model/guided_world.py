@@ -8,7 +8,7 @@ from rumba_sim.model import kernel
 from rumba_sim.model.compiled import fast
 from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.model.geometry import Pose
-from rumba_sim.model.robot import Robot, Start, Twist, put
+from rumba_sim.model.robot import Robot, Twist, put
 from rumba_sim.model.robot_config import RobotConfig
 from rumba_sim.model.world import World
 
@@ -25,9 +25,9 @@ class GuidedWorld(World):
         robot: the only one.
     """
 
-    def __init__(self, plan: FloorPlan, name: str, start: Start, config: Optional[RobotConfig] = None,
-                 step_rate: float = 50, seed: int = 0) -> None:
-        """A world with one robot.
+    def __init__(self, plan: FloorPlan, config: Optional[RobotConfig] = None, step_rate: float = 50, seed: int = 0,
+                 name: str = 'rumba', state_of_charge: float = 1.0, brushes_up: bool = False) -> None:
+        """A world with one robot, at the start of the plan until it is told where.
 
         Raises:
             RumbaError: as of `World`, and of `spawn`.
@@ -35,7 +35,7 @@ class GuidedWorld(World):
         super().__init__(plan, config, step_rate, seed)
         self._name = name
         self._wheels_wished: kernel.Array = np.zeros(1, kernel.ROBOT)
-        self.spawn(name, *start)
+        self.spawn(name, None, state_of_charge, brushes_up)
 
     @property
     def robot(self) -> Robot:

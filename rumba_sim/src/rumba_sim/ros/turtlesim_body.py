@@ -20,6 +20,7 @@ Parameters, as in `rosrun rumba_sim turtlesim_body _turtle:=turtle2 _battery/dra
 """
 
 import dataclasses
+import math
 import time
 from typing import Any, Tuple
 
@@ -33,7 +34,6 @@ from rumba_sim.model.config import part, section, setting
 from rumba_sim.model.errors import ConfigError
 from rumba_sim.model.geometry import Pose, wrap_angle
 from rumba_sim.model.guided_world import GuidedWorld
-from rumba_sim.model.robot import Start
 from rumba_sim.model.robot_config import RobotConfig
 from rumba_sim.model.turtle_motion import FRAME_RATE, PIXELS_PER_METRE, TurtleMotion
 from rumba_sim.ros import node
@@ -101,13 +101,13 @@ class TurtlesimBody:
         refuse_second()
         path = map_path(settings.map)
         plan = map_file.load(path)
-        self._world = GuidedWorld(plan, settings.robot, Start(
-            plan.start or plan.dock or plan.roomiest(), settings.percentage / 100.0, settings.brushes_up),
-            part(settings, RobotConfig), FRAME_RATE, settings.seed)
+        self._world = GuidedWorld(plan, part(settings, RobotConfig), FRAME_RATE, settings.seed, settings.robot,
+                                  settings.percentage / 100.0, settings.brushes_up)
         self._colour = settings.pen
         self._requests = Requests()
         self._motion = TurtleMotion()
-        self._ticks = self._landed = 0
+        self._ticks = 0
+        self._landed = 0.0  # the tick from which on the pen may be down; inf during a teleport
         self._stamp = self._clock = rospy.Time.now()
         self._turtle = Turtle(settings.turtle, lambda pose: self._requests.post(lambda: self._on_pose(pose)))
         self._node = TurtleNode(self._world, settings.robot, self._requests, settings.localisation, self._stamp,
@@ -170,7 +170,7 @@ class TurtlesimBody:
     def _teleport(self, pose: Pose) -> None:
         def take_off() -> Tuple[Pose, Pen]:
             target = self._world.check(pose)
-            self._landed = self._ticks + 10 * LANDING
+            self._landed = math.inf
             return target, self._pen()
 
         def land() -> None:
