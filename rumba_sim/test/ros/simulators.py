@@ -164,6 +164,10 @@ class Commands:
         test.addCleanup(self._publisher.unregister)
         wait(test, self._publisher.get_num_connections, 'the robot to listen')
 
+    def is_heard(self):
+        """Whether a robot listens."""
+        return self._publisher.get_num_connections() > 0
+
     def send(self, v, w):
         """Command a velocity [m/s], [rad/s]."""
         twist = Twist()

@@ -46,7 +46,7 @@ def test_the_robot_is_that_of_the_simulator_its_file_and_its_parameters(monkeypa
     file.write_text('drive: {radius: 0.2, max_speed: 0.4}\nspeed: 5.0\n')
     parameters = {'config': str(file), 'drive': {'max_speed': 0.3}, 'battery': {'drain': 7}, 'map': 'studio'}
     monkeypatch.setattr(cleaner_settings.rospy, 'get_param', lambda *_: parameters)
-    found = cleaner_settings.robot_of_simulator()
+    found = cleaner_settings.robot_of_simulator('simulator')
     assert (found.drive.radius, found.drive.max_speed, found.battery.drain) == (0.2, 0.3, 7.0)
 
 
@@ -55,7 +55,7 @@ def test_without_a_simulator_a_map_must_be_named(monkeypatch):
     monkeypatch.setattr(maps.rospy, 'is_shutdown', lambda: False)
     monkeypatch.setattr(maps, 'PATIENCE', 0.3)
     with pytest.raises(MapError, match=r'^no simulator tells its map, /simulator/floor_plan: start one, or name a map'):
-        maps.map_of_simulator()
+        maps.map_of_simulator('simulator')
 
 
 # --- wheels and brushes -------------------------------------------------------------------------------------------

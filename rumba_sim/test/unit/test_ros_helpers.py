@@ -75,6 +75,12 @@ def test_a_rate_is_due_at_each_full_period():
     assert not any(Rates(scan=0).due(tick, 50).scan for tick in range(1, 101))
 
 
+def test_where_no_number_of_ticks_gives_a_rate_it_is_met_in_the_mean():
+    due = [tick for tick in range(1, 626) if Rates(battery=5).due(tick, 62.5).battery]
+    assert due[:4] == [13, 25, 38, 50]
+    assert len(due) == 50
+
+
 def test_a_rate_that_no_number_of_ticks_gives_is_refused():
     with pytest.raises(ConfigError, match=r'^rates/odom is 30: must divide step_rate, 100: one of 0, 1, 2, 4, 5, '):
         Settings(step_rate=100, rates=Rates(odom=30))

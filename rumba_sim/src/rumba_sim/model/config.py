@@ -34,6 +34,11 @@ def names(cls: type) -> List[str]:
     return [field.name for field in dataclasses.fields(cls)]
 
 
+def part(settings: Any, cls: Type[Settings]) -> Settings:
+    """Those of the settings of a class that come from `cls`, which it extends."""
+    return cls(**{name: getattr(settings, name) for name in names(cls)})
+
+
 def describe(cls: type) -> str:
     """One line for each setting of a class: name, default, unit, meaning and range."""
     rows = [(path, f'{field.default!s}', _unit(field), f'{field.metadata["doc"]}; {_range(field)}')

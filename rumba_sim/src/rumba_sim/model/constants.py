@@ -11,7 +11,7 @@ from rumba_sim.model.kernel import Array
 from rumba_sim.model.robot_config import RobotConfig
 
 
-def constants(config: RobotConfig, plan: FloorPlan, step_rate: int) -> Array:
+def constants(config: RobotConfig, plan: FloorPlan, step_rate: float) -> Array:
     """An array of one record `kernel.CONSTANTS`.
 
     Raises:
@@ -20,7 +20,7 @@ def constants(config: RobotConfig, plan: FloorPlan, step_rate: int) -> Array:
     """
     drive = config.drive
     if drive.max_speed > drive.radius * step_rate:
-        raise ConfigError(f'drive/max_speed is {drive.max_speed:g}: at {step_rate} ticks a second must be at most '
+        raise ConfigError(f'drive/max_speed is {drive.max_speed:g}: at {step_rate:g} ticks a second must be at most '
                           f'{drive.radius * step_rate:g} [m/s], a radius in a tick')
     if plan.resolution > drive.radius:
         raise MapError(f'{plan.name}: cells of {plan.resolution:g} m are too coarse for a robot of radius '

@@ -45,18 +45,24 @@ TALLY = np.dtype((np.record, np.dtype([('swept', 'i8'), ('dirt', 'f8')], align=T
 
 
 def advance(robots: Array, constants: Array, field: Array, cells: Array, dirt: Array, tallies: Array,
-            noise: Array, tick: int, ticks: int) -> None:
+            noise: Array, led: Array, tick: int, ticks: int) -> None:
     """Let `ticks` ticks pass from `tick` on; `noise` (robots, any, 2) is normal, row t of it for tick t.
 
-    `constants` and `tallies` are arrays of one record.
+    `constants` and `tallies` are arrays of one record. `led` (robots, 4) says where something else brings each robot in
+    each of the ticks: x, y, theta, and 1 where its wheels turned on the way, 0 where it was carried; empty (0, 4) where
+    robots drive themselves.
     """
     k, tally = constants[0], tallies[0]
     for now in range(tick, tick + ticks):
         for me in range(len(robots)):
             robot = robots[me]
-            drive(robot, k, now)
-            from_x, from_y, from_theta = robot.x, robot.y, robot.theta
-            toward_x, toward_y = move(robots, me, k, field, now)
+            if len(led) > 0:
+                from_x, from_y, from_theta = lead(robot, k, led[me])
+                toward_x, toward_y = 0.0, 0.0
+            else:
+                drive(robot, k, now)
+                from_x, from_y, from_theta = robot.x, robot.y, robot.theta
+                toward_x, toward_y = move(robots, me, k, field, now)
             traction = k.floor_traction
             if k.has_layers:
                 traction = stand(robot, k, cells)
@@ -149,6 +155,31 @@ def move(robots: Array, me: int, k: Record, field: Array, now: int) -> Tuple[flo
     robot.distance += math.hypot(x - robot.x, y - robot.y)
     robot.x, robot.y = x, y
     return to_x - x, to_y - y
+
+
+def lead(robot: Record, k: Record, to: Array) -> Triple:
+    """Bring a robot to a pose within a tick, and have its wheels turn as they must; returns where its way began."""
+    from_x, from_y, from_theta = robot.x, robot.y, robot.theta
+    robot.x, robot.y, robot.theta = to[0], to[1], to[2]
+    if to[3] == 0.0:
+        robot.left_speed = robot.right_speed = 0.0
+        return to[0], to[1], to[2]
+    turn = wrap(to[2] - from_theta)
+    along = from_theta + 0.5 * turn
+    way = (to[0] - from_x) * math.cos(along) + (to[1] - from_y) * math.sin(along)
+    robot.left_speed = (way - 0.5 * turn * k.wheel_base) / k.dt
+    robot.right_speed = (way + 0.5 * turn * k.wheel_base) / k.dt
+    robot.distance += abs(way)
+    return from_x, from_y, from_theta
+
+
+def halted(robot: Record, k: Record, field: Array, v: float) -> float:
+    """As much of a speed, forward, as does not lead a robot into a wall within a tick."""
+    gap, along_x, along_y = clearance(k, field, robot.x, robot.y)
+    nearer = -v * k.dt * (along_x * math.cos(robot.theta) + along_y * math.sin(robot.theta))
+    if nearer <= 0.0 or gap - nearer >= k.reach:
+        return v
+    return v * max(gap - k.reach, 0.0) / nearer
 
 
 def settle(robots: Array, me: int, k: Record, field: Array, now: int, x: float, y: float) -> Tuple[float, float]:

@@ -4,17 +4,22 @@ import numpy as np
 
 from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.model.geometry import Pose
+from rumba_sim.model.guided_world import GuidedWorld
 from rumba_sim.model.world import World
 
 
 def main() -> None:
     """Call every function of the kernel that a world calls."""
     free = np.zeros((40, 40), np.int8)
-    world = World(FloorPlan('a room of 4 m', free, 0.1, (0.0, 0.0), dock=Pose(3.0, 2.0, 0.0)))
+    plan = FloorPlan('a room of 4 m', free, 0.1, (0.0, 0.0), dock=Pose(3.0, 2.0, 0.0))
+    world = World(plan)
     world.spawn('rumba')
     world.step()
     world.scan('rumba')
     world.infrared('rumba')
+    guided = GuidedWorld(plan)
+    guided.jump(guided.start)
+    guided.wish()
 
 
 if __name__ == '__main__':

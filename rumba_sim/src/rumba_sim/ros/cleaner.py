@@ -101,8 +101,9 @@ class Cleaner:
         strategies.load(settings.strategies)
         strategies.check(settings.strategy)
         self._settings = settings
-        self._plan = map_file.load(map_path(settings.map) if settings.map else map_of_simulator())
-        self._config = robot_of_simulator()
+        self._plan = map_file.load(map_path(settings.map) if settings.map else
+                                   map_of_simulator(settings.simulator))
+        self._config = robot_of_simulator(settings.simulator)
         self._run: Optional[Run] = None
         self._events: 'queue.Queue[Callable[[], None]]' = queue.Queue()
         self._is_reading_queued = False

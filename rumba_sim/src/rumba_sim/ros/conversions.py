@@ -77,6 +77,17 @@ def quaternion(theta: float) -> Quaternion:
     return Quaternion(0.0, 0.0, math.sin(0.5 * theta), math.cos(0.5 * theta))
 
 
+def heading(rotation: Quaternion) -> float:
+    """The angle about z [rad] of a rotation."""
+    return math.atan2(2.0 * (rotation.w * rotation.z + rotation.x * rotation.y),
+                      1.0 - 2.0 * (rotation.y * rotation.y + rotation.z * rotation.z))
+
+
+def place(pose: PoseMessage) -> Pose:
+    """A pose in space as one in the plane."""
+    return Pose(pose.position.x, pose.position.y, heading(pose.orientation))
+
+
 def odometry(pose: Pose, twist: Twist, header: Header, child: str, pose_variance: Sequence[float] = (0.0, 0.0),
              twist_variance: Sequence[float] = (0.0, 0.0)) -> Odometry:
     """Pose in the header's frame and velocity in the child's, with variances of place [m^2, (m/s)^2] and heading."""
@@ -166,10 +177,7 @@ def grid(plan: FloorPlan, cells: Array, stamp: object) -> OccupancyGrid:
 
 def plane_pose(transform: Transform) -> Pose:
     """A transform as a pose in the plane."""
-    rotation = transform.rotation
-    theta = math.atan2(2.0 * (rotation.w * rotation.z + rotation.x * rotation.y),
-                       1.0 - 2.0 * (rotation.y * rotation.y + rotation.z * rotation.z))
-    return Pose(transform.translation.x, transform.translation.y, theta)
+    return Pose(transform.translation.x, transform.translation.y, heading(transform.rotation))
 
 
 def observation(pose: Pose, bumper: Bumper, cliff: Cliff, dock: DockStatus, state_of_charge: float) -> Observation:

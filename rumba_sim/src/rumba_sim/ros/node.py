@@ -21,7 +21,8 @@ PATIENCE = 2.0  # [s] with a node that the master knows but that does not answer
 
 
 def run(name: str, settings_class: Type[Settings], main: Callable[[Settings], None], own_clock: bool = False,
-        own_parameters: Sequence[str] = (), is_single: bool = False) -> None:
+        own_parameters: Sequence[str] = (), is_single: bool = False, arguments_of_others: Sequence[str] = (),
+        on_refusal: Callable[[str], Any] = lambda _: None) -> None:
     """Run a node until ROS shuts down; leaves the process with exit code 2 where its input is bad.
 
     Args:
@@ -31,8 +32,10 @@ def run(name: str, settings_class: Type[Settings], main: Callable[[Settings], No
         own_clock: the node is the source of time: it does not listen to /clock.
         own_parameters: private parameters that the node itself writes; what an earlier run left there is deleted.
         is_single: refuse to start while a node of the same name is alive, which rospy would end otherwise.
+        arguments_of_others: how arguments begin that are not for this function, as those that rostest adds.
+        on_refusal: also told what was wrong with the input.
     """
-    arguments = rospy.myargv()[1:]
+    arguments = [argument for argument in rospy.myargv()[1:] if not argument.startswith(tuple(arguments_of_others))]
     if '-h' in arguments or '--help' in arguments:
         print(inspect.getdoc(inspect.getmodule(main)), config.describe(settings_class), sep='\n\n')
         return
@@ -52,12 +55,12 @@ def run(name: str, settings_class: Type[Settings], main: Callable[[Settings], No
             _take_parameters_back()
             raise
     except RumbaError as error:
-        _refuse(name, error)
+        _refuse(name, error, on_refusal)
     except rospy.ROSInterruptException:
         pass
     except rospy.ROSInitException as error:
         if not rospy.is_shutdown():
-            _refuse(name, error)
+            _refuse(name, error, on_refusal)
     except Exception:
         if not rospy.core.is_shutdown_requested():  # else a topic was closed while the main thread was publishing
             raise
@@ -69,8 +72,10 @@ def _shut_down(number: int, _: Any) -> None:
     threading.Thread(target=rospy.signal_shutdown, args=[f'signal {number}']).start()
 
 
-def _refuse(name: str, error: Exception) -> None:
-    print(f'{name}:', *str(error).split(), file=sys.stderr)
+def _refuse(name: str, error: Exception, on_refusal: Callable[[str], Any]) -> None:
+    message = ' '.join(str(error).split())
+    print(f'{name}: {message}', file=sys.stderr)
+    on_refusal(message)
     sys.exit(BAD_INPUT)
 
 

@@ -32,7 +32,7 @@ class Requests:
                 return answer.result(timeout=0.5)
             except concurrent.futures.TimeoutError:
                 continue
-        raise rospy.ROSInterruptException('the simulator ends')
+        raise rospy.ROSInterruptException('the node ends')
 
     def post(self, function: Callable[[], Any]) -> 'concurrent.futures.Future[Any]':
         """Have the owner call a function, without waiting for it."""

@@ -42,7 +42,7 @@ class RobotNode:
     """Publishers, subscriber and services of one robot; only `publish` and `apply_command` touch the world."""
 
     def __init__(self, world: World, name: str, requests: Requests, has_localisation: bool,
-                 stamp: rospy.Time) -> None:
+                 stamp: rospy.Time, has_laser: bool = True) -> None:
         """Open the robot's topics and services below its name; its time begins at `stamp`.
 
         Raises:
@@ -62,7 +62,8 @@ class RobotNode:
                                    subscriber_listener=listener)
             for topic, message, listener in (
                 ('battery_status', BatteryStatus, None), ('battery_state', BatteryState, None),
-                ('odom', Odometry, None), ('ground_truth', Odometry, None), ('scan', LaserScan, None),
+                ('odom', Odometry, None), ('ground_truth', Odometry, None),
+                *([('scan', LaserScan, None)] if has_laser else []),
                 ('bumper', Bumper, None), ('cliff', Cliff, None), ('dock_status', DockStatus, None),
                 ('cleaning_status', CleaningStatus, None), ('coverage', OccupancyGrid, coverage))}
         self._others = [
@@ -107,10 +108,13 @@ class RobotNode:
     def _on_teleport(self, request: Any) -> TeleportResponse:
         pose = Pose(request.pose.x, request.pose.y, request.pose.theta)
         try:
-            self._requests.call(lambda: self._world.teleport(self._name, pose))
+            self._teleport(pose)
         except RumbaError as error:
             return TeleportResponse(False, str(error))
         return TeleportResponse(True, '')
+
+    def _teleport(self, pose: Pose) -> None:
+        self._requests.call(lambda: self._world.teleport(self._name, pose))
 
     # --- what it tells --------------------------------------------------------------------------------------------
 

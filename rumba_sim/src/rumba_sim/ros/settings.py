@@ -3,7 +3,7 @@
 import dataclasses
 from typing import NamedTuple
 
-from rumba_sim.model.config import names, section, setting
+from rumba_sim.model.config import names, part, section, setting
 from rumba_sim.model.errors import ConfigError
 from rumba_sim.model.robot_config import RobotConfig
 
@@ -32,9 +32,9 @@ class Rates:
     battery: int = setting(5, 'battery_status and battery_state', 'Hz', 0, MAX_RATE)
     cleaning: int = setting(1, 'cleaning_status and coverage', 'Hz', 0, MAX_RATE)
 
-    def due(self, ticks: int, step_rate: int) -> Due:
-        """What is due at a tick."""
-        return Due(*(rate > 0 and ticks % (step_rate // rate) == 0 for rate in self._all()))
+    def due(self, ticks: int, step_rate: float) -> Due:
+        """What is due at a tick: where no whole number of ticks gives a rate, at the next after each period."""
+        return Due(*(ticks * rate // step_rate > (ticks - 1) * rate // step_rate for rate in self._all()))
 
     def check(self, step_rate: int) -> None:
         """Refuse rates that no whole number of ticks gives.
@@ -85,7 +85,7 @@ class Settings(RobotConfig):
     @property
     def robot(self) -> RobotConfig:
         """The part that says what the robots are like."""
-        return RobotConfig(**{name: getattr(self, name) for name in names(RobotConfig)})
+        return part(self, RobotConfig)
 
 
 TUNABLE = ['speed', 'drive/command_timeout', 'odometry/noise', 'laser/noise', 'battery/drain',

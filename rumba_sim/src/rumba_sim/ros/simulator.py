@@ -17,13 +17,10 @@ step (rumba_msg/Step), spawn (rumba_msg/Spawn) and kill (rumba_msg/Kill). rqt_re
 Parameters, as in `rosrun rumba_sim simulator _map:=studio _speed:=10 _battery/drain:=60`:
 """
 
-import os
 import re
 from typing import Any, Callable, Dict, Tuple
 
 import rospy
-from nav_msgs.msg import OccupancyGrid
-from nav_msgs.srv import GetMap, GetMapResponse
 from std_srvs.srv import Trigger, TriggerResponse
 from tf2_msgs.msg import TFMessage
 
@@ -33,10 +30,10 @@ from rumba_sim.model.config import updated
 from rumba_sim.model.errors import ConfigError, RumbaError, WorldError
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.world import World
-from rumba_sim.ros import conversions, node, reconfigure
+from rumba_sim.ros import node, reconfigure
 from rumba_sim.ros.diagnostics import Diagnostics
 from rumba_sim.ros.frames import FIRST
-from rumba_sim.ros.maps import FLOOR_PLAN, map_path
+from rumba_sim.ros.maps import FLOOR_PLAN, map_path, refuse_second, tell_map
 from rumba_sim.ros.pace import Pace, wake_on_time
 from rumba_sim.ros.requests import Requests
 from rumba_sim.ros.robot_node import RobotNode
@@ -76,14 +73,10 @@ class Simulator:
         self._nodes: Dict[str, RobotNode] = {}
         for _ in range(settings.robots):
             self._spawn(self._free_name(), None)
-        self._map = conversions.grid(self._world.plan, self._world.plan.occupancy, self._pace.stamp)
-        self._map_publisher = rospy.Publisher('/map', OccupancyGrid, queue_size=1, latch=True)
-        self._map_publisher.publish(self._map)
-        rospy.set_param(f'~{FLOOR_PLAN}', os.path.abspath(path))  # before the services, which tell that it is true
+        tell_map(self._world.plan, path, self._pace.stamp)
         self._serve()
 
     def _serve(self) -> None:
-        rospy.Service('/static_map', GetMap, lambda _: GetMapResponse(self._map))
         for name, service, response, act in (
                 ('pause', Trigger, TriggerResponse, lambda _: self._pause(True)),
                 ('resume', Trigger, TriggerResponse, lambda _: self._pause(False)),
@@ -197,17 +190,6 @@ class Simulator:
         except ConfigError as error:
             rospy.logerr(str(error))
         return self._settings
-
-
-def refuse_second() -> None:
-    """Refuse to share a master with another simulator: they would fight over /clock, /map and the frames.
-
-    Raises:
-        WorldError: somebody serves a map already.
-    """
-    if node.is_served('/static_map'):
-        raise WorldError('/static_map is served already: end the other simulator, or map_server, or give this one a '
-                         'master of its own with ROS_MASTER_URI')
 
 
 def is_time_simulated(speed: float) -> bool:

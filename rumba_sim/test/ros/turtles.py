@@ -1,0 +1,89 @@
+"""What the tests of turtlesim_body share: a turtlesim and a body as a user starts them, and the turtle's own words."""
+
+import signal
+import subprocess
+
+import rospy
+from simulators import TIMEOUT, Commands, Heard, lookup, wait
+from std_srvs.srv import Empty
+from turtlesim.msg import Color, Pose
+from turtlesim.srv import Kill, Spawn, TeleportAbsolute
+
+SPEED = 5  # times real time
+SERVICES = {'reset': Empty, 'kill': Kill, 'spawn': Spawn, 'turtle1/teleport_absolute': TeleportAbsolute}
+
+
+class Process:
+    """A node, until the end of a test."""
+
+    def __init__(self, test, service, *command):
+        self._test = test
+        self.process = subprocess.Popen(['rosrun', *command])
+        test.addCleanup(self.end)
+        wait(test, lambda: self.process.poll() is not None or lookup(service), service)
+        test.assertIsNone(self.process.poll(), f'{command} ended')
+
+    def end(self, number=signal.SIGINT):
+        """End it, cleanly."""
+        if self.process.returncode is None:
+            self.process.send_signal(number)
+            try:
+                self._test.assertEqual(self.process.wait(TIMEOUT), 0)
+            finally:
+                self.process.kill()
+                self.process.wait()
+
+
+def turtlesim(test, speed=SPEED):
+    """Start a turtlesim without a window; the clock is its."""
+    return Process(test, '/turtle1/set_pen', 'turtlesim', 'turtlesim_node', '_gui:=false', f'_speed:={speed}')
+
+
+def body(test, *arguments):
+    """Start a body; what an earlier one was told is forgotten."""
+    if rospy.has_param('/turtlesim_body'):
+        rospy.delete_param('/turtlesim_body')
+    return Process(test, '/turtlesim_body/reset', 'rumba_sim', 'turtlesim_body', *arguments)
+
+
+def ask(service, *arguments):
+    """Call a service of turtlesim."""
+    return rospy.ServiceProxy(f'/{service}', SERVICES[service])(*arguments)
+
+
+class Turtle:
+    """What turtle1 says, and the robot whose body it is."""
+
+    def __init__(self, test):
+        self._test = test
+        self.poses = Heard(test, '/turtle1/pose', Pose)
+        self.colours = Heard(test, '/turtle1/color_sensor', Color)
+        self.truth = Heard(test, '/rumba/ground_truth')
+        self.odometry = Heard(test, '/rumba/odom')
+        self.commands = Commands(test)
+
+    def drive(self, v, w, until):
+        """Command the robot until a condition of the turtle's newest pose holds; returns that pose."""
+        def holds():
+            self.commands.send(v, w)
+            return self.poses.messages and until(self.poses.messages[-1]) and self.poses.messages[-1]
+        self.poses.messages.clear()
+        found = wait(self._test, holds, 'the turtle')
+        self.commands.send(0.0, 0.0)
+        self.poses.fresh(lambda pose: pose.linear_velocity == pose.angular_velocity == 0.0)
+        return found
+
+    def goes(self, way, v=0.3):
+        """Go a way straight on [m], as the turtle sees it."""
+        begin = self.poses.fresh()
+        self.drive(v, 0.0, lambda pose: (pose.x - begin.x) ** 2 + (pose.y - begin.y) ** 2 >= way ** 2)
+
+    def robot_is_at(self, x, y):
+        """Wait until the robot says that it is at a place."""
+        return self.truth.fresh(lambda odometry: abs(odometry.pose.pose.position.x - x) < 0.01
+                                and abs(odometry.pose.pose.position.y - y) < 0.01)
+
+    def believed(self):
+        """Where the encoders say that the robot is: x, y, and a component of the quaternion."""
+        pose = self.odometry.fresh().pose.pose
+        return pose.position.x, pose.position.y, pose.orientation.z

@@ -1,0 +1,40 @@
+"""A teacher's .test file marks good and bad homework, as the page about it says."""
+
+import re
+
+import pytest
+from workspaces import ROOT
+
+PAGE = (ROOT / 'docs' / 'mission_test.md').read_text()
+HOMEWORK = ROOT / 'test' / 'packages' / 'homework'
+
+
+@pytest.fixture()
+def mark(workspace, tmp_path):
+    """A function that marks the node of a student: exit code, and what rostest printed."""
+    def mark(student):
+        process = workspace.space('devel').start(
+            f'rostest --results-base-dir {tmp_path} homework homework.test student:={student}')
+        output, _ = process.communicate(timeout=180.0)
+        return process.returncode, output
+    return mark
+
+
+def test_the_page_shows_the_file():
+    shown = re.search(r'```xml\n(.*?)```', PAGE, re.DOTALL).group(1)
+    assert shown == (HOMEWORK / 'test' / 'homework.test').read_text()
+
+
+def test_good_homework_passes_in_every_condition(mark):
+    code, output = mark('sweeper')
+    assert code == 0, output
+    assert re.findall(r'/(test_\w+)\]\[(\w+)\]', output) == [
+        (f'test_{name}', 'passed')
+        for name in ('battery', 'collisions', 'coverage', 'field_rumba_odom_twist_twist_linear_x')]
+
+
+def test_bad_homework_fails_in_the_condition_that_it_does_not_meet(mark):
+    code, output = mark('sleeper')
+    assert code != 0, output
+    assert [name for name, word in re.findall(r'/test_(\w+)\]\[(\w+)\]', output) if word == 'FAILURE'] == ['coverage']
+    assert re.search(r'```\n(coverage: .*)\n```', PAGE).group(1) in output
