@@ -39,6 +39,12 @@ def test_the_table_of_lessons_and_the_metapackage_name_all():
 
 
 @OF_PACKAGE
+def test_no_script_hides_its_package(package):
+    # Python looks for `import PACKAGE` beside the script first.
+    assert not (package / 'scripts' / f'{package.name}.py').exists()
+
+
+@OF_PACKAGE
 def test_all_that_is_there_to_run_is_installed(workspace, package):
     for place in ('lib', 'include'):
         built, installed = (names(workspace.path / space / place / package.name) for space in ('devel', 'install'))
