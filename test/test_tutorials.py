@@ -6,7 +6,7 @@ import xml.etree.ElementTree
 
 import consoles
 import pytest
-from workspaces import ROOT, TUTORIALS, clean_environment
+from workspaces import ROOT, TUTORIALS, Workspace, clean_environment
 
 FOLDER = ROOT / 'rumba_tutorials'
 METAPACKAGE = FOLDER / 'rumba_tutorials'
@@ -21,6 +21,13 @@ OF_PACKAGE = pytest.mark.parametrize('package', PACKAGES, ids=lambda path: path.
 def test_the_terminals_show_what_the_page_shows(workspace, lesson):
     # A master of its own: the first roslaunch, or roscore, starts it, as at the reader's.
     consoles.play(lesson / 'README.md', workspace.space('devel', clean_environment()))
+
+
+def test_a_library_and_its_header_serve_from_the_install_space(workspace, environment, tmp_path):
+    guard = [path for path in PACKAGES if path.name == 'speed_guard']
+    above = Workspace(tmp_path / 'ws', guard, environment, workspace.setup('install'))
+    above.make()
+    consoles.play(guard[0].parent / 'README.md', above.space('devel', clean_environment()))
 
 
 @OF_LESSON
