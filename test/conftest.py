@@ -1,9 +1,8 @@
 """Workspaces that the tests share, each built from nothing once."""
 
 import pytest
-from workspaces import ROOT, Workspace, clean_environment, roscore
+from workspaces import OURS, ROOT, STAND_INS, TUTORIALS, Workspace, clean_environment, roscore
 
-OURS = [path.parent for pattern in ('*', 'compat/*') for path in sorted(ROOT.glob(f'{pattern}/package.xml'))]
 STRANGERS = sorted((ROOT / 'test' / 'packages').iterdir())
 
 
@@ -17,8 +16,9 @@ def environment():
 
 @pytest.fixture(scope='session')
 def workspace(tmp_path_factory, environment):
-    """This repository's packages and a stranger's side by side, built from nothing, then installed."""
-    workspace = Workspace(tmp_path_factory.mktemp('side_by_side') / 'ws', OURS + STRANGERS, environment)
+    """This repository's packages, its lessons, and a stranger's side by side, built from nothing, then installed."""
+    packages = OURS + STAND_INS + TUTORIALS + STRANGERS
+    workspace = Workspace(tmp_path_factory.mktemp('side_by_side') / 'ws', packages, environment)
     workspace.make()
     workspace.make('install')
     return workspace
@@ -27,7 +27,7 @@ def workspace(tmp_path_factory, environment):
 @pytest.fixture(scope='session')
 def overlay(tmp_path_factory, environment):
     """A stranger's packages alone, built from nothing over the install space of this repository's."""
-    below = Workspace(tmp_path_factory.mktemp('below') / 'ws', OURS, environment)
+    below = Workspace(tmp_path_factory.mktemp('below') / 'ws', OURS + STAND_INS, environment)
     below.make('install')
     overlay = Workspace(tmp_path_factory.mktemp('above') / 'ws', STRANGERS, environment, below.setup('install'))
     overlay.make()

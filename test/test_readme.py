@@ -6,7 +6,7 @@ import time
 
 import catkin_pkg.packages
 import pytest
-from workspaces import ROOT, TIMEOUT, Space, clean_environment, roscore
+from workspaces import OURS, ROOT, TIMEOUT, TUTORIALS, Space, clean_environment, roscore
 
 README = (ROOT / 'README.md').read_text()
 INTERFACES = (ROOT / 'docs' / 'interfaces.md').read_text()
@@ -108,4 +108,6 @@ def test_the_live_line_in_the_readme_is_what_the_listener_prints(workspace):
 
 
 def test_a_clone_in_another_workspace_brings_the_packages_and_nothing_of_its_own_workspace_and_tests():
-    assert sorted(catkin_pkg.packages.find_package_paths(str(ROOT))) == ['rumba_msg', 'rumba_sim']
+    assert sorted(catkin_pkg.packages.find_package_paths(str(ROOT))) == sorted(
+        str(path.relative_to(ROOT)) for path in OURS + TUTORIALS)
+    assert [path.name for path in OURS] == ['rumba_msg', 'rumba_sim']

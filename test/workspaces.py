@@ -7,9 +7,12 @@ import signal
 import socket
 import subprocess
 import time
-from typing import Dict, Iterator
+from typing import Dict, Iterator, Optional
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
+OURS = [path.parent for path in sorted(ROOT.glob('*/package.xml'))]
+STAND_INS = [path.parent for path in sorted(ROOT.glob('compat/*/package.xml'))]
+TUTORIALS = [path.parent for path in sorted(ROOT.glob('rumba_tutorials/**/package.xml'))]
 TIMEOUT = 60.0
 BUILD_TIMEOUT = 900.0
 FROM_OTHER_WORKSPACES = ('CMAKE_PREFIX_PATH', 'ROS_PACKAGE_PATH', 'PYTHONPATH', 'PKG_CONFIG_PATH', 'LD_LIBRARY_PATH')
@@ -26,8 +29,8 @@ class Space:
 
     def start(self, command: str, **options) -> subprocess.Popen:
         """Start a shell command in this space; `options` go to Popen."""
-        return subprocess.Popen(['bash', '-c', f'{self._setup} exec {command}'], stdout=subprocess.PIPE,
-                                universal_newlines=True, env=self._environment, **options)
+        return subprocess.Popen(['bash', '-c', f'{self._setup} exec {command}'], universal_newlines=True,
+                                env=self._environment, **{'stdout': subprocess.PIPE, **options})
 
     def run(self, command: str, timeout: float = TIMEOUT, **options) -> str:
         """Output of a shell command in this space, which must succeed."""
@@ -68,9 +71,9 @@ class Workspace:
         """The setup file of `devel` or `install`."""
         return self.path / space / 'setup.sh'
 
-    def space(self, space: str) -> Space:
-        """What a user has in `devel` or `install`."""
-        return Space(f'. {self.setup(space)};', self._environment)
+    def space(self, space: str, environment: Optional[Dict[str, str]] = None) -> Space:
+        """What a user has in `devel` or `install`; `environment` is one with another master."""
+        return Space(f'. {self.setup(space)};', environment or self._environment)
 
 
 def clean_environment() -> Dict[str, str]:

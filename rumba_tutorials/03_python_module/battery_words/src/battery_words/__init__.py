@@ -1,0 +1,1 @@
+"""Words for the state of a battery."""

@@ -1,0 +1,70 @@
+#!/usr/bin/env python3
+"""A robot that drives into a wall is reported once, with its speed; which side it was is told apart."""
+
+import math
+import queue
+import unittest
+
+import rospy
+import rostest
+from geometry_msgs.msg import Pose2D, Twist, Vector3
+from rosgraph_msgs.msg import Log
+
+from contact_report.msg import ContactReport
+from rumba_msg.msg import Bumper
+from rumba_msg.srv import Teleport
+
+TIMEOUT = 30.0
+BEFORE_THE_WALL = Pose2D(0.5, 2.5, math.pi)  # 0.33 m between robot and wall, in the studio
+
+
+class ContactReportTest(unittest.TestCase):
+    """In the root namespace the simulator is there too; in /told there is only what the test says."""
+
+    def listen(self, topic, kind):
+        """A queue of what is heard."""
+        heard = queue.Queue()
+        self.addCleanup(rospy.Subscriber(topic, kind, heard.put).unregister)
+        return heard
+
+    def publisher(self, topic, kind):
+        """A publisher that somebody listens to."""
+        publisher = rospy.Publisher(topic, kind, queue_size=10)
+        self.addCleanup(publisher.unregister)
+        end = rospy.get_time() + TIMEOUT
+        while publisher.get_num_connections() == 0:
+            self.assertLess(rospy.get_time(), end, topic)
+            rospy.sleep(0.01)
+        return publisher
+
+    def test_into_a_wall(self):
+        reports, log = self.listen('contact_report', ContactReport), self.listen('/rosout', Log)
+        rospy.wait_for_service('rumba/teleport', TIMEOUT)
+        self.assertTrue(rospy.ServiceProxy('rumba/teleport', Teleport)(BEFORE_THE_WALL).success)
+        publisher = self.publisher('rumba/cmd_vel', Twist)
+        end = rospy.get_time() + TIMEOUT
+        while reports.empty():
+            self.assertLess(rospy.get_time(), end, 'no contact')
+            publisher.publish(Twist(linear=Vector3(x=0.25)))
+            rospy.sleep(0.05)
+        report = reports.get()
+        self.assertEqual((report.count, report.side, report.header.frame_id), (1, 'front', 'base_link'))
+        self.assertAlmostEqual(report.speed, 0.25, delta=0.05)
+        entry = log.get(timeout=TIMEOUT)
+        while entry.name != '/contact' or not entry.msg.startswith('contact 1'):
+            entry = log.get(timeout=TIMEOUT)
+        self.assertEqual(entry.msg, f'contact 1: front, at {report.speed:.2f} m/s')
+
+    def test_sides_and_going_on(self):
+        reports = self.listen('/told/contact_report', ContactReport)
+        publisher = self.publisher('/told/rumba/bumper', Bumper)
+        for left, right in ((False, True), (True, True), (False, False), (True, False), (False, False), (True, True)):
+            publisher.publish(is_left_pressed=left, is_right_pressed=right)
+        heard = [reports.get(timeout=TIMEOUT) for _ in range(3)]
+        self.assertEqual([(report.count, report.side) for report in heard], [(1, 'right'), (2, 'left'), (3, 'front')])
+        self.assertTrue(all(math.isnan(report.speed) for report in heard))
+
+
+if __name__ == '__main__':
+    rospy.init_node('test_contact_report')
+    rostest.rosrun('contact_report', 'contact_report', ContactReportTest)
