@@ -10,7 +10,7 @@ from rumba_sim.model import kernel
 from rumba_sim.model.compiled import fast
 from rumba_sim.model.constants import constants
 from rumba_sim.model.geometry import Pose
-from rumba_sim.model.world import World
+from rumba_sim.model.world import ON_THEIR_OWN, World
 
 DOCK = Pose(3.8, 1.0, 0.0)
 STARTS = [Pose(0.5, 0.5, 0.3), Pose(0.9, 0.5, 3.0), Pose(2.0, 1.3, -2.0), Pose(3.5, 1.0, 0.1), Pose(3.2, 2.6, 0.0)]
@@ -40,7 +40,7 @@ class Copy:
                 robot.command_v, robot.command_w = rng.uniform(-0.1, 0.5), rng.uniform(-1.9, 1.9)
                 robot.command_tick = tick
             functions.advance(self.robots, self.constants, self.plan.clearance, self.floor.cells, self.floor.dirt,
-                              self.floor.tally, self.noise, tick, 10)
+                              self.floor.tally, self.noise, ON_THEIR_OWN, tick, 10)
             states.append(np.array([[float(robot[name]) for name in kernel.ROBOT.names] for robot in self.robots]))
             for robot in self.robots:
                 seen.append(functions.infrared(robot, self.constants[0], self.plan.leaps, self.floor.cells))
@@ -68,6 +68,20 @@ def test_compiled_and_plain_kernel_agree_but_for_rounding(charge):
         assert columns['bumps'].max() > 0 and columns['docked'].any() and columns['fallen'].any()
         assert any(beams != (0, 0, 0) for beams in seen) and np.isfinite(ranges).any()
         assert np.isnan(columns['contact_angle']).any() and not np.isnan(columns['contact_angle']).all()
+
+
+def test_compiled_and_plain_kernel_lead_robots_alike():
+    led = np.array([[x + 0.004, y - 0.002, theta + 0.01, me % 2] for me, (x, y, theta) in enumerate(STARTS)])
+    states = []
+    for functions in (kernel, fast):
+        copy = Copy(1.0)
+        functions.advance(copy.robots, copy.constants, copy.plan.clearance, copy.floor.cells, copy.floor.dirt,
+                          copy.floor.tally, copy.noise, led, 0, 1)
+        assert [(robot.x, robot.y, robot.theta) for robot in copy.robots] == [tuple(to) for to in led[:, :3]]
+        states.append(np.array([[float(robot[name]) for name in kernel.ROBOT.names] for robot in copy.robots]))
+        halted = [functions.halted(robot, copy.constants[0], copy.plan.clearance, 0.3) for robot in copy.robots]
+        states[-1] = np.column_stack([states[-1], halted])
+    np.testing.assert_allclose(states[1], states[0], ROUNDING, ROUNDING)
 
 
 def test_every_function_of_the_kernel_is_compiled():

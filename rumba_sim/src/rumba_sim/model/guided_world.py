@@ -56,10 +56,7 @@ class GuidedWorld(World):
         self._pass(pose, is_driven=False)
 
     def _pass(self, pose: Pose, is_driven: bool) -> None:
-        self._draw_noise()
-        fast.follow(self._states, self._constants, self.plan.clearance, self.floor.cells, self.floor.dirt,
-                    self.floor.tally, self._noise, self.tick, *pose, is_driven)
-        self.tick += 1
+        self._advance(1, np.array([[*pose, is_driven]], np.float64))
 
     def wish(self) -> Twist:
         """How the robot would drive in the next tick: as commanded, within the limits of drive and battery.

@@ -45,57 +45,36 @@ TALLY = np.dtype((np.record, np.dtype([('swept', 'i8'), ('dirt', 'f8')], align=T
 
 
 def advance(robots: Array, constants: Array, field: Array, cells: Array, dirt: Array, tallies: Array,
-            noise: Array, tick: int, ticks: int) -> None:
+            noise: Array, led: Array, tick: int, ticks: int) -> None:
     """Let `ticks` ticks pass from `tick` on; `noise` (robots, any, 2) is normal, row t of it for tick t.
 
-    `constants` and `tallies` are arrays of one record.
+    `constants` and `tallies` are arrays of one record. `led` (robots, 4) says where something else brings each robot in
+    each of the ticks: x, y, theta, and 1 where its wheels turned on the way, 0 where it was carried; empty (0, 4) where
+    robots drive themselves.
     """
     k, tally = constants[0], tallies[0]
     for now in range(tick, tick + ticks):
         for me in range(len(robots)):
             robot = robots[me]
-            drive(robot, k, now)
-            from_x, from_y, from_theta = robot.x, robot.y, robot.theta
-            toward_x, toward_y = move(robots, me, k, field, now)
-            live(robots, me, k, field, cells, dirt, tally, noise, now, from_x, from_y, from_theta, toward_x, toward_y)
-
-
-def follow(robots: Array, constants: Array, field: Array, cells: Array, dirt: Array, tallies: Array, noise: Array,
-           tick: int, x: float, y: float, theta: float, is_driven: bool) -> None:
-    """Let one tick pass in which something else brings the only robot to a pose: its wheels turn as they must.
-
-    A robot that was not driven was carried: neither wheels nor brush notice.
-    """
-    robot, k = robots[0], constants[0]
-    from_x, from_y, from_theta = robot.x, robot.y, robot.theta
-    if not is_driven:
-        from_x, from_y, from_theta = x, y, theta
-    turn = wrap(theta - from_theta)
-    along = from_theta + 0.5 * turn
-    way = (x - from_x) * math.cos(along) + (y - from_y) * math.sin(along)
-    robot.left_speed = (way - 0.5 * turn * k.wheel_base) / k.dt
-    robot.right_speed = (way + 0.5 * turn * k.wheel_base) / k.dt
-    robot.x, robot.y, robot.theta = x, y, theta
-    robot.distance += abs(way)
-    live(robots, 0, k, field, cells, dirt, tallies[0], noise, tick, from_x, from_y, from_theta, 0.0, 0.0)
-
-
-def live(robots: Array, me: int, k: Record, field: Array, cells: Array, dirt: Array, tally: Record, noise: Array,
-         now: int, from_x: float, from_y: float, from_theta: float, toward_x: float, toward_y: float) -> None:
-    """All that a tick brings a robot once it has moved; what was in the way lies `toward` (as `move` returns it)."""
-    robot = robots[me]
-    traction = k.floor_traction
-    if k.has_layers:
-        traction = stand(robot, k, cells)
-    count(robot, k, traction, noise[me, now % noise.shape[1]])
-    touch(robots, me, k, field, now, toward_x, toward_y)
-    if not robot.brushes_up and robot.charge > 0.0:
-        robot.brush_time += k.dt
-        sweep(robot, k, cells, dirt, tally, from_x, from_y, from_theta)
-    if k.has_dock:
-        robot.docked = at_contacts(robot, k)
-    robot.current = battery_current(robot.charge, k, load(robot, k), robot.docked)
-    robot.charge = charge_after(robot.charge, k, robot.current, k.dt)
+            if len(led) > 0:
+                from_x, from_y, from_theta = lead(robot, k, led[me])
+                toward_x, toward_y = 0.0, 0.0
+            else:
+                drive(robot, k, now)
+                from_x, from_y, from_theta = robot.x, robot.y, robot.theta
+                toward_x, toward_y = move(robots, me, k, field, now)
+            traction = k.floor_traction
+            if k.has_layers:
+                traction = stand(robot, k, cells)
+            count(robot, k, traction, noise[me, now % noise.shape[1]])
+            touch(robots, me, k, field, now, toward_x, toward_y)
+            if not robot.brushes_up and robot.charge > 0.0:
+                robot.brush_time += k.dt
+                sweep(robot, k, cells, dirt, tally, from_x, from_y, from_theta)
+            if k.has_dock:
+                robot.docked = at_contacts(robot, k)
+            robot.current = battery_current(robot.charge, k, load(robot, k), robot.docked)
+            robot.charge = charge_after(robot.charge, k, robot.current, k.dt)
 
 
 # --- geometry -----------------------------------------------------------------------------------------------------
@@ -176,6 +155,22 @@ def move(robots: Array, me: int, k: Record, field: Array, now: int) -> Tuple[flo
     robot.distance += math.hypot(x - robot.x, y - robot.y)
     robot.x, robot.y = x, y
     return to_x - x, to_y - y
+
+
+def lead(robot: Record, k: Record, to: Array) -> Triple:
+    """Bring a robot to a pose within a tick, and have its wheels turn as they must; returns where its way began."""
+    from_x, from_y, from_theta = robot.x, robot.y, robot.theta
+    robot.x, robot.y, robot.theta = to[0], to[1], to[2]
+    if to[3] == 0.0:
+        robot.left_speed = robot.right_speed = 0.0
+        return to[0], to[1], to[2]
+    turn = wrap(to[2] - from_theta)
+    along = from_theta + 0.5 * turn
+    way = (to[0] - from_x) * math.cos(along) + (to[1] - from_y) * math.sin(along)
+    robot.left_speed = (way - 0.5 * turn * k.wheel_base) / k.dt
+    robot.right_speed = (way + 0.5 * turn * k.wheel_base) / k.dt
+    robot.distance += abs(way)
+    return from_x, from_y, from_theta
 
 
 def halted(robot: Record, k: Record, field: Array, v: float) -> float:

@@ -18,6 +18,7 @@ from rumba_sim.model.robot import Infrared, Robot, Start
 from rumba_sim.model.robot_config import RobotConfig
 
 NOISE_TICKS = 256  # so many ticks of wheel noise are drawn at once
+ON_THEIR_OWN: Array = np.zeros((0, 4))  # what leads robots that drive themselves
 FLOOR, WHEELS, LASER = 0, 1, 2  # what a random generator is for
 
 
@@ -84,19 +85,18 @@ class World:
     def step(self, ticks: int = 1) -> None:
         """Let so many ticks pass."""
         while ticks > 0:
-            now = min(ticks, self._draw_noise())
-            fast.advance(self._states, self._constants, self.plan.clearance, self.floor.cells, self.floor.dirt,
-                         self.floor.tally, self._noise, self.tick, now)
-            self.tick += now
+            now = min(ticks, NOISE_TICKS - self.tick % NOISE_TICKS)
+            self._advance(now, ON_THEIR_OWN)
             ticks -= now
 
-    def _draw_noise(self) -> int:
-        """Have noise of the wheels ready for the next ticks; returns for how many."""
-        place = self.tick % NOISE_TICKS
-        if place == 0:
+    def _advance(self, ticks: int, led: Array) -> None:
+        """Let ticks pass for which one draw of noise lasts; `led` as of `kernel.advance`."""
+        if self.tick % NOISE_TICKS == 0:
             for row, generator in zip(self._noise, self._wheels):
                 generator.standard_normal(out=row)
-        return NOISE_TICKS - place
+        fast.advance(self._states, self._constants, self.plan.clearance, self.floor.cells, self.floor.dirt,
+                     self.floor.tally, self._noise, led, self.tick, ticks)
+        self.tick += ticks
 
     def reset(self) -> None:
         """Begin again as at first: dirty floor, tick 0, every robot as it began."""
