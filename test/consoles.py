@@ -18,7 +18,7 @@ import re
 import shlex
 import signal
 import threading
-from typing import Callable, Iterator, List, NamedTuple
+from typing import Callable, List, NamedTuple
 
 from workspaces import ROOT, TIMEOUT, Space
 
@@ -54,22 +54,18 @@ def _commands(fence: str) -> List[Command]:
 
 def play(readme: pathlib.Path, space: Space) -> None:
     """Do what a README says, as its reader does; raises AssertionError where a terminal shows something else."""
-    with contextlib.ExitStack() as terminals:
+    with contextlib.ExitStack() as stack:
+        terminals = []
         for commands in sessions(readme):
-            terminal = terminals.enter_context(terminal_in(space))
+            terminals.append(stack.enter_context(contextlib.closing(Terminal(space))))
             for command in commands:
-                terminal.run(command)
-
-
-@contextlib.contextmanager
-def terminal_in(space: Space) -> Iterator['Terminal']:
-    """A terminal, open as long as the block; what runs there at the end is ended as by Ctrl-C."""
-    terminal = Terminal(space)
-    try:
-        yield terminal
-        terminal.finish()
-    finally:
-        terminal.close()
+                terminals[-1].run(command)
+        # The first ends last: as a rule the master runs there.
+        for some in (terminals[1:], terminals[:1]):
+            for terminal in some:
+                terminal.interrupt()
+            for terminal in some:
+                terminal.wait_for_end()
 
 
 class Terminal:
@@ -86,7 +82,6 @@ class Terminal:
         self._news = threading.Condition()
         self._reader = threading.Thread(target=self._read)
         self._reader.start()
-        self._wait_until(self._has_ended, 'a shell')
 
     def run(self, command: Command) -> None:
         """Type a command, and see that the terminal shows what it should.
@@ -94,6 +89,7 @@ class Terminal:
         Raises:
             AssertionError: it shows something else, or the command failed.
         """
+        self._wait_until(self._has_ended, 'a prompt of the shell')
         self._command = command
         with self._news:
             self._screen = ''
@@ -111,27 +107,35 @@ class Terminal:
             self._wait_until(self._has_ended, 'the end of the command, or `...` as its last line')
         self._check_end()
 
-    def finish(self) -> None:
-        """End what still runs there, which must not have failed before."""
+    def interrupt(self) -> None:
+        """Press Ctrl-C, if the command, which must not have failed, still runs."""
         self._check_end()
         if not self._has_ended():
             self._type('\x03')
-            self._wait_until(self._has_ended, 'the end of the command, by Ctrl-C')
+
+    def wait_for_end(self) -> None:
+        """Wait until nothing runs there."""
+        self._wait_until(self._has_ended, 'the end of the command, by Ctrl-C')
 
     def close(self) -> None:
         """End the shell, and by force whatever does not end."""
         if not self._has_ended():
-            with contextlib.suppress(OSError):
-                os.killpg(os.tcgetpgrp(self._keyboard), signal.SIGINT)
+            self._signal(signal.SIGINT)
             with contextlib.suppress(AssertionError):
                 self._wait_until(self._has_ended, 'the end')
-        with contextlib.suppress(OSError):
-            os.killpg(os.tcgetpgrp(self._keyboard), signal.SIGKILL)
+        self._signal(signal.SIGKILL)
         with contextlib.suppress(ProcessLookupError):
             os.killpg(self._shell.pid, signal.SIGKILL)
         self._shell.wait()
         self._reader.join()
         os.close(self._keyboard)
+
+    def _signal(self, number: int) -> None:
+        """To the group of processes in the foreground."""
+        with contextlib.suppress(OSError):
+            group = os.tcgetpgrp(self._keyboard)
+            if group > 0:  # 0: the shell has gone, and killpg would take it for our own group
+                os.killpg(group, number)
 
     def _read(self) -> None:
         decoder = codecs.getincrementaldecoder('utf-8')('replace')
