@@ -52,6 +52,17 @@ def checkout(tmp_path):
     return folder
 
 
+def write_package(folder):
+    """An empty package with its folder's name."""
+    folder.mkdir(parents=True)
+    (folder / 'package.xml').write_text(SAMPLE['package.xml'].replace('sample', folder.name))
+    (folder / 'CMakeLists.txt').write_text(f'''
+        cmake_minimum_required(VERSION 3.5)
+        project({folder.name})
+        find_package(catkin REQUIRED)
+        catkin_package()''')
+
+
 def rumba(folder, *arguments, **environment):
     """Exit code, output and error output of ./rumba."""
     done = subprocess.run([str(folder / 'rumba'), *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
@@ -146,11 +157,8 @@ def test_a_python_that_shadows_the_system_s_does_no_harm(checkout, tmp_path):
 
 
 def test_a_package_of_compat_is_built_where_the_system_has_none_and_leaves_where_it_has(checkout, tmp_path):
-    build_file = 'cmake_minimum_required(VERSION 3.5)\nproject({})\nfind_package(catkin REQUIRED)\ncatkin_package()\n'
     for name in ('lacking', 'std_srvs'):
-        (checkout / 'compat' / name).mkdir(parents=True)
-        (checkout / 'compat' / name / 'package.xml').write_text(SAMPLE['package.xml'].replace('sample', name))
-        (checkout / 'compat' / name / 'CMakeLists.txt').write_text(build_file.format(name))
+        write_package(checkout / 'compat' / name)
     (checkout / 'compat' / 'CATKIN_IGNORE').touch()
 
     def found():
@@ -168,3 +176,12 @@ def test_a_package_of_compat_is_built_where_the_system_has_none_and_leaves_where
     built.touch()
     assert found() == [lacking, srvs]
     assert not (source / 'std_srvs').exists() and not built.exists()
+
+
+def test_lessons_are_built_once_they_are_asked_for_and_remain(checkout, tmp_path):
+    write_package(checkout / 'rumba_tutorials' / '01_first' / 'a_lesson')
+    cache = {'XDG_CACHE_HOME': str(tmp_path / 'cache')}
+    find = ('shell', 'rospack', 'find', 'a_lesson')
+    assert rumba(checkout, *find, **cache)[0] != 0
+    assert rumba(checkout, 'build', **cache)[0] == 0
+    assert rumba(checkout, *find, **cache)[1].endswith('/src/a_lesson\n')
