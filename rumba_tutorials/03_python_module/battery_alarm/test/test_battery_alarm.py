@@ -18,27 +18,33 @@ class BatteryAlarmTest(unittest.TestCase):
     """Both nodes hear one battery."""
 
     def setUp(self):
-        self.low, self.log = queue.Queue(), queue.Queue()
+        self.low, self.said = queue.Queue(), set()
         rospy.Subscriber('battery_low', Bool, lambda message: self.low.put(message.data))
-        rospy.Subscriber('/rosout', Log, lambda entry: self.log.put((entry.name, entry.level, entry.msg)))
+        rospy.Subscriber('/rosout', Log, lambda entry: self.said.add((entry.name, entry.level, entry.msg)))
         self.publisher = rospy.Publisher('rumba/battery_status', BatteryStatus, queue_size=10)
-        end = rospy.get_time() + TIMEOUT
+        self.end = rospy.get_time() + TIMEOUT
         while self.publisher.get_num_connections() < 2:
-            self.assertLess(rospy.get_time(), end, 'the nodes do not listen')
+            self.assertLess(rospy.get_time(), self.end, 'the nodes do not listen')
             rospy.sleep(0.01)
 
-    def logged(self, wanted):
-        """Whether an entry comes, before time is over."""
-        while self.log.get(timeout=TIMEOUT) != wanted:
-            pass
+    def publish(self, percentage, brushes_up):
+        self.publisher.publish(BatteryStatus(percentage_battery=percentage, brushes_up=brushes_up))
 
     def test_it_speaks_when_the_limit_is_crossed(self):
-        for percentage in (21, 20, 19, 50):
-            self.publisher.publish(BatteryStatus(percentage_battery=percentage, brushes_up=True))
-        self.assertEqual([self.low.get(timeout=TIMEOUT) for _ in range(3)], [False, True, False])
-        self.logged(('/alarm', Log.WARN, 'low: 20 %, brushes lifted'))
-        self.publisher.publish(BatteryStatus(percentage_battery=100))
-        self.logged(('/say_battery', Log.INFO, 'full: 100 %, brushes on the floor'))
+        self.publish(21, True)
+        self.assertIs(self.low.get(timeout=TIMEOUT), False)  # latched: from now on every change is heard
+        for percentage in (20, 19, 50, 10):
+            self.publish(percentage, True)
+        self.assertEqual([self.low.get(timeout=TIMEOUT) for _ in range(3)], [True, False, True])
+
+    def test_both_say_what_the_module_says(self):
+        wanted = {('/alarm', Log.WARN, 'low: 20 %, brushes lifted'),
+                  ('/say_battery', Log.INFO, 'full: 100 %, brushes on the floor')}
+        while not wanted <= self.said:
+            self.assertLess(rospy.get_time(), self.end, self.said)
+            self.publish(20, True)
+            self.publish(100, False)
+            rospy.sleep(0.05)
 
 
 if __name__ == '__main__':
