@@ -1,0 +1,1 @@
+"""Lists of numbers, bytes and NumPy arrays in messages."""
