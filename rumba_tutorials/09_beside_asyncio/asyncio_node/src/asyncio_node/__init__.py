@@ -1,0 +1,1 @@
+"""rospy beside an asyncio loop."""
