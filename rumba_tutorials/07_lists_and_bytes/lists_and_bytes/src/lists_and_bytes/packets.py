@@ -3,7 +3,7 @@
 import struct
 from typing import NamedTuple
 
-# Most significant byte first: charging state, voltage [mV], current [mA], temperature [deg C], charge and capacity [mAh].
+# Most significant byte first: charging state, voltage [mV], current [mA], temperature [deg C], charge, capacity [mAh].
 LAYOUT = struct.Struct('>BHhbHH')
 
 
