@@ -1,0 +1,1 @@
+"""The way of definitions from ROS 1 to ROS 2."""
