@@ -1,0 +1,6 @@
+#pragma once
+
+namespace parts_lib
+{
+int count();
+}

@@ -1,0 +1,6 @@
+#include "parts_lib/count.h"
+
+int parts_lib::count()
+{
+  return 3;
+}

@@ -1,0 +1,3 @@
+"""A module for other packages."""
+
+GREETING = 'hello from parts_lib'
