@@ -21,7 +21,8 @@ PATIENCE = 2.0  # [s] with a node that the master knows but that does not answer
 
 
 def run(name: str, settings_class: Type[Settings], main: Callable[[Settings], None], own_clock: bool = False,
-        own_parameters: Sequence[str] = (), is_single: bool = False) -> None:
+        own_parameters: Sequence[str] = (), is_single: bool = False,
+        before: Callable[[], None] = lambda: None) -> None:
     """Run a node until ROS shuts down; leaves the process with exit code 2 where its input is bad.
 
     Args:
@@ -31,6 +32,7 @@ def run(name: str, settings_class: Type[Settings], main: Callable[[Settings], No
         own_clock: the node is the source of time: it does not listen to /clock.
         own_parameters: private parameters that the node itself writes; what an earlier run left there is deleted.
         is_single: refuse to start while a node of the same name is alive, which rospy would end otherwise.
+        before: called before the node is registered, which waits for a master without end, with only a line of log.
     """
     arguments = rospy.myargv()[1:]
     if '-h' in arguments or '--help' in arguments:
@@ -43,6 +45,7 @@ def run(name: str, settings_class: Type[Settings], main: Callable[[Settings], No
         _check_command_line(arguments, config.names(settings_class))
         if is_single:
             _refuse_twin(name)
+        before()
         rospy.init_node(name, disable_rostime=own_clock)
         for number in (signal.SIGINT, signal.SIGTERM):
             signal.signal(number, _shut_down)
