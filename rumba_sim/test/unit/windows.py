@@ -26,7 +26,7 @@ LEFT, BOTTOM = -1.0, 2.0  # [m]
 
 
 def plan(number=1):
-    """4 x 3 m of cells of 0.1 m: a wall along the left edge and a post near the upper right corner; a corner unknown."""
+    """4 x 3 m of cells of 0.1 m: a wall on the left, a post near the upper right corner; the lower right is unknown."""
     cells = np.full((30, 40), FREE, np.int8)
     cells[:, :3] = WALL
     cells[24:27, 33:36] = WALL
@@ -44,7 +44,7 @@ def coverage(number=2):
 
 def robot(name='rumba', pose=Pose(0.5, 4.0, 0.0), **known):
     """A robot that told all that it can tell, but for what is given."""
-    told = {'brushes_up': False, 'battery': Battery(0.6, 15.5, -1.7, False), 'message': 'all is well',
+    told = {'brushes_up': False, 'battery': Battery(0.6, 15.5, -1.7, 'on battery'), 'message': 'all is well',
             'cleaning': Cleaning(0.25, 1.5, 6.0, 0.8, 12.5), 'has_cleaner': True,
             'mission': Mission('cleaning', True, 'bounce', 'on its way')}
     return Robot(name, pose, **{**told, **known})

@@ -1,5 +1,6 @@
 """What a person can do in the window: keys, buttons, and why one of them cannot act now. No ROS, no Qt."""
 
+import math
 from typing import Callable, Dict, NamedTuple, Tuple
 
 from rumba_sim.viewer.snapshot import Snapshot
@@ -72,6 +73,11 @@ def simulated(now: Snapshot) -> str:
                               'time is real: start the simulator with another speed, as speed:=2')
 
 
+def another_robot(now: Snapshot) -> str:
+    """It needs a robot that is not selected."""
+    return '' if any(one.name != now.selected for one in now.robots) else 'there is no other robot'
+
+
 ACTS = (
     Act('clean', 'Clean', 'C', 'leave the dock, clean by the strategy beside, come home', cleaner),
     Act('dock', 'Dock', 'H', 'go home, into the dock', home),
@@ -87,7 +93,7 @@ ACTS = (
     Act('path', 'Path', 'P', 'show the way driven', nothing),
     Act('field', 'Beams', 'I', 'show where the dock is heard', nothing),
     Act('fit', 'Fit', 'Home', 'show the whole map', nothing),
-    Act('next_robot', 'Next robot', 'Tab', 'take the next robot', nothing),
+    Act('next_robot', 'Next robot', 'Tab', 'take the next robot', another_robot),
     Act('save', 'Save PNG', 'Ctrl+S', 'save a picture of the window', nothing),
     Act('record', 'Record GIF', 'Ctrl+G', 'begin or end to record the floor', nothing),
     Act('legend', 'Keys', 'F1', 'show or hide the keys', nothing),
@@ -104,6 +110,14 @@ MOUSE = (
     ('Wheel', 'zoom'),
     ('Drag with middle or right button', 'move the map'),
 )
+
+
+def next_speed(wanted: float, direction: int) -> float:
+    """The next of SPEEDS that is faster (1) or slower (-1) than the one that is wanted; itself where there is none."""
+    def rank(speed: float) -> float:
+        return speed or math.inf
+    beyond = [speed for speed in SPEEDS if direction * rank(speed) > direction * rank(wanted)]
+    return min(beyond, key=lambda speed: direction * rank(speed)) if beyond else wanted
 
 
 def legend() -> Tuple[Tuple[str, str], ...]:

@@ -92,6 +92,7 @@ def _paint_names(painter: QPainter, snapshot: Snapshot, view: ViewTransform, the
     """Who is who, where there are several."""
     if len(snapshot.robots) < 2:
         return
+    painter.save()
     font = QFont(painter.font())
     font.setBold(True)
     painter.setFont(font)
@@ -104,6 +105,7 @@ def _paint_names(painter: QPainter, snapshot: Snapshot, view: ViewTransform, the
         painter.drawRoundedRect(area.adjusted(-4.0, 0.0, 4.0, 0.0), 3.0, 3.0)
         painter.setPen(QColor(robot_colour(theme, robot.name)))
         painter.drawText(area, Qt.AlignCenter, robot.name)
+    painter.restore()
 
 
 def _paint_scale_bar(painter: QPainter, view: ViewTransform, theme: Theme) -> None:

@@ -129,7 +129,7 @@ def _percent(share: Optional[float], rounded: Callable[[float], int]) -> str:
 
 
 def _battery_colour(battery: Optional[Battery], theme: Theme) -> str:
-    if battery is None or battery.is_charging or battery.share > LOW:
+    if battery is None or battery.state != 'on battery' or battery.share > LOW:
         return theme.good
     return theme.warning if battery.share > CRITICAL else theme.bad
 
@@ -138,8 +138,7 @@ def _battery_text(battery: Optional[Battery]) -> str:
     if battery is None:
         return ''
     current = '' if math.isnan(battery.current) else f'  {battery.current:+.2f} A'
-    state = 'charging' if battery.is_charging else 'on battery'
-    return f'{battery.voltage:.1f} V{current}  {state}'.replace('-', MINUS)
+    return f'{battery.voltage:.1f} V{current}  {battery.state}'.replace('-', MINUS)
 
 
 def _mission_text(mission: Optional[Mission]) -> str:

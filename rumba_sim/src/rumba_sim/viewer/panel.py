@@ -95,18 +95,17 @@ class Panel(QScrollArea):
         self.buttons[name] = button
         return button
 
-    def show_snapshot(self, snapshot: Snapshot, checked: Dict[str, bool], lacking: Dict[str, str]) -> None:
+    def show_snapshot(self, snapshot: Snapshot, checked: Dict[str, bool]) -> None:
         """Show what is the case now.
 
         Args:
             snapshot: of the simulation.
             checked: by name, whether a switch is on.
-            lacking: by name, why something cannot be done for reasons that are not in the snapshot.
         """
         self.card.show_snapshot(snapshot)
         for name, button in self.buttons.items():
             act = BY_NAME[name]
-            lacks = lacking.get(name) or act.lacks(snapshot)
+            lacks = act.lacks(snapshot)
             button.setEnabled(not lacks)
             button.setToolTip(f'{act.label}: {lacks}' if lacks else f'{act.tip} [{act.key}]')
             if button.isCheckable():

@@ -21,6 +21,8 @@ ALWAYS = {'battery_status': BatteryStatus, 'battery_state': BatteryState, 'bumpe
 AT_TIMES = {'coverage': numpy_msg(OccupancyGrid), 'scan': numpy_msg(LaserScan)}  # large: only while they are shown
 STATES = {getattr(MissionStatus, name): name.lower().replace('_', ' ') for name in (
     'IDLE', 'UNDOCKING', 'CLEANING', 'RETURNING', 'DOCKING', 'CHARGING', 'GOING_TO', 'STRANDED')}
+SUPPLIES = {BatteryState.POWER_SUPPLY_STATUS_CHARGING: 'charging', BatteryState.POWER_SUPPLY_STATUS_FULL: 'full',
+            BatteryState.POWER_SUPPLY_STATUS_DISCHARGING: 'on battery'}
 AT_REST = (MissionStatus.IDLE, MissionStatus.STRANDED)
 
 
@@ -123,8 +125,7 @@ class RobotEar:
 def _battery(state: Optional[BatteryState]) -> Optional[Battery]:
     if state is None:
         return None
-    return Battery(state.percentage, state.voltage, state.current,
-                   state.power_supply_status == BatteryState.POWER_SUPPLY_STATUS_CHARGING)
+    return Battery(state.percentage, state.voltage, state.current, SUPPLIES.get(state.power_supply_status, ''))
 
 
 def _cleaning(status: Optional[CleaningStatus]) -> Optional[Cleaning]:

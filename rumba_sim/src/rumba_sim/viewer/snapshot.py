@@ -88,12 +88,12 @@ class Path:
 
 
 class Battery(NamedTuple):
-    """Charge 0..1, [V], [A] (negative out of the battery; NaN: unknown), and what the charger does."""
+    """Charge 0..1, [V], [A] (negative out of the battery; NaN: unknown), and `charging`, `full` or `on battery`."""
 
     share: float
     voltage: float
     current: float
-    is_charging: bool
+    state: str
 
 
 class Cleaning(NamedTuple):

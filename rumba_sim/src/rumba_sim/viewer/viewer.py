@@ -88,6 +88,8 @@ class Viewer:
         Raises:
             WorldError: no window can be opened, or the picture that was asked for cannot be saved.
         """
+        if settings.save_png:  # an order for once; parameters outlive a node
+            rospy.delete_param('~save_png')
         if not self._trouble:
             self._application.run(settings)
         elif settings.where_possible:

@@ -9,7 +9,7 @@ from python_qt_binding.QtGui import QKeySequence
 from python_qt_binding.QtWidgets import QHBoxLayout, QWidget
 
 from rumba_sim.model.geometry import Pose
-from rumba_sim.viewer.acts import ACTS, BY_NAME, SPEEDS, Steering, cleaner, robot
+from rumba_sim.viewer.acts import ACTS, BY_NAME, Steering, cleaner, next_speed, robot
 from rumba_sim.viewer.files import new_file
 from rumba_sim.viewer.floor_view import FloorView
 from rumba_sim.viewer.panel import Panel
@@ -99,10 +99,9 @@ class Window(QWidget):
 
     def _show(self) -> None:
         self.floor.show_snapshot(self.snapshot)
-        lacking = {'next_robot': '' if len(self.snapshot.robots) > 1 else 'there is one robot only'}
         self.panel.show_snapshot(self.snapshot, {
             'laser': self._shows_laser, 'path': self.floor.scene.shows_path, 'field': self.floor.scene.shows_field,
-            'record': self._recorder is not None, 'legend': self.floor.shows_legend}, lacking)
+            'record': self._recorder is not None, 'legend': self.floor.shows_legend})
 
     def tell(self, notice: str) -> None:
         """Show a line for a while."""
@@ -133,14 +132,10 @@ class Window(QWidget):
             'legend': self.floor.switch_legend, 'fit': self.floor.fit, 'next_robot': self._next_robot,
             'save': self._save, 'record': self._record}
 
-    def _change_speed(self, steps: int) -> None:
-        """To the next speed that is offered; 0, as fast as it can, comes last."""
+    def _change_speed(self, direction: int) -> None:
         wanted = self.snapshot.simulation.wanted
-        if wanted is None:
-            return
-        order = [speed or float('inf') for speed in SPEEDS]
-        nearest = min(range(len(order)), key=lambda index: abs(1.0 / order[index] - 1.0 / (wanted or float('inf'))))
-        self._actor.set_speed(SPEEDS[min(max(nearest + steps, 0), len(SPEEDS) - 1)])
+        if wanted is not None:
+            self._actor.set_speed(next_speed(wanted, direction))
 
     def _laser(self) -> None:
         self._shows_laser = not self._shows_laser
