@@ -2,6 +2,7 @@
 
 import math
 import re
+import time
 
 import numpy as np
 import pytest
@@ -13,7 +14,7 @@ from rumba_sim.viewer.acts import ACTS, legend
 from rumba_sim.viewer.recorder import WIDTH
 from rumba_sim.viewer.snapshot import Battery, Dock, Place, Simulation, Snapshot
 from rumba_sim.viewer.theme import DARK, LIGHT
-from windows import Opened, count, plan, robot, snapshot
+from windows import APPLICATION, Opened, count, plan, robot, snapshot
 
 from python_qt_binding.QtCore import QEvent, Qt
 
@@ -47,17 +48,38 @@ def test_a_key_drives_until_it_is_let_go(opened, key, command):
 def test_two_keys_drive_an_arc_and_backward_along_the_arc_that_forward_came_on(opened):
     opened.press(Qt.Key_Up)
     opened.press(Qt.Key_Left)
-    opened.release(Qt.Key_Up)
+    opened.release(Qt.Key_Up, stays=False)
+    while len(drives(opened)) < 3:
+        APPLICATION.processEvents()
     opened.press(Qt.Key_Down)
     assert drives(opened) == [(0.3, 0.0), (0.3, 1.5), (0.0, 1.5), (-0.3, -1.5)]
 
 
 def test_a_key_that_repeats_does_not_stop_in_between(opened):
     opened.press(Qt.Key_Up)
-    for _ in range(5):
-        opened.release(Qt.Key_Up, is_repeat=True)
-        opened.press(Qt.Key_Up, is_repeat=True)
+    opened.press(Qt.Key_Space)
+    for _ in range(20):
+        for key in (Qt.Key_Up, Qt.Key_Space):
+            opened.release(key, stays=False)
+            opened.press(key)
+        time.sleep(0.005)
+        APPLICATION.processEvents()
     assert drives(opened) == [(0.3, 0.0)]
+    assert opened.actor.done.count(('pause',)) == 1
+    opened.release(Qt.Key_Space, stays=False)
+    opened.release(Qt.Key_Up)
+    assert drives(opened) == [(0.3, 0.0), (0.0, 0.0)]
+
+
+def test_a_key_counts_by_what_it_was_when_it_went_down_whatever_is_held_beside_it_later(opened):
+    opened.press(Qt.Key_W)
+    opened.release(Qt.Key_W, stays=False)
+    opened.press(Qt.Key_W, modifiers=Qt.ControlModifier)
+    opened.release(Qt.Key_W)
+    assert drives(opened) == [(0.3, 0.0), (0.0, 0.0)]
+    assert opened.window.isVisible()
+    opened.type(Qt.Key_W, Qt.ControlModifier)
+    assert not opened.window.isVisible()
 
 
 def test_after_the_last_key_zero_is_said_a_few_times_then_nothing(opened):
@@ -75,6 +97,7 @@ def test_a_window_that_is_no_longer_in_front_or_closes_stops_the_robot(opened):
         opened.press(Qt.Key_Up)
         leave()
         assert drives(opened) == [(0.3, 0.0), (0.0, 0.0)]
+        opened.release(Qt.Key_Up)
 
 
 def test_who_drives_takes_the_robot_over_from_the_cleaner_once(opened):

@@ -3,12 +3,13 @@
 import math
 import os
 import queue
+import time
 
 import numpy as np
 
 os.environ.setdefault('QT_QPA_PLATFORM', 'offscreen')
 
-from python_qt_binding.QtCore import QEvent, QPoint, QPointF, Qt  # noqa: E402
+from python_qt_binding.QtCore import QEvent, QEventLoop, QPoint, QPointF, Qt  # noqa: E402
 from python_qt_binding.QtGui import QColor, QImage, QKeyEvent, QMouseEvent, QPalette, QWheelEvent  # noqa: E402
 from python_qt_binding.QtWidgets import QApplication  # noqa: E402
 
@@ -129,13 +130,16 @@ class Opened:
         self.source.next = shown
         self.window.update_picture()
 
-    def press(self, key, text='', modifiers=Qt.NoModifier, is_repeat=False):
+    def press(self, key, modifiers=Qt.NoModifier):
         """A key goes down."""
-        APPLICATION.sendEvent(self.window, QKeyEvent(QEvent.KeyPress, key, modifiers, text, is_repeat))
+        APPLICATION.sendEvent(self.window, QKeyEvent(QEvent.KeyPress, key, modifiers))
 
-    def release(self, key, is_repeat=False):
-        """A key goes up."""
-        APPLICATION.sendEvent(self.window, QKeyEvent(QEvent.KeyRelease, key, Qt.NoModifier, '', is_repeat))
+    def release(self, key, stays=True):
+        """A key goes up, and stays there long enough to be believed."""
+        APPLICATION.sendEvent(self.window, QKeyEvent(QEvent.KeyRelease, key, Qt.NoModifier))
+        end = time.monotonic() + 5.0
+        while stays and not self.window.keyboard.is_idle and time.monotonic() < end:
+            APPLICATION.processEvents(QEventLoop.AllEvents, 10)
 
     def type(self, key, modifiers=Qt.NoModifier):
         """A key goes down and up."""

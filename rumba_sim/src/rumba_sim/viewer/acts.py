@@ -135,11 +135,6 @@ class Steering:
         self._held: Dict[str, Tuple[int, int]] = {}
         self._zeros = 0
 
-    @property
-    def is_driving(self) -> bool:
-        """Whether a key is held."""
-        return bool(self._held)
-
     def press(self, key: str) -> bool:
         """A key went down; returns whether it drives."""
         if key in DRIVE:
@@ -148,13 +143,8 @@ class Steering:
         return key in DRIVE
 
     def release(self, key: str) -> bool:
-        """A key went up; returns whether it drives."""
-        self._held.pop(key, None)
-        return key in DRIVE
-
-    def release_all(self) -> None:
-        """No key counts any longer: the window is not in front."""
-        self._held.clear()
+        """A key went up; returns whether it drove."""
+        return self._held.pop(key, None) is not None
 
     def command(self) -> Tuple[Tuple[int, int], bool]:
         """Shares of the linear and the angular speed, and whether to say so: after the last key a few times zero."""

@@ -3,7 +3,7 @@
 Each layer is drawn to the size of the picture once, and kept until it, or the view, is another.
 """
 
-from typing import Dict, Optional, Tuple
+from typing import Dict, Iterator, Optional, Tuple
 
 import numpy as np
 from python_qt_binding.QtCore import QPointF, QRectF, Qt
@@ -18,6 +18,8 @@ CRISP = 4.0  # [pixels] of a cell from which on its edges are not smoothed
 COARSE = 0.5  # [pixels] of a cell below which several make one pixel
 PATH_WIDTH = 1.4  # [pixels]
 PATH_ALPHA = 150
+CORNERS = 4.0  # [pixels] from one corner of a path to the next, at least
+STRIPES = 0.12  # [m] from one to the next, along an axis
 SWEPT, TO_SWEEP = 100, 0  # in the coverage grid
 
 
@@ -53,9 +55,9 @@ def floor_image(plan: Grid, coverage: Optional[Grid], place: Place, theme: Theme
     if place.carpet is not None and place.carpet.shape == plan.cells.shape:
         _tint(colours, free & place.carpet, QColor(theme.carpet))
     if place.cliff is not None and place.cliff.shape == plan.cells.shape:
-        rows, columns = np.indices(plan.cells.shape)
-        stripes = (rows + columns) * plan.resolution % 0.12 < 0.06  # [m]
-        colours[free & place.cliff & stripes] = _rgb(theme.cliff)
+        rows, columns = np.nonzero(free & place.cliff)
+        striped = (rows + columns) * plan.resolution % STRIPES < 0.5 * STRIPES
+        colours[rows[striped], columns[striped]] = _rgb(theme.cliff)
     rows, columns = colours.shape
     top_first = np.ascontiguousarray(colours[::-1])
     return QImage(top_first.data, columns, rows, 4 * columns, QImage.Format_RGB32).copy()
@@ -127,13 +129,18 @@ class PathPainter:
         painter = QPainter(self._picture)
         painter.setRenderHint(QPainter.Antialiasing)
         painter.setCompositionMode(QPainter.CompositionMode_Source)  # where lines cross they do not add up
-        painter.setPen(QPen(colour, PATH_WIDTH, Qt.SolidLine, Qt.RoundCap, Qt.RoundJoin))
-        for line in _lines(path.points[first:]):
-            painter.drawPolyline(QPolygonF([QPointF(*view.to_pixel(x, y)) for x, y in line.tolist()]))
+        painter.setPen(QPen(colour, PATH_WIDTH, Qt.SolidLine, Qt.SquareCap, Qt.BevelJoin))
+        for line in _lines(path.points[first:], view):
+            painter.drawPolyline(QPolygonF([QPointF(x, y) for x, y in line.tolist()]))
         painter.end()
 
 
-def _lines(points: Array) -> list:
-    """Points between rows of NaN."""
-    gaps = np.flatnonzero(np.isnan(points[:, 0]))
-    return [line[~np.isnan(line[:, 0])] for line in np.split(points, gaps) if len(line) > 1]
+def _lines(points: Array, view: ViewTransform) -> Iterator[Array]:
+    """Corners (n, 2) [pixels] of the lines between rows of NaN, but for those that are close to the one before."""
+    pixels = np.stack(view.to_pixel(points[:, 0], points[:, 1]), axis=1)
+    for line in np.split(pixels, np.flatnonzero(np.isnan(points[:, 0]))):
+        line = line[~np.isnan(line[:, 0])]
+        if len(line) > 1:
+            way = np.cumsum(np.hypot(*np.diff(line, axis=0).T)) // CORNERS
+            keep = np.concatenate([[True], way[1:] != way[:-1], [True]])
+            yield line[keep]

@@ -5,13 +5,13 @@ import time
 from typing import Any, Callable, Dict, NamedTuple, Optional, Sequence
 
 from python_qt_binding.QtCore import QEvent, QTimer, Qt
-from python_qt_binding.QtGui import QKeySequence
 from python_qt_binding.QtWidgets import QHBoxLayout, QWidget
 
 from rumba_sim.model.geometry import Pose
 from rumba_sim.viewer.acts import ACTS, BY_NAME, Steering, cleaner, next_speed, robot
 from rumba_sim.viewer.files import new_file
 from rumba_sim.viewer.floor_view import FloorView
+from rumba_sim.viewer.keyboard import Keyboard
 from rumba_sim.viewer.panel import Panel
 from rumba_sim.viewer.recorder import RATE, Recorder
 from rumba_sim.viewer.snapshot import Snapshot
@@ -58,6 +58,7 @@ class Window(QWidget):
         self._source, self._actor, self._options = source, actor, options
         self._shows_laser = options.shows_laser
         self._steering = Steering()
+        self.keyboard = Keyboard(self._on_press, self._on_release)
         self._recorder: Optional[Recorder] = None
         self._notice_until = 0.0
         self.floor = FloorView(snapshot)
@@ -149,7 +150,7 @@ class Window(QWidget):
 
     def _take(self, name: str) -> None:
         """Drive another robot from now on, and tell of it."""
-        self._stop()
+        self.keyboard.forget()
         self._source.attend(name, self._shows_laser)
         self._actor.attend(name)
 
@@ -212,10 +213,15 @@ class Window(QWidget):
     # --- driving ------------------------------------------------------------------------------------------------------
 
     def keyPressEvent(self, event: Any) -> None:  # noqa: N802 (Qt's name)
+        """A key went down, or repeats."""
+        self.keyboard.press(event)
+
+    def keyReleaseEvent(self, event: Any) -> None:  # noqa: N802
+        """A key went up, or repeats."""
+        self.keyboard.release(event)
+
+    def _on_press(self, key: str) -> None:
         """Drive, or do what the key says."""
-        key = _name(event)
-        if event.isAutoRepeat():
-            return
         if not robot(self.snapshot) and self._steering.press(key):
             mission = self.snapshot.robot.mission
             if mission is not None and mission.is_active:
@@ -229,9 +235,9 @@ class Window(QWidget):
         elif key in KEYS:
             self.act(KEYS[key])
 
-    def keyReleaseEvent(self, event: Any) -> None:  # noqa: N802
+    def _on_release(self, key: str) -> None:
         """Stop, where no other key drives."""
-        if not event.isAutoRepeat() and self._steering.release(_name(event)):
+        if self._steering.release(key):
             self._command()
 
     def focusNextPrevChild(self, _: bool) -> bool:  # noqa: N802
@@ -241,18 +247,13 @@ class Window(QWidget):
     def event(self, event: Any) -> bool:
         """Stop when another window comes to the front: it gets the release of the key."""
         if event.type() == QEvent.WindowDeactivate:
-            self._stop()
+            self.keyboard.forget()
         return super().event(event)
 
     def closeEvent(self, event: Any) -> None:  # noqa: N802
         """Leave no robot driving."""
-        self._stop()
+        self.keyboard.forget()
         super().closeEvent(event)
-
-    def _stop(self) -> None:
-        if self._steering.is_driving:
-            self._steering.release_all()
-            self._command()
 
     def _command(self) -> None:
         """Tell the wheels, as often as the robot needs to go on."""
@@ -262,12 +263,3 @@ class Window(QWidget):
             least, usual = COMMAND_PERIODS
             speed = max(self.snapshot.simulation.speed or 1.0, 1.0)
             self._commands.setInterval(round(1000 * max(least, min(COMMAND_AGE / speed, usual))))
-
-
-def _name(event: Any) -> str:
-    """A key, with what is held beside it, as Qt names it in English."""
-    key = event.key()
-    if key in (Qt.Key_Shift, Qt.Key_Control, Qt.Key_Alt, Qt.Key_Meta, Qt.Key_unknown):
-        return ''
-    control = int(Qt.ControlModifier) if event.modifiers() & Qt.ControlModifier else 0
-    return str(QKeySequence(key | control).toString(QKeySequence.PortableText))
