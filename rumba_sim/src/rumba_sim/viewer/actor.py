@@ -40,16 +40,15 @@ class Actor:
         """Act upon another robot."""
         if robot != self._robot:
             self._robot = robot
-            self._do('reaching for the robot', self.reach)
+            threading.Thread(target=self.reach, daemon=True).start()
 
-    def reach(self) -> str:
+    def reach(self) -> None:
         """Open, at the present master, the topics by which the robot is moved; takes as long as that answers."""
         with self._lock:
             old, self._hands = self._hands, None
             if old is not None:
                 old.close()
             self._hands = Hands(self._robot, self.notices.put)
-        return ''
 
     def drive(self, v: float, w: float) -> None:
         """Command a velocity [m/s], [rad/s], at once."""

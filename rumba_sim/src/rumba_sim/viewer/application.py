@@ -38,6 +38,7 @@ class Application:
         self._qt.setApplicationDisplayName('Rumba')
         self._error: Optional[Exception] = None
         self._complete_since: Optional[float] = None
+        self._service: Optional[rospy.Service] = None
         sys.excepthook = self._on_exception
 
     def _on_exception(self, kind: Any, error: Any, trace: Any) -> None:
@@ -91,8 +92,13 @@ class Application:
         window = Window(listener, actor, options, listener.snapshot(time.monotonic()))
         window.resize(settings.width, settings.height)
         requests = Requests()
-        listener.start(actor.reach)
-        rospy.Service('~save_png', Trigger, lambda _: _save(requests, window))
+
+        def register() -> None:
+            if self._service is not None:
+                self._service.shutdown('another master')
+            self._service = rospy.Service('~save_png', Trigger, lambda _: _save(requests, window))
+            actor.reach()
+        listener.start(register)
         window.setAttribute(Qt.WA_DontShowOnScreen, bool(settings.save_png))
         window.show()
         timer = self._timer(lambda: self._look(requests, window, settings))

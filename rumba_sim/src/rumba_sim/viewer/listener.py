@@ -36,6 +36,7 @@ class Listener:
         self._selected, self._shows_laser = robot, shows_laser
         self._on_master: Callable[[], object] = lambda: None
         self._around = surroundings.Surroundings()
+        self._master = ''  # the one at which this node is known
         self._ears: Dict[str, RobotEar] = {}
         self._common: Tuple[rospy.Subscriber, ...] = ()
         self._numbers = itertools.count()
@@ -81,13 +82,16 @@ class Listener:
 
     def _follow(self, around: surroundings.Surroundings) -> None:
         """Listen to who is there, and no longer to who is not."""
-        if around.master and around.master != self._around.master:
-            self._begin_anew()
         if around != self._around:
             self._around = around
             self._tell()
         if not around.master:
             return
+        if around.master != self._master:
+            if not around.robots and any(ear.is_connected for ear in self._ears.values()):
+                return  # this master knows nobody: those who knew each other before it go on
+            self._master = around.master
+            self._begin_anew()
         for name in set(self._ears) - set(around.robots):
             self._ears.pop(name).close()
         for name in around.robots:
@@ -115,8 +119,8 @@ class Listener:
         if place_of == self._place_of:
             return
         self._place_of = place_of
-        self._config = robot_of_simulator()
         try:
+            self._config = robot_of_simulator()
             plan = map_file.load(path)
             self._place = Place(dock(plan, self._config) if plan.dock else None, plan.carpet, plan.cliff, True)
         except RumbaError:  # the simulator runs on another machine, or there is none
@@ -191,10 +195,10 @@ class Listener:
         return grid
 
     def _missing(self, robots: Tuple[Robot, ...], has_simulator: bool) -> str:
-        if not self._around.master:
-            return missing_master()
         if robots:
             return '' if self._plan is not None else 'Waiting for a map\nNobody publishes /map.'
+        if not self._around.master:
+            return missing_master()
         if has_simulator:
             return f'No robot is there\nrosservice call {rospy.resolve_name("simulator/spawn")} "{{}}"'
         return 'Waiting for a simulator\nTo start one, in another terminal:\nroslaunch rumba_sim simulator.launch'

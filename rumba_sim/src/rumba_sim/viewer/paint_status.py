@@ -6,12 +6,13 @@ from typing import Callable, List, Optional, Tuple
 from python_qt_binding.QtCore import QPointF, QRectF, Qt
 from python_qt_binding.QtGui import QColor, QFont, QFontMetricsF, QPainter
 
-from rumba_sim.viewer.snapshot import Battery, Cleaning, Mission, Robot, Simulation, Snapshot
+from rumba_sim.model.geometry import Pose
+from rumba_sim.viewer.snapshot import Battery, Cleaning, Robot, Simulation, Snapshot
 from rumba_sim.viewer.theme import Theme, robot_colour
 
 BAR = 14.0  # [pixels] height of a bar
 EDGE, TOP = 12.0, 8.0  # [pixels] from the card's edges to what it says
-LINES = 8  # of small text
+LINES = 9  # of small text
 LOW, CRITICAL = 0.25, 0.10  # charge: getting low, and where a robot goes home at the latest
 STATES = {'cleaning': 'good', 'charging': 'good', 'stranded': 'bad'}
 UNKNOWN, MINUS = '-', '\u2212'
@@ -52,7 +53,7 @@ class _Card:
         robot = snapshot.robot
         self._title(snapshot.selected, robot)
         mission = robot.mission if robot is not None else None
-        self._small_line(_mission_text(mission) if robot is not None else '')
+        self._small_line('' if robot is None else 'no cleaner' if mission is None else mission.message)
         battery, cleaning = (robot.battery, robot.cleaning) if robot is not None else (None, None)
         # Rounded as in battery_status: upward, so that 0 % is empty; and downward, so that 100 % is all.
         self._bar('Battery', battery and battery.share, math.ceil, _battery_colour(battery, self._theme))
@@ -141,13 +142,6 @@ def _battery_text(battery: Optional[Battery]) -> str:
     return f'{battery.voltage:.1f} V{current}  {battery.state}'.replace('-', MINUS)
 
 
-def _mission_text(mission: Optional[Mission]) -> str:
-    if mission is None:
-        return 'no cleaner'
-    by = f'by {mission.strategy}' if mission.strategy else ''
-    return ': '.join(part for part in (by, mission.message) if part)
-
-
 def _cleaning_text(cleaning: Optional[Cleaning]) -> str:
     if cleaning is None:
         return ''
@@ -156,14 +150,19 @@ def _cleaning_text(cleaning: Optional[Cleaning]) -> str:
 
 
 def _rows(robot: Optional[Robot], simulation: Simulation) -> List[Tuple[str, str]]:
-    place, way = UNKNOWN, UNKNOWN
-    if robot is not None:
-        pose = robot.pose
-        place = f'{pose.x:.2f}, {pose.y:.2f} m, {math.degrees(pose.theta):.0f}\u00b0'.replace('-', MINUS)
-        way = UNKNOWN if robot.cleaning is None else f'{robot.cleaning.distance:.1f} m'
-    brushes = {None: UNKNOWN, True: 'up', False: 'down'}[robot.brushes_up if robot is not None else None]
-    return [('Place', place), ('Way', f'{way}, brushes {brushes}'), ('Time', _time_text(simulation)),
-            ('Speed', _speed_text(simulation))]
+    return [('Strategy', robot.mission.strategy or UNKNOWN if robot and robot.mission else UNKNOWN),
+            ('Place', _place_text(robot.pose) if robot else UNKNOWN), ('Way', _way_text(robot) if robot else UNKNOWN),
+            ('Time', _time_text(simulation)), ('Speed', _speed_text(simulation))]
+
+
+def _place_text(pose: Pose) -> str:
+    return f'{pose.x:.2f}, {pose.y:.2f} m, {math.degrees(pose.theta):.0f}\u00b0'.replace('-', MINUS)
+
+
+def _way_text(robot: Robot) -> str:
+    way = UNKNOWN if robot.cleaning is None else f'{robot.cleaning.distance:.1f} m'
+    brushes = {None: UNKNOWN, True: 'up', False: 'down'}[robot.brushes_up]
+    return f'{way}, brushes {brushes}'
 
 
 def _time_text(simulation: Simulation) -> str:

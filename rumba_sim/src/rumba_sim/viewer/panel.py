@@ -110,6 +110,7 @@ class Panel(QScrollArea):
             button.setToolTip(f'{act.label}: {lacks}' if lacks else f'{act.tip} [{act.key}]')
             if button.isCheckable():
                 button.setChecked(checked[name])
+                button.setText(f'\u2713 {act.label}' if checked[name] else act.label)
         self.buttons['pause'].setText('Resume' if snapshot.simulation.is_paused else 'Pause')
         self.strategies.setEnabled(self.buttons['clean'].isEnabled())
         self.strategies.setToolTip('cleaning strategy')
