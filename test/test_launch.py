@@ -1,10 +1,11 @@
 """The launch files explain themselves, and the demo shows a robot that cleans, bumps and drains."""
 
 import re
+import time
 import xml.etree.ElementTree
 
 import pytest
-from workspaces import ROOT
+from workspaces import ROOT, TIMEOUT
 
 PACKAGE = ROOT / 'rumba_sim'
 LAUNCH_FILES = sorted((PACKAGE / 'launch').iterdir())
@@ -49,6 +50,27 @@ def test_the_demo_shows_a_mission_from_dock_to_dock_and_reports(workspace):
                 assert re.search(r'm, 0 charges; the floor is 1\d\.\d % clean: 10\.\d % swept$', line), line
                 return
     raise AssertionError(f'the demo ended before: {wanted[0]}')
+
+
+@pytest.mark.parametrize('gui, line', [
+    ('auto', r'no window, the simulation goes on without: there is no display'),
+    ('true', r'^viewer: no window: there is no display')])
+def test_without_a_display_the_demo_says_so_in_a_line_and_goes_on(workspace, gui, line):
+    bare = 'env -u DISPLAY -u WAYLAND_DISPLAY -u QT_QPA_PLATFORM'
+    with workspace.space('devel').running(f'{bare} {DEMO} gui:={gui} 2>&1') as demo:
+        assert any(re.search(line, text) for text in demo.stdout), 'the demo ended'
+        assert any(LINE.match(text) for text in demo.stdout), 'the demo ended'
+
+
+def test_the_demo_opens_the_window_where_it_can_and_goes_on_when_it_is_closed(workspace):
+    here = workspace.space('devel')
+    with here.running(f'env QT_QPA_PLATFORM=offscreen {DEMO}') as demo:
+        assert any(LINE.match(text) for text in demo.stdout)
+        deadline = time.monotonic() + TIMEOUT
+        while '/viewer/save_png' not in here.run('rosservice list'):
+            assert time.monotonic() < deadline, 'no viewer'
+        here.run('rosnode kill /viewer')
+        assert any(LINE.match(text) for text in demo.stdout), 'the demo ended'
 
 
 def test_the_configuration_file_is_what_the_simulator_prints(workspace):

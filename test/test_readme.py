@@ -13,12 +13,11 @@ INTERFACES = (ROOT / 'docs' / 'interfaces.md').read_text()
 TOPICS = [re.findall(r'`([^`]+)`', row) for row in README.splitlines()
           if re.match(r'\| `\w+` \| (publishes|subscribes) ', row)]
 ACTIONS = [re.findall(r'`([^`]+)`', row) for row in README.splitlines()
-           if re.match(r'\| `\w+` \| serves action ', row)]
+           if re.match(r'\| `\w+` \| (serves|uses) action ', row)]
 SERVICES = [re.findall(r'`([^`]+)`', row) for row in INTERFACES.splitlines() if re.match(r'\| `\w+` \| serves ', row)]
 NODES = sorted({row[0] for row in TOPICS})
 EVERY_NODE_HAS = {'/rosout [rosgraph_msgs/Log]', '/clock [rosgraph_msgs/Clock]'}  # the latter in simulated time
-# rosnode knows no type of what nobody publishes.
-OF_ACTION = {'goal': 'unknown type', 'cancel': 'unknown type', 'status': 'actionlib_msgs/GoalStatusArray',
+OF_ACTION = {'goal': '{}Goal', 'cancel': 'actionlib_msgs/GoalID', 'status': 'actionlib_msgs/GoalStatusArray',
              'feedback': '{}Feedback', 'result': '{}Result'}
 OF_RECONFIGURE = re.compile(r'/tuning/|_logger')  # what dynamic_reconfigure and every node bring of their own
 COMMANDS = {
@@ -30,6 +29,7 @@ COMMANDS = {
     # teleop_key wants a terminal.
     'teleop_key': 'script -qec "rosrun rumba_sim teleop_key __ns:=/readme" /dev/null',
     'turtlesim': 'rosrun turtlesim turtlesim_node _gui:=false',
+    'viewer': 'env QT_QPA_PLATFORM=offscreen rosrun rumba_sim viewer _laser:=true',
 }
 # Two simulators need two masters; beside each are those who publish what it subscribes to.
 BODY = ['turtlesim_body', 'turtlesim', 'teleop_key']
@@ -52,6 +52,9 @@ def running(workspace):
             while not {f'/readme/{node}' for node in nodes} <= set(here.run('rosnode list').split()):
                 assert time.monotonic() < deadline, here.run('rosnode list')
             here.run('rostopic echo -n1 /readme/rumba/cleaning_status')  # the simulator is through with its start
+            # The viewer looks for robots once a second; the actions are the last that it reaches for.
+            while 'viewer' in nodes and '/readme/viewer' not in here.run('rostopic info /readme/rumba/go_to/goal'):
+                assert time.monotonic() < deadline, 'the viewer finds no robot'
             found.update({node: here for node in nodes if node not in found})
         yield found
 

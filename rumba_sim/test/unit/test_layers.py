@@ -15,7 +15,12 @@ LAYERS = {
     'viewer': {'model', 'ros', 'viewer'},
 }
 PURE = ('model', 'cleaning', 'evaluation')
-NOT_PURE = ('rospy', 'roslib', 'rospkg', 'actionlib', 'rosbag', 'tf', 'tf2', 'python_qt_binding', 'PyQt5')
+QT = ('python_qt_binding', 'PyQt5')
+NOT_PURE = ('rospy', 'roslib', 'rospkg', 'rosgraph', 'actionlib', 'rosbag', 'tf', 'tf2', *QT)
+OF_MESSAGES = ('_msgs', '_msg', '_srvs', '_ros')
+# Of the viewer: what speaks with ROS, and what is made of plain values.
+VIEWER_WITH_ROS = ('viewer', 'application', 'listener', 'robot_ear', 'surroundings', 'actor', 'hands')
+VIEWER_WITHOUT_QT = ('snapshot', 'view_transform', 'track', 'dock_field', 'theme', 'acts', 'files')
 MODULES = sorted(SOURCE.glob('*/**/*.py'))
 
 
@@ -49,7 +54,25 @@ def test_a_module_imports_only_from_its_layer_and_those_below(path):
 def test_a_pure_module_imports_no_ros_no_messages_no_window_and_no_clock(path):
     for name in imports(path):
         top = name.split('.')[0]
-        assert top not in NOT_PURE and not top.endswith(('_msgs', '_msg', '_srvs', '_ros')) and top != 'time', name
+        assert top not in NOT_PURE and not top.endswith(OF_MESSAGES) and top != 'time', name
+
+
+@pytest.mark.parametrize('path', [path for path in MODULES if layer(path) == 'viewer'
+                                  and path.stem not in VIEWER_WITH_ROS], ids=lambda path: path.name)
+def test_what_paints_and_what_shows_knows_neither_ros_nor_messages(path):
+    for name in imports(path):
+        top = name.split('.')[0]
+        assert top in QT or top not in NOT_PURE and not top.endswith(OF_MESSAGES), name
+        assert not name.startswith('rumba_sim.ros'), name
+        assert not name.startswith('rumba_sim.viewer') or name.split('.')[2] not in VIEWER_WITH_ROS, name
+
+
+@pytest.mark.parametrize('path', [path for path in MODULES if layer(path) == 'viewer'
+                                  and path.stem in VIEWER_WITHOUT_QT], ids=lambda path: path.name)
+def test_what_is_made_of_plain_values_in_the_viewer_knows_no_qt(path):
+    for name in imports(path):
+        assert name.split('.')[0] not in QT, name
+        assert not name.startswith('rumba_sim.viewer') or name.split('.')[2] in VIEWER_WITHOUT_QT, name
 
 
 @pytest.mark.parametrize('path', sorted((PACKAGE / 'scripts').iterdir()), ids=lambda path: path.name)

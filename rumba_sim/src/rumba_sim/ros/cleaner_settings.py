@@ -5,11 +5,14 @@ import dataclasses
 import rosgraph
 import rospy
 
+from rumba_sim.cleaning import strategies
 from rumba_sim.cleaning.cleaning_config import CleaningConfig
 from rumba_sim.model import yaml_file
 from rumba_sim.model.config import names, part, setting, updated
 from rumba_sim.model.errors import ConfigError
 from rumba_sim.model.robot_config import RobotConfig
+
+STRATEGIES = tuple(sorted(strategies.OWN))  # that every cleaner knows
 
 
 @dataclasses.dataclass(frozen=True)

@@ -22,7 +22,7 @@ PATIENCE = 2.0  # [s] with a node that the master knows but that does not answer
 
 def run(name: str, settings_class: Type[Settings], main: Callable[[Settings], None], own_clock: bool = False,
         own_parameters: Sequence[str] = (), is_single: bool = False, arguments_of_others: Sequence[str] = (),
-        on_refusal: Callable[[str], Any] = lambda _: None) -> None:
+        on_refusal: Callable[[str], Any] = lambda _: None, before: Callable[[], None] = lambda: None) -> None:
     """Run a node until ROS shuts down; leaves the process with exit code 2 where its input is bad.
 
     Args:
@@ -34,6 +34,7 @@ def run(name: str, settings_class: Type[Settings], main: Callable[[Settings], No
         is_single: refuse to start while a node of the same name is alive, which rospy would end otherwise.
         arguments_of_others: how arguments begin that are not for this function, as those that rostest adds.
         on_refusal: also told what was wrong with the input.
+        before: called before the node is registered, which waits for a master without end, with only a line of log.
     """
     arguments = [argument for argument in rospy.myargv()[1:] if not argument.startswith(tuple(arguments_of_others))]
     if '-h' in arguments or '--help' in arguments:
@@ -46,6 +47,7 @@ def run(name: str, settings_class: Type[Settings], main: Callable[[Settings], No
         _check_command_line(arguments, config.names(settings_class))
         if is_single:
             _refuse_twin(name)
+        before()
         rospy.init_node(name, disable_rostime=own_clock)
         for number in (signal.SIGINT, signal.SIGTERM):
             signal.signal(number, _shut_down)

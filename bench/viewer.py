@@ -1,0 +1,109 @@
+"""What the window costs: a picture alone, and the node beside a mission; without a display (Qt's platform offscreen).
+
+The map is the apartment. Pictures are drawn whole, as many as a core can; the node draws when something has changed,
+30 times a second while the robot moves.
+"""
+
+import os
+import statistics
+import time
+
+os.environ['QT_QPA_PLATFORM'] = 'offscreen'
+
+import numpy as np  # noqa: E402
+import rosgraph  # noqa: E402
+import xmlrpc.client  # noqa: E402
+from python_qt_binding.QtGui import QImage, QPainter  # noqa: E402
+from python_qt_binding.QtWidgets import QApplication  # noqa: E402
+
+from common import figures, ros_session  # noqa: E402
+from rumba_sim.model import map_file  # noqa: E402
+from rumba_sim.model.geometry import Pose  # noqa: E402
+from rumba_sim.model.robot_config import RobotConfig  # noqa: E402
+from rumba_sim.ros.maps import map_path  # noqa: E402
+from rumba_sim.viewer.dock_field import dock  # noqa: E402
+from rumba_sim.viewer.paint_scene import ScenePainter  # noqa: E402
+from rumba_sim.viewer.snapshot import Grid, Path, Place, Robot, Snapshot  # noqa: E402
+from rumba_sim.viewer.theme import LIGHT  # noqa: E402
+from rumba_sim.viewer.view_transform import ViewTransform  # noqa: E402
+
+MAP = 'apartment'
+SIZES = ((860, 660), (1640, 1080))  # [pixels] of the floor in a window of usual size and on a full screen
+POINTS = 10_000  # of the path, 200 m
+PICTURES = 30.0  # a second, at least
+SHARE = 25.0  # [%] of a core, below
+WARM, SECONDS, RUNS = 8.0, 8.0, 3  # [s]
+
+
+def main():
+    """Measure and print."""
+    application = QApplication([])
+    figures.heading(f'The window: the map {MAP}, a laser of 360 beams, a path of {POINTS} points')
+    for size in SIZES:
+        alone(*size)
+    del application
+    with ros_session.master():
+        for speed in (1, 10):
+            beside_a_mission(speed)
+
+
+def snapshot(step, number):
+    """The robot at a step of its way, its laser on; coverage of which `number` tells the painter whether it is new."""
+    plan = map_file.load(map_path(MAP))
+    place = Place(dock(plan, RobotConfig()), plan.carpet, plan.cliff, True)
+    grid = Grid(plan.occupancy, plan.resolution, *plan.origin, 0)
+    swept = Grid(np.where(plan.free, 100, -1).astype(np.int8), plan.resolution, *plan.origin, number)
+    angles = np.linspace(-np.pi, np.pi, 360)
+    beams = 2.0 * np.stack([np.cos(angles), np.sin(angles)], axis=1)
+    turns = np.linspace(0.0, 60.0, POINTS)
+    way = np.stack([4.0 + 0.05 * turns * np.cos(turns), 3.0 + 0.04 * turns * np.sin(turns)], axis=1)
+    return lambda: Snapshot(grid, swept, place, (Robot('rumba', Pose(*way[step()], 0.0), beams=beams,
+                                                       path=Path(way, 0)),))
+
+
+def alone(width, height):
+    """Pictures in a CPU second, when the robot moves, and when all is new."""
+    image = QImage(width, height, QImage.Format_RGB32)
+    steps = iter(range(10 ** 9))
+    now = snapshot(lambda: next(steps) % POINTS, 1)
+    view = ViewTransform.fitted(now().plan.box, width, height)
+    kept = ScenePainter()
+
+    def paint(scene):
+        painter = QPainter(image)
+        scene.paint(painter, now(), view, LIGHT)
+        painter.end()
+    paint(kept)
+    figures.row(f'{width} x {height}: pictures in a CPU second, the robot moves',
+                figures.per_cpu_second(lambda: paint(kept), 1), at_least=PICTURES)
+    figures.row('  pictures in a CPU second, all is new, as when the map is zoomed',
+                figures.per_cpu_second(lambda: paint(ScenePainter()), 1))
+
+
+def beside_a_mission(speed):
+    """Share of a core that the node takes while the robot cleans: the median."""
+    with ros_session.fresh_parameters(), ros_session.process(
+            ['roslaunch', 'rumba_sim', 'demo.launch', f'speed:={speed}', 'gui:=false', 'drain:=1']), \
+            ros_session.process(['rosrun', 'rumba_sim', 'viewer', '_laser:=true']):
+        pid = ros_session.wait_until(pid_of_viewer)
+        time.sleep(WARM)
+        shares = []
+        for _ in range(RUNS):
+            begin, before = time.monotonic(), figures.cpu_seconds(pid)
+            time.sleep(SECONDS)
+            shares.append(100.0 * (figures.cpu_seconds(pid) - before) / (time.monotonic() - begin))
+        figures.row(f'a mission at speed {speed}, laser shown: share of a core [%]', statistics.median(shares),
+                    below=SHARE)
+        figures.row('  resident memory [MB]', figures.resident_megabytes(pid))
+
+
+def pid_of_viewer():
+    """Process of the node; None before it is there."""
+    try:
+        return xmlrpc.client.ServerProxy(rosgraph.Master('/bench').lookupNode('/viewer')).getPid('/bench')[2]
+    except (rosgraph.MasterException, OSError):
+        return None
+
+
+if __name__ == '__main__':
+    main()
