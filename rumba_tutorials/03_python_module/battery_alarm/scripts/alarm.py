@@ -13,7 +13,7 @@ class Alarm:
 
     def __init__(self):
         self.is_low = None
-        self.publisher = rospy.Publisher('battery_low', Bool, queue_size=1, latch=True)
+        self.publisher = rospy.Publisher('battery_low', Bool, queue_size=10, latch=True)  # no change is lost
         rospy.Subscriber('rumba/battery_status', BatteryStatus, self.hear)
 
     def hear(self, status):
