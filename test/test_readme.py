@@ -10,11 +10,11 @@ from workspaces import OURS, ROOT, TIMEOUT, TUTORIALS, Space, clean_environment,
 
 README = (ROOT / 'README.md').read_text()
 INTERFACES = (ROOT / 'docs' / 'interfaces.md').read_text()
-TOPICS = [re.findall(r'`([^`]+)`', row) for row in README.splitlines()
+TOPICS = [re.findall(r'`([^`]+)`', row) for row in INTERFACES.splitlines()
           if re.match(r'\| `\w+` \| (publishes|subscribes) ', row)]
-ACTIONS = [re.findall(r'`([^`]+)`', row) for row in README.splitlines()
+ACTIONS = [re.findall(r'`([^`]+)`', row) for row in INTERFACES.splitlines()
            if re.match(r'\| `\w+` \| (serves|uses) action ', row)]
-SERVICES = [re.findall(r'`([^`]+)`', row) for row in INTERFACES.splitlines() if re.match(r'\| `\w+` \| serves ', row)]
+SERVICES = [re.findall(r'`([^`]+)`', row) for row in INTERFACES.splitlines() if re.match(r'\| `\w+` \| serves `', row)]
 NODES = sorted({row[0] for row in TOPICS})
 EVERY_NODE_HAS = {'/rosout [rosgraph_msgs/Log]', '/clock [rosgraph_msgs/Clock]'}  # the latter in simulated time
 OF_ACTION = {'goal': '{}Goal', 'cancel': 'actionlib_msgs/GoalID', 'status': 'actionlib_msgs/GoalStatusArray',
@@ -89,7 +89,8 @@ def test_the_table_of_services_is_what_the_node_serves(running, node):
     assert {service: running[node].run(f'rosservice type {service}').strip() for service in promised} == promised
 
 
-def test_every_installed_node_is_in_the_table_and_every_other_program_is_named():
+def test_every_installed_node_is_in_the_tables_and_every_other_program_is_named():
+    assert sorted(re.findall(r'^\| `(\w+)` \|', README, re.MULTILINE)) == NODES
     others = re.findall(r'^`rosrun rumba_sim (\w+)`', README, re.MULTILINE)
     assert sorted(NODES + others) == sorted(path.name for path in (ROOT / 'rumba_sim' / 'scripts').iterdir())
 
