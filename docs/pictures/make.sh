@@ -18,8 +18,9 @@ until_swept() { while ! swept | awk "{ exit !(\$1 >= $1) }"; do sleep 0.5; done;
 picture() { # VIEWER NAME
     made=$(rosservice call "/$1/save_png" | sed -n 's/^message: "\(.*\)"$/\1/p')
     mv "$made" "$2.png"
-    python3 -c 'import sys; from PIL import Image; path = sys.argv[1]
-Image.open(path).quantize(128, dither=0).save(path, optimize=True)' "$2.png"
+    python3 -c 'import sys; from PIL import Image; Image.open(sys.argv[1]).convert("RGB").quantize(
+    256, Image.MEDIANCUT, kmeans=4, dither=0).save(sys.argv[1], optimize=True)' \
+        "$2.png"
 }
 
 start roscore -p "${PORT:-11399}"

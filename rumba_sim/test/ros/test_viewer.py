@@ -48,11 +48,7 @@ class ViewerTest(unittest.TestCase):
         viewer.key('key', 'space')
         wait(self, lambda: len(clock.messages) > 1 and clock.messages[-1] == clock.messages[-2], 'the pause')
         paused_at = clock.messages[-1].clock
-
-        def steps():
-            viewer.key('key', 'n')
-            return clock.messages[-1].clock > paused_at
-        wait(self, steps, 'a step')
+        viewer.key_until('n', lambda: clock.messages[-1].clock > paused_at, 'a step')
         stepped_to = clock.messages[-1].clock
         viewer.key('key', 'space')
         clock.find(lambda message: message.clock.to_sec() > stepped_to.to_sec() + 1.0)
@@ -73,11 +69,7 @@ class ViewerTest(unittest.TestCase):
         wait(self, status.get_num_connections, 'the viewer to listen')
         viewer.wait_to_see(ROBOT, 20)
         viewer.front()
-
-        def asks():
-            viewer.key('key', 'c')
-            return goals.messages
-        self.assertEqual(wait(self, asks, 'a goal')[0].goal.strategy, '')
+        self.assertEqual(viewer.key_until('c', lambda: goals.messages, 'a goal')[0].goal.strategy, '')
 
     def test_it_ends_cleanly_by_signals_and_by_rosnode_kill(self):
         Simulator(self, '_map:=studio')

@@ -4,6 +4,7 @@ import os
 import signal
 import subprocess
 import tempfile
+import time
 
 import numpy as np
 import rospy
@@ -11,7 +12,7 @@ from PIL import Image
 from simulators import TIMEOUT, wait
 from std_srvs.srv import Trigger
 
-ENDS_WITHIN = 10.0  # [s]
+BETWEEN = 0.5  # [s] from one press of a key to the next
 COMMAND = ['rosrun', 'rumba_sim', 'viewer']
 ROBOT, CARD = (31, 111, 214), (255, 255, 255)  # colours of the light style
 PANEL = 300  # [pixels] on the right that are not floor
@@ -102,6 +103,16 @@ class Viewer:
     def key(self, what, *keys):
         """`key`, `keydown` or `keyup`."""
         self._display.run(what, *keys)
+
+    def key_until(self, key, condition, what):
+        """Press a key until a condition holds, with time between to see that it does; returns what that returned."""
+        def tries():
+            self.key('key', key)
+            end = time.monotonic() + BETWEEN
+            while not condition() and time.monotonic() < end:
+                time.sleep(0.01)
+            return condition()
+        return wait(self._test, tries, what)
 
     def ends(self, code=0):
         """Wait for its end, which must be quiet; returns what it printed."""
