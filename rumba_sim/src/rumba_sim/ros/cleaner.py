@@ -49,7 +49,8 @@ PERIOD = 0.2  # [s] of the wall clock, to look after a robot that is silent
 SILENCE = 2.0  # [s] of the wall clock, of a robot that is gone
 FIRST_SILENCE = 10.0  # [s] of the wall clock, of one that was never heard: it may be about to come
 PATIENCE = 5 * SECOND  # [ns] with a robot that does not tell all that a behaviour must know ...
-UNREAD = 50  # ... or so many times dock_status without bumper or cliff
+UNREAD = 50  # ... or so many times dock_status without bumper or cliff ...
+PATIENCE_WALL = 2.0  # [s] ... and not sooner: at a high speed connections of its topics still come
 SETTLING = 2 * SECOND  # [ns] from the end to the result, at most: the robot comes to rest, and the figures come ...
 SETTLING_WALL = 5.0  # [s] ... unless time stands still
 REST = 0.001  # [m], [rad] from one reading to the next is none
@@ -81,7 +82,16 @@ class Run:
         self.before = senses.cleaning
         self.pose: Optional[Pose] = None  # at the reading before
         self.begun = self.seen = self.due = senses.passed  # [ns]; the last reading that told all; the next feedback
-        self.since = time.monotonic()  # this, or its end, of the wall clock
+        self.since = self.seen_wall = time.monotonic()  # this, or its end; and `seen`, of the wall clock
+
+    def see(self, senses: Senses) -> None:
+        """A reading told all."""
+        self.seen, self.seen_wall, self.before = senses.passed, time.monotonic(), self.before or senses.cleaning
+
+    @property
+    def is_unseen(self) -> bool:
+        """Whether it is long enough, by the wall clock, that a reading told all."""
+        return time.monotonic() - self.seen_wall > PATIENCE_WALL
 
     def end(self, outcome: Status, message: str, senses: Senses) -> None:
         """The behaviour has ended; what is left is to rest."""
@@ -214,10 +224,10 @@ class Cleaner:
             return
         observation = self._senses.observe()
         if observation is None:
-            if self._senses.passed - run.seen > PATIENCE:
+            if self._senses.passed - run.seen > PATIENCE and run.is_unseen:
                 self._close(run, Status.FAILED, self._senses.missing())
         elif run.outcome is Status.RUNNING:
-            run.seen, run.before = self._senses.passed, run.before or self._senses.cleaning
+            run.see(self._senses)
             self._act(run, observation)
         else:
             self._settle(run, observation.pose)
@@ -268,7 +278,7 @@ class Cleaner:
         silence = SILENCE if self._senses.stamp is not None else FIRST_SILENCE
         if self._senses.is_alone and now - max(self._senses.heard, run.since) > silence:
             self._close(run, Status.FAILED, 'the robot is gone')
-        elif self._senses.unread > UNREAD:
+        elif self._senses.unread > UNREAD and run.is_unseen:
             self._close(run, Status.FAILED, self._senses.missing())
         elif run.outcome is not Status.RUNNING and now - run.since > SETTLING_WALL:
             self._close(run, run.outcome, run.message)
