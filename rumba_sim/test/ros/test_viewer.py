@@ -14,7 +14,7 @@ import rospy
 import rostest
 from geometry_msgs.msg import Pose2D, Twist
 from PIL import Image
-from simulators import Heard, Simulator, wait
+from simulators import Heard, Simulator, stands_still, wait
 from viewers import CARD, ROBOT, Display, Viewer, of_colour
 
 from rumba_msg.msg import CleanActionGoal, MissionStatus
@@ -46,7 +46,7 @@ class ViewerTest(unittest.TestCase):
         commands.find(lambda twist: twist.linear.x == 0.0)
         truth.fresh(lambda message: message.twist.twist.linear.x == 0.0)
         viewer.key('key', 'space')
-        wait(self, lambda: len(clock.messages) > 1 and clock.messages[-1] == clock.messages[-2], 'the pause')
+        wait(self, lambda: stands_still(clock), 'the pause')
         paused_at = clock.messages[-1].clock
         viewer.key_until('n', lambda: clock.messages[-1].clock > paused_at, 'a step')
         stepped_to = clock.messages[-1].clock
