@@ -80,6 +80,12 @@ class Heard:
         return self.find(lambda message: message.header.stamp.to_nsec() == ticks * TICK)
 
 
+def stands_still(clock):
+    """Whether the last two messages of /clock tell the same time: taken at once, while further ones may come."""
+    last = clock.messages[-2:]
+    return len(last) == 2 and last[0] == last[1]
+
+
 class Simulator:
     """A simulator for one test; in simulated time its state is that of tick `ticks`, once it is paused."""
 
@@ -120,7 +126,7 @@ class Simulator:
         """Pause, and learn which tick it is."""
         self.does('pause')
         clock = Heard(self._test, '/clock')
-        wait(self._test, lambda: len(clock.messages) > 1 and clock.messages[-1] == clock.messages[-2], 'the pause')
+        wait(self._test, lambda: stands_still(clock), 'the pause')
         self.ticks, rest = divmod(clock.messages[-1].clock.to_nsec(), TICK)
         self._test.assertEqual(rest, 0)
 

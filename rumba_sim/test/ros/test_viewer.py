@@ -14,7 +14,7 @@ import rospy
 import rostest
 from geometry_msgs.msg import Pose2D, Twist
 from PIL import Image
-from simulators import Heard, Simulator, wait
+from simulators import Heard, Simulator, stands_still, wait
 from viewers import CARD, ROBOT, Display, Viewer, of_colour
 
 from rumba_msg.msg import CleanActionGoal, MissionStatus
@@ -46,12 +46,11 @@ class ViewerTest(unittest.TestCase):
         commands.find(lambda twist: twist.linear.x == 0.0)
         truth.fresh(lambda message: message.twist.twist.linear.x == 0.0)
         viewer.key('key', 'space')
-        wait(self, lambda: len(clock.messages) > 1 and clock.messages[-1] == clock.messages[-2], 'the pause')
+        wait(self, lambda: stands_still(clock), 'the pause')
         paused_at = clock.messages[-1].clock
         viewer.key_until('n', lambda: clock.messages[-1].clock > paused_at, 'a step')
         stepped_to = clock.messages[-1].clock
-        viewer.key('key', 'space')
-        clock.find(lambda message: message.clock.to_sec() > stepped_to.to_sec() + 1.0)
+        viewer.key_until('space', lambda: clock.messages[-1].clock.to_sec() > stepped_to.to_sec() + 0.2, 'time to go on')
         viewer.key('key', 'b')
         Heard(self, '/rumba/battery_status').find(lambda message: message.brushes_up)
         viewer.key('key', 'ctrl+q')
