@@ -1,9 +1,14 @@
 """Workspaces that the tests share, each built from nothing once."""
 
+import signal
+
 import pytest
 from workspaces import OURS, ROOT, STAND_INS, TUTORIALS, Workspace, clean_environment, roscore
 
 STRANGERS = sorted((ROOT / 'test' / 'packages').iterdir())
+
+# Tests that a shell runs in its background would ignore Ctrl-C, and so would all that they start.
+signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 @pytest.fixture(scope='session')
