@@ -50,7 +50,7 @@ class ViewerTest(unittest.TestCase):
         paused_at = clock.messages[-1].clock
         viewer.key_until('n', lambda: clock.messages[-1].clock > paused_at, 'a step')
         stepped_to = clock.messages[-1].clock
-        viewer.key_until('space', lambda: clock.messages[-1].clock.to_sec() > stepped_to.to_sec() + 0.2, 'time to go on')
+        viewer.key_until('space', lambda: clock.messages[-1].clock.to_sec() > stepped_to.to_sec() + 0.2, 'time')
         viewer.key('key', 'b')
         Heard(self, '/rumba/battery_status').find(lambda message: message.brushes_up)
         viewer.key('key', 'ctrl+q')
