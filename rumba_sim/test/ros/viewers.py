@@ -96,8 +96,10 @@ class Viewer:
 
     def front(self):
         """Wait for its window, and give the keys to it."""
-        window = wait(self._test, lambda: self._display.run('search', '--onlyvisible', '--name', 'Rumba').split(),
-                      'the window')[-1]
+        def finds():
+            self._test.assertIsNone(self.process.poll(), self.printed)
+            return self._display.run('search', '--onlyvisible', '--name', 'Rumba').split()
+        window = wait(self._test, finds, 'the window')[-1]
         self._display.run('windowfocus', '--sync', window)
 
     def key(self, what, *keys):

@@ -1,29 +1,49 @@
 """Whether a window can be opened here."""
 
+import contextlib
 import os
+import select
 import subprocess
 import sys
+import tempfile
+from typing import Iterator
 
 WITHOUT_DISPLAY = ('offscreen', 'minimal', 'vnc', 'linuxfb', 'eglfs')  # platforms of Qt that need none
 PATIENCE = 20.0  # [s]
-TRY = 'from python_qt_binding.QtWidgets import QApplication; QApplication([])'
+TRY = ('import sys; from python_qt_binding.QtWidgets import QApplication; '
+       'application = QApplication([]); print(flush=True); sys.stdin.read()')
 
 
-def trouble() -> str:
-    """Why no window can be opened, in one line; empty where one can.
+@contextlib.contextmanager
+def reached() -> Iterator[str]:
+    """Try to reach the display, and hold on to it as long as the block.
 
-    Qt ends the process where it cannot reach a display: another one tries.
+    Qt ends the process where it cannot: another one tries. That stays until this one is connected, since a bare X
+    server starts anew when its last client goes, and refuses whoever comes meanwhile.
+
+    Yields:
+        Why no window can be opened, in one line; empty where one can.
     """
     platform = os.environ.get('QT_QPA_PLATFORM', '').split(':')[0]
-    if platform not in WITHOUT_DISPLAY and not (os.environ.get('DISPLAY') or os.environ.get('WAYLAND_DISPLAY')):
-        return 'there is no display: neither DISPLAY nor WAYLAND_DISPLAY is set'
-    try:
-        tried = subprocess.run([sys.executable, '-c', TRY], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
-                               universal_newlines=True, timeout=PATIENCE)
-    except subprocess.TimeoutExpired:
-        return f'the display does not answer for {PATIENCE:g} s'
-    if tried.returncode == 0:
-        return ''
-    if 'ModuleNotFoundError' in tried.stderr or 'ImportError' in tried.stderr:
+    name = os.environ.get('DISPLAY') or os.environ.get('WAYLAND_DISPLAY')
+    if platform not in WITHOUT_DISPLAY and not name:
+        yield 'there is no display: neither DISPLAY nor WAYLAND_DISPLAY is set'
+        return
+    with tempfile.TemporaryFile('w+') as errors, subprocess.Popen(
+            [sys.executable, '-c', TRY], stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=errors) as attempt:
+        try:
+            if not select.select([attempt.stdout], [], [], PATIENCE)[0]:
+                yield f'the display {name} does not answer for {PATIENCE:g} s'
+            elif attempt.stdout.readline():
+                yield ''
+            else:
+                errors.seek(0)
+                yield _why(errors.read(), platform or name)
+        finally:
+            attempt.kill()
+
+
+def _why(errors: str, where: str) -> str:
+    if 'ModuleNotFoundError' in errors or 'ImportError' in errors:
         return 'python_qt_binding or PyQt5 is not installed: python3-python-qt-binding and python3-pyqt5 of Debian'
-    return f'the display {os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")} cannot be opened'
+    return f'the display {where} cannot be opened'

@@ -76,10 +76,11 @@ class Viewer:
 
     def open(self) -> None:
         """Reach for the display, and wait in the window for a master."""
-        self._trouble = display.trouble()
-        if not self._trouble:
-            from rumba_sim.viewer.application import Application
-            self._application = Application()
+        with display.reached() as self._trouble:
+            if not self._trouble:
+                from rumba_sim.viewer.application import Application
+                self._application = Application()
+        if self._application is not None:
             self._application.wait_for_master()
 
     def run(self, settings: Settings) -> None:
