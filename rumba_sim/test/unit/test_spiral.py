@@ -8,6 +8,7 @@ from drivers import context_of, run
 from rooms import RADIUS, quiet, room
 
 from rumba_sim.cleaning.behaviour import Status
+from rumba_sim.cleaning.mission import Mission
 from rumba_sim.cleaning.spiral import SIZE, Spiral
 from rumba_sim.model import kernel
 from rumba_sim.model.geometry import Pose
@@ -54,3 +55,15 @@ def test_taken_up_again_it_begins_in_the_middle():
     run(behaviour, world, seconds=1.0)
     assert behaviour.status is Status.RUNNING
     assert abs(world.robots['rumba'].twist.w) > 1.5  # as tight as it can
+
+
+@pytest.mark.parametrize('away', [0.3, 0.4, 0.5])
+def test_beside_stairs_it_ends_before_them_and_the_robot_comes_home(away):
+    plan = room(4.0, 3.0, 0.02, cliff=(0.0, 2.0, 4.0, 3.0), dock=Pose(4.0 - RADIUS - 0.01, 1.0, 0.0))
+    for heading in np.linspace(-3.0, 3.0, 7):
+        world = World(plan, quiet())
+        world.spawn('rumba', Pose(1.5, 2.0 - away, float(heading)), brushes_up=True)
+        behaviour = Mission(context_of(plan, world), 'spiral', 0.99)
+        run(behaviour, world)
+        assert not world.robots['rumba'].has_fallen and world.robots['rumba'].is_docked
+        assert 'something is in the way 0.' in behaviour.message
