@@ -1,11 +1,14 @@
 """bounce goes ahead, backs off from what it touches, turns away from it, and so gets about a room."""
 
+import math
+
 import numpy as np
 import pytest
-from rooms import room
+from rooms import quiet, room
 
 from rumba_sim.cleaning.behaviour import Observation
 from rumba_sim.cleaning.bounce import Bounce
+from rumba_sim.cleaning.ground import Ground
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.world import World
 
@@ -65,3 +68,17 @@ def test_in_ten_minutes_it_cleans_most_of_an_empty_room():
         robot.command(command.v, command.w, world.tick)
         world.step(5)
     assert world.floor.coverage > 0.9 and robot.bumps > 50
+
+
+def test_it_turns_away_from_stairs_of_the_plan_before_the_sensors_see_them():
+    plan = room(4.0, 3.0, 0.02, cliff=(0.0, 2.0, 4.0, 3.0), start=Pose(1.0, 1.0, 0.0))
+    ground = Ground(plan, quiet())
+    for theta, sign in ((0.4, -1.0), (math.pi - 0.4, 1.0)):
+        bounce = Bounce(np.random.default_rng(1), ground=ground)
+        assert bounce.update(Observation(DT, Pose(2.0, 1.7, theta))).v > 0.0
+        near = Observation(DT, Pose(2.0, 1.77, theta))
+        assert bounce.update(near).v < 0.0
+        turns = [command.w for command in (bounce.update(near) for _ in range(15)) if command.w]
+        assert turns and all(turn * sign > 0.0 for turn in turns)
+    away = Bounce(np.random.default_rng(1), ground=ground)
+    assert away.update(Observation(DT, Pose(2.0, 1.77, -0.4))).v > 0.0

@@ -2,12 +2,14 @@
 
 import enum
 import math
+from typing import Optional
 
 import numpy as np
 
 from rumba_sim.cleaning import recoil
 from rumba_sim.cleaning.behaviour import Behaviour, Command, Observation
 from rumba_sim.cleaning.context import Context
+from rumba_sim.cleaning.ground import Ground
 from rumba_sim.cleaning.strategies import strategy
 
 
@@ -25,9 +27,13 @@ class Bounce(Behaviour):
     TURN_RATE = 1.5  # [rad/s]
     TURNS = (0.3 * math.pi, 0.9 * math.pi)  # [rad] least and largest turn
 
-    def __init__(self, generator: np.random.Generator, speed: float = 0.3) -> None:
-        """Draw the angles from a generator; go ahead at a speed [m/s] (Create 3: 0.306 is its safe speed)."""
+    def __init__(self, generator: np.random.Generator, speed: float = 0.3, ground: Optional[Ground] = None) -> None:
+        """Draw the angles from a generator; go ahead at a speed [m/s] (Create 3: 0.306 is its safe speed).
+
+        Where a ground is known, keep off the cliffs that it shows, before the sensors see them.
+        """
         self._generator = generator
+        self._ground = ground
         self._speed = speed
         self.initialise()
 
@@ -41,6 +47,8 @@ class Bounce(Behaviour):
     def update(self, observation: Observation) -> Command:
         """Ahead, back, turn, ahead."""
         left, right = observation.contact
+        if self._ground is not None and not (left or right):
+            left, right = recoil.edge_ahead(self._ground, observation.pose)
         if self._phase is _Phase.AHEAD:
             if left or right:
                 self._side = -1.0 if left and not right else 1.0 if right and not left else self._random_side()
@@ -68,4 +76,4 @@ class Bounce(Behaviour):
 @strategy('bounce')
 def bounce(context: Context) -> Bounce:
     """The strategy, for a robot's context."""
-    return Bounce(context.generator, context.config.speed)
+    return Bounce(context.generator, context.config.speed, context.ground)

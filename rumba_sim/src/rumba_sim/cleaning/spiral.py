@@ -2,13 +2,12 @@
 
 import math
 
+from rumba_sim.cleaning import recoil
 from rumba_sim.cleaning.behaviour import Behaviour, Command, Observation
 from rumba_sim.cleaning.context import Context
 from rumba_sim.cleaning.strategies import strategy
-from rumba_sim.model.geometry import Pose
 
 SIZE = 0.6  # [m] radius of the spot (our choice; a spot of a Roomba is about a metre across)
-BRAKING = 0.08  # [m] to spare to an edge: a robot that comes to it aslant sees it late, and slides on as it stops
 OVERLAP = 0.85  # of the brush: by so much of it one turn lies outside the one before
 
 
@@ -32,7 +31,7 @@ class Spiral(Behaviour):
     def update(self, observation: Observation) -> Command:
         """Farther out with every update."""
         radius = self._pitch * self._angle / (2.0 * math.pi)
-        if any(observation.contact) or self._is_near_edge(observation.pose):
+        if any(observation.contact) or recoil.is_near_edge(self._ground, observation.pose):
             return self.succeed(f'something is in the way {radius:.2f} m from the middle of the spot')
         if radius > SIZE:
             return self.succeed(f'a spot of {2.0 * SIZE:.1f} m is swept')
@@ -41,9 +40,3 @@ class Spiral(Behaviour):
         v = min(self._speed, self._drive.max_turn_rate / curvature)
         self._angle += v * observation.dt / math.hypot(radius, pitch)
         return Command(v, v * curvature)
-
-    def _is_near_edge(self, pose: Pose) -> bool:
-        """Whether a cliff of the floor plan is nearer than any wall, and too near."""
-        plan = self._ground.plan
-        room = plan.room_at(pose.x, pose.y)
-        return room < min(self._ground.reach + BRAKING, plan.clearance_at(pose.x, pose.y))
