@@ -1,5 +1,6 @@
 """The launch files explain themselves, and the demo shows a robot that cleans, bumps and drains."""
 
+import itertools
 import re
 import time
 import xml.etree.ElementTree
@@ -11,6 +12,12 @@ PACKAGE = ROOT / 'rumba_sim'
 LAUNCH_FILES = sorted((PACKAGE / 'launch').iterdir())
 DEMO = 'roslaunch rumba_sim demo.launch speed:=10 map:=studio'
 LINE = re.compile(r'battery +(\d+) %   at \((-?[\d.]+), (-?[\d.]+)\) m')
+
+
+def lines(demo):
+    """What it prints, which is something all the time, until it ends, or for some minutes."""
+    until = time.monotonic() + 3.0 * TIMEOUT
+    return itertools.takewhile(lambda _: time.monotonic() < until, demo.stdout)
 
 
 @pytest.mark.parametrize('path', LAUNCH_FILES, ids=lambda path: path.name)
@@ -29,27 +36,27 @@ def test_the_page_of_interfaces_names_its_arguments(path):
 def test_the_robot_in_the_demo_moves_bumps_and_drains(workspace):
     with workspace.space('devel').running(f'{DEMO} drain:=100 strategy:=bounce') as demo:
         seen, bumped = [], False
-        for line in demo.stdout:
+        for line in lines(demo):
             if LINE.match(line):
                 seen.append([float(figure) for figure in LINE.match(line).groups()])
                 bumped = bumped or 'bumper pressed' in line
                 places = {(round(x), round(y)) for _, x, y in seen}
                 if bumped and len(places) > 3 and seen[-1][0] < seen[0][0] - 2:
                     return
-    raise AssertionError(f'the demo ended: {seen[-1:]}')
+    raise AssertionError(f'the demo ended, or not: {seen[-1:]}')
 
 
 def test_the_demo_shows_a_mission_from_dock_to_dock_and_reports(workspace):
     wanted = ['rumba: undocking', 'rumba: cleaning by boustrophedon', 'rumba: going home', 'rumba: docking',
               'rumba: done after ']
     with workspace.space('devel').running(f'{DEMO} target_coverage:=0.1') as demo:
-        for line in demo.stdout:
+        for line in lines(demo):
             if wanted[0] in line:
                 del wanted[0]
             if not wanted:
                 assert re.search(r'm, 0 charges; the floor is 1\d\.\d % clean: 10\.\d % swept$', line), line
                 return
-    raise AssertionError(f'the demo ended before: {wanted[0]}')
+    raise AssertionError(f'waited in vain for: {wanted[0]}')
 
 
 @pytest.mark.parametrize('gui, line', [
@@ -58,19 +65,19 @@ def test_the_demo_shows_a_mission_from_dock_to_dock_and_reports(workspace):
 def test_without_a_display_the_demo_says_so_in_a_line_and_goes_on(workspace, gui, line):
     bare = 'env -u DISPLAY -u WAYLAND_DISPLAY -u QT_QPA_PLATFORM'
     with workspace.space('devel').running(f'{bare} {DEMO} gui:={gui} 2>&1') as demo:
-        assert any(re.search(line, text) for text in demo.stdout), 'the demo ended'
-        assert any(LINE.match(text) for text in demo.stdout), 'the demo ended'
+        assert any(re.search(line, text) for text in lines(demo)), 'the demo ended'
+        assert any(LINE.match(text) for text in lines(demo)), 'the demo ended'
 
 
 def test_the_demo_opens_the_window_where_it_can_and_goes_on_when_it_is_closed(workspace):
     here = workspace.space('devel')
     with here.running(f'env QT_QPA_PLATFORM=offscreen {DEMO}') as demo:
-        assert any(LINE.match(text) for text in demo.stdout)
+        assert any(LINE.match(text) for text in lines(demo))
         deadline = time.monotonic() + TIMEOUT
         while '/viewer/save_png' not in here.run('rosservice list'):
             assert time.monotonic() < deadline, 'no viewer'
         here.run('rosnode kill /viewer')
-        assert any(LINE.match(text) for text in demo.stdout), 'the demo ended'
+        assert any(LINE.match(text) for text in lines(demo)), 'the demo ended'
 
 
 def test_the_configuration_file_is_what_the_simulator_prints(workspace):

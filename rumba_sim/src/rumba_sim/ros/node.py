@@ -2,6 +2,7 @@
 
 import http.client
 import inspect
+import io
 import re
 import signal
 import sys
@@ -36,6 +37,8 @@ def run(name: str, settings_class: Type[Settings], main: Callable[[Settings], No
         on_refusal: also told what was wrong with the input.
         before: called before the node is registered, which waits for a master without end, with only a line of log.
     """
+    if isinstance(sys.stdout, io.TextIOWrapper):
+        sys.stdout.reconfigure(line_buffering=True)  # else what rospy logs waits in a pipe until that is full
     arguments = [argument for argument in rospy.myargv()[1:] if not argument.startswith(tuple(arguments_of_others))]
     if '-h' in arguments or '--help' in arguments:
         print(inspect.getdoc(inspect.getmodule(main)), config.describe(settings_class), sep='\n\n')

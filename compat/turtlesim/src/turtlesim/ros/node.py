@@ -1,6 +1,7 @@
 """What every node does alike: help, parameters, one clear line and exit code 2 for bad input, a quiet end."""
 
 import inspect
+import io
 import re
 import signal
 import sys
@@ -57,6 +58,8 @@ def run(name: str, parameters: Parameters, main: Callable[[], None], own_clock: 
         main: the node itself, called once the node is registered; its module's docstring is the node's help.
         own_clock: the node does not listen to /clock.
     """
+    if isinstance(sys.stdout, io.TextIOWrapper):
+        sys.stdout.reconfigure(line_buffering=True)  # else what rospy logs waits in a pipe until that is full
     arguments = rospy.myargv()[1:]
     if '-h' in arguments or '--help' in arguments:
         print(inspect.getdoc(inspect.getmodule(main)), *map(_describe, parameters.items()), sep='\n')
