@@ -1,8 +1,10 @@
 """Listens to the simulation, whoever comes and goes, and tells what there is to show."""
 
+import http.client
 import itertools
 import threading
 import time
+import xmlrpc.client
 from typing import Any, Callable, Dict, Optional, Tuple
 
 import rosgraph
@@ -21,6 +23,8 @@ from rumba_sim.viewer.dock_field import dock
 from rumba_sim.viewer.robot_ear import RobotEar
 from rumba_sim.viewer.snapshot import Grid, Place, Robot, Simulation, Size, Snapshot
 
+# A master or a simulator that goes amid an answer.
+GONE = (rospy.ROSException, rosgraph.MasterException, xmlrpc.client.Error, http.client.HTTPException, OSError)
 LOOK_PERIOD = 1.0  # [s] from one look at the master to the next
 SILENCE = 3.0  # [s] of the wall clock, after which who says nothing is gone
 COVERAGE_PERIOD = 0.2  # [s] of the wall clock, at least, from one picture of the floor to the next
@@ -74,9 +78,9 @@ class Listener:
         while not rospy.is_shutdown():
             try:
                 self._follow(surroundings.look())
-            except Exception as error:  # a master or simulator that goes amid an answer
-                if not rospy.is_shutdown():
-                    rospy.logdebug(f'looking around: {error}')
+            except Exception as error:
+                if not isinstance(error, GONE) and not rospy.is_shutdown():
+                    raise
             self._wake.wait(LOOK_PERIOD)
             self._wake.clear()
 
@@ -120,7 +124,7 @@ class Listener:
             return
         self._place_of = place_of
         try:
-            self._config = robot_of_simulator()
+            self._config = robot_of_simulator('simulator')
             plan = map_file.load(path)
             self._place = Place(dock(plan, self._config) if plan.dock else None, plan.carpet, plan.cliff, True)
         except RumbaError:  # the simulator runs on another machine, or there is none
