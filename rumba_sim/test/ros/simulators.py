@@ -1,5 +1,6 @@
 """What the tests of the simulator share: a simulator as a user starts it, and what it says and is asked."""
 
+import os
 import signal
 import subprocess
 import time
@@ -47,6 +48,26 @@ def lookup(service, master=None):
         return rosgraph.Master('/test', master_uri=master).lookupService(service)
     except (rosgraph.MasterException, OSError):
         return None
+
+
+class Master:
+    """A master of its own that is not there yet."""
+
+    def __init__(self, test):
+        self._test = test
+        self._port = 11700 + os.getpid() % 1000
+        self.uri = f'http://localhost:{self._port}'
+
+    def start(self):
+        """Let it be there soon."""
+        process = subprocess.Popen(['roscore', '-p', str(self._port)], stdout=subprocess.DEVNULL,
+                                   stderr=subprocess.DEVNULL, env={**os.environ, 'ROS_MASTER_URI': self.uri})
+        self._test.addCleanup(process.wait)
+        self._test.addCleanup(process.terminate)
+
+    def wait_for(self, service):
+        """Wait until it knows a service."""
+        wait(self._test, lambda: lookup(service, self.uri), f'{service} at the new master')
 
 
 def forget_parameters():

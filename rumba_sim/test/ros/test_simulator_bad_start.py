@@ -9,7 +9,7 @@ import unittest
 
 import rospy
 import rostest
-from simulators import TIMEOUT, Heard, Simulator, forget_parameters, lookup
+from simulators import TIMEOUT, Heard, Master, Simulator, forget_parameters, lookup
 
 UNIQUE = r"^simulator: a node /simulator is here already: end it first\n$"
 MAP = r'^simulator: /static_map is served already: end the other simulator, or map_server, or give this one a master '
@@ -92,6 +92,25 @@ class SimulatorBadStartTest(unittest.TestCase):
         Simulator(self, '_map:=field')
         odom = Heard(self, '/rumba/odom')
         odom.find()
+
+    def start_without_master(self, master):
+        """A simulator, and the line that it prints."""
+        process = subprocess.Popen(['rosrun', 'rumba_sim', 'simulator', '_map:=field'], stderr=subprocess.PIPE,
+                                   universal_newlines=True, env={**os.environ, 'ROS_MASTER_URI': master.uri})
+        self.addCleanup(process.communicate)
+        self.addCleanup(process.terminate)
+        self.assertEqual(process.stderr.readline(),
+                         f'simulator: no roscore answers at {master.uri} yet: waiting for it\n')
+        return process
+
+    def test_without_a_master_it_says_so_and_goes_on_when_there_is_one(self):
+        master = Master(self)
+        impatient = self.start_without_master(master)
+        impatient.send_signal(signal.SIGINT)
+        self.assertEqual(impatient.communicate(timeout=TIMEOUT), (None, ''))
+        self.start_without_master(master)
+        master.start()
+        master.wait_for('/simulator/tuning/set_parameters')
 
 
 if __name__ == '__main__':

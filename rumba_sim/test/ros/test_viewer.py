@@ -1,10 +1,8 @@
 #!/usr/bin/env python3
 """The viewer beside a simulator: it shows, drives, asks, comes and goes, and the simulation never needs it."""
 
-import os
 import pathlib
 import signal
-import subprocess
 import tempfile
 import unittest
 
@@ -14,8 +12,8 @@ import rospy
 import rostest
 from geometry_msgs.msg import Pose2D, Twist
 from PIL import Image
-from simulators import Heard, Simulator, stands_still, wait
-from viewers import CARD, ROBOT, Display, Viewer, of_colour
+from simulators import Heard, Master, Simulator, stands_still, wait
+from viewers import CARD, CLIFF, ROBOT, Display, Viewer, of_colour
 
 from rumba_msg.msg import CleanActionGoal, MissionStatus
 
@@ -88,8 +86,9 @@ class ViewerTest(unittest.TestCase):
         first.process.send_signal(signal.SIGKILL)
         first.process.wait()
         viewer.wait_to_see(ROBOT, 0, 0)
-        Simulator(self, '_map:=studio', '_speed:=2')
-        viewer.wait_to_see(ROBOT, 50)
+        Simulator(self, '_map:=apartment', '_speed:=2')
+        viewer.wait_to_see(ROBOT, 20)
+        viewer.wait_to_see(CLIFF, 100)  # that is in the map's files alone
 
     def test_robots_come_and_go_and_y_points_upward(self):
         simulator = Simulator(self, '_map:=field', '_robots:=0')
@@ -122,23 +121,12 @@ class ViewerTest(unittest.TestCase):
         self.assertRegex(printed, r'(?m)^viewer: save_png: .*/proc/none')
 
     def test_without_a_master_the_window_says_so_and_goes_on_when_there_is_one(self):
-        display, port = Display(self), 11700 + os.getpid() % 1000
-        uri = f'http://localhost:{port}'
-        viewer = Viewer(self, display=display, master=uri)
-        wait(self, lambda: f'No roscore answers at {uri}' in viewer.printed, 'the line')
+        display, master = Display(self), Master(self)
+        viewer = Viewer(self, display=display, master=master.uri)
+        wait(self, lambda: f'No roscore answers at {master.uri}' in viewer.printed, 'the line')
         viewer.front()
-        core = subprocess.Popen(['roscore', '-p', str(port)], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
-                                env={**os.environ, 'ROS_MASTER_URI': uri})
-        self.addCleanup(core.wait)
-        self.addCleanup(core.terminate)
-        master = rosnode.rosgraph.Master('/test', master_uri=uri)
-
-        def knows():
-            try:
-                return master.lookupService('/viewer/save_png')
-            except (rosnode.rosgraph.MasterException, OSError):
-                return None
-        wait(self, knows, 'the viewer at the new master')
+        master.start()
+        master.wait_for('/viewer/save_png')
         viewer.front()
         viewer.key('key', 'ctrl+q')
         viewer.ends()

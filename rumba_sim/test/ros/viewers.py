@@ -14,7 +14,7 @@ from std_srvs.srv import Trigger
 
 BETWEEN = 0.5  # [s] from one press of a key to the next
 COMMAND = ['rosrun', 'rumba_sim', 'viewer']
-ROBOT, CARD = (31, 111, 214), (255, 255, 255)  # colours of the light style
+ROBOT, CARD, CLIFF = (31, 111, 214), (255, 255, 255), (232, 143, 134)  # colours of the light style
 PANEL = 300  # [pixels] on the right that are not floor
 
 
@@ -29,7 +29,7 @@ class Display:
     def __init__(self, test):
         reads, writes = os.pipe()
         self._process = subprocess.Popen(
-            ['Xvfb', '-displayfd', str(writes), '-screen', '0', '1280x800x24', '-nolisten', 'tcp'],
+            ['Xvfb', '-displayfd', str(writes), '-screen', '0', '1280x800x24', '-nolisten', 'tcp', '-noreset'],
             pass_fds=[writes], stderr=subprocess.DEVNULL)
         test.addCleanup(self._process.wait)
         test.addCleanup(self._process.kill)

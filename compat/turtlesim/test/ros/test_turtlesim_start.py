@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """How turtlesim_node begins: with or without a window, at any speed, or not at all."""
 
+import signal
 import subprocess
 import time
 import unittest
@@ -39,6 +40,16 @@ class TurtlesimStartTest(unittest.TestCase):
                 self.assert_refused(pattern, *arguments)
                 self.assertFalse(rospy.get_param('/turtlesim', {}))
         self.assertFalse(rospy.has_param('/use_sim_time'))
+
+    def test_without_a_master_it_says_so_and_waits(self):
+        node = subprocess.Popen(['rosrun', 'turtlesim', 'turtlesim_node', '_speed:=2'], stderr=subprocess.PIPE,
+                                universal_newlines=True, env=without_display(ROS_MASTER_URI='http://localhost:9'))
+        self.addCleanup(node.communicate)
+        self.addCleanup(node.kill)
+        self.assertEqual(node.stderr.readline(),
+                         'turtlesim: no roscore answers at http://localhost:9 yet: waiting for it\n')
+        node.send_signal(signal.SIGINT)
+        self.assertEqual(node.communicate(timeout=TIMEOUT), (None, ''))
 
     def test_help_names_every_parameter(self):
         done = subprocess.run(['rosrun', 'turtlesim', 'turtlesim_node', '--help'], stdout=subprocess.PIPE, check=True,

@@ -7,6 +7,7 @@ import re
 import signal
 import sys
 import threading
+import time
 import xmlrpc.client
 from typing import Any, Callable, List, Sequence, Type, TypeVar
 
@@ -19,6 +20,7 @@ from rumba_sim.model.errors import ConfigError, RumbaError, WorldError
 Settings = TypeVar('Settings')
 BAD_INPUT = 2
 PATIENCE = 2.0  # [s] with a node that the master knows but that does not answer
+LOOK_PERIOD = 0.5  # [s] from one look for a master to the next
 
 
 def run(name: str, settings_class: Type[Settings], main: Callable[[Settings], None], own_clock: bool = False,
@@ -35,7 +37,7 @@ def run(name: str, settings_class: Type[Settings], main: Callable[[Settings], No
         is_single: refuse to start while a node of the same name is alive, which rospy would end otherwise.
         arguments_of_others: how arguments begin that are not for this function, as those that rostest adds.
         on_refusal: also told what was wrong with the input.
-        before: called before the node is registered, which waits for a master without end, with only a line of log.
+        before: called before the node looks for a master, for which it waits without end.
     """
     if isinstance(sys.stdout, io.TextIOWrapper):
         sys.stdout.reconfigure(line_buffering=True)  # else what rospy logs waits in a pipe until that is full
@@ -51,6 +53,7 @@ def run(name: str, settings_class: Type[Settings], main: Callable[[Settings], No
         if is_single:
             _refuse_twin(name)
         before()
+        _wait_for_master(f'{name}: no roscore answers at {rosgraph.get_master_uri()} yet: waiting for it')
         rospy.init_node(name, disable_rostime=own_clock)
         for number in (signal.SIGINT, signal.SIGTERM):
             signal.signal(number, _shut_down)
@@ -69,6 +72,24 @@ def run(name: str, settings_class: Type[Settings], main: Callable[[Settings], No
     except Exception:
         if not rospy.core.is_shutdown_requested():  # else a topic was closed while the main thread was publishing
             raise
+
+
+def _wait_for_master(line: str) -> None:
+    """Wait for a master, and say so where there is none yet; SIGINT ends the process at once meanwhile.
+
+    rospy waits too, but dies where the command line has a parameter to set.
+    """
+    if rosgraph.is_master_online():
+        return
+    print(line, file=sys.stderr, flush=True)
+    signal.signal(signal.SIGINT, signal.SIG_DFL)  # rosgraph swallows a KeyboardInterrupt
+    look_for_master()
+
+
+def look_for_master() -> None:
+    """Return once a master answers."""
+    while not rosgraph.is_master_online():
+        time.sleep(LOOK_PERIOD)
 
 
 def _shut_down(number: int, _: Any) -> None:

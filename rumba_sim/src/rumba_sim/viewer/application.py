@@ -16,6 +16,7 @@ from python_qt_binding.QtWidgets import QApplication
 from std_srvs.srv import Trigger, TriggerResponse
 
 from rumba_sim.model.errors import WorldError
+from rumba_sim.ros import node
 from rumba_sim.ros.cleaner_settings import STRATEGIES
 from rumba_sim.ros.requests import Requests
 from rumba_sim.viewer.actor import Actor
@@ -26,7 +27,6 @@ from rumba_sim.viewer.window import Options, Window
 
 PERIOD = 50  # [ms] to look whether there is anything to do, or ROS has ended
 SETTLE = 0.5  # [s] from when all is there until a picture is saved
-LOOK_PERIOD = 0.5  # [s] from one look for a master to the next
 
 
 class Application:
@@ -59,14 +59,14 @@ class Application:
         window.resize(1180, 720)
         window.show()
         print('viewer:', *missing_master().split('\n')[1:], file=sys.stderr, flush=True)
-        found = threading.Event()
-        threading.Thread(target=_look_for_master, args=[found], daemon=True).start()
+        look = threading.Thread(target=node.look_for_master, daemon=True)
+        look.start()
         for number in (signal.SIGINT, signal.SIGTERM):
             signal.signal(number, lambda *_: self._qt.quit())
-        timer = self._timer(lambda: self._qt.quit() if found.is_set() else None)
+        timer = self._timer(lambda: None if look.is_alive() else self._qt.quit())
         self._qt.exec_()
         timer.stop()
-        if not found.is_set():
+        if look.is_alive():
             sys.exit(0)
         window.deleteLater()
 
@@ -148,12 +148,6 @@ class _Nobody:
 
     def __getattr__(self, _: str) -> Callable[..., None]:
         return lambda *_: None
-
-
-def _look_for_master(found: threading.Event) -> None:
-    while not rosgraph.is_master_online():
-        time.sleep(LOOK_PERIOD)
-    found.set()
 
 
 def _save(requests: Requests, window: Window) -> TriggerResponse:

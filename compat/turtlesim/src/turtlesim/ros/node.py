@@ -6,13 +6,16 @@ import re
 import signal
 import sys
 import threading
+import time
 from typing import Any, Callable, Dict, List, NamedTuple
 
+import rosgraph
 import rospy
 
 from turtlesim.model.errors import TurtlesimError
 
 BAD_INPUT = 2
+LOOK_PERIOD = 0.5  # [s] from one look for a master to the next
 
 
 class Parameter(NamedTuple):
@@ -66,6 +69,7 @@ def run(name: str, parameters: Parameters, main: Callable[[], None], own_clock: 
         return
     try:
         _check_command_line(arguments, parameters)
+        _wait_for_master(name)
         rospy.init_node(name, disable_rostime=own_clock)
         for ending in (signal.SIGINT, signal.SIGTERM):
             signal.signal(ending, _shut_down)
@@ -83,6 +87,16 @@ def run(name: str, parameters: Parameters, main: Callable[[], None], own_clock: 
     except Exception:
         if not rospy.core.is_shutdown_requested():  # else a topic was closed while the main thread was publishing
             raise
+
+
+def _wait_for_master(name: str) -> None:
+    """Wait for a master, as rospy does where the command line has no parameter to set: where it has, rospy dies."""
+    if rosgraph.is_master_online():
+        return
+    print(f'{name}: no roscore answers at {rosgraph.get_master_uri()} yet: waiting for it', file=sys.stderr, flush=True)
+    signal.signal(signal.SIGINT, signal.SIG_DFL)  # rosgraph swallows a KeyboardInterrupt
+    while not rosgraph.is_master_online():
+        time.sleep(LOOK_PERIOD)
 
 
 def _describe(item: Any) -> str:
