@@ -6,13 +6,11 @@ import statistics
 import numpy as np
 
 from common import figures
-from rumba_sim.cleaning.behaviour import Status
 from rumba_sim.cleaning.cleaning_config import CleaningConfig
 from rumba_sim.cleaning.context import Context
 from rumba_sim.cleaning.dock import Dock
 from rumba_sim.cleaning.homing import BUOYS
-from rumba_sim.evaluation import starts
-from rumba_sim.evaluation.trial import CONTROL_DT, CONTROL_TICKS, observe
+from rumba_sim.evaluation import control, starts
 from rumba_sim.model import map_file
 from rumba_sim.model.world import World
 
@@ -60,13 +58,8 @@ def measure(title, worlds):
 
 def run(world, behaviour):
     """Follow a behaviour to its end; returns how long that took [s]."""
-    dt, robot = 0.0, world.robots['rumba']
-    while behaviour.status is Status.RUNNING and world.time < LIMIT:
-        command = behaviour.update(observe(world, 'rumba', dt))
-        robot.brushes_up = command.brushes_up
-        robot.command(command.v, command.w, world.tick)
-        world.step(CONTROL_TICKS)
-        dt = CONTROL_DT
+    for _ in control.steps(behaviour, world, seconds=LIMIT):
+        pass
     return world.time
 
 

@@ -10,33 +10,18 @@ from rospkg import RosPack
 from simulators import Simulator
 
 from rumba_msg.msg import CleanGoal
-from rumba_sim.cleaning.behaviour import Observation, Status
-from rumba_sim.cleaning.cleaning_config import CleaningConfig
-from rumba_sim.cleaning.context import Context
-from rumba_sim.cleaning.mission import Mission
+from rumba_sim.evaluation.trial import Trial
 from rumba_sim.model import map_file
-from rumba_sim.model.robot_config import RobotConfig
-from rumba_sim.model.world import World
 
 SPEED = 20
-TICKS = 5  # of a reading at 10 Hz
 
 
 def mission_without_ros():
     """Coverage at the end, and how long it took [s]."""
-    plan = map_file.load(f'{RosPack().get_path("rumba_sim")}/maps/studio.yaml')
-    world, mission = World(plan, seed=1), Mission(Context(plan, RobotConfig(), CleaningConfig(), 1), 'boustrophedon',
-                                                  0.99)
-    robot = world.spawn('rumba')
-    world.step(TICKS)
-    while mission.status is Status.RUNNING:
-        command = mission.update(Observation(
-            TICKS / world.step_rate, robot.pose, robot.bumper, world.cliffs('rumba'), robot.battery.state_of_charge,
-            robot.is_docked, world.infrared('rumba')))
-        robot.brushes_up = command.brushes_up
-        robot.command(command.v, command.w, world.tick)
-        world.step(TICKS)
-    return world.floor.coverage, world.time
+    trial = Trial(map_file.load(f'{RosPack().get_path("rumba_sim")}/maps/studio.yaml'), 'boustrophedon', seed=1)
+    while not trial.is_over:
+        trial.step()
+    return trial.world.floor.coverage, trial.world.time
 
 
 class CleanerMissionTest(unittest.TestCase):

@@ -1,30 +1,14 @@
 """Has robots of a world do what behaviours say."""
 
-from rumba_sim.cleaning.behaviour import Status
 from rumba_sim.cleaning.cleaning_config import CleaningConfig
 from rumba_sim.cleaning.context import Context
-from rumba_sim.evaluation.trial import CONTROL_DT, CONTROL_TICKS, observe
+from rumba_sim.evaluation.control import steps
 from rumba_sim.model.floor_plan import WALL, FloorPlan
 
 
 def context_of(plan, world, seed=1, **changes):
     """What a robot of a world, whose floor may differ from the plan, knows."""
     return Context(plan, world.config, CleaningConfig(**changes), seed)
-
-
-def steps(behaviour, world, name='rumba', seconds=600.0):
-    """Update a behaviour until it ends or the time is up; yields each observation and what was answered."""
-    end = world.time + seconds
-    dt = 0.0
-    while behaviour.status is Status.RUNNING and world.time < end:
-        observation = observe(world, name, dt)
-        command = behaviour.update(observation)
-        yield observation, command
-        robot = world.robots[name]
-        robot.brushes_up = command.brushes_up
-        robot.command(command.v, command.w, world.tick)
-        world.step(CONTROL_TICKS)
-        dt = CONTROL_DT
 
 
 def run(behaviour, world, name='rumba', seconds=600.0):

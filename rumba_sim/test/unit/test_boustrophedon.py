@@ -4,12 +4,13 @@ import pathlib
 
 import numpy as np
 import pytest
-from drivers import context_of, steps, with_box
+from drivers import context_of, with_box
 from rooms import crooked, quiet, room
 
 from rumba_sim.cleaning.behaviour import Status
 from rumba_sim.cleaning.mission import Mission, State
 from rumba_sim.evaluation.cases import ANYWHERE, SUCCEEDED, Conditions
+from rumba_sim.evaluation.control import steps
 from rumba_sim.evaluation.trial import Trial
 from rumba_sim.model import map_file
 from rumba_sim.model.floor_plan import FREE, WALL, FloorPlan

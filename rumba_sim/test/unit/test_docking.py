@@ -4,13 +4,14 @@ import math
 
 import numpy as np
 import pytest
-from drivers import context_of, run, steps, with_box
+from drivers import context_of, run, with_box
 from rooms import RADIUS, crooked, quiet, room
 
 from rumba_sim.cleaning.behaviour import Status
 from rumba_sim.cleaning.dock import Dock
 from rumba_sim.cleaning.homing import BUOYS, Homing
 from rumba_sim.cleaning.undock import Undock
+from rumba_sim.evaluation.control import steps
 from rumba_sim.model.errors import MapError
 from rumba_sim.model.geometry import Pose, wrap_angle
 from rumba_sim.model.world import World

@@ -5,13 +5,14 @@ import math
 import re
 
 import pytest
-from drivers import context_of, run, steps, with_box
+from drivers import context_of, run, with_box
 from rooms import RADIUS, crooked, quiet, room
 
 from rumba_sim.cleaning.battery_watch import BatteryWatch
 from rumba_sim.cleaning.behaviour import STOP, Behaviour, Command, Observation, Status
 from rumba_sim.cleaning.bounded import Bounded
 from rumba_sim.cleaning.mission import Mission, State
+from rumba_sim.evaluation.control import steps
 from rumba_sim.model.errors import ConfigError, StrategyError
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.world import World

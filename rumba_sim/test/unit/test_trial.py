@@ -9,7 +9,8 @@ from rooms import room
 
 from rumba_sim.cleaning.mission import State
 from rumba_sim.evaluation.cases import ANYWHERE, Conditions
-from rumba_sim.evaluation.trial import Trial, observe
+from rumba_sim.evaluation.control import observe
+from rumba_sim.evaluation.trial import Trial
 from rumba_sim.model.errors import StrategyError, WorldError
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.robot_config import RobotConfig

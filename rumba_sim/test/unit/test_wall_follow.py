@@ -4,11 +4,12 @@ import math
 
 import numpy as np
 import pytest
-from drivers import context_of, run, steps
+from drivers import context_of, run
 from rooms import RADIUS, crooked, quiet, room
 
 from rumba_sim.cleaning.behaviour import Status
 from rumba_sim.cleaning.wall_follow import WallFollow
+from rumba_sim.evaluation.control import steps
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.world import World
 

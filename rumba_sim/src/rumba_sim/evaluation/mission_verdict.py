@@ -14,13 +14,14 @@ once, or when the time is up; without any goal, when the time is up. What comes 
 which nothing was heard is not met, nor is a guard that could not be judged to the end.
 """
 
+import abc
 import math
 from typing import Any, Callable, List, NamedTuple, Optional, Sequence
 
 from rumba_sim.model.geometry import Pose, wrap_angle
 
 
-class Condition:
+class Condition(abc.ABC):
     """One thing that is asked of a run.
 
     Attributes:
@@ -52,14 +53,17 @@ class Condition:
         """What was measured, in words."""
         return self._measured() if self.is_heard else 'nothing'
 
+    @abc.abstractmethod
     def _take(self, value: Any) -> None:
-        raise NotImplementedError
+        """Take a measured value."""
 
+    @abc.abstractmethod
     def _is_met(self) -> bool:
-        raise NotImplementedError
+        """Whether it is met, by the values taken."""
 
+    @abc.abstractmethod
     def _measured(self) -> str:
-        raise NotImplementedError
+        """The values taken, in words."""
 
 
 class Coverage(Condition):

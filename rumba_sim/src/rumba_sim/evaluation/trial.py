@@ -10,33 +10,23 @@ from typing import List, Optional, Sequence
 
 import numpy as np
 
-from rumba_sim.cleaning.behaviour import Observation, Status
+from rumba_sim.cleaning.behaviour import Status
 from rumba_sim.cleaning.cleaning_config import CleaningConfig
 from rumba_sim.cleaning.context import Context
 from rumba_sim.cleaning.mission import Mission, State
 from rumba_sim.evaluation import starts
 from rumba_sim.evaluation.cases import ANYWHERE, FAILED, SUCCEEDED, TIME_OUT, Conditions, Result
+from rumba_sim.evaluation.control import CONTROL_DT, CONTROL_TICKS, STEP_RATE, act
 from rumba_sim.model.config import updated
 from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.model.geometry import Pose, wrap_angle
-from rumba_sim.model.robot import Robot
+from rumba_sim.model.robot import Robot, nth_name
 from rumba_sim.model.robot_config import RobotConfig
 from rumba_sim.model.world import World
 
-FIRST = 'rumba'  # further robots are rumba2, rumba3, ...
-STEP_RATE = 50  # [Hz]
-CONTROL_TICKS = 5  # from one observation to the next
-CONTROL_DT = CONTROL_TICKS / STEP_RATE  # [s]
 OVERLAP = 0.001  # [m] of body and wall that rounding explains
 SECONDS = 3600.0  # in an hour
 TURN = 2.0 * np.pi  # [rad]
-
-
-def observe(world: World, name: str, dt: float) -> Observation:
-    """What a robot of a world knows now, `dt` [s] after the observation before."""
-    robot = world.robots[name]
-    return Observation(dt, robot.pose, robot.bumper, world.cliffs(name), robot.battery.state_of_charge,
-                       robot.is_docked, world.infrared(name))
 
 
 class Trial:
@@ -66,7 +56,7 @@ class Trial:
         if conditions.start == ANYWHERE:
             poses = starts.anywhere(plan, config, self.world.start, robots, np.random.default_rng(seed))
         for number, pose in enumerate(poses, 1):
-            self.world.spawn(FIRST if number == 1 else f'{FIRST}{number}', pose, brushes_up=True)
+            self.world.spawn(nth_name(number), pose, brushes_up=True)
         self.contexts = [Context(plan, config, cleaning, int(own))
                          for own in np.random.SeedSequence(seed).generate_state(robots)]
         self.missions = [Mission(context, strategy, conditions.target) for context in self.contexts]
@@ -96,9 +86,7 @@ class Trial:
         """Each robot looks, and is told what to do; then time passes until they look again."""
         for robot, mission in zip(self.world.robots.values(), self.missions):
             if mission.status is Status.RUNNING:
-                command = mission.update(observe(self.world, robot.name, self._dt))
-                robot.brushes_up = command.brushes_up
-                robot.command(command.v, command.w, self.world.tick)
+                act(mission, self.world, robot.name, self._dt)
         self._dt = CONTROL_DT
         running = self._running()
         if running and all(mission.state is State.CHARGING for mission in running):

@@ -10,6 +10,13 @@ from rumba_sim.model.geometry import Pose
 from rumba_sim.model.kernel import Array, Record
 from rumba_sim.model.robot_config import RobotConfig
 
+FIRST = 'rumba'  # name of the first robot
+
+
+def nth_name(number: int) -> str:
+    """Name of a robot that has none of its own: rumba, rumba2, rumba3, ...; the first has the number 1."""
+    return FIRST if number == 1 else f'{FIRST}{number}'
+
 
 class Twist(NamedTuple):
     """Velocity of the body: forward [m/s] and counter-clockwise [rad/s]."""

@@ -2,8 +2,9 @@
 
 from typing import NamedTuple
 
+from rumba_sim.model.robot import FIRST
+
 MAP = 'map'
-FIRST = 'rumba'  # the robot whose frames need no prefix
 
 
 class Frames(NamedTuple):

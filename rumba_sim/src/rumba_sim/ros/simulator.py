@@ -29,10 +29,10 @@ from rumba_sim.model import map_file
 from rumba_sim.model.config import updated
 from rumba_sim.model.errors import ConfigError, RumbaError, WorldError
 from rumba_sim.model.geometry import Pose
+from rumba_sim.model.robot import nth_name
 from rumba_sim.model.world import World
 from rumba_sim.ros import node, reconfigure
 from rumba_sim.ros.diagnostics import Diagnostics
-from rumba_sim.ros.frames import FIRST
 from rumba_sim.ros.maps import FLOOR_PLAN, map_path, refuse_second, tell_map
 from rumba_sim.ros.pace import Pace, wake_on_time
 from rumba_sim.ros.requests import Requests
@@ -171,7 +171,7 @@ class Simulator:
 
     def _free_name(self) -> str:
         """The first of rumba, rumba2, rumba3, ... that is not taken."""
-        names = (FIRST if number == 1 else f'{FIRST}{number}' for number in range(1, len(self._nodes) + 2))
+        names = map(nth_name, range(1, len(self._nodes) + 2))
         return next(name for name in names if name not in self._nodes)
 
     def _tell_static(self) -> None:

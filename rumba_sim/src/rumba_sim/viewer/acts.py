@@ -3,9 +3,9 @@
 import math
 from typing import Callable, Dict, NamedTuple, Tuple
 
+from rumba_sim.model.robot import FIRST
 from rumba_sim.viewer.snapshot import Snapshot
 
-FIRST = 'rumba'
 SPEEDS = (0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 0.0)  # that are offered; 0: as fast as it can
 
 
