@@ -81,8 +81,8 @@ def _wait_for_master(line: str) -> None:
     """
     if rosgraph.is_master_online():
         return
-    print(line, file=sys.stderr, flush=True)
     signal.signal(signal.SIGINT, signal.SIG_DFL)  # rosgraph swallows a KeyboardInterrupt
+    print(line, file=sys.stderr, flush=True)
     look_for_master()
 
 

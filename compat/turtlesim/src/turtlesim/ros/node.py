@@ -93,8 +93,8 @@ def _wait_for_master(name: str) -> None:
     """Wait for a master, as rospy does where the command line has no parameter to set: where it has, rospy dies."""
     if rosgraph.is_master_online():
         return
-    print(f'{name}: no roscore answers at {rosgraph.get_master_uri()} yet: waiting for it', file=sys.stderr, flush=True)
     signal.signal(signal.SIGINT, signal.SIG_DFL)  # rosgraph swallows a KeyboardInterrupt
+    print(f'{name}: no roscore answers at {rosgraph.get_master_uri()} yet: waiting for it', file=sys.stderr, flush=True)
     while not rosgraph.is_master_online():
         time.sleep(LOOK_PERIOD)
 
