@@ -1,23 +1,16 @@
 """The launch files explain themselves, and the demo shows a robot that cleans, bumps and drains."""
 
-import itertools
 import re
 import time
 import xml.etree.ElementTree
 
 import pytest
-from workspaces import ROOT, TIMEOUT
+from workspaces import ROOT, TIMEOUT, lines
 
 PACKAGE = ROOT / 'rumba_sim'
 LAUNCH_FILES = sorted((PACKAGE / 'launch').iterdir())
 DEMO = 'roslaunch rumba_sim demo.launch speed:=10 map:=studio'
 LINE = re.compile(r'battery +(\d+) %   at \((-?[\d.]+), (-?[\d.]+)\) m')
-
-
-def lines(demo):
-    """What it prints, which is something all the time, until it ends, or for some minutes."""
-    until = time.monotonic() + 3.0 * TIMEOUT
-    return itertools.takewhile(lambda _: time.monotonic() < until, demo.stdout)
 
 
 @pytest.mark.parametrize('path', LAUNCH_FILES, ids=lambda path: path.name)

@@ -3,7 +3,7 @@
 import re
 import time
 
-from workspaces import TIMEOUT
+from workspaces import TIMEOUT, lines
 
 LAUNCH = 'roslaunch rumba_sim turtlesim.launch gui:=false'
 
@@ -11,13 +11,13 @@ LAUNCH = 'roslaunch rumba_sim turtlesim.launch gui:=false'
 def test_a_turtle_cleans_and_comes_home(workspace):
     wanted = ['rumba: cleaning by boustrophedon', 'rumba: going home', 'rumba: docking', 'rumba: done after ']
     with workspace.space('devel').running(f'{LAUNCH} speed:=5 target_coverage:=0.01') as launch:
-        for line in launch.stdout:
+        for line in lines(launch):
             if wanted[0] in line:
                 del wanted[0]
             if not wanted:
                 assert re.search(r'm, 0 charges; the floor is 1\.\d % clean: 1\.\d % swept$', line), line
                 return
-    raise AssertionError(f'it ended before: {wanted[0]}')
+    raise AssertionError(f'waited in vain for: {wanted[0]}')
 
 
 def test_the_lessons_publisher_and_ours_are_heard_by_the_same_listener(workspace):
@@ -25,13 +25,13 @@ def test_the_lessons_publisher_and_ours_are_heard_by_the_same_listener(workspace
     with here.running(f'{LAUNCH} autostart:=false percentage:=64'), here.running('rosrun battery_cpp publisher'), \
             here.running('rosrun rumba_sim battery_status_listener') as listener:
         seen = set()
-        for line in listener.stdout:
+        for line in lines(listener):
             found = re.match(r'battery +(\d+) % .* brushes (up|down) +(.*)$', line)
             if found:
                 seen.add((found.group(1), found.group(2), found.group(3)[-13:]))
             if seen >= {('42', 'up', 'from C++'), ('64', 'down', ', discharging')}:
                 return
-    raise AssertionError(f'the listener ended: {seen}')
+    raise AssertionError(f'the listener ended, or not: {seen}')
 
 
 def test_the_lessons_service_leads_the_turtle_to_a_place(workspace):

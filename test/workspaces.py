@@ -1,6 +1,7 @@
 """Scratch catkin workspaces and a roscore of their own, untouched by the workspace that runs the tests."""
 
 import contextlib
+import itertools
 import os
 import pathlib
 import signal
@@ -74,6 +75,12 @@ class Workspace:
     def space(self, space: str, environment: Optional[Dict[str, str]] = None) -> Space:
         """What a user has in `devel` or `install`; `environment` is one with another master."""
         return Space(f'. {self.setup(space)};', environment or self._environment)
+
+
+def lines(process: subprocess.Popen) -> Iterator[str]:
+    """What a process prints, which must be something all the time, until it ends, or for some minutes."""
+    until = time.monotonic() + 3.0 * TIMEOUT
+    return itertools.takewhile(lambda _: time.monotonic() < until, process.stdout)
 
 
 def clean_environment() -> Dict[str, str]:
