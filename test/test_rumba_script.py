@@ -134,7 +134,7 @@ def test_no_root_and_no_sudo_says_what_an_administrator_must_do(checkout, tmp_pa
     code, out, error = rumba(checkout, 'build', PATH=str(path))
     assert (code, out) == (1, '')
     assert error.startswith('rumba: not root, and there is no sudo; as root: apt-get install ')
-    assert ' python3-pytest' in error
+    assert ' python3-rostest' in error
     assert error.count('\n') == 1 and not (checkout / '.ws').exists()
 
 
