@@ -24,6 +24,7 @@ APPLICATION = QApplication.instance() or QApplication(['test'])
 SCALE = 100.0  # [pixels/m] of the pictures
 WIDTH, HEIGHT = 400, 300  # [pixels] of a picture of the whole floor
 LEFT, BOTTOM = -1.0, 2.0  # [m]
+MISSING = 'Waiting for a simulator\nTo start one, in another terminal:\nroslaunch rumba_sim simulator.launch'
 
 
 def plan(number=1):
