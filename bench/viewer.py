@@ -13,8 +13,8 @@ os.environ['QT_QPA_PLATFORM'] = 'offscreen'
 import numpy as np  # noqa: E402
 import rosgraph  # noqa: E402
 import xmlrpc.client  # noqa: E402
-from python_qt_binding.QtGui import QImage, QPainter  # noqa: E402
-from python_qt_binding.QtWidgets import QApplication  # noqa: E402
+from PyQt5.QtGui import QImage, QPainter  # noqa: E402
+from PyQt5.QtWidgets import QApplication  # noqa: E402
 
 from common import figures, ros_session  # noqa: E402
 from rumba_sim.model import map_file  # noqa: E402

@@ -15,7 +15,7 @@ LAYERS = {
     'viewer': {'model', 'ros', 'viewer'},
 }
 PURE = ('model', 'cleaning', 'evaluation')
-QT = ('python_qt_binding', 'PyQt5')
+QT = ('PyQt5',)
 NOT_PURE = ('rospy', 'roslib', 'rospkg', 'rosgraph', 'actionlib', 'rosbag', 'tf', 'tf2', *QT)
 OF_MESSAGES = ('_msgs', '_msg', '_srvs', '_ros')
 # Of the viewer: what speaks with ROS, and what is made of plain values.

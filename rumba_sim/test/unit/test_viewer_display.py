@@ -7,7 +7,7 @@ from rumba_sim.viewer import display
 
 @pytest.mark.parametrize('attempt, patience, reason', [
     ('print(flush=True); import sys; sys.stdin.read()', 20.0, ''),
-    ('import python_qt_binding_that_is_not_there', 20.0, 'python_qt_binding or PyQt5 is not installed: '),
+    ('import PyQt5_that_is_not_there', 20.0, 'PyQt5 is not installed: '),
     ('import sys; sys.exit("qt.qpa.xcb: could not connect to display")', 20.0, 'the display :7 cannot be opened'),
     ('import time; time.sleep(60.0)', 0.3, 'the display :7 does not answer for 0.3 s')])
 def test_whether_a_display_can_be_opened_is_tried_by_another_process(attempt, patience, reason, monkeypatch):

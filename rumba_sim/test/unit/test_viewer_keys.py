@@ -9,7 +9,7 @@ from rumba_sim.model.geometry import Pose
 from rumba_sim.viewer.snapshot import Dock, Place, Simulation, Snapshot
 from windows import APPLICATION, MISSING, Opened, plan, robot, snapshot
 
-from python_qt_binding.QtCore import QEvent, Qt
+from PyQt5.QtCore import QEvent, Qt
 
 
 def drives(opened):

@@ -9,7 +9,7 @@ from pytest import approx
 from rumba_sim.model.geometry import Pose
 from windows import Opened, plan, robot, snapshot
 
-from python_qt_binding.QtCore import QEvent, Qt
+from PyQt5.QtCore import QEvent, Qt
 
 
 def pixel(opened, x, y):

@@ -12,7 +12,7 @@ from rumba_sim.viewer.theme import DARK, LIGHT, robot_colour
 from rumba_sim.viewer.view_transform import ViewTransform
 from windows import BOTTOM, HEIGHT, LEFT, SCALE, WIDTH, count, near, path, pixels, plan, robot, snapshot
 
-from python_qt_binding.QtGui import QImage, QPainter
+from PyQt5.QtGui import QImage, QPainter
 
 THEMES = pytest.mark.parametrize('theme', [LIGHT, DARK], ids=['light', 'dark'])
 VIEWS = pytest.mark.parametrize('view', [

@@ -14,7 +14,7 @@ from rumba_sim.viewer.snapshot import Battery, Snapshot
 from rumba_sim.viewer.theme import DARK, LIGHT
 from windows import MISSING, Opened, count, robot, snapshot
 
-from python_qt_binding.QtCore import Qt
+from PyQt5.QtCore import Qt
 
 
 @pytest.mark.parametrize('style, theme', [('light', LIGHT), ('dark', DARK)])

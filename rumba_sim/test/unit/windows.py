@@ -9,9 +9,9 @@ import numpy as np
 
 os.environ.setdefault('QT_QPA_PLATFORM', 'offscreen')
 
-from python_qt_binding.QtCore import QEvent, QEventLoop, QPoint, QPointF, Qt  # noqa: E402
-from python_qt_binding.QtGui import QColor, QImage, QKeyEvent, QMouseEvent, QPalette, QWheelEvent  # noqa: E402
-from python_qt_binding.QtWidgets import QApplication  # noqa: E402
+from PyQt5.QtCore import QEvent, QEventLoop, QPoint, QPointF, Qt  # noqa: E402
+from PyQt5.QtGui import QColor, QImage, QKeyEvent, QMouseEvent, QPalette, QWheelEvent  # noqa: E402
+from PyQt5.QtWidgets import QApplication  # noqa: E402
 
 from rumba_sim.model.floor_plan import FREE, UNKNOWN, WALL  # noqa: E402
 from rumba_sim.model.geometry import Pose  # noqa: E402

@@ -11,7 +11,7 @@ from PIL import Image
 DISPLAYS = ('DISPLAY', 'WAYLAND_DISPLAY', 'QT_QPA_PLATFORM')
 PATIENCE = 20.0  # [s] with Qt; it takes a tenth of a second
 # Qt ends the process that it cannot serve: let that be another one.
-PROBE = 'from python_qt_binding.QtWidgets import QApplication; QApplication([])'
+PROBE = 'from PyQt5.QtWidgets import QApplication; QApplication([])'
 
 
 class Window:
@@ -23,7 +23,7 @@ class Window:
 
     def __init__(self, title: str) -> None:
         """Open it, in the main thread, where `why_none` has nothing to say."""
-        from python_qt_binding import QtGui, QtWidgets
+        from PyQt5 import QtGui, QtWidgets
         self._gui: Any = QtGui
         self._application: Any = QtWidgets.QApplication([title])
         self._label: Any = QtWidgets.QLabel()
@@ -51,8 +51,8 @@ def why_none() -> str:
     """Why there can be no window: a few words, or none where there can be one."""
     if not any(os.environ.get(name) for name in DISPLAYS):
         return 'there is no display'
-    if importlib.util.find_spec('python_qt_binding') is None:
-        return 'python_qt_binding is not installed'
+    if importlib.util.find_spec('PyQt5') is None:
+        return 'PyQt5 is not installed'
     probe = subprocess.run([sys.executable, '-c', PROBE], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
                            timeout=PATIENCE)
     return f'Qt cannot use the display {os.environ.get("DISPLAY", "")}'.rstrip() if probe.returncode else ''

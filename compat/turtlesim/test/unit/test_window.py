@@ -60,7 +60,7 @@ def test_a_display_that_does_not_answer_ends_nothing(monkeypatch):
 def test_without_qt_there_is_none(monkeypatch):
     monkeypatch.setenv('QT_QPA_PLATFORM', 'offscreen')
     monkeypatch.setattr(window.importlib.util, 'find_spec', lambda _: None)
-    assert window.why_none() == 'python_qt_binding is not installed'
+    assert window.why_none() == 'PyQt5 is not installed'
 
 
 @pytest.mark.parametrize('platform, is_unseen', [('offscreen', True), ('minimal:x', True), ('xcb', False)])

@@ -10,9 +10,9 @@ from typing import Any, Callable, Optional
 
 import rosgraph
 import rospy
-from python_qt_binding.QtCore import QTimer, Qt
-from python_qt_binding.QtGui import QColor, QPalette
-from python_qt_binding.QtWidgets import QApplication
+from PyQt5.QtCore import QTimer, Qt
+from PyQt5.QtGui import QColor, QPalette
+from PyQt5.QtWidgets import QApplication
 from std_srvs.srv import Trigger, TriggerResponse
 
 from rumba_sim.model.errors import WorldError

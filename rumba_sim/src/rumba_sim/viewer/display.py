@@ -10,7 +10,7 @@ from typing import Iterator
 
 WITHOUT_DISPLAY = ('offscreen', 'minimal', 'vnc', 'linuxfb', 'eglfs')  # platforms of Qt that need none
 PATIENCE = 20.0  # [s]
-TRY = ('import sys; from python_qt_binding.QtWidgets import QApplication; '
+TRY = ('import sys; from PyQt5.QtWidgets import QApplication; '
        'application = QApplication([]); print(flush=True); sys.stdin.read()')
 
 
@@ -45,5 +45,5 @@ def reached() -> Iterator[str]:
 
 def _why(errors: str, where: str) -> str:
     if 'ModuleNotFoundError' in errors or 'ImportError' in errors:
-        return 'python_qt_binding or PyQt5 is not installed: python3-python-qt-binding and python3-pyqt5 of Debian'
+        return 'PyQt5 is not installed: python3-pyqt5 of Debian'
     return f'the display {where} cannot be opened'

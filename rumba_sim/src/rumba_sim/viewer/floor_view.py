@@ -3,9 +3,9 @@
 import math
 from typing import Optional, Tuple
 
-from python_qt_binding.QtCore import QPoint, QRectF, QSize, Qt, Signal
-from python_qt_binding.QtGui import QColor, QPainter, QPalette
-from python_qt_binding.QtWidgets import QApplication, QWidget
+from PyQt5.QtCore import QPoint, QRectF, QSize, Qt, pyqtSignal
+from PyQt5.QtGui import QColor, QPainter, QPalette
+from PyQt5.QtWidgets import QApplication, QWidget
 
 from rumba_sim.model.geometry import Pose, wrap_angle
 from rumba_sim.viewer.paint_legend import paint_legend
@@ -35,9 +35,9 @@ class FloorView(QWidget):
         robot_put: name of a robot, and the pose that it was dragged to.
     """
 
-    clicked = Signal(float, float)
-    robot_clicked = Signal(str)
-    robot_put = Signal(str, object)
+    clicked = pyqtSignal(float, float)
+    robot_clicked = pyqtSignal(str)
+    robot_put = pyqtSignal(str, object)
 
     def __init__(self, snapshot: Snapshot) -> None:
         """Show a snapshot."""

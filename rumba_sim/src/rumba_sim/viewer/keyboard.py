@@ -2,8 +2,8 @@
 
 from typing import Any, Callable, Dict, NamedTuple
 
-from python_qt_binding.QtCore import QTimer, Qt
-from python_qt_binding.QtGui import QKeySequence
+from PyQt5.QtCore import QTimer, Qt
+from PyQt5.QtGui import QKeySequence
 
 REPEAT = 20  # [ms] within which a key that repeats goes down again: an X server takes less than 1, no finger so little
 ALONE = (Qt.Key_Shift, Qt.Key_Control, Qt.Key_Alt, Qt.Key_Meta, Qt.Key_AltGr, Qt.Key_unknown)  # say nothing yet

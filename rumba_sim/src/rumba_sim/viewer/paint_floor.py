@@ -6,8 +6,8 @@ Each layer is drawn to the size of the picture once, and kept until it, or the v
 from typing import Dict, Iterator, Optional, Tuple
 
 import numpy as np
-from python_qt_binding.QtCore import QPointF, QRectF, Qt
-from python_qt_binding.QtGui import QColor, QImage, QPainter, QPen, QPolygonF
+from PyQt5.QtCore import QPointF, QRectF, Qt
+from PyQt5.QtGui import QColor, QImage, QPainter, QPen, QPolygonF
 
 from rumba_sim.model.floor_plan import FREE, WALL
 from rumba_sim.viewer.snapshot import Array, Grid, Path, Place, Snapshot

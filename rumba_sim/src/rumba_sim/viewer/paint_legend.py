@@ -1,7 +1,7 @@
 """Paints what keys and mouse do, over the floor."""
 
-from python_qt_binding.QtCore import QPointF, QRectF, Qt
-from python_qt_binding.QtGui import QColor, QFont, QFontMetricsF, QPainter, QPen
+from PyQt5.QtCore import QPointF, QRectF, Qt
+from PyQt5.QtGui import QColor, QFont, QFontMetricsF, QPainter, QPen
 
 from rumba_sim.viewer.acts import legend
 from rumba_sim.viewer.theme import Theme

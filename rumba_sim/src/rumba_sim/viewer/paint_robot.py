@@ -3,8 +3,8 @@
 import math
 from typing import Sequence
 
-from python_qt_binding.QtCore import QPointF, QRectF, Qt
-from python_qt_binding.QtGui import QBrush, QColor, QPainter, QPen, QPolygonF
+from PyQt5.QtCore import QPointF, QRectF, Qt
+from PyQt5.QtGui import QBrush, QColor, QPainter, QPen, QPolygonF
 
 from rumba_sim.model.geometry import Pose
 from rumba_sim.viewer.snapshot import Dock, Robot

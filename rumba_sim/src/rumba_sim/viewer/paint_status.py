@@ -3,8 +3,8 @@
 import math
 from typing import Callable, List, Optional, Tuple
 
-from python_qt_binding.QtCore import QPointF, QRectF, Qt
-from python_qt_binding.QtGui import QColor, QFont, QFontMetricsF, QPainter
+from PyQt5.QtCore import QPointF, QRectF, Qt
+from PyQt5.QtGui import QColor, QFont, QFontMetricsF, QPainter
 
 from rumba_sim.model.geometry import Pose
 from rumba_sim.viewer.snapshot import Battery, Cleaning, Robot, Simulation, Snapshot

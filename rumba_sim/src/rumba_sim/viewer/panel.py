@@ -2,9 +2,9 @@
 
 from typing import Callable, Dict, List, Sequence
 
-from python_qt_binding.QtCore import QRectF, QSize, Qt
-from python_qt_binding.QtGui import QPainter
-from python_qt_binding.QtWidgets import QComboBox, QGridLayout, QPushButton, QScrollArea, QVBoxLayout, QWidget
+from PyQt5.QtCore import QRectF, QSize, Qt
+from PyQt5.QtGui import QPainter
+from PyQt5.QtWidgets import QComboBox, QGridLayout, QPushButton, QScrollArea, QVBoxLayout, QWidget
 
 from rumba_sim.viewer.acts import BY_NAME, SPEEDS, simulated
 from rumba_sim.viewer.floor_view import theme_of

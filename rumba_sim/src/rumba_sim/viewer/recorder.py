@@ -4,8 +4,8 @@ import pathlib
 from typing import List
 
 from PIL import Image
-from python_qt_binding.QtCore import Qt
-from python_qt_binding.QtGui import QImage
+from PyQt5.QtCore import Qt
+from PyQt5.QtGui import QImage
 
 RATE = 8  # [Hz]
 WIDTH = 640  # [pixels] at most

@@ -4,8 +4,8 @@ import pathlib
 import time
 from typing import Any, Callable, Dict, NamedTuple, Optional, Sequence
 
-from python_qt_binding.QtCore import QEvent, QTimer, Qt
-from python_qt_binding.QtWidgets import QHBoxLayout, QWidget
+from PyQt5.QtCore import QEvent, QTimer, Qt
+from PyQt5.QtWidgets import QHBoxLayout, QWidget
 
 from rumba_sim.model.geometry import Pose
 from rumba_sim.viewer.acts import ACTS, BY_NAME, Steering, cleaner, next_speed, robot
