@@ -118,6 +118,21 @@ def test_it_arrives_though_somebody_carries_it_off():
     assert off(world, TARGET)[0] < 0.03
 
 
+@pytest.mark.parametrize('theta', [-2.0, math.nan])
+@pytest.mark.parametrize('push', [0.025, 0.06, 0.4])
+def test_pushed_while_it_turns_to_its_heading_it_comes_back(push, theta):
+    world, behaviour = going(TARGET._replace(theta=theta))
+    pushed = False
+    for observation, command in steps(behaviour, world, seconds=120.0):
+        if not pushed and command.v == 0.0 and math.hypot(observation.pose.x - TARGET.x,
+                                                          observation.pose.y - TARGET.y) < 0.02:
+            pose = world.robots['rumba'].pose
+            world.teleport('rumba', pose._replace(x=pose.x - push))
+            pushed = True
+    assert pushed and behaviour.status is Status.SUCCEEDED
+    assert off(world, TARGET)[0] < 0.02
+
+
 def test_ended_and_taken_up_again_it_arrives():
     world, behaviour = going()
     for number, _ in enumerate(steps(behaviour, world)):

@@ -5,13 +5,14 @@ from typing import Optional
 
 import numpy as np
 
-from rumba_sim.cleaning.behaviour import Behaviour, Command, Observation
+from rumba_sim.cleaning.behaviour import STOP, Behaviour, Command, Observation
 from rumba_sim.cleaning.context import Context
 from rumba_sim.cleaning.follower import Route, Turn
 from rumba_sim.cleaning.travel import Going, Travel
 from rumba_sim.model.geometry import Pose
 
-TRIES = 30  # times that something unknown may be in the way
+TRIES = 30  # times that something unknown may be in the way, or the robot be elsewhere in the end
+CLOSE = 0.02  # [m] from the target, at most, where it rests
 
 
 class GoTo(Behaviour):
@@ -55,10 +56,7 @@ class GoTo(Behaviour):
             any_heading = math.isnan(self._target.theta)
             self._turn = Turn(observation.pose.theta if any_heading else self._target.theta, self._context.robot.drive)
         elif self._travel.going is not Going.ON:
-            self._travel = None
-            self._tries += 1
-            if self._tries > TRIES:
-                return self.fail(f'after {TRIES} attempts something is still in the way')
+            return self._try_again(command)
         self.message = f'{self.remaining:.1f} m to go'
         return command
 
@@ -72,8 +70,18 @@ class GoTo(Behaviour):
         return None if way is None else Route(way, np.full(len(way) - 1, self._context.config.transit_speed))
 
     def _turned(self, turn: Turn, observation: Observation) -> Command:
+        """Turn to the heading; where commands come late, or somebody gives a push, go back to the target."""
         pose = observation.pose
         rate = turn.update(pose, observation.dt)
-        if turn.is_done:
-            return self.succeed(f'at ({pose.x:.2f}, {pose.y:.2f}) m')
-        return Command(0.0, rate, brushes_up=True)
+        if not turn.is_done:
+            return Command(0.0, rate, brushes_up=True)
+        if math.hypot(pose.x - self._target.x, pose.y - self._target.y) > CLOSE:
+            return self._try_again(STOP)
+        return self.succeed(f'at ({pose.x:.2f}, {pose.y:.2f}) m')
+
+    def _try_again(self, meanwhile: Command) -> Command:
+        self._travel = self._turn = None
+        self._tries += 1
+        if self._tries > TRIES:
+            return self.fail(f'after {TRIES} attempts something is still in the way')
+        return meanwhile
