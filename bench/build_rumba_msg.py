@@ -19,8 +19,8 @@ def seconds_to_build(environment):
         source.mkdir()
         (source / PACKAGE.name).symlink_to(PACKAGE)
         begin = time.monotonic()
-        subprocess.run(['catkin_make', '-C', workspace, '-DPYTHON_EXECUTABLE=/usr/bin/python3', f'-j{os.cpu_count()}'],
-                       env=environment, stdout=subprocess.DEVNULL, check=True)
+        subprocess.run(['catkin_make', '-C', workspace, f'-j{os.cpu_count()}', '-DPYTHON_EXECUTABLE=/usr/bin/python3',
+                        '-DPython_EXECUTABLE=/usr/bin/python3'], env=environment, stdout=subprocess.DEVNULL, check=True)
         assert pathlib.Path(workspace, HEADER).exists()
         return time.monotonic() - begin
 

@@ -139,7 +139,7 @@ def test_a_python_of_pyenv_or_conda(environment, tmp_path):
     broken = workspace(tmp_path, environment)
     subprocess.check_call([sys.executable, '-m', 'venv', '--without-pip', str(tmp_path / 'other')])
     with pytest.raises(AssertionError) as failure:
-        broken.make(f'-DPYTHON_EXECUTABLE={tmp_path}/other/bin/python')
+        broken.make(python=f'{tmp_path}/other/bin/python')
     says("No module named 'catkin_pkg'", str(failure.value))
 
 

@@ -63,10 +63,10 @@ class Workspace:
         for package in packages:
             (path / 'src' / package.name).symlink_to(package)
 
-    def make(self, target: str = '') -> str:
+    def make(self, target: str = '', python: str = '/usr/bin/python3') -> str:
         """catkin_make -j2, which must succeed; returns what it printed."""
-        return self._below.run(f'catkin_make -j2 -DPYTHON_EXECUTABLE=/usr/bin/python3 {target}', BUILD_TIMEOUT,
-                               cwd=self.path)
+        names = f'-DPYTHON_EXECUTABLE={python} -DPython_EXECUTABLE={python}'  # as in ./rumba
+        return self._below.run(f'catkin_make -j2 {names} {target}', BUILD_TIMEOUT, cwd=self.path)
 
     def setup(self, space: str) -> pathlib.Path:
         """The setup file of `devel` or `install`."""
