@@ -23,6 +23,7 @@ NO_PACKAGE = 'Could not find a package configuration file provided by "..." with
 
 # These need another system, or two workspaces.
 ELSEWHERE = ["/usr/bin/env: 'python': No such file or directory",
+             "AttributeError: 'Thread' object has no attribute 'isAlive'",
              'to have datatype/md5sum [...], but our version has [...]. Dropping connection.',
              'Unable to communicate with master!']
 

@@ -79,7 +79,7 @@ def test_a_header_comes_first_and_names_its_frame(part):
         assert re.search(r'std_msgs/Header header +# stamp: .*; frame_id: ', part.text)
 
 
-@pytest.mark.skipif(not importlib.util.find_spec('rosidl_adapter'), reason='Debian 11 and ROS Noetic have no rosidl')
+@pytest.mark.skipif(not importlib.util.find_spec('rosidl_adapter'), reason='ROS Noetic has no rosidl')
 @pytest.mark.parametrize('path', FILES, ids=lambda path: path.name)
 def test_ros_2_parses_the_same_fields(path):
     from rosidl_adapter import parser

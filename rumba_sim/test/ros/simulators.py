@@ -14,7 +14,6 @@ from rosgraph_msgs.msg import Clock, Log
 from sensor_msgs.msg import BatteryState, LaserScan
 from std_srvs.srv import SetBool, Trigger
 
-import rumba_sim.ros  # noqa: F401 (lets rospy of Debian 11 end cleanly)
 from rumba_msg.msg import BatteryStatus, Bumper, CleaningStatus, Cliff, DockStatus
 from rumba_msg.srv import Kill, Spawn, Step, Teleport
 

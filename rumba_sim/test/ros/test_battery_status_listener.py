@@ -10,7 +10,6 @@ import unittest
 import rospy
 import rostest
 
-import rumba_sim.ros  # noqa: F401 (lets rospy of Debian 11 end cleanly)
 from rumba_msg.msg import BatteryStatus
 
 TIMEOUT = 30.0

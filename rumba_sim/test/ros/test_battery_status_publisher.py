@@ -8,7 +8,6 @@ import unittest
 import rospy
 import rostest
 
-import rumba_sim.ros  # noqa: F401 (lets rospy of Debian 11 end cleanly)
 from rumba_msg.msg import BatteryStatus
 
 TOPIC = 'rumba/battery_status'

@@ -16,7 +16,6 @@ import rostest
 from geometry_msgs.msg import Twist
 from std_srvs.srv import SetBool, SetBoolResponse
 
-import rumba_sim.ros  # noqa: F401 (lets rospy of Debian 11 end cleanly)
 from rumba_msg.msg import BatteryStatus
 
 TIMEOUT = 30.0

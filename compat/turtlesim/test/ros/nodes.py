@@ -12,7 +12,6 @@ from PIL import Image
 from rosgraph_msgs.msg import Clock, Log
 from std_srvs.srv import Empty, Trigger
 
-import turtlesim.ros  # noqa: F401 (lets rospy of Debian 11 end cleanly)
 from turtlesim.msg import Color, Pose
 from turtlesim.srv import Kill, SetPen, Spawn, TeleportAbsolute, TeleportRelative
 

@@ -9,7 +9,7 @@ from toward_ros2.definitions import HAS_ROS2_PARSER, bridged, files, in_ros1, in
 
 PACKAGE = 'rumba_msg'
 RULES = yaml.safe_load((pathlib.Path(__file__).parents[1] / 'config' / 'mapping_rules.yaml').read_text())
-NEEDS_ROSIDL = pytest.mark.skipif(not HAS_ROS2_PARSER, reason='Debian 11 and ROS Noetic have no rosidl')
+NEEDS_ROSIDL = pytest.mark.skipif(not HAS_ROS2_PARSER, reason='ROS Noetic has no rosidl')
 
 
 def test_every_message_and_service_has_its_pair():
