@@ -5,7 +5,7 @@ import time
 import xml.etree.ElementTree
 
 import pytest
-from workspaces import ROOT, TIMEOUT, lines
+from workspaces import ROOT, TIMEOUT, last_of, lines
 
 PACKAGE = ROOT / 'rumba_sim'
 LAUNCH_FILES = sorted((PACKAGE / 'launch').iterdir())
@@ -40,16 +40,10 @@ def test_the_robot_in_the_demo_moves_bumps_and_drains(workspace):
 
 
 def test_the_demo_shows_a_mission_from_dock_to_dock_and_reports(workspace):
-    wanted = ['rumba: undocking', 'rumba: cleaning by boustrophedon', 'rumba: going home', 'rumba: docking',
-              'rumba: done after ']
     with workspace.space('devel').running(f'{DEMO} target_coverage:=0.1') as demo:
-        for line in lines(demo):
-            if wanted[0] in line:
-                del wanted[0]
-            if not wanted:
-                assert re.search(r'm, 0 charges; the floor is 1\d\.\d % clean: 10\.\d % swept$', line), line
-                return
-    raise AssertionError(f'waited in vain for: {wanted[0]}')
+        report = last_of(demo, 'rumba: undocking', 'rumba: cleaning by boustrophedon', 'rumba: going home',
+                         'rumba: docking', 'rumba: done after ')
+    assert re.search(r'm, 0 charges; the floor is 1\d\.\d % clean: 10\.\d % swept$', report), report
 
 
 @pytest.mark.parametrize('gui, line', [

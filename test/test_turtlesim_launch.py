@@ -3,21 +3,16 @@
 import re
 import time
 
-from workspaces import TIMEOUT, lines
+from workspaces import TIMEOUT, last_of, lines
 
 LAUNCH = 'roslaunch rumba_sim turtlesim.launch gui:=false'
 
 
 def test_a_turtle_cleans_and_comes_home(workspace):
-    wanted = ['rumba: cleaning by boustrophedon', 'rumba: going home', 'rumba: docking', 'rumba: done after ']
     with workspace.space('devel').running(f'{LAUNCH} speed:=5 target_coverage:=0.01') as launch:
-        for line in lines(launch):
-            if wanted[0] in line:
-                del wanted[0]
-            if not wanted:
-                assert re.search(r'm, 0 charges; the floor is 1\.\d % clean: 1\.\d % swept$', line), line
-                return
-    raise AssertionError(f'waited in vain for: {wanted[0]}')
+        report = last_of(launch, 'rumba: cleaning by boustrophedon', 'rumba: going home', 'rumba: docking',
+                         'rumba: done after ')
+    assert re.search(r'm, 0 charges; the floor is 1\.\d % clean: 1\.\d % swept$', report), report
 
 
 def test_the_lessons_publisher_and_ours_are_heard_by_the_same_listener(workspace):

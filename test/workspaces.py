@@ -83,6 +83,15 @@ def lines(process: subprocess.Popen) -> Iterator[str]:
     return itertools.takewhile(lambda _: time.monotonic() < until, process.stdout)
 
 
+def last_of(process: subprocess.Popen, *wanted: str) -> str:
+    """What a process prints beside the last of these words, once it has printed all of them in this order."""
+    printed = lines(process)
+    for word in wanted:
+        line = next((line for line in printed if word in line), None)
+        assert line is not None, f'waited in vain for: {word}'
+    return line
+
+
 def clean_environment() -> Dict[str, str]:
     """This process's environment without other workspaces, for a roscore of its own on this machine."""
     with socket.socket() as free:
