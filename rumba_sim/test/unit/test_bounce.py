@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from drivers import run
 from rooms import quiet, room
 
 from rumba_sim.cleaning.behaviour import Observation
@@ -63,10 +64,7 @@ def test_in_ten_minutes_it_cleans_most_of_an_empty_room():
     world = World(room(4.0, 3.0, 0.05), seed=3)
     robot = world.spawn('rumba')
     bounce = Bounce(np.random.default_rng(3))
-    for _ in range(6000):
-        command = bounce.update(Observation(DT, robot.pose, bumper=robot.bumper))
-        robot.command(command.v, command.w, world.tick)
-        world.step(5)
+    run(bounce, world)
     assert world.floor.coverage > 0.9 and robot.bumps > 50
 
 

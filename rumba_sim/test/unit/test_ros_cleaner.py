@@ -45,8 +45,8 @@ def test_the_robot_is_that_of_the_simulator_its_file_and_its_parameters(monkeypa
     file = tmp_path / 'robot.yaml'
     file.write_text('drive: {radius: 0.2, max_speed: 0.4}\nspeed: 5.0\n')
     parameters = {'config': str(file), 'drive': {'max_speed': 0.3}, 'battery': {'drain': 7}, 'map': 'studio'}
-    monkeypatch.setattr(cleaner_settings.rospy, 'get_param', lambda *_: parameters)
-    found = cleaner_settings.robot_of_simulator('simulator')
+    monkeypatch.setattr(cleaner_settings.rospy, 'get_param', lambda name, _: {'body': parameters}[name])
+    found = cleaner_settings.robot_of_simulator('body')
     assert (found.drive.radius, found.drive.max_speed, found.battery.drain) == (0.2, 0.3, 7.0)
 
 

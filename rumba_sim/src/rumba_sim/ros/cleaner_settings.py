@@ -2,7 +2,6 @@
 
 import dataclasses
 
-import rosgraph
 import rospy
 
 from rumba_sim.cleaning import strategies
@@ -11,6 +10,7 @@ from rumba_sim.model import yaml_file
 from rumba_sim.model.config import names, part, setting, updated
 from rumba_sim.model.errors import ConfigError
 from rumba_sim.model.robot_config import RobotConfig
+from rumba_sim.ros.names import check_names
 
 STRATEGIES = tuple(sorted(strategies.OWN))  # that every cleaner knows
 
@@ -30,8 +30,7 @@ class Settings(CleaningConfig):
 
     def __post_init__(self) -> None:
         """Names of topics are made of the robot's name."""
-        if not rosgraph.names.is_legal_base_name(self.robot):
-            raise ConfigError(f'robot is {self.robot!r}: must be letters, digits and _, beginning with a letter')
+        check_names(self, 'robot')
 
     @property
     def cleaning(self) -> CleaningConfig:

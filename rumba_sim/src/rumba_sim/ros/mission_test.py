@@ -32,7 +32,6 @@ import time
 import unittest
 from typing import Any, Callable, Dict, List, Tuple, Type
 
-import rosgraph
 import rospy
 import rostopic
 import rosunit
@@ -44,8 +43,8 @@ from rumba_sim.evaluation import mission_verdict
 from rumba_sim.evaluation.mission_asked import Asked
 from rumba_sim.evaluation.mission_verdict import Condition, Field, Judge, Verdict
 from rumba_sim.model.config import setting
-from rumba_sim.model.errors import ConfigError
 from rumba_sim.ros import conversions, node
+from rumba_sim.ros.names import check_names
 
 NAME = 'mission_test'
 PERIOD = 0.05  # [s] of the wall clock
@@ -74,8 +73,7 @@ class Settings(Asked):
 
     def __post_init__(self) -> None:
         """Names of topics are made of the robot's name."""
-        if not rosgraph.names.is_legal_base_name(self.robot):
-            raise ConfigError(f'robot is {self.robot!r}: must be letters, digits and _, beginning with a letter')
+        check_names(self, 'robot')
 
 
 def main() -> None:

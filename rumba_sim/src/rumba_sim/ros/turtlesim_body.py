@@ -24,20 +24,19 @@ import math
 import time
 from typing import Any, Tuple
 
-import rosgraph
 import rospy
 from std_srvs.srv import Trigger, TriggerResponse
 from tf2_msgs.msg import TFMessage
 
 from rumba_sim.model import map_file
 from rumba_sim.model.config import part, section, setting
-from rumba_sim.model.errors import ConfigError
 from rumba_sim.model.geometry import Pose, wrap_angle
 from rumba_sim.model.guided_world import GuidedWorld
 from rumba_sim.model.robot_config import RobotConfig
 from rumba_sim.model.turtle_motion import FRAME_RATE, PIXELS_PER_METRE, TurtleMotion
 from rumba_sim.ros import node
 from rumba_sim.ros.maps import FLOOR_PLAN, map_path, refuse_second, tell_map
+from rumba_sim.ros.names import check_names
 from rumba_sim.ros.requests import Requests
 from rumba_sim.ros.robot_node import RobotNode
 from rumba_sim.ros.settings import Rates
@@ -77,10 +76,7 @@ class Settings(RobotConfig):
 
     def __post_init__(self) -> None:
         """Names of topics are made of the robot's name."""
-        for name in ('robot', 'turtle'):
-            if not rosgraph.names.is_legal_base_name(getattr(self, name)):
-                raise ConfigError(f'{name} is {getattr(self, name)!r}: must be letters, digits and _, beginning with a '
-                                  'letter')
+        check_names(self, 'robot', 'turtle')
 
 
 def main() -> None:

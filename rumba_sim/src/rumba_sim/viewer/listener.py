@@ -78,8 +78,10 @@ class Listener:
         while not rospy.is_shutdown():
             try:
                 self._follow(surroundings.look())
-            except Exception as error:
-                if not isinstance(error, GONE) and not rospy.is_shutdown():
+            except GONE:
+                pass
+            except Exception:  # what else may break while ROS shuts down
+                if not rospy.is_shutdown():
                     raise
             self._wake.wait(LOOK_PERIOD)
             self._wake.clear()

@@ -6,13 +6,12 @@ from typing import Any, Callable, Dict, Iterable, Optional
 
 import numpy as np
 import rospy
-from geometry_msgs.msg import Transform
 from nav_msgs.msg import OccupancyGrid, Odometry
 from rospy.numpy_msg import numpy_msg
 from sensor_msgs.msg import BatteryState, LaserScan
 
 from rumba_msg.msg import BatteryStatus, Bumper, CleaningStatus, MissionStatus
-from rumba_sim.ros.conversions import plane_pose
+from rumba_sim.ros.conversions import place
 from rumba_sim.viewer.snapshot import Array, Battery, Cleaning, Mission, Robot, Size
 from rumba_sim.viewer.track import Glide, Trail
 
@@ -79,7 +78,7 @@ class RobotEar:
         stamp = message.header.stamp.to_sec()
         if self.stamp is not None and stamp < self.stamp:  # another world has begun
             self.forget()
-        pose = plane_pose(Transform(message.pose.pose.position, message.pose.pose.orientation))
+        pose = place(message.pose.pose)
         self.stamp, self.came = stamp, time.monotonic()
         self._trail.add(pose)
         self._glide.add(pose, self.came)

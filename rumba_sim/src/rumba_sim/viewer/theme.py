@@ -4,6 +4,8 @@ import dataclasses
 import zlib
 from typing import Tuple
 
+from rumba_sim.model.robot import FIRST
+
 
 @dataclasses.dataclass(frozen=True)
 class Theme:
@@ -53,7 +55,7 @@ DARK = Theme(
 
 def robot_colour(theme: Theme, name: str) -> str:
     """A robot's colour, the same in every window: rumba, rumba2, ... in turn, others by their name."""
-    number = name[len('rumba'):] if name.startswith('rumba') else None
+    number = name[len(FIRST):] if name.startswith(FIRST) else None
     if number == '':
         index = 0
     elif number is not None and number.isdigit():

@@ -24,12 +24,12 @@ Parameters, as in `rosrun rumba_sim viewer _robot:=rumba2 _laser:=true`:
 import dataclasses
 from typing import Any
 
-import rosgraph
 import rospy
 
 from rumba_sim.model.config import setting
 from rumba_sim.model.errors import ConfigError, WorldError
 from rumba_sim.ros import node
+from rumba_sim.ros.names import check_names
 from rumba_sim.ros.teleop_key import ANGULAR_RANGE, LINEAR_RANGE
 from rumba_sim.viewer import display
 
@@ -54,8 +54,7 @@ class Settings:
 
     def __post_init__(self) -> None:
         """Names of topics are made of the robot's name, and a style is one of three."""
-        if not rosgraph.names.is_legal_base_name(self.robot):
-            raise ConfigError(f'robot is {self.robot!r}: must be letters, digits and _, beginning with a letter')
+        check_names(self, 'robot')
         if self.style not in STYLES:
             raise ConfigError(f'style is {self.style!r}: must be one of {", ".join(STYLES)}')
 
