@@ -4,13 +4,14 @@ import pathlib
 import statistics
 
 import numpy as np
-
 from common import figures
-from rumba_sim.cleaning.cleaning_config import CleaningConfig
-from rumba_sim.cleaning.context import Context
-from rumba_sim.cleaning.dock import Dock
-from rumba_sim.cleaning.homing import BUOYS
-from rumba_sim.evaluation import control, starts
+
+from rumba_cleaning import control
+from rumba_cleaning.behaviours.dock import Dock
+from rumba_cleaning.behaviours.homing import BUOYS
+from rumba_cleaning.belief.context import Context
+from rumba_cleaning.cleaning_config import CleaningConfig
+from rumba_evaluation.trials import starts
 from rumba_sim.model import map_file
 from rumba_sim.model.world import World
 

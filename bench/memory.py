@@ -7,11 +7,12 @@ import subprocess
 import sys
 
 from common import figures, ros_session
+
 from rumba_sim.model import map_file
 from rumba_sim.model.config import updated
 from rumba_sim.model.robot_config import RobotConfig
 from rumba_sim.model.world import World
-from rumba_sim.ros.simulator import map_path
+from rumba_sim.ros.common.maps import map_path
 
 MAP = 'studio'
 HOUR, DAY = 3600, 86400  # [s]

@@ -7,9 +7,9 @@ import numpy as np
 from common import figures
 from common.office import office
 
-from rumba_sim.cleaning.cleaning_config import CleaningConfig
-from rumba_sim.cleaning.context import Context
-from rumba_sim.cleaning.planner import plan
+from rumba_cleaning.belief.context import Context
+from rumba_cleaning.cleaning_config import CleaningConfig
+from rumba_cleaning.planning.planner import plan
 from rumba_sim.model import map_file
 from rumba_sim.model.robot_config import RobotConfig
 from rumba_sim.model.world import World

@@ -6,10 +6,10 @@ A whole mission on the map studio, from the dock to the dock: at speed 1 it take
 import pathlib
 
 import actionlib
-
 from common import figures, ros_session
+
+from rumba_evaluation.trials.trial import Trial
 from rumba_msg.msg import CleanAction, CleanGoal
-from rumba_sim.evaluation.trial import Trial
 from rumba_sim.model import map_file
 
 MAP = 'studio'
@@ -45,7 +45,7 @@ def show(title, coverage, seconds, distance):
 
 def through_ros(speed):
     """What is clean after the goal `clean` was met; rumba_msg/CleaningStatus."""
-    cleaner = ['rosrun', 'rumba_sim', 'cleaner']
+    cleaner = ['rosrun', 'rumba_cleaning', 'cleaner']
     with ros_session.simulator(map=MAP, speed=speed), ros_session.process(cleaner):
         client = actionlib.SimpleActionClient('rumba/clean', CleanAction)
         client.wait_for_server()

@@ -9,8 +9,8 @@ import statistics
 import time
 
 import rospy
-
 from common import figures, ros_session
+
 from rumba_msg.msg import BatteryStatus
 
 MAP = 'studio'

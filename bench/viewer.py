@@ -10,22 +10,24 @@ import time
 
 os.environ['QT_QPA_PLATFORM'] = 'offscreen'
 
+import xmlrpc.client  # noqa: E402
+
 import numpy as np  # noqa: E402
 import rosgraph  # noqa: E402
-import xmlrpc.client  # noqa: E402
+from common import figures, ros_session  # noqa: E402
 from PyQt5.QtGui import QImage, QPainter  # noqa: E402
 from PyQt5.QtWidgets import QApplication  # noqa: E402
 
-from common import figures, ros_session  # noqa: E402
 from rumba_sim.model import map_file  # noqa: E402
 from rumba_sim.model.geometry import Pose  # noqa: E402
 from rumba_sim.model.robot_config import RobotConfig  # noqa: E402
-from rumba_sim.ros.maps import map_path  # noqa: E402
-from rumba_sim.viewer.dock_field import dock  # noqa: E402
-from rumba_sim.viewer.paint_scene import ScenePainter  # noqa: E402
-from rumba_sim.viewer.snapshot import Grid, Path, Place, Robot, Snapshot  # noqa: E402
-from rumba_sim.viewer.theme import LIGHT  # noqa: E402
-from rumba_sim.viewer.view_transform import ViewTransform  # noqa: E402
+from rumba_sim.ros.common.maps import map_path  # noqa: E402
+from rumba_viewer.painting.paint_scene import ScenePainter  # noqa: E402
+from rumba_viewer.scene.dock_field import dock  # noqa: E402
+from rumba_viewer.scene.snapshot import (Grid, Path, Place,  # noqa: E402
+                                         Robot, Snapshot)
+from rumba_viewer.scene.theme import LIGHT  # noqa: E402
+from rumba_viewer.scene.view_transform import ViewTransform  # noqa: E402
 
 MAP = 'apartment'
 SIZES = ((860, 660), (1640, 1080))  # [pixels] of the floor in a window of usual size and on a full screen
@@ -83,8 +85,8 @@ def alone(width, height):
 def beside_a_mission(speed):
     """Share of a core that the node takes while the robot cleans: the median."""
     with ros_session.fresh_parameters(), ros_session.process(
-            ['roslaunch', 'rumba_sim', 'demo.launch', f'speed:={speed}', 'gui:=false', 'drain:=1']), \
-            ros_session.process(['rosrun', 'rumba_sim', 'viewer', '_laser:=true']):
+            ['roslaunch', 'rumba_bringup', 'demo.launch', f'speed:={speed}', 'gui:=false', 'drain:=1']), \
+            ros_session.process(['rosrun', 'rumba_viewer', 'viewer', '_laser:=true']):
         pid = ros_session.wait_until(pid_of_viewer)
         time.sleep(WARM)
         shares = []

@@ -9,7 +9,7 @@ from workspaces import ROOT, TIMEOUT, last_of, lines
 
 PACKAGE = ROOT / 'rumba_sim'
 LAUNCH_FILES = sorted((PACKAGE / 'launch').iterdir())
-DEMO = 'roslaunch rumba_sim demo.launch speed:=10 map:=studio'
+DEMO = 'roslaunch rumba_bringup demo.launch speed:=10 map:=studio'
 LINE = re.compile(r'battery +(\d+) %   at \((-?[\d.]+), (-?[\d.]+)\) m')
 
 

@@ -3,8 +3,8 @@
 import pytest
 
 MISSION = '''
-from rumba_sim.cleaning import strategies
-from rumba_sim.evaluation.trial import Trial
+from rumba_cleaning import strategies
+from rumba_evaluation.trials.trial import Trial
 from rumba_sim.model import map_file
 strategies.load("zigzag_strategy.zigzag")
 trial = Trial(map_file.load("{maps}/studio.yaml"), "zigzag", seed=3)
@@ -23,6 +23,6 @@ def test_it_cleans_half_the_studio_in_process(overlay, space):
 
 def test_the_evaluation_knows_it_by_its_module(overlay, tmp_path):
     stranger = overlay.space('devel')
-    output = stranger.run('rosrun rumba_sim evaluate --import zigzag_strategy.zigzag --strategies zigzag '
+    output = stranger.run('rosrun rumba_evaluation evaluate --import zigzag_strategy.zigzag --strategies zigzag '
                           f'--maps studio --seeds 1 --target 0.3 --no-plots --output {tmp_path}', timeout=300.0)
     assert 'zigzag' in output

@@ -6,7 +6,8 @@ import time
 
 import catkin_pkg.packages
 import pytest
-from workspaces import OURS, ROOT, TIMEOUT, TUTORIALS, Space, clean_environment, roscore
+from workspaces import (OURS, ROOT, TIMEOUT, TUTORIALS, Space,
+                        clean_environment, roscore)
 
 README = (ROOT / 'README.md').read_text()
 INTERFACES = (ROOT / 'docs' / 'interfaces.md').read_text()
@@ -24,12 +25,12 @@ COMMANDS = {
     # At a speed other than 1, so that /clock is there too.
     'simulator': 'rosrun rumba_sim simulator _speed:=2 _map:=studio',
     # Asked for all of its conditions, the first of which nobody meets.
-    'mission_test': 'rosrun rumba_sim mission_test _coverage:=1 _reach:="9 9" _docked:=true _collisions:=0 _battery:=1 '
+    'mission_test': 'rosrun rumba_evaluation mission_test _coverage:=1 _reach:="9 9" _docked:=true _collisions:=0 _battery:=1 '
                     '_time_limit:=100000',
     # teleop_key wants a terminal.
     'teleop_key': 'script -qec "rosrun rumba_sim teleop_key __ns:=/readme" /dev/null',
     'turtlesim': 'rosrun turtlesim turtlesim_node _gui:=false',
-    'viewer': 'env QT_QPA_PLATFORM=offscreen rosrun rumba_sim viewer _laser:=true',
+    'viewer': 'env QT_QPA_PLATFORM=offscreen rosrun rumba_viewer viewer _laser:=true',
 }
 # Two simulators need two masters; beside each are those who publish what it subscribes to.
 BODY = ['turtlesim_body', 'turtlesim', 'teleop_key']

@@ -5,7 +5,7 @@ import time
 
 from workspaces import TIMEOUT, last_of, lines
 
-LAUNCH = 'roslaunch rumba_sim turtlesim.launch gui:=false'
+LAUNCH = 'roslaunch rumba_bringup turtlesim.launch gui:=false'
 
 
 def test_a_turtle_cleans_and_comes_home(workspace):

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from rumba_sim.model.floor_plan import FREE, WALL, FloorPlan
+from rumba_sim.model.floor_plan import FREE, OCCUPIED, FloorPlan
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.world import World
 
@@ -29,14 +29,14 @@ def room20(resolution, rooms=(1, 1), side=0.0):
     columns, rows = (round(max(SIDE * number, side) / resolution) for number in rooms)
     occupancy = np.full((rows, columns), FREE, np.int8)
     for edge in (occupancy, occupancy.T):
-        edge[0] = edge[-1] = WALL
+        edge[0] = edge[-1] = OCCUPIED
     x, y = np.meshgrid(*((np.arange(round(SIDE * number / resolution)) + 0.5) * resolution % SIDE for number in rooms))
     pillars = np.zeros(x.shape, bool)
     for disc in DISCS:
         pillars |= np.hypot(x - disc[0], y - disc[1]) <= DISC_RADIUS
     for square in SQUARES:
         pillars |= np.maximum(abs(x - square[0]), abs(y - square[1])) <= 0.5 * SQUARE_SIDE
-    occupancy[:len(y), :len(x[0])][pillars] = WALL
+    occupancy[:len(y), :len(x[0])][pillars] = OCCUPIED
     return FloorPlan('ROOM20', occupancy, resolution, (0.0, 0.0), start=Pose(*FIRST, 0.0))
 
 

@@ -11,9 +11,8 @@ import time
 
 import rosgraph
 import rospy
-from diagnostic_msgs.msg import DiagnosticArray
-
 from common import figures
+from diagnostic_msgs.msg import DiagnosticArray
 
 PATIENCE = 60.0  # [s] for what should take a second or two
 LISTENER = pathlib.Path(__file__).with_name('listener.py')

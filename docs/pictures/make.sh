@@ -25,9 +25,9 @@ picture() { # VIEWER NAME
 
 start roscore -p "${PORT:-11399}"
 until rosparam get /run_id >/dev/null 2>&1; do sleep 0.2; done
-start roslaunch rumba_sim demo.launch speed:=10 gui:=false
-start rosrun rumba_sim viewer __name:=light _style:=light _laser:=true _folder:=/tmp _width:=1100 _height:=660
-start rosrun rumba_sim viewer __name:=dark _style:=dark _folder:=/tmp _width:=1100 _height:=660
+start roslaunch rumba_bringup demo.launch speed:=10 gui:=false
+start rosrun rumba_viewer viewer __name:=light _style:=light _laser:=true _folder:=/tmp _width:=1100 _height:=660
+start rosrun rumba_viewer viewer __name:=dark _style:=dark _folder:=/tmp _width:=1100 _height:=660
 rosservice call --wait /simulator/spawn '{pose: {x: 2.0, y: 4.6, theta: 2.0}}' >/dev/null
 until_swept 0.45
 picture light window

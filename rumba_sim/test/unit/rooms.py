@@ -7,7 +7,7 @@ import numpy as np
 from hypothesis import strategies as st
 
 from rumba_sim.model.config import updated
-from rumba_sim.model.floor_plan import FREE, WALL, FloorPlan
+from rumba_sim.model.floor_plan import FREE, OCCUPIED, FloorPlan
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.robot_config import RobotConfig
 from rumba_sim.model.world import World
@@ -22,10 +22,10 @@ def room(width, height, resolution=0.05, boxes=(), **kwargs):
     A box is (left, bottom, right, top) [m]; `cliff` and `carpet` are given as boxes too.
     """
     rows, columns = round(height / resolution) + 2, round(width / resolution) + 2
-    grid = np.full((rows, columns), WALL, np.int8)
+    grid = np.full((rows, columns), OCCUPIED, np.int8)
     grid[1:-1, 1:-1] = FREE
     for box in boxes:
-        grid[inside(box, rows, columns, resolution)] = WALL
+        grid[inside(box, rows, columns, resolution)] = OCCUPIED
     for layer in ('cliff', 'carpet'):
         if layer in kwargs:
             kwargs[layer] = inside(kwargs[layer], rows, columns, resolution)

@@ -4,8 +4,8 @@ import math
 
 import pytest
 from pytest import approx
-
 from rooms import alone, drive, drove, room
+
 from rumba_sim.model.errors import WorldError
 from rumba_sim.model.geometry import Pose
 

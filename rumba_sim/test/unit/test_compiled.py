@@ -4,8 +4,8 @@ import math
 
 import numpy as np
 import pytest
-
 from rooms import crooked
+
 from rumba_sim.model import kernel
 from rumba_sim.model.compiled import fast
 from rumba_sim.model.constants import constants
@@ -43,10 +43,10 @@ class Copy:
                               self.floor.tally, self.noise, ON_THEIR_OWN, tick, 10)
             states.append(np.array([[float(robot[name]) for name in kernel.ROBOT.names] for robot in self.robots]))
             for robot in self.robots:
-                seen.append(functions.infrared(robot, self.constants[0], self.plan.leaps, self.floor.cells))
+                seen.append(functions.infrared(robot, self.constants[0], self.plan.skips, self.floor.cells))
         ranges = np.empty((len(STARTS), len(self.fan)))
         for me in range(len(STARTS)):
-            functions.scan(self.robots, me, self.constants[0], self.plan.leaps, self.floor.cells, self.fan,
+            functions.scan(self.robots, me, self.constants[0], self.plan.skips, self.floor.cells, self.fan,
                            self.noise.reshape(-1)[:len(self.fan)], ranges[me])
         return np.array(states), seen, ranges
 

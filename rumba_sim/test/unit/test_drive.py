@@ -5,8 +5,8 @@ import math
 
 import pytest
 from pytest import approx
-
 from rooms import alone, drive, drove
+
 from rumba_sim.model.errors import CommandError
 from rumba_sim.model.geometry import Pose, wrap_angle
 

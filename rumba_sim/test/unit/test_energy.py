@@ -5,8 +5,8 @@ import math
 import numpy as np
 import pytest
 from pytest import approx
-
 from rooms import alone, crooked, drive, drove, quiet
+
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.robot_config import BatteryConfig
 from rumba_sim.model.world import World

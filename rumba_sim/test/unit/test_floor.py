@@ -5,8 +5,8 @@ import math
 import numpy as np
 import pytest
 from pytest import approx
-
 from rooms import alone, crooked, drive, drove, quiet, room
+
 from rumba_sim.model import kernel
 from rumba_sim.model.floor import Floor
 from rumba_sim.model.geometry import Pose

@@ -10,10 +10,11 @@ from hypothesis import strategies as st
 from pytest import approx
 
 from rumba_sim.model.errors import MapError
-from rumba_sim.model.floor_plan import FREE, MAX_CELLS, UNKNOWN, WALL, FloorPlan, check_size
+from rumba_sim.model.floor_plan import (FREE, MAX_CELLS, OCCUPIED, UNKNOWN,
+                                        FloorPlan, check_size)
 from rumba_sim.model.geometry import Pose
 
-SIGNS = {'#': WALL, '.': FREE, '?': UNKNOWN, '~': FREE}
+SIGNS = {'#': OCCUPIED, '.': FREE, '?': UNKNOWN, '~': FREE}
 
 
 def drawn(text, resolution=1.0, origin=(0.0, 0.0), **kwargs):
@@ -40,7 +41,7 @@ def distance_to_blocked(blocked, x, y):
 @st.composite
 def grids(draw):
     rows, columns = draw(st.integers(1, 7)), draw(st.integers(1, 9))
-    cells = draw(st.lists(st.sampled_from([FREE, FREE, FREE, WALL, UNKNOWN]), min_size=rows * columns,
+    cells = draw(st.lists(st.sampled_from([FREE, FREE, FREE, OCCUPIED, UNKNOWN]), min_size=rows * columns,
                           max_size=rows * columns))
     grid = np.array(cells, np.int8).reshape(rows, columns)
     grid[draw(st.integers(0, rows - 1)), draw(st.integers(0, columns - 1))] = FREE
@@ -52,15 +53,15 @@ def grids(draw):
 def test_clearance_and_room_are_the_exact_distances_at_every_node(grid, resolution, data):
     cliff = np.array(data.draw(st.lists(st.booleans(), min_size=grid.size, max_size=grid.size))).reshape(grid.shape)
     plan = FloorPlan('flat', grid, resolution, (-1.25, 7.5), cliff=cliff)
-    assert plan.clearance.shape == plan.room.shape == (grid.shape[0] + 1, grid.shape[1] + 1)
-    assert plan.clearance.dtype == np.float64 and plan.clearance.flags.c_contiguous and plan.room.flags.c_contiguous
+    assert plan.clearance.shape == plan.safe_clearance.shape == (grid.shape[0] + 1, grid.shape[1] + 1)
+    assert plan.clearance.dtype == np.float64 and plan.clearance.flags.c_contiguous and plan.safe_clearance.flags.c_contiguous
     for row in range(grid.shape[0] + 1):
         for column in range(grid.shape[1] + 1):
             x, y = -1.25 + column * resolution, 7.5 + row * resolution
             exact = distance_to_blocked(grid != FREE, column, row) * resolution
             assert plan.clearance[row, column] == approx(exact)
             assert plan.clearance_at(x, y) == approx(exact, abs=1e-9)
-            assert plan.room[row, column] == approx(
+            assert plan.safe_clearance[row, column] == approx(
                 distance_to_blocked((grid != FREE) | cliff, column, row) * resolution)
 
 
@@ -91,7 +92,7 @@ def test_inside_a_wall_beyond_the_grid_and_nowhere_clearance_is_zero():
     assert plan.clearance_at(-1.0 + 2.4, -2.0 + 1.7) == 0.0
     for x, y in [(-5.0, 0.0), (4.5, 0.0), (0.0, 2.5), (0.0, -2.5), (math.nan, 0.0), (0.0, math.nan),
                  (math.inf, 0.0), (0.0, -math.inf)]:
-        assert plan.clearance_at(x, y) == plan.room_at(x, y) == 0.0
+        assert plan.clearance_at(x, y) == plan.safe_clearance_at(x, y) == 0.0
         assert not plan.contains(x, y)
 
 
@@ -109,7 +110,7 @@ def test_a_cell_holds_its_centre_and_its_lower_left_edges():
 def test_a_plan_keeps_its_own_copy_of_the_grid_and_can_be_sent_to_another_process():
     grid = np.zeros((3, 5), np.int8)
     plan = FloorPlan('flat', grid, 0.5, (0.0, 0.0), carpet=np.eye(3, 5, dtype=bool), dock=Pose(1.0, 0.5, 0.0))
-    grid[:] = WALL
+    grid[:] = OCCUPIED
     copy = pickle.loads(pickle.dumps(plan))
     assert copy.free.all() and copy.dock == plan.dock and (copy.carpet == np.eye(3, 5)).all()
     assert copy.clearance_at(1.0, 0.5) == plan.clearance_at(1.0, 0.5) == 0.5
@@ -123,21 +124,21 @@ def test_the_roomiest_place_is_far_from_walls_and_from_cliffs():
         .........
         .......{0}{0}
         ........{0}'''
-    assert drawn(picture.format('.'), origin=(10.0, 20.0)).roomiest() == Pose(13.0, 23.0, 0.0)
+    assert drawn(picture.format('.'), origin=(10.0, 20.0)).most_open_pose() == Pose(13.0, 23.0, 0.0)
     assert drawn('''
         ..........
         ..........
         ..........
         ~~~~~~~~~.
         ..........
-        ..........''', origin=(10.0, 20.0)).roomiest() == Pose(11.0, 21.0, 0.0)
+        ..........''', origin=(10.0, 20.0)).most_open_pose() == Pose(11.0, 21.0, 0.0)
 
 
 def reachable_by_hand(plan, start, radius, brush_width):
     """The definition, cell by cell."""
     def fits(row, column):
         inside = 0 <= row < plan.rows and 0 <= column < plan.columns
-        return inside and plan.room_at(*plan.centre(row, column)) >= radius - 1e-9
+        return inside and plan.safe_clearance_at(*plan.centre(row, column)) >= radius - 1e-9
 
     stands = set()
     open_cells = [plan.cell(*start)]
@@ -185,7 +186,7 @@ def test_a_door_lets_through_what_is_narrower():
 
 def test_a_robot_keeps_off_a_cliff_and_does_not_begin_over_it():
     plan = drawn(TWO_ROOMS, resolution=0.1)
-    assert plan.clearance_at(2.1, 0.2) == approx(0.1) and plan.room_at(2.1, 0.2) == 0.0
+    assert plan.clearance_at(2.1, 0.2) == approx(0.1) and plan.safe_clearance_at(2.1, 0.2) == 0.0
     assert not (plan.reachable(1.5, 0.5, 0.1, 0.4) & plan.cliff).any()
     with pytest.raises(MapError, match=r'^flat: start at \(2\.10, 0\.35\) m is 0\.050 m from the nearest cliff: '
                                        r'a robot of radius 0\.174 m does not fit$'):

@@ -5,11 +5,11 @@ import math
 import numpy as np
 import pytest
 from pytest import approx
-
 from rooms import PILLARS, RADIUS, alone, crooked, drove, quiet, room, squares
+
 from rumba_sim.model import kernel
 from rumba_sim.model.constants import constants
-from rumba_sim.model.floor_plan import FREE, WALL, FloorPlan
+from rumba_sim.model.floor_plan import FREE, OCCUPIED, FloorPlan
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.world import World
 
@@ -152,10 +152,10 @@ def test_noise_has_its_deviation_its_seed_and_no_bias():
 @pytest.mark.parametrize('resolution', [0.02, 0.0625, 0.05])
 def test_beams_along_the_borders_of_cells_are_exact_and_take_no_more_steps_than_there_are_cells(
         resolution, monkeypatch):
-    grid = np.full((80, 80), WALL, np.int8)
+    grid = np.full((80, 80), OCCUPIED, np.int8)
     grid[1:-1, 1:-1] = FREE
     plan = FloorPlan('borders', grid, resolution, (0.0, 0.0))
-    k, cells = constants(quiet(), plan, 50)[0], np.where(plan.free, 0, kernel.WALL).astype(np.uint8)
+    k, cells = constants(quiet(), plan, 50)[0], np.where(plan.free, 0, kernel.BLOCKED).astype(np.uint8)
     steps = []
     to_border = kernel.to_border
     monkeypatch.setattr(kernel, 'to_border', lambda *args: steps.append(args) or to_border(*args))
@@ -164,7 +164,7 @@ def test_beams_along_the_borders_of_cells_are_exact_and_take_no_more_steps_than_
             angle = (turn - 2) * math.pi / 2.0  # its sine or cosine is nearly 0
             x, y = node * resolution, (80 - node) * resolution
             steps.clear()
-            way = kernel.cast(k, plan.leaps, cells, x, y, math.cos(angle), math.sin(angle), RANGE)
+            way = kernel.cast(k, plan.skips, cells, x, y, math.cos(angle), math.sin(angle), RANGE)
             assert way == approx(ray(plan, x, y, angle + 1e-5), abs=1e-4)
             assert len(steps) < 200
 

@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 from PIL import Image
 from pytest import approx
-from sheets import CUT, G, PIXELS, W, grid, write
+from sheets import CUT, PIXELS, G, W, grid, write
 
 from rumba_sim.model import map_file
 from rumba_sim.model.errors import MapError
-from rumba_sim.model.floor_plan import FREE, UNKNOWN, WALL
+from rumba_sim.model.floor_plan import FREE, OCCUPIED, UNKNOWN
 
 
 def test_a_map_is_cut_to_its_free_cells_and_stays_where_it_is(tmp_path):
@@ -46,9 +46,9 @@ def by_the_rules(level, negate, mode, occupied, free):
     """What map_server makes of a level of grey."""
     level = 255 - level if negate else level
     if mode == 'raw':
-        return UNKNOWN if level > 100 else WALL if level > 100 * occupied else FREE if level < 100 * free else UNKNOWN
+        return UNKNOWN if level > 100 else OCCUPIED if level > 100 * occupied else FREE if level < 100 * free else UNKNOWN
     probability = (255 - level) / 255.0
-    return WALL if probability > occupied else FREE if probability < free else UNKNOWN
+    return OCCUPIED if probability > occupied else FREE if probability < free else UNKNOWN
 
 
 @pytest.mark.parametrize('mode, negate, thresholds', itertools.product(

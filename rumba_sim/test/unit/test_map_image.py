@@ -10,7 +10,7 @@ from sheets import CUT, PIXELS, B, G, W, grid, write
 
 from rumba_sim.model import map_file, map_image
 from rumba_sim.model.errors import MapError
-from rumba_sim.model.floor_plan import FREE, UNKNOWN, WALL
+from rumba_sim.model.floor_plan import FREE, OCCUPIED, UNKNOWN
 
 
 def test_a_layer_on_transparent_paper_marks_what_is_drawn(tmp_path):
@@ -81,12 +81,12 @@ def test_a_tall_image_in_colour_is_read_to_its_last_row(tmp_path):
 
 def test_an_image_of_one_bit_knows_wall_and_free(tmp_path):
     plan = map_file.load(write(tmp_path, Image.fromarray(PIXELS == W)))
-    assert plan.occupancy.tolist() == np.where(CUT[::-1] == W, FREE, WALL).tolist()
+    assert plan.occupancy.tolist() == np.where(CUT[::-1] == W, FREE, OCCUPIED).tolist()
 
 
 @pytest.mark.parametrize('mode, colour, alpha, value', [
-    ('trinary', 255, 255, FREE), ('trinary', 255, 0, UNKNOWN), ('trinary', 0, 255, UNKNOWN), ('trinary', 0, 0, WALL),
-    ('scale', 255, 0, FREE), ('scale', 0, 255, WALL), ('scale', 128, 0, UNKNOWN), ('scale', 128, 255, UNKNOWN)])
+    ('trinary', 255, 255, FREE), ('trinary', 255, 0, UNKNOWN), ('trinary', 0, 255, UNKNOWN), ('trinary', 0, 0, OCCUPIED),
+    ('scale', 255, 0, FREE), ('scale', 0, 255, OCCUPIED), ('scale', 128, 0, UNKNOWN), ('scale', 128, 255, UNKNOWN)])
 def test_transparency_is_a_colour_in_mode_trinary_and_nothing_in_mode_scale(tmp_path, mode, colour, alpha, value):
     pixels = np.full((1, 3, 4), 255, np.uint8)
     pixels[0, 1] = (colour, colour, colour, alpha)

@@ -50,7 +50,7 @@ def test_the_script_draws_the_maps_that_are_here(tmp_path):
 
 def test_the_dock_and_the_start_have_room_and_the_dock_touches_a_wall(plan):
     plan.check_place(plan.dock, RADIUS, 'dock')
-    assert 0.02 <= plan.room_at(plan.dock.x, plan.dock.y) - RADIUS <= 0.05
+    assert 0.02 <= plan.safe_clearance_at(plan.dock.x, plan.dock.y) - RADIUS <= 0.05
     ahead = plan.dock.x + RADIUS + 0.06
     assert plan.dock.theta == 0.0 and plan.occupancy[plan.cell(ahead, plan.dock.y)] != FREE
     if plan.start is not None:

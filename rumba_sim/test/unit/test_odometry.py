@@ -5,8 +5,8 @@ import math
 import numpy as np
 import pytest
 from pytest import approx
-
 from rooms import RADIUS, alone, drove, quiet, room
+
 from rumba_sim.model.geometry import Pose, wrap_angle
 from rumba_sim.model.world import World
 

@@ -6,8 +6,8 @@ import re
 
 import pytest
 from pytest import approx
-
 from rooms import crooked, quiet
+
 from rumba_sim.model.config import describe, from_mapping, leaves, updated
 from rumba_sim.model.constants import constants
 from rumba_sim.model.errors import ConfigError, MapError

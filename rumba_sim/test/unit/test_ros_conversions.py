@@ -11,8 +11,8 @@ from rumba_sim.model.battery import Battery, BatteryConfig
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.robot import Twist
 from rumba_sim.model.robot_config import LaserConfig, OdometryConfig
-from rumba_sim.ros import conversions
-from rumba_sim.ros.frames import frames
+from rumba_sim.ros.common import conversions
+from rumba_sim.ros.common.frames import frames
 
 HEADER = Header(frame_id='base')
 

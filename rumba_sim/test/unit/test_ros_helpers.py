@@ -10,9 +10,10 @@ from diagnostic_updater import DiagnosticStatusWrapper
 
 from rumba_sim.model.battery import Battery, BatteryConfig
 from rumba_sim.model.errors import ConfigError, MapError, WorldError
-from rumba_sim.ros import diagnostics, node, reconfigure, simulator
-from rumba_sim.ros.requests import Requests
-from rumba_sim.ros.settings import TUNABLE, Rates, Settings
+from rumba_sim.ros.common import node
+from rumba_sim.ros.common.requests import Requests
+from rumba_sim.ros.simulator import diagnostics, reconfigure, simulator
+from rumba_sim.ros.simulator.settings import TUNABLE, Rates, Settings
 
 
 def in_thread(function):

@@ -8,7 +8,7 @@ import rospy
 from rumba_sim.model.errors import ConfigError, WorldError
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.robot import Twist
-from rumba_sim.ros import turtle
+from rumba_sim.ros.turtlesim_body import turtle
 
 PEN = (1, 2, 3, 8, False)
 

@@ -5,8 +5,8 @@ import math
 import numpy as np
 import pytest
 from pytest import approx
-
 from rooms import RADIUS, alone, crooked, drive, drove, quiet, room
+
 from rumba_sim.model.errors import ConfigError, MapError, WorldError
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.robot_config import OdometryConfig, RobotConfig

@@ -20,7 +20,7 @@ class Floor:
     """What there is to clean on a floor plan, and what of it is clean.
 
     Attributes:
-        cells: uint8 (rows, columns), the bits WALL, CLIFF, CARPET, REACHABLE, SWEPT of `kernel`.
+        cells: uint8 (rows, columns), the bits BLOCKED, CLIFF, CARPET, REACHABLE, SWEPT of `kernel`.
         dirt: float32 (rows, columns), 0 where it is clean.
         tally: record (`kernel.TALLY`) of the reachable cells that are swept, and of the dirt left on reachable cells.
     """
@@ -38,7 +38,7 @@ class Floor:
             MapError: a robot does not fit at the start.
         """
         reachable = plan.reachable(start.x, start.y, config.drive.radius, config.brush.width)
-        self.cells = np.where(plan.free, 0, kernel.WALL).astype(np.uint8)
+        self.cells = np.where(plan.free, 0, kernel.BLOCKED).astype(np.uint8)
         self.cells[reachable] |= kernel.REACHABLE
         for layer, bit in ((plan.cliff, kernel.CLIFF), (plan.carpet, kernel.CARPET)):
             if layer is not None:

@@ -14,7 +14,7 @@ from rumba_sim.model.geometry import Pose
 if TYPE_CHECKING:  # NumPy 1.17 of Ubuntu 20.04 has no numpy.typing
     from numpy.typing import NDArray
 
-WALL, FREE, UNKNOWN = 100, 0, -1  # the values of nav_msgs/OccupancyGrid
+OCCUPIED, FREE, UNKNOWN = 100, 0, -1  # the values of nav_msgs/OccupancyGrid
 MAX_CELLS = 25_000_000  # the distance fields of more would want gigabytes
 HALF_DIAGONAL = 0.7072  # [cells] of a cell: no place in it is farther from the nearest corner
 ROUNDING = 1e-9  # [m] lest two equal lengths, computed in two ways, differ
@@ -37,7 +37,7 @@ class FloorPlan:
 
     Attributes:
         name: what messages call it, mostly the path of its file.
-        occupancy: int8 (rows, columns), WALL, FREE or UNKNOWN.
+        occupancy: int8 (rows, columns), OCCUPIED, FREE or UNKNOWN.
         resolution: side of a cell [m].
         origin: x and y of the lower left corner of cell (0, 0) in the map frame [m].
         cliff: bool (rows, columns), where the floor drops; None where it never does.
@@ -46,8 +46,8 @@ class FloorPlan:
         start: pose where a robot begins; None where the map leaves it open.
         clearance: float64 (rows + 1, columns + 1), exact distance from each node to the nearest obstacle [m],
             0 on the edge of one and inside it. C-contiguous.
-        leaps: uint8 (rows, columns), so many whole cells from any place in this one there is no obstacle; at most 255.
-        room: as `clearance`, but a cliff counts as an obstacle too: where a robot may plan to go.
+        skips: uint8 (rows, columns), so many whole cells from any place in this one there is no obstacle; at most 255.
+        safe_clearance: as `clearance`, but a cliff counts as an obstacle too: where a robot may plan to go.
     """
 
     def __init__(self, name: str, occupancy: NDArray[np.int8], resolution: float, origin: Tuple[float, float], *,
@@ -71,10 +71,10 @@ class FloorPlan:
         if not free.any():
             raise MapError(f'{name}: no free floor: every cell is wall or unknown')
         self.clearance = _distances(free) * self.resolution
-        self.leaps = _leaps(self.clearance / self.resolution)
-        self.room = self.clearance
+        self.skips = _skips(self.clearance / self.resolution)
+        self.safe_clearance = self.clearance
         if self.cliff is not None:
-            self.room = _distances(free & ~self.cliff) * self.resolution
+            self.safe_clearance = _distances(free & ~self.cliff) * self.resolution
 
     def _layer(self, layer: Optional[NDArray[np.bool_]], what: str) -> Optional[NDArray[np.bool_]]:
         if layer is None:
@@ -126,9 +126,9 @@ class FloorPlan:
         """
         return self._interpolated(self.clearance, x, y)
 
-    def room_at(self, x: float, y: float) -> float:
+    def safe_clearance_at(self, x: float, y: float) -> float:
         """As `clearance_at`, but to the nearest obstacle or cliff [m]."""
-        return self._interpolated(self.room, x, y)
+        return self._interpolated(self.safe_clearance, x, y)
 
     def _interpolated(self, field: NDArray[np.float64], x: float, y: float) -> float:
         u = (x - self.origin[0]) / self.resolution
@@ -161,10 +161,10 @@ class FloorPlan:
             left, bottom, right, top = self.bounds
             raise MapError(f'{place} lies outside the map (x {left:.2f} to {right:.2f} m, '
                            f'y {bottom:.2f} to {top:.2f} m)')
-        room = self.room_at(pose.x, pose.y)
-        if room < radius - ROUNDING:
+        clearance = self.safe_clearance_at(pose.x, pose.y)
+        if clearance < radius - ROUNDING:
             nearest = 'wall' if self.clearance_at(pose.x, pose.y) < radius - ROUNDING else 'cliff'
-            raise MapError(f'{place} is {room:.3f} m from the nearest {nearest}: '
+            raise MapError(f'{place} is {clearance:.3f} m from the nearest {nearest}: '
                            f'a robot of radius {radius:.3f} m does not fit')
 
     def reachable(self, x: float, y: float, radius: float, brush_width: float) -> NDArray[np.bool_]:
@@ -185,8 +185,8 @@ class FloorPlan:
             MapError: the robot does not fit at the start.
         """
         self.check_place(Pose(x, y, 0.0), radius, 'start')
-        room = self.room
-        at_centres = (room[:-1, :-1] + room[:-1, 1:] + room[1:, :-1] + room[1:, 1:]) / 4.0
+        clearance = self.safe_clearance
+        at_centres = (clearance[:-1, :-1] + clearance[:-1, 1:] + clearance[1:, :-1] + clearance[1:, 1:]) / 4.0
         fits = at_centres >= radius - ROUNDING
         start = self.cell(x, y)
         fits[start] = True
@@ -197,9 +197,9 @@ class FloorPlan:
             swept &= ~self.cliff
         return np.asarray(swept & self.free)
 
-    def roomiest(self) -> Pose:
+    def most_open_pose(self) -> Pose:
         """The place with the most room around it, facing along x."""
-        row, column = np.unravel_index(int(np.argmax(self.room)), self.room.shape)
+        row, column = np.unravel_index(int(np.argmax(self.safe_clearance)), self.safe_clearance.shape)
         return Pose(self.origin[0] + float(column) * self.resolution,
                     self.origin[1] + float(row) * self.resolution, 0.0)
 
@@ -227,7 +227,7 @@ def _distances(free: NDArray[np.bool_]) -> NDArray[np.float64]:
     return np.ascontiguousarray(ndimage.distance_transform_edt(inside), dtype=np.float64)
 
 
-def _leaps(distances: NDArray[np.float64]) -> NDArray[np.uint8]:
+def _skips(distances: NDArray[np.float64]) -> NDArray[np.uint8]:
     """How far [cells] a beam may leap from anywhere in a cell, by the distance of its corners to an obstacle [cells].
 
     A byte for each cell: a laser asks for it so often that it should fit into the processor's cache.

@@ -17,7 +17,7 @@ Record = Any  # an element of an array of one of the record types below
 Array = Any  # numpy.ndarray
 Triple = Tuple[float, float, float]
 
-WALL, CLIFF, CARPET, REACHABLE, SWEPT = 1, 2, 4, 8, 16
+BLOCKED, CLIFF, CARPET, REACHABLE, SWEPT = 1, 2, 4, 8, 16
 LEFT, RIGHT = 1, 2  # bits of the bumper
 NO_BEAM, FORCE_FIELD, GREEN_BUOY, RED_BUOY = 0, 1, 4, 8  # rumba_msg/DockStatus
 INNER, OUTER = 0.26, 1.57  # [rad] how far the left receiver sees to the right, and to the left
@@ -111,7 +111,7 @@ def cell_bits(k: Record, cells: Array, x: float, y: float) -> int:
     u, v = (x - k.origin_x) / k.resolution, (y - k.origin_y) / k.resolution
     if 0.0 <= u < cells.shape[1] and 0.0 <= v < cells.shape[0]:
         return int(cells[int(v), int(u)])
-    return WALL
+    return BLOCKED
 
 
 # --- motion -------------------------------------------------------------------------------------------------------
@@ -324,7 +324,7 @@ def sweep(robot: Record, k: Record, cells: Array, dirt: Array, tally: Record, fr
 def clean(cells: Array, dirt: Array, tally: Record, row: int, column: int, kept: float) -> None:
     """One line of the brush over one cell."""
     bits = int(cells[row, column])
-    if bits & (WALL | CLIFF):
+    if bits & (BLOCKED | CLIFF):
         return
     before = float(dirt[row, column])
     dirt[row, column] = before * kept
@@ -418,7 +418,7 @@ def cast(k: Record, leaps: Array, cells: Array, x: float, y: float, along_x: flo
         leap = int(leaps[int(row), int(column)])
         if leap > 0:
             way += leap
-        elif cells[int(row), int(column)] & WALL:
+        elif cells[int(row), int(column)] & BLOCKED:
             return way * k.resolution
         else:
             way += min(to_border(column, along_x), to_border(row, along_y)) + NUDGE

@@ -11,14 +11,16 @@ import difflib
 import math
 import os
 import reprlib
-from typing import TYPE_CHECKING, Any, Dict, NamedTuple, Optional, Tuple, TypeVar, Union
+from typing import (TYPE_CHECKING, Any, Dict, NamedTuple, Optional, Tuple,
+                    TypeVar, Union)
 
 import numpy as np
 from scipy import ndimage
 
 from rumba_sim.model import map_image
 from rumba_sim.model.errors import MapError
-from rumba_sim.model.floor_plan import FREE, UNKNOWN, WALL, Bounds, FloorPlan
+from rumba_sim.model.floor_plan import (FREE, OCCUPIED, UNKNOWN, Bounds,
+                                        FloorPlan)
 from rumba_sim.model.geometry import Pose, wrap_angle
 from rumba_sim.model.map_image import Alpha, Picture
 from rumba_sim.model.yaml_file import read_mapping
@@ -176,7 +178,7 @@ def _occupancy(header: Header, picture: Picture) -> NDArray[np.int8]:
     probability = np.floor(value) / 100.0 if header.mode == 'raw' else (255.0 - value) / 255.0
     table = np.full(value.shape, UNKNOWN, np.int8)
     table[probability < header.free_thresh] = FREE
-    table[(probability > header.occupied_thresh) & (probability <= 1.0)] = WALL
+    table[(probability > header.occupied_thresh) & (probability <= 1.0)] = OCCUPIED
     return np.stack([table[row] for row in picture.levels[::-1]])  # all at once would take 8 bytes a pixel
 
 

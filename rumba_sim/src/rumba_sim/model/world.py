@@ -68,7 +68,7 @@ class World:
         for what, pose in (('dock', self.plan.dock), ('start', self.plan.start)):
             if pose is not None:
                 self.plan.check_place(pose, radius, what)
-        start = self.plan.start or self.plan.dock or self.plan.roomiest()
+        start = self.plan.start or self.plan.dock or self.plan.most_open_pose()
         self.plan.check_place(start, radius, 'start')
         return start
 
@@ -231,13 +231,13 @@ class World:
         """
         index = self._index(name)
         ranges = np.empty(len(self._fan))
-        fast.scan(self._states, index, self._constants[0], self.plan.leaps, self.floor.cells, self._fan,
+        fast.scan(self._states, index, self._constants[0], self.plan.skips, self.floor.cells, self._fan,
                   self._lasers[index].standard_normal(len(self._fan)), ranges)
         return ranges
 
     def infrared(self, name: str) -> Infrared:
         """What the receivers of a robot get from the dock."""
-        return Infrared(*fast.infrared(self._states[self._index(name)], self._constants[0], self.plan.leaps,
+        return Infrared(*fast.infrared(self._states[self._index(name)], self._constants[0], self.plan.skips,
                                        self.floor.cells))
 
     def cliffs(self, name: str) -> List[bool]:

@@ -1,1 +1,1 @@
-"""The ROS face of the model: the only place that imports rospy, one module a node."""
+"""The ROS face of the model: a folder for each node of several modules, and what the nodes of all packages share."""

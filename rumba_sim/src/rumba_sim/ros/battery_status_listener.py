@@ -15,8 +15,8 @@ import sys
 import rospy
 
 from rumba_msg.msg import BatteryStatus
-from rumba_sim.ros import node
-from rumba_sim.ros.terminal import TO_LINE_START_AND_ERASE, width
+from rumba_sim.ros.common import node
+from rumba_sim.ros.common.terminal import TO_LINE_START_AND_ERASE, width
 
 
 @dataclasses.dataclass(frozen=True)

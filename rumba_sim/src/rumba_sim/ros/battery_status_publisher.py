@@ -15,7 +15,7 @@ from rumba_msg.msg import BatteryStatus
 from rumba_sim.model.battery import Battery, BatteryConfig
 from rumba_sim.model.config import setting
 from rumba_sim.model.geometry import Pose, wrap_angle
-from rumba_sim.ros import conversions, node
+from rumba_sim.ros.common import conversions, node
 
 
 @dataclasses.dataclass(frozen=True)

@@ -30,8 +30,8 @@ from std_srvs.srv import SetBool
 from rumba_msg.msg import BatteryStatus
 from rumba_sim.model.config import setting
 from rumba_sim.model.robot_config import DriveConfig
-from rumba_sim.ros import node
-from rumba_sim.ros.terminal import CTRL_C, CTRL_D, ESCAPE, Terminal
+from rumba_sim.ros.common import node
+from rumba_sim.ros.common.terminal import CTRL_C, CTRL_D, ESCAPE, Terminal
 
 HELP = """\
 Hold a key to drive {topic}; let go, and the robot stops.

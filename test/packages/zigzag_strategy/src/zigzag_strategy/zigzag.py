@@ -1,7 +1,7 @@
 """zigzag: straight on; where something is in the way, back a little and turn, now to the left, now to the right."""
 
-from rumba_sim.cleaning.behaviour import Behaviour, Command
-from rumba_sim.cleaning.strategies import strategy
+from rumba_cleaning.behaviour import Behaviour, Command
+from rumba_cleaning.strategies import strategy
 
 BACK = 1.5  # [s]
 TURN = (0.8, 1.6)  # [s] least and longest: one turn for ever would end in a circle that leaves the rest of the floor

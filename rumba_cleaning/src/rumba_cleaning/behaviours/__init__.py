@@ -1,0 +1,1 @@
+"""What a robot can do, from a turn on the spot to a whole mission."""

@@ -1,0 +1,113 @@
+"""Drives along routes, and notices what is in the way."""
+
+import enum
+import math
+from typing import Optional
+
+from rumba_cleaning.behaviour import Command, Observation
+from rumba_cleaning.behaviours import recoil
+from rumba_cleaning.behaviours.follower import Follower, Route
+from rumba_cleaning.belief.context import Context
+from rumba_cleaning.belief.ground import Ground
+from rumba_sim.model.geometry import Pose
+
+KNOWN = 0.03  # [m] a contact so near a known obstacle is a contact with that
+SIDE = 0.74  # [rad] about where a contact is that presses one switch alone
+OBSTACLE = 0.05  # [m] radius of what a contact tells of
+GAP = 0.02  # [m] from the body to that
+PATIENCE = 4.0  # [s] without progress: longer than any turn takes
+PROGRESS = 0.01  # [m]
+LONGEST = 0.5  # [s] of one update that count as waiting: in a longer one a route was planned
+
+
+class Going(enum.Enum):
+    """How a travel goes."""
+
+    ON = 'on the way'
+    ARRIVED = 'at the end of the route'
+    BLOCKED = 'something unknown was in the way: it is marked on the ground, and another route is needed'
+    LOST = 'far off the route: another route is needed'
+
+
+class Travel:
+    """Along one route.
+
+    Attributes:
+        going: how it goes; what `update` answers is of use only while it is ON.
+    """
+
+    def __init__(self, context: Context, route: Route) -> None:
+        """Follow a route."""
+        self._context = context
+        self._follower = Follower(route, context.robot.drive)
+        self._back = 0.0  # [s] still to back off
+        self._nearest = math.inf  # [m] least way that was left
+        self._waited = 0.0  # [s] since then
+        self._is_first = True  # update
+        self._was_touching = True  # what is felt at once was felt, and dealt with, before
+        self.going = Going.ON
+
+    @property
+    def remaining(self) -> float:
+        """Way left [m]."""
+        return self._follower.remaining
+
+    def rest(self) -> Optional[Route]:
+        """What of the route is left; None where nothing is."""
+        return self._follower.rest()
+
+    def update(self, observation: Observation, brushes_up: bool) -> Command:
+        """What to do now."""
+        if self._is_first and _is_at_edge(self._context.ground, observation):
+            self._back = recoil.CLIFF / recoil.SPEED
+        self._is_first = False
+        if self._back > 0.0:
+            self._back -= observation.dt
+            if self._back <= 0.0:
+                self.going = Going.BLOCKED
+            return Command(-recoil.SPEED, 0.0, brushes_up)
+        if self._is_blocked(observation):
+            self._back = recoil.time_back(observation)
+            return Command(-recoil.SPEED, 0.0, brushes_up)
+        v, w = self._follower.update(observation.pose, observation.dt)
+        if self._follower.is_lost:
+            self.going = Going.LOST
+        elif self._follower.is_done:
+            self.going = Going.ARRIVED
+        return Command(v, w, brushes_up)
+
+    def _is_blocked(self, observation: Observation) -> bool:
+        """Whether something is in the way that the ground does not show; marks it."""
+        left, right = observation.contact
+        touches = (left or right) and not self._was_touching
+        self._was_touching = left or right
+        if self._follower.remaining < self._nearest - PROGRESS:
+            self._nearest, self._waited = self._follower.remaining, 0.0
+        else:
+            self._waited += min(observation.dt, LONGEST)
+        is_stuck = self._waited > PATIENCE
+        if is_stuck or touches and (any(observation.cliffs) or not _is_known(self._context.ground, observation.pose)):
+            mark(self._context, observation.pose, 0.0 if left == right else SIDE if left else -SIDE)
+            return True
+        return False
+
+
+def mark(context: Context, pose: Pose, angle: float) -> None:
+    """Remember an obstacle that the body touches at an angle from its front [rad]."""
+    away = context.robot.drive.radius + GAP + OBSTACLE
+    context.ground.mark(pose.x + away * math.cos(pose.theta + angle), pose.y + away * math.sin(pose.theta + angle),
+                        OBSTACLE)
+
+
+def _is_at_edge(ground: Ground, observation: Observation) -> bool:
+    """Whether a robot that turned here might swing a wheel over a cliff, and the way back leads away from it."""
+    pose = observation.pose
+    behind = pose.x - recoil.CLIFF * math.cos(pose.theta), pose.y - recoil.CLIFF * math.sin(pose.theta)
+    here, there = ground.plan.safe_clearance_at(pose.x, pose.y), ground.plan.safe_clearance_at(*behind)
+    return here < ground.reach - KNOWN and there > here
+
+
+def _is_known(ground: Ground, pose: Pose) -> bool:
+    """Whether the ground shows an obstacle that a robot here touches."""
+    row, column = ground.node(pose.x, pose.y)
+    return bool(ground.room[row, column] < ground.reach + KNOWN)

@@ -1,0 +1,39 @@
+"""Robots of a world that look and act at the control rate, in process."""
+
+from typing import Iterator, Tuple
+
+from rumba_cleaning.behaviour import Behaviour, Command, Observation, Status
+from rumba_sim.model.robot import FIRST
+from rumba_sim.model.world import World
+
+STEP_RATE = 50  # [Hz]
+CONTROL_TICKS = 5  # from one observation to the next
+CONTROL_DT = CONTROL_TICKS / STEP_RATE  # [s]
+
+
+def observe(world: World, name: str, dt: float) -> Observation:
+    """What a robot of a world knows now, `dt` [s] after the observation before."""
+    robot = world.robots[name]
+    return Observation(dt, robot.pose, robot.bumper, world.cliffs(name), robot.battery.state_of_charge,
+                       robot.is_docked, world.infrared(name))
+
+
+def act(behaviour: Behaviour, world: World, name: str, dt: float) -> Tuple[Observation, Command]:
+    """Have a robot look, `dt` [s] after it did before, and do what a behaviour says; returns what it saw, and does."""
+    robot = world.robots[name]
+    observation = observe(world, name, dt)
+    command = behaviour.update(observation)
+    robot.brushes_up = command.brushes_up
+    robot.command(command.v, command.w, world.tick)
+    return observation, command
+
+
+def steps(behaviour: Behaviour, world: World, name: str = FIRST,
+          seconds: float = 600.0) -> Iterator[Tuple[Observation, Command]]:
+    """Have a robot follow a behaviour until that ends, or the time [s] is up; yields what it sees, and what it does."""
+    end = world.time + seconds
+    dt = 0.0
+    while behaviour.status is Status.RUNNING and world.time < end:
+        yield act(behaviour, world, name, dt)
+        world.step(CONTROL_TICKS)
+        dt = CONTROL_DT

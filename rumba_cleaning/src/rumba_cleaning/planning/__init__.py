@@ -1,0 +1,1 @@
+"""Plans the path along which a floor is cleaned."""

@@ -1,0 +1,1 @@
+"""The node cleaner: behaviours of one robot behind actions and a service."""

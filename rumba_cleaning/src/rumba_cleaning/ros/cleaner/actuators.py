@@ -1,0 +1,76 @@
+"""What the cleaner moves of one robot: its wheels, by a topic, and its brushes, by a service."""
+
+import queue
+import threading
+from typing import Optional
+
+import rospy
+from geometry_msgs.msg import Twist
+from std_srvs.srv import SetBool
+
+from rumba_cleaning.behaviour import STOP, Command
+from rumba_cleaning.ros.cleaner import conversions
+
+COMPLAINT_PERIOD = 10.0  # [s]
+
+
+class Wheels:
+    """Commands of velocity, which whoever wants the robot to stand still can hold back from any thread."""
+
+    def __init__(self, robot: str) -> None:
+        """Drive a robot, by its name."""
+        self._publisher = rospy.Publisher(f'{robot}/cmd_vel', Twist, queue_size=1)
+        self._lock = threading.Lock()
+        self._is_held = False
+
+    def drive(self, command: Command) -> None:
+        """Do as a command says, unless held."""
+        with self._lock:
+            if not self._is_held:
+                self._publisher.publish(conversions.velocity(command))
+
+    def stop(self) -> None:
+        """Stand still until the next command."""
+        with self._lock:
+            self._publisher.publish(conversions.velocity(STOP))
+
+    def hold(self) -> None:
+        """Stand still, and heed no command until `release`."""
+        with self._lock:
+            self._is_held = True
+            self._publisher.publish(conversions.velocity(STOP))
+
+    def release(self) -> None:
+        """Heed commands again."""
+        with self._lock:
+            self._is_held = False
+
+
+class Brushes:
+    """Lifts and lowers the brushes in a thread of its own: a call of the service may take longer than a reading."""
+
+    def __init__(self, robot: str) -> None:
+        """Use the service of a robot, by its name."""
+        self._service = rospy.ServiceProxy(f'{robot}/set_brushes_up', SetBool)
+        self._wanted: Optional[bool] = None  # None: nothing that the robot is known to have done
+        self._wishes: 'queue.Queue[bool]' = queue.Queue()
+        threading.Thread(target=self._serve, daemon=True).start()
+
+    def want(self, are_up: bool) -> None:
+        """Have the brushes up, or down; asks the robot only where that is new."""
+        if are_up is not self._wanted:
+            self._wanted = are_up
+            self._wishes.put(are_up)
+
+    def forget(self) -> None:
+        """Somebody else may have moved them: ask the robot at the next wish in any case."""
+        self._wanted = None
+
+    def _serve(self) -> None:
+        while not rospy.is_shutdown():
+            are_up = self._wishes.get()
+            try:
+                self._service(are_up)
+            except (rospy.ServiceException, rospy.ROSException) as error:
+                self.forget()
+                rospy.logwarn_throttle(COMPLAINT_PERIOD, f'brushes not moved: {error}')

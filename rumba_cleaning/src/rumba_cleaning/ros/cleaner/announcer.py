@@ -1,0 +1,47 @@
+"""Tells what a robot is at: programs by mission_status, people by the log."""
+
+import sys
+from typing import Optional
+
+import rospy
+
+from rumba_cleaning.behaviours.mission import State
+from rumba_cleaning.ros.cleaner import conversions
+from rumba_msg.msg import MissionStatus
+from rumba_sim.ros.common.terminal import TO_LINE_START_AND_ERASE
+
+WORDS = {
+    State.UNDOCKING: 'undocking', State.CLEANING: 'cleaning', State.RETURNING: 'going home', State.DOCKING: 'docking',
+    State.CHARGING: 'charging', State.GOING_TO: 'on the way', State.STRANDED: 'stranded'}
+
+
+class Announcer:
+    """Publishes mission_status at each change of state and strategy, and whenever it is asked to.
+
+    Attributes:
+        status: what was published last.
+    """
+
+    def __init__(self, robot: str) -> None:
+        """Speak for a robot, by its name, which is idle."""
+        self._robot = robot
+        self._publisher = rospy.Publisher(f'{robot}/mission_status', MissionStatus, queue_size=10, latch=True)
+        self._publish(conversions.mission_status(State.IDLE, '', 'waits for a goal', rospy.Time.now()))
+
+    def tell(self, state: State, strategy: str, message: str, stamp: Optional[rospy.Time], is_due: bool) -> None:
+        """Publish where that is new, or due."""
+        is_new = (int(state), strategy) != (self.status.state, self.status.strategy)
+        if is_new and state in WORDS:
+            self.say(WORDS[state] + (f' by {strategy}' if state is State.CLEANING else ''))
+        if is_new or is_due:
+            self._publish(conversions.mission_status(state, strategy, message, stamp or rospy.Time.now()))
+
+    def say(self, text: str) -> None:
+        """Log a line, over what battery_status_listener may have left on the terminal that it shares with this."""
+        if sys.stdout.isatty():
+            print(TO_LINE_START_AND_ERASE, end='', flush=True)
+        rospy.loginfo(f'{self._robot}: {text}')
+
+    def _publish(self, status: MissionStatus) -> None:
+        self.status = status
+        self._publisher.publish(status)

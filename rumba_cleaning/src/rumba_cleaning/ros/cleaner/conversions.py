@@ -1,0 +1,49 @@
+"""Between messages and what behaviours know and command: pure functions."""
+
+import math
+
+from geometry_msgs.msg import Pose2D, Transform, Twist, Vector3
+from std_msgs.msg import Header
+
+from rumba_cleaning.behaviour import Command, Observation
+from rumba_cleaning.behaviours.mission import State
+from rumba_msg.msg import (Bumper, CleaningStatus, Cliff, DockStatus,
+                           MissionStatus)
+from rumba_sim.model.geometry import Pose
+from rumba_sim.model.robot import Infrared
+from rumba_sim.ros.common.conversions import heading
+from rumba_sim.ros.common.frames import MAP
+
+
+def plane_pose(transform: Transform) -> Pose:
+    """A transform as a pose in the plane."""
+    return Pose(transform.translation.x, transform.translation.y, heading(transform.rotation))
+
+
+def observation(pose: Pose, bumper: Bumper, cliff: Cliff, dock: DockStatus, state_of_charge: float) -> Observation:
+    """What a robot knows, for its behaviours; dt is 0."""
+    return Observation(
+        dt=0.0, pose=pose, bumper=(bumper.is_left_pressed, bumper.is_right_pressed),
+        cliffs=(cliff.is_cliff_left, cliff.is_cliff_front_left, cliff.is_cliff_front_right, cliff.is_cliff_right),
+        state_of_charge=state_of_charge, is_docked=dock.is_docked,
+        infrared=Infrared(dock.infrared_omni, dock.infrared_left, dock.infrared_right))
+
+
+def velocity(command: Command) -> Twist:
+    """A command, but for the brushes."""
+    return Twist(Vector3(command.v, 0.0, 0.0), Vector3(0.0, 0.0, command.w))
+
+
+def pose_message(pose: Pose) -> Pose2D:
+    """A pose in the plane."""
+    return Pose2D(*pose)
+
+
+def mission_status(state: State, strategy: str, message: str, stamp: object) -> MissionStatus:
+    """What a robot is doing."""
+    return MissionStatus(Header(stamp=stamp, frame_id=MAP), int(state), strategy, message)
+
+
+def no_cleaning_status() -> CleaningStatus:
+    """What is said of the floor where nobody measures it."""
+    return CleaningStatus(Header(), *[math.nan] * 6)

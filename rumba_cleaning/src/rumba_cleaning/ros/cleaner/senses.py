@@ -1,0 +1,133 @@
+"""What one robot senses: its topics and tf, as the observations of its behaviours."""
+
+import math
+import threading
+import time
+from typing import Any, Callable, Dict, List, Optional
+
+import rospy
+import tf2_ros
+from sensor_msgs.msg import BatteryState
+
+from rumba_cleaning.behaviour import Observation
+from rumba_cleaning.ros.cleaner import conversions
+from rumba_msg.msg import Bumper, CleaningStatus, Cliff, DockStatus
+from rumba_sim.model.geometry import Pose, compose
+from rumba_sim.ros.common.frames import MAP, frames
+
+SECOND = 1_000_000_000  # [ns]
+PAUSE = SECOND  # [ns] between two stamps, no time of the robot's: a pause in real time, a reset, another simulator
+QUEUE = 100  # messages that this node may be behind in reading a topic
+CLOCK = 'dock_status'  # the simulator publishes it last
+READING = {'bumper': Bumper, 'cliff': Cliff, 'dock_status': DockStatus}
+
+
+class Senses:
+    """The newest of each topic of a robot.
+
+    The simulator publishes bumper, cliff and dock_status with one stamp, but each topic comes in a thread of its own,
+    in any order: a reading is complete with a dock_status, and a bumper and a cliff that are no older. (To ask for
+    equal stamps could wait for ever: where the threads come in bursts, one is always ahead.)
+
+    Attributes:
+        passed: [ns] of the robot's time, as the stamps of readings tell it, without pauses.
+        stamp: of the newest complete reading; None before the first.
+        heard: when any part of a reading came last, as a time of `time.monotonic`.
+        unread: how many times dock_status came since the newest complete reading.
+        cleaning: the newest CleaningStatus; None before the first.
+    """
+
+    def __init__(self, robot: str, on_reading: Callable[[], None]) -> None:
+        """Listen to a robot, by its name; `on_reading` is called in a thread of rospy."""
+        self._on_reading = on_reading
+        self._frames = frames(robot)
+        self._lock = threading.Lock()
+        self._newest: Dict[str, Any] = {}
+        self._state_of_charge: Optional[float] = None
+        self._observed: Optional[int] = None  # `passed` at the last observation [ns]
+        self.passed = 0
+        self.stamp: Optional[rospy.Time] = None
+        self.heard = -math.inf
+        self.unread = 0
+        self.cleaning: Optional[CleaningStatus] = None
+        self._buffer = tf2_ros.Buffer(debug=False)
+        self._listener = tf2_ros.TransformListener(self._buffer, queue_size=QUEUE)
+        rospy.Subscriber(f'{robot}/battery_state', BatteryState, self._on_battery, queue_size=QUEUE)
+        rospy.Subscriber(f'{robot}/cleaning_status', CleaningStatus, self._on_cleaning, queue_size=QUEUE)
+        self._subscribers = {
+            topic: rospy.Subscriber(f'{robot}/{topic}', kind, self._on_part, topic, queue_size=QUEUE)
+            for topic, kind in READING.items()}
+
+    def _on_battery(self, battery: BatteryState) -> None:
+        if math.isfinite(battery.percentage):
+            self._state_of_charge = battery.percentage
+
+    def _on_cleaning(self, cleaning: CleaningStatus) -> None:
+        self.cleaning = cleaning
+
+    def _on_part(self, message: Any, topic: str) -> None:
+        with self._lock:
+            self._newest[topic] = message
+            self.heard = time.monotonic()
+            self.unread += topic == CLOCK
+            if self._late() or self._newest[CLOCK].header.stamp == self.stamp:
+                return
+            stamp = self._newest[CLOCK].header.stamp
+            gap = (stamp - self.stamp).to_nsec() if self.stamp is not None else 0
+            self.passed += gap if 0 < gap <= PAUSE else 0
+            self.stamp, self.unread = stamp, 0
+        self._on_reading()
+
+    def _late(self) -> List[str]:
+        """The topics that are missing for a complete reading."""
+        if CLOCK not in self._newest:
+            return [CLOCK]
+        stamp = self._newest[CLOCK].header.stamp
+        return [topic for topic in READING if topic not in self._newest or self._newest[topic].header.stamp < stamp]
+
+    # --- what is known ----------------------------------------------------------------------------------------------
+
+    def begin(self) -> None:
+        """The next observation will be the first."""
+        self._observed = None
+
+    def observe(self) -> Optional[Observation]:
+        """As `look`, with the time since the observation before; for the one who acts upon it."""
+        found, passed = self.look(), self.passed
+        dt = passed - self._observed if self._observed is not None else 0
+        self._observed = passed
+        return found._replace(dt=dt / SECOND) if found is not None else None
+
+    def look(self) -> Optional[Observation]:
+        """What the robot knows now, dt 0; None where something is missing."""
+        pose = self.pose()
+        if pose is None or self._state_of_charge is None or self.stamp is None:
+            return None
+        parts = self._newest
+        return conversions.observation(pose, parts['bumper'], parts['cliff'], parts['dock_status'],
+                                       self._state_of_charge)
+
+    def pose(self) -> Optional[Pose]:
+        """Where the robot is in the map frame; None where nobody tells.
+
+        The newest odometry, with the newest correction of it: a localisation may come later and less often.
+        """
+        try:
+            correction = self._buffer.lookup_transform(MAP, self._frames.odom, rospy.Time())
+            odometry = self._buffer.lookup_transform(self._frames.odom, self._frames.base_footprint, rospy.Time())
+        except tf2_ros.TransformException:
+            return None
+        return compose(conversions.plane_pose(correction.transform), conversions.plane_pose(odometry.transform))
+
+    def missing(self) -> str:
+        """What is missing for an observation, for a person."""
+        if self._state_of_charge is None:
+            return 'nobody tells the charge of its battery'
+        if self.pose() is None:
+            return f'nobody tells where it is: tf has no {MAP} -> {self._frames.odom} -> {self._frames.base_footprint}'
+        return f'nobody tells {" and ".join(self._late())}'
+
+    @property
+    def is_alone(self) -> bool:
+        """Whether there is no robot: nobody publishes what it senses."""
+        return not any(subscriber.get_num_connections() for subscriber in self._subscribers.values())

@@ -1,0 +1,107 @@
+#!/usr/bin/env python3
+"""The cleaner where something is wrong: with its parameters, or with a robot that goes away, or whose battery does."""
+
+import signal
+import subprocess
+import time
+import unittest
+
+import rospy
+import rostest
+from cleaners import Cleaner, go_to, shared
+from dynamic_reconfigure.client import Client
+from geometry_msgs.msg import Pose2D
+from simulators import TIMEOUT, Heard, Simulator
+
+from rumba_msg.msg import CleanGoal, MissionStatus, UndockGoal
+
+BAD_STARTS = (
+    (r"^cleaner: unknown strategy 'zigzag': known are bounce, boustrophedon, spiral, wall_follow\n$",
+     '_strategy:=zigzag'),
+    (r"^cleaner: strategies of 'no\.such': No module named 'no'; a module is named as in Python, ",
+     '_strategies:=no.such'),
+    (r"^cleaner: there is no map 'moon': give the path of a map_server YAML file, or one of ", '_map:=moon'),
+    (r"^cleaner: parameter of /bad_\d: robot is 'a/b': must be letters, digits and _, beginning with a letter\n$",
+     '_robot:=a/b'),
+    (r'^cleaner: parameter of /bad_\d: time_limit/dock is 0\.0: must be 1 to 10000000 \[s\]\n$', '_time_limit/dock:=0'),
+    (r"^cleaner: parameter of /bad_\d: sped is unknown: did you mean 'speed'\?\n$", '_sped:=2'))
+LONGER_THAN_A_ROBOT_IS_MISSED = 3.0  # [s]
+
+
+class CleanerTroubleTest(unittest.TestCase):
+    """One simulator of the studio and one cleaner, in the order of the tests' names."""
+
+    @classmethod
+    def setUpClass(cls):
+        fixture = shared(cls)
+        cls.cleaner = Cleaner(fixture)
+        cls.simulator = Simulator(fixture, '_map:=studio', '_speed:=10')
+        cls.cleaner.connect()
+        cls.bad = [subprocess.Popen(['rosrun', 'rumba_cleaning', 'cleaner', f'__name:=bad_{number}', argument],
+                                    stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True)
+                   for number, (_, argument) in enumerate(BAD_STARTS)]
+
+    def test_1_a_robot_that_is_gone_is_given_up_and_one_that_comes_back_is_served(self):
+        goal = self.cleaner.send('clean', CleanGoal())
+        self.cleaner.waits_to_drive()
+        self.simulator.does('kill', 'rumba')
+        self.assertEqual(goal.ends('aborted').message, 'the robot is gone')
+        self.simulator.does('spawn', 'rumba', Pose2D(1.0, 2.5, 0.0))
+        self.cleaner.send('go_to', go_to(2.0, 2.4)).ends('succeeded')
+
+    def test_2_a_robot_whose_time_stands_still_is_not_gone(self):
+        goal = self.cleaner.send('go_to', go_to(1.0, 2.5))
+        self.cleaner.waits_to_drive()
+        self.simulator.does('pause')
+        time.sleep(LONGER_THAN_A_ROBOT_IS_MISSED)
+        self.assertFalse(goal.has_ended)
+        self.simulator.does('resume')
+        goal.ends('succeeded')
+
+    def test_3_what_is_cancelled_while_time_stands_still_is_answered(self):
+        goal = self.cleaner.send('go_to', go_to(2.4, 2.5))
+        self.cleaner.waits_to_drive()
+        self.simulator.does('pause')
+        goal.handle.cancel()
+        goal.ends('preempted')
+        self.simulator.does('resume')
+
+    def test_4_an_empty_battery_ends_every_action_where_the_robot_stands(self):
+        tuning = Client('/simulator/tuning', timeout=TIMEOUT)
+        docked, battery = Heard(self, '/rumba/dock_status'), Heard(self, '/rumba/battery_state')
+        for action, goal in (('undock', UndockGoal()), ('go_to', go_to(0.8, 2.4)), ('clean', CleanGoal())):
+            with self.subTest(action):
+                tuning.update_configuration({'battery_drain': 1.0})
+                self.simulator.does('kill', 'rumba')
+                self.simulator.does('spawn', 'rumba', Pose2D(3.075, 2.84, 0.0))
+                docked.fresh(lambda message: message.is_docked)
+                battery.fresh(lambda message: message.percentage > 0.99)
+                self.cleaner.status.messages.clear()
+                tuning.update_configuration({'battery_drain': 10000.0})
+                answer = self.cleaner.send(action, goal).ends('aborted')
+                self.assertEqual(answer.message, 'the battery is empty')
+                stranded = self.cleaner.status.find(lambda message: message.state == MissionStatus.STRANDED)
+                self.assertEqual(stranded.message, 'the battery is empty')
+        tuning.update_configuration({'battery_drain': 1.0})
+
+    def test_5_bad_input_gets_one_line_and_exit_code_2_and_is_forgotten(self):
+        for number, ((message, argument), process) in enumerate(zip(BAD_STARTS, self.bad)):
+            with self.subTest(argument):
+                out, error = process.communicate(timeout=TIMEOUT)
+                self.assertRegex(error, message)
+                self.assertEqual((process.returncode, out, error.count('\n')), (2, '', 1))
+                self.assertFalse(any(value != {} for value in rospy.get_param(f'/bad_{number}', {}).values()))
+
+    def test_6_a_simulator_that_was_killed_is_no_robot_any_more(self):
+        self.simulator.does('reset')
+        goal = self.cleaner.send('go_to', go_to(0.7, 2.4, 0.0))
+        self.cleaner.waits_to_drive()
+        self.simulator.process.send_signal(signal.SIGKILL)
+        self.simulator.process.wait(TIMEOUT)
+        rospy.delete_param('/use_sim_time')
+        self.assertEqual(goal.ends('aborted').message, 'the robot is gone')
+
+
+if __name__ == '__main__':
+    rospy.init_node('test_cleaner_trouble')
+    rostest.rosrun('rumba_sim', 'cleaner_trouble', CleanerTroubleTest)

@@ -1,0 +1,125 @@
+"""Floors to plan on, and what there is to say of ways on them, found without the code that plans."""
+
+import math
+
+import numpy as np
+from rooms import quiet, room
+
+from rumba_cleaning.belief.context import Context
+from rumba_cleaning.belief.ground import Ground
+from rumba_cleaning.cleaning_config import CleaningConfig
+from rumba_sim.model.floor_plan import FREE, OCCUPIED, FloorPlan
+from rumba_sim.model.geometry import Pose
+
+BRUSH = quiet().brush.width
+STEP = 0.01  # [m]
+TINY = 1e-4  # [m]
+
+
+def ground(plan):
+    """What the quiet robot knows of a plan."""
+    return Ground(plan, quiet())
+
+
+def knowing(plan, pose, **config):
+    """All that a quiet robot knows that begins at a pose, with nothing swept yet."""
+    context = Context(plan, quiet(), CleaningConfig(**config))
+    context.swept.begin(pose.x, pose.y)
+    return context
+
+
+def part_of(plan, *boxes):
+    """The free cells of a room whose middle lies in one of the boxes [m]: bool (rows, columns)."""
+    rows, columns = plan.occupancy.shape
+    x = plan.origin[0] + (np.arange(columns) + 0.5) * plan.resolution
+    y = plan.origin[1] + (np.arange(rows)[:, np.newaxis] + 0.5) * plan.resolution
+    return plan.free & np.any([(x > left) & (x < right) & (y > bottom) & (y < top)
+                               for left, bottom, right, top in boxes], axis=0)
+
+
+def two_rooms(resolution=0.05, **kwargs):
+    """A larger room on the left and a smaller one on the right, with a door of 0.7 m at their lower end."""
+    return room(5.0, 2.4, resolution, [(2.8, 0.0, 2.9, 0.3), (2.8, 1.0, 2.9, 2.4)], **kwargs)
+
+
+def tilted(width, height, angle, resolution=0.05, box=(0.0, 0.0, 0.0, 0.0)):
+    """A room, and a box (left, bottom, right, top) in it, turned by an angle [rad] about its corner at (0, 0)."""
+    cos, sin = math.cos(angle), math.sin(angle)
+    corners = [(u * cos - v * sin, u * sin + v * cos) for u in (0.0, width) for v in (0.0, height)]
+    low = np.min(corners, axis=0) - 2.0 * resolution
+    columns, rows = np.ceil((np.max(corners, axis=0) - low) / resolution).astype(int) + 2
+    x = low[0] + (np.arange(columns) + 0.5) * resolution
+    y = low[1] + (np.arange(rows)[:, np.newaxis] + 0.5) * resolution
+    u, v = x * cos + y * sin, y * cos - x * sin
+    free = (u > 0.0) & (u < width) & (v > 0.0) & (v < height)
+    free &= ~((u > box[0]) & (u < box[2]) & (v > box[1]) & (v < box[3]))
+    return FloorPlan('tilted', np.where(free, FREE, OCCUPIED), resolution, tuple(low))
+
+
+# --- floor that was swept before -----------------------------------------------------------------------------------
+
+def wiped(context, box):
+    """The context, once the brush swept a box (left, bottom, right, top) [m] that is as wide, or as high, as it is."""
+    left, bottom, right, top = np.array(box) + np.array([1.0, 1.0, -1.0, -1.0]) * TINY
+    half = 0.5 * BRUSH
+    if top - bottom > BRUSH:
+        ends = [(Pose(left, y, 0.0), Pose(right, y, 0.0))
+                for y in np.linspace(bottom + half, top - half, int((top - bottom) / half) + 2)]
+    else:
+        ends = [(Pose(x, bottom, 0.5 * math.pi), Pose(x, top, 0.5 * math.pi))
+                for x in np.linspace(left + half, right - half, int((right - left) / half) + 2)]
+    for start, end in ends:  # both ways: a sweep leaves out where it begins
+        context.swept.sweep(start, end)
+        context.swept.sweep(end, start)
+    return context
+
+
+def wiped_but(context, *boxes):
+    """The context, once the brush swept all of a room but boxes; what lies between two of them is as wide as it is.
+
+    Boxes beside each other have the same bottom and the same top.
+    """
+    bounds = context.plan.bounds
+    height = bounds.bottom
+    for bottom, top in [*sorted({(box[1], box[3]) for box in boxes}), (bounds.top, bounds.top)]:
+        wiped(context, (bounds.left, height, bounds.right, bottom))
+        edges = [edge for box in sorted(boxes) if box[1] == bottom for edge in (box[0], box[2])]
+        edges = [bounds.left, *edges, bounds.right] if edges else []
+        for left, right in zip(edges[::2], edges[1::2]):
+            wiped(context, (left, bottom, right, top))
+        height = top
+    return context
+
+
+# --- ways ----------------------------------------------------------------------------------------------------------
+
+def length(places):
+    """Of a way (any, 2) [m]."""
+    return float(sum(math.hypot(*step) for step in np.diff(places, axis=0)))
+
+
+def along(places, step=STEP):
+    """Places on each straight part of a way, its ends included, no farther apart than a step: float64 (any, 2)."""
+    places = np.asarray(places, float)
+    return np.concatenate([np.linspace(start, end, int(math.hypot(*(end - start)) / step) + 2)
+                           for start, end in zip(places[:-1], places[1:])])
+
+
+def off(places, start, end):
+    """Distance of each of the places (any, 2) from the straight line from start to end [m]: float64 (any)."""
+    start, end = np.asarray(start, float), np.asarray(end, float)
+    share = np.clip((places - start) @ (end - start) / np.sum((end - start) ** 2), 0.0, 1.0)
+    return np.hypot(*(places - start - share[:, np.newaxis] * (end - start)).T)
+
+
+def over(start, left, right, end, reach):
+    """Length [m] of the shortest way over two posts, `left` and as high beside it `right`, that keeps at reach of them.
+
+    It begins left of the posts and ends right of them, at places (x, y) not higher than they.
+    """
+    result = right[0] - left[0]
+    for (x, y), post in ((start, left), (end, right)):
+        far = math.hypot(post[0] - x, post[1] - y)
+        slope = math.atan2(post[1] - y, abs(post[0] - x)) + math.asin(reach / far)
+        result += math.sqrt(far ** 2 - reach ** 2) + reach * slope
+    return result

@@ -1,0 +1,182 @@
+"""What the cleaner makes of a robot's topics: complete readings, the time between them, poses, and what is missing."""
+
+import math
+import types
+
+import pytest
+import rospy
+from geometry_msgs.msg import Quaternion, Transform, Vector3
+from sensor_msgs.msg import BatteryState
+from std_msgs.msg import Header
+
+from rumba_cleaning.behaviour import Command
+from rumba_cleaning.behaviours.mission import State
+from rumba_cleaning.ros.cleaner import conversions, senses
+from rumba_msg.msg import Bumper, CleaningStatus, Cliff, DockStatus
+from rumba_sim.model.geometry import Pose
+from rumba_sim.ros.common.conversions import transform
+
+
+class Robot:
+    """A robot's topics without ROS: what it publishes goes straight to whoever subscribed."""
+
+    def __init__(self, monkeypatch, name='rumba'):
+        self._name = name
+        self._callbacks = {}
+        self.connections = 1
+        self.readings = 0
+        monkeypatch.setattr(senses.rospy, 'Subscriber', self._subscribe)
+        monkeypatch.setattr(senses.tf2_ros, 'TransformListener', lambda *_, **__: None)
+        self.senses = senses.Senses(name, self._count)
+
+    def _subscribe(self, topic, _, callback, *arguments, **__):
+        self._callbacks[topic] = lambda message: callback(message, *arguments)
+        return types.SimpleNamespace(get_num_connections=lambda: self.connections)
+
+    def _count(self):
+        self.readings += 1
+
+    def tells(self, topic, message):
+        """Publish a message."""
+        self._callbacks[f'{self._name}/{topic}'](message)
+
+    def reads(self, seconds, topics=('bumper', 'cliff', 'dock_status'), **fields):
+        """Publish parts of a reading, in this order, with one stamp; returns how many readings that completed."""
+        before = self.readings
+        kinds = {'bumper': Bumper, 'cliff': Cliff, 'dock_status': DockStatus}
+        for topic in topics:
+            mine = {name: value for name, value in fields.items() if name in kinds[topic].__slots__}
+            self.tells(topic, kinds[topic](header=Header(stamp=rospy.Time.from_sec(seconds)), **mine))
+        return self.readings - before
+
+    def stands(self, odom=Pose(0.0, 0.0, 0.0), base=Pose(0.0, 0.0, 0.0), seconds=1.0):
+        """Tell tf the pose of the odom frame, and that of the robot in it, 10 s later."""
+        prefix = '' if self._name == 'rumba' else f'{self._name}/'
+        for frame, child, pose, age in (('map', f'{prefix}odom', odom, 10.0),
+                                        (f'{prefix}odom', f'{prefix}base_footprint', base, 0.0)):
+            stamp = rospy.Time.from_sec(seconds + 10.0 - age)
+            self.senses._buffer.set_transform(transform(frame, child, pose, stamp), 'test')
+
+
+@pytest.fixture
+def robot(monkeypatch):
+    """A robot that stands at the origin, charged by half."""
+    robot = Robot(monkeypatch)
+    robot.stands()
+    robot.tells('battery_state', BatteryState(percentage=0.5))
+    return robot
+
+
+@pytest.mark.parametrize('order', [
+    ('bumper', 'cliff', 'dock_status'), ('dock_status', 'cliff', 'bumper'), ('cliff', 'dock_status', 'bumper')])
+def test_a_reading_is_complete_with_its_last_part_whatever_the_order(robot, order):
+    for seconds in (1.0, 1.1, 1.2):
+        assert [robot.reads(seconds, [topic]) for topic in order] == [0, 0, 1]
+
+
+def test_parts_that_run_ahead_complete_a_reading_and_older_ones_do_not(robot):
+    assert robot.reads(1.0) == 1
+    assert robot.reads(1.1, ['bumper']) + robot.reads(1.2, ['bumper']) + robot.reads(1.1, ['dock_status']) == 0
+    assert robot.reads(1.1, ['cliff']) == 1
+    assert robot.senses.stamp == rospy.Time.from_sec(1.1)
+
+
+def test_time_is_that_of_stamps_without_pauses_and_ways_back(robot):
+    for seconds, passed in ((100.0, 0.0), (100.1, 0.1), (101.1, 1.1), (102.2, 1.1), (102.3, 1.2), (7.0, 1.2),
+                            (7.25, 1.45)):
+        robot.reads(seconds)
+        assert robot.senses.passed / 1e9 == pytest.approx(passed)
+
+
+def test_the_first_observation_has_no_time_and_the_next_all_since_readings_that_were_left_out_included(robot):
+    robot.reads(1.0)
+    robot.reads(1.5)
+    assert robot.senses.observe().dt == 0.0
+    for seconds in (1.6, 1.7, 1.8):
+        robot.reads(seconds)
+    assert robot.senses.observe().dt == pytest.approx(0.3)
+    assert robot.senses.observe().dt == 0.0
+    robot.reads(1.9)
+    robot.senses.begin()
+    robot.reads(2.0)
+    assert robot.senses.observe().dt == 0.0
+
+
+def test_an_observation_holds_what_each_topic_tells_on_its_side(robot):
+    robot.tells('battery_state', BatteryState(percentage=0.25))
+    robot.reads(1.0, is_right_pressed=True, is_cliff_front_left=True, is_docked=True, infrared_omni=1, infrared_left=4,
+                infrared_right=8)
+    found = robot.senses.look()
+    assert found.bumper == (False, True)
+    assert found.cliffs == (False, True, False, False)
+    assert found.contact == (True, True)
+    assert (found.state_of_charge, found.is_docked) == (0.25, True)
+    assert (found.infrared.omni, found.infrared.left, found.infrared.right) == (1, 4, 8)
+
+
+@pytest.mark.parametrize('name', ['rumba', 'rumba2'])
+def test_the_pose_is_the_newest_odometry_with_a_correction_that_may_be_older(monkeypatch, name):
+    robot = Robot(monkeypatch, name)
+    robot.stands(odom=Pose(1.0, 2.0, 0.5 * math.pi), base=Pose(0.5, 0.25, 0.75 * math.pi))
+    assert robot.senses.pose() == pytest.approx((0.75, 2.5, -0.75 * math.pi))
+
+
+def test_what_is_missing_is_named(monkeypatch):
+    robot = Robot(monkeypatch, 'rumba2')
+    assert robot.senses.missing() == 'nobody tells the charge of its battery'
+    robot.tells('battery_state', BatteryState(percentage=math.nan))
+    assert robot.senses.missing() == 'nobody tells the charge of its battery'
+    robot.tells('battery_state', BatteryState(percentage=0.0))
+    assert robot.senses.missing() == (
+        'nobody tells where it is: tf has no map -> rumba2/odom -> rumba2/base_footprint')
+    robot.stands()
+    robot.reads(1.0, ['bumper', 'dock_status'])
+    assert robot.senses.missing() == 'nobody tells cliff'
+    assert robot.senses.look() is None
+    robot.reads(1.0, ['cliff'])
+    assert robot.senses.look().state_of_charge == 0.0
+    robot.reads(1.1, ['dock_status'])
+    assert robot.senses.missing() == 'nobody tells bumper and cliff'
+
+
+def test_readings_that_are_not_complete_are_counted(robot):
+    robot.reads(1.0)
+    assert robot.senses.unread == 0
+    for seconds in (1.1, 1.2, 1.3):
+        robot.reads(seconds, ['bumper', 'dock_status'])
+    assert robot.senses.unread == 3
+    robot.reads(1.3, ['cliff'])
+    assert robot.senses.unread == 0
+
+
+def test_a_robot_is_alone_without_any_publisher(robot):
+    assert not robot.senses.is_alone
+    robot.connections = 0
+    assert robot.senses.is_alone
+
+
+def test_the_floor_is_what_was_told_last(robot):
+    assert robot.senses.cleaning is None
+    robot.tells('cleaning_status', CleaningStatus(coverage=0.5))
+    robot.tells('cleaning_status', CleaningStatus(coverage=0.75))
+    assert robot.senses.cleaning.coverage == 0.75
+    unknown = conversions.no_cleaning_status()
+    assert all(math.isnan(getattr(unknown, field)) for field in CleaningStatus.__slots__ if field != 'header')
+
+
+def test_a_tilted_transform_has_the_heading_of_its_forward_axis():
+    half = math.radians(25.0)
+    turned = Transform(Vector3(1.0, 2.0, 3.0), Quaternion(0.0, 0.0, math.sin(half), math.cos(half)))
+    assert conversions.plane_pose(turned) == pytest.approx((1.0, 2.0, math.radians(50.0)))
+    upside = Transform(Vector3(), Quaternion(1.0, 0.0, 0.0, 0.0))
+    assert conversions.plane_pose(upside).theta == pytest.approx(0.0)
+
+
+def test_commands_and_missions_become_messages():
+    twist = conversions.velocity(Command(0.25, -1.5))
+    assert (twist.linear.x, twist.linear.y, twist.angular.z) == (0.25, 0.0, -1.5)
+    status = conversions.mission_status(State.CHARGING, 'bounce', 'charging', rospy.Time(5))
+    assert (status.state, status.strategy, status.message) == (status.CHARGING, 'bounce', 'charging')
+    assert (status.header.frame_id, status.header.stamp.secs) == ('map', 5)
+    assert {state.name: int(state) for state in State} == {
+        name: getattr(status, name) for name in dir(status) if name.isupper()}

@@ -1,0 +1,145 @@
+"""go_to gets to a pose, around walls, unknown things and people who carry the robot off, or says why not."""
+
+import math
+
+import numpy as np
+import pytest
+from drivers import context_of, run, with_box
+from rooms import RADIUS, crooked, quiet, room
+
+from rumba_cleaning.behaviour import STOP, Status
+from rumba_cleaning.behaviours.go_to import GoTo
+from rumba_cleaning.control import steps
+from rumba_sim.model.errors import MapError
+from rumba_sim.model.geometry import Pose, wrap_angle
+from rumba_sim.model.world import World
+
+PLAN = crooked()
+START = Pose(0.4, 0.4, 1.0)
+TARGET = Pose(3.5, 2.4, -2.0)
+
+
+def going(target=TARGET, plan=PLAN, start=START, truth=None):
+    """A world, and a robot in it that is to go to a target."""
+    world = World(truth or plan, quiet())
+    world.spawn('rumba', start)
+    return world, GoTo(context_of(plan, world), target)
+
+
+def off(world, target):
+    """How far a robot is from a pose [m, rad]."""
+    pose = world.robots['rumba'].pose
+    return math.hypot(pose.x - target.x, pose.y - target.y), abs(wrap_angle(pose.theta - target.theta))
+
+
+@pytest.mark.parametrize('seed', range(12))
+def test_it_comes_to_rest_at_the_pose_from_anywhere(seed):
+    generator = np.random.default_rng(seed)
+    nodes = np.argwhere(PLAN.clearance >= RADIUS + 0.01)[:, ::-1] * PLAN.resolution + PLAN.origin
+    start, target = (Pose(*nodes[generator.integers(len(nodes))].tolist(), float(generator.uniform(-3.1, 3.1)))
+                     for _ in range(2))
+    world, behaviour = going(target, start=start)
+    seconds = run(behaviour, world, seconds=60.0)
+    assert behaviour.status is Status.SUCCEEDED, behaviour.message
+    assert off(world, target)[0] < 0.03 and off(world, target)[1] < 0.05
+    assert seconds < 30.0
+
+
+def test_any_heading_will_do_where_none_is_asked_for():
+    world, behaviour = going(TARGET._replace(theta=math.nan))
+    run(behaviour, world, seconds=60.0)
+    assert behaviour.status is Status.SUCCEEDED
+    assert off(world, TARGET)[0] < 0.03
+
+
+def test_the_brushes_are_up_and_it_answers_stop_at_the_end():
+    world, behaviour = going()
+    commands = [command for _, command in steps(behaviour, world)]
+    assert all(command.brushes_up for command in commands)
+    assert commands[-1] == STOP
+
+
+def test_the_way_left_is_told_and_shrinks():
+    world, behaviour = going()
+    left = [behaviour.remaining for _ in steps(behaviour, world)]
+    direct = math.hypot(TARGET.x - START.x, TARGET.y - START.y)
+    assert direct <= left[0] < 1.5 * direct
+    assert left[-1] < 0.05
+    assert np.all(np.diff(left) < 0.02)
+
+
+@pytest.mark.parametrize('target, message', [
+    (Pose(1.3, 0.6, 0.0), 'target at .1.30, 0.60. m is .* from the nearest wall: a robot of radius'),
+    (Pose(0.1, 1.5, 0.0), 'from the nearest wall'),
+    (Pose(7.0, 1.5, 0.0), 'lies outside the map .x -0.05 to')])
+def test_a_target_in_a_wall_or_outside_is_refused(target, message):
+    with pytest.raises(MapError, match=message):
+        going(target)
+
+
+def test_a_target_that_no_way_leads_to_fails_at_once():
+    plan = room(4.0, 2.0, boxes=[(1.9, 0.0, 2.1, 2.0)])
+    world, behaviour = going(Pose(3.0, 1.0, 0.0), plan, Pose(1.0, 1.0, 0.0))
+    assert run(behaviour, world) < 0.2
+    assert behaviour.status is Status.FAILED
+    assert behaviour.message == 'no way from (1.00, 1.00) to (3.00, 1.00) m'
+
+
+def test_it_gets_around_what_the_map_does_not_show():
+    plan = room(5.0, 2.0)
+    world, behaviour = going(Pose(4.5, 1.0, 0.0), plan, Pose(0.5, 1.0, 0.0), with_box(plan, (2.0, 0.5, 2.4, 1.5)))
+    assert run(behaviour, world, seconds=120.0) < 90.0
+    assert behaviour.status is Status.SUCCEEDED
+    assert off(world, Pose(4.5, 1.0, 0.0))[0] < 0.03
+
+
+def test_it_gives_up_where_what_it_did_not_know_leaves_no_way():
+    plan = room(5.0, 2.0)
+    world, behaviour = going(Pose(4.5, 1.0, 0.0), plan, Pose(0.5, 1.0, 0.0), with_box(plan, (2.0, 0.0, 2.4, 2.0)))
+    run(behaviour, world, seconds=1200.0)
+    assert behaviour.status is Status.FAILED
+    assert 'in the way' in behaviour.message
+
+
+def test_it_gets_around_another_robot():
+    plan = room(5.0, 2.0)
+    world, behaviour = going(Pose(4.5, 1.0, 0.0), plan, Pose(0.5, 1.0, 0.0))
+    world.spawn('rumba2', Pose(2.0, 1.0, 0.0))
+    run(behaviour, world, seconds=120.0)
+    assert behaviour.status is Status.SUCCEEDED
+
+
+def test_it_arrives_though_somebody_carries_it_off():
+    world, behaviour = going()
+    for number, _ in enumerate(steps(behaviour, world, seconds=120.0)):
+        if number == 40:
+            world.teleport('rumba', Pose(0.4, 2.7, 0.0))
+    assert behaviour.status is Status.SUCCEEDED
+    assert off(world, TARGET)[0] < 0.03
+
+
+@pytest.mark.parametrize('theta', [-2.0, math.nan])
+@pytest.mark.parametrize('push', [0.025, 0.06, 0.4])
+def test_pushed_while_it_turns_to_its_heading_it_comes_back(push, theta):
+    world, behaviour = going(TARGET._replace(theta=theta))
+    pushed = False
+    for observation, command in steps(behaviour, world, seconds=120.0):
+        if not pushed and command.v == 0.0 and math.hypot(observation.pose.x - TARGET.x,
+                                                          observation.pose.y - TARGET.y) < 0.02:
+            pose = world.robots['rumba'].pose
+            world.teleport('rumba', pose._replace(x=pose.x - push))
+            pushed = True
+    assert pushed and behaviour.status is Status.SUCCEEDED
+    assert off(world, TARGET)[0] < 0.02
+
+
+def test_ended_and_taken_up_again_it_arrives():
+    world, behaviour = going()
+    for number, _ in enumerate(steps(behaviour, world)):
+        if number == 30:
+            break
+    behaviour.terminate()
+    behaviour.initialise()
+    run(behaviour, world)
+    assert behaviour.status is Status.SUCCEEDED
+    assert off(world, TARGET)[0] < 0.03

@@ -1,0 +1,69 @@
+"""spiral sweeps a round spot without a gap, and ends where something is in the way."""
+
+import math
+
+import numpy as np
+import pytest
+from drivers import context_of, run
+from rooms import RADIUS, quiet, room
+
+from rumba_cleaning.behaviour import Status
+from rumba_cleaning.behaviours.mission import Mission
+from rumba_cleaning.strategies.spiral import SIZE, Spiral
+from rumba_sim.model import kernel
+from rumba_sim.model.geometry import Pose
+from rumba_sim.model.world import World
+
+PLAN = room(4.0, 4.0, 0.02)
+
+
+def spiral(pose):
+    """A world after a spiral that began at a pose, and the spiral."""
+    world = World(PLAN, quiet())
+    world.spawn('rumba', pose)
+    behaviour = Spiral(context_of(PLAN, world))
+    run(behaviour, world, seconds=120.0)
+    return world, behaviour
+
+
+def test_a_spot_is_swept_without_a_gap():
+    world, behaviour = spiral(Pose(2.0, 2.0, 0.0))
+    assert behaviour.status is Status.SUCCEEDED
+    assert behaviour.message == 'a spot of 1.2 m is swept'
+    swept = (world.floor.cells & kernel.SWEPT) > 0
+    rows, columns = np.nonzero(swept)
+    middle = PLAN.centre(int(round(rows.mean())), int(round(columns.mean())))
+    y, x = np.mgrid[0:PLAN.rows, 0:PLAN.columns] * PLAN.resolution - PLAN.resolution / 2.0
+    disc = np.hypot(x - middle[0], y - middle[1]) < SIZE - 0.15
+    assert np.count_nonzero(disc & ~swept) < 0.01 * np.count_nonzero(disc)
+    assert np.count_nonzero(swept) * PLAN.resolution ** 2 == pytest.approx(math.pi * SIZE ** 2, rel=0.35)
+
+
+def test_it_ends_where_something_is_in_the_way():
+    world, behaviour = spiral(Pose(4.0 - RADIUS - 0.2, 2.0, 0.0))
+    assert behaviour.status is Status.SUCCEEDED
+    assert behaviour.message.startswith('something is in the way 0.')
+    assert world.robots['rumba'].bumps == 1
+
+
+def test_taken_up_again_it_begins_in_the_middle():
+    world = World(PLAN, quiet())
+    world.spawn('rumba', Pose(2.0, 2.0, 0.0))
+    behaviour = Spiral(context_of(PLAN, world))
+    run(behaviour, world, seconds=20.0)
+    behaviour.initialise()
+    run(behaviour, world, seconds=1.0)
+    assert behaviour.status is Status.RUNNING
+    assert abs(world.robots['rumba'].twist.w) > 1.5  # as tight as it can
+
+
+@pytest.mark.parametrize('away', [0.3, 0.4, 0.5])
+def test_beside_stairs_it_ends_before_them_and_the_robot_comes_home(away):
+    plan = room(4.0, 3.0, 0.02, cliff=(0.0, 2.0, 4.0, 3.0), dock=Pose(4.0 - RADIUS - 0.01, 1.0, 0.0))
+    for heading in np.linspace(-3.0, 3.0, 7):
+        world = World(plan, quiet())
+        world.spawn('rumba', Pose(1.5, 2.0 - away, float(heading)), brushes_up=True)
+        behaviour = Mission(context_of(plan, world), 'spiral', 0.99)
+        run(behaviour, world)
+        assert not world.robots['rumba'].has_fallen and world.robots['rumba'].is_docked
+        assert 'something is in the way 0.' in behaviour.message

@@ -1,0 +1,80 @@
+"""Strategies are known by name, those of other packages included; bad names and modules are refused in one line."""
+
+import sys
+
+import pytest
+from drivers import context_of
+from rooms import crooked
+
+from rumba_cleaning import strategies
+from rumba_cleaning.behaviour import STOP, Behaviour, Observation
+from rumba_cleaning.strategies.bounce import Bounce
+from rumba_sim.model.errors import StrategyError
+from rumba_sim.model.geometry import Pose
+from rumba_sim.model.world import World
+
+PLAN = crooked()
+OTHER = '''
+from rumba_cleaning.behaviour import STOP, Behaviour
+from rumba_cleaning.strategies import strategy
+
+@strategy('statue')
+class Statue(Behaviour):
+    def __init__(self, context):
+        self.name = context.plan.name
+    def update(self, observation):
+        return STOP
+'''
+
+
+@pytest.fixture
+def package(tmp_path, monkeypatch):
+    """A folder on the Python path; what strategies it makes known is forgotten after the test."""
+    monkeypatch.syspath_prepend(str(tmp_path))
+    monkeypatch.setattr(strategies, '_factories', dict(strategies._factories))
+    yield tmp_path
+    for name in [name for name, module in sys.modules.items() if str(tmp_path) in str(getattr(module, '__file__', ''))]:
+        del sys.modules[name]
+
+
+def test_those_of_this_package_are_known():
+    assert {'bounce', 'boustrophedon', 'spiral', 'wall_follow'} <= set(strategies.known())
+
+
+@pytest.mark.parametrize('name', ['bounce', 'boustrophedon', 'spiral', 'wall_follow'])
+def test_each_is_made_anew_for_a_context(name):
+    context = context_of(PLAN, World(PLAN))
+    one, other = strategies.make(name, context), strategies.make(name, context)
+    assert isinstance(one, Behaviour) and one is not other
+
+
+def test_bounce_is_made_with_the_speed_that_was_asked_for():
+    bounce = strategies.make('bounce', context_of(PLAN, World(PLAN), speed=0.21))
+    assert isinstance(bounce, Bounce)
+    assert bounce.update(Observation(0.0, Pose(1.0, 1.0, 0.0))).v == 0.21
+
+
+def test_another_package_adds_its_own(package):
+    (package / 'their_statues.py').write_text(OTHER)
+    strategies.load(' their_statues, ')
+    statue = strategies.make('statue', context_of(PLAN, World(PLAN)))
+    assert statue.name == 'room'
+    assert statue.update(Observation(0.0, Pose(1.0, 1.0, 0.0))) == STOP
+
+
+def test_a_name_that_is_taken_is_refused(package):
+    (package / 'their_bounce.py').write_text(OTHER.replace('statue', 'bounce'))
+    with pytest.raises(StrategyError, match="two strategies are named 'bounce': .*Bounce|bounce.* and .*Statue"):
+        strategies.load('their_bounce')
+
+
+@pytest.mark.parametrize('module', ['nobody.has_this', '.relative', 'their_typo'])
+def test_a_module_that_cannot_be_imported_is_refused(package, module):
+    (package / 'their_typo.py').write_text('import nobody_has_this_either\n')
+    with pytest.raises(StrategyError, match=f"strategies of '{module}': .*a module is named as in Python"):
+        strategies.load(module)
+
+
+def test_an_unknown_name_is_refused_with_those_that_are_known():
+    with pytest.raises(StrategyError, match="unknown strategy 'zigzag': known are .*bounce, .*boustrophedon"):
+        strategies.check('zigzag')

@@ -1,0 +1,163 @@
+"""The robot's memory of what it swept against the floor of the world, which sees the same brush."""
+
+import math
+
+import numpy as np
+import pytest
+from floors import part_of, two_rooms
+from pytest import approx
+from rooms import crooked, quiet, room
+
+from rumba_cleaning.belief.swept import Swept
+from rumba_sim.model import kernel
+from rumba_sim.model.errors import MapError
+from rumba_sim.model.geometry import Pose
+from rumba_sim.model.world import World
+
+BITS = kernel.BLOCKED | kernel.CLIFF | kernel.REACHABLE | kernel.SWEPT
+CLIFF = (3.8, 2.8, 4.0, 3.0)
+
+
+def memory(plan, x=1.0, y=1.0):
+    """Of a robot that begins at (x, y)."""
+    swept = Swept(plan, quiet())
+    swept.begin(x, y)
+    return swept
+
+
+def followed(swept, *places, brushes_up=False):
+    """The memory of a robot that came by places (x, y), heading along x."""
+    for x, y in places:
+        swept.follow(Pose(x, y, 0.0), brushes_up)
+    return swept
+
+
+def area(swept, plan):
+    """What was swept [m^2]."""
+    return np.count_nonzero(swept.cells & kernel.SWEPT) * plan.resolution ** 2
+
+
+@pytest.mark.parametrize('resolution, seed', [(0.02, 1), (0.05, 2), (0.1, 3)])
+def test_a_robot_that_knows_its_pose_in_each_tick_knows_what_it_swept(resolution, seed):
+    plan = crooked(resolution, cliff=CLIFF, carpet=(0.0, 0.0, 1.0, 1.0))
+    world = World(plan, quiet(), seed=seed)
+    robot = world.spawn('rumba')
+    swept = memory(plan, world.start.x, world.start.y)
+    swept.follow(robot.pose, False)
+    generator = np.random.default_rng(seed)
+    for _ in range(60):
+        v, w = generator.uniform(-0.1, 0.4), generator.uniform(-1.5, 1.5)
+        robot.brushes_up = bool(generator.random() < 0.2)
+        for _ in range(25):
+            robot.command(v, w, world.tick)
+            world.step()
+            swept.follow(robot.pose, robot.brushes_up)
+    assert robot.bumps > 0 and 0.05 < world.floor.coverage < 0.9 and not robot.has_fallen
+    assert (swept.cells == world.floor.cells & BITS).all()
+    assert swept.coverage == world.floor.coverage
+    assert swept.reachable_area == approx(world.floor.reachable_area)
+    reachable, passed = (world.floor.cells & bit > 0 for bit in (kernel.REACHABLE, kernel.SWEPT))
+    assert (swept.missed() == (reachable & ~passed)).all() and swept.missed().dtype == np.bool_
+
+
+def test_brushes_that_are_up_sweep_nothing_and_the_way_with_them_up_is_not_swept_later():
+    plan = room(4.0, 3.0)
+    swept = followed(memory(plan), *((x, 1.0) for x in np.arange(1.0, 2.01, 0.1)), brushes_up=True)
+    assert area(swept, plan) == 0.0 and swept.coverage == 0.0
+    followed(swept, (2.1, 1.0))
+    assert 0.0 < area(swept, plan) <= 0.15 * 0.25
+    assert (np.flatnonzero((swept.cells & kernel.SWEPT).any(axis=0)) * 0.05 >= 2.0).all()
+
+
+def test_a_leap_sweeps_nothing_and_a_long_step_does():
+    plan = room(4.0, 3.0)
+    for step in ((1.0, 0.0), (0.0, -0.6), (0.4, 0.4)):
+        swept = followed(memory(plan), (1.0, 1.0), (1.0 + step[0], 1.0 + step[1]))
+        assert area(swept, plan) == 0.0, step
+    followed(swept, (1.8, 1.4))  # goes on from where it was put
+    columns = np.flatnonzero((swept.cells & kernel.SWEPT).any(axis=0)) * 0.05 - 0.05
+    assert area(swept, plan) >= 0.4 * 0.17 and columns.min() == approx(1.4) and columns.max() == approx(1.8)
+
+
+def test_a_robot_that_turns_sweeps_a_disc():
+    plan = room(4.0, 3.0, 0.02)
+    swept = memory(plan)
+    for theta in np.arange(0.0, math.pi + 0.1, 0.1):
+        swept.follow(Pose(2.0, 1.5, theta), False)
+    assert area(swept, plan) == approx(math.pi * (0.085 + 0.01) ** 2, rel=0.1)
+
+
+def test_to_sweep_from_pose_to_pose_is_to_follow_them():
+    plan = room(4.0, 3.0, 0.02)
+    one, other = memory(plan), memory(plan)
+    one.sweep(Pose(1.0, 1.0, 0.3), Pose(1.2, 1.1, 0.5))
+    other.follow(Pose(1.0, 1.0, 0.3), False)
+    other.follow(Pose(1.2, 1.1, 0.5), False)
+    assert (one.cells == other.cells).all() and one.coverage == other.coverage > 0.0
+
+
+def test_to_begin_is_to_forget_what_was_swept_and_where_the_robot_was():
+    plan = room(4.0, 3.0)
+    swept = followed(memory(plan), (1.0, 1.0), (1.3, 1.0))
+    assert swept.coverage > 0.0
+    swept.begin(1.0, 1.0)
+    assert swept.coverage == 0.0 and area(swept, plan) == 0.0 and (swept.cells == memory(plan).cells).all()
+    followed(swept, (1.2, 1.0))
+    assert area(swept, plan) == 0.0
+    followed(swept, (1.2, 1.0), (1.4, 1.0))
+    assert swept.coverage == approx(area(swept, plan) / swept.reachable_area)
+
+
+def test_what_can_be_reached_is_counted_anew_from_each_beginning():
+    plan = room(5.0, 2.4, boxes=[(2.8, 0.0, 2.9, 2.4)])
+    swept = memory(plan, 1.0, 1.0)
+    left = swept.missed()
+    swept.begin(4.0, 1.0)
+    right = swept.missed()
+    assert left.any() and right.any() and not left[:, 57:].any() and not right[:, :58].any()
+    assert swept.reachable_area == approx(right.sum() * 0.05 ** 2)
+    with pytest.raises(MapError, match='a robot of radius 0.174 m does not fit'):
+        swept.begin(2.7, 1.0)
+
+
+def test_a_copy_holds_the_same_and_changes_alone():
+    plan = two_rooms()
+    swept = followed(memory(plan), (1.0, 1.0), (1.3, 1.0))
+    copy = swept.copy()
+    assert (copy.cells == swept.cells).all() and copy.coverage == swept.coverage > 0.0
+    assert copy.reachable_area == swept.reachable_area and (copy.missed() == swept.missed()).all()
+    before, cells = swept.coverage, swept.cells.copy()
+    followed(copy, (2.0, 1.0), (2.3, 1.0))
+    assert copy.coverage == approx(2.0 * before, rel=0.2) and swept.coverage == before and (swept.cells == cells).all()
+    followed(swept, (1.0, 1.5), (1.3, 1.5), (1.3, 1.8))
+    assert swept.coverage > before and not (copy.cells & kernel.SWEPT)[30:].any()
+    assert copy.coverage == approx(area(copy, plan) / copy.reachable_area)
+
+
+def test_where_nothing_can_be_reached_all_of_it_is_swept():
+    plan = room(4.0, 3.0)
+    swept = Swept(plan, quiet())
+    assert (swept.coverage, swept.reachable_area) == (1.0, 0.0) and not swept.missed().any()
+    followed(swept, (1.0, 1.0), (1.3, 1.0))
+    assert swept.coverage == 1.0 and not swept.missed().any()
+
+
+def test_cliffs_are_never_reachable_nor_swept():
+    plan = crooked(cliff=CLIFF)
+    swept = memory(plan)
+    cliff = part_of(plan, CLIFF)
+    assert (swept.cells[cliff] == kernel.CLIFF).all() and not (swept.cells & kernel.CLIFF)[~cliff].any()
+    assert not swept.missed()[cliff].any() and swept.missed().any()
+    followed(swept, (3.5, 2.9), (3.7, 2.9), (3.9, 2.9))
+    assert (swept.cells[cliff] == kernel.CLIFF).all() and (swept.cells & kernel.SWEPT).any()
+
+
+def test_walls_and_floor_that_no_brush_reaches_count_for_nothing():
+    plan = crooked()
+    swept = memory(plan)
+    reachable = plan.reachable(1.0, 1.0, quiet().drive.radius, quiet().brush.width)
+    assert (swept.missed() == reachable).all() and swept.reachable_area == approx(reachable.sum() * 0.05 ** 2)
+    assert ((swept.cells & kernel.BLOCKED > 0) == ~plan.free).all()
+    followed(swept, (0.3, 0.0), (0.6, 0.0), (0.9, 0.0))  # along the rim, which no brush reaches
+    assert not (swept.cells & kernel.SWEPT)[~plan.free].any() and area(swept, plan) > 0.0
+    assert swept.coverage == approx(np.count_nonzero(reachable & (swept.cells & kernel.SWEPT > 0)) / reachable.sum())

@@ -1,0 +1,253 @@
+"""What was recorded of a mission, as plain arrays, and the figures that follow from it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import (TYPE_CHECKING, Any, List, NamedTuple, Optional, Sequence,
+                    Tuple)
+
+import numpy as np
+
+if TYPE_CHECKING:  # NumPy 1.17 of Ubuntu 20.04 has no numpy.typing
+    from numpy.typing import NDArray
+
+    Floats = NDArray[np.float64]
+
+STATES = ('idle', 'undocking', 'cleaning', 'returning', 'docking', 'charging', 'going to a point', 'stranded')
+IDLE, CLEANING, STRANDED = STATES.index('idle'), STATES.index('cleaning'), STATES.index('stranded')
+LEAP = 0.5  # [m] from one pose to the next: somebody put the robot elsewhere, ...
+RUSH = 1.0  # [m/s] ... unless the poses are so sparse that it can have driven, twice as fast as a Rumba can
+MOVING = 0.01  # [m/s] slower than that it stands, or turns
+BREAK = 2.0  # [s] so short an interruption of contacts or charger is none
+FULL = 99.9  # [%]
+
+Span = Tuple[float, float]
+
+
+class Series(NamedTuple):
+    """Samples in order of time: times (n,) [s], values (n,) or (n, k). None at all where nothing was recorded."""
+
+    times: Floats
+    values: Floats
+
+    def at(self, time: Any) -> Any:
+        """The values that were in force at times [s]: those of the last sample up to then, or of the first of all."""
+        return self.values[np.maximum(np.searchsorted(self.times, time, side='right') - 1, 0)]
+
+
+NOTHING = Series(np.zeros(0), np.zeros(0))
+
+
+def series(times: Sequence[float], values: Any) -> Series:
+    """Samples put in order of time, without those that are not finite."""
+    if not len(times):
+        return NOTHING
+    stamps, samples = np.asarray(times, float), np.asarray(values, float)
+    good = np.isfinite(stamps) & np.isfinite(samples.reshape(len(stamps), -1)).all(axis=1)
+    order = np.argsort(stamps[good], kind='stable')
+    return Series(stamps[good][order], samples[good][order])
+
+
+class Grid(NamedTuple):
+    """Cells of a nav_msgs/OccupancyGrid.
+
+    Attributes:
+        cells: int8 (rows, columns), row 0 at the bottom; -1 where nothing is known.
+        resolution: edge of a cell [m].
+        left: x of the outer edge of column 0 [m].
+        bottom: y of the outer edge of row 0 [m].
+    """
+
+    cells: NDArray[np.int8]
+    resolution: float
+    left: float
+    bottom: float
+
+
+class MissionState(NamedTuple):
+    """What a rumba_msg/MissionStatus said at a time [s]."""
+
+    time: float
+    state: int
+    strategy: str
+    message: str
+
+    @property
+    def name(self) -> str:
+        """The state in words."""
+        return STATES[self.state] if 0 <= self.state < len(STATES) else f'state {self.state}'
+
+
+@dataclass(frozen=True)
+class MissionRecord:
+    """A mission of one robot. Time 0 is the first pose or reading of the battery, whichever came first.
+
+    Attributes:
+        source: name of the recording.
+        robot: name of the robot.
+        path: x and y (n, 2) [m], map frame; not empty.
+        charge: of the battery [%]; not empty.
+        began: stamp of time 0 [s].
+        power: into the battery [W], negative while it is used.
+        charging: 1 while the charger feeds the battery, else 0.
+        docked: 1 while the contacts are closed, else 0.
+        pressed: 1 while the bumper is pressed, else 0.
+        fallen: 1 while a wheel hangs over a cliff, else 0.
+        coverage: share of the floor that is swept [0..1].
+        areas: swept, and within reach [m^2], at the end.
+        states: what the mission said, in order of time.
+        floor: the map: 0 free, 100 wall.
+        swept: at the end: 100 swept, 0 missed, -1 out of reach.
+        remarks: what a reader should know of the recording, a sentence each.
+    """
+
+    source: str
+    robot: str
+    path: Series
+    charge: Series
+    began: float = 0.0
+    power: Series = NOTHING
+    charging: Series = NOTHING
+    docked: Series = NOTHING
+    pressed: Series = NOTHING
+    fallen: Series = NOTHING
+    coverage: Series = NOTHING
+    areas: Optional[Tuple[float, float]] = None
+    states: Sequence[MissionState] = ()
+    floor: Optional[Grid] = None
+    swept: Optional[Grid] = None
+    remarks: Sequence[str] = field(default_factory=tuple)
+
+    @property
+    def duration(self) -> float:
+        """Time from the first to the last pose or reading of the battery [s]."""
+        return max(float(part.times[-1]) for part in (self.path, self.charge))
+
+
+# --- parts of the time ----------------------------------------------------------------------------------------------
+
+def spans(flags: Series) -> List[Span]:
+    """When flags were up: from the first sample that is to the next that is not, without interruptions up to BREAK."""
+    found: List[Span] = []
+    up = flags.values > 0.5
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], up, [False]]).astype(np.int8)))
+    for first, after in zip(edges[::2], edges[1::2]):
+        begin, end = float(flags.times[first]), float(flags.times[min(after, len(up) - 1)])
+        if found and begin - found[-1][1] <= BREAK:
+            begin = found.pop()[0]
+        found.append((begin, end))
+    return found
+
+
+def rises(flags: Series) -> Floats:
+    """Times at which flags went up [s]; that they were up from the first is no rise."""
+    up = flags.values > 0.5
+    return flags.times[1:][up[1:] & ~up[:-1]]
+
+
+def charging_spans(record: MissionRecord) -> List[Span]:
+    """When the battery was charged: as it says itself; else while docked and not full; else while its charge rose."""
+    if len(record.charging.times):
+        return spans(record.charging)
+    if len(record.docked.times):
+        times, docked = record.docked
+        return spans(Series(times, docked * (record.charge.at(times) < FULL)))
+    return _rising(record.charge)
+
+
+def _rising(charge: Series) -> List[Span]:
+    """From the last sample before a charge rose to the one from which it rose no more."""
+    found: List[Span] = []
+    was_rising = False
+    for before in np.flatnonzero(np.diff(charge.values)):
+        is_rising = bool(charge.values[before + 1] > charge.values[before])
+        if is_rising:
+            begin = found.pop()[0] if was_rising else float(charge.times[before])
+            found.append((begin, float(charge.times[before + 1])))
+        was_rising = is_rising
+    return found
+
+
+def state_spans(record: MissionRecord) -> List[Tuple[float, float, MissionState]]:
+    """What the mission was at, from when to when [s]; of what it said of a state, the first message."""
+    changes = [state for index, state in enumerate(record.states)
+               if index == 0 or state.state != record.states[index - 1].state]
+    ends = [state.time for state in changes[1:]] + [max(record.duration, changes[-1].time)] if changes else []
+    return [(state.time, end, state) for state, end in zip(changes, ends)]
+
+
+def leaps(path: Series) -> NDArray[np.intp]:
+    """Indices of the poses to which the robot cannot have driven from the one before."""
+    step, gap = _steps(path)
+    return np.flatnonzero((step > LEAP) & (step > RUSH * gap)) + 1
+
+
+def _steps(path: Series) -> Tuple[Floats, Floats]:
+    """Way [m] and time [s] from each pose to the next."""
+    return np.hypot(*np.diff(path.values, axis=0).T), np.diff(path.times)
+
+
+# --- figures --------------------------------------------------------------------------------------------------------
+
+@dataclass(frozen=True)
+class Summary:
+    """A mission in figures; None where nothing tells."""
+
+    duration: float  # [s]
+    busy: Optional[float]  # [s] in which the mission was not idle
+    distance: float  # [m]
+    driving_time: float  # [s]
+    mean_speed: Optional[float]  # [m/s] while it drove
+    coverage: Optional[float]  # [0..1]
+    areas: Optional[Tuple[float, float]]  # swept, and within reach [m^2]
+    charges: int
+    charging_time: float  # [s]
+    charge: Tuple[float, float, float]  # at the beginning, at the end, least [%]
+    energy: Optional[Tuple[float, float]]  # used, and charged [Wh]
+    bumps: Optional[int]
+    leaps: int
+    outcome: str
+
+
+def summary(record: MissionRecord) -> Summary:
+    """The figures of a mission."""
+    step, gap = _steps(record.path)
+    driven = np.ones(len(step), bool)
+    driven[leaps(record.path) - 1] = False
+    moving = driven & (step > MOVING * gap)
+    distance, driving_time = float(step[driven].sum()), float(gap[moving].sum())
+    charging = charging_spans(record)
+    charge = record.charge.values
+    return Summary(
+        record.duration, _busy(record), distance, driving_time, distance / driving_time if driving_time > 0.0 else None,
+        float(record.coverage.values[-1]) if len(record.coverage.times) else None, record.areas,
+        len(charging), sum(end - begin for begin, end in charging),
+        (float(charge[0]), float(charge[-1]), float(charge.min())), _energy(record.power),
+        len(rises(record.pressed)) if len(record.pressed.times) else None, len(step) - int(driven.sum()),
+        _outcome(record))
+
+
+def _busy(record: MissionRecord) -> Optional[float]:
+    said = state_spans(record)
+    return sum(end - begin for begin, end, state in said if state.state != IDLE) if said else None
+
+
+def _energy(power: Series) -> Optional[Tuple[float, float]]:
+    """Used, and charged [Wh], by the trapezoidal rule."""
+    if not len(power.times):
+        return None
+    used, charged = (float(np.sum(0.5 * (part[1:] + part[:-1]) * np.diff(power.times))) / 3600.0
+                     for part in (np.maximum(-power.values, 0.0), np.maximum(power.values, 0.0)))
+    return used, charged
+
+
+def _outcome(record: MissionRecord) -> str:
+    """How it ended, in words; empty where no mission said anything."""
+    if not record.states:
+        return ''
+    last = record.states[-1]
+    was_at_work = any(state.state != IDLE for state in record.states)
+    said = next((state.message for state in reversed(record.states) if state.message), '')
+    verdict = (last.name if last.state == STRANDED else f'under way when the recording ended, {last.name}'
+               if last.state != IDLE else 'ended' if was_at_work else last.name)
+    return f'{verdict}: {said}' if said else verdict

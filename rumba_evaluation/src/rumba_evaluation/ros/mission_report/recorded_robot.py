@@ -1,0 +1,193 @@
+"""The messages of one robot in a bag, on the robot's own clock, as the record of its mission."""
+
+import math
+from typing import (Any, Callable, Dict, Iterator, List, NamedTuple, Optional,
+                    Sequence, Tuple)
+
+import numpy as np
+import rosbag
+from nav_msgs.msg import OccupancyGrid
+from sensor_msgs.msg import BatteryState
+
+from rumba_evaluation.report.mission_record import (NOTHING, Grid,
+                                                    MissionRecord,
+                                                    MissionState, Series,
+                                                    series)
+
+FAR = 1e7  # [m] what claims to be farther away was never measured
+LATE = 5.0  # [s] a stamp farther from the time of recording is of another clock, or of a latched message
+BACK = 1.0  # [s] stamps that go back farther are those of a clock that was set anew
+FINEST = 1e-4  # [m] edge of a cell
+GRIDS = 200  # so many make a curve of the coverage
+UPRIGHT = 1e-3  # z of the quaternion of a grid along the axes
+GRID = 'nav_msgs/OccupancyGrid'
+
+Topics = Dict[str, List[str]]  # by the name below that of the robot: the topics in the bag
+
+
+def _where(x: float, y: float) -> Tuple[float, float]:
+    return (x, y) if abs(x) < FAR and abs(y) < FAR else (math.nan, math.nan)
+
+
+def _battery(message: BatteryState) -> Sequence[float]:
+    """Charge [%], power [W], whether it is charged, whether it is at the dock."""
+    status = message.power_supply_status
+    is_docked = status in (BatteryState.POWER_SUPPLY_STATUS_CHARGING, BatteryState.POWER_SUPPLY_STATUS_FULL)
+    is_charging = status == BatteryState.POWER_SUPPLY_STATUS_CHARGING
+    is_known = status != BatteryState.POWER_SUPPLY_STATUS_UNKNOWN
+    return (100.0 * message.percentage, message.voltage * message.current,
+            *((float(is_charging), float(is_docked)) if is_known else (math.nan, math.nan)))
+
+
+# What is read of each message; but for coverage, of which most are not even unpacked.
+ROWS: Dict[str, Tuple[str, Callable[[Any], Sequence[Any]]]] = {
+    'ground_truth': ('nav_msgs/Odometry', lambda m: _where(m.pose.pose.position.x, m.pose.pose.position.y)),
+    # No message has a field for a wheel over a cliff: only the line for a person tells.
+    'battery_status': ('rumba_msg/BatteryStatus', lambda m: (
+        m.percentage_battery, 'cliff' in m.debug_message, *_where(m.location_x, m.location_y))),
+    'battery_state': ('sensor_msgs/BatteryState', _battery),
+    'bumper': ('rumba_msg/Bumper', lambda m: (m.is_left_pressed or m.is_right_pressed,)),
+    'dock_status': ('rumba_msg/DockStatus', lambda m: (m.is_docked,)),
+    'cleaning_status': ('rumba_msg/CleaningStatus', lambda m: (m.coverage, m.cleaned_area, m.reachable_area)),
+    'mission_status': ('rumba_msg/MissionStatus', lambda m: (m.state, m.strategy, m.message))}
+TYPES = {**{name: kind for name, (kind, _) in ROWS.items()}, 'coverage': GRID}
+CLOCKS = ('ground_truth', 'battery_state', 'bumper', 'dock_status', 'cleaning_status')  # stamped as they happen
+STARTS = ('ground_truth', 'battery_status', 'battery_state')
+
+
+class Samples(NamedTuple):
+    """The messages of a topic in the order of recording: when each was recorded, its stamp [s], and what it says."""
+
+    recorded: List[float]
+    stamps: List[float]
+    rows: List[Sequence[Any]]
+
+
+NONE = Samples([], [], [])
+
+
+class RecordedRobot:
+    """All that a bag has of a robot but its grids, which are read when they are asked for.
+
+    Times are those of the robot's clock, from the first of its poses and readings of its battery.
+    """
+
+    def __init__(self, bag: rosbag.Bag, topics: Topics) -> None:
+        """Read the topics of a robot."""
+        self._bag = bag
+        self._topics = topics
+        self._samples = {name: Samples([], [], []) for name in topics if name in ROWS}
+        names = {topic: name for name in self._samples for topic in topics[name]}
+        for topic, message, time in bag.read_messages(
+                list(names), connection_filter=lambda topic, kind, *_: kind == TYPES[names[topic]]):
+            recorded, stamps, rows = self._samples[names[topic]]
+            recorded.append(time.to_sec())
+            stamps.append(message.header.stamp.to_sec() if hasattr(message, 'header') else 0.0)
+            rows.append(ROWS[names[topic]][1](message))
+        self._clock = next((self._samples[name] for name in CLOCKS if any(self._samples.get(name, NONE).stamps)), NONE)
+        self._was_set_back = bool((np.diff(self._clock.stamps) < -BACK).any())
+        if self._was_set_back:
+            self._clock = NONE
+        self._began = 0.0
+        self._began = min((float(self._times(name).min()) for name in STARTS if name in self._samples), default=0.0)
+
+    # --- time -------------------------------------------------------------------------------------------------------
+
+    def _on_clock(self, recorded: Sequence[float]) -> Any:
+        """When something was recorded [s]: the stamps of what was recorded around it tell."""
+        times = np.asarray(recorded, float)
+        if self._clock is not NONE:
+            marks, stamps = np.array(self._clock.recorded), np.maximum.accumulate(self._clock.stamps)
+            way = marks[-1] - marks[0]
+            rate = (stamps[-1] - stamps[0]) / way if way > 0.0 else 1.0
+            beyond = np.minimum(times - marks[0], 0.0) + np.maximum(times - marks[-1], 0.0)
+            times = np.interp(times, marks, stamps) + rate * beyond
+        return times - self._began
+
+    def _times(self, topic: str) -> Any:
+        """When the messages of a topic were true: their stamps, where they have some of the robot's clock."""
+        recorded, stamps, _ = self._samples[topic]
+        times, own = self._on_clock(recorded), np.array(stamps) - self._began
+        return np.where((np.array(stamps) > 0.0) & (np.abs(own - times) < LATE), own, times)
+
+    # --- what was said ----------------------------------------------------------------------------------------------
+
+    def _column(self, topic: str, *columns: int) -> Series:
+        """Columns of the rows of a topic, without those that are not finite; empty where there is none."""
+        rows = self._samples.get(topic, NONE).rows
+        if not rows:
+            return NOTHING
+        found = series(self._times(topic), [[row[column] for column in columns] for row in rows])
+        return found if len(columns) > 1 else Series(found.times, found.values[:, 0])
+
+    def _place(self) -> Series:
+        """Where it was, x and y (n, 2) [m]."""
+        return _first(self._column('ground_truth', 0, 1), self._column('battery_status', 2, 3))
+
+    def _charge(self) -> Series:
+        """What its battery had left [%]."""
+        return _first(self._column('battery_state', 0), self._column('battery_status', 0))
+
+    def _states(self) -> List[MissionState]:
+        samples = self._samples.get('mission_status', NONE)
+        times = self._times('mission_status').tolist() if samples.rows else []
+        return sorted((MissionState(max(time, 0.0), *row) for time, row in zip(times, samples.rows)),
+                      key=lambda state: state.time)
+
+    def _grids(self, topics: Sequence[str], most: int) -> Iterator[Tuple[float, Grid]]:
+        """About so many of the grids of topics, the last among them, with their times [s]."""
+        count = self._bag.get_message_count(list(topics)) if topics else 0
+        for index, (_, raw, time) in enumerate(self._bag.read_messages(list(topics), raw=True) if count else []):
+            if (count - 1 - index) % -(-count // most) == 0 and raw[0] == GRID:
+                message = raw[-1]()
+                message.deserialize(raw[1])
+                cells = _grid(message)
+                if cells is not None:
+                    yield float(self._on_clock([time.to_sec()])[0]), cells
+
+    def record(self, source: str, name: str, map_topics: Sequence[str], remarks: Sequence[str]) -> MissionRecord:
+        """All of it, and the last map of a topic; path and charge can be empty."""
+        remarks = list(remarks)
+        if self._was_set_back:
+            remarks.append('The clock was set back during the recording: times are those of the recorder.')
+        maps = [cells for _, cells in self._grids(map_topics, 1)]
+        if map_topics and not maps:
+            remarks.append('The map is damaged, or turned against the axes: it is not drawn.')
+        coverage, areas, swept = self._cleaning()
+        return MissionRecord(
+            source=source, robot=name, path=self._place(), charge=self._charge(), began=self._began,
+            power=self._column('battery_state', 1), charging=self._column('battery_state', 2),
+            docked=_first(self._column('dock_status', 0), self._column('battery_state', 3)),
+            pressed=self._column('bumper', 0), fallen=self._column('battery_status', 1), coverage=coverage,
+            areas=areas, states=self._states(), floor=maps[-1] if maps else None, swept=swept, remarks=remarks)
+
+    def _cleaning(self) -> Tuple[Series, Optional[Tuple[float, float]], Optional[Grid]]:
+        """Coverage [0..1], areas swept and within reach [m^2], and the last grid; the grids tell where nothing else."""
+        status = self._column('cleaning_status', 0, 1, 2)
+        grids = list(self._grids(self._topics.get('coverage', []), 1 if len(status.times) else GRIDS))
+        last = grids[-1][1] if grids else None
+        if len(status.times):
+            swept, reachable = status.values[-1, 1:].tolist()
+            return Series(status.times, status.values[:, 0]), (swept, reachable), last
+        if last is None:
+            return NOTHING, None, None
+        counts = [(np.count_nonzero(cells.cells == 100), np.count_nonzero(cells.cells >= 0)) for _, cells in grids]
+        coverage = series([time for time, _ in grids], [part / max(whole, 1) for part, whole in counts])
+        area = last.resolution ** 2
+        return coverage, (counts[-1][0] * area, counts[-1][1] * area), last
+
+
+def _first(*choices: Series) -> Series:
+    """The first that is not empty."""
+    return next((choice for choice in choices if len(choice.times)), NOTHING)
+
+
+def _grid(message: OccupancyGrid) -> Optional[Grid]:
+    """The cells; None where they are turned against the axes, or not as many as the message says."""
+    info, place = message.info, message.info.origin
+    is_sound = (0 < info.width * info.height == len(message.data) and FINEST < info.resolution < FAR
+                and abs(place.position.x) < FAR and abs(place.position.y) < FAR)
+    if not is_sound or not abs(place.orientation.z) < UPRIGHT:
+        return None
+    cells = np.array(message.data, np.int8).reshape(info.height, info.width)
+    return Grid(cells, info.resolution, place.position.x, place.position.y)

@@ -1,0 +1,188 @@
+"""evaluate: cleaning missions in process, without ROS and faster than real time, and what became of them.
+
+Runs a mission for each map, strategy, number of robots and seed. Each result is written to DIR/results.csv at once: a
+run that was cut short goes on where it was, when the same command is given again. In the end it prints a table and
+draws pictures.
+"""
+
+import argparse
+import dataclasses
+import os
+import re
+import sys
+from concurrent.futures import BrokenExecutor, Executor
+from typing import Callable, ContextManager, Dict, List, NoReturn, Sequence
+
+from rumba_cleaning import strategies
+from rumba_evaluation.trials import batch, table
+from rumba_evaluation.trials.batch import Job
+from rumba_evaluation.trials.cases import (ANYWHERE, CRASHED, DOCK, Case,
+                                           Conditions, Result, grid)
+from rumba_evaluation.trials.results import Results
+from rumba_sim.model.config import explain, updated
+from rumba_sim.model.errors import ConfigError, RumbaError
+
+NAME = 'evaluate'
+MAPS = ('apartment', 'studio', 'field')
+STRATEGIES = ('boustrophedon', 'bounce')
+CRASH, BAD_INPUT, INTERRUPTED = 1, 2, 130
+MOST = 1_000_000  # seeds
+
+
+class _Parser(argparse.ArgumentParser):
+    """Says in one line what is wrong."""
+
+    def error(self, message: str) -> NoReturn:
+        """Leave with that line."""
+        self.exit(BAD_INPUT, f'{NAME}: {message}; --help lists all\n')
+
+
+def main(arguments: Sequence[str], map_path: Callable[[str], str]) -> int:
+    """Evaluate as the arguments of a command line say; returns the exit code.
+
+    Args:
+        arguments: without the name of the program.
+        map_path: finds the path of a map by its name, or raises MapError.
+    """
+    options = _parser().parse_args(arguments)
+    try:
+        return _evaluate(options, map_path)
+    except RumbaError as error:
+        print(f'{NAME}:', *str(error).split(), file=sys.stderr)
+        return BAD_INPUT
+    except OSError as error:  # no space left, for one
+        print(f'{NAME}: {error}', file=sys.stderr)
+        return CRASH
+    except KeyboardInterrupt:
+        print(f'{NAME}: stopped before the first mission', file=sys.stderr)
+        return INTERRUPTED
+
+
+def _parser() -> argparse.ArgumentParser:
+    about, details = (__doc__ or '').split('\n\n')
+    parser = _Parser(NAME, description=about, epilog=details, allow_abbrev=False)
+    add = parser.add_argument
+    add('--maps', nargs='+', default=MAPS, metavar='MAP', help='names of maps of the package, or paths of map_server '
+                                                               f'YAML files; default {" ".join(MAPS)}')
+    add('--strategies', nargs='+', default=STRATEGIES, metavar='NAME', help=f'default {" ".join(STRATEGIES)}')
+    add('--seeds', type=_seeds, default='10', metavar='N or A-B', help='1 to N, or A to B; default 10')
+    add('--robots', type=_positive, nargs='+', default=[1], metavar='N', help='numbers of robots; default 1')
+    add('--start', choices=(DOCK, ANYWHERE), default=DOCK,
+        help='where robots begin: where the map says, or drawn from the seed; default %(default)s')
+    for field in dataclasses.fields(Conditions)[1:]:
+        add(f'--{field.name}', type=float, default=field.default,
+            help=f'{explain(field)}; default {field.default:g}'.replace('%', '%%'))
+    add('--import', dest='modules', default='', metavar='MODULES',
+        help='Python modules that make strategies known, with commas between them')
+    add('--output', default='evaluation', metavar='DIR', help='folder for results, table and pictures; default '
+                                                              './%(default)s')
+    add('--jobs', type=_positive, default=len(os.sched_getaffinity(0)), metavar='N',
+        help='missions at once; default %(default)s, all cores')
+    add('--scheduler', default='', metavar='ADDRESS', help='run on a Dask cluster: address of its scheduler')
+    add('--no-plots', action='store_true', help='draw no pictures')
+    return parser
+
+
+def _seeds(text: str) -> List[int]:
+    match = re.fullmatch(r'(?:(\d{1,15})-)?(\d{1,15})', text, re.ASCII)
+    first, last = (int(match.group(1) or 1), int(match.group(2))) if match else (1, 0)
+    if not first <= last < first + MOST:
+        raise argparse.ArgumentTypeError(f'{text!r} must be a number of seeds, as in 10, or the first and the last, '
+                                         'as in 11-20')
+    return list(range(first, last + 1))
+
+
+def _positive(text: str) -> int:
+    if not re.fullmatch(r'[1-9]\d{0,3}', text, re.ASCII):
+        raise argparse.ArgumentTypeError(f'{text!r} must be a whole number, 1 or more')
+    return int(text)
+
+
+# --- the work -----------------------------------------------------------------------------------------------------
+
+def _evaluate(options: argparse.Namespace, map_path: Callable[[str], str]) -> int:
+    conditions = updated(Conditions(), {field.name: getattr(options, field.name)
+                                        for field in dataclasses.fields(Conditions)}, 'conditions')
+    cases = grid(options.maps, options.strategies, options.seeds, options.robots)
+    jobs = _jobs(cases, conditions, {name: map_path(name) for name in options.maps}, options.modules)
+    results = Results(_in_folder(options.output, 'results.csv'), conditions)
+    try:
+        with _workers(options) as executor:
+            _run_missing(executor, jobs, results)
+            _report(options.output, cases, results.found)
+            if not options.no_plots:
+                _draw(executor, options.output, jobs, results.found)
+    except KeyboardInterrupt:
+        print(f'{NAME}: stopped; {_progress(cases, results)}; the same command again goes on from there',
+              file=sys.stderr)
+        return INTERRUPTED
+    except BrokenExecutor as error:
+        print(f'{NAME}: the workers are gone, perhaps for lack of memory ({error}); {_progress(cases, results)}; '
+              'the same command again, perhaps with fewer --jobs, goes on from there', file=sys.stderr)
+        return CRASH
+    finally:
+        results.close()
+    crashed = [case for case in cases if results.found[case].outcome == CRASHED]
+    for case in crashed:
+        print(f'{NAME}: {case.strategy} crashed on {case.map}, seed {case.seed}, robots {case.robots}: '
+              f'{results.found[case].message}', file=sys.stderr)
+    return CRASH if crashed else 0
+
+
+def _jobs(cases: Sequence[Case], conditions: Conditions, paths: Dict[str, str], modules: str) -> List[Job]:
+    """A job for each case; what cannot be is refused before any of them begins."""
+    strategies.load(modules)
+    for name in dict.fromkeys(case.strategy for case in cases):
+        strategies.check(name)
+    jobs = [Job(case, conditions, os.path.abspath(paths[case.map]), modules) for case in cases]
+    most = max(case.robots for case in cases)
+    for job in {job.case.map: job for job in jobs if job.case.robots == most}.values():
+        batch.prepare(job)
+    return jobs
+
+
+def _in_folder(folder: str, name: str) -> str:
+    try:
+        os.makedirs(folder, exist_ok=True)
+    except OSError as error:
+        raise ConfigError(f'{folder}: {error.strerror}: --output must be a folder that can be written to') from None
+    return os.path.join(folder, name)
+
+
+def _workers(options: argparse.Namespace) -> ContextManager[Executor]:
+    return batch.remote(options.scheduler) if options.scheduler else batch.local(options.jobs)
+
+
+def _progress(cases: Sequence[Case], results: Results) -> str:
+    return f'{sum(case in results.found for case in cases)} of {len(cases)} missions are in {results.path}'
+
+
+def _run_missing(executor: Executor, jobs: Sequence[Job], results: Results) -> None:
+    missing = [job for job in jobs if job.case not in results.found]
+    if len(missing) < len(jobs):
+        print(f'{NAME}: {_progress([job.case for job in jobs], results)} already; to run them again, delete it or give '
+              'another --output', file=sys.stderr)
+    for job, result in batch.each(executor, batch.run, missing, 'missions'):
+        results.add(job.case, result)
+
+
+def _report(folder: str, cases: Sequence[Case], found: Dict[Case, Result]) -> None:
+    """Print the tables, and write what else is made of the results."""
+    tables = table.text(table.grouped(cases, found))
+    print(tables, end='')
+    table.write_curves(_in_folder(folder, 'coverage.csv'), cases, found)
+    with open(_in_folder(folder, 'table.txt'), 'w', encoding='utf-8') as file:
+        file.write(tables)
+
+
+def _draw(executor: Executor, folder: str, jobs: Sequence[Job], found: Dict[Case, Result]) -> None:
+    """Draw pictures: of all results, and of the path of the slowest mission of each group."""
+    from rumba_evaluation.trials import \
+        plots  # Matplotlib takes its time to load
+    plots.draw_results(folder, table.grouped([job.case for job in jobs], found))
+    slowest: Dict[table.Group, Job] = {}
+    for job in jobs:
+        group = table.group(job.case)
+        slowest[group] = max(slowest.get(group, job), job, key=lambda one: found[one.case].multiple_to(98))
+    for job, trace in batch.each(executor, batch.trace, list(slowest.values()), 'pictures'):
+        plots.draw_path(folder, batch.floor_plan(job.path), trace)

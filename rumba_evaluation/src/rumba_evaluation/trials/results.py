@@ -1,0 +1,123 @@
+"""Results in a CSV file, a row as soon as its mission has ended, so that a run that was cut short can go on."""
+
+import csv
+import dataclasses
+import io
+import os
+from typing import Any, Dict, List, Tuple
+
+from rumba_evaluation.trials.cases import (LEVELS, Case, Conditions, Curve,
+                                           Result)
+from rumba_sim.model.errors import ConfigError
+
+DIGITS = 7  # of a number: 0.1 s in ten days
+PARTS: Tuple[Any, ...] = (Case, Conditions, Result)
+TRUTH = {'True': True, 'False': False}
+
+
+class Results:
+    """The rows of one file, all made under the same conditions.
+
+    Attributes:
+        path: of the file.
+        found: result by case.
+    """
+
+    def __init__(self, path: str, conditions: Conditions) -> None:
+        """Open a file, and read what it holds; a last line that was cut short is dropped.
+
+        Raises:
+            ConfigError: it cannot be read or written, or holds something else.
+        """
+        self.path = path
+        self._conditions = conditions
+        self.found: Dict[Case, Result] = {}
+        try:
+            self._file = open(path, 'ab+')  # creates it where there is none
+        except OSError as error:
+            raise ConfigError(f'{path}: {error.strerror}: --output must be a folder that can be written to') from None
+        self._file.seek(0)
+        whole, end, cut = self._file.read().rpartition(b'\n')
+        try:
+            self._read(list(csv.reader(io.StringIO((whole or cut).decode('utf-8', 'replace')))), is_whole=bool(end))
+        except ConfigError:
+            self._file.close()
+            raise
+        self._file.truncate(len(whole) + len(end))
+        if not end:
+            self._write(_header())
+
+    def _read(self, rows: List[List[str]], is_whole: bool) -> None:
+        header = _header()
+        first = rows[0] if rows else []
+        if first != header if is_whole else not ','.join(header).startswith(','.join(first)):
+            raise self._other('is no file of results of this version')
+        for number, row in enumerate(rows[1:], 2):
+            try:
+                case, conditions, result = _parts([_value(kind, text) for kind, text in zip(_kinds(), row)])
+            except (LookupError, TypeError, ValueError, ConfigError):
+                raise self._other(f'has a line {number} that cannot be read') from None
+            for field in dataclasses.fields(Conditions):
+                old, new = (_text(getattr(each, field.name)) for each in (conditions, self._conditions))
+                if old != new:
+                    raise self._other(f'was made with {field.name} {old}, not {new}')
+            self.found[case] = result
+
+    def _other(self, what: str) -> ConfigError:
+        return ConfigError(f'{self.path} {what}: give another --output, or delete it')
+
+    def add(self, case: Case, result: Result) -> None:
+        """Write a row, so that nothing can happen to it any more."""
+        values = [*case, *dataclasses.astuple(self._conditions), *dataclasses.astuple(result)]
+        times = [time for percent in LEVELS for time in (result.time_to(percent), result.multiple_to(percent))]
+        texts = [_text(value) for value in values]
+        self._write(texts + [_text(time) for time in times])
+        # As it will be read: a run that was cut short and went on ends with the same table.
+        _, _, self.found[case] = _parts([_value(kind, text) for kind, text in zip(_kinds(), texts)])
+
+    def _write(self, row: List[str]) -> None:
+        line = io.StringIO()
+        csv.writer(line, lineterminator='\n').writerow(row)
+        self._file.write(line.getvalue().encode('utf-8'))
+        self._file.flush()
+        os.fsync(self._file.fileno())
+
+    def close(self) -> None:
+        """Close the file."""
+        self._file.close()
+
+
+def _header() -> List[str]:
+    """Names of all columns; the last, seconds and multiples of T, are for people, and not read."""
+    return [name for part in PARTS for name in part.__annotations__] + [
+        f'to_{percent}_{unit}' for percent in LEVELS for unit in ('s', 'T')]
+
+
+def _kinds() -> List[Any]:
+    """Types of the columns that are read."""
+    return [kind for part in PARTS for kind in part.__annotations__.values()]
+
+
+def _parts(values: List[Any]) -> Tuple[Case, Conditions, Result]:
+    """What the values of a row make; TypeError where there are too few."""
+    parts, begin = [], 0
+    for part in PARTS:
+        end = begin + len(part.__annotations__)
+        parts.append(part(*values[begin:end]))
+        begin = end
+    return parts[0], parts[1], parts[2]
+
+
+def _text(value: Any) -> str:
+    if isinstance(value, float):
+        return f'{value:.{DIGITS}g}'
+    if isinstance(value, tuple):
+        return ' '.join(_text(number) for number in value)
+    return ' '.join(str(value).split())  # a row is a line
+
+
+def _value(kind: Any, text: str) -> Any:
+    """What a text stands for; LookupError or ValueError where that is nothing of its kind."""
+    if kind is Curve:
+        return tuple(float(number) for number in text.split())
+    return TRUTH[text] if kind is bool else kind(text)

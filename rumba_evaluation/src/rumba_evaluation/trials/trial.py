@@ -1,0 +1,161 @@
+"""One mission in process: a world, its robots, and a mission for each, advanced at the control rate.
+
+    trial = Trial(map_file.load('studio.yaml'), 'boustrophedon', seed=3)
+    while not trial.is_over:
+        trial.step()
+    print(trial.result())
+"""
+
+from typing import List, Optional, Sequence
+
+import numpy as np
+
+from rumba_cleaning.behaviour import Status
+from rumba_cleaning.behaviours.mission import Mission, State
+from rumba_cleaning.belief.context import Context
+from rumba_cleaning.cleaning_config import CleaningConfig
+from rumba_cleaning.control import CONTROL_DT, CONTROL_TICKS, STEP_RATE, act
+from rumba_evaluation.trials import starts
+from rumba_evaluation.trials.cases import (ANYWHERE, FAILED, SUCCEEDED,
+                                           TIME_OUT, Conditions, Result)
+from rumba_sim.model.config import updated
+from rumba_sim.model.floor_plan import FloorPlan
+from rumba_sim.model.geometry import Pose, wrap_angle
+from rumba_sim.model.robot import Robot, nth_name
+from rumba_sim.model.robot_config import RobotConfig
+from rumba_sim.model.world import World
+
+OVERLAP = 0.001  # [m] of body and wall that rounding explains
+SECONDS = 3600.0  # in an hour
+TURN = 2.0 * np.pi  # [rad]
+
+
+class Trial:
+    """Missions of one or more robots on a dirty floor, each of which cleans all of it.
+
+    Attributes:
+        world: with the robots, and the floor as it truly is.
+        contexts: what each robot knows, in the order of the world's robots.
+        missions: of each robot.
+        ideal_time: T [s], what one brush needs at the cleaning speed to sweep the reachable floor, nothing twice.
+        curve: working time [s] until 1 %, 2 %, ... of the reachable floor were swept.
+    """
+
+    def __init__(self, plan: FloorPlan, strategy: str, conditions: Conditions = Conditions(), seed: int = 0,
+                 robots: int = 1) -> None:
+        """Put charged robots on a floor plan.
+
+        Raises:
+            RumbaError: there is no such strategy, or no room for so many robots.
+        """
+        config = updated(RobotConfig(), {'battery': {'drain': conditions.drain}}, 'conditions')
+        cleaning = CleaningConfig()
+        self._conditions = conditions
+        self._time_limit = cleaning.time_limit.clean
+        self.world = World(plan, config, STEP_RATE, seed)
+        poses: Sequence[Optional[Pose]] = [None] * robots
+        if conditions.start == ANYWHERE:
+            poses = starts.anywhere(plan, config, self.world.start, robots, np.random.default_rng(seed))
+        for number, pose in enumerate(poses, 1):
+            self.world.spawn(nth_name(number), pose, brushes_up=True)
+        self.contexts = [Context(plan, config, cleaning, int(own))
+                         for own in np.random.SeedSequence(seed).generate_state(robots)]
+        self.missions = [Mission(context, strategy, conditions.target) for context in self.contexts]
+        self.ideal_time = self.world.floor.reachable_area / (config.brush.width * cleaning.speed)
+        self.curve: List[float] = []
+        self._meters = [_Meter(plan, robot) for robot in self.world.robots.values()]
+        self._dt = 0.0  # [s] since the observations before
+        self._steps = 0
+        self._charging_steps = 0
+        self.world.step()  # the contacts of the dock close in the first tick
+
+    @property
+    def working_time(self) -> float:
+        """Time since the beginning [s] without that in which all robots that still have a mission charge."""
+        return (self._steps - self._charging_steps) * CONTROL_DT
+
+    @property
+    def is_over(self) -> bool:
+        """Whether all missions have ended, or the time is up."""
+        return not self._running() or self.working_time >= self._conditions.bound * self.ideal_time or (
+            self.world.time >= self._time_limit)
+
+    def _running(self) -> List[Mission]:
+        return [mission for mission in self.missions if mission.status is Status.RUNNING]
+
+    def step(self) -> None:
+        """Each robot looks, and is told what to do; then time passes until they look again."""
+        for robot, mission in zip(self.world.robots.values(), self.missions):
+            if mission.status is Status.RUNNING:
+                act(mission, self.world, robot.name, self._dt)
+        self._dt = CONTROL_DT
+        running = self._running()
+        if running and all(mission.state is State.CHARGING for mission in running):
+            self._charging_steps += 1
+        self.world.step(CONTROL_TICKS)
+        self._steps += 1
+        for meter in self._meters:
+            meter.update()
+        coverage = self.world.floor.coverage
+        while len(self.curve) < 100 and coverage >= (len(self.curve) + 1) / 100:
+            self.curve.append(self.working_time)
+
+    def result(self) -> Result:
+        """How it went so far."""
+        floor, meters = self.world.floor, self._meters
+        robots = list(self.world.robots.values())
+        start = robots[0].start.pose
+        energy = sum(meter.energy for meter in meters)
+        return Result(
+            outcome=self._outcome(), message=self._message(),
+            area=floor.reachable_area, ideal_time=self.ideal_time, coverage=floor.coverage, dirt_left=floor.dirt_left,
+            time=self._steps * CONTROL_DT, charging_time=self._charging_steps * CONTROL_DT,
+            charges=sum(mission.charges for mission in self.missions),
+            distance=sum(robot.distance for robot in robots), turns=sum(meter.turned for meter in meters) / TURN,
+            collisions=sum(robot.bumps for robot in robots), charge_used=sum(meter.charge for meter in meters),
+            energy=energy, energy_per_area=energy / floor.cleaned_area if floor.cleaned_area > 0.0 else np.nan,
+            docked=sum(robot.is_docked for robot in robots), penetrated=any(meter.penetrated for meter in meters),
+            x=start.x, y=start.y, theta=start.theta, curve=tuple(self.curve))
+
+    def _outcome(self) -> str:
+        if self._running():
+            return TIME_OUT
+        return SUCCEEDED if all(mission.status is Status.SUCCEEDED for mission in self.missions) else FAILED
+
+    def _message(self) -> str:
+        if len(self.missions) == 1:
+            return self.missions[0].message
+        return '; '.join(f'{name}: {mission.message}' for name, mission in zip(self.world.robots, self.missions))
+
+
+class _Meter:
+    """Adds up at the control rate what one robot does.
+
+    Attributes:
+        turned: [rad] to either side.
+        charge: out of the battery [Ah], as if its drain were 1.
+        energy: the same [Wh].
+        penetrated: whether it was inside a wall, or fell from a cliff.
+    """
+
+    def __init__(self, plan: FloorPlan, robot: Robot) -> None:
+        self._plan = plan
+        self._robot = robot
+        self._theta = robot.pose.theta
+        self._least_clearance = robot.config.drive.radius - OVERLAP
+        self.turned = 0.0
+        self.charge = 0.0
+        self.energy = 0.0
+        self.penetrated = False
+
+    def update(self) -> None:
+        """A control step has passed."""
+        pose, battery = self._robot.pose, self._robot.battery
+        self.turned += abs(wrap_angle(pose.theta - self._theta))
+        self._theta = pose.theta
+        if battery.current < 0.0:
+            charge = -battery.current * CONTROL_DT / SECONDS
+            self.charge += charge
+            self.energy += battery.voltage * charge
+        self.penetrated |= self._robot.has_fallen or (
+            self._plan.clearance_at(pose.x, pose.y) < self._least_clearance)

@@ -1,0 +1,183 @@
+#!/usr/bin/env python3
+"""mission_test hears a robot and tells rostest what it heard; the robot, and its time, are made up here."""
+
+import math
+import pathlib
+import subprocess
+import tempfile
+import time
+import unittest
+import xml.etree.ElementTree
+
+import rospy
+import rostest
+from nav_msgs.msg import Odometry
+from rosgraph_msgs.msg import Clock
+from sensor_msgs.msg import BatteryState
+from simulators import TIMEOUT, wait
+from std_msgs.msg import Float64, Header
+
+from rumba_msg.msg import BatteryStatus, Bumper, CleaningStatus, DockStatus
+from rumba_sim.model.geometry import Pose
+from rumba_sim.model.robot import Twist
+from rumba_sim.ros.common import conversions
+
+TOPICS = {'cleaning_status': CleaningStatus, 'ground_truth': Odometry, 'dock_status': DockStatus, 'bumper': Bumper,
+          'battery_state': BatteryState, 'battery_status': BatteryStatus, 'level': Float64}
+
+
+class Made:
+    """A mission_test of a robot that is made up."""
+
+    def __init__(self, test, *arguments, robot=''):
+        self._test = test
+        folder = tempfile.TemporaryDirectory()
+        test.addCleanup(folder.cleanup)
+        self._results = pathlib.Path(folder.name, 'results.xml')
+        if rospy.has_param('/mission_test'):
+            rospy.delete_param('/mission_test')
+        self.process = subprocess.Popen(
+            ['rosrun', 'rumba_evaluation', 'mission_test', f'_robot:={robot or test.robot}', *arguments,
+             f'--gtest_output=xml:{self._results}'],
+            stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True)
+        test.addCleanup(self._kill)
+
+    def _kill(self):
+        self.process.kill()
+        self.process.communicate()
+
+    def ends(self, exit_code):
+        """Wait for the end; returns what went wrong by the name of the test case, '' where nothing did, and what it
+        printed on stderr."""
+        output, errors = self.process.communicate(timeout=TIMEOUT)
+        self._test.assertEqual(self.process.returncode, exit_code, output + errors)
+        suite = xml.etree.ElementTree.parse(str(self._results)).getroot()
+        cases = {case.attrib['name']: ''.join(failure.text for failure in case) for case in suite.iter('testcase')}
+        self._test.assertEqual(int(suite.attrib['tests']), len(cases))
+        self._test.assertEqual(int(suite.attrib['failures']), len([words for words in cases.values() if words]))
+        return cases, errors
+
+
+class MissionTestTest(unittest.TestCase):
+    """Verdicts, one after another; time goes on from each to the next.
+
+    Each has a robot of its own: a publisher takes a listener that was killed for connected until it sends it something.
+    """
+
+    @classmethod
+    def setUpClass(cls):
+        cls.seconds = 100.0
+        cls.robots = 0
+        cls.clock = rospy.Publisher('/clock', Clock, queue_size=10, latch=True)
+
+    def setUp(self):
+        type(self).robots += 1
+        self.robot = f'judged{self.robots}'
+        self.publishers = {topic: rospy.Publisher(f'{self.robot}/{topic}', kind, queue_size=100)
+                           for topic, kind in TOPICS.items()}
+
+    def tell(self, topic, message):
+        """Publish a message to who judges."""
+        wait(self, self.publishers[topic].get_num_connections, f'a listener of {topic}')
+        self.publishers[topic].publish(message)
+
+    def passes(self, seconds):
+        """Let the robot's time pass."""
+        type(self).seconds += seconds
+        self.clock.publish(rospy.Time.from_sec(self.seconds))
+
+    def time_goes_on(self):
+        """Let a little pass, and messages that were sent before arrive."""
+        time.sleep(0.05)
+        self.passes(0.5)
+
+    def is_at(self, x, y, theta):
+        """Tell where the robot is."""
+        self.tell('ground_truth', conversions.odometry(Pose(x, y, theta), Twist(0.0, 0.0), Header(), ''))
+
+    def test_each_condition_is_a_case_and_all_are_met(self):
+        made = Made(self, '_coverage:=0.5', '_reach:=3 1 -0.5', '_docked:=true', '_battery:=20', '_collisions:=1',
+                    f'_fields:={self.robot}/level/data -3 -2', '_time_limit:=1000')
+        self.passes(0.0)
+        for is_pressed in (False, True, True, False):
+            self.tell('bumper', Bumper(Header(), is_pressed, False))
+        self.tell('battery_state', BatteryState(percentage=0.3))
+        self.tell('battery_status', BatteryStatus(percentage_battery=21))
+        self.is_at(3.05, 1.0, -0.4)
+        self.tell('dock_status', DockStatus(is_docked=False))
+        self.tell('dock_status', DockStatus(is_docked=True))
+        self.tell('cleaning_status', CleaningStatus(coverage=0.6))
+        self.tell('level', Float64(-2.5))
+        cases, _ = made.ends(0)
+        self.assertEqual(cases, dict.fromkeys(
+            ['test_coverage', 'test_reach', 'test_docked', 'test_battery', 'test_collisions',
+             f'test_field_{self.robot}_level_data'], ''))
+
+    def test_what_is_not_met_is_told_when_the_robots_time_is_up(self):
+        made = Made(self, '_coverage:=0.5', '_reach:=3 1', '_docked:=true', '_battery:=20', '_collisions:=1',
+                    f'_fields:={self.robot}/level/data 0 5', '_time_limit:=30')
+        self.passes(0.0)
+        for is_pressed in (True, False, True, False):
+            self.tell('bumper', Bumper(Header(), False, is_pressed))
+        self.tell('battery_state', BatteryState(percentage=math.nan))
+        self.tell('battery_status', BatteryStatus(percentage_battery=19))
+        self.is_at(3.0, 3.0, 0.0)
+        self.tell('cleaning_status', CleaningStatus(coverage=0.4))
+        self.tell('dock_status', DockStatus(is_docked=True))
+        for level in (1.0, 9.0, 3.0):
+            self.tell('level', Float64(level))
+        wait(self, lambda: made.process.poll() is not None or self.time_goes_on(), 'the end')
+        cases, errors = made.ends(1)
+        for name, words in (
+                ('coverage', r'^coverage: asked at least 50\.0 % of the floor swept; measured 40\.0 % after 30\.0 s '
+                             r'of 30 s: the time was up\n'),
+                ('reach', r'measured 2\.00 m from it at the nearest'),
+                ('docked', r'measured on the dock, which it never left'), ('battery', r'measured 19\.0 % at the least'),
+                ('collisions', r'at most 1 collision; measured 2'),
+                (f'field_{self.robot}_level_data', r'level/data always within 0 to 5; measured 1 to 9')):
+            self.assertRegex(cases[f'test_{name}'], words)
+        self.assertEqual(errors, '')
+
+    def test_a_robot_that_says_nothing_fails(self):
+        cases, _ = Made(self, '_battery:=20', '_fields:=nobody/says/this 0 1', '_patience:=0.5',
+                        robot='nobody').ends(1)
+        self.assertRegex(cases['test_battery'], 'measured nothing on /nobody/battery_state or /nobody/battery_status '
+                                                'after 0.0 s of 60 s: nothing was heard for 0.5 s of the wall clock')
+        self.assertRegex(cases['test_field_nobody_says_this'], 'measured nothing on /nobody/says/this')
+
+    def test_a_field_that_the_topic_does_not_have_fails(self):
+        made = Made(self, '_battery:=20', f'_fields:={self.robot}/battery_state/voltag 0 1', '_time_limit:=1')
+        self.passes(0.0)
+        self.tell('battery_state', BatteryState(percentage=0.5))
+        wait(self, lambda: made.process.poll() is not None or self.time_goes_on(), 'the end')
+        cases, _ = made.ends(1)
+        self.assertEqual(cases['test_battery'], '')
+        self.assertRegex(cases[f'test_field_{self.robot}_battery_state_voltag'], 'measured nothing on ')
+
+    def test_a_test_that_is_stopped_tells_so(self):
+        made = Made(self, '_battery:=20')
+        self.tell('battery_state', BatteryState(percentage=0.5))
+        made.process.terminate()
+        cases, _ = made.ends(1)
+        self.assertRegex(cases['test_battery'], 'the test was stopped')
+
+    def test_bad_parameters_fail_with_one_line(self):
+        for arguments, message in (
+                ([], 'nothing is asked: set one or more of coverage, reach, '),
+                (['_coverage:=1.5'], 'parameter of /mission_test: coverage is 1.5: must be 0 to 1'),
+                (['_covrage:=0.5'], "parameter of /mission_test: covrage is unknown: did you mean 'coverage'?"),
+                (['_reach:=here'], "reach has 'here': must be x y or x y theta"),
+                (['_coverage:=0.5', 'nonsense'], "unknown argument 'nonsense'"),
+                (['_coverage:=0.5', '_robot:=a/b'], "robot is 'a/b': must be letters")):
+            with self.subTest(arguments):
+                cases, errors = Made(self, *arguments).ends(2)
+                self.assertEqual(list(cases), ['test_parameters'])
+                self.assertTrue(cases['test_parameters'].startswith(message) or message in cases['test_parameters'])
+                self.assertEqual(errors.count('\n'), 1)
+                self.assertIn(message, errors)
+
+
+if __name__ == '__main__':
+    rospy.set_param('/use_sim_time', True)
+    rospy.init_node('test_mission_test')
+    rostest.rosrun('rumba_evaluation', 'mission_test', MissionTestTest)

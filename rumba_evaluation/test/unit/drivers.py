@@ -1,0 +1,1 @@
+../../../rumba_cleaning/test/unit/drivers.py

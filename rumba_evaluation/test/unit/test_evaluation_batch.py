@@ -1,0 +1,122 @@
+"""Workers: of this machine, which end with the process that began them, and of a Dask cluster."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from concurrent.futures import BrokenExecutor, CancelledError
+
+import pytest
+from evaluations import case, know_manners, small_map
+
+from rumba_cleaning import strategies
+from rumba_evaluation.trials import batch
+from rumba_evaluation.trials.batch import Job
+from rumba_evaluation.trials.cases import Conditions
+from rumba_sim.model.errors import ConfigError
+
+PATIENCE = 10.0  # [s]
+PARENT = '''
+import os, time
+from rumba_evaluation.trials import batch
+
+def rest(_):
+    os.write(1, b'%d\\n' % os.getpid())
+    time.sleep(600.0)
+
+with batch.local(2) as executor:
+    list(executor.map(rest, range(2)))
+'''
+
+
+@pytest.fixture(autouse=True)
+def _manners(monkeypatch):
+    know_manners(monkeypatch)
+
+
+def job(folder, strategy, seed=1, **conditions):
+    """A job on the small map."""
+    return Job(case(strategy=strategy, seed=seed), Conditions(**conditions), small_map(folder), 'manners')
+
+
+def is_alive(process):
+    """Whether there is a process of this number that is more than a memory."""
+    try:
+        with open(f'/proc/{process}/stat') as file:
+            return file.read().rpartition(')')[2].split()[0] != 'Z'
+    except OSError:
+        return False
+
+
+@pytest.mark.parametrize('number', [signal.SIGKILL, signal.SIGTERM, signal.SIGINT])
+def test_workers_end_with_the_process_that_began_them(number):
+    with subprocess.Popen([sys.executable, '-c', PARENT], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
+                          env={**os.environ, 'PYTHONPATH': os.pathsep.join(sys.path)}) as parent:
+        try:
+            workers = [int(parent.stdout.readline()) for _ in range(2)]
+            assert all(is_alive(worker) for worker in workers)
+            parent.send_signal(number)
+            parent.wait(PATIENCE)
+        finally:
+            parent.kill()
+    until = time.monotonic() + PATIENCE
+    while any(is_alive(worker) for worker in workers):
+        assert time.monotonic() < until
+        time.sleep(0.02)
+
+
+def test_a_path_leads_from_the_start_to_the_end(tmp_path):
+    traced = batch.trace(job(tmp_path, 'ahead', bound=0.3))
+    [path] = traced.paths
+    plan = batch.floor_plan(traced.job.path)
+    assert path[0].tolist() == pytest.approx([traced.result.x, traced.result.y])
+    assert len(path) > 5 and (abs(path[1:] - path[:-1]) < 0.06).all()
+    assert traced.missed.shape == plan.occupancy.shape
+    assert traced.missed.sum() * plan.resolution ** 2 == pytest.approx(
+        (1.0 - traced.result.coverage) * traced.result.area)
+    assert traced.result == batch.run(traced.job)
+
+
+def test_a_worker_imports_the_strategies_of_a_job_itself(tmp_path, monkeypatch):
+    monkeypatch.setattr(strategies, '_factories', {})
+    monkeypatch.delitem(sys.modules, 'manners')
+    assert batch.run(job(tmp_path, 'turn', bound=0.01)).outcome == 'time out'
+
+
+def test_a_worker_reads_a_map_once(tmp_path):
+    batch.floor_plan.cache_clear()
+    for seed in (1, 2):
+        batch.run(job(tmp_path, 'turn', seed, bound=0.01))
+    assert batch.floor_plan.cache_info().misses == 1
+
+
+def test_dask_finds_the_same_results(tmp_path):
+    distributed = pytest.importorskip('distributed', reason='Dask is optional: the package python3-distributed')
+    jobs = [job(tmp_path, 'bounce', seed, bound=0.5) for seed in (1, 2, 3)]
+    with distributed.LocalCluster(n_workers=1, threads_per_worker=1, dashboard_address=None, silence_logs=50,
+                                  local_directory=str(tmp_path)) as cluster:
+        with batch.remote(cluster.scheduler_address) as executor:
+            found = dict(batch.each(executor, batch.run, jobs, 'missions'))
+        with pytest.raises(BrokenExecutor, match='tcp://.*: CancelledError'):
+            with batch.remote(cluster.scheduler_address):
+                raise CancelledError  # as Dask does once the scheduler is gone
+    assert found == {one: batch.run(one) for one in jobs}
+
+
+def test_without_dask_the_package_is_named(monkeypatch):
+    monkeypatch.setitem(sys.modules, 'distributed', None)
+    with pytest.raises(ConfigError, match='--scheduler needs Dask: install the package python3-distributed'):
+        with batch.remote('tcp://127.0.0.1:1'):
+            pass
+
+
+@pytest.mark.parametrize('address, message', [
+    ('tcp://127.0.0.1:1', 'no Dask scheduler answers there'),
+    ('here', 'must be the address of a Dask scheduler, as in tcp://10.0.0.1:8786')])
+def test_a_scheduler_that_is_not_there_is_named(monkeypatch, address, message):
+    pytest.importorskip('distributed', reason='Dask is optional: the package python3-distributed')
+    monkeypatch.setattr(batch, 'PATIENCE', 0.5)
+    with pytest.raises(ConfigError, match=f'--scheduler {address}: {message}'):
+        with batch.remote(address):
+            pass

@@ -1,0 +1,131 @@
+"""Results are in their file as soon as they are known, and a file that was cut short anywhere can be gone on with."""
+
+import csv
+import dataclasses
+import math
+
+import pytest
+from evaluations import case, result, steady
+
+from rumba_evaluation.trials.cases import Conditions, grid
+from rumba_evaluation.trials.results import Results
+from rumba_sim.model.errors import ConfigError
+
+CASES = [case(seed=seed) for seed in (1, 2, 3)]
+FOUND = [steady(1.5), steady(11.0, until=60, outcome='time out', message='it took,\n"too long"', penetrated=True),
+         result(energy_per_area=math.nan, outcome='failed')]
+
+
+@pytest.fixture
+def path(tmp_path):
+    """Where the file of results is."""
+    return tmp_path / 'results.csv'
+
+
+def opened(path, **conditions):
+    """The results of a file."""
+    return Results(str(path), Conditions(**conditions))
+
+
+def read(path):
+    """What a file holds, by case."""
+    results = opened(path)
+    results.close()
+    return results.found
+
+
+def written(path):
+    """What a file holds after all results were added to it."""
+    results = opened(path)
+    for one, found in zip(CASES, FOUND):
+        results.add(one, found)
+    results.close()
+    return path.read_bytes()
+
+
+def test_what_was_written_is_read(path):
+    written(path)
+    found = read(path)
+    assert list(found) == CASES
+    assert found[CASES[0]] == FOUND[0]
+    assert found[CASES[1]] == dataclasses.replace(FOUND[1], message='it took, "too long"')
+    assert math.isnan(found[CASES[2]].energy_per_area) and found[CASES[2]].curve == ()
+
+
+def test_a_row_is_in_the_file_at_once_and_known_as_it_will_be_read(path):
+    results = opened(path)
+    results.add(CASES[0], result(distance=1.0 / 3.0))
+    assert len(path.read_text().splitlines()) == 2
+    assert results.found == read(path) and results.found[CASES[0]].distance == 0.3333333
+    results.close()
+
+
+def test_people_find_the_times_to_coverage_in_columns_of_their_own(path):
+    written(path)
+    with open(path) as file:
+        first, second, _ = csv.DictReader(file)
+    assert (first['map'], first['strategy'], first['seed'], first['target']) == ('room', 'bounce', '1', '0.99')
+    assert (first['to_80_s'], first['to_80_T'], first['to_99_T']) == ('120', '1.2', '1.485')
+    assert (second['to_80_s'], second['to_80_T']) == ('inf', 'inf')
+
+
+def test_cut_short_anywhere_it_keeps_the_whole_rows_and_goes_on(path):
+    whole = written(path)
+    ends = [index + more for index, byte in enumerate(whole) if byte == ord('\n') for more in (0, 1)]
+    for length in sorted({*range(0, len(whole), 37), *ends}):
+        path.write_bytes(whole[:length])
+        results = opened(path)
+        kept = max(whole[:length].count(b'\n') - 1, 0)
+        assert list(results.found) == CASES[:kept], length
+        for one, found in list(zip(CASES, FOUND))[kept:]:
+            results.add(one, found)
+        results.close()
+        assert path.read_bytes() == whole, length
+
+
+@pytest.mark.parametrize('conditions, message', [
+    (dict(target=0.95), 'was made with target 0.99, not 0.95: give another --output, or delete it'),
+    (dict(start='anywhere'), 'was made with start dock, not anywhere'),
+    (dict(drain=20.0), 'was made with drain 1, not 20'),
+    (dict(bound=3.0), 'was made with bound 12, not 3')])
+def test_results_of_other_conditions_are_refused_and_left_alone(path, conditions, message):
+    whole = written(path)
+    with pytest.raises(ConfigError, match=f'results.csv {message}'):
+        opened(path, **conditions)
+    assert path.read_bytes() == whole
+
+
+@pytest.mark.parametrize('content', ['a,b\n1,2\n', 'notes of mine', 'map,strategy\n', '\n'])
+def test_another_file_is_refused_and_left_alone(path, content):
+    path.write_text(content)
+    with pytest.raises(ConfigError, match='is no file of results of this version: give another --output'):
+        opened(path)
+    assert path.read_text() == content
+
+
+@pytest.mark.parametrize('old, new', [(',bounce,2,', ',bounce,two,'), ('False', 'perhaps'), (',dock,', ',somewhere,'),
+                                      ('bounce,2,1,dock,0.99,12,', '')])
+def test_a_line_that_cannot_be_read_is_named(path, old, new):
+    lines = written(path).decode().split('\n')
+    lines[2] = lines[2].replace('True', 'False').replace(old, new, 1)
+    if not new:
+        lines[2] = 'room,bounce'
+    path.write_text('\n'.join(lines))
+    with pytest.raises(ConfigError, match='has a line 3 that cannot be read'):
+        opened(path)
+
+
+def test_a_folder_is_no_file_of_results(tmp_path):
+    with pytest.raises(ConfigError, match='Is a directory: --output must be a folder that can be written to'):
+        opened(tmp_path)
+
+
+def test_the_grid_has_every_case_once():
+    cases = grid(['a', 'b', 'a'], ['bounce'], [3, 4], [1, 2, 1])
+    assert len(cases) == len(set(cases)) == 8
+    assert cases[:3] == [('a', 'bounce', 3, 1), ('a', 'bounce', 4, 1), ('a', 'bounce', 3, 2)]
+
+
+def test_robots_begin_at_the_dock_or_anywhere():
+    with pytest.raises(ConfigError, match="start is 'here': must be dock or anywhere"):
+        Conditions(start='here')

@@ -1,0 +1,283 @@
+"""From a bag to a report: what was recorded is what the figures say, whatever is missing and whoever's clock it was."""
+
+import math
+import os
+import pathlib
+import re
+import subprocess
+import sys
+
+import genpy
+import mission_bags
+import numpy as np
+import pytest
+import rosbag
+from mission_bags import ALL, recorded_by_the_wall, write
+from pytest import approx
+from std_msgs.msg import String
+
+from rumba_evaluation.report.mission_events import contacts, events
+from rumba_evaluation.report.mission_record import STATES, summary
+from rumba_evaluation.ros.mission_report import mission_bag, mission_report
+from rumba_msg.msg import MissionStatus
+
+SCRIPT = pathlib.Path(__file__).resolve().parents[2] / 'scripts' / 'mission_report'
+LIGHT = ('ground_truth', 'battery_state')  # what is enough
+
+
+def without(*names):
+    """All topics but some."""
+    return [name for name in ALL if name not in names]
+
+
+@pytest.fixture(scope='module')
+def bag(tmp_path_factory):
+    """The whole mission."""
+    return write(tmp_path_factory.mktemp('bag') / 'a <b> & c.bag')
+
+
+@pytest.mark.parametrize('when', [mission_bags.recorded, recorded_by_the_wall])
+def test_the_figures_are_those_of_the_mission_by_whatever_clock_it_was_recorded(tmp_path, when):
+    record = mission_bag.read(write(tmp_path / 'a.bag', when=when))
+    told = summary(record)
+    assert (told.duration, told.busy, told.distance) == approx((36.0, 34.0, 12.0))
+    assert (told.driving_time, told.mean_speed) == approx((24.0, 0.5))
+    assert (told.coverage, *told.areas) == approx((0.9, 18.0, 20.0))
+    assert (told.charges, told.charging_time) == (1, approx(10.0))
+    assert told.charge == approx((100.0, 58.0, 8.0))
+    assert told.energy == approx((24.0 * 30.0 / 3600.0, 10.0 * 15.0 / 3600.0), rel=0.01)
+    assert (told.bumps, told.leaps) == (3, 0)
+    assert told.outcome == 'ended: 90.0 % swept <&>'
+    assert record.began == approx(100.0)
+    assert record.swept.cells.tolist() == mission_bags.SWEPT.tolist()
+    assert record.floor.cells.tolist() == mission_bags.FLOOR.tolist()
+    assert record.floor[1:] == (0.5, -1.0, 2.0)
+    assert contacts(record) == [approx((1.0, 1.0))]
+
+
+EVENTS = [
+    (0.0, 'The recording begins at (1.00, 1.00) m, battery 100 %.'),
+    (0.0, 'Mission: idle'),
+    (2.0, 'Undocked, battery 100 %.'),
+    (2.0, 'Mission: undocking'),
+    (3.0, 'Mission: cleaning (spiral)'),
+    (5.0, 'Bump at (2.50, 1.00) m.'),
+    (10.0, 'Bump at (5.00, 1.00) m.'),
+    (15.0, 'A wheel hangs over a cliff at (4.50, 3.00) m.'),
+    (20.0, 'Mission: returning'),
+    (20.0, 'Bump at (2.00, 3.00) m.'),
+    (24.0, 'Mission: docking'),
+    (25.5, 'Battery below 10 %.'),
+    (26.0, 'Docked, battery 8 %.'),
+    (26.0, 'Charging began, battery 8 %.'),
+    (26.0, 'Mission: charging'),
+    (36.0, 'Mission: idle: 90.0 % swept <&>'),
+    (36.0, 'The recording ends at (1.00, 1.00) m, battery 58 %.')]
+
+
+@pytest.mark.parametrize('when', [mission_bags.recorded, recorded_by_the_wall])
+def test_events_are_in_order(tmp_path, when):
+    found = events(mission_bag.read(write(tmp_path / 'a.bag', when=when)))
+    assert [(round(event.time, 3), event.text) for event in found] == EVENTS
+
+
+def test_the_states_are_those_of_the_messages():
+    for number, name in enumerate(STATES):
+        assert getattr(MissionStatus, name.replace(' a point', '').replace(' ', '_').upper()) == number
+
+
+# --- what is missing ------------------------------------------------------------------------------------------------
+
+def test_the_lessons_message_alone_is_enough(tmp_path):
+    record = mission_bag.read(write(tmp_path / 'a.bag', ['battery_status'], maps=()))
+    told = summary(record)
+    assert (told.duration, told.charges, told.charge) == (approx(36.0), 1, (100.0, 58.0, 8.0))
+    assert told.distance == approx(12.0)
+    assert told.charging_time == approx(10.0, abs=0.4)
+    assert (told.busy, told.coverage, told.areas, told.energy, told.bumps) == (None,) * 5 and told.outcome == ''
+    assert (record.floor, record.swept) == (None, None)
+
+
+def test_without_battery_state_the_battery_is_charged_at_the_contacts(tmp_path):
+    told = summary(mission_bag.read(write(tmp_path / 'a.bag', without('battery_state', 'ground_truth'))))
+    assert (told.charges, told.charging_time, told.energy) == (1, approx(10.0), None)
+    assert told.distance == approx(12.0)
+
+
+def test_without_dock_status_the_battery_tells_whether_it_is_docked(tmp_path):
+    texts = [event.text for event in events(mission_bag.read(write(tmp_path / 'a.bag', LIGHT)))]
+    assert texts.index('Undocked, battery 100 %.') < texts.index('Docked, battery 8 %.')
+
+
+@pytest.mark.parametrize('when', [mission_bags.recorded, recorded_by_the_wall])
+def test_without_cleaning_status_the_grids_tell_the_coverage(tmp_path, when):
+    record = mission_bag.read(write(tmp_path / 'a.bag', without('cleaning_status'), when=when))
+    told = summary(record)
+    assert (told.coverage, told.areas) == (0.75, approx((0.75, 1.0)))
+    assert record.coverage.times.tolist() == approx(np.arange(37.0).tolist(), abs=1e-3)
+    assert record.coverage.values.tolist() == [0.0] * 36 + [0.75]
+
+
+def test_of_many_grids_some_are_unpacked_the_last_among_them(tmp_path, monkeypatch):
+    monkeypatch.setattr('rumba_evaluation.ros.mission_report.recorded_robot.GRIDS', 5)
+    record = mission_bag.read(write(tmp_path / 'a.bag', without('cleaning_status')))
+    assert record.coverage.times.tolist() == approx([4.0, 12.0, 20.0, 28.0, 36.0])
+    assert record.coverage.values[-1] == 0.75
+
+
+def test_what_is_not_finite_is_passed_over(tmp_path):
+    def spoil(name, message, t):
+        if name == 'ground_truth' and 3.0 < t < 4.0:
+            message.pose.pose.position.y = math.nan if t < 3.5 else 1e300
+        if name == 'battery_state' and 3.0 < t < 5.0:
+            message.percentage = message.current = math.nan
+        if name == 'cleaning_status' and t > 30.0:
+            message.coverage = math.inf
+    told = summary(mission_bag.read(write(tmp_path / 'a.bag', change=spoil)))
+    assert (told.distance, told.coverage, told.leaps) == (approx(12.0), 0.75, 0)
+    assert told.charge == approx((100.0, 58.0, 8.0))
+    assert told.energy == approx((0.2, 150.0 / 3600.0), rel=0.01)
+
+
+def test_one_message_of_each_is_a_mission_of_no_time(tmp_path, capsys):
+    mission_report.main([write(tmp_path / 'a.bag', until=0.0)])
+    assert capsys.readouterr().out.splitlines()[1:] == [
+        'rumba: 0.0 % swept in 0:00:00, 0.0 m driven, bumps: 0',
+        'battery: 100 % to 100 %, least 100 %, charges: 0, 0:00:00 in all', 'outcome: idle']
+
+
+def test_stamps_that_were_never_set_and_a_map_that_is_turned(tmp_path):
+    def spoil(name, message, t):
+        if hasattr(message, 'header'):
+            message.header.stamp = genpy.Time()
+    path = write(tmp_path / 'a.bag', change=spoil, maps=())
+    with rosbag.Bag(path, 'a') as bag:
+        turned = mission_bags.grid(mission_bags.FLOOR)
+        turned.info.origin.orientation.z = 0.5
+        bag.write('/map', turned, genpy.Time(100))
+    record = mission_bag.read(path)
+    assert (summary(record).duration, summary(record).distance) == approx((36.0, 12.0))
+    assert record.floor is None and record.remarks == [
+        'The map is damaged, or turned against the axes: it is not drawn.']
+
+
+@pytest.mark.parametrize('topics', [['battery_status'], ['ground_truth', 'battery_state']])
+def test_what_has_no_stamp_in_the_first_seconds_of_a_simulation(tmp_path, topics):
+    def spoil(name, message, t):
+        if hasattr(message, 'header'):
+            message.header.stamp = genpy.Time()
+    path = write(tmp_path / 'a.bag', topics, change=spoil, when=lambda t: 0.5 + t, maps=())
+    record = mission_bag.read(path)
+    assert (record.began, summary(record).duration, summary(record).driving_time) == approx((0.5, 36.0, 24.0), abs=0.2)
+
+
+def test_what_was_recorded_before_and_after_all_stamps_is_in_time(tmp_path):
+    path = str(tmp_path / 'a.bag')
+    with rosbag.Bag(path, 'w') as bag:
+        mission_bags.add(bag, ['ground_truth'], when=recorded_by_the_wall, until=20.0)
+        mission_bags.add(bag, ['battery_status'], when=lambda t: recorded_by_the_wall(t - 3.0))
+    record = mission_bag.read(path)
+    assert record.began == approx(97.0)
+    assert record.charge.times[[0, -1]].tolist() == approx([0.0, 36.0])
+    assert record.path.times[[0, -1]].tolist() == approx([3.0, 23.0])
+
+
+def test_a_topic_may_have_messages_of_another_type_too(tmp_path):
+    path = str(tmp_path / 'a.bag')
+    with rosbag.Bag(path, 'w') as bag:
+        mission_bags.add(bag)
+        bag._topic_connections.pop('/rumba/bumper')  # else rosbag would write it as of the type before
+        bag.write('/rumba/bumper', String('none'), genpy.Time(110))
+    assert summary(mission_bag.read(path)).bumps == 3
+
+
+def test_a_clock_that_was_set_back_is_not_believed(tmp_path):
+    def restart(name, message, t):
+        if hasattr(message, 'header') and t >= 18.0:
+            message.header.stamp = genpy.Time.from_sec(t - 18.0)
+    record = mission_bag.read(write(tmp_path / 'a.bag', change=restart, when=lambda t: 1.7e9 + t))
+    assert (summary(record).duration, summary(record).distance) == approx((36.0, 12.0))
+    assert record.began == 1.7e9 and 'set back' in record.remarks[0]
+
+
+def test_a_mission_that_said_little_of_late_has_its_times_from_the_recorder(tmp_path):
+    """A latched message is as old as its decision, and may come before anything else was."""
+    def age(name, message, t):
+        if name == 'mission_status' and t < 2.0:
+            message.header.stamp = genpy.Time(3)
+    record = mission_bag.read(write(tmp_path / 'a.bag', change=age))
+    assert [state.time for state in record.states[:3]] == approx([0.0, 1.0, 2.0])
+
+
+# --- several robots, namespaces -------------------------------------------------------------------------------------
+
+@pytest.fixture(scope='module')
+def two_robots(tmp_path_factory):
+    """rumba, and /up/rumba2, which only drove until it was at (5, 1) m."""
+    path = write(tmp_path_factory.mktemp('two') / 'two.bag', LIGHT, 'rumba', maps=('/map',))  # a name without a slash
+    with rosbag.Bag(path, 'a') as bag:
+        mission_bags.add(bag, LIGHT, '/up/rumba2', until=10.0)
+        bag.write('/up/map', mission_bags.grid(mission_bags.SWEPT), genpy.Time(100))
+        bag.write('/upper/map', mission_bags.grid(-mission_bags.SWEPT), genpy.Time(100))
+    return path
+
+
+@pytest.mark.parametrize('robot, name, distance, floor', [
+    ('', 'rumba', 12.0, mission_bags.FLOOR), ('rumba', 'rumba', 12.0, mission_bags.FLOOR),
+    ('/rumba', 'rumba', 12.0, mission_bags.FLOOR), ('rumba2', 'up/rumba2', 4.0, mission_bags.SWEPT),
+    ('up/rumba2', 'up/rumba2', 4.0, mission_bags.SWEPT), ('/up/rumba2/', 'up/rumba2', 4.0, mission_bags.SWEPT)])
+def test_a_robot_is_chosen_by_its_name_with_the_map_around_it(two_robots, robot, name, distance, floor):
+    record = mission_bag.read(two_robots, robot)
+    assert (record.robot, summary(record).distance) == (name, approx(distance))
+    assert record.floor.cells.tolist() == floor.tolist()
+    assert record.remarks == [f'Also in the bag: {"rumba" if name != "rumba" else "up/rumba2"}.']
+
+
+def test_the_only_robot_that_has_enough_is_meant(tmp_path):
+    path = write(tmp_path / 'a.bag', LIGHT, '/b')
+    with rosbag.Bag(path, 'a') as bag:
+        mission_bags.add(bag, ['bumper'], '/rumba')
+    assert mission_bag.read(path).robot == 'b'
+
+
+def test_topics_without_a_namespace_are_those_of_a_robot_too(tmp_path):
+    assert mission_bag.read(write(tmp_path / 'a.bag', LIGHT, '')).robot == '/'
+
+
+# --- the command ----------------------------------------------------------------------------------------------------
+
+def test_the_command_writes_beside_the_bag_and_needs_no_master(bag):
+    output = bag.replace('.bag', '.html')
+    done = subprocess.run([sys.executable, str(SCRIPT), bag], env={**os.environ, 'ROS_MASTER_URI': 'http://nowhere:1'},
+                          stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True)
+    assert (done.returncode, done.stderr) == (0, '')
+    assert done.stdout.splitlines() == [
+        output, 'rumba: 90.0 % swept in 0:00:36, 12.0 m driven at 0.50 m/s, bumps: 3',
+        'battery: 100 % to 58 %, least 8 %, charges: 1, 0:00:10 in all', 'outcome: ended: 90.0 % swept <&>']
+    page = pathlib.Path(output).read_text(encoding='utf-8')
+    assert '<title>Mission of rumba: a &lt;b&gt; &amp; c.bag</title>' in page
+    assert '90.0 % swept &lt;&amp;&gt;' in page and '<&>' not in page
+    for text in ('>90.0 %<', '>18.0 of 20.0 m²<', '>0:00:36<', '>simulated time, 0:00:34 not idle<',
+                 '>12.0 m<', '>0.50 m/s while driving<', '>0:00:10<', '>1 time<', '>0.20 Wh<',
+                 '>from 100 %, least 8 %<', '<dt>Bumps</dt><dd>3<', '2.0 m × 1.5 m, cells of 50 cm', 'cleaning 0:00:17',
+                 '100.0 s after the simulation began'):
+        assert text in page, text
+    told = re.findall(r'<td>(\d:\d\d:\d\d)</td><td>(.*?)</td>', page)
+    assert [text for _, text in told] == [text.replace('<&>', '&lt;&amp;&gt;') for _, text in EVENTS]
+    assert told[5][0] == '0:00:05'
+
+
+def test_the_command_writes_where_it_is_told(bag, tmp_path, capsys):
+    output = tmp_path / 'page'
+    mission_report.main([bag, '--output', str(output), '--robot', 'rumba'])
+    first = output.read_bytes()
+    mission_report.main([bag, '--output', str(output)])
+    assert capsys.readouterr().out.splitlines()[0] == str(output)
+    assert output.read_bytes() == first, 'the same bag gives the same page'
+
+
+def test_help_names_every_option(capsys):
+    with pytest.raises(SystemExit) as end:
+        mission_report.main(['--help'])
+    told = capsys.readouterr().out
+    assert end.value.code == 0 and all(word in told for word in ('FILE.bag', '--output', '--robot'))

@@ -1,1 +1,0 @@
-"""What a Rumba does to clean a floor, in plain Python: no ROS, no wall clock."""

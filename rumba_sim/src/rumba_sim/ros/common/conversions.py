@@ -1,0 +1,167 @@
+"""From the model to messages: pure functions."""
+
+import math
+from typing import List, Sequence
+
+from geometry_msgs.msg import Point
+from geometry_msgs.msg import Pose as PoseMessage
+from geometry_msgs.msg import Quaternion, Transform, TransformStamped, Vector3
+from nav_msgs.msg import MapMetaData, OccupancyGrid, Odometry
+from sensor_msgs.msg import BatteryState, LaserScan
+from std_msgs.msg import Header
+
+from rumba_msg.msg import (BatteryStatus, Bumper, CleaningStatus, Cliff,
+                           DockStatus)
+from rumba_sim.model.battery import CELLS, Battery
+from rumba_sim.model.floor import Floor
+from rumba_sim.model.floor_plan import FloorPlan
+from rumba_sim.model.geometry import Pose
+from rumba_sim.model.kernel import Array
+from rumba_sim.model.robot import Infrared, Robot, Twist
+from rumba_sim.model.robot_config import TURN, LaserConfig, OdometryConfig
+from rumba_sim.ros.common.frames import MAP, Frames
+
+KNOWN = 1e-6  # variance of what is known: a robot on a floor does not rise, roll or pitch
+LASER_HEIGHT = 0.07  # [m] of laser over base_link
+
+
+def battery_status(battery: Battery, pose: Pose, brushes_up: bool, trouble: str = '') -> BatteryStatus:
+    """The lesson's message; its debug message tells what the battery does, or a trouble that matters more."""
+    return BatteryStatus(
+        percentage_battery=battery.percentage,
+        location_x=pose.x,
+        location_y=pose.y,
+        orientation_theta=pose.theta,
+        brushes_up=brushes_up,
+        debug_message=trouble or _battery_in_words(battery))
+
+
+def _battery_in_words(battery: Battery) -> str:
+    if battery.percentage == 0:
+        return 'battery empty'
+    state = 'charging' if battery.current > 0.0 else 'discharging' if battery.current < 0.0 else 'resting'
+    return f'{battery.voltage:.1f} V, {abs(battery.current):.2f} A, {state}'
+
+
+def trouble(robot: Robot) -> str:
+    """What keeps a robot from going on, for a person; empty where nothing does."""
+    if robot.has_fallen:
+        return 'a wheel hangs over a cliff: teleport me'
+    left, right = robot.bumper
+    if left or right:
+        return f'bumper pressed {"ahead" if left and right else "left" if left else "right"}'
+    return ''
+
+
+def battery_state(battery: Battery, is_docked: bool, header: Header) -> BatteryState:
+    """The battery as sensor_msgs has it; what is not measured is NaN."""
+    full = battery.state_of_charge >= 1.0
+    status = BatteryState.POWER_SUPPLY_STATUS_DISCHARGING
+    if is_docked:
+        status = BatteryState.POWER_SUPPLY_STATUS_FULL if full else BatteryState.POWER_SUPPLY_STATUS_CHARGING
+    health = BatteryState.POWER_SUPPLY_HEALTH_GOOD if battery.charge > 0.0 else BatteryState.POWER_SUPPLY_HEALTH_DEAD
+    message = BatteryState(
+        header=header, voltage=battery.voltage, current=battery.current, charge=battery.charge,
+        capacity=battery.config.capacity, design_capacity=battery.config.capacity,
+        percentage=battery.state_of_charge, power_supply_status=status, power_supply_health=health,
+        power_supply_technology=BatteryState.POWER_SUPPLY_TECHNOLOGY_NIMH, present=True,
+        cell_voltage=[math.nan] * CELLS, location='base')
+    for unmeasured in {'temperature', 'cell_temperature'} & set(message.__slots__):
+        setattr(message, unmeasured, [math.nan] * CELLS if unmeasured.startswith('cell') else math.nan)
+    return message
+
+
+def quaternion(theta: float) -> Quaternion:
+    """A heading [rad] as a rotation about z."""
+    return Quaternion(0.0, 0.0, math.sin(0.5 * theta), math.cos(0.5 * theta))
+
+
+def heading(rotation: Quaternion) -> float:
+    """The angle about z [rad] of a rotation."""
+    return math.atan2(2.0 * (rotation.w * rotation.z + rotation.x * rotation.y),
+                      1.0 - 2.0 * (rotation.y * rotation.y + rotation.z * rotation.z))
+
+
+def place(pose: PoseMessage) -> Pose:
+    """A pose in space as one in the plane."""
+    return Pose(pose.position.x, pose.position.y, heading(pose.orientation))
+
+
+def odometry(pose: Pose, twist: Twist, header: Header, child: str, pose_variance: Sequence[float] = (0.0, 0.0),
+             twist_variance: Sequence[float] = (0.0, 0.0)) -> Odometry:
+    """Pose in the header's frame and velocity in the child's, with variances of place [m^2, (m/s)^2] and heading."""
+    message = Odometry(header=header, child_frame_id=child)
+    message.pose.pose = PoseMessage(Point(pose.x, pose.y, 0.0), quaternion(pose.theta))
+    message.pose.covariance = _covariance(*pose_variance)
+    message.twist.twist.linear.x = twist.v
+    message.twist.twist.angular.z = twist.w
+    message.twist.covariance = _covariance(*twist_variance)
+    return message
+
+
+def _covariance(place: float, heading: float) -> List[float]:
+    """Row-major 6 x 6 over x, y, z and the rotations about them."""
+    covariance = [0.0] * 36
+    covariance[0] = covariance[7] = max(place, KNOWN)
+    covariance[14] = covariance[21] = covariance[28] = KNOWN
+    covariance[35] = max(heading, KNOWN)
+    return covariance
+
+
+def odometry_variance(way: float, config: OdometryConfig, wheel_base: float) -> Sequence[float]:
+    """Variance of place [m^2] and heading [rad^2] after a way [m]: wrong scale and noise of the wheels, added up."""
+    wheel = (config.scale_error * way) ** 2 + config.noise ** 2 * way
+    return 0.5 * wheel, 2.0 * wheel / wheel_base ** 2
+
+
+def transform(frame: str, child: str, pose: Pose, stamp: object, height: float = 0.0) -> TransformStamped:
+    """The pose of a child frame in a frame, for tf."""
+    return TransformStamped(Header(stamp=stamp, frame_id=frame), child,
+                            Transform(Vector3(pose.x, pose.y, height), quaternion(pose.theta)))
+
+
+def static_transforms(frames: Frames, stamp: object, wheel_diameter: float) -> List[TransformStamped]:
+    """Where the parts of a robot sit that do not move: base_link in the axle of its wheels [m]."""
+    here = Pose(0.0, 0.0, 0.0)
+    return [transform(frames.base_footprint, frames.base_link, here, stamp, 0.5 * wheel_diameter),
+            transform(frames.base_link, frames.laser, here, stamp, LASER_HEIGHT)]
+
+
+def scan(ranges: Array, config: LaserConfig, period: float, header: Header) -> LaserScan:
+    """Ranges (beams) [m] from straight back on, counter-clockwise, all taken at the header's stamp."""
+    increment = TURN / len(ranges)
+    return LaserScan(
+        header=header, angle_min=-math.pi, angle_max=-math.pi + (len(ranges) - 1) * increment,
+        angle_increment=increment, time_increment=0.0, scan_time=period, range_min=config.range_min,
+        range_max=config.range_max, ranges=ranges.tolist(), intensities=[])
+
+
+def bumper(robot: Robot, header: Header) -> Bumper:
+    """The contact switches."""
+    left, right = robot.bumper
+    return Bumper(header, left, right)
+
+
+def cliff(cliffs: Sequence[bool], header: Header) -> Cliff:
+    """The floor sensors, from left to right."""
+    return Cliff(header, *cliffs)
+
+
+def dock_status(is_docked: bool, infrared: Infrared, header: Header) -> DockStatus:
+    """Contacts and beams."""
+    return DockStatus(header, any(infrared), is_docked, infrared.omni, infrared.left, infrared.right)
+
+
+def cleaning_status(robot: Robot, floor: Floor, header: Header) -> CleaningStatus:
+    """How far the floor is clean, and what the robot did for it."""
+    return CleaningStatus(header, floor.coverage, floor.cleaned_area, floor.reachable_area, floor.dirt_left,
+                          robot.distance, robot.brush_time)
+
+
+def grid(plan: FloorPlan, cells: Array, stamp: object) -> OccupancyGrid:
+    """Values (rows, columns) int8 on the cells of a plan: its occupancy, or what was swept."""
+    left, bottom = plan.origin
+    info = MapMetaData(map_load_time=stamp, resolution=plan.resolution, width=plan.columns, height=plan.rows,
+                       origin=PoseMessage(Point(left, bottom, 0.0), quaternion(0.0)))
+    # A list is packed several times faster than an array.
+    return OccupancyGrid(Header(stamp=stamp, frame_id=MAP), info, cells.ravel().tolist())

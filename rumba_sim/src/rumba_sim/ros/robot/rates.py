@@ -1,0 +1,51 @@
+"""How often the messages of a robot are published, and which of them are due at a tick."""
+
+import dataclasses
+from typing import NamedTuple
+
+from rumba_sim.model.config import names, setting
+from rumba_sim.model.errors import ConfigError
+
+MAX_RATE = 1000
+
+
+class Due(NamedTuple):
+    """Which messages are due at a tick."""
+
+    odom: bool
+    ground_truth: bool
+    scan: bool
+    sensors: bool
+    battery: bool
+    cleaning: bool
+
+
+@dataclasses.dataclass(frozen=True)
+class Rates:
+    """How often messages are published, in simulated time; each divides the step rate. 0: never."""
+
+    odom: int = setting(50, 'odom, and the transforms of odom and map', 'Hz', 0, MAX_RATE)
+    ground_truth: int = setting(10, 'ground_truth', 'Hz', 0, MAX_RATE)
+    scan: int = setting(10, 'scan', 'Hz', 0, MAX_RATE)
+    sensors: int = setting(10, 'bumper, cliff and dock_status', 'Hz', 0, MAX_RATE)
+    battery: int = setting(5, 'battery_status and battery_state', 'Hz', 0, MAX_RATE)
+    cleaning: int = setting(1, 'cleaning_status and coverage', 'Hz', 0, MAX_RATE)
+
+    def due(self, ticks: int, step_rate: float) -> Due:
+        """What is due at a tick: where no whole number of ticks gives a rate, at the next after each period."""
+        return Due(*(ticks * rate // step_rate > (ticks - 1) * rate // step_rate for rate in self._all()))
+
+    def check(self, step_rate: int) -> None:
+        """Refuse rates that no whole number of ticks gives.
+
+        Raises:
+            ConfigError: a rate does not divide the step rate.
+        """
+        for name, rate in zip(names(Rates), self._all()):
+            if rate and step_rate % rate:
+                possible = [str(rate) for rate in range(1, step_rate + 1) if step_rate % rate == 0]
+                raise ConfigError(f'rates/{name} is {rate}: must divide step_rate, {step_rate}: one of 0, '
+                                  + ', '.join(possible))
+
+    def _all(self) -> Due:
+        return Due(self.odom, self.ground_truth, self.scan, self.sensors, self.battery, self.cleaning)

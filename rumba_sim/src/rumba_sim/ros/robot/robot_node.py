@@ -1,0 +1,199 @@
+"""One robot of the simulator, as ROS sees it: its topics, its services, its frames."""
+
+import math
+from typing import Any, Callable, List, Optional, Tuple
+
+import rospy
+from geometry_msgs.msg import TransformStamped, Twist
+from nav_msgs.msg import OccupancyGrid, Odometry
+from sensor_msgs.msg import BatteryState, LaserScan
+from std_msgs.msg import Header
+from std_srvs.srv import SetBool, SetBoolResponse
+
+from rumba_msg.msg import (BatteryStatus, Bumper, CleaningStatus, Cliff,
+                           DockStatus)
+from rumba_msg.srv import Teleport, TeleportResponse
+from rumba_sim.model.errors import RumbaError, WorldError
+from rumba_sim.model.geometry import Pose, compose, inverse
+from rumba_sim.model.robot import Robot
+from rumba_sim.model.world import World
+from rumba_sim.ros.common import conversions, node
+from rumba_sim.ros.common.frames import MAP, frames
+from rumba_sim.ros.common.requests import Requests
+from rumba_sim.ros.robot.rates import Due, Rates
+
+COMPLAINT_PERIOD = 1.0  # [s]
+QUEUE = 100  # messages that a subscriber may be behind, at speed 0 too, before it misses one
+
+
+class CoverageRequested(rospy.SubscribeListener):
+    """Has the grid sent to whoever begins to listen, as a latched topic would, but with what is true now."""
+
+    def __init__(self, requests: Requests, message: Callable[[], OccupancyGrid]) -> None:
+        """Ask by `requests` for a `message`."""
+        self._requests = requests
+        self._message = message
+
+    def peer_subscribe(self, topic_name: str, topic_publish: Any, peer_publish: Callable[[Any], None]) -> None:
+        """Somebody listens now."""
+        self._requests.post(lambda: peer_publish(self._message()))
+
+
+class RobotNode:
+    """Publishers, subscriber and services of one robot; only `publish` and `apply_command` touch the world."""
+
+    def __init__(self, world: World, name: str, requests: Requests, has_localisation: bool,
+                 stamp: rospy.Time, has_laser: bool = True) -> None:
+        """Open the robot's topics and services below its name; its time begins at `stamp`.
+
+        Raises:
+            WorldError: another node serves a robot of that name.
+        """
+        self._world = world
+        self._name = name
+        self._frames = frames(name)
+        self._has_localisation = has_localisation
+        self._command: Optional[Tuple[float, float]] = None
+        self._stamp = stamp
+        self._requests = requests
+        refuse_twin(name)
+        coverage = CoverageRequested(requests, self._coverage_message)
+        self._publishers = {
+            topic: rospy.Publisher(f'{name}/{topic}', message, queue_size=2 if message is OccupancyGrid else QUEUE,
+                                   subscriber_listener=listener)
+            for topic, message, listener in (
+                ('battery_status', BatteryStatus, None), ('battery_state', BatteryState, None),
+                ('odom', Odometry, None), ('ground_truth', Odometry, None),
+                *([('scan', LaserScan, None)] if has_laser else []),
+                ('bumper', Bumper, None), ('cliff', Cliff, None), ('dock_status', DockStatus, None),
+                ('cleaning_status', CleaningStatus, None), ('coverage', OccupancyGrid, coverage))}
+        self._others = [
+            rospy.Subscriber(f'{name}/cmd_vel', Twist, self._on_command, queue_size=1),
+            rospy.Service(f'{name}/set_brushes_up', SetBool, self._on_brushes),
+            rospy.Service(f'{name}/teleport', Teleport, self._on_teleport)]
+
+    @property
+    def _robot(self) -> Robot:
+        return self._world.robots[self._name]
+
+    def close(self) -> None:
+        """Take topics and services away."""
+        subscriber, *services = self._others
+        for service in services:
+            service.shutdown('the robot is gone')
+        for publisher in (subscriber, *self._publishers.values()):
+            publisher.unregister()
+
+    # --- what others ask ------------------------------------------------------------------------------------------
+
+    def _on_command(self, twist: Twist) -> None:
+        v, w = twist.linear.x, twist.angular.z
+        if math.isfinite(v) and math.isfinite(w):
+            self._command = v, w
+        else:
+            rospy.logerr_throttle(COMPLAINT_PERIOD, f'{self._name}/cmd_vel: linear.x {v} m/s, angular.z {w} rad/s: '
+                                                    'must be finite numbers; ignored')
+
+    def apply_command(self) -> None:
+        """Give the robot the newest command, if one came since the last tick."""
+        command, self._command = self._command, None
+        if command is not None:
+            self._robot.command(*command, self._world.tick)
+
+    def _on_brushes(self, request: Any) -> SetBoolResponse:
+        def set_brushes() -> None:
+            self._robot.brushes_up = request.data
+        self._requests.call(set_brushes)
+        return SetBoolResponse(True, f'brushes {"up" if request.data else "down"}')
+
+    def _on_teleport(self, request: Any) -> TeleportResponse:
+        pose = Pose(request.pose.x, request.pose.y, request.pose.theta)
+        try:
+            self._teleport(pose)
+        except RumbaError as error:
+            return TeleportResponse(False, str(error))
+        return TeleportResponse(True, '')
+
+    def _teleport(self, pose: Pose) -> None:
+        self._requests.call(lambda: self._world.teleport(self._name, pose))
+
+    # --- what it tells --------------------------------------------------------------------------------------------
+
+    def publish(self, due: Due, rates: Rates, stamp: rospy.Time) -> None:
+        """Publish what is due, all with one stamp."""
+        self._stamp = stamp
+        robot = self._robot
+        if due.scan:
+            ranges = self._world.scan(self._name)
+            self._tell('scan', lambda: conversions.scan(
+                ranges, robot.config.laser, 1.0 / rates.scan, self._header(self._frames.laser)))
+        if due.odom:
+            self._tell('odom', self._odometry)
+        if due.ground_truth:
+            self._tell('ground_truth', lambda: conversions.odometry(
+                robot.pose, robot.twist, self._header(MAP), self._frames.base_footprint))
+        if due.sensors:
+            self._publish_sensors()
+        if due.battery:
+            self._tell('battery_status', lambda: conversions.battery_status(
+                robot.battery, robot.pose, robot.brushes_up, conversions.trouble(robot)))
+            self._tell('battery_state', lambda: conversions.battery_state(
+                robot.battery, robot.is_docked, self._header(self._frames.base_link)))
+        if due.cleaning:
+            self._tell('cleaning_status', lambda: conversions.cleaning_status(
+                robot, self._world.floor, self._header(MAP)))
+            self._tell('coverage', self._coverage_message)
+
+    def _publish_sensors(self) -> None:
+        base = self._frames.base_link
+        self._tell('bumper', lambda: conversions.bumper(self._robot, self._header(base)))
+        self._tell('cliff', lambda: conversions.cliff(self._world.cliffs(self._name), self._header(base)))
+        self._tell('dock_status', lambda: conversions.dock_status(
+            self._robot.is_docked, self._world.infrared(self._name), self._header(base)))
+
+    def _tell(self, topic: str, message: Callable[[], Any]) -> None:
+        """Make and publish a message, if anybody listens: most of the cost is in making it."""
+        publisher = self._publishers[topic]
+        if publisher.get_num_connections():
+            publisher.publish(message())
+
+    def _header(self, frame: str) -> Header:
+        return Header(stamp=self._stamp, frame_id=frame)
+
+    def _odometry(self) -> Odometry:
+        robot, config = self._robot, self._robot.config
+        wheel_base = config.drive.wheel_base
+        tick = 1.0 / self._world.step_rate
+        twist = robot.odometry_twist
+        way = abs(twist.v) * tick
+        return conversions.odometry(
+            robot.odometry, twist, self._header(self._frames.odom), self._frames.base_footprint,
+            conversions.odometry_variance(robot.distance, config.odometry, wheel_base),
+            [variance / tick ** 2 for variance in conversions.odometry_variance(way, config.odometry, wheel_base)])
+
+    def transforms(self) -> List[TransformStamped]:
+        """Where it believes to be, and what corrects that, at the stamp of what was published last."""
+        odometry = self._robot.odometry
+        found = [conversions.transform(self._frames.odom, self._frames.base_footprint, odometry, self._stamp)]
+        if self._has_localisation:
+            correction = compose(self._robot.pose, inverse(odometry))
+            found.append(conversions.transform(MAP, self._frames.odom, correction, self._stamp))
+        return found
+
+    def static_transforms(self) -> List[TransformStamped]:
+        """Where the parts of the robot sit that do not move."""
+        return conversions.static_transforms(self._frames, self._stamp, self._robot.config.drive.wheel_diameter)
+
+    def _coverage_message(self) -> OccupancyGrid:
+        return conversions.grid(self._world.plan, self._world.floor.swept(), self._stamp)
+
+
+def refuse_twin(name: str) -> None:
+    """Refuse a robot that another node has already: two that answer to one name would fight over its wheels.
+
+    Raises:
+        WorldError: another node serves a robot of that name.
+    """
+    service = rospy.resolve_name(f'{name}/teleport')
+    if node.is_served(service):
+        raise WorldError(f'a robot {name!r} is here already ({service} is served): end the node that has it')

@@ -1,0 +1,1 @@
+"""The node simulator: robots on a map, in real time or faster."""

@@ -1,0 +1,47 @@
+"""The parameters of the simulator: what the robots are like, and how the node runs."""
+
+import dataclasses
+
+from rumba_sim.model.config import names, part, section, setting
+from rumba_sim.model.robot_config import RobotConfig
+from rumba_sim.ros.robot.rates import MAX_RATE, Rates
+
+
+@dataclasses.dataclass(frozen=True)
+class Settings(RobotConfig):
+    """Parameters of the simulator, with their defaults.
+
+    `rosrun rumba_sim simulator --config` prints this file. A copy, changed, is given as `_config:=PATH`, or
+    `roslaunch rumba_sim simulator.launch config:=PATH`; what it leaves out keeps its default. Single parameters go
+    before it: `_battery/drain:=60`.
+
+    Sources of the figures:
+      OI: iRobot Roomba 600 Open Interface specification
+      libcreate, create_robot: drivers of the Create 2
+      Create 3, create3_sim: documentation and simulator of the Create 3
+      makers, owners, published measurements: data of battery makers, and what owners measured and published
+    """
+
+    map: str = setting('apartment', 'name of a map of this package, or path of a map_server YAML file')
+    speed: float = setting(1.0, 'times real time; 0: as fast as possible', '', 0.0, 1e6)
+    robots: int = setting(1, 'robots at the beginning: rumba, rumba2, rumba3, ...', '', 0, 1000)
+    seed: int = setting(1, 'of all that is random', '', 0, 2 ** 31 - 1)
+    step_rate: int = setting(50, 'ticks in a second of simulated time', 'Hz', 1, MAX_RATE)
+    percentage: float = setting(100.0, 'charge to begin with', '%', 0.0, 100.0)
+    brushes_up: bool = setting(False, 'whether the brushes are lifted at the beginning')
+    localisation: bool = setting(True, 'whether map -> odom is published: the perfect correction of odometry')
+    config: str = setting('', 'path of a YAML file with any of these; parameters go before it')
+    rates: Rates = section(Rates, 'how often messages are published; each divides step_rate')
+
+    def __post_init__(self) -> None:
+        """Rates must fit the step rate."""
+        self.rates.check(self.step_rate)
+
+    @property
+    def robot(self) -> RobotConfig:
+        """The part that says what the robots are like."""
+        return part(self, RobotConfig)
+
+
+TUNABLE = ['speed', 'drive/command_timeout', 'odometry/noise', 'laser/noise', 'battery/drain',
+           *(f'rates/{name}' for name in names(Rates))]

@@ -1,0 +1,215 @@
+"""simulator: Rumbas on a map, in real time or faster, without a window.
+
+For each robot, below its name (rumba, rumba2, ...), it publishes
+  battery_status   rumba_msg/BatteryStatus    battery_state   sensor_msgs/BatteryState
+  odom             nav_msgs/Odometry          ground_truth    nav_msgs/Odometry
+  scan             sensor_msgs/LaserScan      bumper          rumba_msg/Bumper
+  cliff            rumba_msg/Cliff            dock_status     rumba_msg/DockStatus
+  cleaning_status  rumba_msg/CleaningStatus   coverage        nav_msgs/OccupancyGrid
+subscribes to
+  cmd_vel          geometry_msgs/Twist: linear.x [m/s], angular.z [rad/s]
+and serves
+  set_brushes_up   std_srvs/SetBool           teleport        rumba_msg/Teleport
+It publishes /map, /tf, /tf_static, /diagnostics, and /clock where time is simulated: at any speed but 1, or where
+/use_sim_time is set. It serves /static_map, and below its own name pause, resume, reset (std_srvs/Trigger),
+step (rumba_msg/Step), spawn (rumba_msg/Spawn) and kill (rumba_msg/Kill). rqt_reconfigure finds it as NAME/tuning.
+
+Parameters, as in `rosrun rumba_sim simulator _map:=studio _speed:=10 _battery/drain:=60`:
+"""
+
+import re
+from typing import Any, Callable, Dict, Tuple
+
+import rospy
+from std_srvs.srv import Trigger, TriggerResponse
+from tf2_msgs.msg import TFMessage
+
+from rumba_msg.srv import (Kill, KillResponse, Spawn, SpawnResponse, Step,
+                           StepResponse)
+from rumba_sim.model import map_file
+from rumba_sim.model.config import updated
+from rumba_sim.model.errors import ConfigError, RumbaError, WorldError
+from rumba_sim.model.geometry import Pose
+from rumba_sim.model.robot import nth_name
+from rumba_sim.model.world import World
+from rumba_sim.ros.common import node
+from rumba_sim.ros.common.maps import (FLOOR_PLAN, map_path, refuse_second,
+                                       tell_map)
+from rumba_sim.ros.common.requests import Requests
+from rumba_sim.ros.robot.robot_node import RobotNode
+from rumba_sim.ros.simulator import reconfigure
+from rumba_sim.ros.simulator.diagnostics import Diagnostics
+from rumba_sim.ros.simulator.pace import Pace, wake_on_time
+from rumba_sim.ros.simulator.settings import TUNABLE, Settings
+
+TUNING = 'tuning'  # below the node's name: what dynamic_reconfigure keeps on the parameter server
+NAME = re.compile(r'[A-Za-z]\w*', re.ASCII)
+MAX_STEP = 1_000_000  # ticks of one call
+
+
+def main() -> None:
+    """Run the node."""
+    node.run('simulator', Settings, lambda settings: Simulator(settings).run(), own_clock=True,
+             own_parameters=[TUNING, FLOOR_PLAN], is_single=True)
+
+
+class Simulator:
+    """The world, the loop that owns it, and the robots' faces."""
+
+    def __init__(self, settings: Settings) -> None:
+        """Build the world and open all topics and services.
+
+        Raises:
+            RumbaError: the map, a parameter, or another simulator is in the way.
+        """
+        refuse_second()
+        self._settings = settings
+        self._requests = Requests()
+        self._is_paused = False
+        self._ticks = 0
+        path = map_path(settings.map)
+        self._world = World(map_file.load(path), settings.robot, settings.step_rate, settings.seed)
+        self._pace = Pace(settings.step_rate, settings.speed, is_time_simulated(settings.speed))
+        self._diagnostics = Diagnostics(settings.map)
+        self._tf = rospy.Publisher('/tf', TFMessage, queue_size=100)
+        self._tf_static = rospy.Publisher('/tf_static', TFMessage, queue_size=10, latch=True)
+        self._nodes: Dict[str, RobotNode] = {}
+        for _ in range(settings.robots):
+            self._spawn(self._free_name(), None)
+        tell_map(self._world.plan, path, self._pace.stamp)
+        self._serve()
+
+    def _serve(self) -> None:
+        for name, service, response, act in (
+                ('pause', Trigger, TriggerResponse, lambda _: self._pause(True)),
+                ('resume', Trigger, TriggerResponse, lambda _: self._pause(False)),
+                ('reset', Trigger, TriggerResponse, lambda _: self._reset()),
+                ('step', Step, StepResponse, lambda request: self._step(request.ticks)),
+                ('spawn', Spawn, SpawnResponse, self._on_spawn),
+                ('kill', Kill, KillResponse, lambda request: self._kill(request.name))):
+            rospy.Service(f'~{name}', service, self._handler(response, act))
+        reconfigure.serve(self._settings, TUNABLE, TUNING,
+                          lambda values: self._requests.call(lambda: self._tune(values)))
+
+    def _handler(self, response: Any, act: Callable[[Any], Tuple[Any, ...]]) -> Callable[[Any], Any]:
+        """A service that has the loop act; what goes wrong is its answer."""
+        def handle(request: Any) -> Any:
+            try:
+                return response(True, *self._requests.call(lambda: act(request)))
+            except RumbaError as error:
+                return response(success=False, message=str(error))
+        return handle
+
+    # --- the loop -------------------------------------------------------------------------------------------------
+
+    def run(self) -> None:
+        """Let time pass until ROS shuts down."""
+        wake_on_time()
+        while not rospy.is_shutdown():
+            self._diagnostics.update(self._ticks / self._settings.step_rate, self._pace.speed, self._pace.late)
+            if self._is_paused:
+                self._requests.serve(self._pace.hold())
+            else:
+                self._tick()
+                self._requests.serve(self._pace.next_tick())
+
+    def _tick(self) -> None:
+        for robot in self._nodes.values():
+            robot.apply_command()
+        self._world.step()
+        self._ticks += 1
+        self._pace.tick()
+        rates = self._settings.rates
+        due = rates.due(self._ticks, self._settings.step_rate)
+        for robot in self._nodes.values():
+            robot.publish(due, rates, self._pace.stamp)
+        if due.odom and self._tf.get_num_connections():
+            self._tf.publish([part for robot in self._nodes.values() for part in robot.transforms()])
+
+    # --- what services ask ----------------------------------------------------------------------------------------
+
+    def _pause(self, is_paused: bool) -> Tuple[str]:
+        self._is_paused = is_paused
+        return ('paused' if is_paused else 'running',)
+
+    def _reset(self) -> Tuple[str]:
+        self._world.reset()
+        return ('all is as it was at the beginning, but for the time',)
+
+    def _step(self, ticks: int) -> Tuple[str]:
+        if not self._is_paused:
+            raise WorldError('the world is running: pause it first')
+        if not 1 <= ticks <= MAX_STEP:
+            raise WorldError(f'ticks is {ticks}: must be 1 to {MAX_STEP}')
+        for _ in range(ticks):
+            if rospy.is_shutdown():
+                raise WorldError('the simulator ends')
+            self._tick()
+        return (f'{ticks} ticks have passed',)
+
+    def _on_spawn(self, request: Any) -> Tuple[str, str]:
+        name = request.name or self._free_name()
+        if not NAME.fullmatch(name):
+            raise WorldError(f'{name!r} is no name: must be letters, digits and _, beginning with a letter')
+        self._spawn(name, Pose(request.pose.x, request.pose.y, request.pose.theta))
+        return name, ''
+
+    def _spawn(self, name: str, pose: Any) -> None:
+        self._world.spawn(name, pose, self._settings.percentage / 100.0, self._settings.brushes_up)
+        try:
+            self._nodes[name] = RobotNode(self._world, name, self._requests, self._settings.localisation,
+                                          self._pace.stamp)
+        except WorldError:
+            self._world.kill(name)
+            raise
+        self._diagnostics.add(name, lambda: self._world.robots[name])
+        self._tell_static()
+
+    def _kill(self, name: str) -> Tuple[str]:
+        self._world.kill(name)
+        self._nodes.pop(name).close()
+        self._diagnostics.remove(name)
+        self._tell_static()
+        return ('',)
+
+    def _free_name(self) -> str:
+        """The first of rumba, rumba2, rumba3, ... that is not taken."""
+        names = map(nth_name, range(1, len(self._nodes) + 2))
+        return next(name for name in names if name not in self._nodes)
+
+    def _tell_static(self) -> None:
+        self._tf_static.publish([part for robot in self._nodes.values() for part in robot.static_transforms()])
+
+    def _tune(self, values: Dict[str, Any]) -> Settings:
+        """Take new settings, if they are good; returns those in force."""
+        try:
+            settings = updated(self._settings, values, TUNING)
+            if settings.speed != 1.0 and not self._pace.is_simulated:
+                raise ConfigError('speed can change only where /clock is published: start with a speed other than 1, '
+                                  'or with /use_sim_time true')
+            self._world.config = settings.robot
+            self._settings = settings
+            self._pace.speed = settings.speed
+        except ConfigError as error:
+            rospy.logerr(str(error))
+        return self._settings
+
+
+def is_time_simulated(speed: float) -> bool:
+    """Whether nodes go by /clock; at a speed other than 1 they must, those that start from now until the end."""
+    was_simulated = bool(rospy.get_param('/use_sim_time', False))
+    if speed == 1.0:
+        return was_simulated
+    rospy.on_shutdown(forget_simulated_time)
+    if not was_simulated:
+        rospy.set_param('/use_sim_time', True)
+        rospy.loginfo('speed is not 1: /use_sim_time is now true; nodes that were started before go by the wall clock')
+    return True
+
+
+def forget_simulated_time() -> None:
+    """Take /use_sim_time back: with nobody to tell it, time would stand still for whatever node starts next."""
+    try:
+        rospy.delete_param('/use_sim_time')
+    except (KeyError, OSError):  # somebody else did, or the master has gone
+        pass

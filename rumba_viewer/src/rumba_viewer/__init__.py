@@ -1,0 +1,1 @@
+"""The window: it listens to topics and draws what they say."""

@@ -1,0 +1,1 @@
+"""Paints a scene: functions from plain values to a picture."""

@@ -1,0 +1,159 @@
+"""Paints a snapshot: the floor and all that is on it, as the middle of the window and as a picture of its own."""
+
+import math
+from typing import Optional, Tuple
+
+from PyQt5.QtCore import QPointF, QRectF, Qt
+from PyQt5.QtGui import QColor, QFont, QImage, QPainter, QPen
+
+from rumba_sim.model.geometry import Pose
+from rumba_viewer.painting import paint_robot
+from rumba_viewer.painting.paint_floor import FloorPainter, PathPainter
+from rumba_viewer.scene.snapshot import Snapshot
+from rumba_viewer.scene.theme import Theme, robot_colour
+from rumba_viewer.scene.view_transform import ViewTransform
+
+SCALE_BAR = 130.0  # [pixels] at most
+LABEL_GAP = 4.0  # [pixels] from a robot to its name
+
+
+class ScenePainter:
+    """Paints snapshots one after another; what did not change is kept.
+
+    Attributes:
+        shows_path, shows_field: whether to paint the paths of robots, and where the dock is heard.
+    """
+
+    def __init__(self) -> None:
+        """Begin with nothing painted."""
+        self.shows_path = self.shows_field = True
+        self._floor, self._paths = FloorPainter(), PathPainter()
+
+    def paint(self, painter: QPainter, snapshot: Snapshot, view: ViewTransform, theme: Theme,
+              ghost: Optional[Tuple[str, Pose]] = None) -> None:
+        """Paint a snapshot.
+
+        Args:
+            painter: onto what; counts in pixels.
+            snapshot: what is the case.
+            view: which part of the map to show, how large.
+            theme: colours.
+            ghost: name of a robot that is being dragged, and where to.
+        """
+        painter.setRenderHint(QPainter.Antialiasing)
+        painter.fillRect(QRectF(0.0, 0.0, view.width, view.height), QColor(theme.background))
+        if snapshot.plan is not None:
+            self._floor.paint(painter, snapshot, view, theme)
+            self._paint_things(painter, snapshot, view, theme, ghost)
+            _paint_names(painter, snapshot, view, theme)
+            _paint_scale_bar(painter, view, theme)
+        if snapshot.missing:
+            _paint_missing(painter, snapshot, view, theme)
+
+    def _paint_things(self, painter: QPainter, snapshot: Snapshot, view: ViewTransform, theme: Theme,
+                      ghost: Optional[Tuple[str, Pose]]) -> None:
+        dock = snapshot.place.dock
+        if dock is not None and self.shows_field:
+            painter.save()
+            paint_robot.in_metres(painter, view)
+            paint_robot.paint_dock_field(painter, dock, theme)
+            painter.restore()
+        if self.shows_path:
+            self._paths.paint(painter, snapshot, view, theme)
+        painter.save()
+        paint_robot.in_metres(painter, view)
+        for robot in snapshot.robots:
+            paint_robot.paint_beams(painter, robot, theme)
+        if dock is not None:
+            paint_robot.paint_dock(painter, dock, _size(snapshot), theme)
+        for robot in snapshot.robots:
+            is_selected = robot.name == snapshot.selected and len(snapshot.robots) > 1
+            paint_robot.paint_robot(painter, robot, view, theme, is_selected)
+            if ghost is not None and ghost[0] == robot.name:
+                paint_robot.paint_ghost(painter, robot, ghost[1], theme)
+        painter.restore()
+
+
+def picture(snapshot: Snapshot, view: ViewTransform, theme: Theme) -> QImage:
+    """A snapshot as a picture of the view's size."""
+    image = QImage(int(view.width), int(view.height), QImage.Format_RGB32)
+    painter = QPainter(image)
+    ScenePainter().paint(painter, snapshot, view, theme)
+    painter.end()
+    return image
+
+
+def _size(snapshot: Snapshot) -> float:
+    """Radius of the robots [m]."""
+    return snapshot.robots[0].size.radius if snapshot.robots else 0.0
+
+
+def _paint_names(painter: QPainter, snapshot: Snapshot, view: ViewTransform, theme: Theme) -> None:
+    """Who is who, where there are several."""
+    if len(snapshot.robots) < 2:
+        return
+    painter.save()
+    font = QFont(painter.font())
+    font.setBold(True)
+    painter.setFont(font)
+    for robot in snapshot.robots:
+        x, y = view.to_pixel(robot.pose.x, robot.pose.y)
+        below = y + max(1.3 * robot.size.radius * view.scale, paint_robot.SMALL) + LABEL_GAP
+        area = painter.boundingRect(QRectF(x - 100.0, below, 200.0, 40.0), Qt.AlignHCenter | Qt.AlignTop, robot.name)
+        painter.setPen(Qt.NoPen)
+        painter.setBrush(_shining(theme.card, 200))
+        painter.drawRoundedRect(area.adjusted(-4.0, 0.0, 4.0, 0.0), 3.0, 3.0)
+        painter.setPen(QColor(robot_colour(theme, robot.name)))
+        painter.drawText(area, Qt.AlignCenter, robot.name)
+    painter.restore()
+
+
+def _paint_scale_bar(painter: QPainter, view: ViewTransform, theme: Theme) -> None:
+    """How long a round number of metres is, in the lower left corner."""
+    most = SCALE_BAR / view.scale
+    power = 10.0 ** math.floor(math.log10(most))
+    length = next(step * power for step in (5.0, 2.0, 1.0) if step * power <= most)
+    text = f'{length:g} m' if length >= 1.0 else f'{100.0 * length:g} cm'
+    metrics = painter.fontMetrics()
+    wide, high = max(length * view.scale, metrics.horizontalAdvance(text)) + 16.0, metrics.height() + 14.0
+    box = QRectF(8.0, view.height - high - 8.0, wide, high)
+    painter.setPen(Qt.NoPen)
+    painter.setBrush(_shining(theme.card, 200))
+    painter.drawRoundedRect(box, 4.0, 4.0)
+    painter.setPen(QPen(QColor(theme.text), 2.0))
+    left, bottom = box.left() + 8.0, box.bottom() - 6.0
+    painter.drawLine(QPointF(left, bottom), QPointF(left + length * view.scale, bottom))
+    painter.drawText(box.adjusted(8.0, 2.0, -8.0, -8.0), Qt.AlignLeft | Qt.AlignTop, text)
+
+
+def _paint_missing(painter: QPainter, snapshot: Snapshot, view: ViewTransform, theme: Theme) -> None:
+    """What the window waits for; the first line is the title."""
+    title, _, rest = snapshot.missing.partition('\n')
+    large, plain = QFont(painter.font()), QFont(painter.font())
+    large.setPointSizeF(1.3 * plain.pointSizeF())
+    large.setBold(True)
+    area = QRectF(0.0, 0.0, min(view.width - 32.0, 460.0), view.height)
+    wrapped = Qt.AlignHCenter | Qt.AlignTop | Qt.TextWordWrap
+    painter.setFont(large)
+    head = painter.boundingRect(area.adjusted(16.0, 0.0, -16.0, 0.0), wrapped, title)
+    painter.setFont(plain)
+    body = painter.boundingRect(area.adjusted(16.0, 0.0, -16.0, 0.0), wrapped, rest)
+    area.setHeight(head.height() + body.height() + 42.0)
+    area.moveCenter(QPointF(0.5 * view.width, 0.5 * view.height))
+    painter.setPen(QPen(QColor(theme.line), 1.0))
+    painter.setBrush(_shining(theme.card, 240))
+    painter.drawRoundedRect(area, 8.0, 8.0)
+    inside = area.adjusted(16.0, 16.0, -16.0, -16.0)
+    painter.setPen(QColor(theme.text))
+    painter.setFont(large)
+    painter.drawText(inside, wrapped, title)
+    painter.setFont(plain)
+    painter.setPen(QColor(theme.faint_text))
+    painter.drawText(inside.adjusted(0.0, head.height() + 10.0, 0.0, 0.0), wrapped, rest)
+
+
+def _shining(colour: str, alpha: int) -> QColor:
+    """A colour through which something shines, 0 to 255."""
+    mixed = QColor(colour)
+    mixed.setAlpha(alpha)
+    return mixed

@@ -1,0 +1,186 @@
+"""Paints the card that tells how the selected robot is: battery, coverage, mission, place, time."""
+
+import math
+from typing import Callable, List, Optional, Tuple
+
+from PyQt5.QtCore import QPointF, QRectF, Qt
+from PyQt5.QtGui import QColor, QFont, QFontMetricsF, QPainter
+
+from rumba_sim.model.geometry import Pose
+from rumba_viewer.scene.snapshot import (Battery, Cleaning, Robot, Simulation,
+                                         Snapshot)
+from rumba_viewer.scene.theme import Theme, robot_colour
+
+BAR = 14.0  # [pixels] height of a bar
+EDGE, TOP = 12.0, 8.0  # [pixels] from the card's edges to what it says
+LINES = 9  # of small text
+LOW, CRITICAL = 0.25, 0.10  # charge: getting low, and where a robot goes home at the latest
+STATES = {'cleaning': 'good', 'charging': 'good', 'stranded': 'bad'}
+UNKNOWN, MINUS = '-', '\u2212'
+
+
+def status_height(font: QFont) -> int:
+    """How high the card is in a font [pixels]."""
+    small, bold = (QFontMetricsF(one).height() for one in _fonts(font)[1:])
+    return math.ceil(2.0 * TOP + (bold + 5.0) + LINES * (small + 1.0) + 2.0 * (bold + BAR + 7.0) + 3.0)
+
+
+def _fonts(font: QFont) -> Tuple[QFont, QFont, QFont]:
+    """The font, a smaller and a bold one."""
+    small, bold = QFont(font), QFont(font)
+    small.setPointSizeF(0.9 * font.pointSizeF())
+    bold.setBold(True)
+    return font, small, bold
+
+
+def paint_status(painter: QPainter, area: QRectF, snapshot: Snapshot, theme: Theme) -> None:
+    """Paint the card into an area that is as high as `status_height` says."""
+    painter.setRenderHint(QPainter.Antialiasing)
+    painter.setPen(QColor(theme.line))
+    painter.setBrush(QColor(theme.card))
+    painter.drawRoundedRect(area.adjusted(0.5, 0.5, -0.5, -0.5), 6.0, 6.0)
+    _Card(painter, area.adjusted(EDGE, TOP, -EDGE, -TOP), theme).paint(snapshot)
+
+
+class _Card:
+    """Writes from top to bottom."""
+
+    def __init__(self, painter: QPainter, area: QRectF, theme: Theme) -> None:
+        self._painter, self._area, self._theme = painter, area, theme
+        _, self._small, self._bold = _fonts(painter.font())
+        self._y = area.top()
+
+    def paint(self, snapshot: Snapshot) -> None:
+        robot = snapshot.robot
+        self._title(snapshot.selected, robot)
+        mission = robot.mission if robot is not None else None
+        self._small_line('' if robot is None else 'no cleaner' if mission is None else mission.message)
+        battery, cleaning = (robot.battery, robot.cleaning) if robot is not None else (None, None)
+        # Rounded as in battery_status: upward, so that 0 % is empty; and downward, so that 100 % is all.
+        self._bar('Battery', battery and battery.share, math.ceil, _battery_colour(battery, self._theme))
+        self._small_line(_battery_text(battery))
+        self._bar('Swept', cleaning and cleaning.coverage, math.floor, self._theme.robots[0])
+        self._small_line(_cleaning_text(cleaning))
+        self._y += 3.0
+        for name, value in _rows(robot, snapshot.simulation):
+            self._row(name, value)
+        self._small_line(robot.message if robot is not None else '')
+
+    def _title(self, name: str, robot: Optional[Robot]) -> None:
+        """Name on the left, state in a pill on the right."""
+        height = QFontMetricsF(self._bold).height() + 4.0
+        row = QRectF(self._area.left(), self._y, self._area.width(), height)
+        self._painter.setPen(Qt.NoPen)
+        self._painter.setBrush(QColor(robot_colour(self._theme, name)))
+        self._painter.drawEllipse(QPointF(row.left() + 6.0, row.center().y()), 5.0, 5.0)
+        state = 'not there' if robot is None else robot.mission.state if robot.mission is not None else ''
+        if state:
+            self._pill(row, state)
+        self._text(row.adjusted(18.0, 0.0, -90.0, 0.0), name, self._bold, self._theme.text)
+        self._y += height + 1.0
+
+    def _pill(self, row: QRectF, state: str) -> None:
+        wide = QFontMetricsF(self._small).horizontalAdvance(state) + 16.0
+        pill = QRectF(row.right() - wide, row.top() + 1.0, wide, row.height() - 2.0)
+        colour = QColor(getattr(self._theme, STATES.get(state, 'faint_text')))
+        self._painter.setBrush(colour)
+        self._painter.drawRoundedRect(pill, 0.5 * pill.height(), 0.5 * pill.height())
+        self._text(pill, state, self._small, self._theme.card, Qt.AlignCenter)
+
+    def _bar(self, name: str, share: Optional[float], rounded: Callable[[float], int], colour: str) -> None:
+        """A name, a share 0..1 in percent, and a bar below."""
+        height = QFontMetricsF(self._bold).height()
+        row = QRectF(self._area.left(), self._y + 3.0, self._area.width(), height)
+        self._text(row, name, self._bold, self._theme.text)
+        self._text(row, _percent(share, rounded), self._bold, self._theme.text, Qt.AlignRight)
+        bar = QRectF(row.left(), row.bottom() + 2.0, row.width(), BAR)
+        self._painter.setPen(Qt.NoPen)
+        self._painter.setBrush(QColor(self._theme.trough))
+        self._painter.drawRoundedRect(bar, 4.0, 4.0)
+        if share is not None and share > 0.0:
+            self._painter.setBrush(QColor(colour))
+            self._painter.save()
+            self._painter.setClipRect(QRectF(bar.left(), bar.top(), bar.width() * min(share, 1.0), BAR))
+            self._painter.drawRoundedRect(bar, 4.0, 4.0)
+            self._painter.restore()
+        self._y = bar.bottom() + 2.0
+
+    def _row(self, name: str, value: str) -> None:
+        height = QFontMetricsF(self._small).height() + 1.0
+        row = QRectF(self._area.left(), self._y, self._area.width(), height)
+        self._text(row, name, self._small, self._theme.faint_text)
+        self._text(row, value, self._small, self._theme.text, Qt.AlignRight)
+        self._y += height
+
+    def _small_line(self, text: str) -> None:
+        height = QFontMetricsF(self._small).height() + 1.0
+        row = QRectF(self._area.left(), self._y, self._area.width(), height)
+        self._text(row, text, self._small, self._theme.faint_text)
+        self._y += height
+
+    def _text(self, area: QRectF, text: str, font: QFont, colour: str, align: int = Qt.AlignLeft) -> None:
+        """One line, cut with dots where it is too long."""
+        self._painter.setFont(font)
+        self._painter.setPen(QColor(colour))
+        fitting = QFontMetricsF(font).elidedText(text, Qt.ElideRight, area.width())
+        self._painter.drawText(area, align | Qt.AlignVCenter, fitting)
+
+
+def _percent(share: Optional[float], rounded: Callable[[float], int]) -> str:
+    return UNKNOWN if share is None or math.isnan(share) else f'{rounded(round(100.0 * share, 6))} %'
+
+
+def _battery_colour(battery: Optional[Battery], theme: Theme) -> str:
+    if battery is None or battery.state != 'on battery' or battery.share > LOW:
+        return theme.good
+    return theme.warning if battery.share > CRITICAL else theme.bad
+
+
+def _battery_text(battery: Optional[Battery]) -> str:
+    if battery is None:
+        return ''
+    current = '' if math.isnan(battery.current) else f'  {battery.current:+.2f} A'
+    return f'{battery.voltage:.1f} V{current}  {battery.state}'.replace('-', MINUS)
+
+
+def _cleaning_text(cleaning: Optional[Cleaning]) -> str:
+    if cleaning is None:
+        return ''
+    dirt = '' if math.isnan(cleaning.dirt) else f', dirt left {100.0 * cleaning.dirt:.0f} %'
+    return f'{cleaning.cleaned_area:.1f} of {cleaning.reachable_area:.1f} m\u00b2{dirt}'
+
+
+def _rows(robot: Optional[Robot], simulation: Simulation) -> List[Tuple[str, str]]:
+    return [('Strategy', robot.mission.strategy or UNKNOWN if robot and robot.mission else UNKNOWN),
+            ('Place', _place_text(robot.pose) if robot else UNKNOWN), ('Way', _way_text(robot) if robot else UNKNOWN),
+            ('Time', _time_text(simulation)), ('Speed', _speed_text(simulation))]
+
+
+def _place_text(pose: Pose) -> str:
+    return f'{pose.x:.2f}, {pose.y:.2f} m, {math.degrees(pose.theta):.0f}\u00b0'.replace('-', MINUS)
+
+
+def _way_text(robot: Robot) -> str:
+    way = UNKNOWN if robot.cleaning is None else f'{robot.cleaning.distance:.1f} m'
+    brushes = {None: UNKNOWN, True: 'up', False: 'down'}[robot.brushes_up]
+    return f'{way}, brushes {brushes}'
+
+
+def _time_text(simulation: Simulation) -> str:
+    if simulation.time is None:
+        return UNKNOWN
+    if not simulation.is_simulated:
+        return 'that of the wall clock'
+    minutes, seconds = divmod(int(simulation.time), 60)
+    hours, minutes = divmod(minutes, 60)
+    return f'{hours}:{minutes:02}:{seconds:02} simulated'
+
+
+def _speed_text(simulation: Simulation) -> str:
+    if simulation.is_paused:
+        return 'paused'
+    if simulation.speed is None:
+        return UNKNOWN
+    wanted = '' if simulation.wanted is None else f' of {simulation.wanted:g}' if simulation.wanted else ' (all it can)'
+    digits = 0 if simulation.speed >= 100.0 else 1
+    return f'{simulation.speed:.{digits}f}{wanted} \u00d7 real time'

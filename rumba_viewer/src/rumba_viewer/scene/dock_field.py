@@ -1,0 +1,39 @@
+"""Where the beams of a dock reach: sectors that walls cut."""
+
+import math
+
+import numpy as np
+
+from rumba_sim.model.floor_plan import FloorPlan
+from rumba_sim.model.geometry import Pose
+from rumba_sim.model.robot_config import RobotConfig
+from rumba_viewer.scene.snapshot import Array, Dock
+
+BEAMS = 90  # of a sector
+CLEAR = 0.5  # [cells] from the wall in which the dock stands before a wall counts
+
+
+def dock(plan: FloorPlan, config: RobotConfig) -> Dock:
+    """The dock of a floor plan that has one, its force field all around and its buoys before it."""
+    pose = plan.dock
+    assert pose is not None
+    sender = Pose(pose.x + config.drive.radius * math.cos(pose.theta),
+                  pose.y + config.drive.radius * math.sin(pose.theta), pose.theta + math.pi)
+    return Dock(pose, _sector(plan, sender, 0.5 * math.pi, config.dock.halo),
+                _sector(plan, sender, 0.5 * config.dock.buoy_field, config.dock.buoy_range))
+
+
+def _sector(plan: FloorPlan, sender: Pose, half: float, reach: float) -> Array:
+    """Corners (n, 2) [m] of a sector about the direction of a sender, as far as no wall is in the way."""
+    angles = sender.theta + np.linspace(-half, half, BEAMS)
+    steps = np.arange(CLEAR * plan.resolution, reach, 0.5 * plan.resolution)
+    x = sender.x + np.outer(np.cos(angles), steps)
+    y = sender.y + np.outer(np.sin(angles), steps)
+    column = np.floor((x - plan.origin[0]) / plan.resolution).astype(int)
+    row = np.floor((y - plan.origin[1]) / plan.resolution).astype(int)
+    inside = (row >= 0) & (row < plan.rows) & (column >= 0) & (column < plan.columns)
+    is_open = np.zeros(x.shape, bool)
+    is_open[inside] = plan.free[row[inside], column[inside]]
+    far = np.where(is_open.all(axis=1), reach, steps[np.argmin(is_open, axis=1)])
+    return np.concatenate([[(sender.x, sender.y)], np.stack(
+        [sender.x + far * np.cos(angles), sender.y + far * np.sin(angles)], axis=1)])

@@ -1,0 +1,1 @@
+"""The widgets of Qt, and what keyboard and mouse do in them."""

@@ -1,0 +1,129 @@
+"""What the tests of the viewer share: a display, and a viewer on it as a user starts it."""
+
+import os
+import signal
+import subprocess
+import tempfile
+import time
+
+import numpy as np
+import rospy
+from PIL import Image
+from simulators import TIMEOUT, wait
+from std_srvs.srv import Trigger
+
+BETWEEN = 0.5  # [s] from one press of a key to the next
+COMMAND = ['rosrun', 'rumba_viewer', 'viewer']
+ROBOT, CARD, CLIFF = (31, 111, 214), (255, 255, 255), (232, 143, 134)  # colours of the light style
+PANEL = 300  # [pixels] on the right that are not floor
+
+
+def of_colour(picture, colour):
+    """Which pixels have a colour, or nearly so."""
+    return abs(picture - colour).max(axis=2) <= 30
+
+
+class Display:
+    """A screen of its own that nobody sees."""
+
+    def __init__(self, test):
+        reads, writes = os.pipe()
+        self._process = subprocess.Popen(
+            ['Xvfb', '-displayfd', str(writes), '-screen', '0', '1280x800x24', '-nolisten', 'tcp', '-noreset'],
+            pass_fds=[writes], stderr=subprocess.DEVNULL)
+        test.addCleanup(self._process.wait)
+        test.addCleanup(self._process.kill)
+        os.close(writes)
+        with os.fdopen(reads) as number:
+            self.name = f':{number.readline().strip()}'
+
+    def run(self, *arguments):
+        """What xdotool prints."""
+        return subprocess.run(['xdotool', *arguments], env={**os.environ, 'DISPLAY': self.name}, timeout=TIMEOUT,
+                              stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, universal_newlines=True).stdout
+
+
+class Viewer:
+    """A viewer for one test, and what it prints."""
+
+    def __init__(self, test, *arguments, display=None, master=None):
+        self._test, self._display = test, display
+        if rospy.has_param('/viewer'):
+            rospy.delete_param('/viewer')
+        environment = dict(os.environ)
+        for name in ('DISPLAY', 'WAYLAND_DISPLAY', 'QT_QPA_PLATFORM'):
+            environment.pop(name, None)
+        environment.update({'DISPLAY': display.name} if display else {'QT_QPA_PLATFORM': 'offscreen'})
+        environment.update({'ROS_MASTER_URI': master} if master else {})
+        self._output = tempfile.TemporaryFile('w+')
+        test.addCleanup(self._output.close)
+        self.folder = tempfile.TemporaryDirectory()
+        test.addCleanup(self.folder.cleanup)
+        self.process = subprocess.Popen([*COMMAND, '_style:=light', f'_folder:={self.folder.name}', *arguments],
+                                        env=environment, stdout=self._output, stderr=self._output)
+        test.addCleanup(self.process.wait)
+        test.addCleanup(self.process.kill)
+
+    @property
+    def printed(self):
+        """What it printed so far."""
+        self._output.seek(0)
+        return self._output.read()
+
+    def is_there(self):
+        """Wait until it is at the master; returns itself."""
+        def answers():
+            try:
+                return self.process.poll() is not None or self.picture() is not None
+            except rospy.ServiceException:  # not there yet, or what a killed one left at the master
+                return False
+        wait(self._test, answers, 'the viewer')
+        self._test.assertIsNone(self.process.poll(), self.printed)
+        return self
+
+    def picture(self):
+        """What the floor in the window looks like: int (rows, columns, 3)."""
+        answer = rospy.ServiceProxy('/viewer/save_png', Trigger)()
+        self._test.assertTrue(answer.success, answer.message)
+        return np.asarray(Image.open(answer.message).convert('RGB')).astype(int)[:, :-PANEL]
+
+    def wait_to_see(self, colour, least, most=10 ** 9):
+        """Wait until the floor shows so many pixels of a colour, or nearly so; returns which: bool (rows, columns)."""
+        def sees():
+            shown = of_colour(self.picture(), colour)
+            return [shown] if least <= shown.sum() <= most else []
+        return wait(self._test, sees, f'{least} to {most} pixels of {colour}')[0]
+
+    def front(self):
+        """Wait for its window, and give the keys to it."""
+        def finds():
+            self._test.assertIsNone(self.process.poll(), self.printed)
+            return self._display.run('search', '--onlyvisible', '--name', 'Rumba').split()
+        window = wait(self._test, finds, 'the window')[-1]
+        self._display.run('windowfocus', '--sync', window)
+
+    def key(self, what, *keys):
+        """`key`, `keydown` or `keyup`."""
+        self._display.run(what, *keys)
+
+    def key_until(self, key, condition, what):
+        """Press a key until a condition holds, with time between to see that it does; returns what that returned."""
+        def tries():
+            self.key('key', key)
+            end = time.monotonic() + BETWEEN
+            while not condition() and time.monotonic() < end:
+                time.sleep(0.01)
+            return condition()
+        return wait(self._test, tries, what)
+
+    def ends(self, code=0):
+        """Wait for its end, which must be quiet; returns what it printed."""
+        wait(self._test, lambda: self.process.poll() is not None, 'the end of the viewer')
+        self._test.assertEqual(self.process.returncode, code, self.printed)
+        self._test.assertNotIn('Traceback', self.printed)
+        return self.printed
+
+    def end(self, number=signal.SIGTERM):
+        """End it by a signal."""
+        self.process.send_signal(number)
+        return self.ends()

@@ -1,0 +1,205 @@
+"""What is painted, pixel by pixel where it counts, without ROS and without a window."""
+
+import math
+
+import numpy as np
+import pytest
+from PyQt5.QtGui import QImage, QPainter
+from windows import (BOTTOM, HEIGHT, LEFT, SCALE, WIDTH, count, near, path,
+                     pixels, plan, robot, snapshot)
+
+from rumba_sim.model.geometry import Pose
+from rumba_viewer.painting.paint_scene import ScenePainter, picture
+from rumba_viewer.scene.snapshot import Dock, Place, Snapshot
+from rumba_viewer.scene.theme import DARK, LIGHT, robot_colour
+from rumba_viewer.scene.view_transform import ViewTransform
+
+THEMES = pytest.mark.parametrize('theme', [LIGHT, DARK], ids=['light', 'dark'])
+VIEWS = pytest.mark.parametrize('view', [
+    ViewTransform(WIDTH, HEIGHT, 1.0, 3.5, SCALE), ViewTransform(1200, 800, 1.0, 3.5, 270.0),
+    ViewTransform(500, 250, 0.8, 3.3, 80.0)], ids=['all', 'large', 'small'])
+WHOLE = ViewTransform(WIDTH, HEIGHT, 1.0, 3.5, SCALE)
+FLOOR = [  # places [m] and what is there
+    (-0.9, 4.0, 'wall'), (2.45, 4.55, 'wall'), (2.75, 2.2, 'unknown'), (0.5, 2.4, 'swept'), (0.5, 3.0, 'to_sweep'),
+    (1.0, 4.0, 'out_of_reach'), (2.45, 3.5, 'out_of_reach')]
+
+
+def at(image, view, x, y, colour, tolerance=12):
+    """Whether the picture of a view has a colour at a place [m]."""
+    return near(image, *view.to_pixel(x, y), colour, tolerance)
+
+
+@THEMES
+@VIEWS
+def test_walls_and_swept_floor_are_where_they_are_and_y_points_upward(view, theme):
+    image = picture(snapshot(), view, theme)
+    assert (image.width(), image.height()) == (view.width, view.height)
+    for x, y, what in FLOOR:
+        assert at(image, view, x, y, getattr(theme, what)), (x, y, what)
+
+
+def test_beyond_the_map_there_is_nothing():
+    view = ViewTransform(WIDTH, HEIGHT, 1.0, 3.5, 50.0)
+    image = picture(snapshot(), view, LIGHT)
+    assert at(image, view, LEFT - 0.2, BOTTOM + 1.0, LIGHT.background)
+    assert at(image, view, LEFT + 1.0, BOTTOM + 3.2, LIGHT.background)
+
+
+def test_without_coverage_all_free_floor_is_alike():
+    image = picture(snapshot(coverage=None), WHOLE, LIGHT)
+    for x, y in ((0.5, 2.4), (0.5, 3.0), (1.0, 4.0)):
+        assert at(image, WHOLE, x, y, LIGHT.swept)
+
+
+def test_a_map_much_finer_than_the_picture_keeps_its_walls():
+    view = ViewTransform(WIDTH, HEIGHT, 1.0, 3.5, 4.0)
+    image = picture(snapshot(), view, LIGHT)
+    assert at(image, view, -0.9, 4.0, LIGHT.wall, 60)
+    assert at(image, view, 1.0, 4.2, LIGHT.out_of_reach, 30)
+
+
+@THEMES
+@VIEWS
+@pytest.mark.parametrize('theta', [0.0, 2.0])
+def test_a_robot_is_true_to_scale_and_its_bumper_is_in_front(theta, view, theme):
+    pose = Pose(1.0, 4.0, theta)
+    image = picture(snapshot(robot(pose=pose)), view, theme)
+    colour, radius = robot_colour(theme, 'rumba'), 0.17425
+
+    def ahead(forward, left):
+        return pose.x + forward * math.cos(theta) - left * math.sin(theta), \
+            pose.y + forward * math.sin(theta) + left * math.cos(theta)
+    assert at(image, view, *ahead(0.92 * radius, 0.0), colour, 40)
+    assert at(image, view, *ahead(-0.8 * radius, 0.0), theme.body, 30)
+    assert at(image, view, *ahead(-0.1 * radius, 0.3 * radius), theme.lit, 30)
+    for side in ((1.2, 0.0), (-1.2, 0.0), (0.0, 1.2), (0.0, -1.2)):
+        assert at(image, view, *ahead(*(radius * share for share in side)), theme.out_of_reach), side
+
+
+def test_the_side_of_the_bumper_that_is_pressed_is_red():
+    pose, radius = Pose(1.0, 4.0, 0.0), 0.17425
+    place = {side: (pose.x + 0.9 * radius * math.cos(side * 0.6), pose.y + 0.9 * radius * math.sin(side * 0.6))
+             for side in (1, -1)}
+    for bumper in ((True, False), (False, True), (False, False), (True, True)):
+        image = picture(snapshot(robot(pose=pose, bumper=bumper)), WHOLE, LIGHT)
+        for side, is_pressed in zip((1, -1), bumper):
+            assert at(image, WHOLE, *place[side], LIGHT.bad, 40) is is_pressed
+
+
+@pytest.mark.parametrize('are_up, pixels', [(False, range(40, 120)), (True, range(1)), (None, range(1))])
+def test_brushes_that_clean_are_lit(are_up, pixels):
+    image = picture(snapshot(robot(pose=Pose(1.0, 4.0, 0.5), brushes_up=are_up)), WHOLE, LIGHT)
+    assert count(image, LIGHT.lit, 180, 80, 220, 120) in pixels
+
+
+def test_the_path_is_painted_as_it_was_driven_and_not_over_a_leap():
+    way = path((0.0, 2.5), (1.0, 2.5), (1.0, 4.5), (np.nan, np.nan), (2.0, 3.0), (2.0, 3.4))
+    image = picture(snapshot(robot(pose=Pose(2.0, 3.7, 0.0), path=way)), WHOLE, LIGHT)
+    plain = picture(snapshot(robot(pose=Pose(2.0, 3.7, 0.0))), WHOLE, LIGHT)
+
+    difference = (pixels(image) != pixels(plain)).any(axis=2)
+
+    def differs(x, y):
+        across, down = (round(pixel) for pixel in WHOLE.to_pixel(x, y))
+        return difference[down - 1:down + 2, across - 1:across + 2].any()
+    assert all(differs(*place) for place in ((0.5, 2.5), (1.0, 3.5), (2.0, 3.2)))
+    assert not any(differs(*place) for place in ((0.0, 3.5), (1.5, 3.75), (1.2, 4.2), (2.0, 2.6)))
+
+
+def test_what_is_kept_from_picture_to_picture_is_the_same_as_what_is_painted_anew():
+    points = [(0.0, 2.5), (1.0, 2.6), (1.2, 4.5), (np.nan, np.nan), (2.0, 3.0), (2.0, 3.4), (1.5, 3.0)]
+    keeping = ScenePainter()
+    for shown in range(1, len(points) + 1):
+        now = snapshot(robot(path=path(*points[:shown])), robot('rumba2', Pose(2.0, 2.5, 1.0)))
+        kept = QImage(WIDTH, HEIGHT, QImage.Format_RGB32)
+        painter = QPainter(kept)
+        keeping.paint(painter, now, WHOLE, LIGHT)
+        painter.end()
+    anew = picture(now, WHOLE, LIGHT)
+    assert abs(pixels(kept) - pixels(anew)).max() < 90  # where two parts of a line meet, their edges are smoothed twice
+    far = path((0.0, 2.5), (2.0, 4.5), number=8)
+    painter = QPainter(kept)
+    keeping.paint(painter, snapshot(robot(path=far)), WHOLE, LIGHT)
+    painter.end()
+    assert kept == picture(snapshot(robot(path=far)), WHOLE, LIGHT)
+
+
+@THEMES
+def test_the_laser_shines_on_what_it_reaches(theme):
+    beams = np.array([(1.0, -0.5), (1.0, 0.5), (0.0, 0.5), (0.0, -0.5)])  # before the robot, seen from it
+    pose = Pose(1.0, 3.6, 0.5 * math.pi)
+    lit = picture(snapshot(robot(pose=pose, beams=beams)), WHOLE, theme)
+    assert not at(lit, WHOLE, 1.0, 4.2, theme.out_of_reach, 2)
+    assert at(lit, WHOLE, 1.0, 3.35, theme.out_of_reach, 2)
+    assert at(picture(snapshot(robot(pose=pose)), WHOLE, theme), WHOLE, 1.0, 4.2, theme.out_of_reach, 2)
+
+
+def test_dock_carpet_and_cliff_are_painted_on_their_cells():
+    carpet, cliff = np.zeros((30, 40), bool), np.zeros((30, 40), bool)
+    carpet[8:12, 5:10] = cliff[20:28, 20:30] = True
+    pose = Pose(0.0, 4.0, math.pi)  # faces the left
+    field = np.array([(-0.2, 4.0), (0.8, 4.4), (0.8, 3.6)])
+    place = Place(Dock(pose, field, field), carpet, cliff, True)
+    image, plain = (picture(snapshot(robot(pose=Pose(2.0, 2.6, 0.0)), place=place), WHOLE, LIGHT),
+                    picture(snapshot(robot(pose=Pose(2.0, 2.6, 0.0))), WHOLE, LIGHT))
+    assert at(image, WHOLE, -0.17, 4.0, LIGHT.dock)
+    assert not at(image, WHOLE, 0.17, 4.0, LIGHT.dock, 40)
+    assert not at(image, WHOLE, 0.6, 4.0, LIGHT.out_of_reach, 4)
+    assert not at(image, WHOLE, -0.3, 3.0, LIGHT.to_sweep, 6) and at(plain, WHOLE, -0.3, 3.0, LIGHT.to_sweep, 2)
+    assert at(image, WHOLE, -0.3, 2.5, LIGHT.swept, 2)
+    left, top = (round(pixel) for pixel in WHOLE.to_pixel(1.0, 4.8))
+    assert count(image, LIGHT.cliff, left, top, left + 100, top + 80) > 2000
+    assert count(image, LIGHT.cliff) == count(image, LIGHT.cliff, left, top, left + 100, top + 80)
+
+
+def test_several_robots_have_colours_names_and_a_ring_around_the_selected():
+    pair = robot(pose=Pose(0.0, 4.0, 0.0)), robot('rumba2', Pose(1.5, 4.0, 0.0))
+    image = picture(snapshot(*pair, selected='rumba2'), WHOLE, LIGHT)
+    first, second = (robot_colour(LIGHT, one.name) for one in pair)
+    assert first != second
+    for name, x in ((first, 0.0), (second, 1.5)):
+        across, down = (round(pixel) for pixel in WHOLE.to_pixel(x, 4.0))
+        assert count(image, name, across - 40, down + 20, across + 40, down + 45, 60) > 20, 'no name below it'
+    assert at(image, WHOLE, 1.5 + 1.22 * 0.17425, 4.0, second, 60)
+    assert not at(image, WHOLE, 1.22 * 0.17425, 4.0, first, 60)
+    alone = picture(snapshot(pair[0]), WHOLE, LIGHT)
+    assert not at(alone, WHOLE, 1.22 * 0.17425, 4.0, first, 60)
+
+
+def test_a_robot_that_would_be_too_small_to_be_found_gets_a_ring():
+    view = ViewTransform(WIDTH, HEIGHT, 1.0, 3.5, 10.0)
+    image = picture(snapshot(robot(pose=Pose(1.0, 4.0, 0.0))), view, LIGHT)
+    across, down = view.to_pixel(1.0, 4.0)
+    assert near(image, across + 9, down, robot_colour(LIGHT, 'rumba'), 70)
+
+
+@pytest.mark.parametrize('scale, length', [(100.0, 100), (10.0, 100), (300.0, 60), (3000.0, 60)])
+def test_the_bar_of_the_scale_is_a_round_length(scale, length):
+    image = picture(snapshot(), ViewTransform(WIDTH, HEIGHT, 1.0, 3.5, scale), LIGHT)
+    rows = [count(image, LIGHT.text, 0, row, 200, row + 1, 40) for row in range(HEIGHT - 30, HEIGHT)]
+    assert abs(max(rows) - length) <= 2
+
+
+@THEMES
+@pytest.mark.parametrize('size', [(640, 480), (300, 200)])
+def test_what_is_missing_is_said_in_the_middle(size, theme):
+    text = 'Waiting for a simulator\nTo start one, in another terminal:\nroslaunch rumba_sim simulator.launch'
+    view = ViewTransform(*size, 1.0, 3.5, 10.0)
+    image = picture(Snapshot(missing=text), view, theme)
+    empty = picture(Snapshot(), view, theme)
+    assert count(image, theme.text, tolerance=60) > 100
+    assert count(empty, theme.text, tolerance=60) == 0
+    for edge in (0, size[0] - 1):
+        assert count(image, theme.background, edge, 0, edge + 1) == size[1], 'it does not fit'
+
+
+def test_the_plan_of_another_map_replaces_the_old_one():
+    painter_of_many = ScenePainter()
+    other = plan(number=9)
+    other.cells[:] = 100
+    for shown, colour in ((snapshot(), LIGHT.out_of_reach), (snapshot(plan=other, coverage=None), LIGHT.wall)):
+        image = QImage(WIDTH, HEIGHT, QImage.Format_RGB32)
+        painter = QPainter(image)
+        painter_of_many.paint(painter, shown, WHOLE, LIGHT)
+        painter.end()
+        assert at(image, WHOLE, 1.0, 4.0, colour)
