@@ -12,6 +12,7 @@ import time
 
 import rospy
 from common import figures, ros_session
+
 from turtlesim.msg import Pose
 from turtlesim.srv import Spawn
 

@@ -24,8 +24,7 @@ from rumba_sim.model.robot_config import RobotConfig  # noqa: E402
 from rumba_sim.ros.common.maps import map_path  # noqa: E402
 from rumba_viewer.painting.paint_scene import ScenePainter  # noqa: E402
 from rumba_viewer.scene.dock_field import dock  # noqa: E402
-from rumba_viewer.scene.snapshot import (Grid, Path, Place,  # noqa: E402
-                                         Robot, Snapshot)
+from rumba_viewer.scene.snapshot import Grid, Path, Place, Robot, Snapshot  # noqa: E402
 from rumba_viewer.scene.theme import LIGHT  # noqa: E402
 from rumba_viewer.scene.view_transform import ViewTransform  # noqa: E402
 

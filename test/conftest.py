@@ -3,8 +3,7 @@
 import signal
 
 import pytest
-from workspaces import (OURS, ROOT, STAND_INS, TUTORIALS, Workspace,
-                        clean_environment, roscore)
+from workspaces import OURS, ROOT, STAND_INS, TUTORIALS, Workspace, clean_environment, roscore
 
 STRANGERS = sorted((ROOT / 'test' / 'packages').iterdir())
 

@@ -6,8 +6,7 @@ import time
 
 import catkin_pkg.packages
 import pytest
-from workspaces import (OURS, ROOT, TIMEOUT, TUTORIALS, Space,
-                        clean_environment, roscore)
+from workspaces import OURS, ROOT, TIMEOUT, TUTORIALS, Space, clean_environment, roscore
 
 README = (ROOT / 'README.md').read_text()
 INTERFACES = (ROOT / 'docs' / 'interfaces.md').read_text()

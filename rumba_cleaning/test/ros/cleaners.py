@@ -11,8 +11,7 @@ from actionlib_msgs.msg import GoalStatus
 from geometry_msgs.msg import Pose2D, Twist
 from simulators import TIMEOUT, Heard, lookup, wait
 
-from rumba_msg.msg import (CleanAction, DockAction, GoToAction, GoToGoal,
-                           MissionStatus, UndockAction)
+from rumba_msg.msg import CleanAction, DockAction, GoToAction, GoToGoal, MissionStatus, UndockAction
 
 ENDS_WITHIN = 5.0  # [s]: it has thirty topics to take back
 ACTIONS = {'clean': CleanAction, 'dock': DockAction, 'undock': UndockAction, 'go_to': GoToAction}

@@ -9,8 +9,7 @@ import rostest
 from cleaners import Cleaner, go_to, shared
 from simulators import Commands, Heard, Simulator, wait
 
-from rumba_msg.msg import (CleanGoal, DockGoal, GoToActionFeedback,
-                           MissionStatus, UndockGoal)
+from rumba_msg.msg import CleanGoal, DockGoal, GoToActionFeedback, MissionStatus, UndockGoal
 from rumba_msg.srv import TargetPosition
 
 NAN = math.nan

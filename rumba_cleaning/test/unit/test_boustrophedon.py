@@ -8,8 +8,8 @@ from drivers import context_of, with_box
 from rooms import crooked, quiet, room
 
 from rumba_cleaning.behaviour import Status
-from rumba_cleaning.behaviours.mission import Mission, State
 from rumba_cleaning.control import steps
+from rumba_cleaning.mission.mission import Mission, State
 from rumba_evaluation.trials.cases import ANYWHERE, SUCCEEDED, Conditions
 from rumba_evaluation.trials.trial import Trial
 from rumba_sim.model import map_file

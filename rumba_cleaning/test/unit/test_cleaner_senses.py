@@ -10,7 +10,7 @@ from sensor_msgs.msg import BatteryState
 from std_msgs.msg import Header
 
 from rumba_cleaning.behaviour import Command
-from rumba_cleaning.behaviours.mission import State
+from rumba_cleaning.mission.mission import State
 from rumba_cleaning.ros.cleaner import conversions, senses
 from rumba_msg.msg import Bumper, CleaningStatus, Cliff, DockStatus
 from rumba_sim.model.geometry import Pose

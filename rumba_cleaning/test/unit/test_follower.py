@@ -9,8 +9,7 @@ from floors import length, off
 from pytest import approx
 from rooms import alone, quiet
 
-from rumba_cleaning.behaviours.follower import (TENDERNESS, Follower, Route,
-                                                Turn, fastest, turn_rate)
+from rumba_cleaning.behaviours.follower import TENDERNESS, Follower, Route, Turn, fastest, turn_rate
 from rumba_sim.model.geometry import Pose, wrap_angle
 
 DRIVE = quiet().drive

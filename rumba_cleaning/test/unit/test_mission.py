@@ -8,12 +8,11 @@ import pytest
 from drivers import context_of, run, with_box
 from rooms import RADIUS, crooked, quiet, room
 
-from rumba_cleaning.behaviour import (STOP, Behaviour, Command, Observation,
-                                      Status)
-from rumba_cleaning.behaviours.battery_watch import BatteryWatch
+from rumba_cleaning.behaviour import STOP, Behaviour, Command, Observation, Status
 from rumba_cleaning.behaviours.bounded import Bounded
-from rumba_cleaning.behaviours.mission import Mission, State
 from rumba_cleaning.control import steps
+from rumba_cleaning.mission.battery_watch import BatteryWatch
+from rumba_cleaning.mission.mission import Mission, State
 from rumba_sim.model.errors import ConfigError, StrategyError
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.world import World

@@ -8,7 +8,7 @@ from drivers import context_of, run
 from rooms import RADIUS, quiet, room
 
 from rumba_cleaning.behaviour import Status
-from rumba_cleaning.behaviours.mission import Mission
+from rumba_cleaning.mission.mission import Mission
 from rumba_cleaning.strategies.spiral import SIZE, Spiral
 from rumba_sim.model import kernel
 from rumba_sim.model.geometry import Pose

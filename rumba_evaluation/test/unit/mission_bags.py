@@ -14,10 +14,8 @@ import rosbag
 from nav_msgs.msg import OccupancyGrid, Odometry
 from sensor_msgs.msg import BatteryState
 
-from rumba_evaluation.report.mission_record import (Grid, MissionRecord,
-                                                    MissionState, series)
-from rumba_msg.msg import (BatteryStatus, Bumper, CleaningStatus, DockStatus,
-                           MissionStatus)
+from rumba_evaluation.report.mission_record import Grid, MissionRecord, MissionState, series
+from rumba_msg.msg import BatteryStatus, Bumper, CleaningStatus, DockStatus, MissionStatus
 
 START = 100.0  # [s] stamp of the first message
 OFF, HOME, END = 2.0, 26.0, 36.0

@@ -5,9 +5,7 @@ import math
 import pytest
 
 from rumba_evaluation.verdicts.mission_asked import Asked
-from rumba_evaluation.verdicts.mission_verdict import (Battery, Collisions,
-                                                       Condition, Coverage,
-                                                       Docked, Field, Judge,
+from rumba_evaluation.verdicts.mission_verdict import (Battery, Collisions, Condition, Coverage, Docked, Field, Judge,
                                                        Reach)
 from rumba_sim.model.errors import ConfigError
 from rumba_sim.model.geometry import Pose

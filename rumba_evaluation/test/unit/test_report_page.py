@@ -10,9 +10,7 @@ from pytest import approx
 
 from rumba_evaluation.report import report_figures
 from rumba_evaluation.report.mission_events import events
-from rumba_evaluation.report.mission_record import (Grid, MissionRecord,
-                                                    MissionState, Series,
-                                                    series)
+from rumba_evaluation.report.mission_record import Grid, MissionRecord, MissionState, Series, series
 from rumba_evaluation.report.report_figures import figures
 from rumba_evaluation.report.report_page import clock, page
 

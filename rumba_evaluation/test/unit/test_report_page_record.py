@@ -6,9 +6,7 @@ from mission_bags import record
 from pytest import approx
 
 from rumba_evaluation.report.mission_events import events
-from rumba_evaluation.report.mission_record import (MissionState, Series,
-                                                    charging_spans, rises,
-                                                    series, spans, summary)
+from rumba_evaluation.report.mission_record import MissionState, Series, charging_spans, rises, series, spans, summary
 
 
 def test_what_is_no_way_is_a_leap():

@@ -7,8 +7,8 @@ import pytest
 from evaluations import know_manners
 from rooms import room
 
-from rumba_cleaning.behaviours.mission import State
 from rumba_cleaning.control import observe
+from rumba_cleaning.mission.mission import State
 from rumba_evaluation.trials.cases import ANYWHERE, Conditions
 from rumba_evaluation.trials.trial import Trial
 from rumba_sim.model.errors import StrategyError, WorldError

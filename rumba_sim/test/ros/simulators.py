@@ -14,8 +14,7 @@ from rosgraph_msgs.msg import Clock, Log
 from sensor_msgs.msg import BatteryState, LaserScan
 from std_srvs.srv import SetBool, Trigger
 
-from rumba_msg.msg import (BatteryStatus, Bumper, CleaningStatus, Cliff,
-                           DockStatus)
+from rumba_msg.msg import BatteryStatus, Bumper, CleaningStatus, Cliff, DockStatus
 from rumba_msg.srv import Kill, Spawn, Step, Teleport
 
 TIMEOUT = 30.0

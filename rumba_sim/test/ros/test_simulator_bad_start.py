@@ -9,8 +9,7 @@ import unittest
 
 import rospy
 import rostest
-from simulators import (TIMEOUT, Heard, Master, Simulator, forget_parameters,
-                        lookup)
+from simulators import TIMEOUT, Heard, Master, Simulator, forget_parameters, lookup
 
 UNIQUE = r"^simulator: a node /simulator is here already: end it first\n$"
 MAP = r'^simulator: /static_map is served already: end the other simulator, or map_server, or give this one a master '

@@ -8,6 +8,7 @@ import rospy
 import rostest
 from simulators import Commands, Heard, wait
 from turtles import Process, Turtle, ask, body, turtlesim
+
 from turtlesim.msg import Pose
 
 

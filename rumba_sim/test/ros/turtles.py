@@ -6,6 +6,7 @@ import subprocess
 import rospy
 from simulators import TIMEOUT, Commands, Heard, lookup, wait
 from std_srvs.srv import Empty
+
 from turtlesim.msg import Color, Pose
 from turtlesim.srv import Kill, Spawn, TeleportAbsolute
 

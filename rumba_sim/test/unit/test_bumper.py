@@ -6,8 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from pytest import approx
-from rooms import (NAMES, PLANS, RADIUS, STARTS, alone, drive, drove, quiet,
-                   room, start)
+from rooms import NAMES, PLANS, RADIUS, STARTS, alone, drive, drove, quiet, room, start
 
 from rumba_sim.model.geometry import Pose, wrap_angle
 from rumba_sim.model.world import World

@@ -8,8 +8,7 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from pytest import approx
-from rooms import (NAMES, PLANS, RADIUS, STARTS, alone, distances, drive,
-                   drove, quiet, room, start)
+from rooms import NAMES, PLANS, RADIUS, STARTS, alone, distances, drive, drove, quiet, room, start
 
 from rumba_sim.model.errors import WorldError
 from rumba_sim.model.geometry import Pose

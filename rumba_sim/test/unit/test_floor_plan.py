@@ -10,8 +10,7 @@ from hypothesis import strategies as st
 from pytest import approx
 
 from rumba_sim.model.errors import MapError
-from rumba_sim.model.floor_plan import (FREE, MAX_CELLS, OCCUPIED, UNKNOWN,
-                                        FloorPlan, check_size)
+from rumba_sim.model.floor_plan import FREE, MAX_CELLS, OCCUPIED, UNKNOWN, FloorPlan, check_size
 from rumba_sim.model.geometry import Pose
 
 SIGNS = {'#': OCCUPIED, '.': FREE, '?': UNKNOWN, '~': FREE}

@@ -4,8 +4,7 @@ import pytest
 from pytest import approx
 
 from rumba_sim.ros.common.terminal import split_keys
-from rumba_sim.ros.teleop_key import (HELP, MOVES, SPEEDS, ZEROS, Driver,
-                                      Settings)
+from rumba_sim.ros.teleop_key import HELP, MOVES, SPEEDS, ZEROS, Driver, Settings
 
 SETTINGS = Settings(linear=0.3, angular=0.7, hold=0.5)
 SILENCE = None

@@ -15,8 +15,7 @@ signal.signal(signal.SIGINT, signal.default_int_handler)
 @pytest.fixture
 def opened():
     """A window that shows one robot."""
-    from windows import (Opened, robot,  # Qt is for those who ask for it
-                         snapshot)
+    from windows import Opened, robot, snapshot  # Qt is for those who ask for it
     opened = Opened(snapshot(robot()))
     yield opened
     opened.window.close()

@@ -5,8 +5,7 @@ import math
 import numpy as np
 import pytest
 from PyQt5.QtGui import QImage, QPainter
-from windows import (BOTTOM, HEIGHT, LEFT, SCALE, WIDTH, count, near, path,
-                     pixels, plan, robot, snapshot)
+from windows import BOTTOM, HEIGHT, LEFT, SCALE, WIDTH, count, near, path, pixels, plan, robot, snapshot
 
 from rumba_sim.model.geometry import Pose
 from rumba_viewer.painting.paint_scene import ScenePainter, picture

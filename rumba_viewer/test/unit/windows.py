@@ -10,14 +10,12 @@ import numpy as np
 os.environ.setdefault('QT_QPA_PLATFORM', 'offscreen')
 
 from PyQt5.QtCore import QEvent, QEventLoop, QPoint, QPointF, Qt  # noqa: E402
-from PyQt5.QtGui import (QColor, QImage, QKeyEvent, QMouseEvent,  # noqa: E402
-                         QPalette, QWheelEvent)
+from PyQt5.QtGui import QColor, QImage, QKeyEvent, QMouseEvent, QPalette, QWheelEvent  # noqa: E402
 from PyQt5.QtWidgets import QApplication  # noqa: E402
 
 from rumba_sim.model.floor_plan import FREE, OCCUPIED, UNKNOWN  # noqa: E402
 from rumba_sim.model.geometry import Pose  # noqa: E402
-from rumba_viewer.scene.snapshot import (Battery, Cleaning, Grid,  # noqa: E402
-                                         Mission, Path, Robot, Simulation,
+from rumba_viewer.scene.snapshot import (Battery, Cleaning, Grid, Mission, Path, Robot, Simulation,  # noqa: E402
                                          Snapshot)
 from rumba_viewer.scene.theme import DARK, LIGHT  # noqa: E402
 from rumba_viewer.window.window import Options, Window  # noqa: E402

@@ -1,7 +1,6 @@
 """Ends a behaviour that does not end by itself."""
 
-from rumba_cleaning.behaviour import (STOP, Behaviour, Command, Observation,
-                                      Status)
+from rumba_cleaning.behaviour import STOP, Behaviour, Command, Observation, Status
 
 
 class Bounded(Behaviour):

@@ -5,10 +5,8 @@ from __future__ import annotations
 import math
 from typing import Iterator, List, NamedTuple, Tuple
 
-from rumba_evaluation.report.mission_record import (CLEANING, IDLE, STRANDED,
-                                                    MissionRecord, Series,
-                                                    charging_spans, leaps,
-                                                    rises, spans, state_spans)
+from rumba_evaluation.report.mission_record import (CLEANING, IDLE, STRANDED, MissionRecord, Series, charging_spans,
+                                                    leaps, rises, spans, state_spans)
 
 LOW, WELL = 10.0, 12.0  # [%] a battery below LOW is worth a word, and is so again once it was at WELL
 FEW_BUMPS = 12  # more are told in one line

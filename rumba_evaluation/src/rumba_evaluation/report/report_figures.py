@@ -15,10 +15,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator, MultipleLocator
 
 from rumba_evaluation.report.mission_events import LOW, bump_places, contacts
-from rumba_evaluation.report.mission_record import (STATES, Grid,
-                                                    MissionRecord,
-                                                    charging_spans, leaps,
-                                                    state_spans)
+from rumba_evaluation.report.mission_record import STATES, Grid, MissionRecord, charging_spans, leaps, state_spans
 
 # What the page calls a colour: in light, and in dark. Those of the light page stand in the SVG until they are replaced
 # by the name, so no two may be the same.

@@ -7,13 +7,10 @@ import html
 import os
 from typing import Dict, Iterable, Sequence, Tuple
 
-from rumba_evaluation.report.mission_events import (LOW, Event, bump_places,
-                                                    contacts, events)
-from rumba_evaluation.report.mission_record import (STRANDED, MissionRecord,
-                                                    Summary, charging_spans,
-                                                    state_spans, summary)
-from rumba_evaluation.report.report_figures import (COLOURS, figures,
-                                                    state_colour)
+from rumba_evaluation.report.mission_events import LOW, Event, bump_places, contacts, events
+from rumba_evaluation.report.mission_record import (STRANDED, MissionRecord, Summary, charging_spans, state_spans,
+                                                    summary)
+from rumba_evaluation.report.report_figures import COLOURS, figures, state_colour
 
 MOST_EVENTS = 200  # rows; what is more is counted
 CALENDAR = 1e9  # [s] stamps from then on are dates, those before count from the start of a simulation

@@ -40,8 +40,7 @@ from sensor_msgs.msg import BatteryState
 
 from rumba_evaluation.verdicts import mission_verdict
 from rumba_evaluation.verdicts.mission_asked import Asked
-from rumba_evaluation.verdicts.mission_verdict import (Condition, Field, Judge,
-                                                       Verdict)
+from rumba_evaluation.verdicts.mission_verdict import Condition, Field, Judge, Verdict
 from rumba_msg.msg import BatteryStatus, Bumper, CleaningStatus, DockStatus
 from rumba_sim.model.config import setting
 from rumba_sim.ros.common import conversions, node

@@ -12,8 +12,7 @@ import sys
 import threading
 import traceback
 from concurrent.futures import BrokenExecutor, Executor
-from typing import (Any, Callable, Iterator, List, NamedTuple, Sequence, Tuple,
-                    TypeVar)
+from typing import Any, Callable, Iterator, List, NamedTuple, Sequence, Tuple, TypeVar
 
 import numpy as np
 from tqdm import tqdm

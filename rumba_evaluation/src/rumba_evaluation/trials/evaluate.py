@@ -16,8 +16,7 @@ from typing import Callable, ContextManager, Dict, List, NoReturn, Sequence
 from rumba_cleaning import strategies
 from rumba_evaluation.trials import batch, table
 from rumba_evaluation.trials.batch import Job
-from rumba_evaluation.trials.cases import (ANYWHERE, CRASHED, DOCK, Case,
-                                           Conditions, Result, grid)
+from rumba_evaluation.trials.cases import ANYWHERE, CRASHED, DOCK, Case, Conditions, Result, grid
 from rumba_evaluation.trials.results import Results
 from rumba_sim.model.config import explain, updated
 from rumba_sim.model.errors import ConfigError, RumbaError
@@ -177,8 +176,7 @@ def _report(folder: str, cases: Sequence[Case], found: Dict[Case, Result]) -> No
 
 def _draw(executor: Executor, folder: str, jobs: Sequence[Job], found: Dict[Case, Result]) -> None:
     """Draw pictures: of all results, and of the path of the slowest mission of each group."""
-    from rumba_evaluation.trials import \
-        plots  # Matplotlib takes its time to load
+    from rumba_evaluation.trials import plots  # Matplotlib takes its time to load
     plots.draw_results(folder, table.grouped([job.case for job in jobs], found))
     slowest: Dict[table.Group, Job] = {}
     for job in jobs:

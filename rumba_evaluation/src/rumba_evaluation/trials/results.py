@@ -6,8 +6,7 @@ import io
 import os
 from typing import Any, Dict, List, Tuple
 
-from rumba_evaluation.trials.cases import (LEVELS, Case, Conditions, Curve,
-                                           Result)
+from rumba_evaluation.trials.cases import LEVELS, Case, Conditions, Curve, Result
 from rumba_sim.model.errors import ConfigError
 
 DIGITS = 7  # of a number: 0.1 s in ten days

@@ -11,13 +11,12 @@ from typing import List, Optional, Sequence
 import numpy as np
 
 from rumba_cleaning.behaviour import Status
-from rumba_cleaning.behaviours.mission import Mission, State
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.cleaning_config import CleaningConfig
 from rumba_cleaning.control import CONTROL_DT, CONTROL_TICKS, STEP_RATE, act
+from rumba_cleaning.mission.mission import Mission, State
 from rumba_evaluation.trials import starts
-from rumba_evaluation.trials.cases import (ANYWHERE, FAILED, SUCCEEDED,
-                                           TIME_OUT, Conditions, Result)
+from rumba_evaluation.trials.cases import ANYWHERE, FAILED, SUCCEEDED, TIME_OUT, Conditions, Result
 from rumba_sim.model.config import updated
 from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.model.geometry import Pose, wrap_angle

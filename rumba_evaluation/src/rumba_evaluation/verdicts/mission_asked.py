@@ -4,9 +4,7 @@ import dataclasses
 import math
 from typing import List
 
-from rumba_evaluation.verdicts.mission_verdict import (Battery, Collisions,
-                                                       Condition, Coverage,
-                                                       Docked, Field, Reach)
+from rumba_evaluation.verdicts.mission_verdict import Battery, Collisions, Condition, Coverage, Docked, Field, Reach
 from rumba_sim.model.config import setting
 from rumba_sim.model.errors import ConfigError
 from rumba_sim.model.geometry import Pose

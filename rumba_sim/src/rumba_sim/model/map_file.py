@@ -11,16 +11,14 @@ import difflib
 import math
 import os
 import reprlib
-from typing import (TYPE_CHECKING, Any, Dict, NamedTuple, Optional, Tuple,
-                    TypeVar, Union)
+from typing import TYPE_CHECKING, Any, Dict, NamedTuple, Optional, Tuple, TypeVar, Union
 
 import numpy as np
 from scipy import ndimage
 
 from rumba_sim.model import map_image
 from rumba_sim.model.errors import MapError
-from rumba_sim.model.floor_plan import (FREE, OCCUPIED, UNKNOWN, Bounds,
-                                        FloorPlan)
+from rumba_sim.model.floor_plan import FREE, OCCUPIED, UNKNOWN, Bounds, FloorPlan
 from rumba_sim.model.geometry import Pose, wrap_angle
 from rumba_sim.model.map_image import Alpha, Picture
 from rumba_sim.model.yaml_file import read_mapping

@@ -7,8 +7,7 @@ from PyQt5.QtCore import QPointF, QRectF, Qt
 from PyQt5.QtGui import QColor, QFont, QFontMetricsF, QPainter
 
 from rumba_sim.model.geometry import Pose
-from rumba_viewer.scene.snapshot import (Battery, Cleaning, Robot, Simulation,
-                                         Snapshot)
+from rumba_viewer.scene.snapshot import Battery, Cleaning, Robot, Simulation, Snapshot
 from rumba_viewer.scene.theme import Theme, robot_colour
 
 BAR = 14.0  # [pixels] height of a bar

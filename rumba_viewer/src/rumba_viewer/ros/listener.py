@@ -21,8 +21,7 @@ from rumba_sim.ros.common.maps import FLOOR_PLAN
 from rumba_viewer.ros import ros_graph
 from rumba_viewer.ros.robot_listener import RobotEar
 from rumba_viewer.scene.dock_field import dock
-from rumba_viewer.scene.snapshot import (Grid, Place, Robot, Simulation, Size,
-                                         Snapshot)
+from rumba_viewer.scene.snapshot import Grid, Place, Robot, Simulation, Size, Snapshot
 
 # A master or a simulator that goes amid an answer.
 GONE = (rospy.ROSException, rosgraph.MasterException, xmlrpc.client.Error, http.client.HTTPException, OSError)

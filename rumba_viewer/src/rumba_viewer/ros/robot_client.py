@@ -6,8 +6,7 @@ import actionlib
 import rospy
 from geometry_msgs.msg import Pose2D, Twist
 
-from rumba_msg.msg import (CleanAction, CleanGoal, DockAction, DockGoal,
-                           GoToAction, GoToGoal, UndockAction, UndockGoal)
+from rumba_msg.msg import CleanAction, CleanGoal, DockAction, DockGoal, GoToAction, GoToGoal, UndockAction, UndockGoal
 
 ACTIONS = {'clean': CleanAction, 'dock': DockAction, 'undock': UndockAction, 'go_to': GoToAction}
 ANY_HEADING = float('nan')

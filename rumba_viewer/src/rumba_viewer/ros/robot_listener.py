@@ -12,8 +12,7 @@ from sensor_msgs.msg import BatteryState, LaserScan
 
 from rumba_msg.msg import BatteryStatus, Bumper, CleaningStatus, MissionStatus
 from rumba_sim.ros.common.conversions import place
-from rumba_viewer.scene.snapshot import (Array, Battery, Cleaning, Mission,
-                                         Robot, Size)
+from rumba_viewer.scene.snapshot import Array, Battery, Cleaning, Mission, Robot, Size
 from rumba_viewer.scene.track import Glide, Trail
 
 ALWAYS = {'battery_status': BatteryStatus, 'battery_state': BatteryState, 'bumper': Bumper,

@@ -4,8 +4,7 @@ from typing import Callable, Dict, List, Sequence
 
 from PyQt5.QtCore import QRectF, QSize, Qt
 from PyQt5.QtGui import QPainter
-from PyQt5.QtWidgets import (QComboBox, QGridLayout, QPushButton, QScrollArea,
-                             QVBoxLayout, QWidget)
+from PyQt5.QtWidgets import QComboBox, QGridLayout, QPushButton, QScrollArea, QVBoxLayout, QWidget
 
 from rumba_viewer.painting.paint_status import paint_status, status_height
 from rumba_viewer.scene.acts import BY_NAME, SPEEDS, simulated

@@ -8,8 +8,7 @@ from PyQt5.QtCore import QEvent, Qt, QTimer
 from PyQt5.QtWidgets import QHBoxLayout, QWidget
 
 from rumba_sim.model.geometry import Pose
-from rumba_viewer.scene.acts import (ACTS, BY_NAME, Steering, cleaner,
-                                     next_speed, robot)
+from rumba_viewer.scene.acts import ACTS, BY_NAME, Steering, cleaner, next_speed, robot
 from rumba_viewer.scene.snapshot import Snapshot
 from rumba_viewer.window.files import new_file
 from rumba_viewer.window.floor_view import FloorView

@@ -8,16 +8,15 @@ from rumba_cleaning.behaviour import Behaviour
 from rumba_cleaning.behaviours.bounded import Bounded
 from rumba_cleaning.behaviours.dock import Dock
 from rumba_cleaning.behaviours.go_to import GoTo
-from rumba_cleaning.behaviours.mission import Mission, State
 from rumba_cleaning.behaviours.undock import Undock
 from rumba_cleaning.belief.context import Context
+from rumba_cleaning.mission.mission import Mission, State
 from rumba_cleaning.ros.cleaner import conversions
 from rumba_cleaning.ros.cleaner.go_to_position import check_finite
 from rumba_cleaning.ros.cleaner.senses import Senses
-from rumba_msg.msg import (CleanAction, CleanFeedback, CleaningStatus,
-                           CleanResult, DockAction, DockFeedback, DockResult,
-                           GoToAction, GoToFeedback, GoToResult, MissionStatus,
-                           UndockAction, UndockFeedback, UndockResult)
+from rumba_msg.msg import (CleanAction, CleanFeedback, CleaningStatus, CleanResult, DockAction, DockFeedback,
+                           DockResult, GoToAction, GoToFeedback, GoToResult, MissionStatus, UndockAction,
+                           UndockFeedback, UndockResult)
 from rumba_sim.model.errors import ConfigError
 from rumba_sim.model.geometry import Pose
 

@@ -5,7 +5,7 @@ from typing import Optional
 
 import rospy
 
-from rumba_cleaning.behaviours.mission import State
+from rumba_cleaning.mission.mission import State
 from rumba_cleaning.ros.cleaner import conversions
 from rumba_msg.msg import MissionStatus
 from rumba_sim.ros.common.terminal import TO_LINE_START_AND_ERASE

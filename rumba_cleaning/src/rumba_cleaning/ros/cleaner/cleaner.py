@@ -30,8 +30,8 @@ from actionlib_msgs.msg import GoalStatus
 
 from rumba_cleaning import strategies
 from rumba_cleaning.behaviour import STOP, Command, Observation, Status
-from rumba_cleaning.behaviours.mission import State
 from rumba_cleaning.belief.context import Context
+from rumba_cleaning.mission.mission import State
 from rumba_cleaning.ros.cleaner.activities import ACTIVITIES, Activity
 from rumba_cleaning.ros.cleaner.actuators import Brushes, Wheels
 from rumba_cleaning.ros.cleaner.announcer import Announcer

@@ -6,9 +6,8 @@ from geometry_msgs.msg import Pose2D, Transform, Twist, Vector3
 from std_msgs.msg import Header
 
 from rumba_cleaning.behaviour import Command, Observation
-from rumba_cleaning.behaviours.mission import State
-from rumba_msg.msg import (Bumper, CleaningStatus, Cliff, DockStatus,
-                           MissionStatus)
+from rumba_cleaning.mission.mission import State
+from rumba_msg.msg import Bumper, CleaningStatus, Cliff, DockStatus, MissionStatus
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.robot import Infrared
 from rumba_sim.ros.common.conversions import heading

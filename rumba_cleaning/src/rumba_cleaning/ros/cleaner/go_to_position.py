@@ -6,8 +6,7 @@ from typing import Any, Tuple
 import numpy as np
 import rospy
 
-from rumba_cleaning.behaviours.follower import (HEADING, Follower, Route,
-                                                turn_rate)
+from rumba_cleaning.behaviours.follower import HEADING, Follower, Route, turn_rate
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.ros.cleaner.senses import Senses
 from rumba_msg.srv import TargetPosition, TargetPositionResponse

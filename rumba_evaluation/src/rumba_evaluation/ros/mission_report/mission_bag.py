@@ -5,9 +5,7 @@ from typing import Dict, Iterable, List
 import rosbag
 
 from rumba_evaluation.report.mission_record import MissionRecord
-from rumba_evaluation.ros.mission_report.recorded_robot import (GRID, TYPES,
-                                                                RecordedRobot,
-                                                                Topics)
+from rumba_evaluation.ros.mission_report.recorded_robot import GRID, TYPES, RecordedRobot, Topics
 from rumba_sim.model.errors import RumbaError
 from rumba_sim.ros.common.frames import FIRST
 

@@ -1,18 +1,14 @@
 """The messages of one robot in a bag, on the robot's own clock, as the record of its mission."""
 
 import math
-from typing import (Any, Callable, Dict, Iterator, List, NamedTuple, Optional,
-                    Sequence, Tuple)
+from typing import Any, Callable, Dict, Iterator, List, NamedTuple, Optional, Sequence, Tuple
 
 import numpy as np
 import rosbag
 from nav_msgs.msg import OccupancyGrid
 from sensor_msgs.msg import BatteryState
 
-from rumba_evaluation.report.mission_record import (NOTHING, Grid,
-                                                    MissionRecord,
-                                                    MissionState, Series,
-                                                    series)
+from rumba_evaluation.report.mission_record import NOTHING, Grid, MissionRecord, MissionState, Series, series
 
 FAR = 1e7  # [m] what claims to be farther away was never measured
 LATE = 5.0  # [s] a stamp farther from the time of recording is of another clock, or of a latched message

@@ -10,8 +10,7 @@ from nav_msgs.msg import MapMetaData, OccupancyGrid, Odometry
 from sensor_msgs.msg import BatteryState, LaserScan
 from std_msgs.msg import Header
 
-from rumba_msg.msg import (BatteryStatus, Bumper, CleaningStatus, Cliff,
-                           DockStatus)
+from rumba_msg.msg import BatteryStatus, Bumper, CleaningStatus, Cliff, DockStatus
 from rumba_sim.model.battery import CELLS, Battery
 from rumba_sim.model.floor import Floor
 from rumba_sim.model.floor_plan import FloorPlan

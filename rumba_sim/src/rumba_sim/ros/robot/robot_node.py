@@ -10,8 +10,7 @@ from sensor_msgs.msg import BatteryState, LaserScan
 from std_msgs.msg import Header
 from std_srvs.srv import SetBool, SetBoolResponse
 
-from rumba_msg.msg import (BatteryStatus, Bumper, CleaningStatus, Cliff,
-                           DockStatus)
+from rumba_msg.msg import BatteryStatus, Bumper, CleaningStatus, Cliff, DockStatus
 from rumba_msg.srv import Teleport, TeleportResponse
 from rumba_sim.model.errors import RumbaError, WorldError
 from rumba_sim.model.geometry import Pose, compose, inverse

@@ -24,8 +24,7 @@ import rospy
 from std_srvs.srv import Trigger, TriggerResponse
 from tf2_msgs.msg import TFMessage
 
-from rumba_msg.srv import (Kill, KillResponse, Spawn, SpawnResponse, Step,
-                           StepResponse)
+from rumba_msg.srv import Kill, KillResponse, Spawn, SpawnResponse, Step, StepResponse
 from rumba_sim.model import map_file
 from rumba_sim.model.config import updated
 from rumba_sim.model.errors import ConfigError, RumbaError, WorldError
@@ -33,8 +32,7 @@ from rumba_sim.model.geometry import Pose
 from rumba_sim.model.robot import nth_name
 from rumba_sim.model.world import World
 from rumba_sim.ros.common import node
-from rumba_sim.ros.common.maps import (FLOOR_PLAN, map_path, refuse_second,
-                                       tell_map)
+from rumba_sim.ros.common.maps import FLOOR_PLAN, map_path, refuse_second, tell_map
 from rumba_sim.ros.common.requests import Requests
 from rumba_sim.ros.robot.robot_node import RobotNode
 from rumba_sim.ros.simulator import reconfigure

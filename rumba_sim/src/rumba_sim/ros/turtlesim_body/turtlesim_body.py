@@ -33,11 +33,9 @@ from rumba_sim.model.config import part, section, setting
 from rumba_sim.model.geometry import Pose, wrap_angle
 from rumba_sim.model.guided_world import GuidedWorld
 from rumba_sim.model.robot_config import RobotConfig
-from rumba_sim.model.turtle_motion import (FRAME_RATE, PIXELS_PER_METRE,
-                                           TurtleMotion)
+from rumba_sim.model.turtle_motion import FRAME_RATE, PIXELS_PER_METRE, TurtleMotion
 from rumba_sim.ros.common import node
-from rumba_sim.ros.common.maps import (FLOOR_PLAN, map_path, refuse_second,
-                                       tell_map)
+from rumba_sim.ros.common.maps import FLOOR_PLAN, map_path, refuse_second, tell_map
 from rumba_sim.ros.common.names import check_names
 from rumba_sim.ros.common.requests import Requests
 from rumba_sim.ros.robot.rates import Rates

@@ -8,12 +8,11 @@ from typing import Optional, Tuple
 import numpy as np
 
 from rumba_cleaning import strategies
-from rumba_cleaning.behaviour import (STOP, Behaviour, Command, Observation,
-                                      Status)
-from rumba_cleaning.behaviours.battery_watch import BatteryWatch
+from rumba_cleaning.behaviour import STOP, Behaviour, Command, Observation, Status
 from rumba_cleaning.behaviours.dock import Dock
 from rumba_cleaning.behaviours.undock import Undock
 from rumba_cleaning.belief.context import Context
+from rumba_cleaning.mission.battery_watch import BatteryWatch
 from rumba_sim.model.errors import ConfigError
 from rumba_sim.model.geometry import Pose
 

@@ -1,0 +1,153 @@
+"""Packages and the folders in them depend one way; package.xml, imports and docs/architecture.md agree on it."""
+
+import ast
+import pathlib
+import re
+import xml.etree.ElementTree as ElementTree
+
+import pytest
+from workspaces import ROOT
+
+# Of each package, from the lowest to the highest: its folders, and which folders of the same package each may import.
+# Modules that lie in no folder belong to ''.
+FOLDERS = {
+    'rumba_sim': {
+        'model': set(), 'ros/common': {'model'}, 'ros/robot': {'model', 'ros/common'},
+        'ros/simulator': {'model', 'ros/common', 'ros/robot'}, 'ros/turtlesim_body': {'model', 'ros/common', 'ros/robot'},
+        'ros': {'model', 'ros/common'}},
+    'rumba_cleaning': {
+        '': set(), 'belief': {''}, 'behaviours': {'', 'belief'}, 'planning': {'', 'belief', 'behaviours'},
+        'strategies': {'', 'belief', 'behaviours', 'planning'}, 'mission': {'', 'belief', 'behaviours', 'strategies'},
+        'ros/cleaner': {'', 'belief', 'behaviours', 'strategies', 'mission'}},
+    'rumba_evaluation': {
+        'trials': set(), 'report': set(), 'verdicts': set(), 'ros/mission_report': {'report'},
+        'ros': {'trials', 'verdicts'}},
+    'rumba_viewer': {
+        'scene': set(), 'painting': {'scene'}, 'window': {'scene', 'painting'}, 'ros': {'scene', 'window'}}}
+# Which packages each may import, and which of their folders are there for others.
+BELOW = {'rumba_sim': set(), 'rumba_cleaning': {'rumba_sim'}, 'rumba_evaluation': {'rumba_sim', 'rumba_cleaning'},
+         'rumba_viewer': {'rumba_sim', 'rumba_cleaning'}}
+OFFERED = {'rumba_sim': {'model', 'ros/common'},
+           'rumba_cleaning': {'', 'belief', 'behaviours', 'strategies', 'mission'}}
+ROS = ('rospy', 'roslib', 'rospkg', 'rosgraph', 'actionlib', 'rosbag', 'rostopic', 'rosunit', 'tf', 'tf2', 'turtlesim')
+ROS_ENDINGS = ('_msgs', '_msg', '_srvs', '_ros')
+QT = ('PyQt5',)
+CLOCK = ('time',)
+WITH_QT = {'rumba_viewer/painting', 'rumba_viewer/window', 'rumba_viewer/ros'}
+# How rosdep calls what is imported, if it is not the name of the import.
+KEYS = {'PIL': 'python3-pil', 'PyQt5': 'python3-qt5-bindings', 'matplotlib': 'python3-matplotlib',
+        'numba': 'python3-numba', 'numpy': 'python3-numpy', 'rospkg': 'python3-rospkg', 'scipy': 'python3-scipy',
+        'skimage': 'python3-skimage', 'tqdm': 'python3-tqdm', 'yaml': 'python3-yaml'}
+# Imported where they are there, and done without where they are not.
+OPTIONAL = {'dask', 'distributed', 'turtlesim'}
+SOURCES = [(package, path) for package in FOLDERS
+           for path in sorted((ROOT / package / 'src' / package).glob('**/*.py'))]
+ARCHITECTURE = (ROOT / 'docs' / 'architecture.md').read_text()
+
+
+def source(package):
+    """Where the modules of a package lie."""
+    return ROOT / package / 'src' / package
+
+
+def folder(package, path):
+    """The folder of a package in which a module lies."""
+    return '/'.join(path.relative_to(source(package)).parts[:-1])
+
+
+def name_of(value):
+    """What a test of a module is called."""
+    return value if isinstance(value, str) else value.stem
+
+
+def imports(path):
+    """Full names of all that a file imports, wherever in the file."""
+    for node in ast.walk(ast.parse(path.read_text())):
+        if isinstance(node, ast.Import):
+            yield from (alias.name for alias in node.names)
+        elif isinstance(node, ast.ImportFrom):
+            assert node.level == 0, f'{path}: relative import'
+            yield from (f'{node.module}.{alias.name}' for alias in node.names)
+
+
+def place(name):
+    """Package and folder of something that is imported from our packages by its full name."""
+    package, *parts = name.split('.')
+    path = source(package)
+    while parts and (path / parts[0]).is_dir():
+        path /= parts.pop(0)
+    return package, '/'.join(path.relative_to(source(package)).parts)
+
+
+def dependencies(package, kind):
+    """What the package.xml of a package names as a dependency of a kind."""
+    root = ElementTree.parse(ROOT / package / 'package.xml').getroot()
+    return {element.text for element in root.findall(kind)}
+
+
+@pytest.mark.parametrize('package, path', SOURCES, ids=name_of)
+def test_a_module_imports_only_what_its_folder_may(package, path):
+    here = folder(package, path)
+    for name in imports(path):
+        if name.split('.')[0] in FOLDERS:
+            other, there = place(name)
+            if other == package:
+                assert there == here or there in FOLDERS[package][here], name
+            else:
+                assert other in BELOW[package] and there in OFFERED[other], name
+
+
+@pytest.mark.parametrize('package, path', [(package, path) for package, path in SOURCES
+                                           if not folder(package, path).startswith('ros')], ids=name_of)
+def test_outside_the_folder_ros_no_module_imports_ros_messages_or_a_clock(package, path):
+    for name in imports(path):
+        top = name.split('.')[0]
+        assert top not in ROS and not top.endswith(ROS_ENDINGS) and top not in CLOCK, name
+
+
+@pytest.mark.parametrize('package, path', SOURCES, ids=name_of)
+def test_qt_is_imported_only_where_the_window_is(package, path):
+    for name in imports(path):
+        assert name.split('.')[0] not in QT or f'{package}/{folder(package, path)}' in WITH_QT, name
+
+
+@pytest.mark.parametrize('package', FOLDERS)
+def test_a_package_declares_what_it_imports_and_no_package_of_ours_besides(package):
+    imported = {name.split('.')[0] for path in source(package).glob('**/*.py') for name in imports(path)}
+    declared = dependencies(package, 'exec_depend')
+    for name in imported - {package} - OPTIONAL:
+        is_ours_or_ros = (ROOT / name).is_dir() or name in ROS or name.endswith(ROS_ENDINGS)
+        if name in KEYS or is_ours_or_ros:
+            assert KEYS.get(name, name) in declared, f'{name} is imported'
+    assert {name for name in declared if name.startswith('rumba_')} == {
+        name for name in imported - {package} if name.startswith('rumba_')}
+
+
+def test_the_launch_files_that_join_the_packages_depend_on_all_of_them():
+    assert {'rumba_msg', *FOLDERS} <= dependencies('rumba_bringup', 'exec_depend')
+    assert not list((ROOT / 'rumba_bringup').glob('**/*.py'))
+
+
+@pytest.mark.parametrize('package', FOLDERS)
+def test_every_folder_is_in_the_table_of_its_package(package):
+    folders = {folder(package, path) for path in source(package).glob('**/*.py') if path.name != '__init__.py'}
+    assert folders == set(FOLDERS[package])
+    section = re.search(rf'^## {package}$(.*?)(^## |\Z)', ARCHITECTURE, re.MULTILINE | re.DOTALL)
+    assert section, f'docs/architecture.md has no section {package}'
+    assert {name.strip('/') for name in re.findall(r'^\| `([\w/]*)` ', section.group(1), re.MULTILINE)} == {
+        name or package for name in folders}
+
+
+def test_the_picture_of_the_packages_shows_the_arrows_of_their_package_files():
+    arrows = set(re.findall(r'^(\w+) -> (\w+)$', ARCHITECTURE, re.MULTILINE))
+    ours = {'rumba_msg', 'rumba_bringup', *FOLDERS}
+    assert arrows == {(package, name) for package in ours for name in dependencies(package, 'exec_depend')
+                      if name in ours}
+
+
+@pytest.mark.parametrize('path', sorted(path for package in FOLDERS
+                                        for path in (ROOT / package / 'scripts').iterdir()), ids=name_of)
+def test_a_script_is_a_few_lines_executable_and_installed(path):
+    assert len(path.read_text().splitlines()) <= 5
+    assert path.stat().st_mode & 0o111
+    assert f'scripts/{path.name}\n' in (pathlib.Path(path).parents[1] / 'CMakeLists.txt').read_text()
