@@ -5,10 +5,10 @@ import time
 import xml.etree.ElementTree
 
 import pytest
-from workspaces import ROOT, TIMEOUT, last_of, lines
+from workspaces import OURS, ROOT, TIMEOUT, last_of, lines
 
 PACKAGE = ROOT / 'rumba_sim'
-LAUNCH_FILES = sorted((PACKAGE / 'launch').iterdir())
+LAUNCH_FILES = sorted(path for package in OURS for path in package.glob('launch/*.launch'))
 DEMO = 'roslaunch rumba_bringup demo.launch speed:=10 map:=studio'
 LINE = re.compile(r'battery +(\d+) %   at \((-?[\d.]+), (-?[\d.]+)\) m')
 

@@ -16,6 +16,7 @@ ACTIONS = [re.findall(r'`([^`]+)`', row) for row in INTERFACES.splitlines()
            if re.match(r'\| `\w+` \| (serves|uses) action ', row)]
 SERVICES = [re.findall(r'`([^`]+)`', row) for row in INTERFACES.splitlines() if re.match(r'\| `\w+` \| serves `', row)]
 NODES = sorted({row[0] for row in TOPICS})
+PACKAGES = {path.name: package.name for package in OURS for path in package.glob('scripts/*')}
 EVERY_NODE_HAS = {'/rosout [rosgraph_msgs/Log]', '/clock [rosgraph_msgs/Clock]'}  # the latter in simulated time
 OF_ACTION = {'goal': '{}Goal', 'cancel': 'actionlib_msgs/GoalID', 'status': 'actionlib_msgs/GoalStatusArray',
              'feedback': '{}Feedback', 'result': '{}Result'}
@@ -24,8 +25,8 @@ COMMANDS = {
     # At a speed other than 1, so that /clock is there too.
     'simulator': 'rosrun rumba_sim simulator _speed:=2 _map:=studio',
     # Asked for all of its conditions, the first of which nobody meets.
-    'mission_test': 'rosrun rumba_evaluation mission_test _coverage:=1 _reach:="9 9" _docked:=true _collisions:=0 _battery:=1 '
-                    '_time_limit:=100000',
+    'mission_test': 'rosrun rumba_evaluation mission_test _coverage:=1 _reach:="9 9" _docked:=true _collisions:=0 '
+                    '_battery:=1 _time_limit:=100000',
     # teleop_key wants a terminal.
     'teleop_key': 'script -qec "rosrun rumba_sim teleop_key __ns:=/readme" /dev/null',
     'turtlesim': 'rosrun turtlesim turtlesim_node _gui:=false',
@@ -46,7 +47,7 @@ def running(workspace):
             stack.enter_context(roscore(environment))
             here = Space(f'. {workspace.setup("devel")};', environment)
             for node in nodes:
-                command = COMMANDS.get(node, f'rosrun rumba_sim {node}')
+                command = COMMANDS.get(node) or f'rosrun {PACKAGES[node]} {node}'
                 stack.enter_context(here.running(command if '__ns' in command else f'{command} __ns:=/readme'))
             deadline = time.monotonic() + TIMEOUT
             while not {f'/readme/{node}' for node in nodes} <= set(here.run('rosnode list').split()):
@@ -89,10 +90,12 @@ def test_the_table_of_services_is_what_the_node_serves(running, node):
     assert {service: running[node].run(f'rosservice type {service}').strip() for service in promised} == promised
 
 
-def test_every_installed_node_is_in_the_tables_and_every_other_program_is_named():
+def test_every_installed_program_is_named_with_its_package():
     assert sorted(re.findall(r'^\| `(\w+)` \|', README, re.MULTILINE)) == NODES
-    others = re.findall(r'^`rosrun rumba_sim (\w+)`', README, re.MULTILINE)
-    assert sorted(NODES + others) == sorted(path.name for path in (ROOT / 'rumba_sim' / 'scripts').iterdir())
+    others = re.findall(r'`rosrun (rumba_\w+) (\w+)`', README)
+    assert {name: package for package, name in others if name not in NODES} == {
+        name: package for name, package in PACKAGES.items() if name not in NODES}
+    assert set(NODES) <= set(PACKAGES)
 
 
 def test_what_echo_prints_in_the_readme_is_what_it_prints(workspace):
@@ -114,4 +117,5 @@ def test_the_live_line_in_the_readme_is_what_the_listener_prints(workspace):
 def test_a_clone_in_another_workspace_brings_the_packages_and_nothing_of_its_own_workspace_and_tests():
     assert sorted(catkin_pkg.packages.find_package_paths(str(ROOT))) == sorted(
         str(path.relative_to(ROOT)) for path in OURS + TUTORIALS)
-    assert [path.name for path in OURS] == ['rumba_msg', 'rumba_sim']
+    assert [path.name for path in OURS] == [
+        'rumba_bringup', 'rumba_cleaning', 'rumba_evaluation', 'rumba_msg', 'rumba_sim', 'rumba_viewer']

@@ -104,7 +104,7 @@ def test_an_unknown_command_is_refused():
 @pytest.mark.parametrize('argument', ['drian:=5', 'drain', '--screen'])
 def test_an_unknown_argument_of_run_is_refused(argument):
     assert rumba(ROOT, 'run', argument) == (
-        2, '', f"rumba: unknown argument '{argument}': NAME:=VALUE, where NAME is one of: "
+        2, '', f"rumba: unknown argument '{argument}': use NAME:=VALUE with one of these names: "
         'map speed seed drain percentage strategy target_coverage gui rviz\n')
 
 
@@ -138,7 +138,29 @@ def test_no_root_and_no_sudo_says_what_an_administrator_must_do(checkout, tmp_pa
     assert error.count('\n') == 1 and not (checkout / '.ws').exists()
 
 
-def test_where_all_is_there_nothing_is_asked_for(checkout, tmp_path):
+@pytest.mark.parametrize('command, display, wanted, unwanted', [
+    (['run'], '', ['python3-rospy', 'python3-skimage'], ['python3-pyqt5', 'python3-matplotlib', 'xvfb']),
+    (['run'], ':0', ['python3-pyqt5'], ['python3-matplotlib', 'xvfb']),
+    (['run', 'gui:=auto'], ':0', ['python3-pyqt5'], []),
+    (['run', 'gui:=false'], ':0', ['python3-skimage'], ['python3-pyqt5', 'python3-matplotlib']),
+    (['run', 'gui:=true'], '', ['python3-pyqt5'], []),
+    (['shell'], '', ['python3-matplotlib', 'python3-venv'], ['python3-pyqt5', 'xvfb']),
+    (['build'], ':0', ['python3-matplotlib', 'python3-venv'], ['python3-pyqt5', 'xvfb', 'mypy']),
+    (['test'], '', ['python3-pyqt5', 'python3-matplotlib', 'python3-venv', 'xvfb', 'python3-rosidl'], ['mypy']),
+    (['lint'], '', ['mypy', 'python3-skimage'], ['python3-pyqt5', 'xvfb'])], ids=str)
+def test_a_command_installs_what_its_roles_need_and_no_more(checkout, tmp_path, command, display, wanted, unwanted):
+    (checkout / 'rumba_bringup' / 'launch').mkdir(parents=True)
+    shutil.copy(ROOT / 'rumba_bringup' / 'launch' / 'demo.launch', checkout / 'rumba_bringup' / 'launch')
+    apt = f'#!/bin/sh\n[ "$1" = update ] || {{ echo "$*" >{tmp_path}/asked; exit 100; }}\n'
+    path = commands(tmp_path / 'bin', **{'apt-get': apt, 'apt-cache': '#!/bin/sh\n', 'dpkg-query': '#!/bin/sh\nexit 1\n',
+                                         'id': '#!/bin/sh\necho 0\n'})
+    code, _, _ = rumba(checkout, *command, PATH=f'{path}:{os.environ["PATH"]}', DISPLAY=display, WAYLAND_DISPLAY='')
+    asked = (tmp_path / 'asked').read_text().split()
+    assert code == 1
+    assert set(wanted) <= set(asked) and not set(unwanted) & set(asked)
+
+
+def test_if_nothing_is_missing_nothing_is_asked_for(checkout, tmp_path):
     forbidden = f'#!/bin/sh\ntouch {tmp_path}/asked\nexit 1\n'
     path = commands(tmp_path / 'bin', **{'apt-get': forbidden, 'sudo': forbidden})
     code, out, _ = rumba(checkout, 'shell', 'pwd', PATH=f'{path}:{os.environ["PATH"]}',

@@ -8,34 +8,36 @@ from definitions import FILES, NAME, md5, parts
 
 MD5 = {
     'Clean.action': [
-        'e525c9694fca14423996a5e5a17e8567',
-        '92f772439c4c41e06ad99f69b3f911f3',
-        '7d751164bcc5de58e53912bd6d5ac86d'],
+        '5520a1c6e8a152c7ac1f5c4fe608b442',
+        'da611ab6608d7770fcc6e025d9cf29e6',
+        '0d748d8d3231932a4b6b2a7d1cea9318'],
     'Dock.action': [
         '1f5cb61fc531052411e5e7b804abd313',
-        '49df525af30101d6e07c6520b5620fc8',
+        '44488ba004cf2f2ce795d76e5b0406ba',
         'e4b9ae907daf8089dc36f0f979c46ed8'],
     'GoTo.action': [
         '4a583f82c50523a742b8ac903242685d',
-        '1d35e2b2a5bcc108950b8f4f0a51d206',
+        '07a9b9b476804a5088b165c2d66c341f',
         'e46fb0854dc85a00cd3de9ea8446b383'],
     'Undock.action': [
         '1f5cb61fc531052411e5e7b804abd313',
-        '49df525af30101d6e07c6520b5620fc8',
+        '44488ba004cf2f2ce795d76e5b0406ba',
         '1092bf11150d7a9e1554cca2e9dde9b1'],
     'BatteryStatus.msg': ['8553ab09064a977637e06a24726e1227'],
     'Bumper.msg': ['082df846252723b63047bfcdd7401c21'],
     'CleaningStatus.msg': ['787ea9853338b08dda5c7e31306cafc8'],
-    'Cliff.msg': ['74dce0e24ae7f475629f9afbb16021dd'],
+    'Cliff.msg': ['f4f281313287b2b493f1c4188d2a65ac'],
     'DockStatus.msg': ['c48de8dbe236629249e0a17b3210e4b8'],
-    'MissionStatus.msg': ['1168317ed6cf225f66c3b86579971a59'],
+    'MissionStatus.msg': ['b5dc28a8c8d879395d4353c7e03795b4'],
+    'Outcome.msg': ['ccc8028bf7d81f58a9c828224cd41835'],
+    'SimulatorState.msg': ['e95c4ec34b0cd03c47135659605d19a8'],
     'Kill.srv': ['d82dc6474dd88dad5e1615ab1b2ca74c'],
     'Spawn.srv': ['b632bbf32aa077e9544add486db4fe8a'],
     'Step.srv': ['70fefd98c6c6d5e009e2a5b9432fedf7'],
     'TargetPosition.srv': ['dd76aff00a72b33e8d77950fa07ebddf'],
     'Teleport.srv': ['3bd059df70d5e80971945ad044457a3c'],
 }
-UNIT_OF_A_NUMBER = re.compile(r'\[(%|0\.\.1|m|m\^2|rad|s|m/s|rad/s|ticks)\]|constants? above|sum of the beams above')
+UNIT_OF_A_NUMBER = re.compile(r'\[(%|0\.\.1|m|m\^2|rad|s|m/s|rad/s|Hz|ticks|times real time)\]|constants? above|sum of the beams above|seed of')
 PARTS = [part for path in FILES for part in parts(path)]
 ROSIDL_PARSERS = {'.msg': 'parse_message_string', '.srv': 'parse_service_string', '.action': 'parse_action_string'}
 
