@@ -1,4 +1,4 @@
-"""For catkin_python_setup() alone: nobody calls this by hand."""
+"""Only for catkin_python_setup(); never call it by hand."""
 
 from catkin_pkg.python_setup import generate_distutils_setup
 from setuptools import setup

@@ -1,4 +1,4 @@
-"""The window, where there is a display; imports Qt only where it is opened."""
+"""The window; imports Qt only to open it, so that machines without Qt can import this module."""
 
 import importlib.util
 import os
@@ -9,20 +9,20 @@ from typing import Any, List
 from PIL import Image
 
 DISPLAYS = ('DISPLAY', 'WAYLAND_DISPLAY', 'QT_QPA_PLATFORM')
-PATIENCE = 20.0  # [s] with Qt; it takes a tenth of a second
-# Qt ends the process that it cannot serve: let that be another one.
+PATIENCE = 20.0  # [s] for the probe, which usually takes 0.1 s
+# Qt ends the process if it cannot use the display, so this runs in a process of its own.
 PROBE = 'from PyQt5.QtWidgets import QApplication; QApplication([])'
 
 
 class Window:
-    """Shows pictures, all of one size.
+    """Shows pictures of one size.
 
     Attributes:
-        is_open: whether nobody has closed it.
+        is_open: false once the user has closed the window.
     """
 
     def __init__(self, title: str) -> None:
-        """Open it, in the main thread, where `why_none` has nothing to say."""
+        """Open it in the main thread; call `why_none` before."""
         from PyQt5 import QtGui, QtWidgets
         self._gui: Any = QtGui
         self._application: Any = QtWidgets.QApplication([title])
@@ -35,7 +35,7 @@ class Window:
         self.is_open = False
 
     def show(self, picture: Image.Image) -> None:
-        """Show an RGB image from now on."""
+        """Show an RGB image."""
         width, height = picture.size
         image = self._gui.QImage(picture.tobytes(), width, height, 3 * width, self._gui.QImage.Format_RGB888)
         self._label.setPixmap(self._gui.QPixmap.fromImage(image))
@@ -43,12 +43,12 @@ class Window:
         self._label.show()
 
     def poll(self) -> None:
-        """Let Qt do what is due."""
+        """Process the pending events of Qt."""
         self._application.processEvents()
 
 
 def why_none() -> str:
-    """Why there can be no window: a few words, or none where there can be one."""
+    """Return the reason why no window can be opened, in a few words; empty if one can."""
     if not any(os.environ.get(name) for name in DISPLAYS):
         return 'there is no display'
     if importlib.util.find_spec('PyQt5') is None:
@@ -59,13 +59,13 @@ def why_none() -> str:
 
 
 def is_unseen() -> bool:
-    """Whether Qt was told to show windows to nobody."""
+    """Whether Qt is set to a platform that shows nothing."""
     return os.environ.get('QT_QPA_PLATFORM', '').partition(':')[0] in ('offscreen', 'minimal')
 
 
 def take_platform(arguments: List[str]) -> None:
-    """Take Qt's `-platform NAME` off a command line: some tests of students run turtlesim so."""
+    """Remove the option `-platform NAME` of Qt from a command line and obey it; tests of courses use it."""
     if '-platform' in arguments[:-1]:
-        place = arguments.index('-platform')
-        os.environ['QT_QPA_PLATFORM'] = arguments[place + 1]
-        del arguments[place:place + 2]
+        index = arguments.index('-platform')
+        os.environ['QT_QPA_PLATFORM'] = arguments[index + 1]
+        del arguments[index:index + 2]

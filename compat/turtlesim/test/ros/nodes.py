@@ -1,4 +1,4 @@
-"""What the tests of the nodes share: a node as a user starts it, and what it says and is asked."""
+"""What the tests of the nodes share: nodes started as a user starts them, their topics and services."""
 
 import os
 import signal
@@ -16,20 +16,20 @@ from turtlesim.msg import Color, Pose
 from turtlesim.srv import Kill, SetPen, Spawn, TeleportAbsolute, TeleportRelative
 
 TIMEOUT = 30.0
-ENDS_WITHIN = 5.0  # [s]: a deadlock lasts longer, a busy machine does not
+ENDS_WITHIN = 5.0  # [s] enough on a busy machine, too little for a deadlock
 TOPICS = {'pose': Pose, 'color_sensor': Color, 'clock': Clock, 'rosout': Log, 'cmd_vel': Twist}
 SERVICES = {'clear': Empty, 'reset': Empty, 'spawn': Spawn, 'kill': Kill, 'save_png': Trigger, 'set_pen': SetPen,
             'teleport_absolute': TeleportAbsolute, 'teleport_relative': TeleportRelative}
 
 
 def wait(test, condition, what='it'):
-    """Wait until a condition holds; returns what it returned."""
+    """Wait until a condition holds; return its value."""
     end = time.monotonic() + TIMEOUT
     while True:
         result = condition()
         if result:
             return result
-        test.assertLess(time.monotonic(), end, f'waited in vain for {what}')
+        test.assertLess(time.monotonic(), end, f'{what} did not come')
         time.sleep(0.005)
 
 
@@ -42,7 +42,7 @@ def is_served(service):
 
 
 def without_display(**more):
-    """This process's environment without any display."""
+    """Return the environment of this process without a display."""
     kept = {name: value for name, value in os.environ.items()
             if name not in ('DISPLAY', 'WAYLAND_DISPLAY', 'QT_QPA_PLATFORM')}
     return {**kept, **more}
@@ -57,7 +57,7 @@ class Node:
         test.addCleanup(self.end)
 
     def end(self, number=signal.SIGINT):
-        """End it, in time and cleanly."""
+        """End it; it must end in time and with exit code 0."""
         if self.process.returncode is None:
             begin = time.monotonic()
             self.process.send_signal(number)
@@ -72,7 +72,7 @@ class Node:
 
 
 class Turtlesim(Node):
-    """turtlesim_node, once it serves all that it does."""
+    """A turtlesim_node; when it is created, all its services are available."""
 
     def __init__(self, test, *arguments, name='/turtlesim', **options):
         for left in ('/turtlesim', '/use_sim_time'):
@@ -83,16 +83,16 @@ class Turtlesim(Node):
         test.assertIsNone(self.process.poll(), 'turtlesim_node ended')
 
     def call(self, service, *arguments):
-        """The answer of a service."""
+        """Call a service and return its answer."""
         return rospy.ServiceProxy(f'/{service}', SERVICES[service.split('/')[-1]])(*arguments)
 
     def refuses(self, pattern, service, *arguments):
-        """Call a service that must fail, and say why."""
+        """Call a service, which must fail with a message that matches the pattern."""
         with self._test.assertRaisesRegex(rospy.ServiceException, f'service cannot process request: {pattern}'):
             self.call(service, *arguments)
 
     def picture(self):
-        """What save_png writes."""
+        """Call save_png and return the picture."""
         answer = self.call('turtlesim/save_png')
         self._test.assertTrue(answer.success, answer.message)
         self._test.assertTrue(answer.message.startswith('saved /'), answer.message)
@@ -100,7 +100,7 @@ class Turtlesim(Node):
 
 
 class Heard:
-    """The messages of a topic, from the moment when the publisher is connected."""
+    """The messages of a topic, from the moment when the first publisher is connected."""
 
     def __init__(self, test, topic):
         self._test = test
@@ -111,11 +111,11 @@ class Heard:
         wait(test, subscriber.get_num_connections, f'a publisher of {topic}')
 
     def find(self, condition=lambda message: True):
-        """The first message for which a condition holds."""
+        """Return the first message for which a condition holds."""
         return wait(self._test, lambda: next(filter(condition, self.messages[:]), None), f'a message on {self._topic}')
 
     def fresh(self, condition=lambda message: True):
-        """The first such message that comes from now on; one may have been on its way already."""
+        """Return the first such message that was sent after this call; one may be on its way already."""
         self.messages.clear()
         self.find()
         self.messages.clear()
@@ -123,7 +123,7 @@ class Heard:
 
 
 def commander(test, turtle='turtle1'):
-    """A function that commands a turtle which listens: forward, to the left [m/s], counter-clockwise [rad/s]."""
+    """Return a function that drives a turtle: forward, to the left [m/s], counter-clockwise [rad/s]."""
     publisher = rospy.Publisher(f'/{turtle}/cmd_vel', Twist, queue_size=100)
     test.addCleanup(publisher.unregister)
     wait(test, publisher.get_num_connections, f'{turtle} to listen')

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""turtle_teleop_key, draw_square and mimic do their jobs."""
+"""turtle_teleop_key, draw_square and mimic."""
 
 import os
 import pty
@@ -16,24 +16,24 @@ MIDDLE = 5.544444
 
 
 class ClientsTest(unittest.TestCase):
-    """Clients, each with nodes of its own to talk to."""
+    """Each test starts its own nodes."""
 
     def teleop(self, *arguments):
-        """turtle_teleop_key in a terminal; returns the node, the terminal's end of ours and its own, and settings."""
+        """Start turtle_teleop_key in a terminal; return node, both ends of the terminal, and its settings before."""
         ours, theirs = pty.openpty()
         for end in (ours, theirs):
             self.addCleanup(os.close, end)
         found = termios.tcgetattr(theirs)
         node = Node(self, 'setsid', '--ctty', 'rosrun', 'turtlesim', 'turtle_teleop_key', *arguments, stdin=theirs,
                     stdout=theirs, stderr=theirs)
-        wait(self, lambda: b'q leaves' in os.read(ours, 10000), 'its help')
+        wait(self, lambda: b'q quits' in os.read(ours, 10000), 'its help')
         return node, ours, theirs, found
 
-    def test_arrow_keys_drive_and_q_leaves_the_terminal_as_it_was(self):
+    def test_arrow_keys_drive_and_q_quits_and_restores_the_terminal(self):
         node, keyboard, terminal, found = self.teleop('_scale_linear:=1.5')
         heard = Heard(self, '/turtle1/cmd_vel')
-        wait(self, lambda: not termios.tcgetattr(terminal)[3] & termios.ECHO, 'a terminal that is silent')
-        # Until the connection stands, what is typed goes nowhere.
+        wait(self, lambda: not termios.tcgetattr(terminal)[3] & termios.ECHO, 'a terminal without echo')
+        # Keys that are typed before the subscriber is connected are lost.
         wait(self, lambda: (os.write(keyboard, b'\x1b[D'), heard.messages)[1], 'the first command')
         os.write(keyboard, b'\x1b[A\x1b[B\x1bOBxA\x1b[C')
         wait(self, lambda: heard.messages[-1].angular.z == -2.0, 'the last command')
@@ -45,7 +45,7 @@ class ClientsTest(unittest.TestCase):
         self.assertEqual(node.process.returncode, 0)
         self.assertEqual(termios.tcgetattr(terminal), found)
 
-    def test_a_signal_leaves_the_terminal_as_it_was(self):
+    def test_a_signal_restores_the_terminal(self):
         node, _, terminal, found = self.teleop()
         wait(self, lambda: termios.tcgetattr(terminal) != found, 'single keys')
         node.end(signal.SIGTERM)
@@ -57,9 +57,9 @@ class ClientsTest(unittest.TestCase):
         _, keyboard, _, _ = self.teleop()
         wait(self, lambda: (os.write(keyboard, b'\x1b[A'), pose.messages[-1].x > MIDDLE + 1.0)[1], 'a drive')
 
-    def test_without_a_terminal_or_with_a_bad_scale_one_line_and_exit_code_2(self):
+    def test_without_a_terminal_or_with_a_bad_scale_it_prints_one_line_and_exits_with_code_2(self):
         ours, theirs = pty.openpty()
-        for stdin, argument, pattern in ((subprocess.DEVNULL, '_scale_linear:=1', 'needs a terminal for its input: '),
+        for stdin, argument, pattern in ((subprocess.DEVNULL, '_scale_linear:=1', 'the standard input is not a term'),
                                          (theirs, '_scale_angular:=-1', '.*scale_angular is -1: must be 0 to 1000')):
             done = subprocess.run(['rosrun', 'turtlesim', 'turtle_teleop_key', argument], stdin=stdin,
                                   stderr=subprocess.PIPE, universal_newlines=True, timeout=TIMEOUT, check=False)
@@ -68,7 +68,7 @@ class ClientsTest(unittest.TestCase):
         os.close(ours)
         os.close(theirs)
 
-    def test_draw_square_begins_anew_and_draws_a_square_of_2_m(self):
+    def test_draw_square_resets_the_field_and_draws_a_square_of_2_m(self):
         node = Turtlesim(self, '_speed:=5')
         node.call('turtle1/teleport_absolute', 1.0, 1.0, 2.0)
         pose = Heard(self, '/turtle1/pose')
@@ -77,7 +77,7 @@ class ClientsTest(unittest.TestCase):
             pose.messages.clear()
             pose.find(lambda pose, x=x, y=y: abs(pose.x - MIDDLE - x) < 0.1 and abs(pose.y - MIDDLE - y) < 0.1)
 
-    def test_mimic_moves_one_turtle_as_another_in_two_fields(self):
+    def test_mimic_moves_a_turtle_as_one_of_another_field_moves(self):
         Node(self, 'roslaunch', 'turtlesim', 'multisim.launch', stdout=subprocess.DEVNULL)
         Node(self, 'rosrun', 'turtlesim', 'mimic', 'input:=turtlesim1/turtle1', 'output:=turtlesim2/turtle1')
         first, second = Heard(self, '/turtlesim1/turtle1/pose'), Heard(self, '/turtlesim2/turtle1/pose')
@@ -85,7 +85,7 @@ class ClientsTest(unittest.TestCase):
         commander(self, 'turtlesim1/turtle1')(1.0, 0.0, 0.8)
         end = first.find(lambda pose: pose.theta > 0.7 and pose.linear_velocity == 0.0)
         copy = second.find(lambda pose: pose.theta > 0.7 and pose.linear_velocity == 0.0)
-        # The copy begins a step or two later and ends as much later, or a step more or less.
+        # The copy starts a step or two later and ends as much later, give or take a step.
         self.assertAlmostEqual(copy.x, end.x, delta=0.1)
         self.assertAlmostEqual(copy.y, end.y, delta=0.1)
         self.assertAlmostEqual(copy.theta, end.theta, delta=0.1)

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""turtlesim_node does what turtlesim's documentation promises."""
+"""turtlesim_node does what the documentation of turtlesim says."""
 
 import os
 import pathlib
@@ -19,12 +19,12 @@ BACKGROUND, PEN = (69, 86, 255), (0xb3, 0xb8, 0xff)
 
 
 def rgb(message):
-    """A colour message as a triple."""
+    """Return a colour message as a tuple."""
     return message.r, message.g, message.b
 
 
 class TurtlesimNodeTest(unittest.TestCase):
-    """A node for each test, in real time, without a display."""
+    """Each test starts a node, in real time and without a display."""
 
     def test_its_topics_services_and_parameters_are_those_of_turtlesim(self):
         Turtlesim(self)
@@ -46,7 +46,7 @@ class TurtlesimNodeTest(unittest.TestCase):
             self.assertTrue('_logger' in name or f'`{name[1:]}`' in README, name)
         self.assertEqual(rospy.get_param('/turtlesim'), {'background_r': 69, 'background_g': 86, 'background_b': 255})
 
-    def test_a_command_is_driven_for_a_second_while_poses_come(self):
+    def test_a_command_lasts_for_a_second_and_a_pose_comes_at_each_step(self):
         Turtlesim(self)
         pose = Heard(self, '/turtle1/pose')
         first = pose.find()
@@ -73,17 +73,17 @@ class TurtlesimNodeTest(unittest.TestCase):
         end = pose.find(lambda pose: pose.theta > 1.0 and pose.angular_velocity == 0.0)
         self.assertAlmostEqual(end.theta, 1.5 * 63 * 0.016, 5)
 
-    def test_turtles_are_spawned_and_killed_and_what_cannot_be_is_an_error(self):
+    def test_turtles_are_spawned_and_killed_and_bad_requests_fail(self):
         node = Turtlesim(self)
         log = Heard(self, '/rosout')
         self.assertEqual(node.call('spawn', 2.0, 3.0, 1.0, '').name, 'turtle2')
         self.assertEqual(node.call('spawn', 4.0, 3.0, 1.0, 'bob').name, 'bob')
         pose = Heard(self, '/bob/pose').find()
         self.assertEqual((pose.x, pose.y, pose.theta), (4.0, 3.0, 1.0))
-        node.refuses(r'a turtle named \[bob\] is here already', 'spawn', 1.0, 1.0, 0.0, 'bob')
-        node.refuses(r"'a b' is no name", 'spawn', 1.0, 1.0, 0.0, 'a b')
+        node.refuses(r'a turtle named \[bob\] exists already', 'spawn', 1.0, 1.0, 0.0, 'bob')
+        node.refuses(r"'a b' is not a valid name", 'spawn', 1.0, 1.0, 0.0, 'a b')
         node.refuses(r'spawn new: theta is nan', 'spawn', 1.0, 1.0, float('nan'), 'new')
-        node.refuses(r'there is no turtle \[bib\]: here are turtle1, turtle2, bob', 'kill', 'bib')
+        node.refuses(r'there is no turtle \[bib\]: the turtles are turtle1, turtle2, bob', 'kill', 'bib')
         log.find(lambda line: line.level == line.ERROR and 'there is no turtle [bib]' in line.msg)
         node.call('kill', 'bob')
         published = {topic for topic, _ in rospy.get_published_topics()}
@@ -91,7 +91,7 @@ class TurtlesimNodeTest(unittest.TestCase):
         self.assertEqual(node.call('spawn', 7.0, 8.0, 0.0, 'bob').name, 'bob')
         Heard(self, '/bob/pose').find(lambda pose: (pose.x, pose.y) == (7.0, 8.0))
 
-    def test_a_turtle_draws_and_sees_what_is_drawn(self):
+    def test_a_turtle_draws_and_sees_the_colour_of_its_line(self):
         with tempfile.TemporaryDirectory() as folder:
             node = Turtlesim(self, f'_png_path:={folder}/field.png')
             colour = Heard(self, '/turtle1/color_sensor')
@@ -130,14 +130,14 @@ class TurtlesimNodeTest(unittest.TestCase):
             rospy.set_param('/turtlesim/background_b', 5)
             node.call('reset')
             self.assertEqual(node.picture().getpixel((0, 0)), (30, 2, 5))
-        # Who listened to turtle1 hears it still.
+        # The subscriber to turtle1 is still connected.
         self.assertAlmostEqual(pose.fresh().x, MIDDLE, 5)
         self.assertNotIn('/bob/pose', {topic for topic, _ in rospy.get_published_topics()})
         node.call('kill', 'turtle1')
         node.call('reset')
         Heard(self, '/turtle1/pose').find()
 
-    def test_a_picture_that_cannot_be_written_is_told(self):
+    def test_save_png_says_why_it_cannot_write_a_picture(self):
         node = Turtlesim(self, '_png_path:=/no/where/field.png')
         answer = node.call('turtlesim/save_png')
         self.assertFalse(answer.success)
@@ -146,7 +146,7 @@ class TurtlesimNodeTest(unittest.TestCase):
             rospy.set_param('/turtlesim/png_path', os.path.join(folder, 'other.png'))
             self.assertEqual(node.picture().size, (500, 500))
 
-    def test_what_no_turtle_can_do_is_refused_and_the_world_goes_on(self):
+    def test_nan_and_infinity_are_refused_and_the_turtle_obeys_the_next_command(self):
         node = Turtlesim(self)
         pose, log, drive = Heard(self, '/turtle1/pose'), Heard(self, '/rosout'), commander(self)
         before = pose.fresh()
@@ -169,10 +169,10 @@ class TurtlesimNodeTest(unittest.TestCase):
         self.assertRegex(line.msg, r'^Oh no! I hit the wall! \(Clamping from \[x=5\.544444, y=-0\.\d{6}\]\)$')
         end = pose.find(lambda pose: pose.y == 0.0 and pose.linear_velocity == 0.0)
         self.assertAlmostEqual(end.x, MIDDLE, 5)
-        # 29 steps press against the wall; the log is told once a second.
+        # 29 steps end at the wall; the log gets a line once a second.
         self.assertLessEqual(len([line for line in log.messages if 'hit the wall' in line.msg]), 2)
 
-    def test_whatever_ends_it_the_end_is_clean(self):
+    def test_signals_and_rosnode_kill_end_it_with_exit_code_0(self):
         for number in (signal.SIGINT, signal.SIGTERM):
             node = Turtlesim(self)
             pose = Heard(self, '/turtle1/pose')

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""How turtlesim_node begins: with or without a window, at any speed, or not at all."""
+"""turtlesim_node starts with and without a window, at any speed, or refuses to start."""
 
 import signal
 import subprocess
@@ -15,17 +15,17 @@ STEP = 16_000_000  # [ns]
 
 
 class TurtlesimStartTest(unittest.TestCase):
-    """A node for each test."""
+    """Each test starts a node."""
 
     def assert_refused(self, pattern, *arguments):
-        """What a user sees, of a node that is started and refuses."""
+        """Start a node that must refuse its arguments with one line and exit code 2."""
         done = subprocess.run(['rosrun', 'turtlesim', 'turtlesim_node', *arguments], stdout=subprocess.PIPE,
                               stderr=subprocess.PIPE, universal_newlines=True, timeout=TIMEOUT, check=False,
                               env=without_display())
         self.assertEqual((done.returncode, done.stdout), (2, ''), done.stderr)
         self.assertRegex(done.stderr, rf'\Aturtlesim: {pattern}[^\n]*\n\Z')
 
-    def test_bad_input_gets_one_line_and_exit_code_2_and_is_forgotten(self):
+    def test_bad_input_gets_one_line_and_exit_code_2_and_leaves_no_parameter(self):
         if rospy.has_param('/turtlesim'):
             rospy.delete_param('/turtlesim')
         for pattern, *arguments in (
@@ -57,13 +57,13 @@ class TurtlesimStartTest(unittest.TestCase):
         for name in ('background_r', 'background_g', 'background_b', 'speed', 'gui', 'png_path'):
             self.assertRegex(done.stdout, rf'\n  {name} +\w')
 
-    def test_without_a_display_one_line_says_so_and_all_works(self):
+    def test_without_a_display_it_logs_one_line_and_works(self):
         node = Turtlesim(self, stdout=subprocess.PIPE, universal_newlines=True)
         Heard(self, '/turtle1/pose').find()
         node.end()
         self.assertRegex(node.process.stdout.read(), r'\A\[INFO\] \S+: no window: there is no display\n')
 
-    def test_with_qt_s_offscreen_platform_a_window_can_be_had(self):
+    def test_a_window_opens_on_the_offscreen_platform_of_qt(self):
         node = Turtlesim(self, '_gui:=true', '-platform', 'offscreen', stdout=subprocess.PIPE, universal_newlines=True)
         pose = Heard(self, '/turtle1/pose')
         commander(self)(1.0, 0.0, 0.0)
@@ -71,21 +71,21 @@ class TurtlesimStartTest(unittest.TestCase):
         node.end()
         self.assertNotIn('no window', node.process.stdout.read())
 
-    def test_faster_than_real_time_the_clock_tells_every_step_and_commands_last_a_second_of_it(self):
+    def test_faster_than_real_time_every_step_is_on_the_clock_and_commands_last_a_second_of_it(self):
         node = Turtlesim(self, '_speed:=10')
         self.assertTrue(rospy.get_param('/use_sim_time'))
         clock, pose = Heard(self, '/clock'), Heard(self, '/turtle1/pose')
         begin, first = time.monotonic(), clock.fresh().clock.to_nsec()
         last = clock.find(lambda message: message.clock.to_nsec() >= first + 10_000_000_000)
         took = time.monotonic() - begin
-        # The clock was on its way for a moment, and a busy machine may be late by much.
+        # The first message took a moment to arrive, and a busy machine may be very late.
         self.assertGreater(took, 0.8)
         self.assertLess(took, 8.0)
         times = [message.clock.to_nsec() for message in clock.messages]
         times = times[:times.index(last.clock.to_nsec()) + 1]
         differences = [later - earlier for earlier, later in zip(times, times[1:])]
         self.assertTrue(all(difference > 0 and difference % STEP == 0 for difference in differences), differences)
-        # A listener that a busy machine holds up may miss some.
+        # A subscriber on a busy machine may miss some.
         self.assertGreater(differences.count(STEP), 0.9 * len(differences))
         commander(self)(2.0, 0.0, 0.0)
         end = pose.find(lambda pose: pose.x > 7.0 and pose.linear_velocity == 0.0)
@@ -101,16 +101,16 @@ class TurtlesimStartTest(unittest.TestCase):
         pose = Heard(self, '/turtle1/pose').find()
         self.assertEqual((pose.x, pose.y, pose.theta), (2.0, 3.0, 1.0))
 
-    def test_two_that_would_tell_the_time_are_one_too_many(self):
+    def test_a_second_node_that_would_publish_the_clock_is_refused(self):
         Turtlesim(self, '_speed:=2')
-        self.assert_refused('speed is not 1, but /turtlesim tells the time on /clock already',
+        self.assert_refused('speed is not 1, but /turtlesim publishes /clock already',
                             '__ns:=/other', '_speed:=3')
         self.assertTrue(rospy.get_param('/use_sim_time'))
         clock = Heard(self, '/clock')
         first = clock.fresh().clock
         wait(self, lambda: (clock.messages[-1].clock - first).to_sec() > 1.0, 'time')
 
-    def test_what_a_killed_one_left_at_the_master_is_in_nobody_s_way(self):
+    def test_the_topics_that_a_killed_node_left_at_the_master_do_not_hinder_a_new_one(self):
         killed = Turtlesim(self, '_speed:=2', '__ns:=/killed', name='/killed/turtlesim')
         killed.process.kill()
         killed.process.wait(TIMEOUT)

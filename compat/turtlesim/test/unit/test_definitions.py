@@ -1,4 +1,4 @@
-"""On the wire this is turtlesim: any node written for it understands this one."""
+"""The wire formats are those of turtlesim, so that any node written for it understands this one."""
 
 import pathlib
 

@@ -1,4 +1,4 @@
-"""The field: turtles by name, what they draw, what they see."""
+"""The field: turtles by name, their lines and their colour sensors."""
 
 import math
 
@@ -18,24 +18,24 @@ UP = Pen(is_down=False)
 
 @pytest.fixture
 def field():
-    """A field as at the beginning."""
+    """A new field."""
     return Field(BACKGROUND)
 
 
 def bare(field):
-    """The drawing without turtles."""
+    """Return the drawing without turtles."""
     for name in field.names:
         field.kill(name)
     return field.picture()
 
 
 def at(picture, x, y):
-    """The colour of a picture at a place [m]."""
+    """Return the colour of a picture at a position [m]."""
     return picture.getpixel((round(METRE * x), round(PIXELS - 1 - METRE * y)))
 
 
 def drive(field, name, velocity, steps):
-    """Let a turtle drive for so many steps."""
+    """Drive a turtle for a number of steps."""
     for _ in range(steps):
         field.command(name, velocity)
         field.move()
@@ -43,17 +43,17 @@ def drive(field, name, velocity, steps):
 
 
 def coloured(picture, colour=BACKGROUND):
-    """How many pixels are not of a colour."""
+    """Return how many pixels differ from a colour."""
     return sum(1 for pixel in picture.getdata() if pixel != colour)
 
 
-def test_turtle1_begins_in_the_middle(field):
+def test_turtle1_starts_in_the_middle(field):
     assert field.names == ['turtle1']
     assert field.pose('turtle1') == pytest.approx([5.544444, 5.544444, 0.0], abs=1e-6)
     assert field.readings().tolist() == [pytest.approx([5.544445, 5.544445, 0.0, 0.0, 0.0], abs=1e-5)]
 
 
-def test_readings_tell_the_speed_in_whatever_direction_and_the_turn_rate(field):
+def test_readings_hold_the_speed_in_any_direction_and_the_turn_rate(field):
     field.spawn('other', 2.0, 3.0, 1.0)
     field.command('other', (-3.0, 4.0, -0.5))
     field.move()
@@ -75,10 +75,11 @@ def test_names_are_numbered_and_numbers_are_not_used_twice(field):
 
 
 @pytest.mark.parametrize('name, x, message', [
-    ('turtle1', 1.0, r'a turtle named \[turtle1\] is here already'),
-    ('two words', 1.0, "'two words' is no name: must be letters, digits, _ and /, and begin with a letter"),
-    ('7up', 1.0, "'7up' is no name"), ('/abs', 1.0, "'/abs' is no name"), ('a//b', 1.0, "'a//b' is no name"),
-    ('schildkröte', 1.0, "'schildkröte' is no name"),
+    ('turtle1', 1.0, r'a turtle named \[turtle1\] exists already'),
+    ('two words', 1.0, "'two words' is not a valid name: must be letters, digits, _ and /, and begin with a letter"),
+    ('7up', 1.0, "'7up' is not a valid name"), ('/abs', 1.0, "'/abs' is not a valid name"),
+    ('a//b', 1.0, "'a//b' is not a valid name"),
+    ('schildkröte', 1.0, "'schildkröte' is not a valid name"),
     ('new', math.nan, 'spawn new: x is nan: must be a number from ')])
 def test_a_bad_spawn_is_refused_and_changes_nothing(field, name, x, message):
     with pytest.raises(TurtlesimError, match=message):
@@ -86,9 +87,9 @@ def test_a_bad_spawn_is_refused_and_changes_nothing(field, name, x, message):
     assert field.names == ['turtle1'] and field.spawn('', 1.0, 1.0, 0.0) == 'turtle2'
 
 
-def test_a_turtle_that_is_not_there_is_named_with_those_that_are(field):
+def test_an_unknown_turtle_is_refused_and_the_message_lists_the_turtles(field):
     field.spawn('bob', 1.0, 1.0, 0.0)
-    message = r'^there is no turtle \[bib\]: here are turtle1, bob$'
+    message = r'^there is no turtle \[bib\]: the turtles are turtle1, bob$'
     for act in (lambda: field.kill('bib'), lambda: field.teleport('bib', 1.0, 1.0, 0.0),
                 lambda: field.set_pen('bib', UP), lambda: field.command('bib', (1.0, 0.0, 0.0))):
         with pytest.raises(TurtlesimError, match=message):
@@ -96,7 +97,7 @@ def test_a_turtle_that_is_not_there_is_named_with_those_that_are(field):
     assert 'bob' in field and 'bib' not in field
 
 
-def test_the_others_keep_their_places_pens_and_colours_when_one_is_killed(field):
+def test_the_others_keep_their_poses_pens_and_colours_when_one_is_killed(field):
     field.spawn('b', 2.0, 3.0, 0.0)
     field.spawn('c', 8.0, 9.0, 0.0)
     field.set_pen('c', RED)
@@ -110,7 +111,7 @@ def test_the_others_keep_their_places_pens_and_colours_when_one_is_killed(field)
 
 # --- drawing ----------------------------------------------------------------------------------------------------------
 
-def test_a_drive_leaves_a_line_of_the_pen_s_width_and_colour_and_no_gap(field):
+def test_a_drive_draws_a_line_of_the_width_and_colour_of_the_pen_without_gaps(field):
     field.set_pen('turtle1', RED)
     drive(field, 'turtle1', (1.0, 0.0, 0.0), 125)
     picture = bare(field)
@@ -129,7 +130,7 @@ def test_a_slow_turtle_draws_the_same_line_as_a_fast_one(field):
     assert ImageChops.difference(slow, bare(field)).getbbox() is None
 
 
-def test_who_comes_or_goes_between_move_and_draw_leaves_no_gap_in_the_lines_of_others(field):
+def test_a_spawn_or_kill_between_move_and_draw_leaves_no_gap_in_the_lines_of_others(field):
     field.spawn('gone', 1.0, 1.0, 0.0)
     field.spawn('last', 1.0, 9.0, 0.0)
     field.command('last', (60.0, 0.0, 0.0))
@@ -145,15 +146,15 @@ def test_who_comes_or_goes_between_move_and_draw_leaves_no_gap_in_the_lines_of_o
 @pytest.mark.parametrize('width', [1, 2, 3, 8])
 def test_a_curve_has_no_gap(field, width):
     field.set_pen('turtle1', Pen(PEN, width))
-    places = []
+    positions = []
     for _ in range(200):
         drive(field, 'turtle1', (2.0, 0.0, 1.3), 1)
-        places.append(field.pose('turtle1')[:2])
+        positions.append(field.pose('turtle1')[:2])
     picture = bare(field)
-    assert all(at(picture, x, y) == PEN for x, y in places)
+    assert all(at(picture, x, y) == PEN for x, y in positions)
 
 
-def test_a_pen_that_is_up_draws_nothing_also_not_where_it_was_when_it_comes_down(field):
+def test_a_pen_that_is_up_draws_nothing_and_starts_a_new_line_when_it_comes_down(field):
     field.set_pen('turtle1', UP)
     drive(field, 'turtle1', (1.0, 0.0, 0.7), 50)
     field.teleport('turtle1', 2.0, 9.0, 0.0)
@@ -164,7 +165,7 @@ def test_a_pen_that_is_up_draws_nothing_also_not_where_it_was_when_it_comes_down
     assert coloured(picture) < 3 * METRE * 0.8 + 20
 
 
-def test_a_teleport_draws_the_way_when_the_pen_is_down(field):
+def test_a_teleport_draws_a_line_if_the_pen_is_down(field):
     field.teleport('turtle1', 8.0, 2.0, 1.0)
     assert field.pose('turtle1') == [8.0, 2.0, 1.0]
     middle = EXTENT / 2.0
@@ -183,14 +184,14 @@ def test_a_relative_teleport_turns_first_then_goes(field):
 @pytest.mark.parametrize('act, message', [
     (lambda field: field.teleport('turtle1', 1.0, math.inf, 0.0), '^teleport turtle1: y is inf: '),
     (lambda field: field.teleport_relative('turtle1', math.nan, 0.0), '^teleport turtle1: linear is nan: ')])
-def test_a_teleport_to_nowhere_is_refused_and_changes_nothing(field, act, message):
+def test_a_teleport_with_a_bad_number_is_refused_and_changes_nothing(field, act, message):
     before = field.pose('turtle1')
     with pytest.raises(TurtlesimError, match=message):
         act(field)
     assert field.pose('turtle1') == before and coloured(bare(field)) == 0
 
 
-def test_who_drives_spawns_or_teleports_out_is_stopped_at_the_wall_and_told_of(field):
+def test_a_drive_spawn_or_teleport_beyond_a_wall_ends_there_and_is_a_hit(field):
     field.spawn('out', -3.0, 5.0, 0.0)
     field.teleport('turtle1', 99.0, 1.0, 0.0)
     assert field.hits == [('out', -3.0, 5.0), ('turtle1', 99.0, 1.0)]
@@ -209,7 +210,7 @@ def test_a_line_along_every_wall_stays_in_the_picture(field):
     assert {picture.getpixel(corner) for corner in ((0, 0), (0, 499), (499, 0), (499, 499), (250, 0))} == {PEN}
 
 
-def test_clear_forgets_lines_and_keeps_turtles_and_kill_keeps_lines(field):
+def test_clear_erases_lines_and_keeps_turtles_and_kill_keeps_lines(field):
     field.teleport('turtle1', 8.0, 2.0, 1.0)
     field.clear((1, 2, 3))
     assert field.pose('turtle1') == [8.0, 2.0, 1.0]
@@ -220,7 +221,7 @@ def test_clear_forgets_lines_and_keeps_turtles_and_kill_keeps_lines(field):
     assert at(field.picture(), 8.0, 2.0) == PEN
 
 
-def test_reset_begins_anew(field):
+def test_reset_restores_the_initial_field(field):
     field.set_pen('turtle1', RED)
     field.spawn('other', 1.0, 1.0, 0.0)
     drive(field, 'turtle1', (1.0, 0.0, 0.5), 20)
@@ -232,7 +233,7 @@ def test_reset_begins_anew(field):
     assert at(bare(field), EXTENT / 2.0 + 0.04, EXTENT / 2.0) == PEN
 
 
-# --- what there is to see ---------------------------------------------------------------------------------------------
+# --- readings and pictures --------------------------------------------------------------------------------------------
 
 def test_a_turtle_sees_the_colour_under_it(field):
     assert field.colour('turtle1') == BACKGROUND
@@ -248,7 +249,7 @@ def test_a_turtle_sees_the_colour_under_it(field):
     assert seen[RED.colour] == pytest.approx(2.0, abs=0.1)
 
 
-def test_a_turtle_that_moves_sees_what_was_there_before_its_pen(field):
+def test_a_turtle_that_moves_sees_the_colour_before_its_own_line(field):
     field.set_pen('turtle1', Pen(PEN, 1))
     field.command('turtle1', (10.0, 0.0, 0.0))
     field.move()
@@ -257,7 +258,7 @@ def test_a_turtle_that_moves_sees_what_was_there_before_its_pen(field):
     assert field.colour('turtle1') == PEN
 
 
-def test_changes_grow_when_the_picture_may_have_changed_and_only_then(field):
+def test_changes_grow_only_if_the_picture_may_have_changed(field):
     seen = field.changes
     for act in (lambda: drive(field, 'turtle1', (1.0, 0.0, 0.0), 1), lambda: field.spawn('b', 1.0, 1.0, 0.0),
                 lambda: field.teleport('b', 2.0, 1.0, 0.0), lambda: field.kill('b'), lambda: field.clear(BACKGROUND),

@@ -1,4 +1,4 @@
-"""The model knows neither ROS nor Qt nor the clock; scripts are a few lines, and installed."""
+"""The model imports no ROS, no Qt and no clock; each script is a few lines, executable and installed."""
 
 import ast
 import pathlib
@@ -12,7 +12,7 @@ PURE = {'contextlib', 'functools', 'math', 're', 'typing', '__future__', 'numpy'
 
 
 @pytest.mark.parametrize('path', MODEL, ids=lambda path: path.name)
-def test_the_model_imports_what_is_pure(path):
+def test_the_model_imports_only_pure_modules(path):
     for node in ast.walk(ast.parse(path.read_text())):
         names = ([alias.name for alias in node.names] if isinstance(node, ast.Import) else
                  [node.module] if isinstance(node, ast.ImportFrom) else [])

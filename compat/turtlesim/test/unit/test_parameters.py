@@ -1,4 +1,4 @@
-"""Parameters are read strictly; what is wrong is named with what would be right."""
+"""Bad parameters are refused with a message that names good values."""
 
 import pytest
 
@@ -13,14 +13,14 @@ PARAMETERS = {
 
 @pytest.fixture
 def server(monkeypatch):
-    """The parameter server, as a dictionary of the node's private parameters."""
+    """The private parameters of the node on the parameter server, as a dictionary."""
     private = {}
     monkeypatch.setattr(node.rospy, 'get_param', lambda name, default: private.get(name[1:], default))
     monkeypatch.setattr(node.rospy, 'resolve_name', lambda name: f'/node/{name[1:]}')
     return private
 
 
-def test_what_is_not_given_has_its_default(server):
+def test_a_parameter_that_is_not_set_has_its_default(server):
     server['scale'] = 3
     assert node.read(PARAMETERS, 'path', 'scale') == ['here', 3]
 

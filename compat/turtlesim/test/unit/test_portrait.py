@@ -1,4 +1,4 @@
-"""A turtle looks where it goes, and neighbours differ."""
+"""The picture of a turtle shows its heading, and consecutive turtles differ in colour."""
 
 import math
 
@@ -11,10 +11,10 @@ from turtlesim.model.turtles import METRE
 
 
 def skin(picture):
-    """Middle of the greenish light pixels, the head and the legs: column and row from the middle."""
+    """Return the mean of the light green pixels, head and legs: column and row from the middle of the picture."""
     found = [(column + 0.5 - METRE / 2.0, row + 0.5 - METRE / 2.0) for column in range(METRE) for row in range(METRE)
              if picture.getpixel((column, row))[3] > 200 and picture.getpixel((column, row))[1] > 180]
-    return [sum(place[axis] for place in found) / len(found) for axis in (0, 1)]
+    return [sum(position[axis] for position in found) / len(found) for axis in (0, 1)]
 
 
 @pytest.mark.parametrize('theta', [0.0, 0.7, math.pi / 2.0, 2.5, math.pi, -1.2])
@@ -23,13 +23,13 @@ def test_the_head_points_along_theta_with_y_up(theta):
     assert math.remainder(math.atan2(-row, column) - theta, 2.0 * math.pi) == pytest.approx(0.0, abs=0.2)
 
 
-def test_neighbours_differ_in_colour():
+def test_consecutive_turtles_differ_in_colour():
     middle = METRE // 2
     colours = {portrait(number, 0.0).getpixel((middle, middle)) for number in range(len(SHELLS))}
     assert len(colours) == len(SHELLS)
 
 
-def test_a_turtle_stands_where_it_is_with_y_up():
+def test_a_turtle_is_drawn_at_its_position_with_y_up():
     field = Field((1, 2, 3))
     empty = field.picture()
     field.spawn('other', 2.0, 8.0, 0.0)

@@ -1,4 +1,4 @@
-"""The README names all that the nodes have, and nothing that they have not."""
+"""The README lists exactly the parameters, programs, launch files and definitions of the package."""
 
 import pathlib
 import re
@@ -9,7 +9,7 @@ PACKAGE = pathlib.Path(__file__).resolve().parents[2]
 README = (PACKAGE / 'README.md').read_text()
 
 
-def test_every_parameter_is_there_with_its_default():
+def test_it_lists_every_parameter_with_its_default():
     rows = dict(re.findall(r'^\| `~(\w+)`[^|]* \| ([^|]+) \|', README, re.MULTILINE))
     background = ', '.join(str(turtlesim_node.PARAMETERS[name].default) for name in turtlesim_node.BACKGROUND)
     expected = {name: f'{parameter.default:g}' if isinstance(parameter.default, float) else str(parameter.default)
@@ -19,13 +19,13 @@ def test_every_parameter_is_there_with_its_default():
         assert f'_{name}:={parameter.default:g}' in README
 
 
-def test_every_program_and_launch_file_is_there():
+def test_it_lists_every_program_and_launch_file():
     assert set(re.findall(r'^\| `rosrun turtlesim (\w+)', README, re.MULTILINE)) == {
         path.name for path in (PACKAGE / 'scripts').iterdir()}
     assert set(re.findall(r'^\| `roslaunch turtlesim ([\w.]+)`', README, re.MULTILINE)) == {
         path.name for path in (PACKAGE / 'launch').iterdir()}
 
 
-def test_every_definition_is_there():
+def test_it_lists_every_definition():
     for path in [*(PACKAGE / 'msg').iterdir(), *(PACKAGE / 'srv').iterdir()]:
         assert re.search(rf'`(turtlesim/)?{path.stem}`', README), path.name

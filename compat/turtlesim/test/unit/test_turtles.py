@@ -1,4 +1,4 @@
-"""Turtles move by the documented equations, step by step, and no wall lets them through."""
+"""Turtles move by the documented equations, step by step, and walls stop them."""
 
 import math
 
@@ -11,7 +11,7 @@ EXACT = 1e-12
 
 
 def turtles(*poses):
-    """Turtles at these poses."""
+    """Return turtles at these poses."""
     made = Turtles()
     for pose in poses:
         made.add(pose)
@@ -52,19 +52,19 @@ def test_forward_left_and_turning_together():
     assert one.poses[0].tolist() == pytest.approx([x, y, theta], abs=EXACT)
 
 
-def test_a_circle_has_the_radius_of_a_polygon_s_corners():
+def test_a_circle_is_a_polygon_of_the_documented_radius():
     one = turtles((4.0, 5.0, 0.0))
-    places = []
+    positions = []
     for step in range(1000):
         if step % 10 == 0:
             one.command(0, (1.0, 0.0, 0.5))
         one.step()
-        places.append(one.poses[0, :2].tolist())
-    # Each step is a chord that turns by 0.008 rad against the last.
+        positions.append(one.poses[0, :2].tolist())
+    # Each step is a chord, turned by 0.008 rad from the one before.
     radius = 0.5 * 1.0 * 0.016 / math.sin(0.5 * 0.5 * 0.016)
     half = 0.5 * 0.5 * 0.016
     centre = 4.0 - radius * math.sin(half), 5.0 + radius * math.cos(half)
-    for x, y in places:
+    for x, y in positions:
         assert math.hypot(x - centre[0], y - centre[1]) == pytest.approx(radius, abs=1e-9)
 
 
@@ -82,7 +82,7 @@ def test_a_command_is_held_for_the_steps_that_begin_within_a_second():
     assert not one.step()
 
 
-def test_a_new_command_takes_the_place_of_the_old_and_lasts_a_second_more():
+def test_a_new_command_replaces_the_last_one_and_lasts_for_a_second():
     one = turtles((1.0, 5.0, 0.0))
     one.command(0, (2.0, 0.0, 0.0))
     for _ in range(40):
@@ -93,7 +93,7 @@ def test_a_new_command_takes_the_place_of_the_old_and_lasts_a_second_more():
     assert one.poses[0, 0] == pytest.approx(1.0 + 40 * 0.016 * 2.0 + 63 * 0.016 * 0.5)
 
 
-def test_who_is_commanded_moves_and_each_stops_in_time():
+def test_each_turtle_stops_a_second_after_its_own_command():
     three = turtles((1.0, 1.0, 0.0), (2.0, 2.0, 0.0), (3.0, 3.0, 0.0))
     three.command(2, (1.0, 0.0, 0.0))
     for _ in range(30):
@@ -105,7 +105,7 @@ def test_who_is_commanded_moves_and_each_stops_in_time():
                                     pytest.approx([3.0 + 63 * 0.016, 3.0, 0.0])]
 
 
-def test_those_that_came_after_a_removed_one_go_on():
+def test_turtles_after_a_removed_one_keep_their_motion():
     three = turtles((1.0, 1.0, 0.0), (2.0, 2.0, 0.0), (3.0, 3.0, 0.0))
     three.command(2, (1.0, 0.0, 0.0))
     three.step()
@@ -135,20 +135,20 @@ def test_theta_wraps_while_turning_either_way():
             assert math.remainder(one.poses[0, 2] - step * 0.016 * rate, 2.0 * math.pi) == pytest.approx(0.0, abs=1e-9)
 
 
-def test_walls_stop_who_leaves_and_tell_where_it_would_be():
+def test_walls_stop_turtles_and_clamp_returns_where_they_would_be():
     four = turtles((5.0, 5.0, 0.0), (12.0, 3.0, 0.0), (4.0, -0.5, 0.0), (-1.0, 99.0, 0.0))
     assert four.clamp() == [(1, 12.0, 3.0), (2, 4.0, -0.5), (3, -1.0, 99.0)]
     assert four.poses[:, :2].tolist() == [[5.0, 5.0], [EXTENT, 3.0], [4.0, 0.0], [0.0, EXTENT]]
     assert four.clamp() == []
 
 
-def test_nobody_moves_and_nobody_is_stopped_on_an_empty_field():
-    nobody = Turtles()
-    assert not nobody.step() and nobody.clamp() == []
+def test_an_empty_field_has_no_motion_and_no_hits():
+    empty = Turtles()
+    assert not empty.step() and empty.clamp() == []
 
 
 @pytest.mark.parametrize('bad', [math.nan, math.inf, -math.inf, 1.1e9])
-def test_a_number_with_which_no_turtle_could_go_on_is_named(bad):
+def test_a_number_that_no_pose_can_have_is_refused(bad):
     check_numbers('spawn', x=1.0, theta=-1e9)
     with pytest.raises(TurtlesimError, match=rf'^spawn: theta is {bad}: must be a number from -1e\+09 to 1e\+09$'):
         check_numbers('spawn', x=1.0, theta=bad)

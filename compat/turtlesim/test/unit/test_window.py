@@ -1,4 +1,4 @@
-"""The window shows what the picture is, without a display too; where there can be none, a few words say why."""
+"""The window shows the picture pixel by pixel; if no window can be opened, a few words say why."""
 
 import subprocess
 import sys
@@ -39,7 +39,7 @@ def test_it_shows_the_last_picture_pixel_by_pixel(tmp_path, monkeypatch):
     field.teleport('turtle1', 2.0, 9.0, 0.5)
     field.picture().save(tmp_path / 'second.png')
     paths = [str(tmp_path / name) for name in ('shown.png', 'first.png', 'second.png')]
-    # In a process of its own: Qt ends the one that it cannot serve.
+    # In a process of its own: Qt ends a process if it cannot use its display.
     subprocess.run([sys.executable, '-c', SHOW, *paths], check=True, timeout=60.0)
     shown = Image.open(paths[0]).convert('RGB')
     assert shown.size == (500, 500)
@@ -52,7 +52,7 @@ def test_without_a_display_there_is_none(monkeypatch):
     assert not window.is_unseen()
 
 
-def test_a_display_that_does_not_answer_ends_nothing(monkeypatch):
+def test_a_display_that_does_not_answer_is_a_reason(monkeypatch):
     monkeypatch.setenv('DISPLAY', ':987')
     assert window.why_none() == 'Qt cannot use the display :987'
 
@@ -64,7 +64,7 @@ def test_without_qt_there_is_none(monkeypatch):
 
 
 @pytest.mark.parametrize('platform, is_unseen', [('offscreen', True), ('minimal:x', True), ('xcb', False)])
-def test_platforms_that_show_nobody_anything_are_known(monkeypatch, platform, is_unseen):
+def test_platforms_that_show_nothing_are_known(monkeypatch, platform, is_unseen):
     monkeypatch.setenv('QT_QPA_PLATFORM', platform)
     assert window.is_unseen() == is_unseen
 

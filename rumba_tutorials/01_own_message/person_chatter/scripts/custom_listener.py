@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Prints each Person that is heard on custom_chatter."""
+"""Prints each Person that arrives on custom_chatter."""
 
 import rospy
 

@@ -1,4 +1,4 @@
-// Prints each Person that is heard on custom_chatter.
+// Prints each Person that arrives on custom_chatter.
 
 #include <ros/ros.h>
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Talkers in both languages say who they are, and listeners in both understand."""
+"""Talkers in both languages publish their person, and listeners in both languages print it."""
 
 import threading
 import unittest
@@ -27,13 +27,13 @@ class PersonChatterTest(unittest.TestCase):
             publisher = rospy.Publisher(f'/{namespace}/custom_chatter', Person, queue_size=1)
             end = rospy.get_time() + TIMEOUT
             while not heard.wait(0.05):
-                self.assertLess(rospy.get_time(), end, f'/{namespace}/listener is silent')
+                self.assertLess(rospy.get_time(), end, f'/{namespace}/listener logs nothing')
                 publisher.publish('Alan', -3)
             log.unregister()
             publisher.unregister()
 
     def note(self, entry, node, heard):
-        """Set the event when a node logs what it should."""
+        """Set the event if the node has logged the expected line."""
         if (entry.name, entry.msg) == (node, 'Alan is -3 years old'):
             heard.set()
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Prints each BatteryStatus that is heard on rumba/battery_status."""
+"""Prints each BatteryStatus that arrives on rumba/battery_status."""
 
 import rospy
 

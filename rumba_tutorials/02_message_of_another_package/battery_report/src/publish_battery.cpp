@@ -1,4 +1,4 @@
-// Publishes a BatteryStatus as the lesson of rumba_msg does, five times a second: a battery that loses 1 % each time.
+// Publishes a BatteryStatus five times a second, as the lesson on rumba_msg does; the battery loses 1 % each time.
 
 #include <ros/ros.h>
 

@@ -1,4 +1,4 @@
-// Prints each BatteryStatus that is heard on rumba/battery_status.
+// Prints each BatteryStatus that arrives on rumba/battery_status.
 
 #include <ros/ros.h>
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The publisher in C++ is understood, and both readers understand every field that they print."""
+"""The message of the C++ publisher is complete, and both readers print the fields correctly."""
 
 import threading
 import unittest
@@ -28,14 +28,14 @@ class BatteryReportTest(unittest.TestCase):
                 self.check_reader(namespace, status, f'42 %, at (1.2, -2.5), brushes {brushes}')
 
     def check_reader(self, namespace, status, wanted):
-        """Publish a status until the reader of a namespace logs what it should."""
+        """Publish a status until the reader of a namespace logs the expected line."""
         heard = threading.Event()
         log = rospy.Subscriber('/rosout', Log, lambda entry: heard.set()
                                if (entry.name, entry.msg) == (f'/{namespace}/reader', wanted) else None)
         publisher = rospy.Publisher(f'/{namespace}/rumba/battery_status', BatteryStatus, queue_size=1)
         end = rospy.get_time() + TIMEOUT
         while not heard.wait(0.05):
-            self.assertLess(rospy.get_time(), end, f'/{namespace}/reader does not say: {wanted}')
+            self.assertLess(rospy.get_time(), end, f'/{namespace}/reader does not log: {wanted}')
             publisher.publish(status)
         log.unregister()
         publisher.unregister()

@@ -1,4 +1,4 @@
-// Prints the sum of each pair that is heard on two_ints.
+// Prints the sum of each pair that arrives on two_ints.
 
 #include <ros/ros.h>
 

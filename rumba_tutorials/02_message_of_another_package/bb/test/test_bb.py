@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""bb adds the numbers that aa says."""
+"""bb adds the numbers that aa publishes."""
 
 import queue
 import unittest

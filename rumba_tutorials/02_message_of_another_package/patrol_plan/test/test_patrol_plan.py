@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""A Patrol arrives with all that is nested in it, also at who comes late."""
+"""A Patrol arrives with all nested messages, also at a subscriber that comes later."""
 
 import unittest
 
@@ -14,11 +14,12 @@ class PatrolPlanTest(unittest.TestCase):
 
     def test_what_is_nested(self):
         patrol = rospy.wait_for_message('patrol', Patrol, timeout=30.0)
-        self.assertEqual([(pose.position.x, pose.position.y, pose.orientation.w) for pose in patrol.places.poses],
+        self.assertEqual([(pose.position.x, pose.position.y, pose.orientation.w) for pose in patrol.waypoints.poses],
                          [(1.0, 2.0, 1.0), (3.0, 0.5, 1.0)])
         self.assertEqual([speed.linear.x for speed in patrol.speeds], [0.25, 0.125])
-        self.assertEqual((patrol.header.frame_id, patrol.places.header.frame_id), ('map', 'map'))
-        self.assertEqual((patrol.battery.percentage_battery, patrol.battery.debug_message), (97, 'enough for the way'))
+        self.assertEqual((patrol.header.frame_id, patrol.waypoints.header.frame_id), ('map', 'map'))
+        battery = patrol.battery
+        self.assertEqual((battery.percentage_battery, battery.debug_message), (97, 'enough for the patrol'))
         self.assertLess(abs((rospy.Time.now() - patrol.header.stamp).to_sec()), 60.0)
 
 

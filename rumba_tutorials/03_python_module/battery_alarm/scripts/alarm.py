@@ -1,5 +1,8 @@
 #!/usr/bin/env python3
-"""Warns, and publishes True on battery_low, latched, when the battery becomes low; False when it is well again."""
+"""Logs a warning and publishes True on battery_low when the charge becomes low; publishes False when it is good again.
+
+The topic is latched.
+"""
 
 import rospy
 from std_msgs.msg import Bool
@@ -9,14 +12,14 @@ from rumba_msg.msg import BatteryStatus
 
 
 class Alarm:
-    """Speaks when the charge crosses the limit, and not between."""
+    """Publishes when the charge crosses the limit, and not in between."""
 
     def __init__(self):
         self.is_low = None
-        self.publisher = rospy.Publisher('battery_low', Bool, queue_size=10, latch=True)  # no change is lost
-        rospy.Subscriber('rumba/battery_status', BatteryStatus, self.hear)
+        self.publisher = rospy.Publisher('battery_low', Bool, queue_size=10, latch=True)
+        rospy.Subscriber('rumba/battery_status', BatteryStatus, self.on_status)
 
-    def hear(self, status):
+    def on_status(self, status):
         is_low = level(status.percentage_battery) in ('low', 'empty')
         if is_low == self.is_low:
             return

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The alarm, and the node beside the module, say what the module says."""
+"""The alarm and the node of the same package as the module log the words of the module."""
 
 import queue
 import unittest
@@ -15,7 +15,7 @@ TIMEOUT = 30.0
 
 
 class BatteryAlarmTest(unittest.TestCase):
-    """Both nodes hear one battery."""
+    """Both nodes subscribe to one battery."""
 
     def setUp(self):
         self.low, self.said = queue.Queue(), set()
@@ -24,21 +24,21 @@ class BatteryAlarmTest(unittest.TestCase):
         self.publisher = rospy.Publisher('rumba/battery_status', BatteryStatus, queue_size=10)
         self.end = rospy.get_time() + TIMEOUT
         while self.publisher.get_num_connections() < 2:
-            self.assertLess(rospy.get_time(), self.end, 'the nodes do not listen')
+            self.assertLess(rospy.get_time(), self.end, 'the nodes do not subscribe')
             rospy.sleep(0.01)
 
     def publish(self, percentage, brushes_up):
         self.publisher.publish(BatteryStatus(percentage_battery=percentage, brushes_up=brushes_up))
 
-    def test_it_speaks_when_the_limit_is_crossed(self):
+    def test_it_publishes_when_the_charge_crosses_the_limit(self):
         self.publish(21, True)
-        self.assertIs(self.low.get(timeout=TIMEOUT), False)  # latched: from now on every change is heard
+        self.assertIs(self.low.get(timeout=TIMEOUT), False)  # latched: from here on, every change arrives
         for percentage in (20, 19, 50, 10):
             self.publish(percentage, True)
         self.assertEqual([self.low.get(timeout=TIMEOUT) for _ in range(3)], [True, False, True])
-        self.check_what_both_say()
+        self.check_what_both_log()
 
-    def check_what_both_say(self):
+    def check_what_both_log(self):
         wanted = {('/alarm', Log.WARN, 'low: 20 %, brushes lifted'),
                   ('/say_battery', Log.INFO, 'full: 100 %, brushes on the floor')}
         while not wanted <= self.said:

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Prints what the battery's state means, when it is heard first, and whenever that changes."""
+"""Logs the state of the battery in words, at the first message and at each change."""
 
 import rospy
 
@@ -8,13 +8,13 @@ from rumba_msg.msg import BatteryStatus
 
 
 class Speaker:
-    """Says nothing twice."""
+    """Logs no line twice in a row."""
 
     def __init__(self):
         self.said = ''
-        rospy.Subscriber('rumba/battery_status', BatteryStatus, self.hear)
+        rospy.Subscriber('rumba/battery_status', BatteryStatus, self.on_status)
 
-    def hear(self, status):
+    def on_status(self, status):
         line = words.describe(status)
         if line != self.said:
             rospy.loginfo(line)

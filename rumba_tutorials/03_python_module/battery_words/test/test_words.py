@@ -1,4 +1,4 @@
-"""Words change where they should."""
+"""The words change at the right charges."""
 
 import types
 

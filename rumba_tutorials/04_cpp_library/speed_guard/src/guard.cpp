@@ -1,4 +1,4 @@
-// Passes each command of cmd_vel_raw on to cmd_vel, no faster than ~max_linear [m/s] and ~max_angular [rad/s] allow.
+// Publishes each command of cmd_vel_raw on cmd_vel, limited to ~max_linear [m/s] and ~max_angular [rad/s].
 
 #include <geometry_msgs/Twist.h>
 #include <ros/ros.h>

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The guard slows commands down along their curve, and refuses limits that make no sense."""
+"""The guard slows commands down without a change of their curve, and refuses bad limits."""
 
 import queue
 import subprocess
@@ -10,7 +10,7 @@ import rostest
 from geometry_msgs.msg import Twist, Vector3
 
 TIMEOUT = 30.0
-WANTED = {  # v [m/s], w [rad/s]: asked, and let through
+WANTED = {  # v [m/s], w [rad/s]: the command, and what the guard publishes
     (0.25, -1.0): (0.25, -1.0),
     (-1.0, 1.0): (-0.5, 0.5),
     (0.5, -8.0): (0.125, -2.0),
@@ -28,7 +28,7 @@ class SpeedGuardTest(unittest.TestCase):
         publisher = rospy.Publisher('cmd_vel_raw', Twist, queue_size=1)
         end = rospy.get_time() + TIMEOUT
         while publisher.get_num_connections() == 0 or heard.empty():
-            self.assertLess(rospy.get_time(), end, 'the guard passes nothing on')
+            self.assertLess(rospy.get_time(), end, 'the guard publishes nothing')
             publisher.publish(Twist())
             rospy.sleep(0.05)
         for (linear, angular), wanted in WANTED.items():
@@ -38,7 +38,7 @@ class SpeedGuardTest(unittest.TestCase):
                 command = heard.get(timeout=TIMEOUT)
             self.assertEqual((command.linear.x, command.angular.z), wanted)
 
-    def test_a_limit_of_nothing_is_refused(self):
+    def test_a_limit_of_0_is_refused(self):
         guard = subprocess.run(['rosrun', 'speed_guard', 'guard', '__name:=bad', '_max_linear:=0.0'], timeout=TIMEOUT,
                                stdout=subprocess.PIPE, stderr=subprocess.STDOUT, universal_newlines=True)
         self.assertEqual(guard.returncode, 2)

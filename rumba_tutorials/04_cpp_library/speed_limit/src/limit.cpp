@@ -13,7 +13,7 @@ geometry_msgs::Twist limited(const geometry_msgs::Twist& command, double max_lin
   geometry_msgs::Twist slower;
   if (std::isfinite(linear) && std::isfinite(angular))
   {
-    // How many times faster than allowed; one factor for both keeps the curve.
+    // How many times faster than allowed; the same factor for both velocities keeps the curve.
     const double excess = std::max({ 1.0, std::fabs(linear) / max_linear, std::fabs(angular) / max_angular });
     slower.linear.x = linear / excess;
     slower.angular.z = angular / excess;

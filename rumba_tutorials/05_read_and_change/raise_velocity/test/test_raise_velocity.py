@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""A user answers, well and badly; the robot is told what follows from it."""
+"""The node publishes what follows from the right and wrong answers of a user."""
 
 import subprocess
 import threading
@@ -13,37 +13,38 @@ TIMEOUT = 30.0
 
 
 class RaiseVelocityTest(unittest.TestCase):
-    """The node runs as a user starts it, with pipes for a keyboard and a screen."""
+    """The node runs as a user starts it, with pipes as keyboard and screen."""
 
     def setUp(self):
         self.news = threading.Condition()
-        self.told = []  # velocities ahead [m/s] that the node tells the robot
-        subscriber = rospy.Subscriber('cmd_vel', Twist, self.hear)
+        self.published = []  # (forward velocity [m/s], turn rate [rad/s]) that the node publishes
+        subscriber = rospy.Subscriber('cmd_vel', Twist, self.on_command)
         self.node = subprocess.Popen(['rosrun', 'raise_velocity', 'increase.py'], universal_newlines=True,
                                      stdin=subprocess.PIPE, stdout=subprocess.PIPE)
         self.addCleanup(self.node.wait)
         self.addCleanup(self.node.kill)
         self.addCleanup(subscriber.unregister)
 
-    def hear(self, velocity):
+    def on_command(self, velocity):
         if velocity._connection_header['callerid'] == '/increase':
             with self.news:
-                self.told.append((velocity.linear.x, velocity.angular.z))
+                self.published.append((velocity.linear.x, velocity.angular.z))
                 self.news.notify()
 
     def wait_for(self, *wanted):
-        """Wait until the last that the node told is as wanted."""
+        """Wait until the last command of the node is the wanted one."""
         with self.news:
-            self.assertTrue(self.news.wait_for(lambda: self.told[-1:] == [wanted], TIMEOUT), (wanted, self.told[-1:]))
+            is_there = self.news.wait_for(lambda: self.published[-1:] == [wanted], TIMEOUT)
+            self.assertTrue(is_there, (wanted, self.published[-1:]))
 
     def answer(self, answer, shown):
-        """Type an answer, and read the next line on the screen."""
+        """Type an answer and read the next line on the screen."""
         print(answer, file=self.node.stdin, flush=True)
         self.assertEqual(self.node.stdout.readline(), f'> {shown}\n')
 
     def test_a_conversation(self):
-        asked = 'now {:.2f} m/s; raise it by how much? (q: stop and leave)'
-        refused = '{} is not an amount: a number of m/s, such as 0.1 or -0.1'
+        asked = 'the velocity is {:.2f} m/s; how much to add? (q: stop the robot and quit)'
+        refused = '{} is not a velocity: type a number in m/s, such as 0.1 or -0.1'
         self.assertEqual(self.node.stdout.readline(), asked.format(0.0) + '\n')
         self.wait_for(0.0, 0.0)
         self.answer('0.25', asked.format(0.25))
@@ -63,7 +64,7 @@ class RaiseVelocityTest(unittest.TestCase):
 
     def test_the_end_of_the_input_stops_the_robot(self):
         self.node.stdout.readline()
-        self.answer('1', 'now 1.00 m/s; raise it by how much? (q: stop and leave)')
+        self.answer('1', 'the velocity is 1.00 m/s; how much to add? (q: stop the robot and quit)')
         self.wait_for(1.0, 0.0)
         self.node.stdin.close()
         self.assertEqual(self.node.wait(TIMEOUT), 0)

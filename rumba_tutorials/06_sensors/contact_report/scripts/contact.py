@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Reports each contact of a bumper: prints it, and publishes it on contact_report, latched.
+"""Reports each contact of a bumper: prints it, and publishes it on the latched topic contact_report.
 
-Listens to rumba/bumper and rumba/odom.
+Subscribes to rumba/bumper and rumba/odom.
 """
 
 import collections
@@ -14,28 +14,28 @@ from contact_report.msg import ContactReport
 from rumba_msg.msg import Bumper
 
 SIDES = {(True, False): 'left', (False, True): 'right', (True, True): 'front'}
-MEMORY = rospy.Duration(1.0)  # the robot has slowed down already when the contact is heard of
+MEMORY = rospy.Duration(1.0)  # when the message of the contact comes, the robot has already slowed down
 
 
 class ContactWatch:
-    """Tells the beginning of a contact from its going on."""
+    """Detects the beginning of each contact."""
 
     def __init__(self):
         self.count = 0
-        self.is_touching = None  # nothing was heard yet
-        self.speeds = collections.deque()  # (stamp, speed ahead [m/s]) of the last second
+        self.is_touching = None  # None: no reading yet
+        self.speeds = collections.deque()  # (stamp, forward speed [m/s]) of the last second
         self.publisher = rospy.Publisher('contact_report', ContactReport, queue_size=10, latch=True)
-        rospy.Subscriber('rumba/odom', Odometry, self.hear_odom)
-        rospy.Subscriber('rumba/bumper', Bumper, self.hear_bumper)
+        rospy.Subscriber('rumba/odom', Odometry, self.on_odom)
+        rospy.Subscriber('rumba/bumper', Bumper, self.on_bumper)
 
-    def hear_odom(self, odom):
+    def on_odom(self, odom):
         self.speeds.append((odom.header.stamp, odom.twist.twist.linear.x))
         while self.speeds[0][0] < odom.header.stamp - MEMORY:
             self.speeds.popleft()
 
-    def hear_bumper(self, bumper):
+    def on_bumper(self, bumper):
         if self.is_touching is None:
-            rospy.loginfo('the bumper is there')
+            rospy.loginfo('first reading of the bumper')
         side = SIDES.get((bumper.is_left_pressed, bumper.is_right_pressed))
         if side and not self.is_touching:
             self.report(bumper.header, side)

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""A robot that drives into a wall is reported once, with its speed; which side it was is told apart."""
+"""A contact with a wall is reported once, with its speed and its side."""
 
 import math
 import queue
@@ -20,10 +20,10 @@ BEFORE_THE_WALL = Pose2D(0.5, 2.5, math.pi)  # 0.33 m between robot and wall, in
 
 
 class ContactReportTest(unittest.TestCase):
-    """In the root namespace the simulator is there too; in the others there is only what the test says."""
+    """In the root namespace, a simulator runs; in the others, only this test publishes readings."""
 
     def listen(self, topic, kind):
-        """A queue of what is heard, of a topic that somebody publishes."""
+        """Subscribe to a topic that has a publisher; return the queue of its messages."""
         heard = queue.Queue()
         subscriber = rospy.Subscriber(topic, kind, heard.put)
         self.addCleanup(subscriber.unregister)
@@ -31,7 +31,7 @@ class ContactReportTest(unittest.TestCase):
         return heard
 
     def publisher(self, topic, kind):
-        """A publisher that somebody listens to."""
+        """Return a publisher that has a subscriber."""
         publisher = rospy.Publisher(topic, kind, queue_size=10)
         self.addCleanup(publisher.unregister)
         self.wait_for_connection(publisher)

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""A thermometer that errs a little: publishes its readings on sensor_topic, twice a second.
+"""A thermometer with a small error; publishes its readings on sensor_topic, twice a second.
 
-Parameters: ~id; ~sensor_name; ~temperature [degC], what it would read without error.
+Parameters: ~id; ~sensor_name; ~temperature [degC], the reading without the error.
 """
 
 import random

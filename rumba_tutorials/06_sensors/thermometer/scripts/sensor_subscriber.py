@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Prints the readings on sensor_topic, and warns where one is above ~limit [degC], or none at all."""
+"""Logs the readings on sensor_topic: those above ~limit [degC] as warnings, those of a failed sensor as errors."""
 
 import math
 

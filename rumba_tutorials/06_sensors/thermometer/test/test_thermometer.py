@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""A sensor publishes what its parameters say; the listener tells good readings from bad ones."""
+"""A sensor publishes the values of its parameters; the subscriber logs good and bad readings at different levels."""
 
 import unittest
 
@@ -10,7 +10,7 @@ from rosgraph_msgs.msg import Log
 from thermometer.msg import Reading
 
 TIMEOUT = 30.0
-SAID = [  # temperature [degC], and what the listener logs
+SAID = [  # temperature [degC], and what the subscriber logs
     (30.0, Log.INFO, 'sensor 3, hall: 30.0 degC'),
     (30.5, Log.WARN, 'sensor 3, hall: 30.5 degC, more than 30.0'),
     (float('nan'), Log.ERROR, 'sensor 3, hall: failed'),
@@ -18,7 +18,7 @@ SAID = [  # temperature [degC], and what the listener logs
 
 
 class ThermometerTest(unittest.TestCase):
-    """An oven on a topic of its own, and a listener with a limit of 30 degC."""
+    """A sensor named oven on a topic of its own, and a subscriber with a limit of 30 degC."""
 
     def test_publisher(self):
         readings = [rospy.wait_for_message('oven', Reading, TIMEOUT) for _ in range(2)]

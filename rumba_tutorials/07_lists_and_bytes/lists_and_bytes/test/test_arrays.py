@@ -1,4 +1,4 @@
-"""What the lesson says of lists, bytes and arrays is what rospy does with them."""
+"""rospy treats lists, bytes and arrays as the page of this lesson says."""
 
 import io
 
@@ -12,19 +12,19 @@ from lists_and_bytes.msg import IntList, Packet
 
 
 def over_the_wire(message, kind):
-    """What a subscriber to `kind` gets of a message."""
+    """Return a message as a subscriber to `kind` receives it."""
     buffer = io.BytesIO()
     message.serialize(buffer)
     return kind().deserialize(buffer.getvalue())
 
 
-def test_metres_become_whole_millimetres_in_the_fields_own_type():
+def test_metres_become_whole_millimetres_of_the_type_of_the_field():
     distances = to_millimetres(np.array([0.1236, np.inf, -np.inf, 2.0], np.float32))
     assert distances.dtype == np.int32
     assert distances.tolist() == [124, -1, -1, 2000]
 
 
-def test_the_nearest_is_none_of_those_that_saw_nothing():
+def test_the_nearest_distance_ignores_beams_that_saw_nothing():
     assert nearest(np.array([300, -1, 200])) == 200
     assert nearest(np.array([-1, -1])) == -1
 
@@ -35,7 +35,7 @@ def test_lists_and_arrays_arrive_as_tuples(kind, data):
     assert over_the_wire(kind(data), IntList).data == (1, -2, 3)
 
 
-def test_with_numpy_msg_they_arrive_as_an_array_that_cannot_be_changed():
+def test_with_numpy_msg_they_arrive_as_a_read_only_array():
     data = over_the_wire(IntList([1, -2, 3]), numpy_msg(IntList)).data
     assert data.dtype == np.int32 and data.tolist() == [1, -2, 3]
     with pytest.raises(ValueError, match='read-only'):
@@ -48,19 +48,19 @@ def test_an_array_of_another_type_arrives_as_other_numbers_without_any_error():
 
 
 @pytest.mark.parametrize('data', [[1, 2, 255], (1, 2, 255), b'\x01\x02\xff'])
-def test_uint8_arrives_as_bytes_and_each_of_them_is_a_number(data):
+def test_uint8_arrives_as_bytes_whose_elements_are_numbers(data):
     payload = over_the_wire(Packet(data), Packet).payload
     assert payload == b'\x01\x02\xff' and payload[2] == 255
     assert np.frombuffer(payload, np.uint8).tolist() == [1, 2, 255]
 
 
 @pytest.mark.parametrize('kind', [Packet, numpy_msg(Packet)])
-def test_an_array_is_no_list_for_uint8(kind):
+def test_an_array_is_refused_for_uint8(kind):
     with pytest.raises(genpy.SerializationError, match='^field payload must be a list or tuple type$'):
         over_the_wire(kind(np.array([1, 2], np.uint8)), Packet)
 
 
-def test_floats_are_no_integers():
+def test_floats_are_refused_for_integers():
     with pytest.raises(genpy.SerializationError, match=r'^field data\[\] must be an integer type$'):
         over_the_wire(IntList([1.0]), IntList)
     with pytest.raises(genpy.SerializationError, match='^field data must be a list or tuple type$'):

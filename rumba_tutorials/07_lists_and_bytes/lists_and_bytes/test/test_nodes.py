@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The sender tells what the laser and the battery of the simulator tell, and the receiver prints it."""
+"""The sender publishes the laser and the battery of the simulator, and the receiver prints them."""
 
 import re
 import subprocess
@@ -16,7 +16,7 @@ TIMEOUT = 30.0
 
 
 class ListsAndBytesTest(unittest.TestCase):
-    """A docked Rumba in the studio: what it sees does not change, but for noise."""
+    """A docked Rumba in the studio: its readings change only by noise."""
 
     def test_distances_are_the_ranges_of_the_laser_in_order(self):
         distances = rospy.wait_for_message('rumba/distances', IntList, TIMEOUT).data

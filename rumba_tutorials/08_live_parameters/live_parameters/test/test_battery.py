@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Parameters are what the launch file says at first, and what a client says from then on."""
+"""Parameters first have the values of the launch file, then those that a client sets."""
 
 import queue
 import unittest
@@ -21,21 +21,22 @@ class BatteryTest(unittest.TestCase):
         cls.began_with = cls.client.get_configuration(TIMEOUT)
 
     def readings(self, count):
-        """Successive messages, the first of them made wholly after this call."""
+        """Return consecutive messages; the first is made after this call."""
         messages = queue.Queue()
         begin = rospy.Time.now()
         subscriber = rospy.Subscriber('battery_state', BatteryState, messages.put)
         self.addCleanup(subscriber.unregister)
+        # The message that ends the loop is dropped too: the node may have computed it before this call.
         while messages.get(timeout=TIMEOUT).header.stamp < begin:
-            pass  # this one, too, may have been begun before
+            pass
         return [messages.get(timeout=TIMEOUT) for _ in range(count)]
 
     def reading(self):
-        """The next message."""
+        """Return the next message."""
         return self.readings(1)[0]
 
     def turn(self, **parameters):
-        """Change parameters; returns what is then in force."""
+        """Change parameters; return the values in use."""
         return self.client.update_configuration(parameters)
 
     def test_the_launch_file_and_the_defaults_come_first(self):
@@ -57,7 +58,7 @@ class BatteryTest(unittest.TestCase):
         self.turn(brushes_up=True)
         self.assertAlmostEqual(self.reading().current, -1.0, places=5)
 
-    def test_what_is_out_of_range_becomes_the_limit_and_the_client_is_told(self):
+    def test_a_value_out_of_range_becomes_the_limit_and_the_client_gets_it_back(self):
         self.assertEqual(self.turn(load=99.0, brushes_up=True)['load'], 5.0)
         self.assertAlmostEqual(self.reading().current, -5.0, places=5)
 
@@ -68,7 +69,7 @@ class BatteryTest(unittest.TestCase):
         self.assertLess(self.shortest_period(20), 0.1)
 
     def shortest_period(self, count):
-        """The shortest time between successive messages [s]."""
+        """Return the shortest time between two consecutive messages [s]."""
         stamps = [message.header.stamp.to_sec() for message in self.readings(count)]
         return min(after - before for before, after in zip(stamps, stamps[1:]))
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The gateway passes messages both ways, is held up by nobody, and ends cleanly."""
+"""The gateway passes messages in both directions, is never blocked, and ends cleanly."""
 
 import json
 import queue
@@ -20,7 +20,7 @@ STATUS = BatteryStatus(42, 1.5, -2.5, 0.75, True, 'from ROS')
 
 
 class GatewayTest(unittest.TestCase):
-    """A gateway of its own for each test."""
+    """Each test starts a gateway."""
 
     def setUp(self):
         self.gateway = subprocess.Popen(['rosrun', 'asyncio_node', 'gateway'], stdout=subprocess.PIPE,
@@ -44,7 +44,7 @@ class GatewayTest(unittest.TestCase):
             time.sleep(0.01)
 
     def connect(self):
-        """A client that the gateway knows: it has answered."""
+        """Return a client that has got an answer from the gateway."""
         connection = socket.create_connection(('localhost', self.port), TIMEOUT)
         self.addCleanup(connection.close)
         file = connection.makefile('rw')
@@ -54,12 +54,12 @@ class GatewayTest(unittest.TestCase):
         return file
 
     def send(self, line, client=None):
-        """Have a client send a line."""
+        """Send a line from a client."""
         client = client or self.client
         client.write(line + '\n')
         client.flush()
 
-    def test_what_is_published_reaches_every_client_as_json(self):
+    def test_a_message_reaches_every_client_as_json(self):
         second = self.connect()
         self.publisher.publish(STATUS)
         for client in (self.client, second):
@@ -67,11 +67,11 @@ class GatewayTest(unittest.TestCase):
                 'percentage_battery': 42, 'location_x': 1.5, 'location_y': -2.5, 'orientation_theta': 0.75,
                 'brushes_up': True, 'debug_message': 'from ROS'})
 
-    def test_what_a_client_sends_is_published(self):
+    def test_a_line_of_a_client_is_published(self):
         self.send('{"percentage_battery": 7, "location_y": 2, "debug_message": "from outside"}')
         self.assertEqual(self.heard.get(timeout=TIMEOUT), BatteryStatus(7, 0.0, 2, 0.0, False, 'from outside'))
 
-    def test_what_is_no_message_is_answered_with_what_is_wrong_and_the_rest_goes_on(self):
+    def test_a_bad_line_is_answered_with_an_error_and_the_next_line_is_published(self):
         for line, wrong in (('{"percentage": 7}', 'percentage is not an attribute of BatteryStatus'),
                             ('{"percentage_battery": "full"}', 'percentage_battery must be an integer'),
                             ('[1]', 'must be an object such as {"percentage_battery": 0}'),
@@ -81,21 +81,21 @@ class GatewayTest(unittest.TestCase):
         self.send('{"percentage_battery": 8}')
         self.assertEqual(self.heard.get(timeout=TIMEOUT).percentage_battery, 8)
 
-    def test_a_subscriber_that_is_stuck_holds_up_nobody(self):
+    def test_a_subscriber_that_hangs_blocks_nothing(self):
         stuck = subprocess.Popen(['rostopic', 'echo', '/rumba/battery_status'], stdout=subprocess.DEVNULL)
         self.addCleanup(stuck.wait)
         self.addCleanup(stuck.kill)
         self.wait(lambda: self.publisher.get_num_connections() == 3)
         stuck.send_signal(signal.SIGSTOP)
         long = json.dumps({'debug_message': 50_000 * 'x'})
-        for _ in range(400):  # 20 MB, more than the buffers of a connection hold
+        for _ in range(400):  # 20 MB, more than the buffers of a connection can hold
             self.send(long)
         self.send('over')
         while 'error' not in json.loads(self.client.readline()):
             pass
 
     def ends(self):
-        """See that it ends by itself, cleanly, and takes leave of its client and its parameter."""
+        """Check that it ends with exit code 0, closes its client and deletes its parameter."""
         self.assertEqual(self.gateway.wait(TIMEOUT), 0)
         self.assertEqual(self.gateway.stdout.read().splitlines()[-1], 'gateway is closed')
         self.assertEqual(self.client.readline(), '')

@@ -1,4 +1,4 @@
-"""A bag is read without ROS, in a Python environment made as the lesson says."""
+"""A bag is read without ROS, in a Python environment created as the lesson says."""
 
 import csv
 import os
@@ -19,7 +19,7 @@ WITHOUT_ROS = {name: value for name, value in os.environ.items() if 'ROS' not in
 
 @pytest.fixture(scope='session')
 def python():
-    """The Python of the environment, which is made where it is not there yet."""
+    """The Python of the environment, which is created if it does not exist yet."""
     venv = pathlib.Path(os.environ['MISSION_BAG_VENV'])
     wanted = (PACKAGE / 'requirements.txt').read_text()
     made_for = venv / 'made_for.txt'
@@ -32,20 +32,20 @@ def python():
 
 @pytest.fixture
 def read_bag(python):
-    """The reader, called with arguments, where there is no ROS; returns the ended process."""
+    """A function that runs the reader with arguments, without ROS, and returns the finished process."""
     return lambda *arguments: subprocess.run(
         [python, str(PACKAGE / 'scripts' / 'read_bag'), *map(str, arguments)], env=WITHOUT_ROS,
         stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True)
 
 
 def write_bag(path, messages):
-    """A bag of (seconds, topic, message)."""
+    """Write a bag of (seconds, topic, message)."""
     with rosbag.Bag(str(path), 'w') as bag:
         for seconds, topic, message in messages:
             bag.write(topic, message, rospy.Time.from_sec(seconds))
 
 
-def test_every_status_becomes_a_row_with_the_coverage_known_then(read_bag, tmp_path):
+def test_every_status_becomes_a_row_with_the_coverage_at_its_time(read_bag, tmp_path):
     write_bag(tmp_path / 'mission.bag', [
         (10.0, '/rumba/battery_status', BatteryStatus(99, 1.5, -2.5, 0.0, True, 'one')),
         (10.5, '/rumba/cleaning_status', CleaningStatus(coverage=0.25)),
@@ -60,13 +60,13 @@ def test_every_status_becomes_a_row_with_the_coverage_known_then(read_bag, tmp_p
         ['2.0', '42', '1.75', '2.0', 'False', '0.25']]
     picture = image.imread(str(tmp_path / 'mission.png'))
     assert picture.shape == (500, 800, 4)
-    # tab:green, as matplotlib names it: the coverage, in the lower half
+    # The curve of the coverage is tab:green and in the lower half.
     green = (picture[..., 1] > 0.5) & (picture[..., 0] < 0.4) & (picture[..., 2] < 0.4)
     rows = green.any(axis=1).nonzero()[0]
     assert rows.size and rows.min() > 235
 
 
-def test_what_cannot_be_read_is_named(read_bag, tmp_path):
+def test_the_error_names_a_file_that_cannot_be_read(read_bag, tmp_path):
     write_bag(tmp_path / 'other.bag', [(1.0, '/other', BatteryStatus())])
     (tmp_path / 'text.bag').write_text('no bag')
     for arguments, wrong in ((['/no/such.bag'], '/no/such.bag: '), ([tmp_path / 'text.bag'], 'text.bag: '),

@@ -1,4 +1,4 @@
-"""The rules map every message and service of rumba_msg, and both sides read the same fields in them."""
+"""The rules map every message and service of rumba_msg, and ROS 1 and ROS 2 read the same fields."""
 
 import pathlib
 
@@ -19,9 +19,9 @@ def test_every_message_and_service_has_its_pair():
     assert pairs['rumba_msg/TargetPosition'] == 'rumba_msg/srv/TargetPosition'
 
 
-def test_rules_of_other_packages_map_nothing_and_other_kinds_of_rules_are_refused():
+def test_rules_for_other_packages_map_nothing_and_other_kinds_of_rules_are_refused():
     assert bridged([{'ros1_package_name': 'other', 'ros2_package_name': 'rumba_msg'}], PACKAGE) == {}
-    with pytest.raises(ValueError, match='^not a rule for a package: '):
+    with pytest.raises(ValueError, match='^not a rule for a whole package: '):
         bridged([{**RULES[0], 'ros1_message_name': 'BatteryStatus'}], PACKAGE)
 
 
@@ -33,7 +33,7 @@ def test_both_read_the_same_fields(path):
 
 
 @NEEDS_ROSIDL
-def test_a_field_that_ros_2_does_not_take_is_refused(tmp_path):
+def test_a_field_name_that_ros_2_does_not_allow_is_refused(tmp_path):
     path = tmp_path / 'Bad.msg'
     path.write_text('float64 targetX\n')
     assert in_ros1(PACKAGE, path) == [[('float64', 'targetX')]]

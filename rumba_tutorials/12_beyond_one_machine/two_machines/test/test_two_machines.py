@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Nodes at two addresses find each other, and each is found by the address that it was told to give."""
+"""Nodes at two addresses find each other by the addresses that they announce."""
 
 import time
 import unittest
@@ -17,10 +17,10 @@ ADDRESSES = {'/battery_status_publisher': '127.0.0.2', '/battery_status_listener
 
 
 class TwoMachinesTest(unittest.TestCase):
-    """Two addresses of one machine, which is all that a test can count on."""
+    """Two addresses of one machine represent two machines."""
 
     def uri(self, node):
-        """Where a node says that it is, once it is there."""
+        """Wait for a node; return its URI."""
         def look_up():
             try:
                 return rosgraph.Master(rospy.get_name()).lookupNode(node)
@@ -29,13 +29,13 @@ class TwoMachinesTest(unittest.TestCase):
         return self.wait(look_up, node)
 
     def wait(self, condition, what):
-        """Wait until a condition holds; returns what it returned."""
+        """Wait until a condition holds; return its value."""
         end = time.monotonic() + TIMEOUT
         while True:
             result = condition()
             if result:
                 return result
-            self.assertLess(time.monotonic(), end, f'waited in vain for {what}')
+            self.assertLess(time.monotonic(), end, f'{what} did not come')
             time.sleep(0.05)
 
     def test_each_node_is_registered_at_its_address(self):
@@ -46,7 +46,7 @@ class TwoMachinesTest(unittest.TestCase):
         publisher = xmlrpc.client.ServerProxy(self.uri('/battery_status_publisher'))
         self.wait(lambda: [connection for connection in publisher.getBusInfo(rospy.get_name())[2]
                            if '/battery_status_listener' in connection and '/rumba/battery_status' in connection],
-                  'the listener to be connected')
+                  'a connection of the listener')
 
     def test_a_message_comes_from_the_other_address(self):
         self.assertEqual(rospy.wait_for_message('rumba/battery_status', BatteryStatus, TIMEOUT).percentage_battery, 42)

@@ -1,1 +1,1 @@
-"""Turtles, their field and their pictures: plain Python and NumPy; the caller owns time."""
+"""Turtles, their field and their pictures: plain Python and NumPy; the caller decides when time passes."""

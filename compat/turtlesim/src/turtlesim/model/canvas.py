@@ -1,4 +1,4 @@
-"""What pens drew: an image that knows nothing of turtles."""
+"""The lines that pens draw, as an image; this module knows nothing about turtles."""
 
 from typing import Any, NamedTuple, Sequence, Tuple
 
@@ -11,7 +11,7 @@ Pixel = Sequence[int]  # column from the left, row from the top
 
 
 class Pen(NamedTuple):
-    """With what a turtle draws."""
+    """The pen of a turtle."""
 
     colour: Colour = (0xb3, 0xb8, 0xff)
     width: int = 3  # [pixels]
@@ -26,17 +26,17 @@ class Canvas:
     """
 
     def __init__(self, background: Colour) -> None:
-        """Begin with one colour all over."""
+        """Start with one colour everywhere."""
         self.clear(background)
 
     def clear(self, background: Colour) -> None:
-        """Forget all lines."""
+        """Erase all lines."""
         self.image = Image.new('RGB', (PIXELS, PIXELS), background)
         self._draw = ImageDraw.Draw(self.image)
         self._pixels: Any = self.image.load()
 
     def line(self, start: Pixel, end: Pixel, pen: Pen) -> None:
-        """Draw a straight line with round ends, so that lines that meet leave no gap."""
+        """Draw a straight line with round ends, so that there is no gap where two lines meet."""
         self._draw.line([*start, *end], pen.colour, pen.width)
         if pen.width > 1:
             for column, row in (start, end):
@@ -44,6 +44,6 @@ class Canvas:
                 self._draw.ellipse([left, top, left + pen.width - 1, top + pen.width - 1], pen.colour)
 
     def colour(self, pixel: Pixel) -> Colour:
-        """What is at a pixel."""
+        """Return the colour of a pixel."""
         colour: Colour = self._pixels[tuple(pixel)]
         return colour

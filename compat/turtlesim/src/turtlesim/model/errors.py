@@ -1,5 +1,5 @@
-"""What can go wrong; the message says in one line what was wrong, and what would be right."""
+"""The error of this package; its message says in one line what is wrong and what would be right."""
 
 
 class TurtlesimError(Exception):
-    """Something that this package cannot do, or will not."""
+    """A request that this package cannot or will not fulfil."""

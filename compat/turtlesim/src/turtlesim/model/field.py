@@ -1,4 +1,4 @@
-"""The field: turtles by name, their pens, and what they drew."""
+"""The field: turtles by name, their pens and their drawing."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ NAME = re.compile(r'[A-Za-z]\w*(/[A-Za-z]\w*)*', re.ASCII)
 
 
 class WallHit(NamedTuple):
-    """Who was stopped at a wall, and where it would be otherwise [m]."""
+    """A turtle that a wall stopped, and the position that it would have reached [m]."""
 
     name: str
     x: float
@@ -29,35 +29,35 @@ class WallHit(NamedTuple):
 
 
 class Field:
-    """The turtles and their drawing; time passes by `move`, then `draw`.
+    """The turtles and their drawing; a step of time is a call of `move`, then of `draw`.
 
     Attributes:
-        changes: grows whenever the picture may have changed.
-        hits: who was stopped at a wall, until somebody empties the list.
+        changes: a number that grows whenever the picture may have changed.
+        hits: turtles that a wall stopped; the caller clears the list.
     """
 
     def __init__(self, background: Colour) -> None:
-        """Begin with turtle1 in the middle."""
+        """Start with turtle1 in the middle."""
         self.changes = 0
         self.reset(background)
 
     def reset(self, background: Colour) -> None:
-        """As it was at the beginning, on whatever background."""
+        """Restore the initial field, on a background of any colour."""
         self.changes += 1
         self._rows: Dict[str, int] = {}
         self.hits: List[WallHit] = []
         self._turtles = Turtles()
         self._pens: List[Pen] = []
-        self._numbers: List[int] = []  # how many had come before: the colour
+        self._numbers: List[int] = []  # of each turtle, how many came before it: the colour of its picture
         self._came = 0
         self._named = 0
         self._is_drawn = True
-        self._at: NDArray[np.int64] = np.zeros((0, 2), np.int64)  # pixels that the pens reached
+        self._at: NDArray[np.int64] = np.zeros((0, 2), np.int64)  # pixels at which the pens are
         self._canvas = Canvas(background)
         self.spawn('', 0.5 * EXTENT, 0.5 * EXTENT, 0.0)
 
     def clear(self, background: Colour) -> None:
-        """Forget all lines."""
+        """Erase all lines."""
         self.changes += 1
         self._canvas.clear(background)
 
@@ -65,32 +65,33 @@ class Field:
 
     @property
     def names(self) -> List[str]:
-        """Of the turtles, in the order of `readings`."""
+        """The names of the turtles, in the order of `readings`."""
         return list(self._rows)
 
     def __contains__(self, name: str) -> bool:
-        """Whether there is a turtle of that name."""
+        """Whether a turtle has that name."""
         return name in self._rows
 
     def pose(self, name: str) -> List[float]:
-        """x, y [m] and theta [rad] of a turtle."""
+        """Return x, y [m] and theta [rad] of a turtle."""
         pose: List[float] = self._turtles.poses[self._row(name)].tolist()
         return pose
 
     def spawn(self, name: str, x: float, y: float, theta: float) -> str:
-        """One more turtle, at x, y [m], looking along theta [rad]; returns its name.
+        """Add a turtle at x, y [m] with heading theta [rad]; return its name.
 
         Args:
-            name: where empty, the next of turtle1, turtle2, ... that is free; numbers are not used twice.
+            name: name of the turtle; empty: the next free one of turtle1, turtle2, ..., no number twice.
 
         Raises:
-            TurtlesimError: the name is taken, or none, or a number is not finite.
+            TurtlesimError: the name is in use or not valid, or a number is not finite.
         """
         check_numbers(f'spawn {name}'.strip(), x=x, y=y, theta=theta)
         if name and not NAME.fullmatch(name):
-            raise TurtlesimError(f'{name!r} is no name: must be letters, digits, _ and /, and begin with a letter')
+            raise TurtlesimError(f'{name!r} is not a valid name: must be letters, digits, _ and /, '
+                                 'and begin with a letter')
         if name in self._rows:
-            raise TurtlesimError(f'a turtle named [{name}] is here already')
+            raise TurtlesimError(f'a turtle named [{name}] exists already')
         name = name or self._next_name()
         self.changes += 1
         self._rows[name] = len(self._rows)
@@ -103,10 +104,10 @@ class Field:
         return name
 
     def kill(self, name: str) -> None:
-        """One turtle less; what it drew stays.
+        """Remove a turtle; its lines stay.
 
         Raises:
-            TurtlesimError: there is none of that name.
+            TurtlesimError: no turtle has that name.
         """
         row = self._row(name)
         self.changes += 1
@@ -116,18 +117,18 @@ class Field:
         self._at = np.delete(self._at, row, axis=0)
 
     def command(self, name: str, velocity: Sequence[float]) -> None:
-        """Drive: forward, to the left [m/s], counter-clockwise [rad/s], for a second at most."""
+        """Drive forward, to the left [m/s] and counter-clockwise [rad/s], for one second at most."""
         self._turtles.command(self._row(name), velocity)
 
     def set_pen(self, name: str, pen: Pen) -> None:
-        """Draw with another pen from now on."""
+        """Give a turtle another pen."""
         self._pens[self._row(name)] = pen
 
     def teleport(self, name: str, x: float, y: float, theta: float) -> None:
-        """Put a turtle at x, y [m], looking along theta [rad]; a pen that is down draws the way.
+        """Put a turtle at x, y [m] with heading theta [rad]; a pen that is down draws a line to there.
 
         Raises:
-            TurtlesimError: there is none of that name, or a number is not finite.
+            TurtlesimError: no turtle has that name, or a number is not finite.
         """
         check_numbers(f'teleport {name}', x=x, y=y, theta=theta)
         self._turtles.place(self._row(name), (x, y, theta))
@@ -136,10 +137,10 @@ class Field:
         self.draw()
 
     def teleport_relative(self, name: str, linear: float, angular: float) -> None:
-        """Turn a turtle by an angle [rad], then put it forward [m]; a pen that is down draws the way.
+        """Turn a turtle by an angle [rad], then put it forward [m]; a pen that is down draws a line.
 
         Raises:
-            TurtlesimError: there is none of that name, or a number is not finite.
+            TurtlesimError: no turtle has that name, or a number is not finite.
         """
         check_numbers(f'teleport {name}', linear=linear, angular=angular)
         x, y, theta = self.pose(name)
@@ -157,18 +158,19 @@ class Field:
         try:
             return self._rows[name]
         except KeyError:
-            raise TurtlesimError(f'there is no turtle [{name}]: here are {", ".join(self._rows) or "none"}') from None
+            turtles = ', '.join(self._rows) or 'none'
+            raise TurtlesimError(f'there is no turtle [{name}]: the turtles are {turtles}') from None
 
     # --- time -----------------------------------------------------------------------------------------------------
 
     def move(self) -> None:
-        """Let one step of 16 ms pass; lines are not drawn yet, so that sensors see what was there before."""
+        """Move all turtles by one step of 16 ms; until `draw`, they see the colours below their new lines."""
         if self._turtles.step():
             self._clamp()
             self._is_drawn = False
 
     def draw(self) -> None:
-        """Draw from where the pens were to where they are."""
+        """Draw lines from the last positions of the pens to the present ones."""
         if self._is_drawn:
             return
         self._is_drawn = True
@@ -189,21 +191,25 @@ class Field:
             METRE * self._turtles.poses[:, :2] * (1, -1) + (0, PIXELS - 1)).astype(np.int64)
         return pixels
 
-    # --- what there is to see -------------------------------------------------------------------------------------
+    # --- readings and pictures ------------------------------------------------------------------------------------
 
     def readings(self) -> NDArray[np.float32]:
-        """What poses tell: shape (n, 5): x, y [m], theta [rad], speed [m/s], turn rate [rad/s]."""
+        """Return the values of the pose messages.
+
+        Returns:
+            Shape (n, 5): x, y [m], theta [rad], speed [m/s], turn rate [rad/s].
+        """
         poses, velocities = self._turtles.poses, self._turtles.velocities
         speeds = np.hypot(velocities[:, 0], velocities[:, 1])
         return np.column_stack([poses, speeds, velocities[:, 2]]).astype(np.float32)
 
     def colour(self, name: str) -> Colour:
-        """What is under a turtle."""
+        """Return the colour under a turtle."""
         x, y, _ = self.pose(name)
         return self._canvas.colour((round(METRE * x), round(PIXELS - 1 - METRE * y)))
 
     def picture(self) -> Image.Image:
-        """The field with its turtles, those that came last on top: an RGB image, y up."""
+        """Return the field with its turtles, the latest on top, as an RGB image; y points up."""
         picture = self._canvas.image.copy()
         for number, (column, row), theta in zip(self._numbers, self._at.tolist(), self._turtles.poses[:, 2].tolist()):
             turtle = portrait(number, theta)

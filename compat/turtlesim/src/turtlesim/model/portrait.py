@@ -1,4 +1,4 @@
-"""What a turtle looks like from above."""
+"""The picture of a turtle, seen from above."""
 
 import functools
 import math
@@ -10,9 +10,9 @@ from turtlesim.model.turtles import METRE
 
 SHELLS = ('#3f8f4f', '#c8693a', '#b0a030', '#8a5fb0', '#3a9a9a', '#c25073', '#7a6a55', '#d8d8d0')
 SKIN, EYE, SEAM = '#8fcf6a', '#20301c', '#24402a'
-FINER = 3  # times as large is it drawn, then made smaller: smooth edges
-HEADINGS = 120  # different pictures of one turtle
-# In a square from -1 to 1, looking along x, y up: left, bottom, right, top.
+FINER = 3  # the picture is drawn this many times larger, then reduced, for smooth edges
+HEADINGS = 120  # pictures of one turtle, one for each heading
+# In a square from -1 to 1, heading along x, y up: left, bottom, right, top.
 LEGS = [(x - 0.22, y - 0.18, x + 0.22, y + 0.18) for x in (0.42, -0.45) for y in (0.52, -0.52)]
 TAIL = [(-0.6, 0.1), (-0.95, 0.0), (-0.6, -0.1)]
 HEAD = (0.5, -0.24, 0.98, 0.24)
@@ -24,11 +24,11 @@ SEAMS = [((0.3, 0.0), (0.6, 0.0)), ((0.12, 0.26), (0.26, 0.5)), ((-0.22, 0.26), 
 
 
 def portrait(number: int, theta: float) -> Image.Image:
-    """A turtle that looks in a direction.
+    """Return the picture of a turtle with a heading.
 
     Args:
-        number: which turtle: neighbours differ in colour.
-        theta: [rad] counter-clockwise from the right.
+        number: number of the turtle; consecutive numbers differ in colour.
+        theta: [rad] heading, counter-clockwise from the right.
 
     Returns:
         RGBA image of METRE x METRE pixels, transparent around the turtle.
@@ -38,12 +38,12 @@ def portrait(number: int, theta: float) -> Image.Image:
 
 @functools.lru_cache(maxsize=len(SHELLS) * HEADINGS)
 def _portrait(shell: int, heading: int) -> Image.Image:
-    rotated = _looking_right(SHELLS[shell]).rotate(360.0 * heading / HEADINGS, Image.BILINEAR)
+    rotated = _heading_right(SHELLS[shell]).rotate(360.0 * heading / HEADINGS, Image.BILINEAR)
     return rotated.resize((METRE, METRE), Image.BOX)
 
 
 @functools.lru_cache(maxsize=len(SHELLS))
-def _looking_right(shell: str) -> Image.Image:
+def _heading_right(shell: str) -> Image.Image:
     image = Image.new('RGBA', (METRE * FINER, METRE * FINER))
     draw = ImageDraw.Draw(image)
     for leg in LEGS:
@@ -59,9 +59,9 @@ def _looking_right(shell: str) -> Image.Image:
     return image
 
 
-def _points(places: Iterable[Tuple[float, float]]) -> List[Tuple[float, float]]:
+def _points(points: Iterable[Tuple[float, float]]) -> List[Tuple[float, float]]:
     half = METRE * FINER / 2.0
-    return [(half * (1.0 + x), half * (1.0 - y)) for x, y in places]
+    return [(half * (1.0 + x), half * (1.0 - y)) for x, y in points]
 
 
 def _box(sides: Tuple[float, float, float, float]) -> List[Tuple[float, float]]:

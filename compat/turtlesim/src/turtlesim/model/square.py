@@ -1,25 +1,25 @@
-"""A controller that has a turtle draw a square, from its pose alone."""
+"""A controller that makes a turtle draw a square, from the pose of the turtle alone."""
 
 import math
 from typing import Optional, Tuple
 
 SIDE = 2.0  # [m]
 SPEED, TURN_RATE = 1.0, 0.4 * math.pi  # [m/s], [rad/s] at most
-GAIN = 4.0  # [1/s] slower the nearer the goal is, so that a late command does no harm
-SLOWEST = 0.05  # of the above: it arrives
+GAIN = 4.0  # [1/s] speed per distance to the end of a side or turn, so that a late command does no harm
+SLOWEST = 0.05  # share of SPEED and TURN_RATE that is never undercut, so that the turtle arrives
 NEAR, ALIGNED = 0.005, 0.002  # [m], [rad] that count as arrived
 
 
 class Square:
-    """Turns of forward and a quarter turn to the left, for ever; knows neither ROS nor the clock."""
+    """Drives a side, then a quarter turn to the left, and so on; knows neither ROS nor the clock."""
 
     def __init__(self) -> None:
-        """Begin with a side, from wherever the turtle is."""
+        """Start with a side at the first pose."""
         self._start: Optional[Tuple[float, float, float]] = None
         self._is_turning = False
 
     def command(self, x: float, y: float, theta: float) -> Tuple[float, float]:
-        """What to do at x, y [m], theta [rad]: speed forward [m/s] and turn rate [rad/s]."""
+        """Return the command at x, y [m], theta [rad]: speed forward [m/s] and turn rate [rad/s]."""
         if self._start is None:
             self._start = x, y, theta
         left = self._left(x, y, theta)
@@ -32,7 +32,7 @@ class Square:
         return (0.0, rate) if self._is_turning else (rate, 0.0)
 
     def _left(self, x: float, y: float, theta: float) -> float:
-        """How far it is to the end of this side [m], or of this turn [rad]; negative where it went too far."""
+        """Return what is left of this side [m] or turn [rad]; negative if the turtle went too far."""
         assert self._start is not None
         from_x, from_y, from_theta = self._start
         if self._is_turning:

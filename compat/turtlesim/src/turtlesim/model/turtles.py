@@ -1,4 +1,4 @@
-"""How turtles move: all of them in one step, an array row each."""
+"""The motion of turtles: one step moves all of them; each is a row of the arrays."""
 
 from __future__ import annotations
 
@@ -16,12 +16,12 @@ PIXELS = 500  # side of the field
 METRE = 45  # [pixels] height of a turtle's picture
 EXTENT = (PIXELS - 1) / METRE  # [m] x and y go from 0, the first pixel, to this, the last
 STEP = 0.016  # [s]
-HOLD = 63  # steps that a command is held: those that begin within 1 s of it, 62 * STEP = 0.992 s the last
+HOLD = 63  # steps that a command lasts: those that begin within 1 s of it; the last begins after 62 * STEP = 0.992 s
 LARGEST = 1e9  # [m, m/s, rad, rad/s] more than any turtle needs, and still a float32
 
 
 class Hit(NamedTuple):
-    """A turtle that was stopped at a wall, and where it would be otherwise [m]."""
+    """A turtle that a wall stopped, and the position that it would have reached [m]."""
 
     row: int
     x: float
@@ -29,7 +29,7 @@ class Hit(NamedTuple):
 
 
 class Turtles:
-    """Poses and velocities; turtles are rows, in the order in which they came.
+    """Poses and velocities; turtles are rows, in the order in which they were added.
 
     Attributes:
         poses: shape (n, 3): x, y [m], theta [rad] in (-pi, pi].
@@ -37,7 +37,7 @@ class Turtles:
     """
 
     def __init__(self) -> None:
-        """Begin with none."""
+        """Start without turtles."""
         self.poses: NDArray[np.float64] = np.zeros((0, 3))
         self.velocities: NDArray[np.float64] = np.zeros((0, 3))
         self._held_until: NDArray[np.int64] = np.zeros(0, np.int64)
@@ -45,14 +45,14 @@ class Turtles:
         self._steps = 0
 
     def add(self, pose: Sequence[float]) -> None:
-        """One more turtle, at rest, at x, y [m], theta [rad]."""
+        """Add a turtle at rest, at x, y [m], theta [rad]."""
         self.poses = np.vstack([self.poses, pose])
         self.velocities = np.vstack([self.velocities, np.zeros(3)])
         self._held_until = np.append(self._held_until, 0)
         wrap(self.poses[:, 2])
 
     def remove(self, row: int) -> None:
-        """One turtle less; those after it move up."""
+        """Remove a turtle; the rows after it move up."""
         self.poses = np.delete(self.poses, row, axis=0)
         self.velocities = np.delete(self.velocities, row, axis=0)
         self._held_until = np.delete(self._held_until, row)
@@ -63,14 +63,14 @@ class Turtles:
         self._held_until[row] = self._all_held_until = self._steps + HOLD
 
     def place(self, row: int, pose: Sequence[float]) -> None:
-        """Put a turtle elsewhere: x, y [m], theta [rad]; it keeps its velocity."""
+        """Put a turtle at x, y [m], theta [rad]; it keeps its velocity."""
         self.poses[row] = pose
         wrap(self.poses[:, 2])
 
     def step(self) -> bool:
-        """Let STEP pass: turn first, then go along the new heading; returns whether any turtle may have moved.
+        """Move by STEP: turn first, then go along the new heading; return whether any turtle may have moved.
 
-        No walls yet: `clamp` is to follow.
+        Walls are left to `clamp`, which the caller calls next.
         """
         self._steps += 1
         if self._steps > self._all_held_until + 1:
@@ -86,28 +86,28 @@ class Turtles:
         return True
 
     def clamp(self) -> List[Hit]:
-        """Bring back all turtles that left the field; returns which, and where they were."""
-        places = self.poses[:, :2]
-        outside = ((places < 0.0) | (places > EXTENT)).any(axis=1)
+        """Move all turtles outside the field back to its edge; return these turtles with their positions before."""
+        positions = self.poses[:, :2]
+        outside = ((positions < 0.0) | (positions > EXTENT)).any(axis=1)
         if not outside.any():
             return []
-        hits = [Hit(row, *places[row].tolist()) for row in np.flatnonzero(outside).tolist()]
-        np.clip(places, 0.0, EXTENT, out=places)
+        hits = [Hit(row, *positions[row].tolist()) for row in np.flatnonzero(outside).tolist()]
+        np.clip(positions, 0.0, EXTENT, out=positions)
         return hits
 
 
 def wrap(theta: NDArray[np.float64]) -> None:
-    """Bring angles [rad] into (-pi, pi], in place; those that are there stay what they are to the last bit."""
+    """Bring angles [rad] into (-pi, pi], in place; angles already in that range keep every bit."""
     outside = (theta > math.pi) | (theta <= -math.pi)
     if outside.any():
         theta[outside] = math.pi - (math.pi - theta[outside]) % (2.0 * math.pi)
 
 
 def check_numbers(what: str, **numbers: float) -> None:
-    """Refuse numbers with which no turtle could go on.
+    """Refuse numbers that no pose or velocity can have.
 
     Raises:
-        TurtlesimError: one is not finite, or beyond LARGEST.
+        TurtlesimError: a number is not finite, or beyond LARGEST.
     """
     for name, number in numbers.items():
         if not abs(number) <= LARGEST:

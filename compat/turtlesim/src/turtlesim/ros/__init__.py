@@ -1,1 +1,1 @@
-"""The nodes: the only place that imports rospy, one module a node."""
+"""The nodes, one module for each, and what they share; only modules of this folder import rospy."""

@@ -1,7 +1,7 @@
-"""draw_square: has turtle1 draw a square of 2 m, again and again.
+"""draw_square: makes turtle1 draw a square with sides of 2 m, again and again.
 
 It waits for turtle1/pose (turtlesim/Pose), calls reset (std_srvs/Empty), then publishes
-  turtle1/cmd_vel    geometry_msgs/Twist, one for each pose that comes
+  turtle1/cmd_vel    geometry_msgs/Twist, one for each pose
 """
 
 import queue
@@ -25,7 +25,7 @@ def draw() -> None:
     """Draw until ROS shuts down.
 
     Raises:
-        TurtlesimError: turtlesim refuses to begin anew.
+        TurtlesimError: the service reset fails.
     """
     publisher = rospy.Publisher('turtle1/cmd_vel', Twist, queue_size=1)
     rospy.wait_for_message('turtle1/pose', Pose)

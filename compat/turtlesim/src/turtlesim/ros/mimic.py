@@ -1,9 +1,9 @@
-"""mimic: has one turtle move as another does.
+"""mimic: makes one turtle move as another one does.
 
 Subscribes to
-  input/pose       turtlesim/Pose of the turtle to look at
+  input/pose       turtlesim/Pose of the turtle to imitate
 and publishes
-  output/cmd_vel   geometry_msgs/Twist, one for each pose: its speed and its turn rate
+  output/cmd_vel   geometry_msgs/Twist, one for each pose, with its speed and turn rate
 Remap input and output to the names of two turtles: input:=turtlesim1/turtle1 output:=turtlesim2/turtle1.
 """
 
@@ -21,7 +21,7 @@ def main() -> None:
 
 def mimic() -> None:
     """Mimic until ROS shuts down."""
-    # rospy remaps whole names only: `input/pose` when it subscribes, `input` here.
+    # rospy remaps whole names only: input:= changes `input`, not `input/pose`.
     publisher = rospy.Publisher(rospy.resolve_name('output') + '/cmd_vel', Twist, queue_size=1)
 
     def on_pose(pose: Pose) -> None:

@@ -1,4 +1,8 @@
-"""What every node does alike: help, parameters, one clear line and exit code 2 for bad input, a quiet end."""
+"""What all nodes of this package share: help, parameters, one line and exit code 2 for bad input, a clean end.
+
+This module, `pace` and `requests` resemble modules of rumba_sim. They are repeated because this package takes the place
+of one that a distribution ships: it must build and run in a workspace without any other package of Rumba.
+"""
 
 import inspect
 import io
@@ -15,11 +19,11 @@ import rospy
 from turtlesim.model.errors import TurtlesimError
 
 BAD_INPUT = 2
-LOOK_PERIOD = 0.5  # [s] from one look for a master to the next
+LOOK_PERIOD = 0.5  # [s] between two looks for a master
 
 
 class Parameter(NamedTuple):
-    """A private parameter: its default, whether a value is good, which are, and what it is for."""
+    """A private parameter: its default, a test for good values, these values in words, and its meaning."""
 
     default: Any
     is_good: Callable[[Any], bool]
@@ -31,13 +35,13 @@ Parameters = Dict[str, Parameter]
 
 
 def number(default: float, low: float, high: float, meaning: str) -> Parameter:
-    """A parameter that is a number in a range, both ends allowed."""
+    """Return a parameter that is a number from `low` to `high`, both included."""
     return Parameter(default, lambda value: type(value) in (int, float) and low <= value <= high,
                      f'{low:g} to {high:g}', meaning)
 
 
 def read(parameters: Parameters, *names: str) -> List[Any]:
-    """What the parameter server says now.
+    """Return the present values of parameters.
 
     Raises:
         TurtlesimError: a value is of the wrong type or out of range.
@@ -53,16 +57,16 @@ def read(parameters: Parameters, *names: str) -> List[Any]:
 
 
 def run(name: str, parameters: Parameters, main: Callable[[], None], own_clock: bool = False) -> None:
-    """Run a node until ROS shuts down; leaves the process with exit code 2 where its input is bad.
+    """Run a node until ROS shuts down; end the process with exit code 2 if its input is bad.
 
     Args:
-        name: the node's name, unless remapped.
-        parameters: the private parameters, by name.
-        main: the node itself, called once the node is registered; its module's docstring is the node's help.
-        own_clock: the node does not listen to /clock.
+        name: name of the node, if it is not remapped.
+        parameters: the private parameters by name.
+        main: called once the node is registered; the docstring of its module is the help of the node.
+        own_clock: whether the node ignores /clock.
     """
     if isinstance(sys.stdout, io.TextIOWrapper):
-        sys.stdout.reconfigure(line_buffering=True)  # else what rospy logs waits in a pipe until that is full
+        sys.stdout.reconfigure(line_buffering=True)  # else log lines stay in the buffer of a pipe
     arguments = rospy.myargv()[1:]
     if '-h' in arguments or '--help' in arguments:
         print(inspect.getdoc(inspect.getmodule(main)), *map(_describe, parameters.items()), sep='\n')
@@ -85,15 +89,15 @@ def run(name: str, parameters: Parameters, main: Callable[[], None], own_clock: 
     except rospy.ROSInterruptException:
         pass
     except Exception:
-        if not rospy.core.is_shutdown_requested():  # else a topic was closed while the main thread was publishing
+        if not rospy.core.is_shutdown_requested():  # during a shutdown, publishing fails
             raise
 
 
 def _wait_for_master(name: str) -> None:
-    """Wait for a master, as rospy does where the command line has no parameter to set: where it has, rospy dies."""
+    """Wait for a master; rospy itself waits too, but fails if the command line sets a parameter."""
     if rosgraph.is_master_online():
         return
-    signal.signal(signal.SIGINT, signal.SIG_DFL)  # rosgraph swallows a KeyboardInterrupt
+    signal.signal(signal.SIGINT, signal.SIG_DFL)  # rosgraph ignores a KeyboardInterrupt
     print(f'{name}: no roscore answers at {rosgraph.get_master_uri()} yet: waiting for it', file=sys.stderr, flush=True)
     while not rosgraph.is_master_online():
         time.sleep(LOOK_PERIOD)
@@ -105,15 +109,18 @@ def _describe(item: Any) -> str:
 
 
 def _shut_down(ending: int, _: Any) -> None:
-    """End ROS in a thread: rospy's own handler runs amid whatever the main thread does, and waits for ever for a lock
-    that the main thread holds, as when it was publishing."""
+    """End ROS in a thread.
+
+    The handler of rospy runs in the main thread, and waits forever if it interrupts code that holds a lock of rospy,
+    such as the code that publishes.
+    """
     threading.Thread(target=rospy.signal_shutdown, args=[f'signal {ending}']).start()
 
 
 def _check_command_line(arguments: List[str], parameters: Parameters) -> None:
     known = f'known are {", ".join(f"_{name}:=" for name in parameters) or "none"}'
     if arguments:
-        raise TurtlesimError(f'unknown argument {arguments[0]!r}: {known}; --help tells more')
+        raise TurtlesimError(f'unknown argument {arguments[0]!r}: {known}; --help describes them')
     for name in rospy.names.load_mappings(sys.argv):
         if name in parameters:
             raise TurtlesimError(f'{name}:= remaps a topic: for the parameter write _{name}:=')
@@ -123,13 +130,13 @@ def _check_command_line(arguments: List[str], parameters: Parameters) -> None:
 
 
 def _assigned() -> List[str]:
-    """Names of the private parameters on the command line."""
+    """Return the names of the private parameters on the command line."""
     found = (re.match(r'_([^_].*?):=', argument) for argument in sys.argv)
     return [assignment.group(1) for assignment in found if assignment]
 
 
 def _take_parameters_back() -> None:
-    """The parameter server outlives a node: what a refused command line put there must not spoil the next start."""
+    """Delete the parameters of a refused command line: on the parameter server they would outlive this node."""
     for name in _assigned():
         if rospy.has_param(f'~{name}'):
             rospy.delete_param(f'~{name}')

@@ -1,4 +1,4 @@
-"""How fast time passes, and what /clock tells."""
+"""How fast time passes, and the messages on /clock."""
 
 import contextlib
 import socket
@@ -13,20 +13,20 @@ from turtlesim.model.errors import TurtlesimError
 from turtlesim.model.turtles import STEP
 
 STEP_NS = round(STEP * 1e9)
-LATE = 0.1  # [s] behind the wall clock by more, the node gives up to catch up
-PATIENCE = 2.0  # [s] with a node that the master knows but that does not answer
+LATE = 0.1  # [s] a node that is later than this does not catch up
+PATIENCE = 2.0  # [s] for the answer of a node that the master knows
 TIMER_SLACK = 1000  # [ns]
-QUEUE = 100  # messages that a node may be behind before it misses one
+QUEUE = 100  # messages that wait for a slow subscriber before the oldest is dropped
 
 
 class Pace:
-    """Waits for the wall clock as far as the speed asks; at a speed other than 1 time is simulated, told on /clock."""
+    """Waits for the wall clock as the speed demands; at a speed other than 1, time is simulated and sent on /clock."""
 
     def __init__(self, speed: float) -> None:
-        """Go at a speed in times real time; 0: as fast as possible.
+        """Take the speed [times real time]; 0: as fast as possible.
 
         Raises:
-            TurtlesimError: somebody else tells the time.
+            TurtlesimError: another node publishes /clock.
         """
         self._speed = speed
         self._steps = 0
@@ -36,7 +36,7 @@ class Pace:
             _refuse_second_clock()
 
     def begin(self) -> None:
-        """Let time begin."""
+        """Start the time."""
         if self._speed != 1.0:
             rospy.on_shutdown(_forget_simulated_time)
             rospy.set_param('/use_sim_time', True)
@@ -45,13 +45,13 @@ class Pace:
         self._due = time.monotonic()
 
     def step(self) -> None:
-        """A step has passed: tell it."""
+        """Count a step, and publish the time after it."""
         self._steps += 1
         if self._clock is not None and self._clock.get_num_connections():
             self._clock.publish(rospy.Time(*divmod(self._steps * STEP_NS, 1_000_000_000)))
 
     def next_step(self) -> float:
-        """When the next step is due, as a time of `time.monotonic`; a time in the past where it is due at once."""
+        """Return when the next step is due, a time of `time.monotonic`; one in the past if it is due now."""
         now = time.monotonic()
         if self._speed == 0.0:
             return now
@@ -62,10 +62,10 @@ class Pace:
 
 
 def wake_on_time() -> None:
-    """Have the kernel wake the main thread when it asked for, not up to 50 us later, where it can.
+    """Have the kernel wake this thread on time and not up to 50 us later, if the system allows it.
 
-    rospy sleeps for 0 s after each message that it sends; Python 3.11 makes 60 us of that, at times longer than all
-    other work.
+    rospy sleeps for 0 s after each message that it sends. Under Python 3.11 such a sleep takes 60 us, often more than
+    all other work.
     """
     with contextlib.suppress(OSError), open('/proc/self/timerslack_ns', 'w') as slack:
         slack.write(str(TIMER_SLACK))
@@ -76,12 +76,12 @@ def _refuse_second_clock() -> None:
     publishers, _, _ = master.getSystemState()
     for node in dict(publishers).get('/clock', []):
         if node != rospy.get_name() and _answers(master, node):
-            raise TurtlesimError(f'speed is not 1, but {node} tells the time on /clock already: end it first, '
-                                 'or run this with _speed:=1')
+            raise TurtlesimError(f'speed is not 1, but {node} publishes /clock already: end it first, '
+                                 'or start this node with _speed:=1')
 
 
 def _answers(master: rosgraph.Master, node: str) -> bool:
-    """Whether a node is there: one that was killed leaves its topics at the master."""
+    """Whether a node is alive: the master still lists the topics of one that was killed."""
     try:
         address = rosgraph.network.parse_http_host_and_port(master.lookupNode(node))
         socket.create_connection(address, PATIENCE).close()
@@ -91,6 +91,6 @@ def _answers(master: rosgraph.Master, node: str) -> bool:
 
 
 def _forget_simulated_time() -> None:
-    """Take /use_sim_time back: with nobody to tell it, time would stand still for whatever node starts next."""
-    with contextlib.suppress(KeyError, OSError):  # somebody else did, or the master has gone
+    """Delete /use_sim_time: without a /clock, the time of the nodes that start next would stay 0."""
+    with contextlib.suppress(KeyError, OSError):  # deleted already, or the master has gone
         rospy.delete_param('/use_sim_time')

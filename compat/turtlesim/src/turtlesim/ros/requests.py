@@ -1,4 +1,4 @@
-"""What callbacks ask of the loop that owns the field: they queue, it acts."""
+"""Calls from callbacks to the loop that owns the field: callbacks queue them, the loop makes them."""
 
 import concurrent.futures
 import queue
@@ -10,19 +10,19 @@ import rospy
 
 
 class Requests:
-    """A queue of calls from any thread, made one by one in the thread that made this object."""
+    """A queue of calls from any thread; the thread that created this object makes them one by one."""
 
     def __init__(self) -> None:
-        """Belong to the present thread."""
+        """Make the calling thread the owner."""
         self._owner = threading.current_thread()
-        # Not a SimpleQueue: a signal whose handler takes longer than the timeout makes its get() wait for ever.
+        # Not a SimpleQueue: a signal whose handler takes longer than the timeout makes its get() wait forever.
         self._queue: 'queue.Queue[Tuple[Callable[[], Any], concurrent.futures.Future[Any]]]' = queue.Queue()
 
     def call(self, function: Callable[[], Any]) -> Any:
-        """Have the owner call a function; returns its result, or raises what it raised.
+        """Have the owner call a function; return its result, or raise its exception.
 
         Raises:
-            rospy.ROSInterruptException: the node ends before the owner came to it.
+            rospy.ROSInterruptException: the node ends before the owner makes the call.
         """
         if threading.current_thread() is self._owner:
             return function()
@@ -36,7 +36,7 @@ class Requests:
         raise rospy.ROSInterruptException('the node ends')
 
     def serve(self, until: float) -> None:
-        """Make the calls that are queued, and those that come until a time of `time.monotonic`."""
+        """Make the calls that are queued, and those that come before a time of `time.monotonic`."""
         while True:
             seconds = until - time.monotonic()
             try:
@@ -45,5 +45,5 @@ class Requests:
                 return
             try:
                 answer.set_result(function())
-            except Exception as error:  # for whoever asked
+            except Exception as error:  # raised in the thread that asked
                 answer.set_exception(error)

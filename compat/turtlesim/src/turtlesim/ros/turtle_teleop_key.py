@@ -1,6 +1,6 @@
-"""turtle_teleop_key: drives turtle1 by the arrow keys of the terminal that it runs in; q leaves.
+"""turtle_teleop_key: drives turtle1 with the arrow keys of the terminal that it runs in; q quits.
 
-A turtle does what a key says for a second, unless another key comes: who holds a key drives on.
+A key moves the turtle for one second, or until the next key: hold a key to keep driving.
 
 Publishes:
   turtle1/cmd_vel    geometry_msgs/Twist, one for each key
@@ -24,17 +24,17 @@ from turtlesim.model.errors import TurtlesimError
 from turtlesim.ros import node
 
 HELP = """\
-Arrow keys move {topic}: up and down forward and backward, left and right turn.
-q leaves."""
+Arrow keys drive {topic}: up forward, down backward, left and right turn.
+q quits."""
 PARAMETERS: node.Parameters = {
     'scale_linear': node.number(2.0, 0.0, 1000.0, 'speed of a key [m/s]'),
     'scale_angular': node.number(2.0, 0.0, 1000.0, 'turn rate of a key [rad/s]'),
 }
-# What a terminal sends for an arrow key ends so, in either of its modes; shares of the speed and of the turn rate.
+# The last character that a terminal sends for an arrow key, in both of its modes: shares of speed and turn rate.
 MOVES = {'A': (1.0, 0.0), 'B': (-1.0, 0.0), 'C': (0.0, -1.0), 'D': (0.0, 1.0)}
 KEY = re.compile(r'\x1b[\[O][A-D]|.', re.DOTALL)
-QUIT = ('q', 'Q', '\x04')  # the last: Ctrl-D, also where the terminal is gone
-POLL = 0.1  # [s] between looks whether ROS has shut down
+QUIT = ('q', 'Q', '\x04')  # the last one: Ctrl-D, and also what `next_keys` returns if the terminal is gone
+POLL = 0.1  # [s] between two checks for a shutdown of ROS
 
 
 def main() -> None:
@@ -43,13 +43,13 @@ def main() -> None:
 
 
 def drive() -> None:
-    """Drive as keys say until q, or until ROS shuts down.
+    """Drive by keys until q is pressed or ROS shuts down.
 
     Raises:
-        TurtlesimError: standard input is no terminal.
+        TurtlesimError: the standard input is not a terminal.
     """
     if not sys.stdin.isatty():
-        raise TurtlesimError('needs a terminal for its input: start it with rosrun')
+        raise TurtlesimError('the standard input is not a terminal: start this node with rosrun')
     speed, turn_rate = node.read(PARAMETERS, 'scale_linear', 'scale_angular')
     publisher = rospy.Publisher('turtle1/cmd_vel', Twist, queue_size=10)
     print(HELP.format(topic=publisher.resolved_name), flush=True)
@@ -65,19 +65,19 @@ def drive() -> None:
 
 @contextlib.contextmanager
 def single_keys() -> Iterator[None]:
-    """Have the terminal give every key at once and show none; it is left as it was found."""
+    """Make the terminal deliver each key at once and show none; restore its settings at the end."""
     found = termios.tcgetattr(sys.stdin)
     tty.setcbreak(sys.stdin)
     try:
         yield
     finally:
         with contextlib.suppress(termios.error):  # the terminal is gone
-            # Keys that were not read yet were meant for the turtle: the shell must not get them.
+            # TCSAFLUSH discards keys that are not read yet: they are for the turtle, not for the shell.
             termios.tcsetattr(sys.stdin, termios.TCSAFLUSH, found)
 
 
 def next_keys() -> List[str]:
-    """The keys typed since the last call; waits a moment where there are none."""
+    """Return the keys typed since the last call; if there are none, wait up to POLL for one."""
     if not select.select([sys.stdin], [], [], POLL)[0]:
         return []
     try:

@@ -1,6 +1,6 @@
 """turtlesim_node: turtles that draw on a field of 500 x 500 pixels, 11.09 x 11.09 m, with or without a window.
 
-For each turtle, below its name (turtle1, turtle2, ...), it publishes every 16 ms
+For each turtle, below the name of the turtle (turtle1, turtle2, ...), it publishes every 16 ms
   pose               turtlesim/Pose           color_sensor       turtlesim/Color
 subscribes to
   cmd_vel            geometry_msgs/Twist: linear.x, linear.y [m/s], angular.z [rad/s], held for 1 s
@@ -8,7 +8,7 @@ and serves
   set_pen            turtlesim/SetPen         teleport_absolute  turtlesim/TeleportAbsolute
                                               teleport_relative  turtlesim/TeleportRelative
 It serves clear, reset (std_srvs/Empty), spawn (turtlesim/Spawn), kill (turtlesim/Kill), and below its own name
-save_png (std_srvs/Trigger), which writes a picture of the field. At a speed other than 1 it publishes /clock.
+save_png (std_srvs/Trigger), which writes a picture of the field. If the speed is not 1, it publishes /clock.
 
 Parameters, as in `rosrun turtlesim turtlesim_node _gui:=false _speed:=10`:
 """
@@ -28,10 +28,10 @@ from turtlesim.model.canvas import Colour
 from turtlesim.model.errors import TurtlesimError
 from turtlesim.model.field import Field
 from turtlesim.ros import node
-from turtlesim.ros.audience import Audience, Voice
-from turtlesim.ros.ears import COMPLAINT_PERIOD, Ears, answered
 from turtlesim.ros.pace import Pace, wake_on_time
 from turtlesim.ros.requests import Requests
+from turtlesim.ros.turtle_inputs import COMPLAINT_PERIOD, TurtleInputs, answered
+from turtlesim.ros.turtle_outputs import Broadcaster, TurtleOutputs
 from turtlesim.srv import Kill, KillResponse, Spawn, SpawnResponse
 
 BACKGROUND = ('background_r', 'background_g', 'background_b')
@@ -39,13 +39,13 @@ PARAMETERS: node.Parameters = {
     **{name: node.Parameter(default, lambda value: type(value) is int and 0 <= value <= 255, '0 to 255',
                             'colour of the field; clear and reset read it again')
        for name, default in zip(BACKGROUND, (69, 86, 255))},
-    'speed': node.number(1.0, 0.0, 1e6, 'times real time, 0 as fast as possible; other than 1 time is simulated'),
+    'speed': node.number(1.0, 0.0, 1e6, 'times real time, 0: as fast as possible; if it is not 1, time is simulated'),
     'gui': node.Parameter('auto', lambda value: value in (True, False, 'auto'), 'true, false or auto',
-                          'whether to open a window; auto: where there is a display'),
+                          'whether to open a window; auto: if there is a display'),
     'png_path': node.Parameter('turtlesim.png', lambda value: type(value) is str and value != '', 'a path',
-                               'the file that save_png writes; it reads this again'),
+                               'file that save_png writes; read at each call'),
 }
-FRAME_PERIOD = 1.0 / 30.0  # [s] between pictures in the window
+FRAME_PERIOD = 1.0 / 30.0  # [s] between two pictures in the window
 
 
 def main() -> None:
@@ -55,28 +55,28 @@ def main() -> None:
 
 
 class Turtlesim:
-    """The field, the loop that owns it, and the turtles' voices and ears."""
+    """The field, the loop that owns it, and topics and services of the turtles."""
 
     def __init__(self) -> None:
         """Open all topics and services.
 
         Raises:
-            TurtlesimError: a parameter is bad, there can be no window, or somebody else tells the time.
+            TurtlesimError: a parameter is bad, no window can be opened, or another node publishes /clock.
         """
         gui, speed = node.read(PARAMETERS, 'gui', 'speed')
         background = read_background()
         self._pace = Pace(speed)
         self._window = open_window(gui)
-        self._shown = -1  # of the field's changes
+        self._shown = -1  # `Field.changes` of the picture in the window
         self._window_due = time.monotonic()
         self._requests = Requests()
         self._commands: 'queue.SimpleQueue[Tuple[str, List[float]]]' = queue.SimpleQueue()
-        self._complained: Dict[str, float] = {}  # by turtle: when the log last said that it hit a wall
+        self._complained: Dict[str, float] = {}  # by turtle: when the next warning about a wall is due
         self._field = Field(background)
         self._changing = threading.Lock()  # held while turtles come and go
-        self._ears: Dict[str, Ears] = {}
-        self._voices: Dict[str, Voice] = {}
-        self._audience = Audience(self._field, self._voices)
+        self._inputs: Dict[str, TurtleInputs] = {}
+        self._outputs: Dict[str, TurtleOutputs] = {}
+        self._broadcaster = Broadcaster(self._field, self._outputs)
         for name, value in zip(BACKGROUND, background):
             rospy.set_param(f'~{name}', value)
         self._pace.begin()
@@ -89,13 +89,13 @@ class Turtlesim:
     # --- the loop -------------------------------------------------------------------------------------------------
 
     def run(self) -> None:
-        """Let time pass until ROS shuts down."""
+        """Move the turtles until ROS shuts down."""
         wake_on_time()
         while not rospy.is_shutdown():
             self._obey()
             self._field.move()
             self._pace.step()
-            self._audience.tell()
+            self._broadcaster.publish()
             self._field.draw()
             self._complain()
             if self._window is not None:
@@ -109,7 +109,7 @@ class Turtlesim:
                 self._field.command(name, velocity)
 
     def _complain(self) -> None:
-        """Tell once a second of every turtle that pushes against a wall."""
+        """Log a warning, once a second, for each turtle that drives against a wall."""
         if not self._field.hits:
             return
         now = time.monotonic()
@@ -134,15 +134,15 @@ class Turtlesim:
     # --- turtles come and go, in the threads of the services ------------------------------------------------------
 
     def _open(self, name: str) -> None:
-        self._voices[name] = Voice(name, self._audience.changed)
-        self._ears[name] = Ears(name, self._field, self._requests, lambda *command: self._commands.put(command))
-        self._audience.changed()
+        self._outputs[name] = TurtleOutputs(name, self._broadcaster.changed)
+        self._inputs[name] = TurtleInputs(name, self._field, self._requests, self._commands.put)
+        self._broadcaster.changed()
         x, y, theta = self._requests.call(lambda: self._field.pose(name))
         rospy.loginfo(f'Spawning turtle [{name}] at x=[{x:f}], y=[{y:f}], theta=[{theta:f}]')
 
     def _close(self, name: str) -> None:
-        self._voices.pop(name).close()
-        self._ears.pop(name).close()
+        self._outputs.pop(name).close()
+        self._inputs.pop(name).close()
 
     def _on_spawn(self, request: Any) -> SpawnResponse:
         with self._changing:
@@ -154,7 +154,7 @@ class Turtlesim:
     def _on_kill(self, request: Any) -> KillResponse:
         def kill() -> None:
             self._field.kill(request.name)
-            self._audience.changed()
+            self._broadcaster.changed()
 
         with self._changing:
             answered(self._requests.call, kill)
@@ -162,18 +162,18 @@ class Turtlesim:
         return KillResponse()
 
     def _on_reset(self, _: Any) -> EmptyResponse:
-        """Begin anew; turtle1, if it is there, keeps its topics and whoever listens to them."""
+        """Restore the initial field; if turtle1 exists, its topics and their connections stay open."""
         def reset() -> None:
             self._field.reset(background)
-            self._audience.changed()
+            self._broadcaster.changed()
 
         with self._changing:
             background = answered(read_background)
             rospy.loginfo('Resetting turtlesim.')
             self._requests.call(reset)
-            for name in set(self._voices) - {'turtle1'}:
+            for name in set(self._outputs) - {'turtle1'}:
                 self._close(name)
-            if 'turtle1' not in self._voices:
+            if 'turtle1' not in self._outputs:
                 self._open('turtle1')
         return EmptyResponse()
 
@@ -197,23 +197,23 @@ class Turtlesim:
 
 
 def read_background() -> Colour:
-    """The colour that the parameters say now.
+    """Return the present background colour of the parameters.
 
     Raises:
-        TurtlesimError: one of them is bad.
+        TurtlesimError: a parameter is bad.
     """
     red, green, blue = node.read(PARAMETERS, *BACKGROUND)
     return red, green, blue
 
 
 def open_window(gui: Any) -> Optional[window.Window]:
-    """A window, where one is wanted.
+    """Open a window if one is wanted and possible.
 
     Args:
         gui: True, False or 'auto'.
 
     Raises:
-        TurtlesimError: one is wanted in any case, and there can be none.
+        TurtlesimError: gui is True and no window can be opened.
     """
     if gui is False or gui == 'auto' and window.is_unseen():
         return None

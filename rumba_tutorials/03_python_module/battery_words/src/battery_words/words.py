@@ -1,10 +1,10 @@
-"""What a BatteryStatus means, in words; needs no ROS, so that it can be tested, and used, without."""
+"""The meaning of a BatteryStatus in words; imports no ROS, so that it can be used and tested without it."""
 
-LOW = 20  # [%] and below: time to go home
+LOW = 20  # [%] at this charge and below, the robot should go home
 
 
 def level(percentage):
-    """One word for a charge [%]: empty, low, good or full."""
+    """Return one word for a charge [%]: empty, low, good or full."""
     if percentage <= 0:
         return 'empty'
     if percentage <= LOW:
@@ -13,6 +13,6 @@ def level(percentage):
 
 
 def describe(status):
-    """One line for a rumba_msg/BatteryStatus, or whatever has its fields."""
+    """Return one line for a rumba_msg/BatteryStatus, or for any object with its fields."""
     brushes = 'lifted' if status.brushes_up else 'on the floor'
     return f'{level(status.percentage_battery)}: {status.percentage_battery} %, brushes {brushes}'

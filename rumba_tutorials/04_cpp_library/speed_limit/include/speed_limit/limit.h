@@ -6,9 +6,9 @@
 namespace speed_limit
 {
 
-/// The same curve as `command`, driven so slowly that neither limit is broken; a stop where it is not finite.
+/// Returns `command`, slowed down to obey both limits on the same curve; a stop if `command` is not finite.
 ///
-/// `max_linear` [m/s] bounds linear.x and `max_angular` [rad/s] angular.z, both forward and backward.
+/// `max_linear` [m/s] limits linear.x, forward and backward; `max_angular` [rad/s] limits angular.z in both directions.
 geometry_msgs::Twist limited(const geometry_msgs::Twist& command, double max_linear, double max_angular);
 
 }  // namespace speed_limit

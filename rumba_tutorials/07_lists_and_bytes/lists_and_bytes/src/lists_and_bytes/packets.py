@@ -8,7 +8,7 @@ LAYOUT = struct.Struct('>BHhbHH')
 
 
 class Battery(NamedTuple):
-    """What the packet tells."""
+    """The contents of the packet."""
 
     charging_state: int  # 0: not charging, 2: charging
     voltage: float  # [V]
@@ -19,12 +19,12 @@ class Battery(NamedTuple):
 
 
 def encode(battery: Battery) -> bytes:
-    """The packet; raises struct.error where a value does not fit into its bytes."""
+    """Return the packet; raise struct.error if a value does not fit into its bytes."""
     return LAYOUT.pack(battery.charging_state, round(1000 * battery.voltage), round(1000 * battery.current),
                        battery.temperature, round(1000 * battery.charge), round(1000 * battery.capacity))
 
 
 def decode(packet: bytes) -> Battery:
-    """What a packet tells; raises struct.error where its length is not that of this packet."""
+    """Return the contents of a packet; raise struct.error if its length is wrong."""
     state, voltage, current, temperature, charge, capacity = LAYOUT.unpack(packet)
     return Battery(state, voltage / 1000, current / 1000, temperature, charge / 1000, capacity / 1000)

@@ -1,1 +1,1 @@
-"""rospy beside an asyncio loop."""
+"""rospy and an asyncio loop in one program."""

@@ -1,4 +1,4 @@
-"""From rospy's threads into an asyncio loop, and its signals out of the way."""
+"""Connects rospy, which has threads and signal handlers of its own, with an asyncio loop."""
 
 import asyncio
 import signal
@@ -8,8 +8,8 @@ import rospy
 
 
 def run(name: str, main: Callable[[], Any]) -> None:
-    """Run a coroutine as a node, until it ends, Ctrl-C is pressed, or ROS ends the node; then end both."""
-    # rospy's own handler for Ctrl-C would end ROS and leave the loop running.
+    """Run a coroutine as a node until it ends, Ctrl-C is pressed, or ROS shuts down; then end both."""
+    # The handler of rospy for Ctrl-C would end ROS, but not the loop.
     rospy.init_node(name, disable_signals=True)
     try:
         asyncio.run(_until_shutdown(main()))
@@ -22,7 +22,7 @@ async def _until_shutdown(main: Any) -> None:
     loop = asyncio.get_running_loop()
     for number in (signal.SIGINT, signal.SIGTERM):
         loop.add_signal_handler(number, task.cancel)
-    rospy.on_shutdown(lambda: loop.is_closed() or loop.call_soon_threadsafe(task.cancel))  # as by `rosnode kill`
+    rospy.on_shutdown(lambda: loop.is_closed() or loop.call_soon_threadsafe(task.cancel))  # `rosnode kill`
     try:
         await task
     except asyncio.CancelledError:
@@ -30,7 +30,7 @@ async def _until_shutdown(main: Any) -> None:
 
 
 def subscribe(topic: str, kind: Any, callback: Callable[[Any], None]) -> rospy.Subscriber:
-    """Have the running loop call back with each message, in its own thread."""
+    """Have the running loop call a function with each message, in the thread of the loop."""
     loop = asyncio.get_running_loop()
-    # Of asyncio, only this may be called from another thread, and rospy's callbacks are in one.
+    # rospy runs callbacks in other threads, and no other method of a loop may be called from those.
     return rospy.Subscriber(topic, kind, lambda message: loop.call_soon_threadsafe(callback, message))

@@ -1,1 +1,1 @@
-"""The way of definitions from ROS 1 to ROS 2."""
+"""Definitions of ROS 1 in ROS 2."""

@@ -1,4 +1,4 @@
-"""The definitions of a ROS 1 package, as ROS 1 and as ROS 2 read them."""
+"""The fields of the definitions of a ROS 1 package, as ROS 1 and as ROS 2 read them."""
 
 import importlib.util
 import pathlib
@@ -15,13 +15,13 @@ OF_ROS2 = {'builtin_interfaces/Time': 'time', 'builtin_interfaces/Duration': 'du
 
 
 def files(package: str) -> Iterator[pathlib.Path]:
-    """The .msg and .srv files of a package: what ros1_bridge can map (it knows no actions)."""
+    """Return the .msg and .srv files of a package, which ros1_bridge can map; it does not support actions."""
     folder = pathlib.Path(rospkg.RosPack().get_path(package))
     return (path for kind in ('msg', 'srv') for path in sorted((folder / kind).glob(f'*.{kind}')))
 
 
 def in_ros1(package: str, path: pathlib.Path) -> List[Fields]:
-    """Fields as genmsg reads them: of a message, or of a service's request and response."""
+    """Return the fields of a message, or of request and response of a service, as genmsg reads them."""
     texts = re.split(r'^---$', path.read_text(), flags=re.MULTILINE)
     specs = [genmsg.msg_loader.load_msg_from_string(genmsg.MsgContext.create_default(), text, f'{package}/{path.stem}')
              for text in texts]
@@ -29,7 +29,7 @@ def in_ros1(package: str, path: pathlib.Path) -> List[Fields]:
 
 
 def in_ros2(package: str, path: pathlib.Path) -> List[Fields]:
-    """Fields as rosidl reads them; raises its errors where the file is no ROS 2 interface."""
+    """Return the fields as rosidl reads them; raise its error if the file is not a ROS 2 interface."""
     from rosidl_adapter import parser
     if path.suffix == '.msg':
         messages = [parser.parse_message_string(package, path.stem, path.read_text())]
@@ -40,15 +40,15 @@ def in_ros2(package: str, path: pathlib.Path) -> List[Fields]:
 
 
 def bridged(rules: List[Dict[str, str]], package: str) -> Dict[str, str]:
-    """Which definitions of a ROS 1 package the rules map by whole packages, to what: name to name.
+    """Return names of definitions of a ROS 1 package with the names in ROS 2 to which the rules map them.
 
     Raises:
-        ValueError: a rule is for single messages or fields, of which this knows nothing.
+        ValueError: a rule is not for a whole package; rules for single messages or fields are not supported.
     """
     pairs = {}
     for rule in rules:
         if set(rule) != {'ros1_package_name', 'ros2_package_name'}:
-            raise ValueError(f'not a rule for a package: {rule}')
+            raise ValueError(f'not a rule for a whole package: {rule}')
         if rule['ros1_package_name'] == package:
             for path in files(package):
                 pairs[f'{package}/{path.stem}'] = f'{rule["ros2_package_name"]}/{path.suffix[1:]}/{path.stem}'

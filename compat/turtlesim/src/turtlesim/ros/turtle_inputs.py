@@ -1,6 +1,6 @@
-"""What one turtle is told and asked: its command topic and its services, below its name."""
+"""The topic that a turtle subscribes to and the services that it serves, below its name."""
 
-from typing import Any, Callable, List
+from typing import Any, Callable, List, Tuple
 
 import rospy
 from geometry_msgs.msg import Twist
@@ -16,18 +16,18 @@ from turtlesim.srv import (SetPen, SetPenResponse, TeleportAbsolute, TeleportAbs
 COMPLAINT_PERIOD = 1.0  # [s]
 
 
-class Ears:
-    """The topic that a turtle obeys, and its services."""
+class TurtleInputs:
+    """The command topic and the services of one turtle."""
 
     def __init__(self, name: str, field: Field, requests: Requests,
-                 command: Callable[[str, List[float]], None]) -> None:
-        """Open them.
+                 command: Callable[[Tuple[str, List[float]]], None]) -> None:
+        """Open topic and services.
 
         Args:
-            name: of the turtle.
-            field: where it is; touched by `requests` only.
-            requests: the way to the loop that owns the field.
-            command: takes the turtle's name and a velocity: forward, to the left [m/s], counter-clockwise [rad/s].
+            name: name of the turtle.
+            field: the field with the turtle; only functions that `requests` calls touch it.
+            requests: passes calls to the loop that owns the field.
+            command: called with a pair: the name, and a velocity forward, to the left [m/s], counter-clockwise [rad/s].
         """
         self._name = name
         self._field = field
@@ -40,7 +40,7 @@ class Ears:
             rospy.Service(f'{name}/teleport_relative', TeleportRelative, self._on_relative)]
 
     def close(self) -> None:
-        """Close them."""
+        """Close topic and services."""
         for service in self._services:
             service.shutdown('the turtle is gone')
         self._subscriber.unregister()
@@ -52,7 +52,7 @@ class Ears:
         except TurtlesimError as error:
             rospy.logerr_throttle(COMPLAINT_PERIOD, f'{error}; ignored')
         else:
-            self._command(self._name, velocity)
+            self._command((self._name, velocity))
 
     def _on_pen(self, request: Any) -> SetPenResponse:
         pen = Pen((request.r, request.g, request.b), max(1, request.width), not request.off)
@@ -71,10 +71,10 @@ class Ears:
 
 
 def answered(function: Callable[..., Any], *arguments: Any) -> Any:
-    """What a function returns, for the answer of a service.
+    """Call a function for a service and return its result.
 
     Raises:
-        rospy.ServiceException: what went wrong, which the log tells too; the caller sees its call fail.
+        rospy.ServiceException: the function raised a TurtlesimError, which is logged; the call of the client fails.
     """
     try:
         return function(*arguments)
