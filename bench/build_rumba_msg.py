@@ -1,4 +1,4 @@
-"""How long rumba_msg takes to build from nothing, with the generators of ./rumba's workspace and with all."""
+"""How long rumba_msg takes to build from nothing, with the generators that ./rumba uses and with all generators."""
 
 import os
 import pathlib
@@ -13,7 +13,7 @@ RUNS = 3
 
 
 def seconds_to_build(environment):
-    """Wall-clock seconds of one `catkin_make` in a new workspace that holds rumba_msg alone."""
+    """Wall-clock seconds of one `catkin_make` in a new workspace that holds only rumba_msg."""
     with tempfile.TemporaryDirectory() as workspace:
         source = pathlib.Path(workspace, 'src')
         source.mkdir()

@@ -1,4 +1,4 @@
-"""Whether memory grows: a day of simulated time in process, then the node as fast as it goes, alone and heard."""
+"""Growth of memory: a simulated day in process, then the node at speed 0, without and with subscribers."""
 
 import math
 import os
@@ -17,24 +17,24 @@ from rumba_sim.ros.common.maps import map_path
 MAP = 'studio'
 HOUR, DAY = 3600, 86400  # [s]
 STEP_RATE, SCAN_RATE = 50, 10  # [Hz]
-GROWTH = 5.0  # [%] below
-WARM, LONG = 5.0, 45.0  # [s] of the wall clock, through the node
+GROWTH = 5.0  # [%] the upper bound
+WARM, LONG = 5.0, 45.0  # [s] of the wall clock, before and during the measurement of the node
 IN_PROCESS = '--in-process'
 
 
 def main():
     """Measure and print."""
-    # A process of its own: this one has rospy and its threads.
+    # In a process of its own, without rospy and its threads.
     subprocess.run([sys.executable, os.path.abspath(__file__), IN_PROCESS], check=True)
     with ros_session.master(), ros_session.simulator(map=MAP, speed=0) as node:
         figures.heading(f'Memory of the node at speed 0, one robot on the map {MAP}')
-        through_node('nobody listens', node)
+        through_node('no subscriber', node)
         with ros_session.listener():
             through_node('one subscriber to each topic', node)
 
 
 def through_node(title, node):
-    """Memory of a node early, and later."""
+    """Print the memory of the node early, and later."""
     before, _, _ = node.watch(WARM)
     first = node.resident
     simulated, _, _ = node.watch(LONG)
@@ -44,8 +44,8 @@ def through_node(title, node):
 
 
 def day():
-    """Memory of this process in the course of a simulated day: one robot bounces about, its laser on."""
-    config = updated(RobotConfig(), {'battery': {'drain': 0.05}}, 'bench')  # the battery lasts all day
+    """Print the memory of this process during a simulated day: one robot bounces around, with its laser on."""
+    config = updated(RobotConfig(), {'battery': {'drain': 0.05}}, 'bench')  # so that the battery lasts all day
     world = World(map_file.load(map_path(MAP)), config, STEP_RATE, seed=1)
     robot = world.spawn('rumba')
     chance = random.Random(1)

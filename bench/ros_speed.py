@@ -1,8 +1,8 @@
-"""How fast the simulator node is, what it costs in real time, and how soon it speaks; a roscore of its own.
+"""How fast the simulator node is, what it costs in real time, and how soon its first message comes.
 
 One robot on the map studio, at the rates of the node's defaults: odom and tf 50 Hz; scan, ground_truth, bumper, cliff
-and dock_status 10 Hz; battery_status and battery_state 5 Hz; cleaning_status and coverage 1 Hz. /diagnostics, once
-a second of the wall clock, always has a listener: it tells how much simulated time has passed.
+and dock_status 10 Hz; battery_status and battery_state 5 Hz; cleaning_status and coverage 1 Hz. simulator/state, once
+a second of the wall clock, always has a subscriber: it tells how much simulated time has passed.
 """
 
 import statistics
@@ -47,13 +47,13 @@ def first_message():
 
 
 def alone():
-    """Speed 0 without any listener."""
+    """Speed 0 without any subscriber."""
     with ros_session.simulator(map=MAP, speed=0) as node:
         as_fast_as_it_goes('speed 0, nobody listens', node, ALONE)
 
 
 def heard():
-    """Speed 0 with a listener to all topics."""
+    """Speed 0 with one subscriber to each topic."""
     with ros_session.simulator(map=MAP, speed=0) as node:
         with ros_session.listener() as counts:
             as_fast_as_it_goes('speed 0, one subscriber to each topic, in another process', node, HEARD)

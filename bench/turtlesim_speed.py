@@ -1,7 +1,7 @@
-"""What the stand-in for turtlesim takes of a core, beside the original on the machine of its figures.
+"""What share of a core the stand-in for turtlesim takes, beside the figures of the original.
 
-The original has its window always, here on Qt's offscreen platform, which shows it to nobody. The stand-in is measured
-without a window, as a machine without a display runs it, and with one on that platform.
+The original always has its window; its figures were measured with Qt's offscreen platform. The stand-in is measured
+without a window, as on a machine without a display, and with a window on that platform.
 """
 
 import contextlib
@@ -18,7 +18,7 @@ from turtlesim.srv import Spawn
 
 SECONDS = 10.0  # of a measurement of CPU time
 LISTEN = 4.0  # [s] of a measurement of the rate
-RATE = 62.5  # [Hz] promised; the listener's ends are uncertain by a message each
+RATE = 62.5  # [Hz] promised; at each end of the measurement one message is uncertain
 DRIVER = pathlib.Path(__file__).parent / 'common' / 'turtle_driver.py'
 # Share of a core [%] by number of turtles: idle, one driven at 10 Hz, all driven at 10 Hz; nobody listens.
 ORIGINAL = {1: (1.3, 5.1, 5.3), 10: (1.6, 6.1, 9.3), 50: (2.6, 8.6, 23.9), 100: (4.0, 12.1, 43.0),
@@ -28,7 +28,7 @@ CASES = [('no window', NO_WINDOW, list(ORIGINAL)), ('its window on the offscreen
 
 
 def main():
-    """Print the figures, with what the original takes as their bounds."""
+    """Print the figures, with those of the original as their bounds."""
     with ros_session.master():
         for title, arguments, numbers in CASES:
             for turtles in numbers:
@@ -38,7 +38,7 @@ def main():
 
 
 def populate(turtles):
-    """Add turtles on a grid until there are so many; returns their names."""
+    """Add turtles on a grid until there are `turtles` of them; returns their names."""
     rospy.wait_for_service('/spawn', ros_session.PATIENCE)
     spawn = rospy.ServiceProxy('/spawn', Spawn, persistent=True)
     names = ['/turtle1', *('/' + spawn(2.0 + number % 16 * 0.4, 1.0 + number // 16 * 0.4, 0.0, '').name
@@ -48,7 +48,7 @@ def populate(turtles):
 
 
 def measure(pid, names, bounds):
-    """Print what a node with turtles of these names takes, and its rate."""
+    """Print the share of a core that a node with turtles of these names takes, and its rate."""
     for what, driven, bound in zip(('nobody driven', 'one driven at 10 Hz', 'all driven at 10 Hz'),
                                    ([], names[:1], names), bounds):
         with driver(driven):
@@ -58,7 +58,7 @@ def measure(pid, names, bounds):
 
 @contextlib.contextmanager
 def driver(names):
-    """Turtles are driven as long as the block."""
+    """Drive turtles as long as the block."""
     if not names:
         yield
         return

@@ -1,18 +1,18 @@
-"""How fast the model is, without ROS: ROOM20 with 1 to 1000 robots, with and without laser, in CPU time of one core.
+"""Speed of the model without ROS: ROOM20 with 1 to 1000 robots, with and without laser, in CPU time of one core.
 
-Every robot has its battery, noisy odometry, bumper, dirt and coverage; one call of World.step for each tick.
+Every robot has its battery, noisy odometry, bumper, dirt and coverage. Each tick is one call of World.step.
 """
 
 import time
 
 from common import figures, room20
 
-STEPS = 250_000  # robot-steps in a CPU second, at least
-SCANS = 10_000  # scans in a CPU second, at least
+STEPS = 250_000  # robot-steps in a CPU second; the lower bound
+SCANS = 10_000  # scans in a CPU second; the lower bound
 LASER_PERIOD = 0.1  # [s]
 ROBOTS = (1, 10, 100)
-SETTLED = 100  # ticks before measuring: the robots have their speed, and know who is far
-WORK = 20_000  # robot-steps in one portion of work
+SETTLED = 100  # ticks before the measurement: then the robots have their speed, and know which others are far away
+WORK = 20_000  # robot-steps in one unit of work
 
 
 def main():
@@ -21,7 +21,7 @@ def main():
     small = room20.populated(room20.room20(0.1), 2, 50)
     room20.drive(small, 50, LASER_PERIOD)
     figures.heading('World speed: robots on circles, 0.2 m/s and 1 rad/s; figures for one second of CPU time')
-    figures.row('warm-up: compiled code made, or found and loaded [CPU s]', time.process_time() - begin)
+    figures.row('warm-up: code compiled, or loaded from the cache [CPU s]', time.process_time() - begin)
     plans = {resolution: room20.room20(resolution) for resolution in (0.02, 0.05)}
     for step_rate, resolution in ((50, 0.02), (50, 0.05), (10, 0.02), (10, 0.05)):
         figures.heading(f'ROOM20, cells of {resolution * 100:.0f} cm, steps of {1.0 / step_rate:g} s, no laser')
@@ -47,21 +47,21 @@ def measured_steps(plan, robots, step_rate, rooms=(1, 1), runs=5):
 
 
 def measured_scans(plan, robots, step_rate, rooms=(1, 1)):
-    """Scans in a CPU second, of robots that stand."""
+    """Scans in a CPU second of robots that stand still."""
     world = room20.populated(plan, robots, step_rate, rooms)
     room20.drive(world, SETTLED)
     return figures.per_cpu_second(lambda: room20.scan(world), robots, 0.4)
 
 
 def steps(plan, robots, step_rate):
-    """Figures without laser."""
+    """Print figures without laser."""
     figure = measured_steps(plan, robots, step_rate)
     figures.row(f'{robots:>4} robots: robot-steps', figure, at_least=STEPS)
     figures.row('             simulated seconds', figure / robots / step_rate)
 
 
 def lasers(plan, robots, step_rate):
-    """Figures with laser."""
+    """Print figures with laser."""
     figures.row(f'{robots:>4} robots: scans', measured_scans(plan, robots, step_rate), at_least=SCANS)
     world = room20.populated(plan, robots, step_rate)
     room20.drive(world, SETTLED)
@@ -72,8 +72,8 @@ def lasers(plan, robots, step_rate):
 
 
 def more_robots():
-    """The cost of a robot when there are ten times as many, as dense as before."""
-    figures.heading('1000 robots, as dense: ten such rooms in one, 100 x 40 m; cells of 5 cm, steps of 0.02 s')
+    """Print the cost of a robot if there are ten times as many at the same density."""
+    figures.heading('1000 robots at the same density: ten such rooms, 100 x 40 m; cells of 5 cm, steps of 0.02 s')
     for robots, rooms in ((100, (1, 1)), (1000, (5, 2))):
         plan = room20.room20(0.05, rooms)
         figures.row(f'{robots:>4} robots: robot-steps', measured_steps(plan, robots, 50, rooms))
@@ -81,7 +81,7 @@ def more_robots():
 
 
 def larger_map(plan):
-    """The cost of the same robots in the same room, the map around it sixteen times as large."""
+    """Print the cost of the same robots in the same room on a map that is sixteen times as large."""
     figures.heading('The same 100 robots and pillars in a corner of a map of 80 x 80 m; cells of 5 cm, steps of 0.02 s')
     for title, where in (('20 x 20 m', plan), ('80 x 80 m', room20.room20(0.05, side=80.0))):
         figures.row(f'{title}: robot-steps', measured_steps(where, 100, 50))

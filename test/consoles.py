@@ -53,7 +53,7 @@ def _commands(fence: str) -> List[Command]:
 
 
 def play(readme: pathlib.Path, space: Space) -> None:
-    """Do what a README says, as its reader does; raises AssertionError where a terminal shows something else."""
+    """Do what a README says, as its reader does; raises AssertionError if a terminal shows something else."""
     with contextlib.ExitStack() as stack:
         terminals = []
         for commands in sessions(readme):

@@ -56,7 +56,7 @@ def test_without_a_display_the_demo_says_so_in_a_line_and_goes_on(workspace, gui
         assert any(LINE.match(text) for text in lines(demo)), 'the demo ended'
 
 
-def test_the_demo_opens_the_window_where_it_can_and_goes_on_when_it_is_closed(workspace):
+def test_the_demo_opens_the_window_if_it_can_and_goes_on_when_the_window_is_closed(workspace):
     here = workspace.space('devel')
     with here.running(f'env QT_QPA_PLATFORM=offscreen {DEMO}') as demo:
         assert any(LINE.match(text) for text in lines(demo))

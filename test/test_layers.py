@@ -9,12 +9,13 @@ import pytest
 from workspaces import ROOT
 
 # Of each package, from the lowest to the highest: its folders, and which folders of the same package each may import.
-# Modules that lie in no folder belong to ''.
+# Modules outside these folders belong to ''.
 FOLDERS = {
     'rumba_sim': {
         'model': set(), 'ros/common': {'model'}, 'ros/robot': {'model', 'ros/common'},
-        'ros/simulator': {'model', 'ros/common', 'ros/robot'}, 'ros/turtlesim_body': {'model', 'ros/common', 'ros/robot'},
-        'ros': {'model', 'ros/common'}},
+        'ros/simulator': {'model', 'ros/common', 'ros/robot'},
+        'ros/turtlesim_body': {'model', 'ros/common', 'ros/robot'},
+        'ros/teleop_key': {'model', 'ros/common'}, 'ros': {'model', 'ros/common'}},
     'rumba_cleaning': {
         '': set(), 'belief': {''}, 'behaviours': {'', 'belief'}, 'planning': {'', 'belief', 'behaviours'},
         'strategies': {'', 'belief', 'behaviours', 'planning'}, 'mission': {'', 'belief', 'behaviours', 'strategies'},
@@ -39,7 +40,7 @@ WITH_QT = {'rumba_viewer/painting', 'rumba_viewer/window', 'rumba_viewer/ros'}
 KEYS = {'PIL': 'python3-pil', 'PyQt5': 'python3-qt5-bindings', 'matplotlib': 'python3-matplotlib',
         'numba': 'python3-numba', 'numpy': 'python3-numpy', 'rospkg': 'python3-rospkg', 'scipy': 'python3-scipy',
         'skimage': 'python3-skimage', 'tqdm': 'python3-tqdm', 'yaml': 'python3-yaml'}
-# Imported where they are there, and done without where they are not.
+# Imported only if they are installed.
 OPTIONAL = {'dask', 'distributed', 'turtlesim'}
 SOURCES = [(package, path) for package in FOLDERS
            for path in sorted((ROOT / package / 'src' / package).glob('**/*.py'))]
@@ -47,12 +48,12 @@ ARCHITECTURE = (ROOT / 'docs' / 'architecture.md').read_text()
 
 
 def source(package):
-    """Where the modules of a package lie."""
+    """The folder of the modules of a package."""
     return ROOT / package / 'src' / package
 
 
 def folder(package, path):
-    """The folder of a package in which a module lies."""
+    """The folder of a module inside its package."""
     return '/'.join(path.relative_to(source(package)).parts[:-1])
 
 
@@ -108,7 +109,7 @@ def test_outside_the_folder_ros_no_module_imports_ros_messages_or_a_clock(packag
 
 
 @pytest.mark.parametrize('package, path', SOURCES, ids=name_of)
-def test_qt_is_imported_only_where_the_window_is(package, path):
+def test_only_the_folders_of_the_window_import_qt(package, path):
     for name in imports(path):
         assert name.split('.')[0] not in QT or f'{package}/{folder(package, path)}' in WITH_QT, name
 

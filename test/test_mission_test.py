@@ -1,4 +1,4 @@
-"""A teacher's .test file marks good and bad homework, as the page about it says."""
+"""A teacher's .test file marks good and bad homework, as docs/mission_test.md shows."""
 
 import re
 
@@ -11,7 +11,7 @@ HOMEWORK = ROOT / 'test' / 'packages' / 'homework'
 
 @pytest.fixture()
 def mark(workspace, tmp_path):
-    """A function that marks the node of a student: exit code, and what rostest printed."""
+    """A function that marks the node of a student, and returns the exit code and the output of rostest."""
     def mark(student):
         process = workspace.space('devel').start(
             f'rostest --results-base-dir {tmp_path} homework homework.test student:={student}')
@@ -25,7 +25,7 @@ def test_the_page_shows_the_file():
     assert shown == (HOMEWORK / 'test' / 'homework.test').read_text()
 
 
-def test_good_homework_passes_in_every_condition(mark):
+def test_good_homework_meets_every_condition(mark):
     code, output = mark('sweeper')
     assert code == 0, output
     assert re.findall(r'/(test_\w+)\]\[(\w+)\]', output) == [
@@ -33,7 +33,7 @@ def test_good_homework_passes_in_every_condition(mark):
         for name in ('battery', 'collisions', 'coverage', 'field_rumba_odom_twist_twist_linear_x')]
 
 
-def test_bad_homework_fails_in_the_condition_that_it_does_not_meet(mark):
+def test_bad_homework_fails_only_in_the_condition_that_it_does_not_meet(mark):
     code, output = mark('sleeper')
     assert code != 0, output
     assert [name for name, word in re.findall(r'/test_(\w+)\]\[(\w+)\]', output) if word == 'FAILURE'] == ['coverage']

@@ -32,7 +32,7 @@ COMMANDS = {
     'turtlesim': 'rosrun turtlesim turtlesim_node _gui:=false',
     'viewer': 'env QT_QPA_PLATFORM=offscreen rosrun rumba_viewer viewer _laser:=true',
 }
-# Two simulators need two masters; beside each are those who publish what it subscribes to.
+# Two simulators need two masters; beside each run the nodes that publish what it subscribes to.
 BODY = ['turtlesim_body', 'turtlesim', 'teleop_key']
 BESIDE = [[node for node in NODES if node not in BODY[:1]], BODY]
 

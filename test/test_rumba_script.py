@@ -152,8 +152,8 @@ def test_a_command_installs_what_its_roles_need_and_no_more(checkout, tmp_path, 
     (checkout / 'rumba_bringup' / 'launch').mkdir(parents=True)
     shutil.copy(ROOT / 'rumba_bringup' / 'launch' / 'demo.launch', checkout / 'rumba_bringup' / 'launch')
     apt = f'#!/bin/sh\n[ "$1" = update ] || {{ echo "$*" >{tmp_path}/asked; exit 100; }}\n'
-    path = commands(tmp_path / 'bin', **{'apt-get': apt, 'apt-cache': '#!/bin/sh\n', 'dpkg-query': '#!/bin/sh\nexit 1\n',
-                                         'id': '#!/bin/sh\necho 0\n'})
+    path = commands(tmp_path / 'bin', **{'apt-get': apt, 'apt-cache': '#!/bin/sh\n', 'id': '#!/bin/sh\necho 0\n',
+                                         'dpkg-query': '#!/bin/sh\nexit 1\n'})
     code, _, _ = rumba(checkout, *command, PATH=f'{path}:{os.environ["PATH"]}', DISPLAY=display, WAYLAND_DISPLAY='')
     asked = (tmp_path / 'asked').read_text().split()
     assert code == 1
@@ -178,7 +178,7 @@ def test_a_python_that_shadows_the_system_s_does_no_harm(checkout, tmp_path):
     assert sample.endswith('/src/sample')
 
 
-def test_a_package_of_compat_is_built_where_the_system_has_none_and_leaves_where_it_has(checkout, tmp_path):
+def test_a_package_of_compat_is_built_only_if_the_system_has_none(checkout, tmp_path):
     for name in ('lacking', 'std_srvs'):
         write_package(checkout / 'compat' / name)
     (checkout / 'compat' / 'CATKIN_IGNORE').touch()

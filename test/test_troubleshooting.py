@@ -104,7 +104,7 @@ def test_what_catkin_make_says(environment, tmp_path, case):
     says(case.message, str(failure.value))
 
 
-def test_the_packages_are_right_where_nothing_is_broken(environment, tmp_path):
+def test_the_packages_build_if_nothing_is_broken(environment, tmp_path):
     cured = workspace(tmp_path, environment)
     cured.make()
     assert cured.space('devel').run('rosrun parts_user reader') == 'hello from parts_lib parts_msgs/Parts\n'

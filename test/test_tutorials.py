@@ -71,7 +71,7 @@ def test_cpp_is_compiled_after_the_headers_of_messages_are_written(workspace, pa
 
 
 def names(folder):
-    """Files below a folder, relative to it; none where there is no such folder."""
+    """Files below a folder, relative to it; none if the folder does not exist."""
     return {path.relative_to(folder) for path in folder.rglob('*') if path.is_file()}
 
 

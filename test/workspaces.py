@@ -55,7 +55,7 @@ class Workspace:
     """A catkin workspace in a new folder, with links to packages."""
 
     def __init__(self, path: pathlib.Path, packages, environment: Dict[str, str], over: str = '') -> None:
-        """Make the folder; `over` is the setup file of a workspace below, where there is one."""
+        """Make the folder; `over` is the setup file of a workspace below this one, if any."""
         self.path = path
         self._environment = environment
         self._below = Space(UNDERLAY + (f'. {over};' if over else ''), environment)

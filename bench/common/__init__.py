@@ -1,1 +1,1 @@
-"""What several measurements need."""
+"""What several measurements share."""

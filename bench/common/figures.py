@@ -14,11 +14,11 @@ def heading(title):
 
 
 def row(name, figure, at_least=None, below=None):
-    """A line: what, how much, and the bound with its verdict where there is one.
+    """Print a line: what was measured, the figure, and the bound with its verdict if there is one.
 
     Args:
         name: what was measured.
-        figure: how much.
+        figure: its value.
         at_least, below: the bound; give one of them, or none.
     """
     text = f'  {name:<78} {_short(figure):>11}'
@@ -34,17 +34,17 @@ def _verdict(is_met):
 
 
 def _short(figure):
-    """A number with three digits that count."""
+    """A number with three significant digits."""
     return f'{figure:,.0f}' if abs(figure) >= 100.0 else f'{figure:.3g}'
 
 
 def per_cpu_second(work, amount, seconds=0.5, runs=5):
-    """How much work one second of CPU time does: the median of runs, each at least so many CPU seconds.
+    """How much work is done in one second of CPU time: the median of several runs.
 
     Args:
-        work: a function that does a portion of it.
-        amount: what one call counts for.
-        seconds: CPU time of a run.
+        work: a function that does one portion of the work.
+        amount: how much one call counts.
+        seconds: CPU time of a run, at least.
         runs: how many.
     """
     figures = []
@@ -58,13 +58,13 @@ def per_cpu_second(work, amount, seconds=0.5, runs=5):
 
 
 def cpu_seconds(pid):
-    """CPU time of a process so far, its own and the kernel's for it."""
+    """CPU time of a process so far [s], user and system."""
     fields = pathlib.Path(f'/proc/{pid}/stat').read_text().rpartition(')')[2].split()
     return (int(fields[11]) + int(fields[12])) / CLOCK_TICKS
 
 
 def resident_megabytes(pid='self'):
-    """Memory of a process that is in use now."""
+    """Resident memory of a process [MB]."""
     for line in pathlib.Path(f'/proc/{pid}/status').read_text().splitlines():
         if line.startswith('VmRSS:'):
             return int(line.split()[1]) / 1024.0

@@ -1,11 +1,11 @@
-"""A node that reads every topic there is, and in the end tells how much of each came."""
+"""A node that subscribes to every topic and prints at its end how many messages of each arrived."""
 
 import collections
 
 import roslib.message
 import rospy
 
-SETTLE = 2.0  # [s] until all connections stand
+SETTLE = 2.0  # [s] until all connections are established
 
 
 def main():
@@ -24,7 +24,7 @@ def main():
 
 
 def sequence_keeper(numbers):
-    """A callback that notes the running number of each message, where it has one."""
+    """A callback that keeps the sequence number of each message that has one."""
     def keep(message):
         if hasattr(message, 'header'):
             numbers.append(message.header.seq)

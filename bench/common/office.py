@@ -1,16 +1,16 @@
-"""An office floor to plan on: rooms with a door each along both sides of a corridor, and furniture."""
+"""The floor plan of an office: rooms with one door each on both sides of a corridor, and furniture."""
 
 import numpy as np
 
 from rumba_sim.model.floor_plan import FREE, OCCUPIED, FloorPlan
 
 CORRIDOR, DOOR = 2.0, 0.9  # [m]
-ROOMS = (3.0, 6.0)  # [m] least and largest width
-FURNITURE = (0.3, 1.6)  # [m] least and largest side
+ROOMS = (3.0, 6.0)  # [m] smallest and largest width
+FURNITURE = (0.3, 1.6)  # [m] smallest and largest side
 
 
 def office(rows, columns, resolution, furniture, seed):
-    """A floor plan of so many cells of a resolution [m], with so many pieces of furniture."""
+    """A floor plan of `rows` and `columns` cells of a resolution [m], with a number of pieces of furniture."""
     generator = np.random.default_rng(seed)
     grid = np.full((rows, columns), OCCUPIED, np.int8)
     grid[2:-2, 2:-2] = FREE

@@ -1,4 +1,4 @@
-"""ROOM20: a room of 20 x 20 m with round and square pillars, on which simulators were compared, and larger kin."""
+"""ROOM20: a room of 20 x 20 m with round and square pillars, used to compare simulators, and larger versions of it."""
 
 import math
 
@@ -9,13 +9,13 @@ from rumba_sim.model.geometry import Pose
 from rumba_sim.model.world import World
 
 SIDE = 20.0  # [m]
-DISCS = ((4, 4), (4, 14), (10, 8), (14, 4), (16, 16))  # [m] centres, of radius
+DISCS = ((4, 4), (4, 14), (10, 8), (14, 4), (16, 16))  # [m] centres of discs
 DISC_RADIUS = 0.3  # [m]
-SQUARES = ((6, 10), (8, 16), (12, 12), (16, 8), (10, 2))  # [m] centres, of side
+SQUARES = ((6, 10), (8, 16), (12, 12), (16, 8), (10, 2))  # [m] centres of squares
 SQUARE_SIDE = 0.6  # [m]
-FIRST = (9.0, 9.0)  # [m] the first robot; the others stand on odd coordinates too
-SPEED, TURN_RATE = 0.2, 1.0  # [m/s, rad/s] every robot drives a circle of radius 0.2 m and never meets anything
-COMMAND_PERIOD = 0.2  # [s] well below the timeout of a command
+FIRST = (9.0, 9.0)  # [m] position of the first robot; all robots stand at odd coordinates
+SPEED, TURN_RATE = 0.2, 1.0  # [m/s, rad/s] every robot drives in a circle of radius 0.2 m and touches nothing
+COMMAND_PERIOD = 0.2  # [s] less than the timeout of a command
 
 
 def room20(resolution, rooms=(1, 1), side=0.0):
@@ -23,8 +23,8 @@ def room20(resolution, rooms=(1, 1), side=0.0):
 
     Args:
         resolution: side of a cell [m].
-        rooms: so many along x and y, the walls between them left out.
-        side: of the map [m], in whose corner the room lies; no smaller than the room.
+        rooms: number of rooms along x and y, without walls between them.
+        side: side of the map [m] if it is larger than the room, which then lies in its corner.
     """
     columns, rows = (round(max(SIDE * number, side) / resolution) for number in rooms)
     occupancy = np.full((rows, columns), FREE, np.int8)
@@ -41,18 +41,18 @@ def room20(resolution, rooms=(1, 1), side=0.0):
 
 
 def populated(plan, robots, step_rate, rooms=(1, 1), seed=1):
-    """A world with so many robots on a grid of 2 m, all looking along x."""
+    """A world with a number of robots on a grid of 2 m, all of which face along x."""
     along_x, along_y = (np.arange(1.0, SIDE * number, 2.0) for number in rooms)
-    places = [(x, y) for x in along_x for y in along_y if (x, y) != FIRST]
-    np.random.default_rng(seed).shuffle(places)
+    positions = [(x, y) for x in along_x for y in along_y if (x, y) != FIRST]
+    np.random.default_rng(seed).shuffle(positions)
     world = World(plan, step_rate=step_rate, seed=seed)
-    for number, (x, y) in enumerate([FIRST, *places][:robots]):
+    for number, (x, y) in enumerate([FIRST, *positions][:robots]):
         world.spawn(f'rumba{number}', Pose(x, y, 0.0))
     return world
 
 
 def drive(world, ticks, laser_period=0.0):
-    """Let ticks pass one by one, every robot on its circle; with a laser, scan every so many seconds."""
+    """Simulate ticks one by one, with every robot on its circle; scan every `laser_period` seconds if it is not 0."""
     command_every = round(COMMAND_PERIOD * world.step_rate)
     scan_every = round(laser_period * world.step_rate)
     for _ in range(ticks):
@@ -65,14 +65,14 @@ def drive(world, ticks, laser_period=0.0):
 
 
 def scan(world):
-    """One scan of every robot."""
+    """Let every robot scan once."""
     for name in world.robots:
         world.scan(name)
 
 
 def check(world):
-    """Refuse a world in which anything touched anything: it would have measured something else."""
+    """Refuse a world in which a robot touched something, since that takes more time than driving freely."""
     for robot in world.robots.values():
-        start, place = robot.start.pose, robot.pose
-        assert robot.bumps == 0 and math.hypot(place.x - start.x, place.y - start.y) < 0.5, robot.name
+        start, pose = robot.start.pose, robot.pose
+        assert robot.bumps == 0 and math.hypot(pose.x - start.x, pose.y - start.y) < 0.5, robot.name
         assert robot.distance > 0.0, robot.name

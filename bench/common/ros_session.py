@@ -12,16 +12,16 @@ import time
 import rosgraph
 import rospy
 from common import figures
-from diagnostic_msgs.msg import DiagnosticArray
+
+from rumba_msg.msg import SimulatorState
 
 PATIENCE = 60.0  # [s] for what should take a second or two
 LISTENER = pathlib.Path(__file__).with_name('listener.py')
-SPEED = 'speed [times real time]'  # what the simulator calls it in /diagnostics
 
 
 @contextlib.contextmanager
 def process(command, stdout=subprocess.DEVNULL):
-    """A process that runs as long as the block; its output is thrown away, unless it goes elsewhere."""
+    """A process that runs as long as the block; its output is discarded unless `stdout` says otherwise."""
     started = subprocess.Popen(command, stdout=stdout, stderr=subprocess.DEVNULL, start_new_session=True)
     try:
         yield started
@@ -52,7 +52,7 @@ def wait_until(condition):
     """Wait until a function returns something true, and return that.
 
     Raises:
-        TimeoutError: it does not.
+        TimeoutError: it never does.
     """
     deadline = time.monotonic() + PATIENCE
     while True:
@@ -68,37 +68,33 @@ class Node:
     """The simulator as a process of its own."""
 
     def __init__(self, pid):
-        """Look at a process that was started."""
+        """Watch a process that was started."""
         self.pid = pid
-        self._speeds = []
-        self._subscriber = rospy.Subscriber('/diagnostics', DiagnosticArray, self._on_diagnostics)
-        self._next_speed()
+        self._states = []
+        self._subscriber = rospy.Subscriber('/simulator/state', SimulatorState, self._states.append)
+        self._next_state()
 
     def close(self):
-        """Look no longer."""
+        """Stop watching."""
         self._subscriber.unregister()
 
-    def _on_diagnostics(self, message):
-        self._speeds += [float(pair.value) for status in message.status for pair in status.values if pair.key == SPEED]
-
-    def _next_speed(self):
-        """Wait until the simulator tells its speed, which it does once a second; returns what is known then.
+    def _next_state(self):
+        """Wait for the next state, which comes at least once a second.
 
         Returns:
-            tuple of the time [s], the CPU time of the node [s], and how many speeds were told.
+            tuple of the wall clock [s], the CPU time of the node [s], and the simulated time [s].
         """
-        known = len(self._speeds)
-        wait_until(lambda: len(self._speeds) > known)
-        return time.monotonic(), figures.cpu_seconds(self.pid), len(self._speeds)
+        known = len(self._states)
+        wait_until(lambda: len(self._states) > known)
+        state = self._states[-1]
+        return time.monotonic(), figures.cpu_seconds(self.pid), state.tick / state.step_rate
 
     def watch(self, seconds):
-        """Look on for so long; returns seconds of simulated, wall and CPU time."""
-        from_time, from_cpu, first = self._next_speed()
-        while time.monotonic() < from_time + seconds:
-            time_now, cpu_now, last = self._next_speed()
-        speeds = self._speeds[first:last]
-        wall = time_now - from_time
-        return sum(speeds) / len(speeds) * wall, wall, cpu_now - from_cpu
+        """Watch for so many seconds; returns seconds of simulated, wall and CPU time."""
+        from_wall, from_cpu, from_simulated = wall, cpu, simulated = self._next_state()
+        while wall < from_wall + seconds:
+            wall, cpu, simulated = self._next_state()
+        return simulated - from_simulated, wall - from_wall, cpu - from_cpu
 
     @property
     def resident(self):
@@ -113,7 +109,7 @@ def command(**parameters):
 
 @contextlib.contextmanager
 def fresh_parameters():
-    """What nodes of the block leave on the parameter server is gone after it."""
+    """Delete what the nodes of the block leave on the parameter server."""
     yield
     server = rosgraph.Master('/bench')
     for name in ('/simulator', '/use_sim_time'):
@@ -123,7 +119,7 @@ def fresh_parameters():
 
 @contextlib.contextmanager
 def simulator(**parameters):
-    """A simulator that runs, as long as the block."""
+    """A simulator that runs as long as the block."""
     with fresh_parameters(), process(command(**parameters)) as started:
         node = Node(started.pid)
         try:
@@ -134,9 +130,9 @@ def simulator(**parameters):
 
 @contextlib.contextmanager
 def listener():
-    """One subscriber to every topic there is, in one further process; yields a function to call after the block.
+    """Subscribe to every topic in one more process; yields a dictionary that is filled at the end of the block.
 
-    It returns by topic how many messages came, and how many were sent meanwhile.
+    It holds, by topic, how many messages arrived and how many were sent.
     """
     started = subprocess.Popen([sys.executable, str(LISTENER)], stdout=subprocess.PIPE, universal_newlines=True,
                                start_new_session=True)

@@ -1,4 +1,4 @@
-"""A node that has turtles drive circles: `turtle_driver.py NAME ...` commands each of them 10 times a second."""
+"""A node that drives turtles in circles: `turtle_driver.py NAME ...` commands each of them 10 times a second."""
 
 import time
 

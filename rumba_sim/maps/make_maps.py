@@ -1,7 +1,7 @@
 """Draw the maps of this folder: make_maps.py [FOLDER].
 
-Lengths are metres, x to the right and y up, (0, 0) the lower left inner corner. A cell belongs to a shape where the
-shape covers its centre, so that every version of the libraries draws the same cells.
+Lengths are in metres, x points to the right and y up; (0, 0) is the lower left inner corner. A cell belongs to a shape
+if the shape covers its centre, so that every version of the libraries draws the same cells.
 """
 
 import math
@@ -12,18 +12,18 @@ from typing import Any, Callable, Dict, Tuple
 import numpy as np
 from PIL import Image
 
-WALL, UNKNOWN, FREE = 0, 205, 254  # brightness, as map_saver writes it
-ROBOT_AT_WALL = 0.205  # [m] a robot's radius and 3 cm for the plate of the dock
+OCCUPIED, UNKNOWN, FREE = 0, 205, 254  # brightness, as map_saver writes it
+ROBOT_AT_WALL = 0.205  # [m] the radius of a robot, and 3 cm for the plate of the dock
 
 Mask = Any  # bool (rows, columns), row 0 at the bottom: the cells of a shape
-Place = Tuple[float, float, float]  # x, y [m], theta [rad]
+Pose = Tuple[float, float, float]  # x, y [m], theta [rad]
 
 
 class Drawing:
-    """A sheet of paper, and transparent ones that lie over it as layers."""
+    """A map that is being drawn: its floor, and its layers of cliffs and carpets."""
 
     def __init__(self, left: float, bottom: float, right: float, top: float, resolution: float) -> None:
-        """Begin with unknown ground between these edges [m], in cells of `resolution` [m]."""
+        """Start with unknown cells of size `resolution` [m] between these edges [m]."""
         self.origin = (left, bottom)
         self.resolution = resolution
         columns, rows = round((right - left) / resolution), round((top - bottom) / resolution)
@@ -37,7 +37,7 @@ class Drawing:
         return (self.x > left) & (self.x < right) & (self.y > bottom) & (self.y < top)
 
     def turned_box(self, x: float, y: float, length: float, width: float, degrees: float) -> Mask:
-        """The cells of a rectangle about its centre, its length turned counter-clockwise from the x axis."""
+        """The cells of a rectangle with centre (x, y), turned counter-clockwise by some degrees."""
         cos, sin = math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
         along, across = cos * (self.x - x) + sin * (self.y - y), cos * (self.y - y) - sin * (self.x - x)
         return (abs(along) < length / 2.0) & (abs(across) < width / 2.0)
@@ -46,40 +46,40 @@ class Drawing:
         """The cells of a disc."""
         return np.hypot(self.x - x, self.y - y) < radius
 
-    def paint(self, mask: Mask, brightness: int = WALL) -> None:
-        """Fill a shape."""
+    def paint(self, mask: Mask, brightness: int = OCCUPIED) -> None:
+        """Fill a shape with a brightness."""
         self.floor[mask] = brightness
 
     def furniture(self, *masks: Mask) -> None:
-        """Draw the outline of shapes, each over those before; what is inside stays unknown, as a laser leaves it."""
+        """Draw the outlines of shapes, one over the other; their inside is unknown, as in a map from a laser."""
         for mask in masks:
             self.paint(mask)
             inner = mask[1:-1, 1:-1] & mask[:-2, 1:-1] & mask[2:, 1:-1] & mask[1:-1, :-2] & mask[1:-1, 2:]
             self.floor[1:-1, 1:-1][inner] = UNKNOWN
 
     def legs(self, left: float, bottom: float, right: float, top: float, side: float = 0.04) -> None:
-        """What stands on four legs in the corners of a rectangle."""
+        """Draw four legs in the corners of a rectangle."""
         for x in (left, right - side):
             for y in (bottom, top - side):
                 self.paint(self.box(x, y, x + side, y + side))
 
-    def save(self, folder: pathlib.Path, name: str, title: str, places: Dict[str, Place]) -> None:
-        """Write the YAML file, the floor and the layers."""
-        pictures = {'image': (f'{name}.png', self.floor)}
+    def save(self, folder: pathlib.Path, name: str, title: str, poses: Dict[str, Pose]) -> None:
+        """Write the YAML file and the images of the floor and the layers."""
+        images = {'image': (f'{name}.png', self.floor)}
         for layer, mask in self.layers.items():
-            pictures[layer] = (f'{name}_{layer}.png', np.where(mask, 0, 255).astype(np.uint8))
+            images[layer] = (f'{name}_{layer}.png', np.where(mask, 0, 255).astype(np.uint8))
         lines = [f'# {title}; drawn by make_maps.py']
-        lines += [f'{key}: {file}' for key, (file, _) in pictures.items()]
+        lines += [f'{key}: {file}' for key, (file, _) in images.items()]
         lines += [f'resolution: {self.resolution}', f'origin: [{self.origin[0]}, {self.origin[1]}, 0.0]', 'negate: 0',
                   'occupied_thresh: 0.65', 'free_thresh: 0.196']
-        lines += [f'{key}: [{x:.6f}, {y:.6f}, {theta:.6f}]' for key, (x, y, theta) in places.items()]
-        for file, pixels in pictures.values():
+        lines += [f'{key}: [{x:.6f}, {y:.6f}, {theta:.6f}]' for key, (x, y, theta) in poses.items()]
+        for file, pixels in images.values():
             Image.fromarray(np.ascontiguousarray(pixels[::-1])).save(str(folder / file), optimize=True)
         (folder / f'{name}.yaml').write_text('\n'.join(lines) + '\n')
 
 
 def apartment(folder: pathlib.Path) -> None:
-    """Kitchen, hall and bath above; living room and bedroom below."""
+    """Draw an apartment: kitchen, hall and bath above; living room and bedroom below."""
     plan = Drawing(-0.4, -0.4, 9.0, 7.0, 0.02)
     rooms = [plan.box(0.0, 0.0, 4.8, 3.8), plan.box(4.92, 0.0, 8.6, 3.3), plan.box(0.0, 3.92, 3.0, 6.6),
              plan.box(3.12, 3.92, 6.08, 6.6), plan.box(4.92, 3.42, 6.08, 3.92), plan.box(6.2, 3.42, 8.6, 5.5)]
@@ -97,7 +97,7 @@ def apartment(folder: pathlib.Path) -> None:
 
 
 def doors(plan: Drawing) -> None:
-    """Doors of 0.8 m, open; a front door and windows, closed, and thinner than the wall."""
+    """Draw open doors of 0.8 m, and a closed front door and windows, which are thinner than the wall."""
     plan.paint(plan.box(3.6, 3.8, 4.4, 3.92), FREE)  # living room - hall
     plan.paint(plan.box(2.0, 3.8, 2.8, 3.92), FREE)  # living room - kitchen
     plan.paint(plan.box(3.0, 4.2, 3.12, 5.0), FREE)  # kitchen - hall
@@ -110,7 +110,7 @@ def doors(plan: Drawing) -> None:
 
 
 def living_room(plan: Drawing) -> None:
-    """A sofa round the corner, a coffee table on a carpet, a television, an armchair."""
+    """Draw a corner sofa, a coffee table on a carpet, a television, an armchair."""
     plan.furniture(plan.box(0.0, 0.6, 0.9, 2.8) | plan.box(0.9, 0.6, 1.6, 1.4),  # sofa: back and cushions
                    plan.box(0.24, 2.1, 0.9, 2.6), plan.box(0.24, 1.4, 0.9, 2.1), plan.box(0.24, 0.8, 1.6, 1.4))
     plan.furniture(plan.box(0.0, 0.1, 0.4, 0.5), plan.disc(0.2, 0.3, 0.1))  # side table, lamp
@@ -126,7 +126,7 @@ def living_room(plan: Drawing) -> None:
 
 
 def kitchen(plan: Drawing) -> None:
-    """A counter, and a table with two chairs that Rumba can pass beneath, and two that are too narrow."""
+    """Draw a counter and a table; Rumba fits under two of its chairs, and two are too narrow."""
     plan.furniture(plan.box(0.0, 6.0, 2.4, 6.6), plan.box(1.5, 6.12, 2.1, 6.5))  # counter, sink
     plan.furniture(*(plan.disc(x, y, 0.1) for x in (0.5, 0.78) for y in (6.16, 6.42)))  # hob
     plan.furniture(plan.box(2.4, 5.94, 3.0, 6.6))  # refrigerator
@@ -139,7 +139,7 @@ def kitchen(plan: Drawing) -> None:
 
 
 def hall(plan: Drawing) -> None:
-    """A step down behind the front door; shoes and coats."""
+    """Draw a step down behind the front door, shoes and coats."""
     plan.furniture(plan.box(3.12, 5.7, 3.42, 6.5))  # shoes
     plan.furniture(plan.box(5.62, 5.54, 6.08, 6.6), plan.box(5.62, 5.54, 6.08, 6.06))  # coats
     plan.furniture(plan.disc(4.92, 6.44, 0.12))  # umbrellas
@@ -147,7 +147,7 @@ def hall(plan: Drawing) -> None:
 
 
 def bath(plan: Drawing) -> None:
-    """Bathtub, washing machine, basin, toilet."""
+    """Draw a bathtub, a washing machine, a basin and a toilet."""
     plan.paint(plan.box(6.2, 5.44, 7.0, 5.48))  # the door
     plan.furniture(plan.box(7.88, 3.42, 8.6, 5.5), plan.box(7.98, 3.52, 8.5, 5.06))  # bathtub
     plan.furniture(plan.box(7.26, 4.88, 7.88, 5.5), plan.disc(7.57, 5.19, 0.22))  # washing machine
@@ -157,7 +157,7 @@ def bath(plan: Drawing) -> None:
 
 
 def bedroom(plan: Drawing) -> None:
-    """A double bed between two night tables, wardrobes, a chest of drawers."""
+    """Draw a double bed between two night tables, wardrobes, a chest of drawers."""
     plan.furniture(plan.box(6.5, 0.9, 8.6, 2.5), plan.box(6.5, 0.9, 7.9, 2.5),  # bed, blanket, pillows
                    plan.box(8.1, 1.0, 8.5, 1.6), plan.box(8.1, 1.8, 8.5, 2.4))
     for bottom in (0.5, 2.5):
@@ -169,7 +169,7 @@ def bedroom(plan: Drawing) -> None:
 
 
 def studio(folder: pathlib.Path) -> None:
-    """One room with a bath in its corner."""
+    """Draw a studio: one room with a bath in its corner."""
     plan = Drawing(-0.4, -0.4, 5.4, 4.6, 0.02)
     plan.paint(plan.box(-0.24, -0.24, 5.24, 4.44))
     plan.paint(plan.box(0.0, 0.0, 5.0, 4.2), FREE)
@@ -199,13 +199,13 @@ def studio(folder: pathlib.Path) -> None:
 
 
 def field(folder: pathlib.Path) -> None:
-    """The field of turtlesim: 500 pixels at 45 to the metre, on which a turtle gets from 0 to 499 / 45."""
+    """Draw the field of turtlesim: 500 pixels at 45 per metre; a turtle can drive from 0 to 499 / 45."""
     size, cell = 499.0 / 45.0, 0.05
     side = math.ceil(size / cell) * cell
     plan = Drawing(-cell, -cell, side + cell, side + cell, cell)
     plan.paint(plan.box(-cell, -cell, side + cell, side + cell))
     plan.paint(plan.box(0.0, 0.0, side, side), FREE)
-    plan.save(folder, 'field', 'The empty field of turtlesim, to the next cell',
+    plan.save(folder, 'field', 'The empty field of turtlesim, rounded up to whole cells',
               {'dock': (side - ROBOT_AT_WALL, size / 2.0, 0.0), 'start': (size / 2.0, size / 2.0, 0.0)})
 
 

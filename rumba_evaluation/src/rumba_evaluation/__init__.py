@@ -1,1 +1,1 @@
-"""How well a robot cleans: trials, verdicts and reports; plain Python without ROS, but for the folder ros."""
+"""How well a robot cleans: trials, verdicts and reports. Only the folder ros needs ROS."""

@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
-"""mission_test hears a robot and tells rostest what it heard; the robot, and its time, are made up here."""
+"""mission_test judges a robot and reports to rostest; this test publishes the robot's topics and its clock."""
 
 import math
+import os
 import pathlib
 import subprocess
+import sys
 import tempfile
 import time
 import unittest
@@ -26,10 +28,10 @@ TOPICS = {'cleaning_status': CleaningStatus, 'ground_truth': Odometry, 'dock_sta
           'battery_state': BatteryState, 'battery_status': BatteryStatus, 'level': Float64}
 
 
-class Made:
-    """A mission_test of a robot that is made up."""
+class Run:
+    """A running mission_test."""
 
-    def __init__(self, test, *arguments, robot=''):
+    def __init__(self, test, *arguments, robot='', command=('rosrun', 'rumba_evaluation', 'mission_test')):
         self._test = test
         folder = tempfile.TemporaryDirectory()
         test.addCleanup(folder.cleanup)
@@ -37,8 +39,7 @@ class Made:
         if rospy.has_param('/mission_test'):
             rospy.delete_param('/mission_test')
         self.process = subprocess.Popen(
-            ['rosrun', 'rumba_evaluation', 'mission_test', f'_robot:={robot or test.robot}', *arguments,
-             f'--gtest_output=xml:{self._results}'],
+            [*command, f'_robot:={robot or test.robot}', *arguments, f'--gtest_output=xml:{self._results}'],
             stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True)
         test.addCleanup(self._kill)
 
@@ -47,8 +48,7 @@ class Made:
         self.process.communicate()
 
     def ends(self, exit_code):
-        """Wait for the end; returns what went wrong by the name of the test case, '' where nothing did, and what it
-        printed on stderr."""
+        """Wait for the end; returns the failure of each test case by its name ('' if it passed), and stderr."""
         output, errors = self.process.communicate(timeout=TIMEOUT)
         self._test.assertEqual(self.process.returncode, exit_code, output + errors)
         suite = xml.etree.ElementTree.parse(str(self._results)).getroot()
@@ -59,9 +59,9 @@ class Made:
 
 
 class MissionTestTest(unittest.TestCase):
-    """Verdicts, one after another; time goes on from each to the next.
+    """Verdicts, one after another; time goes on from each test to the next.
 
-    Each has a robot of its own: a publisher takes a listener that was killed for connected until it sends it something.
+    Each test has a robot of its own, because a publisher counts a killed subscriber as connected until it publishes.
     """
 
     @classmethod
@@ -77,27 +77,27 @@ class MissionTestTest(unittest.TestCase):
                            for topic, kind in TOPICS.items()}
 
     def tell(self, topic, message):
-        """Publish a message to who judges."""
-        wait(self, self.publishers[topic].get_num_connections, f'a listener of {topic}')
+        """Publish a message once mission_test has subscribed."""
+        wait(self, self.publishers[topic].get_num_connections, f'a subscriber of {topic}')
         self.publishers[topic].publish(message)
 
     def passes(self, seconds):
-        """Let the robot's time pass."""
+        """Advance the robot's clock."""
         type(self).seconds += seconds
         self.clock.publish(rospy.Time.from_sec(self.seconds))
 
     def time_goes_on(self):
-        """Let a little pass, and messages that were sent before arrive."""
+        """Advance the clock a little, after earlier messages have arrived."""
         time.sleep(0.05)
         self.passes(0.5)
 
     def is_at(self, x, y, theta):
-        """Tell where the robot is."""
+        """Publish the robot's pose."""
         self.tell('ground_truth', conversions.odometry(Pose(x, y, theta), Twist(0.0, 0.0), Header(), ''))
 
-    def test_each_condition_is_a_case_and_all_are_met(self):
-        made = Made(self, '_coverage:=0.5', '_reach:=3 1 -0.5', '_docked:=true', '_battery:=20', '_collisions:=1',
-                    f'_fields:={self.robot}/level/data -3 -2', '_time_limit:=1000')
+    def test_each_condition_is_a_test_case_and_all_are_met(self):
+        run = Run(self, '_coverage:=0.5', '_reach:=3 1 -0.5', '_docked:=true', '_battery:=20', '_collisions:=1',
+                  f'_fields:={self.robot}/level/data -3 -2', '_time_limit:=1000')
         self.passes(0.0)
         for is_pressed in (False, True, True, False):
             self.tell('bumper', Bumper(Header(), is_pressed, False))
@@ -108,14 +108,14 @@ class MissionTestTest(unittest.TestCase):
         self.tell('dock_status', DockStatus(is_docked=True))
         self.tell('cleaning_status', CleaningStatus(coverage=0.6))
         self.tell('level', Float64(-2.5))
-        cases, _ = made.ends(0)
+        cases, _ = run.ends(0)
         self.assertEqual(cases, dict.fromkeys(
             ['test_coverage', 'test_reach', 'test_docked', 'test_battery', 'test_collisions',
              f'test_field_{self.robot}_level_data'], ''))
 
-    def test_what_is_not_met_is_told_when_the_robots_time_is_up(self):
-        made = Made(self, '_coverage:=0.5', '_reach:=3 1', '_docked:=true', '_battery:=20', '_collisions:=1',
-                    f'_fields:={self.robot}/level/data 0 5', '_time_limit:=30')
+    def test_failures_are_reported_at_the_time_limit_of_the_robots_clock(self):
+        run = Run(self, '_coverage:=0.5', '_reach:=3 1', '_docked:=true', '_battery:=20', '_collisions:=1',
+                  f'_fields:={self.robot}/level/data 0 5', '_time_limit:=30')
         self.passes(0.0)
         for is_pressed in (True, False, True, False):
             self.tell('bumper', Bumper(Header(), False, is_pressed))
@@ -126,51 +126,61 @@ class MissionTestTest(unittest.TestCase):
         self.tell('dock_status', DockStatus(is_docked=True))
         for level in (1.0, 9.0, 3.0):
             self.tell('level', Float64(level))
-        wait(self, lambda: made.process.poll() is not None or self.time_goes_on(), 'the end')
-        cases, errors = made.ends(1)
+        wait(self, lambda: run.process.poll() is not None or self.time_goes_on(), 'the end')
+        cases, errors = run.ends(1)
         for name, words in (
-                ('coverage', r'^coverage: asked at least 50\.0 % of the floor swept; measured 40\.0 % after 30\.0 s '
-                             r'of 30 s: the time was up\n'),
-                ('reach', r'measured 2\.00 m from it at the nearest'),
-                ('docked', r'measured on the dock, which it never left'), ('battery', r'measured 19\.0 % at the least'),
+                ('coverage', r'^coverage: required at least 50\.0 % of the floor swept; measured 40\.0 % after 30\.0 s '
+                             r'of 30 s: the time limit is reached\n'),
+                ('reach', r'measured a smallest distance of 2\.00 m'),
+                ('docked', r'measured on the dock, which it never left'),
+                ('battery', r'measured a lowest charge of 19\.0 %'),
                 ('collisions', r'at most 1 collision; measured 2'),
                 (f'field_{self.robot}_level_data', r'level/data always within 0 to 5; measured 1 to 9')):
             self.assertRegex(cases[f'test_{name}'], words)
         self.assertEqual(errors, '')
 
-    def test_a_robot_that_says_nothing_fails(self):
-        cases, _ = Made(self, '_battery:=20', '_fields:=nobody/says/this 0 1', '_patience:=0.5',
-                        robot='nobody').ends(1)
+    def test_a_robot_without_messages_fails(self):
+        cases, _ = Run(self, '_battery:=20', '_fields:=nobody/publishes/this 0 1', '_patience:=0.5',
+                       robot='nobody').ends(1)
         self.assertRegex(cases['test_battery'], 'measured nothing on /nobody/battery_state or /nobody/battery_status '
-                                                'after 0.0 s of 60 s: nothing was heard for 0.5 s of the wall clock')
-        self.assertRegex(cases['test_field_nobody_says_this'], 'measured nothing on /nobody/says/this')
+                                                'after 0.0 s of 60 s: no message came for 0.5 s of the wall clock')
+        self.assertRegex(cases['test_field_nobody_publishes_this'], 'measured nothing on /nobody/publishes/this')
 
     def test_a_field_that_the_topic_does_not_have_fails(self):
-        made = Made(self, '_battery:=20', f'_fields:={self.robot}/battery_state/voltag 0 1', '_time_limit:=1')
+        run = Run(self, '_battery:=20', f'_fields:={self.robot}/battery_state/voltag 0 1', '_time_limit:=1')
         self.passes(0.0)
         self.tell('battery_state', BatteryState(percentage=0.5))
-        wait(self, lambda: made.process.poll() is not None or self.time_goes_on(), 'the end')
-        cases, _ = made.ends(1)
+        wait(self, lambda: run.process.poll() is not None or self.time_goes_on(), 'the end')
+        cases, _ = run.ends(1)
         self.assertEqual(cases['test_battery'], '')
         self.assertRegex(cases[f'test_field_{self.robot}_battery_state_voltag'], 'measured nothing on ')
 
-    def test_a_test_that_is_stopped_tells_so(self):
-        made = Made(self, '_battery:=20')
+    def test_a_stopped_test_fails_and_says_so(self):
+        run = Run(self, '_battery:=20')
         self.tell('battery_state', BatteryState(percentage=0.5))
-        made.process.terminate()
-        cases, _ = made.ends(1)
+        run.process.terminate()
+        cases, _ = run.ends(1)
         self.assertRegex(cases['test_battery'], 'the test was stopped')
+
+    def test_matplotlib_is_not_needed(self):
+        script = os.path.join(os.path.dirname(__file__), '..', '..', 'scripts', 'mission_test')
+        block = ('import runpy, sys; sys.modules["matplotlib"] = None; sys.argv[:1] = []; '
+                 'runpy.run_path(sys.argv[0], run_name="__main__")')
+        run = Run(self, '_battery:=20', '_patience:=0.5', command=(sys.executable, '-c', block, script))
+        cases, errors = run.ends(1)
+        self.assertEqual(errors, '')
+        self.assertRegex(cases['test_battery'], 'no message came for 0.5 s')
 
     def test_bad_parameters_fail_with_one_line(self):
         for arguments, message in (
-                ([], 'nothing is asked: set one or more of coverage, reach, '),
+                ([], 'there is no requirement: set one or more of coverage, reach, '),
                 (['_coverage:=1.5'], 'parameter of /mission_test: coverage is 1.5: must be 0 to 1'),
                 (['_covrage:=0.5'], "parameter of /mission_test: covrage is unknown: did you mean 'coverage'?"),
                 (['_reach:=here'], "reach has 'here': must be x y or x y theta"),
                 (['_coverage:=0.5', 'nonsense'], "unknown argument 'nonsense'"),
                 (['_coverage:=0.5', '_robot:=a/b'], "robot is 'a/b': must be letters")):
             with self.subTest(arguments):
-                cases, errors = Made(self, *arguments).ends(2)
+                cases, errors = Run(self, *arguments).ends(2)
                 self.assertEqual(list(cases), ['test_parameters'])
                 self.assertTrue(cases['test_parameters'].startswith(message) or message in cases['test_parameters'])
                 self.assertEqual(errors.count('\n'), 1)

@@ -1,8 +1,9 @@
-"""A mission of 36 s by hand, as a bag: once around a rectangle of 4 m by 2 m, and home to charge.
+"""A made-up mission of 36 s as a bag: once around a rectangle of 4 m by 2 m, and back to the dock to charge.
 
-    0 s   at the dock at (1, 1), full
-    2 s   off, counter-clockwise at 0.5 m/s: 12 m; 3 bumps; the charge falls to 8 %
-   26 s   at the dock: the charge rises to 58 %
+    0 s   on the dock at (1, 1), fully charged
+    2 s   leaves the dock, counter-clockwise at 0.5 m/s: 12 m; 3 bumps; the charge falls to 8 %
+   15 s   a wheel hangs over a cliff for 1 s
+   26 s   on the dock: the charge rises to 58 %
    36 s   the end; 90 % of 20 m^2 are swept
 """
 
@@ -14,26 +15,28 @@ import rosbag
 from nav_msgs.msg import OccupancyGrid, Odometry
 from sensor_msgs.msg import BatteryState
 
+from rumba_cleaning.mission.mission import State
 from rumba_evaluation.report.mission_record import Grid, MissionRecord, MissionState, series
-from rumba_msg.msg import BatteryStatus, Bumper, CleaningStatus, DockStatus, MissionStatus
+from rumba_msg.msg import BatteryStatus, Bumper, CleaningStatus, Cliff, DockStatus, MissionStatus
 
 START = 100.0  # [s] stamp of the first message
 OFF, HOME, END = 2.0, 26.0, 36.0
-STATES = ((0.0, 0), (2.0, 1), (3.0, 2), (20.0, 3), (24.0, 4), (26.0, 5), (36.0, 0))
+STATES = ((0.0, State.IDLE), (2.0, State.UNDOCKING), (3.0, State.CLEANING), (20.0, State.RETURNING),
+          (24.0, State.DOCKING), (26.0, State.CHARGING), (36.0, State.IDLE))
 SWEPT = np.array([[100, 100, 0], [-1, 100, -1]])
 FLOOR = np.array([[0, 0, 0, 100], [100, 0, 100, -1], [-1, -1, -1, -1]])
 
 
-def place(t):
+def position(t):
     """Where the robot is [m]."""
-    way = 0.5 * min(max(t - OFF, 0.0), HOME - OFF)
-    x, y = ((way, 0.0) if way < 4.0 else (4.0, way - 4.0) if way < 6.0 else (10.0 - way, 2.0) if way < 10.0
-            else (0.0, 12.0 - way))
+    driven = 0.5 * min(max(t - OFF, 0.0), HOME - OFF)
+    x, y = ((driven, 0.0) if driven < 4.0 else (4.0, driven - 4.0) if driven < 6.0
+            else (10.0 - driven, 2.0) if driven < 10.0 else (0.0, 12.0 - driven))
     return 1.0 + x, 1.0 + y
 
 
 def charge(t):
-    """What the battery has left [%]."""
+    """Charge of the battery [%]."""
     return 100.0 - 92.0 * min(max(t - OFF, 0.0) / (HOME - OFF), 1.0) + 5.0 * max(t - HOME, 0.0)
 
 
@@ -50,12 +53,12 @@ def grid(cells, resolution=0.5):
 def ground_truth(t):
     """Every 0.1 s."""
     message = Odometry()
-    message.pose.pose.position.x, message.pose.pose.position.y = place(t)
+    message.pose.pose.position.x, message.pose.pose.position.y = position(t)
     return message
 
 
 def battery_state(t):
-    """Every 0.1 s: 15 V, 2 A on the way, 1 A into the battery at the end."""
+    """Every 0.1 s: 15 V, 2 A out of the battery while it drives, 1 A into it at the end."""
     is_off, is_charging = OFF <= t < HOME, t >= HOME
     status = (BatteryState.POWER_SUPPLY_STATUS_DISCHARGING if is_off
               else BatteryState.POWER_SUPPLY_STATUS_CHARGING if is_charging else BatteryState.POWER_SUPPLY_STATUS_FULL)
@@ -64,14 +67,14 @@ def battery_state(t):
 
 
 def battery_status(t):
-    """Every 0.2 s."""
-    x, y = place(t)
+    """Every 0.2 s; the debug message is never read."""
+    x, y = position(t)
     return BatteryStatus(percentage_battery=math.ceil(charge(t) - 1e-6), location_x=x, location_y=y,
-                         debug_message='a wheel hangs over a cliff' if 15.0 <= t < 16.0 else 'discharging')
+                         debug_message='a wheel hangs over a cliff')
 
 
 def bumper(t):
-    """Every 0.1 s: pressed from the first, then three times, of which once left and right one after the other."""
+    """Every 0.1 s: pressed in the first message, and three times later, once first left and then right."""
     return Bumper(is_left_pressed=t < 0.3 or 5.0 <= t < 5.4 or 10.0 <= t < 10.2,
                   is_right_pressed=5.4 <= t < 5.6 or 10.0 <= t < 10.2 or 20.0 <= t < 20.15)
 
@@ -80,12 +83,13 @@ def mission_status(t):
     """Every second."""
     state = max((begin, state) for begin, state in STATES if begin <= t)[1]
     return MissionStatus(state=state, strategy='spiral' if t >= OFF else '',
-                         message='90.0 % swept <&>' if t >= END else 'at work' if t >= 3.0 else '')
+                         message='90.0 % swept <&>' if t >= END else 'working' if t >= 3.0 else '')
 
 
-TOPICS = {  # period [s], and the message at a time
+TOPICS = {  # by topic: period [s], and a function that makes the message of a time
     'ground_truth': (0.1, ground_truth), 'battery_state': (0.1, battery_state), 'battery_status': (0.2, battery_status),
-    'bumper': (0.1, bumper), 'dock_status': (0.1, lambda t: DockStatus(is_docked=not OFF <= t < HOME)),
+    'bumper': (0.1, bumper), 'cliff': (0.1, lambda t: Cliff(is_wheel_dropped=15.0 <= t < 16.0)),
+    'dock_status': (0.1, lambda t: DockStatus(is_docked=not OFF <= t < HOME)),
     'cleaning_status': (1.0, lambda t: CleaningStatus(coverage=t / 40.0, cleaned_area=t / 2.0, reachable_area=20.0)),
     'mission_status': (1.0, mission_status),
     'coverage': (1.0, lambda t: grid(SWEPT if t >= END else np.where(SWEPT == 100, 0, SWEPT)))}
@@ -93,23 +97,23 @@ ALL = tuple(TOPICS)
 
 
 def recorded(t):
-    """By a recorder that goes by the clock of the simulation."""
+    """Time of a recorder that uses the clock of the simulation."""
     return START + t
 
 
 def recorded_by_the_wall(t):
-    """By a recorder that goes by the wall clock, while the simulation is ten times faster."""
+    """Time of a recorder that uses the wall clock, while the simulation is ten times faster."""
     return 1.7e9 + 0.1 * t
 
 
 def write(path, topics=ALL, namespace='/rumba', when=recorded, until=END, maps=('/map',), change=None):
-    """A bag, and its path.
+    """Write a bag; returns its path.
 
     Args:
         path: of the bag.
         topics: names below the namespace.
         namespace: of the robot.
-        when: time of recording of what happens at a time [s].
+        when: gives the time of recording for a time of the mission [s].
         until: time of the last message [s].
         maps: topics of the map.
         change: called with the name of a topic, a message and its time, before the message is written.
@@ -137,17 +141,18 @@ def add(bag, topics=ALL, namespace='/rumba', when=recorded, until=END, change=No
 
 # --- without a bag ---------------------------------------------------------------------------------------------------
 
-CORNERS = np.array([[0.0, 0.0], [4.0, 0.0], [4.0, 1.0], [2.0, 3.0]])  # no flip or turn of it is the same
+CORNERS = np.array([[0.0, 0.0], [4.0, 0.0], [4.0, 1.0], [2.0, 3.0]])  # differs from all its mirror images and rotations
 
 
 def record(**changes):
-    """A mission of 100 s with all there can be."""
+    """A record of 100 s in which every part has values."""
     parts = dict(
         source='/some/where/a.bag', robot='rumba', path=series([0, 40, 60, 100], CORNERS),
         charge=series([0, 100], [100, 50]), power=series([0, 100], [-36, -36]),
         charging=series([0, 10, 20, 30, 40], [0, 1, 0, 1, 0]), docked=series([0, 10, 20], [0, 1, 0]),
         pressed=series([0, 50, 51, 70, 71], [0, 1, 0, 1, 0]), coverage=series([0, 50, 100], [0.1, 0.3, 0.9]),
-        states=[MissionState(0.0, 2, 'spiral', ''), MissionState(80.0, 7, 'spiral', 'the <end> & so')],
+        states=[MissionState(0.0, State.CLEANING, 'spiral', ''),
+                MissionState(80.0, State.STRANDED, 'spiral', 'the <end> & more')],
         areas=(9.0, 10.0), floor=Grid(np.array([[0, 0, 100], [0, -1, -1]], np.int8), 1.0, 0.0, 0.0),
         swept=Grid(np.array([[100, 0, -1]], np.int8), 1.0, 0.0, 0.0))
     return MissionRecord(**{**parts, **changes})

@@ -1,13 +1,15 @@
-"""The command evaluate: what it runs, what it leaves in its folder, and what it says where that cannot be."""
+"""The command evaluate: the missions that it runs, the files that it writes, and its error messages."""
 
 import csv
 import itertools
+import os
 import re
+import subprocess
 import sys
 
 import numpy as np
 import pytest
-from evaluations import know_manners, small_map
+from evaluations import register_simple_strategies, small_map
 from sheets import write
 
 from rumba_evaluation.trials import batch, evaluate
@@ -16,13 +18,13 @@ from rumba_sim.model.errors import MapError
 
 
 @pytest.fixture(autouse=True)
-def _manners(monkeypatch):
-    know_manners(monkeypatch)
+def _simple_strategies(monkeypatch):
+    register_simple_strategies(monkeypatch)
 
 
 @pytest.fixture
 def run(tmp_path, capsys):
-    """Runs the command on a small map; returns exit code, output and errors."""
+    """A function that runs the command on a small map, and returns exit code, output and errors."""
     path = small_map(tmp_path)
 
     def find(name):
@@ -44,7 +46,7 @@ def run(tmp_path, capsys):
 
 
 def rows(folder):
-    """The rows of the file of results, in order of time."""
+    """The rows of the file of results, in the order of writing."""
     with open(folder / 'out' / 'results.csv') as file:
         return list(csv.DictReader(file))
 
@@ -54,7 +56,7 @@ def lines(folder):
     return sorted((folder / 'out' / 'results.csv').read_text().splitlines())
 
 
-def test_every_case_is_run_and_told(run, tmp_path):
+def test_every_case_is_run_and_in_the_table(run, tmp_path):
     code, output, errors = run('--strategies', 'turn', 'give_up', '--robots', '1', '2', '--bound', '3')
     assert (code, errors) == (0, '')
     assert [line.split()[:4] for line in output.splitlines()[2:6]] == [
@@ -64,7 +66,9 @@ def test_every_case_is_run_and_told(run, tmp_path):
     assert sorted((row['strategy'], row['robots'], row['seed']) for row in rows(tmp_path)) == sorted(
         itertools.product(('turn', 'give_up'), '12', '12'))
     assert {(row['strategy'], row['outcome']) for row in rows(tmp_path) if row['robots'] == '1'} == {
-        ('give_up', 'failed'), ('turn', 'time out')}
+        ('give_up', 'failed'), ('turn', 'timed_out')}
+    assert [line.split()[-2:] for line in output.splitlines()[2:6]] == [
+        ['2', 'timed_out'], ['2', 'timed_out'], ['2', 'failed'], ['2', 'timed_out']]  # one dock for two
     assert sorted(path.name for path in (tmp_path / 'out').iterdir()) == ['coverage.csv', 'results.csv', 'table.txt']
 
 
@@ -88,15 +92,15 @@ def test_results_do_not_depend_on_the_number_of_workers(run, tmp_path):
     assert lines(tmp_path) == alone and first == second and len(set(alone)) == 9
 
 
-def test_a_run_that_was_cut_short_goes_on(run, tmp_path):
+def test_an_interrupted_run_goes_on(run, tmp_path):
     arguments = ('--strategies', 'bounce', '--seeds', '4')
     _, whole, _ = run(*arguments)
     path, before = tmp_path / 'out' / 'results.csv', lines(tmp_path)
     path.write_bytes(path.read_bytes()[:-40])
     code, output, errors = run(*arguments)
     assert (code, output, lines(tmp_path)) == (0, whole, before)
-    assert errors == f'evaluate: 3 of 4 missions are in {path} already; to run them again, delete it or give another ' \
-                     '--output\n'
+    assert errors == f'evaluate: 3 of 4 missions are in {path} already; to run them again, delete it or choose ' \
+                     'another --output\n'
 
 
 def test_results_of_other_cases_stay_in_the_file_and_out_of_the_table(run, tmp_path):
@@ -105,7 +109,7 @@ def test_results_of_other_cases_stay_in_the_file_and_out_of_the_table(run, tmp_p
     assert len(rows(tmp_path)) == 3 and output.splitlines()[2].split()[3] == '1'
 
 
-def test_ctrl_c_keeps_what_is_done_and_says_how_to_go_on(run, tmp_path, monkeypatch):
+def test_ctrl_c_keeps_the_results_and_says_how_to_go_on(run, tmp_path, monkeypatch):
     add = Results.add
 
     def add_and_stop(results, case, result):
@@ -115,44 +119,44 @@ def test_ctrl_c_keeps_what_is_done_and_says_how_to_go_on(run, tmp_path, monkeypa
     code, output, errors = run('--seeds', '5')
     assert (code, output) == (130, '')
     assert errors == f'evaluate: stopped; 1 of 5 missions are in {tmp_path / "out" / "results.csv"}; the same ' \
-                     'command again goes on from there\n'
+                     'command goes on from there\n'
     monkeypatch.setattr(Results, 'add', add)
     code, _, errors = run('--seeds', '5')
     assert code == 0 and len(rows(tmp_path)) == 5 and errors.startswith('evaluate: 1 of 5 missions are in')
 
 
-def test_ctrl_c_before_the_first_mission_is_no_traceback(run, monkeypatch):
+def test_ctrl_c_before_the_first_mission_gives_one_line(run, monkeypatch):
     def stop(*_):
         raise KeyboardInterrupt
     monkeypatch.setattr(evaluate, '_jobs', stop)
     assert run() == (130, '', 'evaluate: stopped before the first mission\n')
 
 
-def test_a_worker_that_dies_does_not_take_the_results_along(run):
+def test_the_results_are_kept_if_a_worker_dies(run):
     code, output, errors = run('--strategies', 'turn', 'die', '--seeds', '1')
     assert (code, output) == (1, '')
-    assert re.fullmatch(r'evaluate: the workers are gone, perhaps for lack of memory \(.*\); 1 of 2 missions are '
-                        r'in .*; the same command again, perhaps with fewer --jobs, goes on from there\n', errors)
+    assert re.fullmatch(r'evaluate: the workers have died, perhaps for lack of memory \(.*\); 1 of 2 missions are '
+                        r'in .*; the same command, perhaps with fewer --jobs, goes on from there\n', errors)
 
 
-def test_a_full_disk_is_named_in_one_line(run, monkeypatch):
+def test_a_full_disk_gives_one_line(run, monkeypatch):
     def fail(*_):
         raise OSError(28, 'No space left on device', 'results.csv')
     monkeypatch.setattr(Results, 'add', fail)
     assert run() == (1, '', "evaluate: [Errno 28] No space left on device: 'results.csv'\n")
 
 
-def test_a_strategy_that_crashes_is_named_and_the_others_go_on(run, tmp_path):
+def test_an_exception_of_a_strategy_is_reported_and_the_others_go_on(run, tmp_path):
     code, output, errors = run('--strategies', 'crash', 'turn', '--seeds', '1')
     assert code == 1
-    assert re.fullmatch(r'evaluate: crash crashed on small, seed 1, robots 1: ZeroDivisionError: division by zero '
-                        r'\(manners.py:\d+\)\n', errors)
-    assert {row['strategy']: row['outcome'] for row in rows(tmp_path)} == {'crash': 'crashed', 'turn': 'time out'}
+    assert re.fullmatch(r'evaluate: crash raised an exception on small, seed 1, robots 1: ZeroDivisionError: '
+                        r'division by zero \(simple_strategies.py:\d+\)\n', errors)
+    assert {row['strategy']: row['outcome'] for row in rows(tmp_path)} == {'crash': 'error', 'turn': 'timed_out'}
 
 
 def test_strategies_of_other_packages_are_imported(run, tmp_path, monkeypatch):
     (tmp_path / 'my_strategies.py').write_text(
-        'from manners import Wait\nfrom rumba_cleaning.strategies import strategy\nstrategy("mine")(Wait)\n')
+        'from simple_strategies import Wait\nfrom rumba_cleaning.strategies import strategy\nstrategy("mine")(Wait)\n')
     monkeypatch.syspath_prepend(str(tmp_path))
     monkeypatch.delitem(sys.modules, 'my_strategies', raising=False)
     assert run('--strategies', 'mine', '--import', 'my_strategies')[0] == 0
@@ -170,10 +174,10 @@ def test_strategies_of_other_packages_are_imported(run, tmp_path, monkeypatch):
     (('--target', 'all'), "argument --target: invalid float value: 'all'"),
     (('--bound', '0'), 'bound is 0.0: must be 0.01 to 1000000'), (('--drain', '-1'), 'drain is -1.0: must be 0 to'),
     (('--start', 'here'), "argument --start: invalid choice: 'here'"),
-    (('--output', '/proc/none'), '/proc/none: .*: --output must be a folder that can be written to'),
+    (('--output', '/proc/none'), '/proc/none: .*: --output must be a writable folder'),
     (('--import', 'nowhere'), "strategies of 'nowhere': No module named 'nowhere'"),
     (('--sedes', '3'), 'unrecognized arguments: --sedes 3')])
-def test_bad_input_is_named_in_one_line_before_anything_is_done(run, tmp_path, arguments, message):
+def test_bad_input_gives_one_line_and_nothing_is_written(run, tmp_path, arguments, message):
     code, output, errors = run(*arguments)
     assert (code, output) == (2, '') and not (tmp_path / 'out').exists()
     assert re.match(f'evaluate: .*{re.escape(message) if ".*" not in message else message}', errors), errors
@@ -185,6 +189,22 @@ def test_a_map_without_free_floor_is_refused(run, tmp_path):
     batch.floor_plan.cache_clear()
     code, _, errors = run()
     assert code == 2 and re.fullmatch('evaluate: .*flat.yaml: no free floor: every cell is wall or unknown\n', errors)
+
+
+@pytest.mark.parametrize('arguments, code, output, errors', [
+    (('--no-plots',), 0, 'Working time to coverage', ''),
+    ((), 2, '', r"evaluate: pictures need matplotlib \(.*\): install the package python3-matplotlib, or give "
+                r'--no-plots\n')])
+def test_only_pictures_need_matplotlib(tmp_path, arguments, code, output, errors):
+    script = ('import sys; sys.modules["matplotlib"] = None; from rumba_evaluation.trials import evaluate; '
+              'sys.exit(evaluate.main(sys.argv[1:], str))')
+    done = subprocess.run(
+        [sys.executable, '-c', script, '--maps', small_map(tmp_path), '--strategies', 'bounce', '--seeds', '1',
+         '--bound', '0.1', '--jobs', '1', '--output', str(tmp_path / 'out'), *arguments],
+        stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True,
+        env={**os.environ, 'PYTHONPATH': os.pathsep.join(sys.path)})
+    assert done.returncode == code and done.stdout.startswith(output)
+    assert re.fullmatch(errors, done.stderr) and (tmp_path / 'out').exists() == (code == 0)
 
 
 def test_help_names_every_option(run):

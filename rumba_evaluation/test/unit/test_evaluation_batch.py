@@ -1,4 +1,4 @@
-"""Workers: of this machine, which end with the process that began them, and of a Dask cluster."""
+"""Workers of this machine, which end with their parent process, and workers of a Dask cluster."""
 
 import os
 import signal
@@ -8,15 +8,16 @@ import time
 from concurrent.futures import BrokenExecutor, CancelledError
 
 import pytest
-from evaluations import case, know_manners, small_map
+from evaluations import case, register_simple_strategies, small_map
 
 from rumba_cleaning import strategies
+from rumba_cleaning.outcome import Outcome
 from rumba_evaluation.trials import batch
 from rumba_evaluation.trials.batch import Job
 from rumba_evaluation.trials.cases import Conditions
 from rumba_sim.model.errors import ConfigError
 
-PATIENCE = 10.0  # [s]
+TIMEOUT = 10.0  # [s]
 PARENT = '''
 import os, time
 from rumba_evaluation.trials import batch
@@ -31,17 +32,17 @@ with batch.local(2) as executor:
 
 
 @pytest.fixture(autouse=True)
-def _manners(monkeypatch):
-    know_manners(monkeypatch)
+def _simple_strategies(monkeypatch):
+    register_simple_strategies(monkeypatch)
 
 
 def job(folder, strategy, seed=1, **conditions):
     """A job on the small map."""
-    return Job(case(strategy=strategy, seed=seed), Conditions(**conditions), small_map(folder), 'manners')
+    return Job(case(strategy=strategy, seed=seed), Conditions(**conditions), small_map(folder), 'simple_strategies')
 
 
 def is_alive(process):
-    """Whether there is a process of this number that is more than a memory."""
+    """Whether there is a process of this number that is not a zombie."""
     try:
         with open(f'/proc/{process}/stat') as file:
             return file.read().rpartition(')')[2].split()[0] != 'Z'
@@ -50,17 +51,17 @@ def is_alive(process):
 
 
 @pytest.mark.parametrize('number', [signal.SIGKILL, signal.SIGTERM, signal.SIGINT])
-def test_workers_end_with_the_process_that_began_them(number):
+def test_workers_end_with_their_parent_process(number):
     with subprocess.Popen([sys.executable, '-c', PARENT], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
                           env={**os.environ, 'PYTHONPATH': os.pathsep.join(sys.path)}) as parent:
         try:
             workers = [int(parent.stdout.readline()) for _ in range(2)]
             assert all(is_alive(worker) for worker in workers)
             parent.send_signal(number)
-            parent.wait(PATIENCE)
+            parent.wait(TIMEOUT)
         finally:
             parent.kill()
-    until = time.monotonic() + PATIENCE
+    until = time.monotonic() + TIMEOUT
     while any(is_alive(worker) for worker in workers):
         assert time.monotonic() < until
         time.sleep(0.02)
@@ -78,10 +79,10 @@ def test_a_path_leads_from_the_start_to_the_end(tmp_path):
     assert traced.result == batch.run(traced.job)
 
 
-def test_a_worker_imports_the_strategies_of_a_job_itself(tmp_path, monkeypatch):
+def test_a_worker_imports_the_strategies_of_a_job(tmp_path, monkeypatch):
     monkeypatch.setattr(strategies, '_factories', {})
-    monkeypatch.delitem(sys.modules, 'manners')
-    assert batch.run(job(tmp_path, 'turn', bound=0.01)).outcome == 'time out'
+    monkeypatch.delitem(sys.modules, 'simple_strategies')
+    assert batch.run(job(tmp_path, 'turn', bound=0.01)).outcome is Outcome.TIMED_OUT
 
 
 def test_a_worker_reads_a_map_once(tmp_path):
@@ -100,11 +101,11 @@ def test_dask_finds_the_same_results(tmp_path):
             found = dict(batch.each(executor, batch.run, jobs, 'missions'))
         with pytest.raises(BrokenExecutor, match='tcp://.*: CancelledError'):
             with batch.remote(cluster.scheduler_address):
-                raise CancelledError  # as Dask does once the scheduler is gone
+                raise CancelledError  # as Dask does if the scheduler has died
     assert found == {one: batch.run(one) for one in jobs}
 
 
-def test_without_dask_the_package_is_named(monkeypatch):
+def test_without_dask_the_message_names_the_package(monkeypatch):
     monkeypatch.setitem(sys.modules, 'distributed', None)
     with pytest.raises(ConfigError, match='--scheduler needs Dask: install the package python3-distributed'):
         with batch.remote('tcp://127.0.0.1:1'):
@@ -114,9 +115,9 @@ def test_without_dask_the_package_is_named(monkeypatch):
 @pytest.mark.parametrize('address, message', [
     ('tcp://127.0.0.1:1', 'no Dask scheduler answers there'),
     ('here', 'must be the address of a Dask scheduler, as in tcp://10.0.0.1:8786')])
-def test_a_scheduler_that_is_not_there_is_named(monkeypatch, address, message):
+def test_a_scheduler_that_does_not_answer_is_refused(monkeypatch, address, message):
     pytest.importorskip('distributed', reason='Dask is optional: the package python3-distributed')
-    monkeypatch.setattr(batch, 'PATIENCE', 0.5)
+    monkeypatch.setattr(batch, 'SCHEDULER_TIMEOUT', 0.5)
     with pytest.raises(ConfigError, match=f'--scheduler {address}: {message}'):
         with batch.remote(address):
             pass

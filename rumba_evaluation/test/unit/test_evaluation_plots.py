@@ -1,4 +1,4 @@
-"""Pictures are drawn of whatever results there are: of one run, of many, of none that came far."""
+"""Pictures are drawn of one run, of many runs, and of runs with little coverage."""
 
 import numpy as np
 import pytest
@@ -37,18 +37,18 @@ def test_results_of_any_number_are_drawn(tmp_path, groups):
         assert pixels.shape[0] > 300 and pixels.shape[1] > 700 and pixels.std() > 10.0
 
 
-def test_each_map_has_its_picture_of_coverage(tmp_path):
+def test_each_map_has_its_own_picture_of_coverage(tmp_path):
     plots.draw_results(str(tmp_path), {Group(name, 'ahead', 1): [steady(1.2)] for name in ('/a/b c.yaml', 'studio')})
     assert sorted(path.name for path in tmp_path.glob('cov*')) == ['coverage_a_b_c.png', 'coverage_studio.png']
 
 
-def test_a_curve_is_where_the_results_are():
-    """A run that was twice as slow as T, and came to 50 %."""
+def test_a_curve_has_the_values_of_the_results():
+    """A run that was twice as slow as T, and reached 50 %."""
     sampled = plots._sampled(steady(2.0, until=50), np.array([0.0, 0.5, 1.0, 1.5]))
     assert sampled.tolist() == [0.0, 25.0, 50.0, 50.0]
 
 
-def test_a_path_shows_what_was_missed(tmp_path):
+def test_a_picture_of_a_path_shows_the_missed_floor(tmp_path):
     plan = crooked(0.02)
     missed = np.zeros((plan.rows, plan.columns), bool)
     shares = []
@@ -60,4 +60,4 @@ def test_a_path_shows_what_was_missed(tmp_path):
         shares.append(share(picture(tmp_path / 'path_room_bounce_1.png'), MISSED))
     legend, small, large = shares
     assert legend < 0.001 and large - small > 0.01
-    assert small - legend == pytest.approx(large - small, rel=0.6)  # paths cover a part of it
+    assert small - legend == pytest.approx(large - small, rel=0.6)  # the paths hide a part of it

@@ -1,4 +1,4 @@
-"""Results are in their file as soon as they are known, and a file that was cut short anywhere can be gone on with."""
+"""Results are in their file as soon as they are known, and a run can go on with a file that is cut off anywhere."""
 
 import csv
 import dataclasses
@@ -7,18 +7,20 @@ import math
 import pytest
 from evaluations import case, result, steady
 
+from rumba_cleaning.outcome import Outcome
 from rumba_evaluation.trials.cases import Conditions, grid
 from rumba_evaluation.trials.results import Results
 from rumba_sim.model.errors import ConfigError
 
 CASES = [case(seed=seed) for seed in (1, 2, 3)]
-FOUND = [steady(1.5), steady(11.0, until=60, outcome='time out', message='it took,\n"too long"', penetrated=True),
-         result(energy_per_area=math.nan, outcome='failed')]
+FOUND = [steady(1.5),
+         steady(11.0, until=60, outcome=Outcome.TIMED_OUT, message='it took,\n"too long"', penetrated=True),
+         result(energy_per_area=math.nan, outcome=Outcome.FALLEN)]
 
 
 @pytest.fixture
 def path(tmp_path):
-    """Where the file of results is."""
+    """The path of the file of results."""
     return tmp_path / 'results.csv'
 
 
@@ -28,14 +30,14 @@ def opened(path, **conditions):
 
 
 def read(path):
-    """What a file holds, by case."""
+    """The results in a file, by case."""
     results = opened(path)
     results.close()
     return results.found
 
 
 def written(path):
-    """What a file holds after all results were added to it."""
+    """The content of a file after all results were added to it."""
     results = opened(path)
     for one, found in zip(CASES, FOUND):
         results.add(one, found)
@@ -43,7 +45,7 @@ def written(path):
     return path.read_bytes()
 
 
-def test_what_was_written_is_read(path):
+def test_written_results_are_read(path):
     written(path)
     found = read(path)
     assert list(found) == CASES
@@ -52,7 +54,7 @@ def test_what_was_written_is_read(path):
     assert math.isnan(found[CASES[2]].energy_per_area) and found[CASES[2]].curve == ()
 
 
-def test_a_row_is_in_the_file_at_once_and_known_as_it_will_be_read(path):
+def test_a_row_is_in_the_file_at_once_and_its_result_is_rounded_as_in_the_file(path):
     results = opened(path)
     results.add(CASES[0], result(distance=1.0 / 3.0))
     assert len(path.read_text().splitlines()) == 2
@@ -60,16 +62,17 @@ def test_a_row_is_in_the_file_at_once_and_known_as_it_will_be_read(path):
     results.close()
 
 
-def test_people_find_the_times_to_coverage_in_columns_of_their_own(path):
+def test_the_times_to_coverage_have_columns_of_their_own(path):
     written(path)
     with open(path) as file:
-        first, second, _ = csv.DictReader(file)
+        first, second, third = csv.DictReader(file)
     assert (first['map'], first['strategy'], first['seed'], first['target']) == ('room', 'bounce', '1', '0.99')
     assert (first['to_80_s'], first['to_80_T'], first['to_99_T']) == ('120', '1.2', '1.485')
     assert (second['to_80_s'], second['to_80_T']) == ('inf', 'inf')
+    assert [first['outcome'], second['outcome'], third['outcome']] == ['succeeded', 'timed_out', 'fallen']
 
 
-def test_cut_short_anywhere_it_keeps_the_whole_rows_and_goes_on(path):
+def test_a_file_that_is_cut_off_anywhere_keeps_its_complete_rows_and_goes_on(path):
     whole = written(path)
     ends = [index + more for index, byte in enumerate(whole) if byte == ord('\n') for more in (0, 1)]
     for length in sorted({*range(0, len(whole), 37), *ends}):
@@ -84,11 +87,11 @@ def test_cut_short_anywhere_it_keeps_the_whole_rows_and_goes_on(path):
 
 
 @pytest.mark.parametrize('conditions, message', [
-    (dict(target=0.95), 'was made with target 0.99, not 0.95: give another --output, or delete it'),
+    (dict(target=0.95), 'was made with target 0.99, not 0.95: choose another --output, or delete it'),
     (dict(start='anywhere'), 'was made with start dock, not anywhere'),
     (dict(drain=20.0), 'was made with drain 1, not 20'),
     (dict(bound=3.0), 'was made with bound 12, not 3')])
-def test_results_of_other_conditions_are_refused_and_left_alone(path, conditions, message):
+def test_a_file_with_other_conditions_is_refused_and_not_changed(path, conditions, message):
     whole = written(path)
     with pytest.raises(ConfigError, match=f'results.csv {message}'):
         opened(path, **conditions)
@@ -96,27 +99,27 @@ def test_results_of_other_conditions_are_refused_and_left_alone(path, conditions
 
 
 @pytest.mark.parametrize('content', ['a,b\n1,2\n', 'notes of mine', 'map,strategy\n', '\n'])
-def test_another_file_is_refused_and_left_alone(path, content):
+def test_a_file_of_another_kind_is_refused_and_not_changed(path, content):
     path.write_text(content)
-    with pytest.raises(ConfigError, match='is no file of results of this version: give another --output'):
+    with pytest.raises(ConfigError, match='is not a file of results of this version: choose another --output'):
         opened(path)
     assert path.read_text() == content
 
 
 @pytest.mark.parametrize('old, new', [(',bounce,2,', ',bounce,two,'), ('False', 'perhaps'), (',dock,', ',somewhere,'),
-                                      ('bounce,2,1,dock,0.99,12,', '')])
-def test_a_line_that_cannot_be_read_is_named(path, old, new):
+                                      ('timed_out', 'lost'), ('bounce,2,1,dock,0.99,12,', '')])
+def test_the_message_names_a_line_that_cannot_be_read(path, old, new):
     lines = written(path).decode().split('\n')
     lines[2] = lines[2].replace('True', 'False').replace(old, new, 1)
     if not new:
         lines[2] = 'room,bounce'
     path.write_text('\n'.join(lines))
-    with pytest.raises(ConfigError, match='has a line 3 that cannot be read'):
+    with pytest.raises(ConfigError, match='results.csv cannot be read in line 3: choose another --output'):
         opened(path)
 
 
-def test_a_folder_is_no_file_of_results(tmp_path):
-    with pytest.raises(ConfigError, match='Is a directory: --output must be a folder that can be written to'):
+def test_a_folder_in_place_of_the_file_is_refused(tmp_path):
+    with pytest.raises(ConfigError, match='Is a directory: --output must be a writable folder'):
         opened(tmp_path)
 
 
@@ -126,6 +129,6 @@ def test_the_grid_has_every_case_once():
     assert cases[:3] == [('a', 'bounce', 3, 1), ('a', 'bounce', 4, 1), ('a', 'bounce', 3, 2)]
 
 
-def test_robots_begin_at_the_dock_or_anywhere():
+def test_another_kind_of_start_is_refused():
     with pytest.raises(ConfigError, match="start is 'here': must be dock or anywhere"):
         Conditions(start='here')

@@ -1,4 +1,4 @@
-"""Robots begin anywhere on the floor that can be reached, and not on one another."""
+"""Robots start anywhere on the floor that they can reach, and do not overlap."""
 
 import itertools
 import math
@@ -17,7 +17,7 @@ ORIGIN = Pose(0.5, 0.5, 0.0)
 
 
 def drawn(plan, count=1, seed=1):
-    """Poses that are drawn."""
+    """Random poses."""
     return anywhere(plan, RobotConfig(), ORIGIN, count, np.random.default_rng(seed))
 
 
@@ -32,7 +32,7 @@ def test_robots_fit_where_they_are_put():
         world.spawn(str(index), pose)
 
 
-def test_all_of_the_floor_comes_in_turn_and_all_headings():
+def test_starts_cover_all_of_the_floor_and_all_headings():
     poses = [pose for seed in range(200) for pose in drawn(room(3.0, 1.0), seed=seed)]
     xs, thetas = np.array([pose.x for pose in poses]), np.array([pose.theta for pose in poses])
     assert 0.2 <= xs.min() < 0.35 and 2.65 < xs.max() <= 2.8
@@ -40,13 +40,13 @@ def test_all_of_the_floor_comes_in_turn_and_all_headings():
     assert abs(np.mean(xs) - 1.5) < 0.2
 
 
-def test_nobody_begins_where_the_origin_cannot_be_reached_from_or_over_a_cliff():
+def test_no_robot_starts_where_it_cannot_drive_to_or_over_a_cliff():
     plan = room(4.0, 1.0, boxes=[(2.0, 0.0, 2.1, 1.0)], cliff=(0.8, 0.0, 1.2, 0.4))
     for seed in range(50):
         [pose] = drawn(plan, seed=seed)
         assert pose.x < 2.0 and not (0.8 - RADIUS < pose.x < 1.2 + RADIUS and pose.y < 0.4)
 
 
-def test_too_many_are_refused():
+def test_too_many_robots_are_refused():
     with pytest.raises(WorldError, match='room: no room for another robot beside [1-9]'):
         drawn(room(1.0, 1.0), 20)

@@ -1,4 +1,4 @@
-"""From a bag to a report: what was recorded is what the figures say, whatever is missing and whoever's clock it was."""
+"""From a bag to a report: the figures are those of the recorded mission, also with missing topics and other clocks."""
 
 import math
 import os
@@ -17,16 +17,15 @@ from pytest import approx
 from std_msgs.msg import String
 
 from rumba_evaluation.report.mission_events import contacts, events
-from rumba_evaluation.report.mission_record import STATES, summary
+from rumba_evaluation.report.mission_record import summary
 from rumba_evaluation.ros.mission_report import mission_bag, mission_report
-from rumba_msg.msg import MissionStatus
 
 SCRIPT = pathlib.Path(__file__).resolve().parents[2] / 'scripts' / 'mission_report'
-LIGHT = ('ground_truth', 'battery_state')  # what is enough
+LEAST = ('ground_truth', 'battery_state')  # enough for a report
 
 
 def without(*names):
-    """All topics but some."""
+    """All topics except some."""
     return [name for name in ALL if name not in names]
 
 
@@ -37,7 +36,7 @@ def bag(tmp_path_factory):
 
 
 @pytest.mark.parametrize('when', [mission_bags.recorded, recorded_by_the_wall])
-def test_the_figures_are_those_of_the_mission_by_whatever_clock_it_was_recorded(tmp_path, when):
+def test_the_figures_are_those_of_the_mission_on_any_clock_of_the_recorder(tmp_path, when):
     record = mission_bag.read(write(tmp_path / 'a.bag', when=when))
     told = summary(record)
     assert (told.duration, told.busy, told.distance) == approx((36.0, 34.0, 12.0))
@@ -46,7 +45,7 @@ def test_the_figures_are_those_of_the_mission_by_whatever_clock_it_was_recorded(
     assert (told.charges, told.charging_time) == (1, approx(10.0))
     assert told.charge == approx((100.0, 58.0, 8.0))
     assert told.energy == approx((24.0 * 30.0 / 3600.0, 10.0 * 15.0 / 3600.0), rel=0.01)
-    assert (told.bumps, told.leaps) == (3, 0)
+    assert (told.bumps, told.jumps) == (3, 0)
     assert told.outcome == 'ended: 90.0 % swept <&>'
     assert record.began == approx(100.0)
     assert record.swept.cells.tolist() == mission_bags.SWEPT.tolist()
@@ -81,14 +80,9 @@ def test_events_are_in_order(tmp_path, when):
     assert [(round(event.time, 3), event.text) for event in found] == EVENTS
 
 
-def test_the_states_are_those_of_the_messages():
-    for number, name in enumerate(STATES):
-        assert getattr(MissionStatus, name.replace(' a point', '').replace(' ', '_').upper()) == number
+# --- missing topics and values --------------------------------------------------------------------------------------
 
-
-# --- what is missing ------------------------------------------------------------------------------------------------
-
-def test_the_lessons_message_alone_is_enough(tmp_path):
+def test_battery_status_alone_is_enough(tmp_path):
     record = mission_bag.read(write(tmp_path / 'a.bag', ['battery_status'], maps=()))
     told = summary(record)
     assert (told.duration, told.charges, told.charge) == (approx(36.0), 1, (100.0, 58.0, 8.0))
@@ -96,21 +90,22 @@ def test_the_lessons_message_alone_is_enough(tmp_path):
     assert told.charging_time == approx(10.0, abs=0.4)
     assert (told.busy, told.coverage, told.areas, told.energy, told.bumps) == (None,) * 5 and told.outcome == ''
     assert (record.floor, record.swept) == (None, None)
+    assert not any(event.kind == 'cliff' for event in events(record))
 
 
-def test_without_battery_state_the_battery_is_charged_at_the_contacts(tmp_path):
+def test_without_battery_state_the_battery_is_charged_while_docked(tmp_path):
     told = summary(mission_bag.read(write(tmp_path / 'a.bag', without('battery_state', 'ground_truth'))))
     assert (told.charges, told.charging_time, told.energy) == (1, approx(10.0), None)
     assert told.distance == approx(12.0)
 
 
-def test_without_dock_status_the_battery_tells_whether_it_is_docked(tmp_path):
-    texts = [event.text for event in events(mission_bag.read(write(tmp_path / 'a.bag', LIGHT)))]
+def test_without_dock_status_the_robot_is_docked_while_its_battery_is_charged(tmp_path):
+    texts = [event.text for event in events(mission_bag.read(write(tmp_path / 'a.bag', LEAST)))]
     assert texts.index('Undocked, battery 100 %.') < texts.index('Docked, battery 8 %.')
 
 
 @pytest.mark.parametrize('when', [mission_bags.recorded, recorded_by_the_wall])
-def test_without_cleaning_status_the_grids_tell_the_coverage(tmp_path, when):
+def test_without_cleaning_status_the_coverage_comes_from_the_grids(tmp_path, when):
     record = mission_bag.read(write(tmp_path / 'a.bag', without('cleaning_status'), when=when))
     told = summary(record)
     assert (told.coverage, told.areas) == (0.75, approx((0.75, 1.0)))
@@ -118,14 +113,14 @@ def test_without_cleaning_status_the_grids_tell_the_coverage(tmp_path, when):
     assert record.coverage.values.tolist() == [0.0] * 36 + [0.75]
 
 
-def test_of_many_grids_some_are_unpacked_the_last_among_them(tmp_path, monkeypatch):
+def test_of_many_grids_some_and_the_last_are_read(tmp_path, monkeypatch):
     monkeypatch.setattr('rumba_evaluation.ros.mission_report.recorded_robot.GRIDS', 5)
     record = mission_bag.read(write(tmp_path / 'a.bag', without('cleaning_status')))
     assert record.coverage.times.tolist() == approx([4.0, 12.0, 20.0, 28.0, 36.0])
     assert record.coverage.values[-1] == 0.75
 
 
-def test_what_is_not_finite_is_passed_over(tmp_path):
+def test_values_that_are_not_finite_are_ignored(tmp_path):
     def spoil(name, message, t):
         if name == 'ground_truth' and 3.0 < t < 4.0:
             message.pose.pose.position.y = math.nan if t < 3.5 else 1e300
@@ -134,19 +129,19 @@ def test_what_is_not_finite_is_passed_over(tmp_path):
         if name == 'cleaning_status' and t > 30.0:
             message.coverage = math.inf
     told = summary(mission_bag.read(write(tmp_path / 'a.bag', change=spoil)))
-    assert (told.distance, told.coverage, told.leaps) == (approx(12.0), 0.75, 0)
+    assert (told.distance, told.coverage, told.jumps) == (approx(12.0), 0.75, 0)
     assert told.charge == approx((100.0, 58.0, 8.0))
     assert told.energy == approx((0.2, 150.0 / 3600.0), rel=0.01)
 
 
-def test_one_message_of_each_is_a_mission_of_no_time(tmp_path, capsys):
+def test_one_message_of_each_topic_is_a_mission_of_0_seconds(tmp_path, capsys):
     mission_report.main([write(tmp_path / 'a.bag', until=0.0)])
     assert capsys.readouterr().out.splitlines()[1:] == [
         'rumba: 0.0 % swept in 0:00:00, 0.0 m driven, bumps: 0',
-        'battery: 100 % to 100 %, least 100 %, charges: 0, 0:00:00 in all', 'outcome: idle']
+        'battery: 100 % to 100 %, lowest 100 %, charges: 0, 0:00:00 in all', 'outcome: idle']
 
 
-def test_stamps_that_were_never_set_and_a_map_that_is_turned(tmp_path):
+def test_stamps_that_were_never_set_and_a_rotated_map(tmp_path):
     def spoil(name, message, t):
         if hasattr(message, 'header'):
             message.header.stamp = genpy.Time()
@@ -158,11 +153,11 @@ def test_stamps_that_were_never_set_and_a_map_that_is_turned(tmp_path):
     record = mission_bag.read(path)
     assert (summary(record).duration, summary(record).distance) == approx((36.0, 12.0))
     assert record.floor is None and record.remarks == [
-        'The map is damaged, or turned against the axes: it is not drawn.']
+        'The map is not drawn: it is damaged, or rotated against the axes.']
 
 
 @pytest.mark.parametrize('topics', [['battery_status'], ['ground_truth', 'battery_state']])
-def test_what_has_no_stamp_in_the_first_seconds_of_a_simulation(tmp_path, topics):
+def test_messages_without_stamps_in_the_first_seconds_of_a_simulation(tmp_path, topics):
     def spoil(name, message, t):
         if hasattr(message, 'header'):
             message.header.stamp = genpy.Time()
@@ -171,7 +166,7 @@ def test_what_has_no_stamp_in_the_first_seconds_of_a_simulation(tmp_path, topics
     assert (record.began, summary(record).duration, summary(record).driving_time) == approx((0.5, 36.0, 24.0), abs=0.2)
 
 
-def test_what_was_recorded_before_and_after_all_stamps_is_in_time(tmp_path):
+def test_messages_before_the_first_and_after_the_last_stamp_get_the_right_times(tmp_path):
     path = str(tmp_path / 'a.bag')
     with rosbag.Bag(path, 'w') as bag:
         mission_bags.add(bag, ['ground_truth'], when=recorded_by_the_wall, until=20.0)
@@ -182,16 +177,16 @@ def test_what_was_recorded_before_and_after_all_stamps_is_in_time(tmp_path):
     assert record.path.times[[0, -1]].tolist() == approx([3.0, 23.0])
 
 
-def test_a_topic_may_have_messages_of_another_type_too(tmp_path):
+def test_messages_of_another_type_on_a_topic_are_ignored(tmp_path):
     path = str(tmp_path / 'a.bag')
     with rosbag.Bag(path, 'w') as bag:
         mission_bags.add(bag)
-        bag._topic_connections.pop('/rumba/bumper')  # else rosbag would write it as of the type before
+        bag._topic_connections.pop('/rumba/bumper')  # else rosbag writes the type of the earlier messages
         bag.write('/rumba/bumper', String('none'), genpy.Time(110))
     assert summary(mission_bag.read(path)).bumps == 3
 
 
-def test_a_clock_that_was_set_back_is_not_believed(tmp_path):
+def test_a_clock_that_was_set_back_is_not_used(tmp_path):
     def restart(name, message, t):
         if hasattr(message, 'header') and t >= 18.0:
             message.header.stamp = genpy.Time.from_sec(t - 18.0)
@@ -200,8 +195,8 @@ def test_a_clock_that_was_set_back_is_not_believed(tmp_path):
     assert record.began == 1.7e9 and 'set back' in record.remarks[0]
 
 
-def test_a_mission_that_said_little_of_late_has_its_times_from_the_recorder(tmp_path):
-    """A latched message is as old as its decision, and may come before anything else was."""
+def test_latched_states_get_their_times_from_the_recorder(tmp_path):
+    """The stamp of a latched message can be older than all other messages."""
     def age(name, message, t):
         if name == 'mission_status' and t < 2.0:
             message.header.stamp = genpy.Time(3)
@@ -213,10 +208,10 @@ def test_a_mission_that_said_little_of_late_has_its_times_from_the_recorder(tmp_
 
 @pytest.fixture(scope='module')
 def two_robots(tmp_path_factory):
-    """rumba, and /up/rumba2, which only drove until it was at (5, 1) m."""
-    path = write(tmp_path_factory.mktemp('two') / 'two.bag', LIGHT, 'rumba', maps=('/map',))  # a name without a slash
+    """A bag of rumba, and of /up/rumba2, whose recording ends at (5, 1) m."""
+    path = write(tmp_path_factory.mktemp('two') / 'two.bag', LEAST, 'rumba', maps=('/map',))  # a name without a slash
     with rosbag.Bag(path, 'a') as bag:
-        mission_bags.add(bag, LIGHT, '/up/rumba2', until=10.0)
+        mission_bags.add(bag, LEAST, '/up/rumba2', until=10.0)
         bag.write('/up/map', mission_bags.grid(mission_bags.SWEPT), genpy.Time(100))
         bag.write('/upper/map', mission_bags.grid(-mission_bags.SWEPT), genpy.Time(100))
     return path
@@ -226,22 +221,22 @@ def two_robots(tmp_path_factory):
     ('', 'rumba', 12.0, mission_bags.FLOOR), ('rumba', 'rumba', 12.0, mission_bags.FLOOR),
     ('/rumba', 'rumba', 12.0, mission_bags.FLOOR), ('rumba2', 'up/rumba2', 4.0, mission_bags.SWEPT),
     ('up/rumba2', 'up/rumba2', 4.0, mission_bags.SWEPT), ('/up/rumba2/', 'up/rumba2', 4.0, mission_bags.SWEPT)])
-def test_a_robot_is_chosen_by_its_name_with_the_map_around_it(two_robots, robot, name, distance, floor):
+def test_a_robot_is_chosen_by_its_name_with_the_map_of_its_namespace(two_robots, robot, name, distance, floor):
     record = mission_bag.read(two_robots, robot)
     assert (record.robot, summary(record).distance) == (name, approx(distance))
     assert record.floor.cells.tolist() == floor.tolist()
     assert record.remarks == [f'Also in the bag: {"rumba" if name != "rumba" else "up/rumba2"}.']
 
 
-def test_the_only_robot_that_has_enough_is_meant(tmp_path):
-    path = write(tmp_path / 'a.bag', LIGHT, '/b')
+def test_the_only_robot_with_enough_topics_is_chosen(tmp_path):
+    path = write(tmp_path / 'a.bag', LEAST, '/b')
     with rosbag.Bag(path, 'a') as bag:
         mission_bags.add(bag, ['bumper'], '/rumba')
     assert mission_bag.read(path).robot == 'b'
 
 
-def test_topics_without_a_namespace_are_those_of_a_robot_too(tmp_path):
-    assert mission_bag.read(write(tmp_path / 'a.bag', LIGHT, '')).robot == '/'
+def test_topics_without_a_namespace_belong_to_a_robot_too(tmp_path):
+    assert mission_bag.read(write(tmp_path / 'a.bag', LEAST, '')).robot == '/'
 
 
 # --- the command ----------------------------------------------------------------------------------------------------
@@ -253,27 +248,38 @@ def test_the_command_writes_beside_the_bag_and_needs_no_master(bag):
     assert (done.returncode, done.stderr) == (0, '')
     assert done.stdout.splitlines() == [
         output, 'rumba: 90.0 % swept in 0:00:36, 12.0 m driven at 0.50 m/s, bumps: 3',
-        'battery: 100 % to 58 %, least 8 %, charges: 1, 0:00:10 in all', 'outcome: ended: 90.0 % swept <&>']
+        'battery: 100 % to 58 %, lowest 8 %, charges: 1, 0:00:10 in all', 'outcome: ended: 90.0 % swept <&>']
     page = pathlib.Path(output).read_text(encoding='utf-8')
     assert '<title>Mission of rumba: a &lt;b&gt; &amp; c.bag</title>' in page
     assert '90.0 % swept &lt;&amp;&gt;' in page and '<&>' not in page
     for text in ('>90.0 %<', '>18.0 of 20.0 m²<', '>0:00:36<', '>simulated time, 0:00:34 not idle<',
                  '>12.0 m<', '>0.50 m/s while driving<', '>0:00:10<', '>1 time<', '>0.20 Wh<',
-                 '>from 100 %, least 8 %<', '<dt>Bumps</dt><dd>3<', '2.0 m × 1.5 m, cells of 50 cm', 'cleaning 0:00:17',
-                 '100.0 s after the simulation began'):
+                 '>from 100 %, lowest 8 %<', '<dt>Bumps</dt><dd>3<', '2.0 m × 1.5 m, cells of 50 cm',
+                 'cleaning 0:00:17', '100.0 s after the simulation began'):
         assert text in page, text
     told = re.findall(r'<td>(\d:\d\d:\d\d)</td><td>(.*?)</td>', page)
     assert [text for _, text in told] == [text.replace('<&>', '&lt;&amp;&gt;') for _, text in EVENTS]
     assert told[5][0] == '0:00:05'
 
 
-def test_the_command_writes_where_it_is_told(bag, tmp_path, capsys):
+def test_the_command_writes_to_the_given_path(bag, tmp_path, capsys):
     output = tmp_path / 'page'
     mission_report.main([bag, '--output', str(output), '--robot', 'rumba'])
     first = output.read_bytes()
     mission_report.main([bag, '--output', str(output)])
     assert capsys.readouterr().out.splitlines()[0] == str(output)
     assert output.read_bytes() == first, 'the same bag gives the same page'
+
+
+def test_without_matplotlib_the_message_names_the_package(tmp_path):
+    script = ('import sys; sys.modules["matplotlib"] = None; '
+              'from rumba_evaluation.ros.mission_report import mission_report; mission_report.main()')
+    done = subprocess.run([sys.executable, '-c', script, write(tmp_path / 'a.bag', LEAST, until=1.0)],
+                          env={**os.environ, 'PYTHONPATH': os.pathsep.join(sys.path)}, stdout=subprocess.PIPE,
+                          stderr=subprocess.PIPE, universal_newlines=True)
+    assert (done.returncode, done.stdout) == (2, '')
+    assert re.fullmatch('mission_report: the figures need matplotlib .*: install the package python3-matplotlib\n',
+                        done.stderr)
 
 
 def test_help_names_every_option(capsys):

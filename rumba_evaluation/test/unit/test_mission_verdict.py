@@ -1,10 +1,10 @@
-"""A run is judged by what was heard, goal by goal and guard by guard, and nothing passes unheard."""
+"""A run is judged by its messages, goal by goal and guard by guard; nothing passes without a message."""
 
 import math
 
 import pytest
 
-from rumba_evaluation.verdicts.mission_asked import Asked
+from rumba_evaluation.verdicts.mission_requirements import Requirements
 from rumba_evaluation.verdicts.mission_verdict import (Battery, Collisions, Condition, Coverage, Docked, Field, Judge,
                                                        Reach)
 from rumba_sim.model.errors import ConfigError
@@ -15,19 +15,19 @@ ANYWHERE = math.nan
 
 
 def judged(*conditions):
-    """A judge of conditions, each with some name."""
+    """A judge of conditions."""
     return Judge(conditions, LIMIT)
 
 
-def said(judge):
-    """Whether each condition is met, and what is said of it, by its name."""
+def verdicts(judge):
+    """Whether each condition is met, and the words of the verdict, by the name of the condition."""
     return {name: (is_met, words) for name, is_met, words in judge.verdicts(lambda condition: f'/{condition.name}')}
 
 
 def met(condition, *values):
     """Whether a condition is met after values."""
     for value in values:
-        condition.hear(value)
+        condition.update(value)
     return condition.is_met
 
 
@@ -41,10 +41,10 @@ def test_the_newest_coverage_counts(values, is_met):
 
 @pytest.mark.parametrize('poses, is_met', [
     ([Pose(3.0, 1.1, 0.0)], True),
-    ([Pose(3.0, 1.1, 0.0), Pose(9.0, 9.0, 0.0)], True),  # reached once is reached
+    ([Pose(3.0, 1.1, 0.0), Pose(9.0, 9.0, 0.0)], True),  # once is enough
     ([Pose(1.0, 3.0, 0.0)], False),
     ([Pose(3.0, 1.21, 0.0)], False)])
-def test_a_place_is_reached_once_and_near_enough(poses, is_met):
+def test_a_waypoint_is_reached_once_within_the_distance(poses, is_met):
     assert met(Reach('reach', Pose(3.0, 1.0, ANYWHERE), 0.2, 0.1), *poses) is is_met
 
 
@@ -53,22 +53,22 @@ def test_a_heading_is_compared_around_the_circle(theta, is_met):
     assert met(Reach('reach', Pose(3.0, 1.0, 3.14), 0.2, 0.1), Pose(3.0, 1.0, theta)) is is_met
 
 
-def test_place_and_heading_must_fit_at_the_same_time():
+def test_position_and_heading_must_be_right_at_the_same_time():
     condition = Reach('reach', Pose(3.0, 1.0, 1.0), 0.2, 0.1)
     assert not met(condition, Pose(0.0, 0.0, 1.0), Pose(3.0, 1.0, 1.5))
-    assert condition.measured() == 'there, with a heading 0.50 rad off at the least'
+    assert condition.measured() == 'the position, with a smallest error of the heading of 0.50 rad'
 
 
-def test_who_comes_not_near_is_told_how_near():
+def test_the_smallest_distance_to_a_waypoint_is_reported():
     condition = Reach('reach', Pose(3.0, 1.0, 1.0), 0.2, 0.1)
     assert not met(condition, Pose(3.0, 2.5, 0.0), Pose(3.0, 3.0, 0.0))
-    assert condition.measured() == '1.50 m from it at the nearest'
+    assert condition.measured() == 'a smallest distance of 1.50 m'
 
 
 @pytest.mark.parametrize('contacts, is_met, words', [
     ([True, True], False, 'on the dock, which it never left'), ([False, True], True, 'on the dock'),
     ([True, False, True], True, 'on the dock'), ([True, False, True, False], False, 'off the dock')])
-def test_who_never_left_its_dock_has_not_docked(contacts, is_met, words):
+def test_a_robot_that_never_left_its_dock_has_not_docked(contacts, is_met, words):
     condition = Docked()
     assert met(condition, *contacts) is is_met
     assert condition.measured() == words
@@ -80,7 +80,7 @@ def test_the_lowest_charge_counts(charges, is_met):
     assert met(Battery(20.0), *charges) is is_met
 
 
-def test_only_a_bumper_that_is_pressed_anew_is_a_collision():
+def test_a_bumper_that_stays_pressed_is_one_collision():
     assert met(Collisions(2), True, True, False, True, True, False)
     assert not met(Collisions(1), True, True, False, True)
     assert met(Collisions(0), False, False)
@@ -93,131 +93,132 @@ def test_a_field_stays_in_its_range(values, is_met):
     assert met(Field('rumba/odom/twist/twist/linear/x', -0.3, 0.3), *values) is is_met
 
 
-def test_what_is_no_number_is_told():
+def test_a_value_that_is_not_a_number_is_reported():
     condition = Field('rumba/battery_status/debug_message', 0.0, 1.0)
-    condition.hear('17.0 V')
-    condition.hear(0.5)
+    condition.update('17.0 V')
+    condition.update(0.5)
     assert not condition.is_met
-    assert condition.measured() == "'17.0 V', which is no number"
+    assert condition.measured() == "'17.0 V', which is not a number"
 
 
 # --- the run ------------------------------------------------------------------------------------------------------
 
-def test_a_run_ends_when_all_goals_are_met_at_once():
+def test_a_run_ends_when_all_goals_are_met_at_the_same_time():
     coverage, docked = Coverage(0.5), Docked()
     judge = judged(coverage, docked)
     for now, condition, value in [(10.0, docked, True), (11.0, docked, False), (12.0, docked, True),
                                   (13.0, docked, False), (14.0, coverage, 0.6)]:
-        judge.hear(condition, value, now)
+        judge.update(condition, value, now)
         assert not judge.is_over
-    judge.hear(docked, True, 15.5)
+    judge.update(docked, True, 15.5)
     assert judge.is_over
-    assert said(judge)['coverage'] == (True, 'coverage: asked at least 50.0 % of the floor swept; measured 60.0 % '
-                                             'after 5.5 s of 100 s')
-    assert said(judge)['docked'][0]
+    assert verdicts(judge)['coverage'] == (
+        True, 'coverage: required at least 50.0 % of the floor swept; measured 60.0 % after 5.5 s of 100 s')
+    assert verdicts(judge)['docked'][0]
 
 
-def test_a_guard_that_breaks_is_judged_but_ends_nothing():
+def test_a_violated_guard_fails_but_does_not_end_the_run():
     coverage, collisions = Coverage(0.5), Collisions(0)
     judge = judged(coverage, collisions)
-    judge.hear(collisions, True, 0.0)
-    judge.hear(coverage, 0.4, 1.0)
+    judge.update(collisions, True, 0.0)
+    judge.update(coverage, 0.4, 1.0)
     assert not judge.is_over
-    judge.hear(coverage, 0.5, 2.0)
+    judge.update(coverage, 0.5, 2.0)
     assert judge.is_over
-    assert said(judge)['coverage'][0]
-    assert said(judge)['collisions'] == (False, 'collisions: asked at most 0 collisions; measured 1 '
-                                                'after 2.0 s of 100 s')
+    assert verdicts(judge)['coverage'][0]
+    assert verdicts(judge)['collisions'] == (
+        False, 'collisions: required at most 0 collisions; measured 1 after 2.0 s of 100 s')
 
 
-def test_goals_that_are_met_wait_until_every_guard_was_heard():
+def test_a_run_does_not_end_before_every_guard_has_a_value():
     coverage, battery = Coverage(0.5), Battery(20.0)
     judge = judged(coverage, battery)
-    judge.hear(coverage, 0.9, 0.0)
+    judge.update(coverage, 0.9, 0.0)
     assert not judge.is_over
-    judge.hear(battery, 50.0, 1.0)
+    judge.update(battery, 50.0, 1.0)
     assert judge.is_over
 
 
-def test_guards_alone_are_judged_until_the_time_is_up():
+def test_without_goals_a_run_lasts_until_the_time_limit():
     battery = Battery(20.0)
     judge = judged(battery)
-    judge.hear(battery, 50.0, 7.0)
-    judge.look(7.0 + LIMIT - 0.1)
+    judge.update(battery, 50.0, 7.0)
+    judge.check_time(7.0 + LIMIT - 0.1)
     assert not judge.is_over
-    judge.look(7.0 + LIMIT)
+    judge.check_time(7.0 + LIMIT)
     assert judge.is_over
-    assert said(judge)['battery'] == (True, 'battery: asked never less than 20.0 % of charge; measured 50.0 % at the '
-                                            'least after 100.0 s of 100 s: the time was up')
+    assert verdicts(judge)['battery'] == (
+        True, 'battery: required never less than 20.0 % of charge; measured a lowest charge of 50.0 % '
+              'after 100.0 s of 100 s: the time limit is reached')
 
 
-def test_what_comes_when_the_time_is_up_counts_no_more():
+def test_values_after_the_time_limit_are_ignored():
     coverage, battery = Coverage(0.5), Battery(20.0)
     judge = judged(coverage, battery)
-    judge.hear(coverage, 0.4, 0.0)
-    judge.hear(battery, 50.0, 0.0)
-    judge.hear(coverage, 0.6, LIMIT)
-    judge.hear(battery, 10.0, LIMIT)
-    assert not said(judge)['coverage'][0]
-    assert said(judge)['battery'][0]
-    assert said(judge)['coverage'][1].endswith('measured 40.0 % after 100.0 s of 100 s: the time was up')
+    judge.update(coverage, 0.4, 0.0)
+    judge.update(battery, 50.0, 0.0)
+    judge.update(coverage, 0.6, LIMIT)
+    judge.update(battery, 10.0, LIMIT)
+    assert not verdicts(judge)['coverage'][0]
+    assert verdicts(judge)['battery'][0]
+    assert verdicts(judge)['coverage'][1].endswith('measured 40.0 % after 100.0 s of 100 s: the time limit is reached')
 
 
-def test_a_condition_of_which_nothing_is_heard_fails():
+def test_a_condition_without_a_value_fails():
     coverage, docked, collisions = Coverage(0.5), Docked(), Collisions(5)
     judge = judged(coverage, docked, collisions)
-    judge.hear(coverage, 0.6, 0.0)
-    judge.look(LIMIT)
-    assert [is_met for is_met, _ in said(judge).values()] == [True, False, False]
-    assert 'measured nothing on /collisions after' in said(judge)['collisions'][1]
+    judge.update(coverage, 0.6, 0.0)
+    judge.check_time(LIMIT)
+    assert [is_met for is_met, _ in verdicts(judge).values()] == [True, False, False]
+    assert 'measured nothing on /collisions after' in verdicts(judge)['collisions'][1]
 
 
-def test_a_run_of_which_nothing_is_heard_does_not_begin_and_is_given_up():
+def test_a_run_without_any_message_does_not_begin_and_can_be_aborted():
     judge = judged(Coverage(0.5))
-    judge.look(10.0 * LIMIT)
+    judge.check_time(10.0 * LIMIT)
     assert not judge.is_over
-    judge.give_up('nobody spoke')
-    assert said(judge)['coverage'][1].endswith('measured nothing on /coverage after 0.0 s of 100 s: nobody spoke')
+    judge.abort('no message')
+    assert verdicts(judge)['coverage'][1].endswith('measured nothing on /coverage after 0.0 s of 100 s: no message')
 
 
-def test_a_guard_that_is_not_judged_to_the_end_fails_and_a_goal_that_is_met_stays_met():
+def test_in_an_aborted_run_guards_fail_and_goals_that_are_met_stay_met():
     coverage, docked, battery = Coverage(0.5), Docked(), Battery(20.0)
     judge = judged(coverage, docked, battery)
     for condition, value in ((coverage, 0.6), (docked, False), (battery, 50.0)):
-        judge.hear(condition, value, 1.0)
-    judge.give_up('the robot fell silent')
-    assert [is_met for is_met, _ in said(judge).values()] == [True, False, False]
+        judge.update(condition, value, 1.0)
+    judge.abort('no message')
+    assert [is_met for is_met, _ in verdicts(judge).values()] == [True, False, False]
 
 
-# --- what is asked ------------------------------------------------------------------------------------------------
+# --- requirements -------------------------------------------------------------------------------------------------
 
 def test_settings_become_conditions():
-    asked = Asked(coverage=0.5, reach='1 2; 3 4 -0.5', docked=True, battery=20.0, collisions=0,
-                  fields='rumba/battery_state/voltage 13 inf; /rumba/odom/twist/twist/linear/x -0.3 0.3')
-    conditions = asked.conditions()
+    requirements = Requirements(coverage=0.5, reach='1 2; 3 4 -0.5', docked=True, battery=20.0, collisions=0,
+                                fields='rumba/battery_state/voltage 13 inf; /rumba/odom/twist/twist/linear/x -0.3 0.3')
+    conditions = requirements.conditions()
     assert [condition.name for condition in conditions] == [
         'coverage', 'reach_1', 'reach_2', 'docked', 'battery', 'collisions', 'field_rumba_battery_state_voltage',
         'field_rumba_odom_twist_twist_linear_x']
-    assert [condition.asked for condition in conditions[1:3]] == [
+    assert [condition.required for condition in conditions[1:3]] == [
         'to reach (1.00, 2.00) m within 0.10 m',
         'to reach (3.00, 4.00) m within 0.10 m and heading -0.50 rad within 0.20 rad']
-    assert conditions[6].asked == 'rumba/battery_state/voltage always within 13 to inf'
-    assert [type(condition) for condition in Asked(reach='1 2').conditions()] == [Reach]
+    assert conditions[6].required == 'rumba/battery_state/voltage always within 13 to inf'
+    assert [type(condition) for condition in Requirements(reach='1 2').conditions()] == [Reach]
 
 
-@pytest.mark.parametrize('asked, message', [
-    (Asked(), r'^nothing is asked: set one or more of coverage, reach, docked, '),
-    (Asked(reach='1'), r"^reach has '1': must be x y or x y theta"),
-    (Asked(reach='1 2; 3 nan'), r"^reach has '3 nan': "),
-    (Asked(reach='1 2 3 4'), r"^reach has '1 2 3 4': "),
-    (Asked(fields='rumba/odom 1'), r"^fields has 'rumba/odom 1': must be TOPIC/FIELD LOW HIGH"),
-    (Asked(fields='a/b 2 1'), r"^fields has 'a/b 2 1': "),
-    (Asked(fields='a/b low high'), r"^fields has 'a/b low high': "),
-    (Asked(fields='a/b nan 1'), r"^fields has 'a/b nan 1': "),
-    (Asked(fields='a/b 0 1; /a/b 0 2'), r'^field_a_b is asked twice')])
-def test_what_cannot_be_understood_is_refused(asked, message):
+@pytest.mark.parametrize('requirements, message', [
+    (Requirements(), r'^there is no requirement: set one or more of coverage, reach, docked, '),
+    (Requirements(reach='1'), r"^reach has '1': must be x y or x y theta"),
+    (Requirements(reach='1 2; 3 nan'), r"^reach has '3 nan': "),
+    (Requirements(reach='1 2 3 4'), r"^reach has '1 2 3 4': "),
+    (Requirements(fields='rumba/odom 1'), r"^fields has 'rumba/odom 1': must be TOPIC/FIELD LOW HIGH"),
+    (Requirements(fields='a/b 2 1'), r"^fields has 'a/b 2 1': "),
+    (Requirements(fields='a/b low high'), r"^fields has 'a/b low high': "),
+    (Requirements(fields='a/b nan 1'), r"^fields has 'a/b nan 1': "),
+    (Requirements(fields='a/b 0 1; /a/b 0 2'), r'^field_a_b occurs twice: give one range')])
+def test_requirements_that_cannot_be_understood_are_refused(requirements, message):
     with pytest.raises(ConfigError, match=message):
-        asked.conditions()
+        requirements.conditions()
 
 
 def test_every_kind_of_condition_is_either_goal_or_guard():

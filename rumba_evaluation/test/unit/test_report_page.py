@@ -1,4 +1,4 @@
-"""The page and its figures: what is drawn is where it was, and the page needs nothing but itself."""
+"""The page and its figures: the figures have the values of the record, and the page needs no other file."""
 
 import html.parser
 import re
@@ -8,17 +8,18 @@ import pytest
 from mission_bags import CORNERS, record
 from pytest import approx
 
+from rumba_cleaning.mission.mission import State
 from rumba_evaluation.report import report_figures
 from rumba_evaluation.report.mission_events import events
 from rumba_evaluation.report.mission_record import Grid, MissionRecord, MissionState, Series, series
 from rumba_evaluation.report.report_figures import figures
-from rumba_evaluation.report.report_page import clock, page
+from rumba_evaluation.report.report_page import page
 
 VOID = ('meta', 'br', 'img')
 
 
 class Checker(html.parser.HTMLParser):
-    """Follows a page from tag to tag."""
+    """Reads a page tag by tag, and checks that each tag is closed."""
 
     def __init__(self):
         super().__init__()
@@ -43,14 +44,14 @@ class Checker(html.parser.HTMLParser):
 
 
 class Axes:
-    """Keeps the picture that it is to show."""
+    """Stores the arguments of imshow."""
 
     def imshow(self, picture, **options):
         vars(self).update(picture=picture, **options)
 
 
 def check(text):
-    """A page that was followed to its end."""
+    """A page that was read to its end."""
     checker = Checker()
     checker.feed(text)
     checker.close()
@@ -60,7 +61,7 @@ def check(text):
 
 
 def group(figure, name):
-    """The points (n, 2) of the lines of a group of a figure, y down, and how many lines it has."""
+    """The points (n, 2) of the lines of a group of a figure, y down, and the number of lines."""
     drawn = re.search(rf'<g id="{name}">\s*<path [^>]*?\bd="([^"]*)"', figure).group(1)
     points = [[float(x), float(y)] for _, x, y in re.findall(r'([ML]) (\S+) (\S+)', drawn)]
     return np.array(points), drawn.count('M')
@@ -72,7 +73,7 @@ def group(figure, name):
     {}, {'floor': None}, {'swept': None}, {'coverage': series([], [])}, {'states': ()}, {'areas': None},
     {'power': series([], []), 'pressed': series([], []), 'docked': series([], []), 'charging': series([], [])},
     {'path': series([5.0], [[1.0, 2.0]]), 'charge': series([5.0], [50.0]), 'floor': None, 'swept': None}])
-def test_a_page_is_whole_and_stands_alone(changes):
+def test_a_page_is_complete_and_needs_no_other_file(changes):
     text = page(record(**changes))
     checker = check(text)
     tags = [tag for tag, _ in checker.found]
@@ -86,13 +87,13 @@ def test_a_page_is_whole_and_stands_alone(changes):
     assert {'main', 'h1', 'figure', 'table'} <= set(tags)
 
 
-def test_ids_that_are_referred_to_are_there():
+def test_all_references_have_a_target():
     text = page(record())
     wanted = set(re.findall(r'(?:url\(#|href="#)([^)"]+)', text))
     assert wanted and wanted <= set(check(text).ids)
 
 
-def test_each_figure_tells_what_it_shows_to_who_cannot_see_it():
+def test_each_figure_has_a_description_for_screen_readers():
     told = [attributes['aria-label'] for tag, attributes in check(page(record(robot='<r>'))).found if tag == 'svg']
     assert len(told) == 3 and 'path of <r>' in told[0] and '90.0 %' in told[1] and '100 % to 50 %' in told[2]
 
@@ -101,18 +102,18 @@ def test_names_and_messages_are_escaped():
     text = page(record(source='a/<b>&"c".bag', robot='<i>', remarks=['<u>&']))
     assert all(wrong not in text for wrong in ('<b>&', '<i>', '<u>', '<end>'))
     checker = check(text)
-    for right in ('Mission of <i>', '<b>&"c".bag', '<u>&', 'stranded: the <end> & so'):
+    for right in ('Mission of <i>', '<b>&"c".bag', '<u>&', 'stranded: the <end> & more'):
         assert right in checker.text
 
 
-def test_what_was_not_recorded_is_said():
+def test_the_page_says_what_was_not_recorded():
     bare = MissionRecord('a.bag', 'rumba', series([0.0], [[0.0, 0.0]]), series([0.0], [50.0]))
     text = check(page(bare)).text
     assert text.count('not recorded') == 6 and text.count('Not recorded.') == 1  # five figures, map, strategy, outcome
     assert 'at rest' in text
 
 
-def test_a_list_of_events_ends_somewhere():
+def test_a_long_list_of_events_is_cut():
     states = [MissionState(0.1 * number, number % 2, '', '') for number in range(300)]
     text = page(record(states=states))
     assert text.count('</td></tr>') - text.count('</th><td>') == 201
@@ -121,17 +122,11 @@ def test_a_list_of_events_ends_somewhere():
 
 @pytest.mark.parametrize('began, told', [(49.8, '49.8 s after the simulation began'),
                                          (1_700_000_000.0, '2023-11-14 22:13:20 UTC')])
-def test_the_beginning_is_a_date_or_a_time_of_the_simulation(began, told):
+def test_the_start_is_a_date_or_a_time_of_the_simulation(began, told):
     assert told in page(record(began=began))
 
 
-@pytest.mark.parametrize('seconds, told', [(0.0, '0:00:00'), (-0.1, '0:00:00'), (59.6, '0:01:00'), (3725.0, '1:02:05'),
-                                           (90061.0, '25:01:01')])
-def test_times_of_a_mission(seconds, told):
-    assert clock(seconds) == told
-
-
-def test_an_hour_is_not_too_large():
+def test_the_page_of_an_hour_is_small():
     times = np.arange(0.0, 3600.0, 0.1)
     turns = np.cumsum(np.random.default_rng(1).normal(0.0, 0.1, len(times)))
     path = Series(times, np.cumsum(0.03 * np.array([np.cos(turns), np.sin(turns)]).T, axis=0))
@@ -153,7 +148,7 @@ def test_the_map_has_equal_axes_and_y_goes_up():
 
 
 @pytest.mark.parametrize('corners', [[[0.0, 0.0], [9.0, 0.0], [0.0, 0.1]], [[0.0, 0.0], [0.1, 0.0], [0.0, 9.0]]])
-def test_axes_are_equal_also_where_the_floor_is_long_or_high(corners):
+def test_axes_are_equal_also_if_the_floor_is_wide_or_high(corners):
     figure = figures(record(path=series([0, 50, 100], corners), floor=None, swept=None)).path
     points, _ = group(figure, 'map-path')
     scale = np.ptp(points, axis=0).max() / 9.0
@@ -162,13 +157,13 @@ def test_axes_are_equal_also_where_the_floor_is_long_or_high(corners):
     assert 0.25 < width / height < 4.0 and max(width, height) < 500.0
 
 
-def test_the_path_has_a_gap_where_the_robot_was_put_elsewhere():
-    leaping = series([0, 2, 2.1, 5], [[0.0, 0.0], [1.0, 0.0], [3.0, 0.0], [3.0, 1.0]])
-    _, lines = group(figures(record(path=leaping)).path, 'map-path')
+def test_the_path_has_a_gap_at_a_jump():
+    jumping = series([0, 2, 2.1, 5], [[0.0, 0.0], [1.0, 0.0], [3.0, 0.0], [3.0, 1.0]])
+    _, lines = group(figures(record(path=jumping)).path, 'map-path')
     assert lines == 2
 
 
-def test_the_cells_are_where_they_were_and_walls_are_seen():
+def test_the_map_and_the_swept_floor_are_drawn_as_pictures():
     report = figures(record()).path
     assert report.count('<image') == 2
     assert figures(record(floor=None)).path.count('<image') == 1
@@ -185,7 +180,7 @@ def test_each_value_of_a_cell_has_its_colour():
     assert axes.origin == 'lower' and axes.extent == (-1.0, 0.5, 2.0, 3.0)
 
 
-def test_a_fine_grid_is_drawn_coarser_and_keeps_its_place(monkeypatch):
+def test_a_fine_grid_is_drawn_with_larger_cells_at_the_same_position(monkeypatch):
     monkeypatch.setattr(report_figures, 'MOST_CELLS', 2)
     monkeypatch.setattr(report_figures, 'FEWEST_DOTS', 1)
     axes = Axes()
@@ -202,7 +197,7 @@ def test_the_curve_of_the_coverage_is_in_scale():
     assert up[1] / up[0] == approx(4.0, abs=0.01)  # from 10 % to 30 %, and to 90 %
 
 
-def test_every_charge_is_shaded_where_it_was():
+def test_times_of_charging_are_shaded():
     figure = figures(record()).battery
     shades = re.findall(r'<path [^>]*?\bd="([^"]*)"[^>]*style="fill: ?var\(--charging\)', figure)
     line, _ = group(figure, 'battery-battery')
@@ -212,7 +207,7 @@ def test_every_charge_is_shaded_where_it_was():
     assert edges == [[10, 20], [30, 40]]
 
 
-def test_what_would_be_too_large_as_a_drawing_is_a_picture(monkeypatch):
+def test_a_figure_that_is_too_large_as_svg_is_a_png_picture(monkeypatch):
     monkeypatch.setattr(report_figures, 'LARGE', 1000)
     checker = check(page(record(robot='"r"')))
     pictures = [attributes for tag, attributes in checker.found if tag == 'img']
@@ -220,6 +215,11 @@ def test_what_would_be_too_large_as_a_drawing_is_a_picture(monkeypatch):
     assert 'path of "r"' in pictures[0]['alt']
 
 
-def test_states_are_told_with_their_times():
+def test_each_state_has_a_colour_of_its_own():
+    colours = [report_figures.state_colour(state) for state in (*State, max(State) + 1)]
+    assert len(set(colours)) == len(colours)
+
+
+def test_the_legend_has_the_states_with_their_times():
     text = check(page(record())).text
     assert 'cleaning 0:01:20' in text and 'stranded 0:00:20' in text

@@ -1,14 +1,15 @@
-"""A mission in process takes the time, the way and the charge that can be worked out by hand."""
+"""A mission in process needs the time, distance and charge that can be calculated by hand."""
 
 import dataclasses
 import math
 
 import pytest
-from evaluations import know_manners
+from evaluations import register_simple_strategies
 from rooms import room
 
 from rumba_cleaning.control import observe
 from rumba_cleaning.mission.mission import State
+from rumba_cleaning.outcome import Outcome
 from rumba_evaluation.trials.cases import ANYWHERE, Conditions
 from rumba_evaluation.trials.trial import Trial
 from rumba_sim.model.errors import StrategyError, WorldError
@@ -20,46 +21,46 @@ BRUSH_SPEED = 0.17 * 0.3  # [m^2/s] width of the brush, cleaning speed
 
 
 @pytest.fixture(autouse=True)
-def _manners(monkeypatch):
-    know_manners(monkeypatch)
+def _simple_strategies(monkeypatch):
+    register_simple_strategies(monkeypatch)
 
 
 def hall(**kwargs):
-    """A long room, with a robot at its left end that looks along it."""
+    """A long room with a robot at its left end that faces right."""
     return room(8.0, 1.0, start=Pose(0.5, 0.5, 0.0), **kwargs)
 
 
 def ran(plan, strategy, seconds=math.inf, **kwargs):
-    """A trial after so many seconds, or at its end."""
+    """A trial that ran for a time [s], or to its end."""
     trial = Trial(plan, strategy, **kwargs)
     while not trial.is_over and trial.working_time < seconds - 0.05:
         trial.step()
     return trial
 
 
-def test_ideal_time_is_the_area_in_reach_by_brush_and_speed():
+def test_ideal_time_is_reachable_area_by_width_of_the_brush_and_speed():
     plan = hall()
     area = plan.reachable(0.5, 0.5, ROBOT.drive.radius, ROBOT.brush.width).sum() * plan.resolution ** 2
     result = Trial(plan, 'wait').result()
     assert result.area == pytest.approx(area) and result.ideal_time == pytest.approx(area / BRUSH_SPEED)
 
 
-def test_straight_on_at_cleaning_speed_coverage_grows_as_t():
-    """The brush sweeps whole cells that it touches: 4 rows of 5 cm."""
+def test_coverage_grows_linearly_while_the_robot_drives_straight_on():
+    """The brush sweeps each cell that it touches: 4 rows of 5 cm."""
     trial = ran(hall(), 'ahead', 20.0)
     result = trial.result()
     gain = 4 * 0.05 * 0.3 / result.area  # [1/s]
-    begins_after = 0.1 + 0.3 / 0.9 / 2.0  # [s] the first update begins the mission; speeding up
+    begins_after = 0.1 + 0.3 / 0.9 / 2.0  # [s] the first step begins the mission; acceleration
     for percent in (2, 5, 10, 15):
         late = result.time_to(percent) - (percent / 100.0 / gain + begins_after)
-        assert abs(late) < 0.05 / 0.3 + 0.1, percent  # a cell, an update
+        assert abs(late) < 0.05 / 0.3 + 0.1, percent  # a cell, a step
         assert result.multiple_to(percent) == result.time_to(percent) / result.ideal_time
     assert result.time_to(len(result.curve) + 1) == math.inf
     assert result.coverage == pytest.approx((20.0 - begins_after) * gain, rel=0.02)
     assert result.distance == pytest.approx((20.0 - begins_after) * 0.3, abs=0.01) and result.turns == 0.0
 
 
-def test_turns_count_to_either_side_and_charge_is_load_times_time():
+def test_turns_to_both_sides_are_added_up_and_charge_is_load_times_time():
     result = ran(hall(), 'turn', 120.0).result()
     assert result.turns == pytest.approx(120.0 / (2.0 * math.pi), rel=0.01) and result.distance == 0.0
     battery, wheels = ROBOT.battery, 0.5 * ROBOT.drive.wheel_base * 1.0  # [m/s] of each wheel at 1 rad/s
@@ -70,14 +71,14 @@ def test_turns_count_to_either_side_and_charge_is_load_times_time():
     assert math.isnan(result.energy_per_area)
 
 
-def test_the_drain_of_the_battery_is_not_in_the_energy():
+def test_the_energy_does_not_depend_on_the_drain_of_the_battery():
     slow, fast = (ran(hall(), 'turn', 10.0, conditions=Conditions(drain=drain)) for drain in (1.0, 50.0))
     assert fast.result().charge_used == pytest.approx(slow.result().charge_used, rel=0.01)
     left = [trial.world.robots['rumba'].battery.state_of_charge for trial in (slow, fast)]
     assert (1.0 - left[1]) == pytest.approx(50.0 * (1.0 - left[0]), rel=0.01)
 
 
-def test_a_robot_looks_ten_times_a_second_and_knows_of_its_dock_at_once():
+def test_a_robot_observes_ten_times_a_second_and_knows_at_once_that_it_is_docked():
     trial = ran(room(3.0, 2.0, dock=Pose(2.82, 1.0, 0.0)), 'wait', 0.3)
     assert trial.missions[0].state is State.UNDOCKING
     free = ran(hall(), 'wait', 0.4)
@@ -85,7 +86,7 @@ def test_a_robot_looks_ten_times_a_second_and_knows_of_its_dock_at_once():
     assert free.world.tick == 1 + 4 * 5
 
 
-def test_observe_tells_what_the_sensors_tell():
+def test_an_observation_has_the_values_of_the_sensors():
     trial = ran(hall(), 'ahead', 30.0)
     seen, robot = observe(trial.world, 'rumba', 0.1), trial.world.robots['rumba']
     assert seen.pose == robot.pose and seen.bumper == (True, True) and not seen.is_docked
@@ -95,23 +96,24 @@ def test_observe_tells_what_the_sensors_tell():
 
 # --- how it ends --------------------------------------------------------------------------------------------------
 
-def test_it_is_given_up_after_so_many_times_t():
+def test_a_trial_ends_at_the_bound_of_the_working_time():
     trial = ran(hall(), 'wait', conditions=Conditions(bound=0.1))
     result = trial.result()
-    assert result.outcome == 'time out' and result.message == '0.0 % swept; at it'
+    assert result.outcome is Outcome.TIMED_OUT and result.message == '0.0 % swept; working'
     assert 0.0 <= result.time - 0.1 * result.ideal_time < 0.1
 
 
 def test_a_failure_is_a_result():
     result = ran(hall(), 'give_up').result()
-    assert (result.outcome, result.message, result.curve, result.docked) == ('failed', '0.0 % swept: no,\nnever', (), 0)
+    assert (result.outcome, result.message) == (Outcome.FAILED, '0.0 % swept: no,\nnever')
+    assert (result.curve, result.docked) == ((), 0)
 
 
-def test_a_target_of_nothing_is_met_at_once():
-    assert ran(hall(), 'ahead', conditions=Conditions(target=0.0)).result().outcome == 'succeeded'
+def test_a_target_of_zero_is_met_at_once():
+    assert ran(hall(), 'ahead', conditions=Conditions(target=0.0)).result().outcome is Outcome.SUCCEEDED
 
 
-def test_charging_time_is_told_apart():
+def test_charging_time_is_no_working_time():
     plan = room(2.0, 1.5, dock=Pose(1.82, 0.75, 0.0))
     trial = ran(plan, 'boustrophedon', conditions=Conditions(drain=60.0, bound=100.0), seed=1)
     result, [mission] = trial.result(), trial.missions
@@ -121,7 +123,7 @@ def test_charging_time_is_told_apart():
     assert all(seconds <= trial.working_time for seconds in result.curve)
 
 
-def test_at_the_dock_the_charger_feeds_the_loads():
+def test_on_the_dock_the_loads_use_no_charge_of_the_battery():
     trial = Trial(room(2.0, 1.5, dock=Pose(1.82, 0.75, 0.0)), 'wait')
     trial.world.robots['rumba'].state['charge'] *= 0.1
     for _ in range(100):
@@ -133,33 +135,68 @@ def test_at_the_dock_the_charger_feeds_the_loads():
 
 def test_boustrophedon_cleans_a_room_and_comes_home():
     result = ran(room(2.0, 1.5, dock=Pose(1.82, 0.75, 0.0)), 'boustrophedon').result()
-    assert result.outcome == 'succeeded' and result.docked == 1 and not result.penetrated
+    assert result.outcome is Outcome.SUCCEEDED and result.docked == 1 and not result.penetrated
     assert result.coverage > 0.98 and result.multiple_to(90) < 2.0
 
 
 @pytest.mark.parametrize('x, penetrated', [(0.1740, False), (0.1725, True)])
-def test_a_body_in_a_wall_is_noticed(x, penetrated):
+def test_a_body_in_a_wall_is_reported(x, penetrated):
     trial = Trial(hall(), 'wait')
     trial.world.robots['rumba'].state['x'] = x
     trial.step()
     assert trial.result().penetrated == penetrated
 
 
-def test_a_fall_is_noticed():
-    result = ran(hall(cliff=(2.0, 0.0, 4.0, 1.0)), 'ahead', 10.0).result()
-    assert result.penetrated and result.distance < 2.0
+CLIFF = (2.0, 0.0, 4.0, 1.0)
+
+
+def test_a_fall_ends_the_trial():
+    trial = ran(hall(cliff=CLIFF), 'ahead')
+    result = trial.result()
+    assert result.outcome is Outcome.FALLEN and result.penetrated and result.distance < 2.0
+    assert result.message.startswith('fell over a cliff; ') and result.message.endswith(' % swept; working')
+    assert result.time < 10.0 and trial.is_over
+
+
+def test_a_robot_that_has_not_fallen_goes_on_when_another_has():
+    trial = Trial(hall(cliff=CLIFF), 'ahead', Conditions(bound=1.0), robots=2)
+    trial.world.robots['rumba2'].state['x'] = 5.0  # beyond the cliff
+    while not trial.is_over:
+        trial.step()
+    first, second = trial.world.robots.values()
+    assert first.has_fallen and not second.has_fallen
+    result = trial.result()
+    assert result.outcome is Outcome.TIMED_OUT
+    assert trial.working_time == pytest.approx(result.ideal_time, abs=0.1)
+    assert result.message.startswith('rumba: fell over a cliff; ') and '; rumba2: 1' in result.message
+    seen = [len(mission._cleaning.seen) for mission in trial.missions]
+    assert 5 * seen[0] < seen[1]  # a fallen robot gets no commands
+
+
+@pytest.mark.parametrize('ends, outcome', [
+    ([], Outcome.TIMED_OUT), ([(0, 'fail', Outcome.NO_PATH)], Outcome.TIMED_OUT),
+    ([(0, 'succeed', Outcome.SUCCEEDED), (1, 'fail', Outcome.BATTERY_EMPTY)], Outcome.BATTERY_EMPTY),
+    ([(0, 'fail', Outcome.NO_PATH), (1, 'fail', Outcome.FAILED)], Outcome.NO_PATH),
+    ([(0, 'succeed', Outcome.INCOMPLETE), (1, 'fail', Outcome.FAILED)], Outcome.FAILED),
+    ([(0, 'succeed', Outcome.SUCCEEDED), (1, 'succeed', Outcome.INCOMPLETE)], Outcome.INCOMPLETE),
+    ([(0, 'succeed', Outcome.SUCCEEDED), (1, 'succeed', Outcome.SUCCEEDED)], Outcome.SUCCEEDED)])
+def test_of_several_robots_the_first_with_the_worst_end_gives_the_outcome(ends, outcome):
+    trial = Trial(hall(), 'wait', robots=2)
+    for number, method, code in ends:
+        getattr(trial.missions[number], method)('end', code)
+    assert trial.result().outcome is outcome and trial.is_over == (len(ends) == 2)
 
 
 # --- robots and seeds ---------------------------------------------------------------------------------------------
 
-def test_robots_are_summed_up_but_t_is_that_of_the_floor():
+def test_results_are_sums_over_the_robots_but_t_belongs_to_the_floor():
     one, two = (ran(hall(), 'turn', 10.0, robots=count).result() for count in (1, 2))
     assert two.ideal_time == one.ideal_time and two.time == one.time
     assert two.turns == pytest.approx(2.0 * one.turns, rel=1e-3)
-    assert two.message == 'rumba: 0.0 % swept; at it; rumba2: 0.0 % swept; at it'
+    assert two.message == 'rumba: 0.0 % swept; working; rumba2: 0.0 % swept; working'
 
 
-def test_time_is_charging_time_only_while_all_robots_charge():
+def test_time_counts_as_charging_time_only_while_all_robots_charge():
     trial = Trial(hall(), 'wait', robots=2)
     for robot in trial.world.robots.values():
         robot.state['charge'] *= 0.5
@@ -170,25 +207,25 @@ def test_time_is_charging_time_only_while_all_robots_charge():
         assert trial.working_time == pytest.approx(expected)
 
 
-def test_a_seed_gives_one_run_and_another_gives_another():
+def test_runs_of_the_same_seed_are_equal_and_of_another_seed_differ():
     first, again, other = (dataclasses.astuple(ran(room(2.0, 1.5), 'bounce', 60.0, seed=seed).result())
                            for seed in (5, 5, 6))
     assert first == again != other
 
 
-def test_anywhere_is_where_the_seed_says():
+def test_a_start_anywhere_depends_on_the_seed():
     plan = room(4.0, 3.0)
     starts = [Trial(plan, 'wait', Conditions(start=ANYWHERE), seed).world.robots['rumba'].pose
               for seed in (1, 1, 2, 3, 4)]
     assert starts[0] == starts[1] and len(set(starts)) == 4
 
 
-def test_robots_in_one_world_draw_their_own_turns():
+def test_robots_of_one_world_have_random_numbers_of_their_own():
     first, second = Trial(hall(), 'bounce', robots=2).contexts
     assert first.generator.random() != second.generator.random()
 
 
-def test_what_cannot_be_is_refused():
+def test_an_unknown_strategy_and_too_many_robots_are_refused():
     with pytest.raises(StrategyError, match="unknown strategy 'tidy': known are .*bounce"):
         Trial(hall(), 'tidy')
     with pytest.raises(WorldError, match='no room for another robot'):

@@ -1,4 +1,4 @@
-"""The same examples in every run, on a machine of any speed, and nothing written beside the tests."""
+"""Hypothesis tries the same examples in every run, has no time limit, and writes no files."""
 
 import signal
 
@@ -7,5 +7,5 @@ import hypothesis
 hypothesis.settings.register_profile('rumba', derandomize=True, database=None, deadline=None)
 hypothesis.settings.load_profile('rumba')
 
-# Tests that a shell runs in its background would ignore Ctrl-C, and so would all that they start.
+# If a shell runs the tests in the background, they and the processes that they start would ignore Ctrl-C.
 signal.signal(signal.SIGINT, signal.default_int_handler)

@@ -26,7 +26,7 @@ def test_an_empty_battery_gives_no_current_and_stays_empty():
     assert (battery.charge, battery.current, battery.percentage) == (0.0, 0.0, 0)
 
 
-def test_drain_quickens_both_directions():
+def test_drain_multiplies_the_change_of_charge_in_both_directions():
     slow, fast = Battery(CONFIG, 0.5), Battery(BatteryConfig(**{**vars(CONFIG), 'drain': 10.0}), 0.5)
     for on_dock in (False, True):
         for _ in range(100):
@@ -42,7 +42,7 @@ def test_a_drain_of_zero_keeps_the_charge():
     assert battery.state_of_charge == 0.5
 
 
-def test_the_charger_gives_its_full_current_below_the_taper_whatever_the_load():
+def test_below_the_taper_the_charger_gives_its_full_current_at_any_load():
     battery = Battery(CONFIG, 0.2)
     battery.step(360.0, load=0.5, on_dock=True)
     assert battery.current == 1.0
@@ -61,7 +61,7 @@ def test_the_charger_tapers_in_proportion_to_what_is_missing_and_ends_at_full():
     assert (battery.charge, battery.current) == (2.0, 0.0)
 
 
-def test_a_battery_of_a_rumba_charges_in_about_three_hours_and_cleans_for_sixty_to_a_hundred_minutes():
+def test_the_default_battery_charges_in_about_three_hours_and_cleans_for_sixty_to_a_hundred_minutes():
     battery = Battery(BatteryConfig(), 0.0)
     seconds = 0
     while battery.state_of_charge < 1.0:
@@ -77,7 +77,7 @@ def test_a_battery_of_a_rumba_charges_in_about_three_hours_and_cleans_for_sixty_
 
 
 @pytest.mark.parametrize('percentage', range(101))
-def test_a_percentage_put_in_is_the_percentage_that_comes_out(percentage):
+def test_a_percentage_survives_the_conversion_to_charge_and_back(percentage):
     assert Battery(BatteryConfig(), percentage / 100.0).percentage == percentage
 
 
@@ -98,7 +98,7 @@ def test_voltage_is_the_rest_voltage_less_the_loss_inside():
 
 
 @given(st.floats(0.0, 1.0), st.lists(st.tuples(st.floats(0.0, 1e4), st.floats(0.0, 20.0), st.booleans())))
-def test_whatever_happens_the_charge_stays_between_empty_and_full_and_flows_as_it_should(state_of_charge, steps):
+def test_charge_and_current_stay_in_their_ranges_in_any_sequence_of_steps(state_of_charge, steps):
     battery = Battery(CONFIG, state_of_charge)
     for dt, load, on_dock in steps:
         before = battery.charge

@@ -1,4 +1,4 @@
-"""What the bumper says of a contact: where, which side, how often."""
+"""What the bumper reports about a contact: direction, sides, and number of presses."""
 
 import math
 
@@ -40,13 +40,13 @@ def test_a_contact_behind_presses_nothing(theta):
     assert robot.bumper == NONE and robot.bumps == 0
 
 
-def test_in_the_open_nothing_is_touched():
+def test_far_from_obstacles_nothing_is_touched():
     world, robot = alone()
     drove(world, 0.3, 0.0, 100)
     assert (robot.contact_angle, robot.bumper, robot.bumps) == (None, NONE, 0)
 
 
-def test_a_contact_counts_once_however_long_it_lasts_and_again_after_a_break():
+def test_a_contact_counts_once_while_it_lasts_and_again_after_a_break():
     world, robot = alone(Pose(1.0, 1.0, 0.3), room(2.0, 9.0))
     for contact in (1, 2, 3):
         drove(world, 0.3, 0.0, 300)
@@ -65,7 +65,7 @@ def test_a_robot_that_slides_along_a_wall_keeps_its_contact():
     assert robot.bumps == 1 and robot.pose.y > 5.0
 
 
-def test_turning_against_a_wall_the_contact_goes_round_the_other_way():
+def test_if_a_robot_turns_at_a_wall_the_contact_moves_around_it_in_the_other_direction():
     world, robot = alone(Pose(1.0, 1.0, 0.0), room(2.0, 2.0), drive=AT_ONCE)
     drove(world, 0.2, 0.0, 300)
     for pose in drive(world, 0.0, 1.0, 60):
@@ -76,7 +76,7 @@ def test_turning_against_a_wall_the_contact_goes_round_the_other_way():
 @pytest.mark.parametrize('bearing, pressed', [
     (0.0, BOTH), (0.5, LEFT_ONLY), (-0.5, RIGHT_ONLY), (1.2, LEFT_ONLY), (-1.2, RIGHT_ONLY), (2.0, NONE), (-2.8, NONE)])
 @pytest.mark.parametrize('theta', [0.0, 2.5])
-def test_another_robot_presses_as_a_wall_does(bearing, pressed, theta):
+def test_another_robot_presses_the_bumper_like_a_wall(bearing, pressed, theta):
     world = World(room(6.0, 6.0), quiet())
     robot = world.spawn('rumba', Pose(3.0, 3.0, theta))
     away = 2.0 * RADIUS + 0.0003
@@ -88,7 +88,7 @@ def test_another_robot_presses_as_a_wall_does(bearing, pressed, theta):
     assert wrap_angle(other + 0.7 - theta - bearing - math.pi) == approx(0.0, abs=1e-9)
 
 
-def test_a_robot_ahead_is_felt_beside_a_wall():
+def test_a_contact_ahead_is_reported_beside_one_with_a_wall():
     world = World(room(6.0, 2.0), quiet())
     robot = world.spawn('rumba', Pose(1.0, 0.3, -0.2))
     drove(world, 0.2, 0.0, 200)
@@ -111,7 +111,7 @@ def test_two_robots_at_once_press_both_sides():
 
 @pytest.mark.parametrize('resolution', [0.02, 0.05, 0.1])
 @pytest.mark.parametrize('theta', [0.2, 0.6, math.pi / 4.0, 1.0, 1.3])
-def test_a_robot_that_is_wedged_in_a_corner_knows_it_and_counts_one_bump(theta, resolution):
+def test_a_robot_that_is_stuck_in_a_corner_reports_one_contact_all_the_time(theta, resolution):
     for turn in range(4):
         world, robot = alone(Pose(1.0, 1.0, wrap_angle(theta + turn * math.pi / 2.0)), room(2.0, 2.0, resolution))
         drove(world, 0.3, 0.0, 800)
@@ -121,7 +121,7 @@ def test_a_robot_that_is_wedged_in_a_corner_knows_it_and_counts_one_bump(theta, 
 
 
 @given(NAMES, st.sampled_from([10, 50]), STARTS, st.floats(0.05, 0.5), st.floats(-0.5, 0.5))
-def test_a_robot_that_goes_forward_and_is_held_up_feels_it(plan, step_rate, where, v, w):
+def test_a_robot_that_is_stopped_while_it_drives_forward_has_its_bumper_pressed(plan, step_rate, where, v, w):
     world, robot = alone(start(plan, where), PLANS[plan], step_rate, drive=AT_ONCE)
     before = robot.pose
     for pose in drive(world, v, w, 8 * step_rate):

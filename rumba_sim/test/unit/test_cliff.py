@@ -1,4 +1,4 @@
-"""Cliffs: what sees them, and what they do to a robot."""
+"""Cliffs: what the sensors see of them, and how a robot falls."""
 
 import math
 
@@ -14,13 +14,13 @@ AT_ONCE = {'acceleration': 1000.0}
 
 
 def around(x, y):
-    """A small hole about a place."""
+    """A small hole around a point."""
     return x - 0.03, y - 0.03, x + 0.03, y + 0.03
 
 
 @pytest.mark.parametrize('theta', [0.0, 1.0, -2.5])
 @pytest.mark.parametrize('sensor, angle', enumerate((1.05, 0.26, -0.26, -1.05)))
-def test_each_cliff_sensor_looks_where_it_is(theta, sensor, angle):
+def test_each_cliff_sensor_sees_the_floor_under_it(theta, sensor, angle):
     x, y = 2.0 + 0.15 * math.cos(theta + angle), 1.5 + 0.15 * math.sin(theta + angle)
     world, robot = alone(Pose(1.0, 1.0, theta), room(4.0, 3.0, 0.01, cliff=around(x, y)))
     assert world.cliffs('rumba') == [False] * 4
@@ -42,7 +42,7 @@ def test_front_sensors_warn_before_a_wheel_is_over_the_edge():
         0: 2.0 - 0.15 * math.cos(1.05), 3: 2.0 - 0.15 * math.cos(1.05), 'fallen': 2.0}, abs=0.005)
 
 
-def test_a_robot_with_no_floor_under_a_wheel_comes_to_rest_and_stays_until_it_is_put_elsewhere():
+def test_a_fallen_robot_comes_to_rest_and_stays_until_it_is_teleported():
     world, robot = alone(Pose(1.2, 1.8, 0.0), room(4.0, 3.0, cliff=HOLE))
     rest = drove(world, 0.3, 0.0, 300)
     assert robot.has_fallen and robot.twist == (0.0, 0.0)
@@ -64,13 +64,13 @@ def test_one_wheel_is_enough_to_fall(y, theta, falls):
     assert robot.has_fallen == falls
 
 
-def test_a_robot_that_rushes_at_a_ditch_does_not_glide_across():
+def test_a_fast_robot_does_not_get_across_a_narrow_ditch():
     world, robot = alone(Pose(1.0, 1.0, 0.0), room(5.0, 2.0, 0.02, cliff=(2.0, 0.0, 2.06, 2.0)))
     drove(world, 0.5, 0.0, 300)
     assert robot.has_fallen and robot.twist == (0.0, 0.0) and robot.pose.x < 2.2
 
 
-def test_nobody_is_put_over_a_cliff():
+def test_a_teleport_to_a_cliff_is_refused():
     world, robot = alone(Pose(1.0, 0.5, 0.0), room(4.0, 3.0, cliff=HOLE))
     with pytest.raises(WorldError, match=r'^room: pose at \(2\.50, 1\.50\) m is 0\.000 m from the nearest cliff'):
         world.teleport('rumba', Pose(2.5, 1.5, 0.0))

@@ -1,4 +1,4 @@
-"""Robots never overlap walls nor each other; distances are exact here, from the disc to each square."""
+"""Robots never overlap walls or each other; the distances from the disc to each square are exact here."""
 
 import itertools
 import math
@@ -21,22 +21,22 @@ COMMANDS = st.lists(st.tuples(st.floats(-1.0, 1.0), st.floats(-1.0, 1.0), st.int
 
 
 def fast_world(plan, step_rate, share):
-    """A world in which wheels reach a share of the greatest speed that it admits, at once."""
+    """A world whose wheels reach a share of the largest allowed speed at once."""
     return World(plan, quiet(drive={'max_speed': min(share * RADIUS * step_rate, 10.0), 'acceleration': 1000.0,
                                     'max_turn_rate': 50.0}), step_rate)
 
 
 @settings(max_examples=250)
 @given(NAMES, st.sampled_from([10, 20, 50, 100]), st.sampled_from([0.03, 0.2, 1.0]), STARTS, COMMANDS)
-def test_a_robot_never_overlaps_a_wall_nor_leaps_over_one(plan, step_rate, share, where, commands):
+def test_a_robot_never_overlaps_a_wall_nor_passes_through_one(plan, step_rate, share, where, commands):
     world = fast_world(PLANS[plan], step_rate, share)
     robot = world.spawn('rumba', start(plan, where))
     limit = world.config.drive.max_speed
-    way = [robot.pose[:2]]
+    path = [robot.pose[:2]]
     for v, turn, ticks in commands:
-        way += [pose[:2] for pose in drive(world, v * limit, 10.0 * turn, ticks)]
-    assert min(distances(world.plan, way)) >= RADIUS - EXACT
-    assert max(np.hypot(*np.diff(way, axis=0).T)) < 2.0 * RADIUS
+        path += [pose[:2] for pose in drive(world, v * limit, 10.0 * turn, ticks)]
+    assert min(distances(world.plan, path)) >= RADIUS - EXACT
+    assert max(np.hypot(*np.diff(path, axis=0).T)) < 2.0 * RADIUS
 
 
 @settings(max_examples=100)
@@ -46,7 +46,7 @@ def test_a_robot_that_backs_off_from_a_wall_gets_free(plan, step_rate, where, si
     world.spawn('rumba', start(plan, where))
     before = drove(world, sign * 0.3, 0.0, 8 * step_rate)
     cos, sin = math.cos(before.theta), math.sin(before.theta)
-    behind = [(before.x - sign * way * cos, before.y - sign * way * sin) for way in np.arange(0.02, 0.22, 0.01)]
+    behind = [(before.x - sign * away * cos, before.y - sign * away * sin) for away in np.arange(0.02, 0.22, 0.01)]
     assume(min(distances(world.plan, behind)) > RADIUS + 0.002)
     after = drove(world, -sign * 0.3, 0.0, step_rate // 2)
     assert math.hypot(after.x - before.x, after.y - before.y) > 0.14
@@ -61,7 +61,7 @@ def apart(world):
 @settings(max_examples=150)
 @given(NAMES, st.sampled_from([10, 50]), st.sampled_from([0.03, 0.3, 1.0]),
        st.lists(st.tuples(STARTS, st.floats(-1.0, 1.0)), min_size=2, max_size=7))
-def test_robots_never_overlap_walls_nor_each_other_nor_leap_over_them(plan, step_rate, share, drivers):
+def test_robots_never_overlap_walls_or_each_other_nor_pass_through_them(plan, step_rate, share, drivers):
     world = fast_world(PLANS[plan], step_rate, share)
     speeds = {}
     for name, (where, v) in enumerate(drivers):
@@ -85,7 +85,7 @@ def test_robots_never_overlap_walls_nor_each_other_nor_leap_over_them(plan, step
 
 @pytest.mark.parametrize('theta', [0.4, -0.4, 1.2, -1.2])
 @pytest.mark.parametrize('resolution', [0.02, 0.05])
-def test_a_robot_slides_along_a_wall_as_fast_as_its_heading_says(theta, resolution):
+def test_a_robot_slides_along_a_wall_with_the_component_of_its_speed(theta, resolution):
     world, robot = alone(Pose(1.6, 1.5, theta), room(2.0, 3.0, resolution), drive={'acceleration': 1000.0})
     drove(world, 0.2, 0.0, 200 if abs(theta) < 1.0 else 280)
     before = robot.pose
@@ -98,7 +98,7 @@ def test_a_robot_slides_along_a_wall_as_fast_as_its_heading_says(theta, resoluti
 @pytest.mark.parametrize('step_rate', [10, 50])
 @pytest.mark.parametrize('shift', [0.0, 1e-9, 0.05, -0.2])
 @pytest.mark.parametrize('order', ['ab', 'ba'])
-def test_robots_that_drive_into_each_other_stop_or_slide_and_can_part_again(step_rate, shift, order):
+def test_robots_that_drive_into_each_other_stop_or_slide_and_can_separate_again(step_rate, shift, order):
     world = World(room(6.0, 4.0), quiet(), step_rate)
     starts = {'a': Pose(2.0, 2.0, 0.0), 'b': Pose(3.0, 2.0 + shift, math.pi)}
     for name in order:
@@ -116,7 +116,7 @@ def test_robots_that_drive_into_each_other_stop_or_slide_and_can_part_again(step
         assert apart(world) == approx(2 * (0.3 ** 2 / 0.9 / 2.0 + 0.3 * (2.0 - 2.0 * 0.3 / 0.9)), abs=0.04)
 
 
-def test_a_robot_that_is_pressed_by_another_can_leave():
+def test_a_robot_that_is_pushed_by_another_can_drive_away():
     world = World(room(6.0, 4.0), quiet())
     runner, presser = world.spawn('runner', Pose(3.0, 2.0, 0.0)), world.spawn('presser', Pose(2.6, 2.0, 0.0))
     for tick in range(200):
@@ -128,7 +128,7 @@ def test_a_robot_that_is_pressed_by_another_can_leave():
     assert runner.pose.x > 3.6 and apart(world) > 0.3
 
 
-def test_neither_of_two_robots_that_touch_at_the_very_limit_is_stuck():
+def test_two_robots_that_just_touch_are_not_stuck():
     world = World(room(6.0, 4.0), quiet())
     world.spawn('still', Pose(3.0, 2.0, 0.0))
     for angle in np.linspace(-3.0, 3.0, 50):
@@ -144,13 +144,13 @@ def test_neither_of_two_robots_that_touch_at_the_very_limit_is_stuck():
 
 @pytest.mark.parametrize('resolution', [0.02, 0.05])
 @pytest.mark.parametrize('y', [1.2, 1.12, 1.29])
-def test_a_robot_slips_through_a_door_that_is_a_little_wider_also_when_it_comes_off_centre(y, resolution):
+def test_a_robot_gets_through_a_door_that_is_a_little_wider_even_off_centre(y, resolution):
     plan = room(4.0, 2.4, resolution, [(1.9, 0.0, 2.1, 1.0), (1.9, 1.4, 2.1, 2.4)])
     world, _ = alone(Pose(1.0, y, 0.0), plan)
     assert drove(world, 0.3, 0.0, 500).x > 3.0
 
 
-def test_a_robot_that_is_put_before_another_is_met_at_once():
+def test_a_robot_that_appears_in_front_of_another_is_noticed_at_once():
     world = World(room(20.0, 20.0, 0.1), quiet())
     world.spawn('rumba', Pose(3.0, 3.0, 0.0))
     world.spawn('other', Pose(17.0, 17.0, 0.0))

@@ -1,4 +1,4 @@
-"""What numba makes of the kernel does what Python makes of it, but for the last bit of a sum."""
+"""The compiled kernel gives the results of the plain one, except for rounding."""
 
 import math
 
@@ -18,7 +18,7 @@ ROUNDING = 1e-12
 
 
 class Copy:
-    """All that the kernel works on, apart from any world."""
+    """All data of the kernel, separate from any world."""
 
     def __init__(self, charge):
         world = World(crooked(dock=DOCK, cliff=(3.6, 2.4, 4.0, 3.0), carpet=(0.0, 0.0, 1.0, 1.0)), seed=4)
@@ -32,7 +32,7 @@ class Copy:
         self.noise = np.random.default_rng(2).standard_normal((len(STARTS), 64, 2))
 
     def run(self, functions, ticks):
-        """Drive about; returns the states after each command, and what was seen."""
+        """Drive around; returns the states after each command, the infrared readings and the scans."""
         rng = np.random.default_rng(1)
         states, seen = [], []
         for tick in range(0, ticks, 10):
@@ -52,7 +52,7 @@ class Copy:
 
 
 @pytest.mark.parametrize('charge', [1.0, 0.00001])
-def test_compiled_and_plain_kernel_agree_but_for_rounding(charge):
+def test_compiled_and_plain_kernel_agree_except_for_rounding(charge):
     plain, compiled = Copy(charge), Copy(charge)
     states, seen, ranges = plain.run(kernel, 400)
     fast_states, fast_seen, fast_ranges = compiled.run(fast, 400)
@@ -63,14 +63,14 @@ def test_compiled_and_plain_kernel_agree_but_for_rounding(charge):
     np.testing.assert_array_equal(compiled.floor.cells, plain.floor.cells)
     np.testing.assert_allclose(compiled.floor.dirt, plain.floor.dirt, 1e-6)  # 32 bits
     np.testing.assert_allclose(compiled.floor.tally[0].tolist(), plain.floor.tally[0].tolist(), 1e-9)
-    if charge == 1.0:  # something of everything happened
+    if charge == 1.0:  # every kind of event happened
         columns = dict(zip(kernel.ROBOT.names, states.transpose(2, 0, 1)))
         assert columns['bumps'].max() > 0 and columns['docked'].any() and columns['fallen'].any()
         assert any(beams != (0, 0, 0) for beams in seen) and np.isfinite(ranges).any()
         assert np.isnan(columns['contact_angle']).any() and not np.isnan(columns['contact_angle']).all()
 
 
-def test_compiled_and_plain_kernel_lead_robots_alike():
+def test_compiled_and_plain_kernel_move_led_robots_in_the_same_way():
     led = np.array([[x + 0.004, y - 0.002, theta + 0.01, me % 2] for me, (x, y, theta) in enumerate(STARTS)])
     states = []
     for functions in (kernel, fast):
@@ -91,5 +91,5 @@ def test_every_function_of_the_kernel_is_compiled():
 
 
 @pytest.mark.parametrize('angle', [0.0, math.pi, -math.pi, 3.5, -3.5, 100.0, math.nan])
-def test_a_compiled_angle_wraps_as_a_plain_one(angle):
+def test_the_compiled_kernel_wraps_angles_like_the_plain_one(angle):
     np.testing.assert_equal(fast.wrap(angle), kernel.wrap(angle))

@@ -1,4 +1,4 @@
-"""Settings are strict: each wrong one is named, with what would be right."""
+"""Settings are strict: the error for a wrong one says what would be right."""
 
 import dataclasses
 import math
@@ -35,7 +35,7 @@ class House:
     doors: int = config.setting(2, 'how many', low=0, high=5)
 
 
-def test_what_is_left_out_keeps_its_default():
+def test_a_setting_that_is_left_out_keeps_its_default():
     assert config.from_mapping(Example, {'count': 5}, 'x') == Example(count=5)
 
 

@@ -1,4 +1,4 @@
-"""Ten minutes of a busy world, twice, in two processes: the same, bit for bit."""
+"""Ten simulated minutes of a busy world are the same in two processes, bit for bit."""
 
 import os
 import pathlib
@@ -42,7 +42,7 @@ def ten_minutes(seed, hash_seed):
                           env={**os.environ, 'PYTHONPATH': path, 'PYTHONHASHSEED': hash_seed}).stdout.split()
 
 
-def test_ten_minutes_are_the_same_in_another_process_and_others_with_another_seed():
+def test_ten_minutes_are_the_same_in_another_process_and_differ_with_another_seed():
     first, again, other = ten_minutes(7, '1'), ten_minutes(7, '2'), ten_minutes(8, '1')
     assert len(first) == 2 and first == again
     assert first[0] != other[0] and first[1] != other[1]

@@ -19,16 +19,16 @@ AT_ONCE = {'acceleration': 1000.0}
 @pytest.mark.parametrize('v', [0.3, -0.45])
 def test_a_robot_speeds_up_at_its_acceleration_and_then_goes_straight_ahead(v, step_rate):
     world, robot = alone(START, step_rate=step_rate)
-    dt, way = 1.0 / step_rate, 0.0
+    dt, distance = 1.0 / step_rate, 0.0
     for tick, pose in enumerate(drive(world, v, 0.0, 2 * step_rate), 1):
         speed = math.copysign(min(ACCELERATION * tick * dt, abs(v)), v)
-        way += speed * dt
+        distance += speed * dt
         assert robot.twist == approx((speed, 0.0))
-        assert pose == approx((10.0 + way * math.cos(0.4), 10.0 + way * math.sin(0.4), 0.4))
-        assert robot.distance == approx(abs(way))
+        assert pose == approx((10.0 + distance * math.cos(0.4), 10.0 + distance * math.sin(0.4), 0.4))
+        assert robot.distance == approx(abs(distance))
 
 
-def test_the_way_of_a_start_is_that_of_constant_acceleration():
+def test_the_distance_after_a_start_is_that_of_constant_acceleration():
     ticks, dt = 25, 0.01
     world, _ = alone(step_rate=100)
     assert drove(world, 0.4, 0.0, ticks).x - 10.0 == approx(ACCELERATION * dt ** 2 * ticks * (ticks + 1) / 2.0)
@@ -47,7 +47,7 @@ def test_a_robot_at_speed_follows_an_exact_circle(v, w):
 
 
 @pytest.mark.parametrize('w', [1.2, -1.2])
-def test_a_turn_in_place_is_counter_clockwise_where_w_is_positive_and_leaves_the_place(w):
+def test_a_turn_in_place_is_counter_clockwise_if_w_is_positive_and_keeps_the_position(w):
     world, robot = alone(START, drive=AT_ONCE)
     for tick, pose in enumerate(drive(world, 0.0, w, 200), 1):
         assert pose[:2] == START[:2]
@@ -62,7 +62,7 @@ def test_a_turn_begins_at_the_acceleration_of_the_wheels():
     assert robot.pose.theta == approx(0.4 + (1 + 2 + 3) * 0.02 ** 2 * 2.0 * ACCELERATION / BASE)
 
 
-def test_a_robot_brakes_as_it_speeds_up():
+def test_a_robot_brakes_with_the_same_acceleration():
     world, robot = alone(START)
     drove(world, 0.36, 0.0, 50)
     speeds = [robot.twist.v for _ in drive(world, 0.0, 0.0, 25)]
@@ -79,7 +79,7 @@ def test_a_robot_brakes_as_it_speeds_up():
     (0.5, 1.5, 0.5 * 0.32375 / 0.67625, 0.5),
     (-0.5, 1.5, -0.5, -0.5 * 0.32375 / 0.67625),
 ])
-def test_limits_of_speed_turn_and_wheels_cut_a_command_and_keep_the_arc(v, w, left, right):
+def test_a_command_is_cut_to_the_limits_and_keeps_its_arc(v, w, left, right):
     world, robot = alone(START, drive=AT_ONCE)
     drove(world, v, w, 1)
     assert robot.twist == approx(((left + right) / 2.0, (right - left) / BASE))
@@ -103,7 +103,7 @@ def test_each_wheel_has_its_own_dead_band():
 
 
 @pytest.mark.parametrize('step_rate, timeout, ticks', [(50, 0.5, 25), (100, 0.2, 20), (10, 1.0, 10), (10, 0.02, 1)])
-def test_a_command_counts_for_its_time_exactly_to_the_tick(step_rate, timeout, ticks):
+def test_a_command_stays_in_force_for_exactly_its_timeout(step_rate, timeout, ticks):
     world, robot = alone(START, step_rate=step_rate, drive={'command_timeout': timeout, **AT_ONCE})
     world.step(7)
     robot.command(0.3, 0.0, world.tick)
@@ -115,7 +115,7 @@ def test_a_command_counts_for_its_time_exactly_to_the_tick(step_rate, timeout, t
     assert moved == [True] * ticks + [False] * 5
 
 
-def test_a_new_command_counts_anew():
+def test_a_new_command_starts_a_new_timeout():
     world, robot = alone(START, drive=AT_ONCE)
     robot.command(0.3, 0.0, world.tick)
     world.step(20)
@@ -134,7 +134,7 @@ def test_nothing_moves_before_the_first_command():
 
 @pytest.mark.parametrize('v, w', [
     pair for value in (math.nan, math.inf, -math.inf) for pair in ((value, 0.0), (0.0, value))])
-def test_a_command_that_is_no_number_is_refused_and_the_one_before_stays_in_force(v, w):
+def test_a_command_that_is_not_finite_is_refused_and_the_previous_one_stays_in_force(v, w):
     world, robot = alone(START, drive=AT_ONCE)
     robot.command(0.2, 0.5, world.tick)
     world.step(10)
@@ -146,7 +146,7 @@ def test_a_command_that_is_no_number_is_refused_and_the_one_before_stays_in_forc
     assert robot.twist == (0.0, 0.0)
 
 
-def test_a_heading_stays_in_the_half_open_circle_however_often_it_turns():
+def test_the_heading_stays_in_its_interval_after_many_turns():
     world, _ = alone(START)
     for sign, _ in itertools.product((1.0, -1.0), range(3)):
         assert all(-math.pi < pose.theta <= math.pi for pose in drive(world, 0.1, sign * 1.9, 200))

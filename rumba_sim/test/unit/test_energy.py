@@ -1,4 +1,4 @@
-"""What a robot in the world takes out of its battery, and what the dock puts in."""
+"""How a robot in a world discharges its battery, and how the dock charges it."""
 
 import math
 
@@ -25,7 +25,7 @@ LOADS = {'idle_current': 0.2, 'brush_current': 0.7, 'wheel_current_slow': 0.25, 
     (0.0, 1.0, True, 0.2 + 0.25 + 0.9 * 0.1175 / 0.3),
     (0.2, 1.0, True, 0.2 + 0.25 + 0.9 * 0.2 / 0.3),
 ])
-def test_loads_add_up_and_are_what_the_battery_loses(v, w, brushes_up, load):
+def test_the_battery_loses_the_sum_of_the_loads(v, w, brushes_up, load):
     world, robot = alone(battery=LOADS, drive={'acceleration': 1000.0})
     robot.brushes_up = brushes_up
     drove(world, v, w, 1)
@@ -35,7 +35,7 @@ def test_loads_add_up_and_are_what_the_battery_loses(v, w, brushes_up, load):
     assert before - robot.battery.charge == approx(load * 10.0 / 3600.0)
 
 
-def test_the_sum_of_all_currents_is_what_the_battery_lost_and_got():
+def test_the_change_of_charge_is_the_integral_of_the_current():
     config = quiet(battery={'drain': 20.0, **LOADS})
     world = World(crooked(dock=DOCK), config)
     robot = world.spawn('rumba', state_of_charge=0.5)
@@ -60,7 +60,7 @@ def test_the_sum_of_all_currents_is_what_the_battery_lost_and_got():
     assert robot.battery.charge == approx(1.35 + flowed)
 
 
-def test_drain_quickens_what_is_lost_and_not_the_current():
+def test_drain_multiplies_the_loss_of_charge_but_not_the_current():
     lost = []
     for drain in (1.0, 25.0):
         world, robot = alone(battery={'drain': drain})
@@ -116,7 +116,7 @@ def test_a_full_battery_at_the_dock_takes_nothing_and_loses_nothing():
     assert (robot.battery.charge, robot.battery.current) == (2.7, 0.0)
 
 
-def test_the_battery_of_the_world_is_the_battery_of_the_lesson():
+def test_the_kernel_and_the_class_battery_agree():
     world, robot = alone(battery={'drain': 30.0})
     drove(world, 0.2, 0.3, 200)
     battery = robot.battery

@@ -1,4 +1,4 @@
-"""What brushes do to the floor."""
+"""How brushes clean the floor."""
 
 import math
 
@@ -23,7 +23,7 @@ def test_a_straight_lane_covers_its_length_times_the_width_of_the_brush(v, theta
     world, robot = alone(Pose(3.0, 3.0, theta), room(6.0, 6.0, resolution), drive=AT_ONCE)
     drove(world, v, 0.0, round(1.5 / abs(v) * 50))
     area = world.floor.cleaned_area
-    # Each cell that the brush touches counts whole: half a cell more on each side, in the mean.
+    # A cell that the brush touches counts as a whole: on average half a cell more on each side.
     assert robot.distance == approx(1.5)
     assert 1.5 * WIDTH * 0.98 <= area <= (1.5 + 2.0 * resolution) * (WIDTH + 2.0 * resolution)
 
@@ -49,7 +49,7 @@ def test_a_turn_in_place_sweeps_a_disc():
 
 
 def kept(v, passes, resolution=0.02, step_rate=50):
-    """Geometric mean of the share of dirt that is left in a lane's middle after so many passes."""
+    """Geometric mean of the share of dirt that is left in the middle of a lane after a number of passes."""
     world, _ = alone(Pose(1.0, 3.01, 0.0), room(6.0, 6.0, resolution), step_rate, drive=AT_ONCE)
     rows, columns = ((round(low / resolution), round(high / resolution)) for low, high in ((3.0, 3.05), (2.0, 4.0)))
     lane = slice(*rows), slice(*columns)
@@ -61,16 +61,16 @@ def kept(v, passes, resolution=0.02, step_rate=50):
 
 @pytest.mark.parametrize('v', [0.07, 0.2, 0.37, 0.5])
 @pytest.mark.parametrize('step_rate', [20, 50])
-def test_each_pass_takes_its_share_of_the_dirt_however_fast(v, step_rate):
+def test_each_pass_removes_its_share_of_the_dirt_at_any_speed(v, step_rate):
     assert kept(v, 1, step_rate=step_rate) == approx(0.1, rel=0.04)
 
 
 @pytest.mark.parametrize('resolution', [0.02, 0.05])
-def test_a_second_pass_takes_the_same_share_of_the_rest(resolution):
+def test_a_second_pass_removes_the_same_share_of_the_rest(resolution):
     assert kept(0.3, 2, resolution) == approx(0.01, rel=0.08)
 
 
-def test_no_cell_of_a_lane_keeps_more_than_two_passes_would_explain():
+def test_no_cell_of_a_lane_keeps_more_than_the_square_root_of_the_usual_share():
     world, _ = alone(Pose(1.0, 3.01, 0.0), room(6.0, 6.0, 0.02), drive=AT_ONCE)
     before = world.floor.dirt[150:153, 100:200].copy()
     drove(world, 0.5, 0.0, 400)
@@ -109,7 +109,7 @@ def test_coverage_is_over_the_cells_that_the_brush_can_reach():
     assert (grid == np.where(reachable, np.where(swept, 100, 0), -1)).all()
 
 
-def test_after_a_long_random_run_the_tally_is_what_a_recount_gives():
+def test_after_a_long_random_run_the_tally_equals_a_recount():
     plan = crooked(cliff=(3.4, 2.4, 4.0, 3.0), carpet=(0.0, 0.0, 1.0, 1.0))
     world = World(plan, quiet(), seed=5)
     for number, start in enumerate((Pose(0.5, 0.5, 0.0), Pose(2.0, 1.3, 1.0), Pose(3.5, 0.4, 2.0))):
@@ -134,7 +134,7 @@ def test_after_a_long_random_run_the_tally_is_what_a_recount_gives():
     assert not (floor.cells[~plan.free] & kernel.SWEPT).any() and not (floor.cells[plan.cliff] & kernel.SWEPT).any()
 
 
-def test_dirt_lies_on_free_floor_alone_more_in_spots_and_as_its_seed_says():
+def test_dirt_is_on_free_cells_only_with_more_in_spots_and_depends_on_the_seed():
     plan = crooked()
     floors = [Floor(plan, quiet(), Pose(0.5, 0.5, 0.0), np.random.default_rng(seed)) for seed in (1, 1, 2)]
     dirt = floors[0].dirt

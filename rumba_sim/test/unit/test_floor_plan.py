@@ -1,4 +1,4 @@
-"""The floor plan against distances and ways that are found one cell at a time."""
+"""The floor plan against distances and reachable cells that are computed cell by cell."""
 
 import math
 import pickle
@@ -26,12 +26,12 @@ def drawn(text, resolution=1.0, origin=(0.0, 0.0), **kwargs):
 
 
 def distance_to_square(x, y, row, column):
-    """From a place to the square of a cell; all in cells."""
+    """From a point to the square of a cell; all in cells."""
     return math.hypot(max(column - x, 0.0, x - column - 1.0), max(row - y, 0.0, y - row - 1.0))
 
 
 def distance_to_blocked(blocked, x, y):
-    """From a place on the grid to the nearest blocked cell or the edge; all in cells."""
+    """From a point on the grid to the nearest blocked cell or the edge; all in cells."""
     rows, columns = blocked.shape
     edge = min(x, y, columns - x, rows - y)
     return min([edge] + [distance_to_square(x, y, row, column) for row, column in np.argwhere(blocked)])
@@ -49,11 +49,12 @@ def grids(draw):
 
 @settings(max_examples=60, deadline=None)
 @given(grids(), st.sampled_from([0.02, 0.05, 1.0]), st.data())
-def test_clearance_and_room_are_the_exact_distances_at_every_node(grid, resolution, data):
+def test_clearance_and_safe_clearance_are_the_exact_distances_at_every_node(grid, resolution, data):
     cliff = np.array(data.draw(st.lists(st.booleans(), min_size=grid.size, max_size=grid.size))).reshape(grid.shape)
     plan = FloorPlan('flat', grid, resolution, (-1.25, 7.5), cliff=cliff)
-    assert plan.clearance.shape == plan.safe_clearance.shape == (grid.shape[0] + 1, grid.shape[1] + 1)
-    assert plan.clearance.dtype == np.float64 and plan.clearance.flags.c_contiguous and plan.safe_clearance.flags.c_contiguous
+    for field in (plan.clearance, plan.safe_clearance):
+        assert field.shape == (grid.shape[0] + 1, grid.shape[1] + 1)
+        assert field.dtype == np.float64 and field.flags.c_contiguous
     for row in range(grid.shape[0] + 1):
         for column in range(grid.shape[1] + 1):
             x, y = -1.25 + column * resolution, 7.5 + row * resolution
@@ -82,7 +83,7 @@ def test_between_nodes_clearance_is_interpolated_and_close_to_the_exact_distance
         assert plan.clearance_at(x, y) == approx(distance_to_blocked(blocked, x, y), abs=0.5)
 
 
-def test_inside_a_wall_beyond_the_grid_and_nowhere_clearance_is_zero():
+def test_clearance_is_zero_inside_a_wall_outside_the_grid_and_at_no_number():
     plan = drawn('''
         .....
         .....
@@ -95,7 +96,44 @@ def test_inside_a_wall_beyond_the_grid_and_nowhere_clearance_is_zero():
         assert not plan.contains(x, y)
 
 
-def test_a_cell_holds_its_centre_and_its_lower_left_edges():
+def free_cells_around(blocked):
+    """How many whole cells are free around each cell, from the distances between squares, in whole numbers."""
+    rows, columns = blocked.shape
+    result = np.zeros(blocked.shape, int)
+    obstacles = np.argwhere(np.pad(blocked, 1, mode='constant', constant_values=True)) - 1
+    for row, column in np.ndindex(rows, columns):
+        gaps = np.maximum(np.abs(obstacles - (row, column)) - 1, 0)
+        result[row, column] = math.isqrt(int(np.min(np.sum(gaps ** 2, axis=1))))
+    result[blocked] = 0
+    return result
+
+
+@settings(max_examples=60, deadline=None)
+@given(grids())
+def test_skips_are_the_whole_cells_that_are_free_around_every_point_of_a_cell(grid):
+    plan = FloorPlan('flat', grid, 0.05, (-1.25, 7.5))
+    assert plan.skips.dtype == np.uint8 and (plan.skips == free_cells_around(grid != FREE)).all()
+
+
+@pytest.mark.parametrize('resolution', [0.02, 0.05, 0.1, 0.3])
+def test_skips_are_exact_at_long_distances_too_and_turn_with_the_plan(resolution):
+    grid = np.full((33, 41), FREE, np.int8)
+    grid[5, 7] = grid[18:22, 30:34] = OCCUPIED
+    grid[29, 3:9] = UNKNOWN
+    exact = free_cells_around(grid != FREE)
+    assert exact.max() > 10
+    assert exact[9, 11] == math.hypot(3, 3) // 1 and exact[9, 12] == math.hypot(3, 4) == 5.0
+    for turned in (lambda cells: cells, lambda cells: cells[::-1], lambda cells: cells[:, ::-1],
+                   lambda cells: cells[::-1, ::-1], lambda cells: cells.T):
+        plan = FloorPlan('flat', turned(grid), resolution, (0.7, -3.1))
+        assert (plan.skips == turned(exact)).all()
+
+
+def test_skips_end_at_the_largest_byte():
+    assert FloorPlan('flat', np.zeros((600, 600), np.int8), 0.05, (0.0, 0.0)).skips[298:302, 298].tolist() == [255] * 4
+
+
+def test_a_cell_contains_its_centre_and_its_left_and_lower_edge():
     plan = FloorPlan('flat', np.zeros((3, 5), np.int8), 0.5, (-1.0, 2.0))
     assert (plan.rows, plan.columns, plan.bounds) == (3, 5, (-1.0, 2.0, 1.5, 3.5))
     assert plan.cell(-1.0, 2.0) == (0, 0)
@@ -115,7 +153,7 @@ def test_a_plan_keeps_its_own_copy_of_the_grid_and_can_be_sent_to_another_proces
     assert copy.clearance_at(1.0, 0.5) == plan.clearance_at(1.0, 0.5) == 0.5
 
 
-def test_the_roomiest_place_is_far_from_walls_and_from_cliffs():
+def test_the_most_open_pose_is_far_from_walls_and_from_cliffs():
     picture = '''
         .........
         .........
@@ -175,7 +213,7 @@ def test_reachable_cells_are_those_of_the_definition(radius, brush_width, start)
     assert reached.dtype == np.bool_ and (reached == reachable_by_hand(plan, start, radius, brush_width)).all()
 
 
-def test_a_door_lets_through_what_is_narrower():
+def test_only_a_robot_that_is_narrower_than_a_door_gets_through():
     plan = drawn(TWO_ROOMS, resolution=0.1)
     right = (slice(None), slice(11, None))
     assert plan.reachable(0.5, 0.5, 0.1, 0.1)[right].any()
@@ -183,7 +221,7 @@ def test_a_door_lets_through_what_is_narrower():
     assert plan.reachable(0.5, 0.5, 0.16, 0.1).sum() > 10
 
 
-def test_a_robot_keeps_off_a_cliff_and_does_not_begin_over_it():
+def test_a_robot_stays_away_from_a_cliff_and_cannot_start_beside_it():
     plan = drawn(TWO_ROOMS, resolution=0.1)
     assert plan.clearance_at(2.1, 0.2) == approx(0.1) and plan.safe_clearance_at(2.1, 0.2) == 0.0
     assert not (plan.reachable(1.5, 0.5, 0.1, 0.4) & plan.cliff).any()
@@ -192,7 +230,7 @@ def test_a_robot_keeps_off_a_cliff_and_does_not_begin_over_it():
         plan.reachable(2.1, 0.35, 0.174, 0.17)
 
 
-def test_a_start_that_fits_between_cell_centres_counts():
+def test_a_robot_may_start_where_it_fits_only_between_the_centres_of_cells():
     plan = drawn('''
         ####
         #..#
@@ -209,13 +247,13 @@ def test_a_start_that_fits_between_cell_centres_counts():
     (-0.01, 0.2, r'lies outside the map'),
     (math.nan, 0.2, r'lies outside the map'),
 ])
-def test_a_place_where_the_robot_does_not_fit_is_refused_with_the_reason(x, y, message):
+def test_a_pose_in_which_the_robot_does_not_fit_is_refused_with_the_reason(x, y, message):
     plan = drawn(TWO_ROOMS, resolution=0.1)
     with pytest.raises(MapError, match=message):
         plan.check_place(Pose(x, y, 0.0), 0.17, 'dock')
 
 
-def test_a_place_with_just_enough_room_is_good():
+def test_a_pose_with_just_enough_clearance_is_allowed():
     drawn(TWO_ROOMS, resolution=0.1).check_place(Pose(0.5, 0.3, 1.0), 0.2, 'dock')
 
 
@@ -229,7 +267,7 @@ def test_a_layer_of_another_shape_is_refused():
         FloorPlan('flat', np.zeros((3, 2), np.int8), 0.1, (0.0, 0.0), carpet=np.zeros((2, 3), bool))
 
 
-def test_a_grid_that_is_too_large_is_refused_with_a_way_out():
+def test_a_grid_that_is_too_large_is_refused_with_advice():
     check_size('flat', (5000, MAX_CELLS // 5000))
     with pytest.raises(MapError, match='^flat: 5001 x 5000 cells are more than 25 million: cut the image'):
         check_size('flat', (5000, 5001))

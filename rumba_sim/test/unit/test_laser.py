@@ -1,4 +1,4 @@
-"""The laser against an independent, slow and simple caster of rays."""
+"""The laser against an independent, slow and simple ray caster."""
 
 import math
 
@@ -15,12 +15,12 @@ from rumba_sim.model.world import World
 
 POSES = [Pose(0.5, 0.5, 0.0), Pose(2.1, 1.3, 0.7), Pose(3.6, 2.7, -2.0), Pose(1.83, 2.41, math.pi),
          Pose(2.0, 0.4, math.pi / 2.0), Pose(0.4, 1.0, -math.pi / 2.0)]
-GRAZE = 1e-4  # [rad] a beam that passes a corner so closely may see either side of it
+GRAZE = 1e-4  # [rad] a beam that passes a corner within this angle may see either side of it
 RANGE = 8.0
 
 
 def ray(plan, x, y, angle):
-    """Distance along a ray to the nearest square that is not free, by its slabs."""
+    """Distance along a ray to the nearest square that is not free, by the slab method."""
     low = squares(plan) - (x, y)
     along = np.array([math.cos(angle), math.sin(angle)])
     with np.errstate(divide='ignore', invalid='ignore'):
@@ -39,7 +39,7 @@ def disc(x, y, angle, other):
 
 
 def expected(plan, pose, beams=360, others=()):
-    """What each beam sees, as (range, whether a hair's breadth to a side it would see something else)."""
+    """What each beam sees: (range, whether a beam at the angle GRAZE to it would see something else)."""
     result = []
     for beam in range(beams):
         angle = pose.theta - math.pi + beam * 2.0 * math.pi / beams
@@ -51,7 +51,7 @@ def expected(plan, pose, beams=360, others=()):
 
 
 def differences(scan, wanted, range_max=RANGE):
-    """How far a scan is off [m], beams that graze a corner left out."""
+    """Errors of a scan [m], without the beams that graze a corner."""
     pairs = [(seen, far) for seen, (far, grazes) in zip(scan, wanted) if not grazes]
     return [0.0 if seen == math.inf and far >= range_max - 1e-6 else abs(seen - far) for seen, far in pairs]
 
@@ -64,10 +64,10 @@ def test_every_beam_sees_the_wall_where_it_is(pose, resolution):
     wanted = expected(plan, pose)
     off = differences(world.scan('rumba'), wanted)
     assert len(off) > 330
-    assert max(off) < 2e-6
+    assert max(off) < 2e-8
 
 
-def test_a_mirrored_laser_or_a_flipped_map_would_be_noticed():
+def test_a_mirrored_laser_or_a_flipped_map_is_noticed():
     plan = crooked()
     for pose in POSES[:3]:
         scan = alone(pose, plan)[0].scan('rumba')
@@ -92,9 +92,9 @@ def test_a_scan_has_as_many_beams_as_it_is_set_to(beams):
     world, _ = alone(POSES[1], plan, laser={'beams': beams})
     scan = world.scan('rumba')
     assert scan.shape == (beams,) and scan.dtype == np.float64
-    assert max(differences(scan, expected(plan, POSES[1], beams)), default=0.0) < 2e-6
+    assert max(differences(scan, expected(plan, POSES[1], beams)), default=0.0) < 2e-8
     world.config = quiet(laser={'beams': 16})
-    assert max(differences(world.scan('rumba'), expected(plan, POSES[1], 16)), default=0.0) < 2e-6
+    assert max(differences(world.scan('rumba'), expected(plan, POSES[1], 16)), default=0.0) < 2e-8
 
 
 def test_too_far_is_plus_infinity_and_too_near_minus_infinity():
@@ -113,7 +113,7 @@ def test_another_robot_is_seen_as_its_circle(theta, bearing, away):
     world.spawn('other', other)
     scan = world.scan('rumba')
     wanted = expected(plan, robot.pose, others=[other])
-    assert max(differences(scan, wanted)) < 2e-6
+    assert max(differences(scan, wanted)) < 2e-8
     assert min(scan) == approx(away - RADIUS, abs=0.02)
     assert sum(far < 2.0 and not grazes for far, grazes in wanted) > 10
 
@@ -149,13 +149,18 @@ def test_noise_has_its_deviation_its_seed_and_no_bias():
     assert abs(np.corrcoef(errors[0], errors[1])[0, 1]) < 0.2
 
 
+def cells_of(plan):
+    """The cells of a plan as the kernel reads them."""
+    return np.where(plan.free, 0, kernel.BLOCKED).astype(np.uint8)
+
+
 @pytest.mark.parametrize('resolution', [0.02, 0.0625, 0.05])
 def test_beams_along_the_borders_of_cells_are_exact_and_take_no_more_steps_than_there_are_cells(
         resolution, monkeypatch):
     grid = np.full((80, 80), OCCUPIED, np.int8)
     grid[1:-1, 1:-1] = FREE
     plan = FloorPlan('borders', grid, resolution, (0.0, 0.0))
-    k, cells = constants(quiet(), plan, 50)[0], np.where(plan.free, 0, kernel.BLOCKED).astype(np.uint8)
+    k, cells = constants(quiet(), plan, 50)[0], cells_of(plan)
     steps = []
     to_border = kernel.to_border
     monkeypatch.setattr(kernel, 'to_border', lambda *args: steps.append(args) or to_border(*args))
@@ -164,20 +169,38 @@ def test_beams_along_the_borders_of_cells_are_exact_and_take_no_more_steps_than_
             angle = (turn - 2) * math.pi / 2.0  # its sine or cosine is nearly 0
             x, y = node * resolution, (80 - node) * resolution
             steps.clear()
-            way = kernel.cast(k, plan.skips, cells, x, y, math.cos(angle), math.sin(angle), RANGE)
-            assert way == approx(ray(plan, x, y, angle + 1e-5), abs=1e-4)
+            distance = kernel.cast(k, plan.skips, cells, x, y, math.cos(angle), math.sin(angle), RANGE)
+            assert distance == approx(ray(plan, x, y, angle + 1e-5), abs=1e-4)
             assert len(steps) < 200
 
 
-def test_a_scan_changes_nothing_but_the_noise_of_the_next():
+@pytest.mark.parametrize('resolution, origin', [(0.02, (0.0, 0.0)), (0.05, (-1.3, 2.7)), (0.1, (4.1, -7.3))])
+@pytest.mark.parametrize('mirrors', [(1, 1), (1, -1), (-1, 1), (-1, -1)])
+@pytest.mark.parametrize('columns, rows', [(1, 0), (4, 0), (9, 0), (0, 1), (0, 7), (3, 4), (4, 3), (12, 5), (8, 15)])
+def test_a_beam_whose_skip_ends_at_the_border_of_a_wall_meets_it_there(resolution, origin, mirrors, columns, rows):
+    """The nearest corner of the wall is a whole number of cells away from a node, in all four directions."""
+    grid = np.full((50, 60), FREE, np.int8)
+    grid[20 + rows:, 21 + columns:] = OCCUPIED
+    plan = FloorPlan('wall', grid[::mirrors[1], ::mirrors[0]], resolution, origin)
+    node = [21 if mirrors[0] > 0 else 60 - 21, 20 if mirrors[1] > 0 else 50 - 20]
+    x, y = (start + number * resolution for start, number in zip(origin, node))
+    cells = math.hypot(columns, rows)
+    along_x, along_y = mirrors[0] * columns / cells, mirrors[1] * rows / cells
+    # Beams along an axis start in the middle of a border, so that they do not run along the edge of the wall.
+    x, y = x + mirrors[0] * 0.5 * resolution * (columns == 0), y + mirrors[1] * 0.5 * resolution * (rows == 0)
+    distance = kernel.cast(constants(quiet(), plan, 50)[0], plan.skips, cells_of(plan), x, y, along_x, along_y, RANGE)
+    assert distance == approx(cells * resolution, abs=2.0 * kernel.NUDGE * resolution)
+
+
+def test_a_scan_does_not_change_the_world():
     world, robot = alone(POSES[1], crooked())
     before = world.digest()
     world.scan('rumba')
     assert world.digest() == before
 
 
-def test_what_moves_is_scanned_from_where_it_is():
+def test_a_robot_that_moved_scans_from_its_new_pose():
     plan = room(4.0, 3.0, boxes=PILLARS)
     world, robot = alone(POSES[0], plan)
     drove(world, 0.3, 0.3, 60)
-    assert max(differences(world.scan('rumba'), expected(plan, robot.pose))) < 2e-6
+    assert max(differences(world.scan('rumba'), expected(plan, robot.pose))) < 2e-8

@@ -1,4 +1,4 @@
-"""Map files: every key that map_server knows, and one clear line for all that is wrong."""
+"""Map files: every key of map_server, and one clear line for every error."""
 
 import itertools
 import math
@@ -16,7 +16,7 @@ from rumba_sim.model.errors import MapError
 from rumba_sim.model.floor_plan import FREE, OCCUPIED, UNKNOWN
 
 
-def test_a_map_is_cut_to_its_free_cells_and_stays_where_it_is(tmp_path):
+def test_a_map_is_cropped_to_its_free_cells_and_keeps_its_coordinates(tmp_path):
     plan = map_file.load(write(tmp_path))
     assert plan.name == str(tmp_path / 'flat.yaml')
     assert plan.occupancy.tolist() == grid(CUT).tolist()
@@ -25,7 +25,7 @@ def test_a_map_is_cut_to_its_free_cells_and_stays_where_it_is(tmp_path):
     assert (plan.cliff, plan.carpet, plan.dock, plan.start) == (None, None, None, None)
 
 
-def test_a_map_that_is_free_to_its_edges_is_not_cut(tmp_path):
+def test_a_map_that_is_free_to_its_edges_is_not_cropped(tmp_path):
     plan = map_file.load(tmp_path / os.path.basename(write(tmp_path, np.full((3, 4), W, np.uint8))))
     assert plan.occupancy.shape == (3, 4) and plan.free.all() and plan.origin == (-1.0, 2.0)
 
@@ -43,17 +43,18 @@ def test_dock_start_and_layers(tmp_path):
 
 
 def by_the_rules(level, negate, mode, occupied, free):
-    """What map_server makes of a level of grey."""
+    """The occupancy that map_server gives a level of grey."""
     level = 255 - level if negate else level
     if mode == 'raw':
-        return UNKNOWN if level > 100 else OCCUPIED if level > 100 * occupied else FREE if level < 100 * free else UNKNOWN
-    probability = (255 - level) / 255.0
+        probability = level / 100.0 if level <= 100 else math.nan
+    else:
+        probability = (255 - level) / 255.0
     return OCCUPIED if probability > occupied else FREE if probability < free else UNKNOWN
 
 
 @pytest.mark.parametrize('mode, negate, thresholds', itertools.product(
     [None, 'trinary', 'scale', 'raw'], [0, 1, 'true', 'false'], [(0.65, 0.196), (0.5, 0.5), (1.0, 1.0)]))
-def test_every_level_of_grey_is_what_map_server_makes_of_it(tmp_path, mode, negate, thresholds):
+def test_every_level_of_grey_has_the_occupancy_that_map_server_gives_it(tmp_path, mode, negate, thresholds):
     negated = negate in (1, 'true')
     free = 255 if negated == (mode == 'raw') else 0
     levels = np.pad(np.arange(256, dtype=np.uint8).reshape(16, 16), 1, mode='constant', constant_values=free)
@@ -72,7 +73,7 @@ def test_a_quarter_turn_of_the_origin_turns_the_map_and_its_layers(tmp_path, tur
                                  origin=f'[-1.0, 2.0, {turns * math.pi / 2.0!r}]'))
     assert turned.occupancy.tolist() == np.rot90(straight.occupancy, -turns).tolist()  # row 0 is at the bottom
     assert turned.carpet.tolist() == turned.cliff.tolist() == np.rot90(straight.carpet, -turns).tolist()
-    x, y = 0.75, 1.25  # of a place that is free, from the origin
+    x, y = 0.75, 1.25  # a free point, from the origin
     cos, sin = [(0, 1), (-1, 0), (0, -1)][turns - 1]
     assert turned.occupancy[turned.cell(-1.0 + cos * x - sin * y, 2.0 + sin * x + cos * y)] \
         == straight.occupancy[straight.cell(-1.0 + x, 2.0 + y)]
@@ -81,7 +82,7 @@ def test_a_quarter_turn_of_the_origin_turns_the_map_and_its_layers(tmp_path, tur
 
 
 @pytest.mark.parametrize('yaw', [0.3, -0.7, 2.0, -3.0])
-def test_a_turned_map_has_in_each_cell_what_lies_under_its_centre(tmp_path, yaw):
+def test_each_cell_of_a_turned_map_has_the_value_under_its_centre(tmp_path, yaw):
     pixels = np.kron(PIXELS, np.ones((3, 2), np.uint8))
     plan = map_file.load(write(tmp_path, pixels, origin=f'[-1.0, 2.0, {yaw}]'))
     occupancy = grid(pixels)
@@ -140,28 +141,28 @@ def test_a_wrong_key_or_value_is_named(tmp_path, changes, message):
         map_file.load(path)
 
 
-def test_keys_of_other_tools_are_left_alone(tmp_path):
+def test_keys_of_other_tools_are_ignored(tmp_path):
     map_file.load(write(tmp_path, frame_id='map', type='occupancy', zones='[a, b]', name='home'))
 
 
 @pytest.mark.parametrize('content, message', [
     (b'', ': image is missing'),
     (b'[1, 2]', ': must hold keys and values'),
-    (b'image: [', ', line 1: is no YAML: '),
-    (b'a: 1\nb: !!python/object:os.system {}', ', line 2: is no YAML: could not determine a constructor'),
-    (b'a: 2020-13-45', ': is no YAML: month must be in 1..12'),
-    (b'[' * 5000, ': is no YAML: '),
-    (b'\x89PNG\r\n\x1a\n\xff\xfe\xfd', ': is not text'),
-    (b'a: \x00', ': is no YAML: '),
+    (b'image: [', ', line 1: is not valid YAML: '),
+    (b'a: 1\nb: !!python/object:os.system {}', ', line 2: is not valid YAML: could not determine a constructor'),
+    (b'a: 2020-13-45', ': is not valid YAML: month must be in 1..12'),
+    (b'[' * 5000, ': is not valid YAML: '),
+    (b'\x89PNG\r\n\x1a\n\xff\xfe\xfd', ': is not a text file: must be YAML'),
+    (b'a: \x00', ': is not valid YAML: '),
 ], ids=lambda value: repr(value[:20]))
-def test_what_is_no_yaml_is_refused(tmp_path, content, message):
+def test_a_file_that_is_not_yaml_is_refused(tmp_path, content, message):
     (tmp_path / 'flat.yaml').write_bytes(content)
     with pytest.raises(MapError, match=f'^{tmp_path / "flat.yaml"}{message}') as caught:
         map_file.load(str(tmp_path / 'flat.yaml'))
     assert '\n' not in str(caught.value)
 
 
-def test_what_is_not_there_or_is_a_folder_is_named(tmp_path):
+def test_a_path_that_does_not_exist_or_is_a_folder_is_named(tmp_path):
     with pytest.raises(MapError, match='^/nowhere/flat.yaml: No such file or directory$'):
         map_file.load('/nowhere/flat.yaml')
     with pytest.raises(MapError, match=f'^{tmp_path}: Is a directory$'):
@@ -179,7 +180,7 @@ def test_a_map_without_free_floor_is_refused(tmp_path):
         map_file.load(write(tmp_path, np.full((40, 30), G, np.uint8)))
 
 
-def test_a_map_of_a_hundred_million_free_cells_is_refused_with_a_way_out(tmp_path):
+def test_a_map_of_a_hundred_million_free_cells_is_refused_with_advice(tmp_path):
     (tmp_path / 'flat.pgm').write_bytes(b'P5\n10000 10000\n255\n' + b'\xff' * 100_000_000)
     with pytest.raises(MapError, match='flat.yaml: 10000 x 10000 cells are more than 25 million: cut the image'):
         map_file.load(write(tmp_path, image='flat.pgm'))

@@ -1,4 +1,4 @@
-"""Images of maps: every kind of them, whole and damaged."""
+"""Images of maps: every format, whole and damaged."""
 
 import struct
 import zlib
@@ -13,7 +13,7 @@ from rumba_sim.model.errors import MapError
 from rumba_sim.model.floor_plan import FREE, OCCUPIED, UNKNOWN
 
 
-def test_a_layer_on_transparent_paper_marks_what_is_drawn(tmp_path):
+def test_a_layer_with_a_transparent_background_marks_what_is_drawn(tmp_path):
     layer = np.zeros(PIXELS.shape + (4,), np.uint8)
     layer[1, 3] = (90, 20, 60, 255)
     layer[2, 3] = (90, 20, 60, 60)
@@ -48,7 +48,7 @@ def test_each_kind_of_pgm_is_the_same_map(tmp_path, data):
 
 
 def palette(pixels):
-    """An image whose colours stand in a table, in an order of its own."""
+    """An image with a palette in an unusual order."""
     image = Image.fromarray((pixels == W).astype(np.uint8) + 2 * (pixels == G).astype(np.uint8), 'L').convert('P')
     image.putdata([{W: 1, B: 2, G: 0}[level] for level in pixels.ravel()])
     image.putpalette([250, G, 160] + [W] * 3 + [B] * 3 + [0] * 759)
@@ -79,13 +79,14 @@ def test_a_tall_image_in_colour_is_read_to_its_last_row(tmp_path):
     assert plan.occupancy.tolist() == grid(pixels)[:, 1:].tolist()
 
 
-def test_an_image_of_one_bit_knows_wall_and_free(tmp_path):
+def test_an_image_of_one_bit_has_walls_and_free_cells(tmp_path):
     plan = map_file.load(write(tmp_path, Image.fromarray(PIXELS == W)))
     assert plan.occupancy.tolist() == np.where(CUT[::-1] == W, FREE, OCCUPIED).tolist()
 
 
 @pytest.mark.parametrize('mode, colour, alpha, value', [
-    ('trinary', 255, 255, FREE), ('trinary', 255, 0, UNKNOWN), ('trinary', 0, 255, UNKNOWN), ('trinary', 0, 0, OCCUPIED),
+    ('trinary', 255, 255, FREE), ('trinary', 255, 0, UNKNOWN), ('trinary', 0, 255, UNKNOWN),
+    ('trinary', 0, 0, OCCUPIED),
     ('scale', 255, 0, FREE), ('scale', 0, 255, OCCUPIED), ('scale', 128, 0, UNKNOWN), ('scale', 128, 255, UNKNOWN)])
 def test_transparency_is_a_colour_in_mode_trinary_and_nothing_in_mode_scale(tmp_path, mode, colour, alpha, value):
     pixels = np.full((1, 3, 4), 255, np.uint8)
@@ -95,7 +96,7 @@ def test_transparency_is_a_colour_in_mode_trinary_and_nothing_in_mode_scale(tmp_
 
 
 def png_header(width, height):
-    """A PNG image of which only the header is there."""
+    """A PNG image that consists only of its header."""
     chunk = b'IHDR' + struct.pack('>IIBBBBB', width, height, 8, 0, 0, 0, 0)
     return b'\x89PNG\r\n\x1a\n' + struct.pack('>I', 13) + chunk + struct.pack('>I', zlib.crc32(chunk)) \
         + b'\x00\x00\x00\x00IDAT'
@@ -103,7 +104,7 @@ def png_header(width, height):
 
 @pytest.mark.parametrize('data, message', [
     (b'', 'the file is empty'),
-    (b'not an image', 'is no image of a known kind'),
+    (b'not an image', 'is not an image of a known format: must be PNG or PGM'),
     (b'P5', 'the header of this PGM image is damaged'),
     (b'P5\n3 x\n255\n', 'the header of this PGM image is damaged'),
     (b'P5' + b' #' * 5000, 'the header of this PGM image is damaged'),
@@ -139,11 +140,11 @@ def test_a_truncated_png_is_refused(tmp_path):
         map_file.load(path)
 
 
-def test_whatever_a_decoder_stumbles_over_is_one_line(tmp_path, monkeypatch):
-    def stumble(_):
+def test_any_error_of_a_decoder_becomes_one_line(tmp_path, monkeypatch):
+    def fail_to_decode(_):
         raise IndexError('out of\nrange')
 
-    monkeypatch.setattr(map_image.Image, 'open', stumble)
+    monkeypatch.setattr(map_image.Image, 'open', fail_to_decode)
     with pytest.raises(MapError, match=f'^{tmp_path}/flat.png: the image is damaged: out of range$'):
         map_file.load(write(tmp_path))
 

@@ -1,4 +1,4 @@
-"""The maps of the repository: drawn by their script, as large as they say, and fit for a Rumba."""
+"""The maps of the repository: drawn by their script, of the stated size, and suitable for a Rumba."""
 
 import importlib.util
 import pathlib
@@ -13,8 +13,8 @@ from rumba_sim.model.floor_plan import FREE
 
 MAPS = pathlib.Path(__file__).resolve().parents[2] / 'maps'
 NAMES = ('apartment', 'studio', 'field')
-RADIUS, BRUSH_WIDTH = 0.17425, 0.17  # [m] of the robot, as it is built
-ROOMS = {  # a place in each room
+RADIUS, BRUSH_WIDTH = 0.17425, 0.17  # [m] of the default robot
+ROOMS = {  # a point in each room
     'apartment': {'living room': (3.3, 2.0), 'kitchen': (2.0, 4.6), 'hall': (4.0, 4.8), 'bath': (6.8, 4.6),
                   'bedroom': (6.0, 1.4), 'beside the bed': (7.6, 2.9), 'under a chair': (0.77, 5.38)},
     'studio': {'room': (1.5, 2.5), 'kitchen': (2.5, 3.8), 'bath': (3.8, 3.4), 'under the desk': (4.65, 1.3),
@@ -32,7 +32,7 @@ def short_name(plan):
     return pathlib.Path(plan.name).stem
 
 
-def test_the_script_draws_the_maps_that_are_here(tmp_path):
+def test_the_script_draws_the_maps_of_the_folder(tmp_path):
     spec = importlib.util.spec_from_file_location('make_maps', str(MAPS / 'make_maps.py'))
     script = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(script)
@@ -48,7 +48,7 @@ def test_the_script_draws_the_maps_that_are_here(tmp_path):
                 assert np.array_equal(np.asarray(drawn), np.asarray(kept)), name
 
 
-def test_the_dock_and_the_start_have_room_and_the_dock_touches_a_wall(plan):
+def test_a_robot_fits_at_the_dock_and_the_start_and_the_dock_is_at_a_wall(plan):
     plan.check_place(plan.dock, RADIUS, 'dock')
     assert 0.02 <= plan.safe_clearance_at(plan.dock.x, plan.dock.y) - RADIUS <= 0.05
     ahead = plan.dock.x + RADIUS + 0.06
@@ -68,11 +68,11 @@ def test_every_room_can_be_cleaned_from_the_dock(plan):
     reached = plan.reachable(plan.dock.x, plan.dock.y, RADIUS, BRUSH_WIDTH)
     for room, place in ROOMS[short_name(plan)].items():
         assert reached[plan.cell(*place)], room
-    # The brush leaves a rim of 9 cm along every wall and around every leg.
+    # The brush cannot reach a strip of 9 cm along every wall and around every leg.
     assert reached.sum() / plan.free.sum() > {'apartment': 0.72, 'studio': 0.75, 'field': 0.96}[short_name(plan)]
 
 
-def test_the_free_floor_is_as_large_as_promised(plan):
+def test_the_free_floor_has_the_stated_area(plan):
     area = plan.free.sum() * plan.resolution ** 2
     assert area == approx({'apartment': 37.1, 'studio': 14.2, 'field': 11.1 ** 2}[short_name(plan)], abs=0.05)
 
@@ -84,13 +84,13 @@ def test_no_map_can_be_mistaken_for_its_mirror_image():
             assert (occupancy != mirrored).mean() > 0.1
 
 
-def test_chairs_of_the_apartment_are_wide_enough_or_too_narrow():
+def test_a_robot_passes_under_some_chairs_of_the_apartment_and_not_under_others():
     plan = map_file.load(MAPS / 'apartment.yaml')
     reached = plan.reachable(plan.dock.x, plan.dock.y, RADIUS, BRUSH_WIDTH)
     assert reached[plan.cell(0.77, 5.38)] and not reached[plan.cell(0.8, 4.3)]
 
 
-def test_the_apartment_has_a_step_down_that_no_robot_reaches_and_a_carpet_that_it_does():
+def test_in_the_apartment_a_robot_reaches_the_carpet_but_not_the_step_down():
     plan = map_file.load(MAPS / 'apartment.yaml')
     reached = plan.reachable(plan.dock.x, plan.dock.y, RADIUS, BRUSH_WIDTH)
     assert plan.cliff[plan.cell(4.0, 6.0)] and not plan.cliff[plan.cell(4.0, 5.5)] and not (plan.cliff & reached).any()
@@ -98,7 +98,7 @@ def test_the_apartment_has_a_step_down_that_no_robot_reaches_and_a_carpet_that_i
     assert reached[plan.carpet].mean() > 0.85
 
 
-def test_the_field_is_that_of_turtlesim():
+def test_the_field_has_the_size_of_turtlesim():
     plan = map_file.load(MAPS / 'field.yaml')
     assert plan.start == approx((5.544445, 5.544445, 0.0), abs=1e-5)
     assert plan.occupancy[1:-1, 1:-1].max() == FREE and (plan.occupancy == FREE).sum() == 222 ** 2

@@ -1,4 +1,4 @@
-"""What the encoders count, and where a robot believes to be, against closed forms and statistics."""
+"""Encoder ticks and odometry, against closed forms and statistics."""
 
 import math
 
@@ -16,7 +16,7 @@ TICK = 1.0 / TICKS_PER_METRE
 
 
 def hall_of_robots(rows=8, columns=12, seed=1, **odometry):
-    """A world with many robots that all look along x, with 4 m of room before and behind them."""
+    """A world with many robots that all face along x, with 4 m of free floor ahead and behind."""
     world = World(room(20.0, 20.0, 0.1), quiet(odometry=odometry), seed=seed)
     for row in range(rows):
         for column in range(columns):
@@ -25,7 +25,7 @@ def hall_of_robots(rows=8, columns=12, seed=1, **odometry):
 
 
 def drive_all(world, v, w, ticks):
-    """Command all robots alike."""
+    """Give all robots the same commands."""
     for _ in range(ticks):
         for robot in world.robots.values():
             robot.command(v, w, world.tick)
@@ -43,7 +43,7 @@ def test_a_turn_of_a_wheel_counts_508_8_ticks(v, turns):
     assert robot.ticks == (math.floor(expected + 1e-6),) * 2
 
 
-def test_ticks_are_counted_backward_too_and_for_each_wheel():
+def test_ticks_are_counted_in_both_directions_for_each_wheel():
     world, robot = alone(drive={'acceleration': 1000.0})
     drove(world, 0.0, 1.0, 100)
     assert robot.ticks == approx((-BASE * TICKS_PER_METRE, BASE * TICKS_PER_METRE), abs=1.0)
@@ -54,7 +54,7 @@ def test_ticks_are_counted_backward_too_and_for_each_wheel():
 
 
 @pytest.mark.parametrize('traction', [0.98, 0.7])
-def test_a_wheel_that_slips_counts_more_than_the_way(traction):
+def test_a_wheel_that_slips_counts_more_than_the_driven_distance(traction):
     world, robot = alone(odometry={'floor_traction': traction})
     drove(world, 0.3, 0.0, 500)
     assert robot.ticks == approx((robot.distance / traction * TICKS_PER_METRE,) * 2, abs=1.0)
@@ -72,7 +72,7 @@ def test_traction_changes_on_a_carpet_that_both_wheels_stand_on():
         assert robot.ticks == approx((slip * TICKS_PER_METRE,) * 2, abs=10.0)
 
 
-def test_exact_wheels_know_where_the_robot_is_within_what_a_tick_is_worth():
+def test_the_odometry_of_exact_wheels_is_right_within_a_tick():
     world, robot = alone(Pose(10.0, 10.0, 1.0))
     rng = np.random.default_rng(4)
     for _ in range(60):
@@ -86,7 +86,7 @@ def test_exact_wheels_know_where_the_robot_is_within_what_a_tick_is_worth():
     assert robot.distance > 5.0
 
 
-def test_wheels_that_slip_against_a_wall_still_count():
+def test_wheels_that_slip_at_a_wall_still_count():
     world, robot = alone(Pose(1.0, 1.0, 0.0), room(2.0, 2.0))
     drove(world, 0.3, 0.0, 500)
     before, ticks = robot.pose, robot.ticks
@@ -96,7 +96,7 @@ def test_wheels_that_slip_against_a_wall_still_count():
     assert robot.odometry.x > robot.distance + 1.0
 
 
-def test_a_wheel_scale_belongs_to_its_wheel_and_turns_the_odometry_away_from_the_larger():
+def test_each_wheel_has_its_own_scale_and_the_odometry_turns_away_from_the_larger():
     lefts = []
     for seed in range(6):
         world = World(room(20.0, 20.0, 0.1), quiet(odometry={'scale_error': 0.05}), seed=seed)
@@ -112,11 +112,11 @@ def test_a_wheel_scale_belongs_to_its_wheel_and_turns_the_odometry_away_from_the
     assert set(lefts) == {True, False}
 
 
-def test_scale_errors_have_their_standard_deviation_and_no_favourite_wheel():
+def test_scale_errors_of_both_wheels_have_their_standard_deviation_and_no_correlation():
     world = hall_of_robots(scale_error=0.04)
     drive_all(world, 0.4, 0.0, 100)
-    ways = np.array([robot.ticks for robot in world.robots.values()]) * TICK
-    errors = ways / next(iter(world.robots.values())).distance - 1.0
+    counted = np.array([robot.ticks for robot in world.robots.values()]) * TICK
+    errors = counted / next(iter(world.robots.values())).distance - 1.0
     assert np.std(errors, axis=0) == approx([0.04, 0.04], rel=0.25)
     assert np.mean(errors, axis=0) == approx([0.0, 0.0], abs=4.0 * 0.04 / math.sqrt(len(errors)))
     assert abs(np.corrcoef(errors[:, 0], errors[:, 1])[0, 1]) < 0.35
@@ -124,15 +124,15 @@ def test_scale_errors_have_their_standard_deviation_and_no_favourite_wheel():
 
 @pytest.mark.parametrize('v', [0.4, -0.2])
 @pytest.mark.parametrize('seconds', [2, 10])
-def test_noise_grows_with_the_square_root_of_the_way(v, seconds):
+def test_noise_grows_with_the_square_root_of_the_distance(v, seconds):
     world = hall_of_robots(noise=0.01)
     drive_all(world, v, 0.0, 50 * seconds)
-    ways = np.array([robot.ticks for robot in world.robots.values()]) * TICK
-    way = next(iter(world.robots.values())).distance
-    errors = np.abs(ways) - way
-    assert way == approx(abs(v) * seconds, abs=0.1)
-    assert np.std(errors, axis=0) == approx([0.01 * math.sqrt(way)] * 2, rel=0.25)
-    assert np.mean(errors) == approx(0.0, abs=4.0 * 0.01 * math.sqrt(way / errors.size))
+    counted = np.array([robot.ticks for robot in world.robots.values()]) * TICK
+    distance = next(iter(world.robots.values())).distance
+    errors = np.abs(counted) - distance
+    assert distance == approx(abs(v) * seconds, abs=0.1)
+    assert np.std(errors, axis=0) == approx([0.01 * math.sqrt(distance)] * 2, rel=0.25)
+    assert np.mean(errors) == approx(0.0, abs=4.0 * 0.01 * math.sqrt(distance / errors.size))
     assert abs(np.corrcoef(errors[:, 0], errors[:, 1])[0, 1]) < 0.35
 
 
@@ -152,7 +152,7 @@ def test_wheels_that_stand_still_make_no_noise():
     assert all(robot.ticks == (0, 0) and robot.odometry == (0.0, 0.0, 0.0) for robot in world.robots.values())
 
 
-def test_a_teleport_moves_the_truth_and_not_the_odometry():
+def test_a_teleport_changes_the_true_pose_and_not_the_odometry():
     world, robot = alone()
     drove(world, 0.3, 0.2, 100)
     odometry, ticks = robot.odometry, robot.ticks

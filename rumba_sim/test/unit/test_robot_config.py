@@ -1,6 +1,8 @@
-"""The settings of a robot: every one documented and in range, and felt where it should be."""
+"""The settings of a robot: each is documented and in its range, and reaches the kernel."""
 
+import ast
 import dataclasses
+import inspect
 import math
 import re
 
@@ -8,8 +10,9 @@ import pytest
 from pytest import approx
 from rooms import crooked, quiet
 
+from rumba_sim.model import kernel
 from rumba_sim.model.config import describe, from_mapping, leaves, updated
-from rumba_sim.model.constants import constants
+from rumba_sim.model.constants import Constants, constants
 from rumba_sim.model.errors import ConfigError, MapError
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.robot_config import DockConfig, RobotConfig
@@ -64,7 +67,7 @@ def test_a_wrong_setting_is_named_by_its_path(mapping, message):
         from_mapping(RobotConfig, mapping, 'here')
 
 
-def test_contacts_may_open_where_they_close():
+def test_contacts_may_open_at_the_distance_at_which_they_close():
     dock = DockConfig(contact_distance=0.1, release_distance=0.1, contact_angle=0.157)
     assert dock.release_angle == dock.contact_angle == 0.157
 
@@ -75,16 +78,32 @@ def test_a_description_names_every_path_once():
     assert 'drive/wheel_base' in LEAVES and 'battery/drain' in LEAVES
 
 
-def test_a_change_leaves_the_rest_as_it_was():
+def test_an_update_keeps_all_other_settings():
     config = updated(quiet(), {'battery': {'drain': 9.0}, 'laser': {'beams': 10}}, 'here')
     assert config == dataclasses.replace(
         quiet(), battery=dataclasses.replace(quiet().battery, drain=9.0),
         laser=dataclasses.replace(quiet().laser, beams=10))
 
 
-# --- what the kernel gets of it -----------------------------------------------------------------------------------
+# --- the constants of the kernel ----------------------------------------------------------------------------------
 
-def test_the_kernel_gets_every_setting_that_has_its_name():
+@pytest.mark.parametrize('name', Constants._fields)
+def test_a_constant_that_is_left_out_or_misspelt_is_an_error(name):
+    values = dict.fromkeys(Constants._fields, 1)
+    del values[name]
+    with pytest.raises(TypeError, match=f"missing 1 required positional argument: '{name}'"):
+        Constants(**values)
+    with pytest.raises(TypeError, match=f"unexpected keyword argument '{name}_'"):
+        Constants(**values, **{f'{name}_': 1})
+
+
+def test_the_kernel_reads_every_constant_and_no_other():
+    read = {node.attr for node in ast.walk(ast.parse(inspect.getsource(kernel)))
+            if isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name) and node.value.id == 'k'}
+    assert read == set(Constants._fields)
+
+
+def test_the_constants_have_the_values_of_the_configuration_and_of_the_plan():
     config = from_mapping(RobotConfig, {'drive': {'wheel_base': 0.3, 'dead_band': 0.02},
                                         'battery': {'drain': 3.0, 'taper_start': 0.7}}, 'here')
     k = constants(config, crooked(dock=Pose(3.8, 1.0, 0.5)), 40)[0]
@@ -99,8 +118,29 @@ def test_the_kernel_gets_every_setting_that_has_its_name():
             assert float(k[name]) != 0.0, name
 
 
+@pytest.mark.parametrize('section', ['drive', 'battery', 'odometry', 'bumper', 'laser', 'dock', 'brush'])
+def test_every_setting_changes_the_constants_or_is_used_elsewhere(section):
+    """Settings are changed one by one: a setting that no constant is computed from would be noticed."""
+    elsewhere = {'odometry/scale_error', 'laser/beams', 'battery/resistance'}
+    plan = crooked(dock=Pose(3.8, 1.0, 0.5))
+    before = constants(RobotConfig(), plan, 50)[0]
+    for path, field in LEAVES.items():
+        if path.startswith(section) and path not in elsewhere:
+            value = field.default * (1.05 if path.startswith('dock/release') else 0.95)
+            after = constants(from_mapping(RobotConfig, nested(path, value), 'here'), plan, 50)[0]
+            assert any(before[name] != after[name] for name in Constants._fields), path
+
+
+def test_a_plan_tells_the_constants_whether_it_has_a_dock_and_layers():
+    for plan, has_dock, has_layers in ((crooked(), False, False), (crooked(dock=Pose(3.8, 1.0, 0.5)), True, False),
+                                       (crooked(cliff=(0.0, 0.0, 1.0, 1.0)), False, True),
+                                       (crooked(carpet=(0.0, 0.0, 1.0, 1.0)), False, True)):
+        k = constants(RobotConfig(), plan, 50)[0]
+        assert (bool(k.has_dock), bool(k.has_layers)) == (has_dock, has_layers)
+
+
 @pytest.mark.parametrize('resolution', [0.02, 0.05, 0.1])
-def test_a_robot_keeps_off_walls_by_no_more_than_interpolation_may_err(resolution):
+def test_the_reach_is_larger_than_the_radius_by_no_more_than_the_error_of_interpolation(resolution):
     k = constants(RobotConfig(), crooked(resolution), 50)[0]
     assert 0.0 < k.reach - 0.17425 < resolution ** 2
 

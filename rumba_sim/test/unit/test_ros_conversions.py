@@ -1,6 +1,7 @@
-"""From the model to messages: units, signs and frames, without ROS."""
+"""From the model to messages: units, signs and frames, without a master."""
 
 import math
+import types
 
 import numpy as np
 import pytest
@@ -57,7 +58,7 @@ def test_a_quaternion_turns_counter_clockwise():
     assert (turn.z, turn.w) == pytest.approx((math.sqrt(0.5), math.sqrt(0.5)))
 
 
-def test_odometry_holds_pose_twist_and_variances_at_their_places():
+def test_odometry_has_pose_twist_and_variances_in_the_right_fields():
     message = conversions.odometry(Pose(1.0, -2.0, 0.5), Twist(0.3, -0.7), HEADER, 'child', (0.01, 0.02), (0.03, 0.04))
     assert (message.pose.pose.position.x, message.pose.pose.position.y) == (1.0, -2.0)
     assert (message.twist.twist.linear.x, message.twist.twist.angular.z) == (0.3, -0.7)
@@ -68,13 +69,22 @@ def test_odometry_holds_pose_twist_and_variances_at_their_places():
 
 
 def test_the_variance_of_odometry_is_that_of_two_wheels():
-    """After 2 m each wheel errs by 2 m * 0.01 and 0.002 m * sqrt(2); heading is their difference over the base."""
+    """After 2 m, a wheel errs by 2 m * 0.01 and by 0.002 m * sqrt(2); the heading by the difference / wheel base."""
     wheel = (2.0 * 0.01) ** 2 + 0.002 ** 2 * 2.0
     place, heading = conversions.odometry_variance(2.0, OdometryConfig(), 0.235)
     assert place == pytest.approx(wheel / 2.0)
     assert heading == pytest.approx(2.0 * wheel / 0.235 ** 2)
 
 
-def test_frames_of_the_first_robot_are_plain_and_others_prefixed():
+@pytest.mark.parametrize('has_fallen', [False, True])
+def test_cliff_has_the_sensors_from_left_to_right_and_a_separate_field_for_the_wheels(has_fallen):
+    robot = types.SimpleNamespace(has_fallen=has_fallen)
+    message = conversions.cliff(robot, (True, False, True, False), HEADER)
+    assert (message.is_cliff_left, message.is_cliff_front_left) == (True, False)
+    assert (message.is_cliff_front_right, message.is_cliff_right) == (True, False)
+    assert (message.is_wheel_dropped, message.header.frame_id) == (has_fallen, 'base')
+
+
+def test_the_frames_of_all_robots_except_the_first_have_a_prefix():
     assert frames('rumba') == ('odom', 'base_footprint', 'base_link', 'laser')
     assert frames('rumba2') == ('rumba2/odom', 'rumba2/base_footprint', 'rumba2/base_link', 'rumba2/laser')

@@ -1,5 +1,6 @@
-"""The parts of the simulator's node that need no master: requests, rates, diagnostics, tuning, names of maps."""
+"""Parts of nodes that need no master: requests, rates, diagnostics, tuning, paths."""
 
+import os
 import signal
 import threading
 import time
@@ -10,14 +11,14 @@ from diagnostic_updater import DiagnosticStatusWrapper
 
 from rumba_sim.model.battery import Battery, BatteryConfig
 from rumba_sim.model.errors import ConfigError, MapError, WorldError
-from rumba_sim.ros.common import node
+from rumba_sim.ros.common import maps, node, paths
 from rumba_sim.ros.common.requests import Requests
 from rumba_sim.ros.simulator import diagnostics, reconfigure, simulator
 from rumba_sim.ros.simulator.settings import TUNABLE, Rates, Settings
 
 
 def in_thread(function):
-    """What a function returns or raises in another thread, while this one goes on."""
+    """Run a function in another thread; returns the thread and a list for the result or the error."""
     def run():
         try:
             result.append(function())
@@ -29,7 +30,7 @@ def in_thread(function):
     return thread, result
 
 
-def test_requests_are_made_in_their_owners_thread_and_errors_go_to_who_asked():
+def test_requests_are_made_in_the_thread_of_the_owner_and_errors_go_to_the_caller():
     requests = Requests()
 
     def fail():
@@ -43,7 +44,7 @@ def test_requests_are_made_in_their_owners_thread_and_errors_go_to_who_asked():
     assert requests.call(threading.current_thread) is threading.current_thread()
 
 
-def test_serving_ends_in_time_also_when_a_signal_takes_longer():
+def test_serving_ends_in_time_even_if_the_handler_of_a_signal_takes_longer():
     requests = Requests()
     before = signal.signal(signal.SIGALRM, lambda *_: time.sleep(0.3))
     waker = threading.Timer(5.0, requests.post, [lambda: None])
@@ -58,7 +59,7 @@ def test_serving_ends_in_time_also_when_a_signal_takes_longer():
         signal.signal(signal.SIGALRM, before)
 
 
-def test_a_signal_ends_ros_beside_the_main_thread_which_may_hold_a_lock_that_the_end_needs(monkeypatch):
+def test_a_signal_ends_ros_in_another_thread_since_the_main_thread_may_hold_a_lock(monkeypatch):
     ended = []
     monkeypatch.setattr(node.rospy, 'signal_shutdown',
                         lambda reason: ended.append((reason, threading.current_thread())))
@@ -76,13 +77,13 @@ def test_a_rate_is_due_at_each_full_period():
     assert not any(Rates(scan=0).due(tick, 50).scan for tick in range(1, 101))
 
 
-def test_where_no_number_of_ticks_gives_a_rate_it_is_met_in_the_mean():
+def test_a_rate_whose_period_is_no_whole_number_of_ticks_is_met_on_average():
     due = [tick for tick in range(1, 626) if Rates(battery=5).due(tick, 62.5).battery]
     assert due[:4] == [13, 25, 38, 50]
     assert len(due) == 50
 
 
-def test_a_rate_that_no_number_of_ticks_gives_is_refused():
+def test_the_simulator_refuses_a_rate_whose_period_is_no_whole_number_of_ticks():
     with pytest.raises(ConfigError, match=r'^rates/odom is 30: must divide step_rate, 100: one of 0, 1, 2, 4, 5, '):
         Settings(step_rate=100, rates=Rates(odom=30))
     assert Settings(step_rate=60, rates=Rates(30, 10, 10, 10, 5, 0)).rates.odom == 30
@@ -115,19 +116,38 @@ def test_paths_become_sections():
     assert reconfigure.value_at(Settings(), 'battery/drain') == 1.0
 
 
-def test_a_map_goes_by_its_name_or_its_path():
-    assert simulator.map_path('studio').endswith('/rumba_sim/maps/studio.yaml')
-    assert simulator.map_path('some/where') == 'some/where'
-    assert simulator.map_path('x.yaml') == 'x.yaml'
+def test_a_map_is_given_by_its_name_or_its_path(monkeypatch, tmp_path):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv('PWD', str(tmp_path))
+    assert maps.map_path('studio').endswith('/rumba_sim/maps/studio.yaml')
+    for path in ('some/where', 'x.yaml', './y.yml'):
+        assert maps.map_path(path) == os.path.normpath(tmp_path / path)
+    assert maps.map_path('/some/where.yaml') == '/some/where.yaml'
     with pytest.raises(MapError, match=r"^there is no map 'moon': give the path of .*, or one of apartment, field, "):
-        simulator.map_path('moon')
+        maps.map_path('moon')
+
+
+def test_a_relative_path_begins_at_the_working_folder_or_where_roslaunch_was_started(monkeypatch, tmp_path):
+    working, launched = tmp_path / 'working', tmp_path / 'launched'
+    for folder in (working, launched):
+        folder.mkdir()
+        (folder / 'both.yaml').touch()
+    (launched / 'one.yaml').touch()
+    monkeypatch.chdir(working)
+    monkeypatch.setenv('PWD', str(launched))
+    assert paths.absolute('both.yaml') == str(working / 'both.yaml')
+    assert paths.absolute('one.yaml') == paths.absolute('../launched/one.yaml') == str(launched / 'one.yaml')
+    assert paths.absolute('none.yaml') == str(launched / 'none.yaml')
+    assert paths.absolute('/none.yaml') == '/none.yaml'
+    monkeypatch.delenv('PWD')
+    assert paths.absolute('one.yaml') == str(working / 'one.yaml')
 
 
 @pytest.mark.parametrize('name', ['', 'a b', '/x', 'x/y', '1x', '_x', 'ä', 'xä', 'x\n', 'x٣'])
-def test_what_is_no_name_for_a_robot(name):
+def test_invalid_names_of_a_robot(name):
     assert simulator.NAME.fullmatch(name) is None
 
 
 @pytest.mark.parametrize('name', ['x', 'Rumba_2', 'r2_d2'])
-def test_what_is_a_name_for_a_robot(name):
+def test_valid_names_of_a_robot(name):
     assert simulator.NAME.fullmatch(name)

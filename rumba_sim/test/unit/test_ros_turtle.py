@@ -1,4 +1,4 @@
-"""How a turtle is driven and holds its pen, without a master."""
+"""Commands and pen of a turtle, without a master."""
 
 import types
 
@@ -15,7 +15,7 @@ PEN = (1, 2, 3, 8, False)
 
 @pytest.fixture()
 def told(monkeypatch):
-    """What a turtle is told: velocities, and the calls of its services by their names."""
+    """The velocities that a turtle gets, and the calls of its services by name."""
     told = types.SimpleNamespace(velocities=[], calls=[], fail=False)
 
     def call(name, _):
@@ -37,12 +37,12 @@ def told(monkeypatch):
 
 
 def served(subject):
-    """Make the calls that wait for the thread."""
-    while not subject._wishes.empty():
-        subject._wishes.get()()
+    """Make the calls that are in the queue of the thread."""
+    while not subject._calls.empty():
+        subject._calls.get()()
 
 
-def test_a_velocity_is_told_when_it_changes_and_before_turtlesim_forgets_it(told):
+def test_a_velocity_is_sent_when_it_changes_and_again_before_turtlesim_stops(told):
     subject = turtle.Turtle('turtle1', None)
     for _ in range(turtle.REMINDER + 1):
         subject.drive(Twist(0.3, -0.5))
@@ -52,7 +52,7 @@ def test_a_velocity_is_told_when_it_changes_and_before_turtlesim_forgets_it(told
     assert told.velocities[2:] == [(0.0, 0.0)]
 
 
-def test_a_new_turtle_is_told_at_once(told):
+def test_a_new_turtle_gets_velocity_and_pen_at_once(told):
     subject = turtle.Turtle('turtle1', None)
     subject.drive(Twist(0.3, -0.5))
     subject.hold_pen(PEN)
@@ -64,7 +64,7 @@ def test_a_new_turtle_is_told_at_once(told):
     assert told.calls == [('turtle1/set_pen', PEN)] * 2
 
 
-def test_a_pen_that_it_holds_is_not_given_again(told):
+def test_a_pen_that_does_not_change_is_set_once(told):
     subject = turtle.Turtle('turtle1', None)
     for pen in (PEN, PEN, (*PEN[:4], True)):
         subject.hold_pen(pen)
@@ -72,7 +72,7 @@ def test_a_pen_that_it_holds_is_not_given_again(told):
     assert told.calls == [('turtle1/set_pen', PEN), ('turtle1/set_pen', (1, 2, 3, 8, True))]
 
 
-def test_a_teleport_lifts_the_pen_first_and_it_is_lowered_when_asked(told):
+def test_a_teleport_lifts_the_pen_until_it_is_set_again(told):
     subject = turtle.Turtle('turtle1', None)
     subject.teleport(Pose(3.0, 4.0, 0.5), PEN)
     subject.hold_pen(PEN)
@@ -81,14 +81,14 @@ def test_a_teleport_lifts_the_pen_first_and_it_is_lowered_when_asked(told):
                           ('turtle1/set_pen', PEN)]
 
 
-def test_a_teleport_that_fails_says_whose(told, monkeypatch):
+def test_a_teleport_that_fails_names_the_turtle(told, monkeypatch):
     monkeypatch.setattr(turtle.rospy, 'resolve_name', lambda name: f'/{name}')
     told.fail = True
     with pytest.raises(WorldError, match='^/turtle1: no$'):
         turtle.Turtle('turtle1', None).teleport(Pose(3.0, 4.0, 0.5), PEN)
 
 
-def test_without_turtlesim_it_says_where_that_is_to_be_had(monkeypatch):
+def test_without_turtlesim_the_message_says_how_to_install_it(monkeypatch):
     monkeypatch.setattr(turtle, 'PoseMessage', None)
     with pytest.raises(ConfigError, match='install turtlesim .*, or build compat/turtlesim'):
         turtle.Turtle('turtle1', None)

@@ -1,10 +1,12 @@
-"""What keys do to the command, and how a terminal's input falls into keys; no ROS runs here."""
+"""The commands of keys, and how the input of a terminal is split into keys; without ROS."""
 
 import pytest
 from pytest import approx
 
 from rumba_sim.ros.common.terminal import split_keys
-from rumba_sim.ros.teleop_key import HELP, MOVES, SPEEDS, ZEROS, Driver, Settings
+from rumba_sim.ros.teleop_key.driver import MOVES, SPEEDS, ZEROS, Driver
+from rumba_sim.ros.teleop_key.settings import Settings
+from rumba_sim.ros.teleop_key.teleop_key import HELP
 
 SETTINGS = Settings(linear=0.3, angular=0.7, hold=0.5)
 SILENCE = None
@@ -25,7 +27,7 @@ def pressed(*keys):
     ('up', 0.3, 0.0), ('down', -0.3, 0.0), ('left', 0.0, 0.7), ('right', 0.0, -0.7),
     (' ', 0.0, 0.0), ('I', 0.0, 0.0), ('\x1b[5~', 0.0, 0.0), ('\x1c', 0.0, 0.0),
 ])
-def test_each_key_has_its_command_and_the_others_stop(key, linear, angular):
+def test_each_key_has_its_command_and_all_others_stop(key, linear, angular):
     assert pressed('up', key).command(100.0) == (linear, angular)
 
 
@@ -45,7 +47,7 @@ def test_a_repeated_key_counts_from_its_last_press():
     assert driver.command(100.9) == (0.0, 0.0)
 
 
-def test_another_move_and_every_stop_are_news():
+def test_another_move_and_every_stop_are_published_at_once():
     driver = Driver(SETTINGS)
     assert [driver.press(key, 0.0) for key in ('up', 'i', 'left', 'k', ' ', 'q')] == [
         True, False, True, True, True, False]
@@ -60,7 +62,7 @@ def test_nothing_is_published_before_the_first_key_and_after_forgetting():
 
 @pytest.mark.parametrize('key, linear, angular', [
     ('q', 0.33, 0.77), ('z', 0.27, 0.63), ('w', 0.33, 0.7), ('x', 0.27, 0.7), ('e', 0.3, 0.77), ('c', 0.3, 0.63)])
-def test_speed_keys_change_a_tenth_and_neither_start_stop_nor_prolong_a_move(key, linear, angular):
+def test_speed_keys_change_speeds_by_a_tenth_and_neither_start_nor_stop_nor_prolong_a_move(key, linear, angular):
     assert pressed(key).command(100.0) is SILENCE
     driver = pressed('u')
     driver.press(key, 100.4)
@@ -90,12 +92,12 @@ def test_speeds_stay_within_what_the_robot_can_do():
     ('\x1b\x1b', ['\x1b'], '\x1b'),
     ('\xc3\xa9\n', ['\xc3', '\xa9', '\n'], ''),
 ])
-def test_input_falls_into_keys_and_what_may_be_the_beginning_of_one(text, keys, rest):
+def test_input_is_split_into_keys_and_a_rest(text, keys, rest):
     assert split_keys(text) == (keys, rest)
 
 
 def test_the_help_names_every_key_and_fits_a_small_terminal():
-    lines = HELP.format(topic='/rumba/cmd_vel').splitlines()
+    lines = HELP.format(topic='/rumba/teleop/cmd_vel').splitlines()
     assert len(lines) < 24 and max(map(len, lines)) < 80
     words = HELP.replace(',  ', ' , ').split()
     for key in [*(key for key in MOVES if len(key) == 1), *SPEEDS, 'b', 'h', 'Esc', 'arrow', 'space']:

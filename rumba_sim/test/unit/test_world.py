@@ -1,4 +1,4 @@
-"""The world: who is in it, and that the same beginning and the same commands make the same world, bit for bit."""
+"""The world: adding and removing robots, and repeatability, bit for bit."""
 
 import math
 
@@ -17,7 +17,7 @@ PLAN = crooked(dock=DOCK)
 
 
 def noisy(seed=1, **starts):
-    """A world of robots that err."""
+    """A world of robots with errors of wheels and laser."""
     world = World(PLAN, RobotConfig(), seed=seed)
     for name, start in starts.items():
         world.spawn(name, start)
@@ -25,7 +25,7 @@ def noisy(seed=1, **starts):
 
 
 def wander(world, ticks=300):
-    """Drive all robots about, and read what they see."""
+    """Drive all robots around; returns their sensor readings."""
     rng = np.random.default_rng(3)
     seen = []
     for _ in range(ticks // 10):
@@ -39,7 +39,7 @@ def wander(world, ticks=300):
 A, B, C = Pose(0.5, 0.5, 0.3), Pose(2.0, 1.3, 2.0), Pose(3.4, 2.5, -1.0)
 
 
-# --- the same again -----------------------------------------------------------------------------------------------
+# --- repeatability ------------------------------------------------------------------------------------------------
 
 def test_the_same_seed_gives_the_same_world_and_another_seed_another():
     worlds = [noisy(seed, a=A, b=B) for seed in (1, 1, 2)]
@@ -49,7 +49,7 @@ def test_the_same_seed_gives_the_same_world_and_another_seed_another():
 
 
 @pytest.mark.parametrize('steps', [[700], [1] * 700, [255, 1, 1, 443], [256, 256, 188], [3, 697]])
-def test_many_ticks_at_once_are_as_many_ticks_one_by_one(steps):
+def test_many_ticks_at_once_equal_as_many_single_ticks(steps):
     worlds = [noisy(a=A, b=B), noisy(a=A, b=B)]
     for world, ticks in zip(worlds, ([50] * 14, steps)):
         world.config = RobotConfig(drive=type(world.config.drive)(command_timeout=60.0))
@@ -61,7 +61,7 @@ def test_many_ticks_at_once_are_as_many_ticks_one_by_one(steps):
     assert worlds[0].digest() == worlds[1].digest()
 
 
-def test_a_reset_world_is_a_new_world_bit_for_bit():
+def test_a_reset_world_equals_a_new_world_bit_for_bit():
     world = noisy(a=A, b=B)
     wander(world)
     world.teleport('a', C)
@@ -73,7 +73,7 @@ def test_a_reset_world_is_a_new_world_bit_for_bit():
     assert wander(world) == wander(new) and world.digest() == new.digest()
 
 
-def test_a_reset_after_a_kill_is_a_world_that_never_had_the_killed():
+def test_a_reset_after_a_kill_gives_a_world_without_the_killed_robot():
     world = noisy(a=A, b=B, c=C)
     wander(world, 50)
     world.kill('b')
@@ -82,7 +82,7 @@ def test_a_reset_after_a_kill_is_a_world_that_never_had_the_killed():
     assert wander(world) == wander(new) and world.digest() == new.digest()
 
 
-def test_a_reset_recharges_each_battery_to_what_it_began_with():
+def test_a_reset_gives_each_battery_its_first_charge():
     world = World(PLAN, quiet(battery={'drain': 100.0}))
     world.spawn('a', A, 0.5)
     world.step(500)
@@ -91,7 +91,7 @@ def test_a_reset_recharges_each_battery_to_what_it_began_with():
     assert world.robots['a'].battery.state_of_charge == 0.5
 
 
-def test_a_reset_keeps_all_robots_though_two_began_at_one_place():
+def test_a_reset_keeps_all_robots_even_if_two_began_at_the_same_position():
     world, first = alone(A, PLAN)
     drove(world, 0.4, 0.0, 150)
     world.spawn('second', A)
@@ -116,14 +116,14 @@ def test_what_a_robot_sees_and_counts_does_not_depend_on_how_many_others_there_a
     assert (world.scan('rumba')[:20] == alike.scan('other name')[:20]).all()
 
 
-def test_the_second_robot_errs_otherwise_than_the_first():
+def test_robots_have_different_errors():
     world = noisy(a=A, b=B)
     states = [robot.state for robot in world.robots.values()]
     scales = {float(state[side]) for state in states for side in ('left_scale', 'right_scale')}
     assert len(scales) == 4 and 1.0 not in scales
 
 
-def test_noise_stays_with_its_robot_when_one_before_it_goes():
+def test_a_robot_keeps_its_noise_if_an_earlier_robot_is_removed():
     ticks = []
     for is_killed in (True, False):
         world = World(room(20.0, 20.0, 0.1), RobotConfig(odometry=OdometryConfig(noise=0.1)), seed=9)
@@ -137,9 +137,9 @@ def test_noise_stays_with_its_robot_when_one_before_it_goes():
     assert ticks[0] == ticks[1]
 
 
-# --- robots come, go and are moved --------------------------------------------------------------------------------
+# --- adding, removing and moving robots ---------------------------------------------------------------------------
 
-def test_robots_stay_themselves_when_others_come_and_go():
+def test_robots_keep_their_state_if_others_are_added_and_removed():
     world = World(PLAN, quiet())
     poses = {'a': A, 'b': B, 'c': C}
     robots = {name: world.spawn(name, pose) for name, pose in poses.items()}
@@ -154,7 +154,7 @@ def test_robots_stay_themselves_when_others_come_and_go():
     assert world.robots['b'] is b
 
 
-def test_without_a_place_the_first_robot_begins_at_the_start_and_others_beside():
+def test_without_a_pose_the_first_robot_begins_at_the_start_and_others_beside_it():
     world = World(crooked(dock=DOCK), quiet())
     robots = [world.spawn(str(number)) for number in range(5)]
     assert robots[0].pose == DOCK
@@ -164,7 +164,7 @@ def test_without_a_place_the_first_robot_begins_at_the_start_and_others_beside()
     assert World(crooked(dock=DOCK, start=B), quiet()).spawn('rumba').pose == approx(B)
 
 
-def test_a_full_room_has_room_for_no_more():
+def test_a_robot_for_which_there_is_no_free_position_is_refused():
     world = World(room(0.4, 0.4), quiet())
     world.spawn('a')
     with pytest.raises(WorldError, match='^room: no room for another robot$'):
@@ -190,7 +190,7 @@ def test_a_full_room_has_room_for_no_more():
     (lambda world: world.scan('z'), r"^there is no robot 'z': robots are a, b$"),
     (lambda world: world.infrared('z'), r"^there is no robot 'z'"),
 ])
-def test_what_cannot_be_is_refused_and_the_world_goes_on_unharmed(act, message):
+def test_an_impossible_request_is_refused_and_does_not_change_the_world(act, message):
     world, unharmed = noisy(a=A, b=B), noisy(a=A, b=B)
     with pytest.raises(WorldError, match=message):
         act(world)
@@ -198,12 +198,12 @@ def test_what_cannot_be_is_refused_and_the_world_goes_on_unharmed(act, message):
     assert wander(world) == wander(unharmed) and world.digest() == unharmed.digest()
 
 
-def test_an_empty_world_says_so():
+def test_the_error_in_an_empty_world_names_no_robots():
     with pytest.raises(WorldError, match="^there is no robot 'a': robots are none$"):
         World(PLAN).kill('a')
 
 
-def test_a_teleported_robot_rests_there_with_its_heading_wrapped_and_forgets_its_command():
+def test_a_teleported_robot_rests_with_its_heading_wrapped_and_drops_its_command():
     world, robot = alone(A, PLAN)
     drove(world, 0.3, 0.0, 20)
     charge = robot.battery.charge
@@ -213,13 +213,13 @@ def test_a_teleported_robot_rests_there_with_its_heading_wrapped_and_forgets_its
     assert 0.0 < charge - robot.battery.charge < 0.001
 
 
-def test_a_teleport_to_the_place_of_a_robot_itself_is_no_collision():
+def test_a_robot_does_not_collide_with_itself_in_a_teleport():
     world, robot = alone(A, PLAN)
     world.teleport('rumba', Pose(A.x + 0.05, A.y, 1.0))
     assert robot.pose == approx((A.x + 0.05, A.y, 1.0))
 
 
-# --- what it is made of -------------------------------------------------------------------------------------------
+# --- configuration ------------------------------------------------------------------------------------------------
 
 def test_settings_can_change_while_robots_drive():
     world, robot = alone(A, PLAN)
@@ -230,14 +230,14 @@ def test_settings_can_change_while_robots_drive():
     assert robot.twist.v == approx(0.1)
 
 
-def test_the_size_of_robots_cannot_change():
+def test_the_radius_of_robots_cannot_change():
     world, robot = alone(A, PLAN)
     with pytest.raises(ConfigError, match=r'^drive/radius is 0\.2: must stay 0\.17425 \[m\]$'):
         world.config = quiet(drive={'radius': 0.2})
     assert world.config == quiet() == robot.config
 
 
-def test_a_robot_that_leaps_in_a_tick_and_cells_that_are_too_large_are_refused():
+def test_a_speed_of_more_than_a_radius_per_tick_and_cells_that_are_too_large_are_refused():
     with pytest.raises(ConfigError, match=r'^drive/max_speed is 2: at 10 ticks a second must be at most 1\.7425 \[m/s\]'
                                           r', a radius in a tick$'):
         World(PLAN, quiet(drive={'max_speed': 2.0}), 10)
@@ -252,7 +252,7 @@ def test_a_start_where_no_robot_fits_is_refused():
         World(room(0.3, 0.3))
 
 
-def test_a_second_of_driving_is_as_many_ticks_as_the_step_rate_says():
+def test_two_seconds_of_driving_end_at_the_same_pose_at_any_step_rate():
     ends = []
     for step_rate in (10, 20, 50, 100):
         world, _ = alone(step_rate=step_rate, drive={'acceleration': 1000.0})
@@ -262,7 +262,7 @@ def test_a_second_of_driving_is_as_many_ticks_as_the_step_rate_says():
         assert end == approx(ends[0])
 
 
-def test_a_reset_gives_back_charge_and_brushes_as_they_were_at_first():
+def test_a_reset_restores_the_first_charge_and_brushes():
     world = World(crooked())
     world.spawn('rumba', state_of_charge=0.4, brushes_up=True)
     world.robots['rumba'].brushes_up = False

@@ -1,1 +1,1 @@
-"""What a robot knows of its place of work, and what it remembers of it."""
+"""What a robot knows of the floor that it works on, and what it remembers of it."""

@@ -1,4 +1,8 @@
-"""What a behaviour knows of its place of work, and what it remembers of it."""
+"""What a behaviour knows of the floor that it works on, and what it remembers of it."""
+
+import copy
+from concurrent.futures import Executor, Future
+from typing import Any, Callable, Optional, TypeVar
 
 import numpy as np
 
@@ -8,6 +12,21 @@ from rumba_cleaning.cleaning_config import CleaningConfig
 from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.model.robot_config import RobotConfig
 
+Result = TypeVar('Result')
+
+
+class InPlace(Executor):
+    """Runs what is submitted at once, in the thread of the caller: its futures are done when they are returned."""
+
+    def submit(self, fn: Callable[..., Result], /, *args: Any, **kwargs: Any) -> 'Future[Result]':
+        """Run a function; if it raises an exception, the future holds that."""
+        future: 'Future[Result]' = Future()
+        try:
+            future.set_result(fn(*args, **kwargs))
+        except Exception as error:
+            future.set_exception(error)
+        return future
+
 
 class Context:
     """One robot's knowledge, shared by all its behaviours.
@@ -15,17 +34,40 @@ class Context:
     Attributes:
         plan: the floor plan.
         robot: what the robot is like.
-        config: how it shall work.
+        config: speeds and thresholds for its work.
+        target_coverage: share of the reachable floor to sweep [0..1].
         generator: what random choices are drawn from.
+        executor: what runs long computations, as `submit` does.
         ground: where the robot can go, with the obstacles that it met.
         swept: what its brush passed over.
     """
 
-    def __init__(self, plan: FloorPlan, robot: RobotConfig, config: CleaningConfig, seed: int = 0) -> None:
-        """Know a floor plan, and remember nothing yet."""
+    def __init__(self, plan: FloorPlan, robot: RobotConfig, config: CleaningConfig, seed: int = 0,
+                 executor: Optional[Executor] = None) -> None:
+        """Know a floor plan, with nothing met or swept yet.
+
+        Without an executor, what is submitted runs at once in the calling thread, so that a run can be repeated.
+        """
         self.plan = plan
         self.robot = robot
         self.config = config
+        self.target_coverage = config.target_coverage
         self.generator = np.random.default_rng(seed)
+        self.executor = executor if executor is not None else InPlace()
         self.ground = Ground(plan, robot)
         self.swept = Swept(plan, robot)
+
+    def with_target(self, target_coverage: float) -> 'Context':
+        """A context with another target that shares everything else, ground and swept included, with this one."""
+        other = copy.copy(self)
+        other.target_coverage = target_coverage
+        return other
+
+    def submit(self, function: Callable[..., Result], *args: Any) -> 'Future[Result]':
+        """Have the executor compute `function(context, *args)` with a copy of this context as it is now.
+
+        The function may run in another thread. It must not draw from the generator, whose state the copy shares.
+        """
+        snapshot = copy.copy(self)
+        snapshot.ground, snapshot.swept = self.ground.copy(), self.swept.copy()
+        return self.executor.submit(function, snapshot, *args)

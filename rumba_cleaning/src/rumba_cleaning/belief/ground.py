@@ -1,5 +1,6 @@
-"""Where a robot can stand and how it gets from place to place: the floor plan, and the obstacles that it met."""
+"""Where a robot can stand, and paths from point to point: by the floor plan and the obstacles the robot has met."""
 
+import copy
 import math
 from typing import List, Optional, Tuple
 
@@ -12,24 +13,30 @@ from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.model.kernel import Array
 from rumba_sim.model.robot_config import RobotConfig
 
-ANY_RATE = 50  # [Hz] how near a robot can come to a wall does not depend on it
-MARGIN = 0.003  # [m] that ways keep off what a robot would touch
-GROWTH, LARGEST = 0.02, 0.25  # [m] of the radius of an obstacle that is met again
-EASE = 0.04  # [m] of room to spare beside a straight way
-AT_ONCE = 0.4  # [m] so near a place is driven to without regard to that
-DETOUR = 2.0  # [m] around both ends a way is looked for first
-SHY = 0.1  # [m] within so much of the nearest way possible, ways cost more ...
-SHYNESS = 2.0  # ... up to so many times their length more
+ANY_RATE = 50  # [Hz] `constants` asks for a rate, but how near a robot can come to a wall does not depend on it
+
+# All figures below are our choice; each comment says what speaks for a larger and for a smaller value.
+MARGIN = 0.003  # [m] that paths keep beyond the touching distance: more than rounding errors, but it closes few gaps
+GROWTH = 0.02  # [m] added to the radius of an obstacle that is met again: large passes it after fewer touches
+LARGEST = 0.25  # [m] radius of an obstacle, at most: small leaves gaps beside it open, large passes wide obstacles
+EXTRA_CLEARANCE = 0.04  # [m] beside straight parts of a path: large touches less, small makes paths shorter
+NEAR = 0.4  # [m] a goal this near is driven to directly, without the extra clearance: a path around it costs more
+SEARCH_MARGIN = 2.0  # [m] around both ends is searched first: small is fast, but a longer path needs a second search
+INFLATION = 0.1  # [m] beyond the touching distance, within which a path costs more: large keeps to the open floor ...
+INFLATION_COST = 2.0  # ... up to this many times its length more: small lets a path follow a wall to be shorter
 
 
 class Ground:
-    """Places are [m] in the map frame, `Array` float64 (any, 2); nodes are (row, column) of `FloorPlan.room`.
+    """The floor as one robot knows it.
+
+    Points are (x, y) [m] in the map frame; an array of points, and a path, is float64 (any, 2). Nodes are the corners
+    of the cells, (row, column) into `FloorPlan.safe_clearance`; an array of nodes is int (any, 2).
 
     Attributes:
         plan: the floor plan.
-        reach: how near the middle of the robot can come to a wall [m].
-        room: as `FloorPlan.room`, obstacles that were met included.
-        fits: bool (rows + 1, columns + 1), at which nodes the robot can stand.
+        reach: distance from the robot's centre to a wall that it touches [m].
+        clearance: float64 (rows + 1, columns + 1), as `FloorPlan.safe_clearance` [m], and to obstacles it has met.
+        fits: bool (rows + 1, columns + 1), the nodes at which the robot can stand.
     """
 
     def __init__(self, plan: FloorPlan, robot: RobotConfig) -> None:
@@ -38,142 +45,177 @@ class Ground:
         self.reach = float(constants(robot, plan, ANY_RATE)[0]['reach'])
         self.forget()
 
+    def copy(self) -> 'Ground':
+        """A ground with the same obstacles, which stays as it is if this one changes."""
+        other = copy.copy(self)
+        other.clearance = self.clearance.copy()
+        other._marks = list(self._marks)
+        return other
+
     def forget(self) -> None:
-        """Forget all obstacles that were met."""
-        self.room = self.plan.safe_clearance.copy()
+        """Forget all obstacles that the robot has met."""
+        self.clearance = self.plan.safe_clearance.copy()
         self._marks: List[Tuple[float, float, float]] = []  # x, y, radius [m]
-        self._changed()
+        self._update()
 
     @property
     def has_marks(self) -> bool:
-        """Whether obstacles were met."""
+        """Whether the robot has met any obstacles."""
         return bool(self._marks)
 
     def mark(self, x: float, y: float, radius: float) -> None:
-        """Remember that there is a round obstacle; one that is met again is larger than it was thought to be."""
+        """Remember a round obstacle; one that is met again is taken to be larger than before.
+
+        Args:
+            x, y: its centre in the map frame [m].
+            radius: [m]
+        """
         again = [other for mark_x, mark_y, other in self._marks if math.hypot(mark_x - x, mark_y - y) < radius + other]
         radius = min(max([radius, *(other + GROWTH for other in again)]), LARGEST)
         self._marks.append((x, y, radius))
-        rows, columns = self.room.shape
+        rows, columns = self.clearance.shape
         res = self.plan.resolution
         row, column = self.node(x, y)
-        size = int((radius + self.reach + SHY) / res) + 2
+        size = int((radius + self.reach + INFLATION) / res) + 2
         top, left = max(row - size, 0), max(column - size, 0)
         near_y, near_x = np.ogrid[top:min(row + size + 1, rows), left:min(column + size + 1, columns)]
         distance = np.hypot(near_x * res + self.plan.origin[0] - x, near_y * res + self.plan.origin[1] - y) - radius
-        window = self.room[top:row + size + 1, left:column + size + 1]
+        window = self.clearance[top:row + size + 1, left:column + size + 1]
         np.minimum(window, np.maximum(distance, 0.0), out=window)
-        self._changed()
+        self._update()
 
-    def _changed(self) -> None:
-        self.fits = self.room >= self.reach + MARGIN
-        self._marked = ~self.fits & (self.room < self.plan.safe_clearance)
+    def _update(self) -> None:
+        """Derive from `clearance` what depends on it."""
+        self.fits = self.clearance >= self.reach + MARGIN
+        self._marked = ~self.fits & (self.clearance < self.plan.safe_clearance)
         self._nearest: Optional[Array] = None
 
-    # --- places and nodes -----------------------------------------------------------------------------------------
+    # --- points and nodes -----------------------------------------------------------------------------------------
 
     def node(self, x: float, y: float) -> Tuple[int, int]:
-        """The node nearest to a place."""
+        """The node nearest to a point [m]."""
         row, column = self.nodes(np.array([[x, y]]))[0]
         return int(row), int(column)
 
-    def nodes(self, places: Array) -> Array:
-        """The nodes nearest to places: int (any, 2)."""
-        nodes = np.rint((np.asarray(places) - self.plan.origin) / self.plan.resolution).astype(np.intp)[:, ::-1]
-        return np.clip(nodes, 0, np.array(self.room.shape) - 1)
+    def nodes(self, points: Array) -> Array:
+        """The node nearest to each point (any, 2) [m]: int (any, 2); beyond the grid, a node of its edge."""
+        nodes = np.rint((np.asarray(points) - self.plan.origin) / self.plan.resolution).astype(np.intp)[:, ::-1]
+        return np.clip(nodes, 0, np.array(self.clearance.shape) - 1)
 
-    def places(self, nodes: Array) -> Array:
-        """Where nodes (any, 2), which need not be whole, lie."""
+    def points(self, nodes: Array) -> Array:
+        """The points at which nodes (any, 2) lie, which may have fractions: float64 (any, 2) [m]."""
         return np.asarray(nodes, np.float64)[:, ::-1] * self.plan.resolution + self.plan.origin
 
-    def are_free(self, places: Array) -> Array:
-        """At which of the places the robot can stand: bool (any)."""
-        nodes = self.nodes(places)
+    def are_free(self, points: Array) -> Array:
+        """Whether the robot can stand at each point (any, 2) [m], to the nearest node: bool (any)."""
+        nodes = self.nodes(points)
         return np.asarray(self.fits[nodes[:, 0], nodes[:, 1]])
 
     def standing(self, nodes: Array) -> Array:
-        """For each node (any, 2) the nearest one at which the robot can stand: int (any, 2)."""
+        """For each node (any, 2), the nearest node at which the robot can stand: int (any, 2)."""
         if self._nearest is None:
             self._nearest = ndimage.distance_transform_edt(~self.fits, return_distances=False, return_indices=True)
         return np.asarray(self._nearest[:, nodes[:, 0], nodes[:, 1]].T)
 
     def standing_at(self, x: float, y: float) -> Tuple[int, int]:
-        """The node nearest to a place at which the robot can stand."""
+        """The node nearest to a point [m] at which the robot can stand."""
         row, column = self.standing(self.nodes(np.array([[x, y]])))[0]
         return int(row), int(column)
 
     def within(self, distance: float) -> Array:
-        """Cells whose middle lies so near, or a cell more, to where the robot can stand: bool (rows, columns)."""
+        """Cells that lie within a distance [m], or one cell more, of a node at which the robot can stand.
+
+        Returns:
+            bool (rows, columns)
+        """
         away = ndimage.distance_transform_edt(~self.fits)[:-1, :-1] * self.plan.resolution
         return np.asarray(away <= distance + self.plan.resolution)
 
-    # --- ways -----------------------------------------------------------------------------------------------------
+    # --- paths ----------------------------------------------------------------------------------------------------
 
-    def is_straight(self, start: Array, end: Array, room: float = 0.0) -> bool:
-        """Whether the robot can drive straight from one place (2) to another, with so much room to spare [m]."""
+    def is_straight(self, start: Array, end: Array, margin: float = 0.0) -> bool:
+        """Whether the robot can drive straight from one point (2) to another.
+
+        Args:
+            start, end: [m], map frame.
+            margin: clearance that it needs on the whole line, beyond the touching distance [m]; MARGIN at least.
+        """
         nodes = self._line(start, end)
-        return bool((self.room[nodes[:, 0], nodes[:, 1]] >= self.reach + max(room, MARGIN)).all())
+        return bool((self.clearance[nodes[:, 0], nodes[:, 1]] >= self.reach + max(margin, MARGIN)).all())
+
+    def is_marked(self, start: Array, end: Array) -> bool:
+        """Whether an obstacle that the robot has met lies on the straight line from one point (2) to another [m]."""
+        nodes = self._line(start, end)
+        return bool(self._marked[nodes[:, 0], nodes[:, 1]].any())
 
     def _line(self, start: Array, end: Array) -> Array:
-        """The nodes from one place (2) to another: int (2 or more, 2)."""
+        """The nodes along the straight line from one point (2) to another [m]: int (2 or more, 2)."""
         count = int(np.hypot(*(end - start)) / (0.5 * self.plan.resolution)) + 2
         share = np.linspace(0.0, 1.0, count)[:, np.newaxis]
         return self.nodes(start * (1.0 - share) + end * share)
 
-    def is_marked(self, start: Array, end: Array) -> bool:
-        """Whether an obstacle that was met lies between one place (2) and another."""
-        nodes = self._line(start, end)
-        return bool(self._marked[nodes[:, 0], nodes[:, 1]].any())
+    def path(self, start: Array, end: Array) -> Optional[Array]:
+        """A short path from one point (2) to another [m]; None if there is none.
 
-    def way(self, start: Array, end: Array) -> Optional[Array]:
-        """A short way from one place (2) to another, float64 (2 or more, 2), or None where there is none.
-
-        It begins and ends at the places themselves, even where these are a little nearer to a wall than ways go.
+        Returns:
+            float64 (2 or more, 2) [m]. The path begins and ends at the points themselves, even if these are a little
+            nearer to a wall than the rest of a path may be.
         """
-        near = bool(np.hypot(*(end - start)) < AT_ONCE)
-        if self.is_straight(start, end, 0.0 if near else EASE):
+        is_near = bool(np.hypot(*(end - start)) < NEAR)
+        if self.is_straight(start, end, 0.0 if is_near else EXTRA_CLEARANCE):
             return np.array([start, end])
-        here, there = self.standing(self.nodes(np.array([start, end])))
-        found = self._search(here, there, int(DETOUR / self.plan.resolution))
+        first, last = self.standing(self.nodes(np.array([start, end])))
+        found = self._search(first, last, int(SEARCH_MARGIN / self.plan.resolution))
         if found is None:
-            found = self._search(here, there, max(self.room.shape))
+            found = self._search(first, last, max(self.clearance.shape))
         if found is None:
             return None
-        inner = self._straightened(self.places(found))
+        inner = self._straightened(self.points(found))
         return np.concatenate([[start], inner[1:-1] if len(inner) > 2 else inner, [end]])
 
-    def lengths_to(self, x: float, y: float) -> Array:
-        """Length of the way from each node to a place: float64 (rows + 1, columns + 1) [m]; inf where there is none."""
+    def path_lengths_to(self, x: float, y: float) -> Array:
+        """Length of the shortest path from each node to a point [m].
+
+        Returns:
+            float64 (rows + 1, columns + 1) [m]; inf at nodes from which no path leads there.
+        """
         search = graph.MCP_Geometric(np.where(self.fits, 1.0, -1.0))
         costs, _ = search.find_costs([self.standing_at(x, y)])
         return np.asarray(costs * self.plan.resolution)
 
-    def _search(self, here: Array, there: Array, margin: int) -> Optional[Array]:
-        """The cheapest way between nodes that keeps within so many nodes around both: int (any, 2)."""
-        top, left = np.maximum(np.minimum(here, there) - margin, 0)
-        bottom, right = np.maximum(here, there) + margin + 1
-        room = self.room[top:bottom, left:right]
-        shyness = SHYNESS * np.clip(1.0 - (room - self.reach) / SHY, 0.0, 1.0)
-        search = graph.MCP_Geometric(np.where(self.fits[top:bottom, left:right], 1.0 + shyness, -1.0))
-        end = tuple(there - (top, left))
-        costs, _ = search.find_costs([here - (top, left)], [end])
+    def _search(self, first: Array, last: Array, margin: int) -> Optional[Array]:
+        """The cheapest path between two nodes (2), or None: int (any, 2), nodes next to each other.
+
+        It stays in the rectangle around both nodes that is larger by `margin` nodes on each side.
+        """
+        top, left = np.maximum(np.minimum(first, last) - margin, 0)
+        bottom, right = np.maximum(first, last) + margin + 1
+        clearance = self.clearance[top:bottom, left:right]
+        inflation = INFLATION_COST * np.clip(1.0 - (clearance - self.reach) / INFLATION, 0.0, 1.0)
+        search = graph.MCP_Geometric(np.where(self.fits[top:bottom, left:right], 1.0 + inflation, -1.0))
+        end = tuple(last - (top, left))
+        costs, _ = search.find_costs([first - (top, left)], [end])
         return np.array(search.traceback(end)) + (top, left) if np.isfinite(costs[end]) else None
 
-    def _straightened(self, places: Array) -> Array:
-        """The way without the places that can be left out."""
-        kept, here, last = [0], 0, len(places) - 1
+    def _straightened(self, path: Array) -> Array:
+        """A path (any, 2) without the waypoints that it does not need.
+
+        From each waypoint that is kept, the next one is about the farthest that a straight line reaches: found by
+        doubling the step as long as the line is free, and then by bisection.
+        """
+        kept, here, last = [0], 0, len(path) - 1
         while here < last:
             low, high = here + 1, last + 1
-            hop = 2
-            while here + hop <= last and self.is_straight(places[here], places[here + hop], EASE):
-                low, hop = here + hop, 2 * hop
-            high = min(here + hop, last + 1)
+            step = 2
+            while here + step <= last and self.is_straight(path[here], path[here + step], EXTRA_CLEARANCE):
+                low, step = here + step, 2 * step
+            high = min(here + step, last + 1)
             while high - low > 1:
                 middle = (low + high) // 2
-                if self.is_straight(places[here], places[middle], EASE):
+                if self.is_straight(path[here], path[middle], EXTRA_CLEARANCE):
                     low = middle
                 else:
                     high = middle
             here = low
             kept.append(here)
-        return places[kept]
+        return path[kept]

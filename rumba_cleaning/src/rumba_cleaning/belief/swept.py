@@ -1,4 +1,4 @@
-"""What the brush of one robot passed over, as the robot knows it from its poses."""
+"""The floor that the brush of one robot has swept, computed from the poses that the robot knows."""
 
 from typing import Optional
 
@@ -12,8 +12,9 @@ from rumba_sim.model.geometry import Pose
 from rumba_sim.model.kernel import Array
 from rumba_sim.model.robot_config import RobotConfig
 
-ANY_RATE = 50  # [Hz] the constants of a brush do not depend on it
-LEAP = 0.5  # [m] between two poses is no drive: somebody put the robot elsewhere
+ANY_RATE = 50  # [Hz] `constants` asks for a rate, but the constants of a brush do not depend on it
+# Our choice: ten times what a robot drives at the default transit speed, 0.45 m/s, from one observation to the next.
+JUMP = 0.5  # [m] |dx| + |dy| from pose to pose: the robot did not drive there, somebody moved it
 
 
 class Swept:
@@ -24,7 +25,7 @@ class Swept:
     """
 
     def __init__(self, plan: FloorPlan, config: RobotConfig) -> None:
-        """Know the walls, and nothing swept or reachable yet: `begin` follows."""
+        """Know the walls, but no cell that is reachable or swept: call `begin` next."""
         self._plan = plan
         self._config = config
         self._constants = constants(config, plan, ANY_RATE)[0]
@@ -38,7 +39,7 @@ class Swept:
         self._reachable = 0
 
     def begin(self, x: float, y: float) -> None:
-        """Forget what was swept; what can be reached is counted from (x, y) [m].
+        """Forget what was swept, and find out which cells can be reached from (x, y) [m], map frame.
 
         Raises:
             MapError: the robot does not fit there.
@@ -51,7 +52,7 @@ class Swept:
         self._last = None
 
     def copy(self) -> 'Swept':
-        """Another memory that holds the same."""
+        """A memory with the same cells, which stays as it is if this one changes."""
         other = Swept(self._plan, self._config)
         other.cells[:] = self.cells
         other._reachable = self._reachable
@@ -59,26 +60,31 @@ class Swept:
         return other
 
     def follow(self, pose: Pose, brushes_up: bool) -> None:
-        """The robot is at a pose now [m, rad], map frame; on the way there its brushes were up, or down."""
+        """Take note of a new pose of the robot, and sweep from the pose before to this one.
+
+        Args:
+            pose: where the robot is now, map frame.
+            brushes_up: whether the brushes were up since the pose before: then nothing is swept.
+        """
         last, self._last = self._last, pose
-        if last is not None and not brushes_up and abs(pose.x - last.x) + abs(pose.y - last.y) < LEAP:
+        if last is not None and not brushes_up and abs(pose.x - last.x) + abs(pose.y - last.y) < JUMP:
             self.sweep(last, pose)
 
     def sweep(self, start: Pose, end: Pose) -> None:
-        """The brush went from one pose to another, not far away."""
+        """Sweep from one pose to another that is near, map frame."""
         self._brush['x'], self._brush['y'], self._brush['theta'] = end
         fast.sweep(self._brush, self._constants, self.cells, self._dirt, self._tally, *start)
 
     @property
     def coverage(self) -> float:
-        """Share of the reachable cells that was swept [0..1]; 1 where nothing can be reached."""
+        """Share of the reachable cells that was swept [0..1]; 1 if no cell can be reached."""
         return int(self._tally['swept']) / self._reachable if self._reachable else 1.0
 
     @property
     def reachable_area(self) -> float:
-        """What the brush can reach [m^2]."""
+        """Area that the brush can reach [m^2]."""
         return self._reachable * self._plan.resolution ** 2
 
     def missed(self) -> Array:
-        """Which cells are reachable and not swept yet: bool (rows, columns)."""
+        """Which cells can be reached and were not swept: bool (rows, columns)."""
         return np.asarray(self.cells & (kernel.REACHABLE | kernel.SWEPT) == kernel.REACHABLE)

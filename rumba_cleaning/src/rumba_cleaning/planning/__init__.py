@@ -1,1 +1,1 @@
-"""Plans the path along which a floor is cleaned."""
+"""Plans the route along which a robot cleans a floor."""

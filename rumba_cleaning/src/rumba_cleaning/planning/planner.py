@@ -1,4 +1,4 @@
-"""Plans how to clean what was missed: room by room, along the walls, in lanes between them, then the crumbs."""
+"""Plans how to clean what was missed: region by region, along the walls, in lanes between them, and then the crumbs."""
 
 from typing import Dict, List, Optional
 
@@ -8,56 +8,62 @@ from rumba_cleaning.behaviours.follower import Route
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.belief.ground import Ground
 from rumba_cleaning.planning.crumbs import crumbs, with_crumbs
-from rumba_cleaning.planning.lanes import cells
-from rumba_cleaning.planning.links import cell_manners
-from rumba_cleaning.planning.regions import rooms
+from rumba_cleaning.planning.lanes import blocks
+from rumba_cleaning.planning.links import block_variants
+from rumba_cleaning.planning.regions import regions
 from rumba_cleaning.planning.tour import Stretch, tour
 from rumba_cleaning.planning.turned_floor import main_direction
 from rumba_cleaning.planning.walls import Wall, walls
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.kernel import Array
 
-ENTRIES = 16  # places of a closed way at which it may be begun, at most ...
-APART = 10  # ... and so many of its places apart, at least
+# Our choice: more entries into a closed path give shorter tours, and take more time to compare.
+ENTRIES = 16  # waypoints at which a closed path may begin, at most, ...
+APART = 10  # ... and at least every so many waypoints: 0.2 m apart
 
-Rooms = Dict[int, List[Stretch]]
+Stretches = Dict[int, List[Stretch]]  # by the label of their region
 
 
 def plan(context: Context, pose: Pose) -> Optional[Route]:
-    """A route from a pose that cleans what was missed; None where there is nothing that can be.
+    """A route that cleans what was missed; None if nothing was missed, or none of it can be reached.
 
-    It passes crumbs only as far as they are needed for the target.
+    It visits only as many crumbs as the target needs.
+
+    Args:
+        context: with the floor that was swept before; it is not changed.
+        pose: from which the route begins, map frame.
     """
     ground, brush = context.ground, context.robot.brush.width
     start = np.array([pose.x, pose.y])
-    labels = rooms(ground)
+    labels = regions(ground)
     missed = context.swept.missed() & ground.within(0.5 * brush)
-    found: Rooms = {}
+    found: Stretches = {}
     for wall in walls(ground, missed, labels, brush):
-        found.setdefault(wall.room, []).append(Stretch(_manners(wall)))
+        found.setdefault(wall.region, []).append(Stretch(_wall_variants(wall)))
     angle = main_direction(ground)
-    for label, part in _by_room(ground, missed, labels).items():
-        for cell in cells(ground, part, brush, context.config.speed, angle):
-            found.setdefault(label, []).append(Stretch(cell_manners(ground, cell.lanes)))
+    for region, part in _by_region(ground, missed, labels).items():
+        for block in blocks(ground, part, brush, context.config.speed, angle):
+            found.setdefault(region, []).append(Stretch(block_variants(ground, block.lanes)))
     if found:
         return with_crumbs(context, _route(context, start, found))
     for crumb in crumbs(ground, context.swept.missed() & ground.within(0.5 * brush)):
-        room = int(labels[ground.node(*crumb.places[0])])
-        found.setdefault(room, []).append(Stretch([crumb.places]))
+        region = int(labels[ground.node(*crumb.waypoints[0])])
+        found.setdefault(region, []).append(Stretch([crumb.waypoints]))
     return _route(context, start, found)
 
 
-def _manners(wall: Wall) -> List[Array]:
-    """Either way along a wall; around an island from many places."""
+def _wall_variants(wall: Wall) -> List[Array]:
+    """The paths along a wall, in both directions: float64 (any, 2) [m] each; a closed one begins at many points."""
     if not wall.is_closed:
-        return [wall.places, wall.places[::-1]]
-    turned = [np.concatenate([wall.places[index:-1], wall.places[:index + 1]])
-              for index in range(0, len(wall.places) - 1, max(APART, len(wall.places) // ENTRIES))]
-    return turned + [places[::-1] for places in turned]
+        return [wall.waypoints, wall.waypoints[::-1]]
+    step = max(APART, len(wall.waypoints) // ENTRIES)
+    rotated = [np.concatenate([wall.waypoints[index:-1], wall.waypoints[:index + 1]])
+               for index in range(0, len(wall.waypoints) - 1, step)]
+    return rotated + [path[::-1] for path in rotated]
 
 
-def _by_room(ground: Ground, missed: Array, labels: Array) -> Dict[int, Array]:
-    """What was missed in each room: bool (rows, columns)."""
+def _by_region(ground: Ground, missed: Array, labels: Array) -> Dict[int, Array]:
+    """The cells to clean in each region: bool (rows, columns) each."""
     indices = np.argwhere(missed)
     nodes = ground.standing(indices)
     of_cells = np.zeros(missed.shape, labels.dtype)
@@ -65,26 +71,27 @@ def _by_room(ground: Ground, missed: Array, labels: Array) -> Dict[int, Array]:
     return {int(label): missed & (of_cells == label) for label in np.unique(of_cells[missed])}
 
 
-def _route(context: Context, start: Array, found: Rooms) -> Optional[Route]:
-    """Through all rooms; what cannot be reached is left out."""
+def _route(context: Context, start: Array, found: Stretches) -> Optional[Route]:
+    """The route through all regions from a point (2) [m]; it leaves out what cannot be reached."""
     if not found:
         return None
     config, ground = context.config, context.ground
-    places, speeds = [start[np.newaxis]], []
-    doors = {room: _middle(stretches) for room, stretches in found.items()}
-    order = [list(doors)[index] for index, _ in tour(ground, start, [Stretch([door]) for door in doors.values()])]
-    for room, following in zip(order, [*order[1:], None]):
-        end = doors[following][0] if following is not None else None
-        for index, manner in tour(ground, places[-1][-1], found[room], end):
-            stretch = found[room][index].manners[manner]
-            way = ground.way(places[-1][-1], stretch[0])
-            if way is not None:
-                places += [way[1:], stretch[1:]]
-                speeds += [np.full(len(way) - 1, config.transit_speed), np.full(len(stretch) - 1, config.speed)]
-    return Route(np.concatenate(places), np.concatenate(speeds)) if speeds else None
+    waypoints, speeds = [start[np.newaxis]], []
+    entries = {region: _middle_entry(stretches) for region, stretches in found.items()}
+    order = [list(entries)[index]
+             for index, _ in tour(ground, start, [Stretch([entry]) for entry in entries.values()])]
+    for region, following in zip(order, [*order[1:], None]):
+        end = entries[following][0] if following is not None else None
+        for index, variant in tour(ground, waypoints[-1][-1], found[region], end):
+            stretch = found[region][index].variants[variant]
+            path = ground.path(waypoints[-1][-1], stretch[0])
+            if path is not None:
+                waypoints += [path[1:], stretch[1:]]
+                speeds += [np.full(len(path) - 1, config.transit_speed), np.full(len(stretch) - 1, config.speed)]
+    return Route(np.concatenate(waypoints), np.concatenate(speeds)) if speeds else None
 
 
-def _middle(stretches: List[Stretch]) -> Array:
-    """The entry of stretches that is nearest to their middle: float64 (1, 2)."""
-    entries = np.array([manner[0] for stretch in stretches for manner in stretch.manners])
+def _middle_entry(stretches: List[Stretch]) -> Array:
+    """The first point of a variant that is nearest to the mean of all these points: float64 (1, 2) [m]."""
+    entries = np.array([variant[0] for stretch in stretches for variant in stretch.variants])
     return entries[[int(np.argmin(np.hypot(*(entries - entries.mean(axis=0)).T)))]]

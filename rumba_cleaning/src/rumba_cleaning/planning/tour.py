@@ -1,4 +1,4 @@
-"""In which order, and from which end, to drive a number of ways, so that the way between them is short."""
+"""The order, and the direction, in which to drive a number of paths so that the distance between them is short."""
 
 import math
 from typing import List, NamedTuple, Optional, Sequence, Tuple
@@ -10,28 +10,34 @@ from scipy.sparse import csgraph
 from rumba_cleaning.belief.ground import Ground
 from rumba_sim.model.kernel import Array
 
-NODES = 6_000  # of the graph on which distances are counted, at most about
-FAR = 1e6  # [m] what cannot be reached
-AROUND = 1.5  # [m] around the places, ways are looked for first
-ROUNDS = 20
-TOGETHER = (1, 2, 3, 4, 6)  # so many ways that follow each other are tried elsewhere
-BETTER = 1e-6  # [m]
+NODES = 6_000  # of the coarse graph, about; bench/planning.py: offices of 1000 x 700 cells are planned within 10 s
+FAR = 1e6  # [m] stands for a distance if no path exists: finite, so that sums of it can be compared
+AROUND = 1.5  # [m] around all points is searched first; our choice: more finds longer paths, on a coarser graph
+ROUNDS = 20  # of improvement, at most; our choice: most tours stop improving earlier
+SEGMENTS = (1, 2, 3, 4, 6)  # stretches that are moved together; our choice: longer segments take more time to try
+BETTER = 1e-6  # [m] an improvement: more than rounding errors, or the search would not end
 NEIGHBOURS = ((0, 1, 1.0), (1, 0, 1.0), (1, 1, 2.0 ** 0.5), (1, -1, 2.0 ** 0.5))  # rows, columns, length
 
 
 class Stretch(NamedTuple):
-    """A way that is to be driven in one of several manners, such as from either end."""
+    """A part of the floor to clean, by one of several paths, such as a path from either end."""
 
-    manners: List[Array]  # float64 (any, 2) [m] each
+    variants: List[Array]  # float64 (any, 2) [m] each
 
 
 def distances(ground: Ground, starts: Array, ends: Array) -> Array:
-    """Length of the shortest way from each of the places (n, 2) to each of (m, 2): float64 (n, m) [m], about.
+    """Length of the shortest path from each start to each end, about.
 
-    FAR where there is no way.
+    Args:
+        ground: where the robot can stand.
+        starts: points (n, 2) [m].
+        ends: points (m, 2) [m].
+
+    Returns:
+        float64 (n, m) [m]; FAR if there is no path.
     """
     straight = np.hypot(*(starts[:, np.newaxis] - ends[np.newaxis]).transpose(2, 0, 1))
-    nodes = [ground.standing(ground.nodes(places)) for places in (starts, ends)]
+    nodes = [ground.standing(ground.nodes(points)) for points in (starts, ends)]
     both = np.concatenate(nodes)
     around = int(AROUND / ground.plan.resolution)
     on_grid = _on_grid(ground.fits, nodes, np.maximum(both.min(axis=0) - around, 0), both.max(axis=0) + around + 1)
@@ -41,20 +47,31 @@ def distances(ground: Ground, starts: Array, ends: Array) -> Array:
 
 
 def _on_grid(fits: Array, nodes: List[Array], low: Array, high: Array) -> Array:
-    """Lengths within a window of the nodes, on a coarser graph of where the robot can stand [nodes]."""
+    """Lengths within a window of the nodes, on a coarser graph of the nodes at which the robot can stand.
+
+    A node of the coarse graph is free if any of the nodes that it stands for is: a passage is not closed by coarseness.
+
+    Args:
+        fits: bool (rows + 1, columns + 1).
+        nodes: two arrays, the starts int (n, 2) and the ends int (m, 2).
+        low, high: corners of the window, (row, column).
+
+    Returns:
+        float64 (n, m) [nodes]
+    """
     fits = fits[low[0]:high[0], low[1]:high[1]]
     step = max(math.ceil(math.sqrt(fits.size / NODES)), 1)
     rows, columns = (-(-size // step) for size in fits.shape)
     padded = np.zeros((rows * step, columns * step), np.bool_)
     padded[:fits.shape[0], :fits.shape[1]] = fits
     free = padded.reshape(rows, step, columns, step).any(axis=(1, 3))
-    starts, ends = (((places - low) // step) @ np.array([columns, 1]) for places in nodes)
+    starts, ends = (((part - low) // step) @ np.array([columns, 1]) for part in nodes)
     sources, which = np.unique(starts, return_inverse=True)
     return np.asarray(csgraph.dijkstra(_graph(free), indices=sources)[which][:, ends] * step)
 
 
 def _graph(free: Array) -> sparse.csr_matrix:
-    """A node for each element of bool (rows, columns), edges between free neighbours."""
+    """A graph with a node for each element of bool (rows, columns), and edges between free neighbours."""
     rows, columns = free.shape
     numbers = np.arange(free.size).reshape(free.shape)
     starts, ends, lengths = [], [], []
@@ -71,76 +88,88 @@ def _graph(free: Array) -> sparse.csr_matrix:
 
 def tour(ground: Ground, start: Array, stretches: Sequence[Stretch],
          end: Optional[Array] = None) -> List[Tuple[int, int]]:
-    """The order in which to drive stretches, each as (its index, its manner).
+    """The order in which to drive stretches, each by which of its variants.
 
-    Cheapest insertion, then moving one or a few together to where they cost less, as long as that helps.
+    Cheapest insertion, then or-opt: segments of the tour are moved to where they cost less, as long as that helps
+    (I. Or, Traveling Salesman-Type Combinatorial Problems, 1976).
 
     Args:
         ground: where the robot can stand.
-        start: place (2) from which it begins.
+        start: point (2) from which the tour begins [m].
         stretches: what is to be driven.
-        end: place (2) near which it had best end; None: anywhere.
+        end: point (2) to which the robot goes afterwards [m]; None: it stays where the tour ends.
+
+    Returns:
+        Indices (stretch, variant).
     """
-    planner = _Planner(ground, start, stretches, end)
-    return [planner.manners[index] for index in planner.best()]
+    search = _Search(ground, start, stretches, end)
+    return [search.variants[index] for index in search.best()]
 
 
-class _Planner:
-    """Every manner of every stretch has an index; a tour is a list of these, one for each stretch."""
+class _Search:
+    """Finds a tour: a list with one variant of each stretch, as indices into `variants`."""
 
     def __init__(self, ground: Ground, start: Array, stretches: Sequence[Stretch], end: Optional[Array]) -> None:
-        self.manners = [(index, manner) for index, stretch in enumerate(stretches)
-                        for manner in range(len(stretch.manners))]
-        entries = np.array([stretches[index].manners[manner][0] for index, manner in self.manners])
-        exits = np.array([stretches[index].manners[manner][-1] for index, manner in self.manners])
-        self._of_stretch = [np.flatnonzero([index == stretch for index, _ in self.manners])
+        self.variants = [(index, variant) for index, stretch in enumerate(stretches)
+                         for variant in range(len(stretch.variants))]
+        entries = np.array([stretches[index].variants[variant][0] for index, variant in self.variants])
+        exits = np.array([stretches[index].variants[variant][-1] for index, variant in self.variants])
+        self._of_stretch = [np.flatnonzero([index == stretch for index, _ in self.variants])
                             for stretch in range(len(stretches))]
-        self._start = len(exits)  # what comes before the first stretch, as an index
-        self._costs = distances(ground, np.vstack([exits, start]), entries)  # from exit to entry
-        self._last = np.zeros(len(exits) + 1)  # from exit to the end of the tour
+        self._start = len(exits)  # index of the start of the tour, as if it were a variant
+        self._costs = distances(ground, np.vstack([exits, start]), entries)  # [m] from exit to entry
+        self._last = np.zeros(len(exits) + 1)  # [m] from exit to the end of the tour
         if end is not None:
             self._last[:-1] = distances(ground, exits, end[np.newaxis])[:, 0]
 
     def best(self) -> List[int]:
-        """A good tour."""
+        """A short tour."""
         found: List[int] = []
         left = list(range(len(self._of_stretch)))
         while left:
-            _, place, manner = min(self._insertion(found, self._of_stretch[stretch]) for stretch in left)
-            found.insert(place, manner)
-            left.remove(self.manners[manner][0])
+            _, slot, variant = min(self._insertion(found, self._of_stretch[stretch]) for stretch in left)
+            found.insert(slot, variant)
+            left.remove(self.variants[variant][0])
         for _ in range(ROUNDS):
             before = self._length(found)
-            for count in TOGETHER:
+            for count in SEGMENTS:
                 found = self._moved(found, count)
             if self._length(found) > before - BETTER:
                 break
         return found
 
     def _length(self, found: List[int]) -> float:
+        """Distance that is driven between the stretches of a tour [m]."""
         return float(self._costs[[self._start, *found[:-1]], found].sum() + self._last[found[-1]])
 
     def _moved(self, found: List[int], count: int) -> List[int]:
-        """The tour with so many that follow each other put where they cost least, tried for each."""
+        """A tour after each of its segments of `count` stretches was moved to the slot where it costs least.
+
+        A single stretch may also get another of its variants.
+        """
         for first in range(len(found) - count + 1):
             part, rest = found[first:first + count], found[:first] + found[first + count:]
             if count == 1:
-                _, place, part[0] = self._insertion(rest, self._of_stretch[self.manners[part[0]][0]])
+                _, slot, part[0] = self._insertion(rest, self._of_stretch[self.variants[part[0]][0]])
             else:
-                place = int(np.argmin(self._added(rest, np.array([part[0]]), np.array([part[-1]]))[:, 0]))
-            moved = rest[:place] + part + rest[place:]
+                slot = int(np.argmin(self._added(rest, np.array([part[0]]), np.array([part[-1]]))[:, 0]))
+            moved = rest[:slot] + part + rest[slot:]
             if self._length(moved) < self._length(found) - BETTER:
                 found = moved
         return found
 
-    def _insertion(self, found: List[int], manners: Array) -> Tuple[float, int, int]:
-        """Least cost of adding one of these manners, where, and which."""
-        added = self._added(found, manners, manners)
-        place, which = np.unravel_index(int(np.argmin(added)), added.shape)
-        return float(added[place, which]), int(place), int(manners[which])
+    def _insertion(self, found: List[int], variants: Array) -> Tuple[float, int, int]:
+        """The cheapest way to add one of these variants to a tour: its cost [m], the slot and the variant."""
+        added = self._added(found, variants, variants)
+        slot, which = np.unravel_index(int(np.argmin(added)), added.shape)
+        return float(added[slot, which]), int(slot), int(variants[which])
 
     def _added(self, found: List[int], firsts: Array, lasts: Array) -> Array:
-        """Cost of putting parts, from each first to each last, at each place: float64 (len(found) + 1, parts)."""
+        """Cost of segments, each from its first to its last variant, in each slot of a tour.
+
+        Returns:
+            float64 (len(found) + 1, segments) [m]
+        """
         before = np.array([self._start, *found])
         added = self._costs[before][:, firsts]
         if found:

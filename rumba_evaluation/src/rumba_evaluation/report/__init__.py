@@ -1,1 +1,1 @@
-"""The page that tells of one recorded mission."""
+"""The report of one recorded mission as an HTML page."""

@@ -1,36 +1,37 @@
-"""What was recorded of a mission, as plain arrays, and the figures that follow from it."""
+"""The record of a mission as plain arrays, and the figures that follow from it."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, List, NamedTuple, Optional, Sequence, Tuple
+from typing import TYPE_CHECKING, Any, Dict, List, NamedTuple, Optional, Sequence, Tuple
 
 import numpy as np
+
+from rumba_cleaning.mission.mission import State
 
 if TYPE_CHECKING:  # NumPy 1.17 of Ubuntu 20.04 has no numpy.typing
     from numpy.typing import NDArray
 
     Floats = NDArray[np.float64]
 
-STATES = ('idle', 'undocking', 'cleaning', 'returning', 'docking', 'charging', 'going to a point', 'stranded')
-IDLE, CLEANING, STRANDED = STATES.index('idle'), STATES.index('cleaning'), STATES.index('stranded')
-LEAP = 0.5  # [m] from one pose to the next: somebody put the robot elsewhere, ...
-RUSH = 1.0  # [m/s] ... unless the poses are so sparse that it can have driven, twice as fast as a Rumba can
-MOVING = 0.01  # [m/s] slower than that it stands, or turns
-BREAK = 2.0  # [s] so short an interruption of contacts or charger is none
+NAMES: Dict[int, str] = {state: state.name.lower().replace('_', ' ') for state in State}
+JUMP = 0.5  # [m] from one pose to the next: somebody put the robot elsewhere, ...
+FASTEST = 1.0  # [m/s] ... unless it can have driven there in that time; twice the speed of a Rumba
+MOVING = 0.01  # [m/s] at a lower speed the robot stands or turns
+BREAK = 2.0  # [s] shorter interruptions of docking or charging are ignored
 FULL = 99.9  # [%]
 
 Span = Tuple[float, float]
 
 
 class Series(NamedTuple):
-    """Samples in order of time: times (n,) [s], values (n,) or (n, k). None at all where nothing was recorded."""
+    """Samples in order of time: times (n,) [s], values (n,) or (n, k). Empty if nothing was recorded."""
 
     times: Floats
     values: Floats
 
     def at(self, time: Any) -> Any:
-        """The values that were in force at times [s]: those of the last sample up to then, or of the first of all."""
+        """The values at times [s]: those of the last sample before each time, or of the first sample of all."""
         return self.values[np.maximum(np.searchsorted(self.times, time, side='right') - 1, 0)]
 
 
@@ -38,7 +39,7 @@ NOTHING = Series(np.zeros(0), np.zeros(0))
 
 
 def series(times: Sequence[float], values: Any) -> Series:
-    """Samples put in order of time, without those that are not finite."""
+    """Samples sorted by time, without those that are not finite."""
     if not len(times):
         return NOTHING
     stamps, samples = np.asarray(times, float), np.asarray(values, float)
@@ -51,7 +52,7 @@ class Grid(NamedTuple):
     """Cells of a nav_msgs/OccupancyGrid.
 
     Attributes:
-        cells: int8 (rows, columns), row 0 at the bottom; -1 where nothing is known.
+        cells: int8 (rows, columns), row 0 at the bottom; -1: unknown.
         resolution: edge of a cell [m].
         left: x of the outer edge of column 0 [m].
         bottom: y of the outer edge of row 0 [m].
@@ -64,7 +65,7 @@ class Grid(NamedTuple):
 
 
 class MissionState(NamedTuple):
-    """What a rumba_msg/MissionStatus said at a time [s]."""
+    """The content of a rumba_msg/MissionStatus at a time [s]."""
 
     time: float
     state: int
@@ -73,8 +74,8 @@ class MissionState(NamedTuple):
 
     @property
     def name(self) -> str:
-        """The state in words."""
-        return STATES[self.state] if 0 <= self.state < len(STATES) else f'state {self.state}'
+        """The state in words; its number if it is none of the known states."""
+        return NAMES.get(self.state, f'state {self.state}')
 
 
 @dataclass(frozen=True)
@@ -88,16 +89,16 @@ class MissionRecord:
         charge: of the battery [%]; not empty.
         began: stamp of time 0 [s].
         power: into the battery [W], negative while it is used.
-        charging: 1 while the charger feeds the battery, else 0.
+        charging: 1 while the battery is charged, else 0.
         docked: 1 while the contacts are closed, else 0.
         pressed: 1 while the bumper is pressed, else 0.
         fallen: 1 while a wheel hangs over a cliff, else 0.
         coverage: share of the floor that is swept [0..1].
         areas: swept, and within reach [m^2], at the end.
-        states: what the mission said, in order of time.
+        states: the mission's states, in order of time.
         floor: the map: 0 free, 100 wall.
         swept: at the end: 100 swept, 0 missed, -1 out of reach.
-        remarks: what a reader should know of the recording, a sentence each.
+        remarks: sentences about the recording for the reader.
     """
 
     source: str
@@ -126,7 +127,7 @@ class MissionRecord:
 # --- parts of the time ----------------------------------------------------------------------------------------------
 
 def spans(flags: Series) -> List[Span]:
-    """When flags were up: from the first sample that is to the next that is not, without interruptions up to BREAK."""
+    """When flags were 1: from the first sample that is 1 to the next that is 0; breaks up to BREAK are ignored."""
     found: List[Span] = []
     up = flags.values > 0.5
     edges = np.flatnonzero(np.diff(np.concatenate([[False], up, [False]]).astype(np.int8)))
@@ -139,13 +140,13 @@ def spans(flags: Series) -> List[Span]:
 
 
 def rises(flags: Series) -> Floats:
-    """Times at which flags went up [s]; that they were up from the first is no rise."""
+    """Times [s] at which flags changed from 0 to 1; a first sample of 1 does not count."""
     up = flags.values > 0.5
     return flags.times[1:][up[1:] & ~up[:-1]]
 
 
 def charging_spans(record: MissionRecord) -> List[Span]:
-    """When the battery was charged: as it says itself; else while docked and not full; else while its charge rose."""
+    """When the battery was charged: by its own status; else while docked and not full; else while its charge rose."""
     if len(record.charging.times):
         return spans(record.charging)
     if len(record.docked.times):
@@ -155,7 +156,7 @@ def charging_spans(record: MissionRecord) -> List[Span]:
 
 
 def _rising(charge: Series) -> List[Span]:
-    """From the last sample before a charge rose to the one from which it rose no more."""
+    """Times in which a charge rose: from the last sample before a rise to the last sample of that rise."""
     found: List[Span] = []
     was_rising = False
     for before in np.flatnonzero(np.diff(charge.values)):
@@ -168,21 +169,21 @@ def _rising(charge: Series) -> List[Span]:
 
 
 def state_spans(record: MissionRecord) -> List[Tuple[float, float, MissionState]]:
-    """What the mission was at, from when to when [s]; of what it said of a state, the first message."""
+    """Begin [s], end [s] and first message of each state, one after another."""
     changes = [state for index, state in enumerate(record.states)
                if index == 0 or state.state != record.states[index - 1].state]
     ends = [state.time for state in changes[1:]] + [max(record.duration, changes[-1].time)] if changes else []
     return [(state.time, end, state) for state, end in zip(changes, ends)]
 
 
-def leaps(path: Series) -> NDArray[np.intp]:
-    """Indices of the poses to which the robot cannot have driven from the one before."""
+def jumps(path: Series) -> NDArray[np.intp]:
+    """Indices of the poses that the robot cannot have reached by driving from the pose before."""
     step, gap = _steps(path)
-    return np.flatnonzero((step > LEAP) & (step > RUSH * gap)) + 1
+    return np.flatnonzero((step > JUMP) & (step > FASTEST * gap)) + 1
 
 
 def _steps(path: Series) -> Tuple[Floats, Floats]:
-    """Way [m] and time [s] from each pose to the next."""
+    """Distance [m] and time [s] from each pose to the next."""
     return np.hypot(*np.diff(path.values, axis=0).T), np.diff(path.times)
 
 
@@ -190,10 +191,10 @@ def _steps(path: Series) -> Tuple[Floats, Floats]:
 
 @dataclass(frozen=True)
 class Summary:
-    """A mission in figures; None where nothing tells."""
+    """A mission in figures; None: not recorded."""
 
     duration: float  # [s]
-    busy: Optional[float]  # [s] in which the mission was not idle
+    busy: Optional[float]  # [s] during which the mission was not idle
     distance: float  # [m]
     driving_time: float  # [s]
     mean_speed: Optional[float]  # [m/s] while it drove
@@ -201,10 +202,10 @@ class Summary:
     areas: Optional[Tuple[float, float]]  # swept, and within reach [m^2]
     charges: int
     charging_time: float  # [s]
-    charge: Tuple[float, float, float]  # at the beginning, at the end, least [%]
+    charge: Tuple[float, float, float]  # at the beginning, at the end, lowest [%]
     energy: Optional[Tuple[float, float]]  # used, and charged [Wh]
     bumps: Optional[int]
-    leaps: int
+    jumps: int
     outcome: str
 
 
@@ -212,7 +213,7 @@ def summary(record: MissionRecord) -> Summary:
     """The figures of a mission."""
     step, gap = _steps(record.path)
     driven = np.ones(len(step), bool)
-    driven[leaps(record.path) - 1] = False
+    driven[jumps(record.path) - 1] = False
     moving = driven & (step > MOVING * gap)
     distance, driving_time = float(step[driven].sum()), float(gap[moving].sum())
     charging = charging_spans(record)
@@ -227,8 +228,8 @@ def summary(record: MissionRecord) -> Summary:
 
 
 def _busy(record: MissionRecord) -> Optional[float]:
-    said = state_spans(record)
-    return sum(end - begin for begin, end, state in said if state.state != IDLE) if said else None
+    found = state_spans(record)
+    return sum(end - begin for begin, end, state in found if state.state != State.IDLE) if found else None
 
 
 def _energy(power: Series) -> Optional[Tuple[float, float]]:
@@ -241,12 +242,20 @@ def _energy(power: Series) -> Optional[Tuple[float, float]]:
 
 
 def _outcome(record: MissionRecord) -> str:
-    """How it ended, in words; empty where no mission said anything."""
+    """How the mission ended, in words; empty if no state was recorded."""
     if not record.states:
         return ''
     last = record.states[-1]
-    was_at_work = any(state.state != IDLE for state in record.states)
-    said = next((state.message for state in reversed(record.states) if state.message), '')
-    verdict = (last.name if last.state == STRANDED else f'under way when the recording ended, {last.name}'
-               if last.state != IDLE else 'ended' if was_at_work else last.name)
-    return f'{verdict}: {said}' if said else verdict
+    was_busy = any(state.state != State.IDLE for state in record.states)
+    message = next((state.message for state in reversed(record.states) if state.message), '')
+    if last.state == State.IDLE:
+        outcome = 'ended' if was_busy else last.name
+    else:
+        outcome = last.name if last.state == State.STRANDED else f'not ended when the recording ended, {last.name}'
+    return f'{outcome}: {message}' if message else outcome
+
+
+def clock(seconds: float) -> str:
+    """A time since the beginning [s] as h:mm:ss, rounded."""
+    whole = max(int(round(seconds)), 0)
+    return f'{whole // 3600}:{whole // 60 % 60:02d}:{whole % 60:02d}'

@@ -1,4 +1,4 @@
-"""The figures of a mission's report, as markup that goes into the page."""
+"""The figures of a mission's report as markup for the page; needs matplotlib."""
 
 from __future__ import annotations
 
@@ -7,40 +7,45 @@ import html
 import io
 import math
 import re
-from typing import Any, NamedTuple, Sequence, Tuple
+from typing import Any, Dict, NamedTuple, Sequence, Tuple
 
 import matplotlib
 import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator, MultipleLocator
 
-from rumba_evaluation.report.mission_events import LOW, bump_places, contacts
-from rumba_evaluation.report.mission_record import STATES, Grid, MissionRecord, charging_spans, leaps, state_spans
+from rumba_cleaning.mission.mission import State
+from rumba_evaluation.report.mission_events import LOW, bump_positions, contacts
+from rumba_evaluation.report.mission_record import Grid, MissionRecord, charging_spans, jumps, state_spans
 
-# What the page calls a colour: in light, and in dark. Those of the light page stand in the SVG until they are replaced
-# by the name, so no two may be the same.
+# Colours of the page by name, on a light and on a dark screen. matplotlib draws with the light ones; _inline replaces
+# them by their names, so that no two may be equal.
 COLOURS = {
     'ink': ('#1f2933', '#e4e7eb'), 'faint': ('#7b8794', '#9aa5b1'), 'rule': ('#d9dee4', '#3a444f'),
     'path': ('#1d5f9e', '#7cb8f0'), 'bump': ('#c2323c', '#ff7b82'), 'dock': ('#7a3fb0', '#c79bf2'),
     'battery': ('#33691e', '#9ccc65'), 'charging': ('#d4a40c', '#d9b23c'),
-    # Those of cells are the same in the dark, since cells are pictures.
+    # Cells are drawn as pictures, which are the same on both screens.
     'swept': ('#2f9e6e', '#2f9e6e'), 'missed': ('#e08a1e', '#e08a1e'), 'wall': ('#6b7783', '#6b7783')}
-STATE_COLOURS = ('#9aa5b1', '#cf9fdb', '#2b9c6c', '#e0762b', '#8e5bbf', '#e3c01f', '#3b82c4', '#c9353f')
+STATE_COLOURS: Dict[int, str] = {
+    State.IDLE: '#9aa5b1', State.UNDOCKING: '#cf9fdb', State.CLEANING: '#2b9c6c', State.RETURNING: '#e0762b',
+    State.DOCKING: '#8e5bbf', State.CHARGING: '#e3c01f', State.GOING_TO: '#3b82c4', State.STRANDED: '#c9353f',
+    State.YIELDING: '#6d4c41'}
+UNKNOWN_STATE = '#000000'
 STYLE = {'svg.fonttype': 'none', 'svg.hashsalt': 'report', 'image.composite_image': False, 'font.size': 8.5,
          'axes.linewidth': 0.6, 'path.simplify': True, 'path.simplify_threshold': 0.25, 'agg.path.chunksize': 10000}
 MARGINS = (36.0, 31.0, 8.0, 6.0)  # left, bottom, right, top of the axes [1/72 inch]
 WIDTH, HEIGHT = 245.0, 130.0  # of the axes of a curve [1/72 inch]
 MAP_WIDTH, MAP_HEIGHT = 265.0, 340.0  # at most, of the axes of the map [1/72 inch]
-LARGE = 500_000  # characters of SVG, from which on a picture is smaller
-DOTS = 180  # of such a picture, an inch
+LARGE = 500_000  # characters of SVG; above that a PNG picture is smaller
+DOTS = 180  # per inch of such a picture
 MARGIN = 0.15  # [m] around the map
-MOST_CELLS = 800  # in a row or column that are drawn; finer grids are drawn coarser
-FEWEST_DOTS = 400  # in a row or column of a picture of cells, lest a viewer blur them
-OCCUPIED_PERCENT = 65  # [%] map_server's threshold: a cell that is as probably occupied is one
+MOST_CELLS = 800  # drawn in a row or column; finer grids are drawn with larger cells
+FEWEST_DOTS = 400  # in a row or column of a picture of cells; browsers blur pictures with fewer
+OCCUPIED_PERCENT = 65  # [%] from this probability on a cell is a wall: occupied_thresh 0.65 of map_server's examples
 
 
 class Figures(NamedTuple):
-    """The figures as markup; empty where there is nothing to show."""
+    """The figures as markup; an empty string if there is nothing to show."""
 
     path: str
     coverage: str
@@ -55,7 +60,7 @@ def figures(record: MissionRecord) -> Figures:
 
 
 def _path_over_map(record: MissionRecord) -> str:
-    """Where the robot was, over the map and the floor that was swept and missed; equal axes, y up."""
+    """The path over the map, with swept and missed floor; both axes have the same scale, y is up."""
     left, bottom, right, top = _view(record)
     scale = min(MAP_WIDTH / (right - left), MAP_HEIGHT / (top - bottom))
     figure, axes = _canvas((right - left) * scale, (top - bottom) * scale)
@@ -67,9 +72,9 @@ def _path_over_map(record: MissionRecord) -> str:
         _show(axes, record.swept, (('missed', 170, 0), ('swept', 90, 100)))
     if record.floor is not None:
         _show(axes, record.floor, (('wall', 255, OCCUPIED_PERCENT),))
-    places = np.insert(record.path.values, leaps(record.path), math.nan, axis=0)  # a line ends where it was put away
-    axes.plot(*places.T, color=_colour('path'), linewidth=0.55, gid='path')
-    axes.plot(*bump_places(record).values.reshape(-1, 2).T, 'x', color=_colour('bump'), markersize=3.2,
+    points = np.insert(record.path.values, jumps(record.path), math.nan, axis=0)  # NaN makes a gap in the line
+    axes.plot(*points.T, color=_colour('path'), linewidth=0.55, gid='path')
+    axes.plot(*bump_positions(record).values.reshape(-1, 2).T, 'x', color=_colour('bump'), markersize=3.2,
               markeredgewidth=0.7, gid='bumps')
     for x, y in contacts(record):
         axes.plot(x, y, 'D', color=_colour('dock'), markersize=8.0, fillstyle='none', markeredgewidth=1.3)
@@ -81,7 +86,7 @@ def _path_over_map(record: MissionRecord) -> str:
 
 
 def _coverage_over_time(record: MissionRecord) -> str:
-    """The share of the floor that was swept, and below it what the mission was at."""
+    """The share of the floor that was swept, and below it the states of the mission."""
     states = state_spans(record)
     figure, axes = _canvas(WIDTH, HEIGHT)
     unit = _time_axis(axes, record.duration)
@@ -93,11 +98,11 @@ def _coverage_over_time(record: MissionRecord) -> str:
                      facecolors=[state_colour(state.state) for _, _, state in states])
     last = f'{100.0 * record.coverage.values[-1]:.1f} % at the end'
     return _markup(figure, 'coverage', f'Share of the floor that is swept over time, {last}'
-                   + ('; below it what the mission was at' if states else ''))
+                   + ('; below it the states of the mission' if states else ''))
 
 
 def _battery_over_time(record: MissionRecord) -> str:
-    """The charge of the battery, with the times at which it was charged."""
+    """The charge of the battery; times of charging are shaded."""
     figure, axes = _canvas(WIDTH, HEIGHT)
     unit = _time_axis(axes, record.duration)
     charging = charging_spans(record)
@@ -112,8 +117,8 @@ def _battery_over_time(record: MissionRecord) -> str:
 
 
 def state_colour(state: int) -> str:
-    """The colour of a state of the mission, on light and on dark."""
-    return STATE_COLOURS[state % len(STATES)]
+    """The colour of a mission's state, on both screens."""
+    return STATE_COLOURS.get(state, UNKNOWN_STATE)
 
 
 # --- drawing --------------------------------------------------------------------------------------------------------
@@ -123,7 +128,7 @@ def _colour(name: str) -> str:
 
 
 def _canvas(width: float, height: float) -> Tuple[Any, Any]:
-    """A figure, and axes of a size [1/72 inch] in it."""
+    """A figure with axes of a size [1/72 inch]."""
     left, bottom, right, top = MARGINS
     whole, high = width + left + right, height + bottom + top
     figure = Figure(figsize=(whole / 72.0, high / 72.0))
@@ -141,7 +146,7 @@ def _canvas(width: float, height: float) -> Tuple[Any, Any]:
 
 
 def _time_axis(axes: Any, duration: float) -> float:
-    """Label the time; returns the seconds of its unit."""
+    """Label the time axis in a unit that fits; returns that unit [s]."""
     unit, name = next(((unit, name) for unit, name, most in ((1.0, 's', 180.0), (60.0, 'min', 10800.0))
                        if duration <= most), (3600.0, 'h'))
     axes.set(xlim=(0.0, max(duration, 1.0) / unit), xlabel=f'time [{name}]')
@@ -150,27 +155,27 @@ def _time_axis(axes: Any, duration: float) -> float:
 
 
 def _view(record: MissionRecord) -> Tuple[float, float, float, float]:
-    """Left, bottom, right and top of all that is worth a look [m]."""
+    """Left, bottom, right and top of what the map shows [m]."""
     corners = [record.path.values]
     for grid in (record.floor, record.swept):
         if grid is not None and (grid.cells >= 0).any():
             known = np.argwhere(grid.cells >= 0)
             rows_columns = np.array([known.min(axis=0), known.max(axis=0) + 1])
             corners.append(rows_columns[:, ::-1] * grid.resolution + (grid.left, grid.bottom))
-    places = np.concatenate(corners)
-    (left, bottom), (right, top) = places.min(axis=0) - MARGIN, places.max(axis=0) + MARGIN
+    points = np.concatenate(corners)
+    (left, bottom), (right, top) = points.min(axis=0) - MARGIN, points.max(axis=0) + MARGIN
     lack = 0.5 * np.maximum(0.25 * max(right - left, top - bottom) - (right - left, top - bottom), 0.0)
     return left - lack[0], bottom - lack[1], right + lack[0], top + lack[1]  # nothing is narrower than 1 : 4
 
 
 def _round_step(length: float) -> float:
-    """A round distance [m], some of which make up a length."""
+    """The largest round distance [m] (1, 2, 5, 10, ...) that fits at least four times into a length."""
     power = 10.0 ** math.floor(math.log10(length / 4.0))
     return max(step * power for step in (1.0, 2.0, 5.0) if step * power <= length / 4.0)
 
 
 def _show(axes: Any, grid: Grid, layers: Sequence[Tuple[str, int, int]]) -> None:
-    """Draw cells: for each layer a colour, its opacity [0..255], and the least value of its cells; later ones win."""
+    """Draw cells: a layer is a colour, its opacity [0..255] and the least value of its cells; later layers win."""
     longest = max(grid.cells.shape)
     block, finer = -(-longest // MOST_CELLS), max(FEWEST_DOTS // longest, 1)
     rows, columns = (-(-size // block) * block for size in grid.cells.shape)
@@ -187,9 +192,9 @@ def _show(axes: Any, grid: Grid, layers: Sequence[Tuple[str, int, int]]) -> None
 
 # --- markup ---------------------------------------------------------------------------------------------------------
 
-def _markup(figure: Figure, name: str, told: str) -> str:
-    """A figure as inline SVG; as a picture where that would be too large."""
-    told = html.escape(told)
+def _markup(figure: Figure, name: str, label: str) -> str:
+    """A figure as inline SVG, or as a PNG picture if the SVG would be too large."""
+    label = html.escape(label)
     buffer = io.BytesIO()
     figure.savefig(buffer, format='svg')
     svg = buffer.getvalue().decode()
@@ -197,12 +202,12 @@ def _markup(figure: Figure, name: str, told: str) -> str:
         buffer = io.BytesIO()
         figure.savefig(buffer, format='png', dpi=DOTS, facecolor='white')
         data = base64.b64encode(buffer.getvalue()).decode()
-        return f'<img class="{name}" alt="{told}" src="data:image/png;base64,{data}">'
-    return _inline(svg, name, told)
+        return f'<img class="{name}" alt="{label}" src="data:image/png;base64,{data}">'
+    return _inline(svg, name, label)
 
 
-def _inline(svg: str, name: str, told: str) -> str:
-    """An SVG document as a part of a page: no prologue, ids that are the figure's own, colours of the page."""
+def _inline(svg: str, name: str, label: str) -> str:
+    """An SVG document as part of a page: without prologue, with unique ids, with the page's names of colours."""
     svg = re.sub(r'<!--.*?-->|<metadata>.*?</metadata>|<style.*?</style>', '', svg[svg.index('<svg'):], flags=re.DOTALL)
     svg = re.sub(r'(\bid="|url\(#|href="#)', rf'\g<1>{name}-', svg)
     for colour, (light, _) in COLOURS.items():
@@ -210,4 +215,4 @@ def _inline(svg: str, name: str, told: str) -> str:
     box = re.search(r'viewBox="[^"]*"', svg)
     shape = box.group() if box else ''
     spaces = 'xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink"'
-    return re.sub(r'<svg[^>]*>', f'<svg class="{name}" role="img" aria-label="{told}" {shape} {spaces}>', svg, count=1)
+    return re.sub(r'<svg[^>]*>', f'<svg class="{name}" role="img" aria-label="{label}" {shape} {spaces}>', svg, count=1)

@@ -1,4 +1,4 @@
-"""One page that tells a mission: HTML that needs no other file, no script and no network."""
+"""A report of one mission as an HTML page that needs no other file, no script and no network."""
 
 from __future__ import annotations
 
@@ -7,13 +7,13 @@ import html
 import os
 from typing import Dict, Iterable, Sequence, Tuple
 
-from rumba_evaluation.report.mission_events import LOW, Event, bump_places, contacts, events
-from rumba_evaluation.report.mission_record import (STRANDED, MissionRecord, Summary, charging_spans, state_spans,
-                                                    summary)
+from rumba_cleaning.mission.mission import State
+from rumba_evaluation.report.mission_events import LOW, Event, bump_positions, contacts, events
+from rumba_evaluation.report.mission_record import MissionRecord, Summary, charging_spans, clock, state_spans, summary
 from rumba_evaluation.report.report_figures import COLOURS, figures, state_colour
 
-MOST_EVENTS = 200  # rows; what is more is counted
-CALENDAR = 1e9  # [s] stamps from then on are dates, those before count from the start of a simulation
+MOST_EVENTS = 200  # rows of the table; further events are counted
+CALENDAR = 1e9  # [s] later stamps are dates, earlier ones count from the start of a simulation
 NOT_RECORDED = 'not recorded'
 
 STYLE = '''
@@ -60,7 +60,7 @@ PAGE = {'page': ('#f5f7fa', '#14181c'), 'card': ('#ffffff', '#1d2329'), 'soft': 
 
 def page(record: MissionRecord) -> str:
     """A whole HTML document about a mission."""
-    told = summary(record)
+    totals = summary(record)
     drawn = figures(record)
     name = html.escape(os.path.basename(record.source))
     robot = html.escape(record.robot)
@@ -76,8 +76,8 @@ def page(record: MissionRecord) -> str:
 <body>
 <header><h1>Mission of {robot}</h1><p>{name}</p></header>
 <main>
-{_tiles(told)}
-{_outcome(record, told)}
+{_tiles(totals)}
+{_outcome(record, totals)}
 <div class="columns">
 <div>
 {_section('Path', drawn.path, _map_legend(record))}
@@ -96,18 +96,12 @@ def page(record: MissionRecord) -> str:
 '''
 
 
-def clock(seconds: float) -> str:
-    """A time since the beginning [s] as h:mm:ss, rounded."""
-    whole = max(int(round(seconds)), 0)
-    return f'{whole // 3600}:{whole // 60 % 60:02d}:{whole % 60:02d}'
-
-
 # --- parts of the page ----------------------------------------------------------------------------------------------
 
 def _colours() -> str:
-    """The colours by name, dark ones on a dark screen, never on paper."""
+    """The colours by name: the dark ones on a dark screen, the light ones else and on paper."""
     pairs = {**COLOURS, **PAGE}.items()
-    light, dark = (':root{' + ''.join(f'--{name}:{pair[place]};' for name, pair in pairs) + '}' for place in (0, 1))
+    light, dark = (':root{' + ''.join(f'--{name}:{pair[index]};' for name, pair in pairs) + '}' for index in (0, 1))
     return f'{light}\n@media screen and (prefers-color-scheme:dark){{{dark}}}'
 
 
@@ -117,31 +111,32 @@ def _began(record: MissionRecord) -> str:
     return datetime.datetime.fromtimestamp(record.began, datetime.timezone.utc).strftime('%Y-%m-%d %H:%M:%S UTC')
 
 
-def _tiles(told: Summary) -> str:
-    """The most important figures, large."""
-    area = f'{told.areas[0]:.1f} of {told.areas[1]:.1f} m²' if told.areas else ''
-    speed = f'{told.mean_speed:.2f} m/s while driving' if told.mean_speed is not None else 'at rest'
-    first, last, least = told.charge
-    used, charged = told.energy or (0.0, 0.0)
+def _tiles(totals: Summary) -> str:
+    """The most important figures in large print."""
+    area = f'{totals.areas[0]:.1f} of {totals.areas[1]:.1f} m²' if totals.areas else ''
+    speed = f'{totals.mean_speed:.2f} m/s while driving' if totals.mean_speed is not None else 'at rest'
+    first, last, lowest = totals.charge
+    used, charged = totals.energy or (0.0, 0.0)
     tiles = [
-        ('Coverage', f'{100.0 * told.coverage:.1f} %' if told.coverage is not None else NOT_RECORDED, area),
-        ('Duration', clock(told.duration),
-         'simulated time' + (f', {clock(told.busy)} not idle' if told.busy is not None else '')),
-        ('Distance', f'{told.distance:.1f} m', speed),
-        ('Driving', clock(told.driving_time), _times(told.leaps, 'put elsewhere ') if told.leaps else ''),
-        ('Charging', clock(told.charging_time), _times(told.charges)),
-        ('Battery', f'{last:.0f} %', f'from {first:.0f} %, least {least:.0f} %'),
-        ('Energy', *((f'{used:.2f} Wh', f'used; {charged:.2f} Wh charged') if told.energy else (NOT_RECORDED, ''))),
-        ('Bumps', str(told.bumps) if told.bumps is not None else NOT_RECORDED, '')]
+        ('Coverage', f'{100.0 * totals.coverage:.1f} %' if totals.coverage is not None else NOT_RECORDED, area),
+        ('Duration', clock(totals.duration),
+         'simulated time' + (f', {clock(totals.busy)} not idle' if totals.busy is not None else '')),
+        ('Distance', f'{totals.distance:.1f} m', speed),
+        ('Driving', clock(totals.driving_time), _times(totals.jumps, 'moved without driving ') if totals.jumps else ''),
+        ('Charging', clock(totals.charging_time), _times(totals.charges)),
+        ('Battery', f'{last:.0f} %', f'from {first:.0f} %, lowest {lowest:.0f} %'),
+        ('Energy', *((f'{used:.2f} Wh', f'used; {charged:.2f} Wh charged') if totals.energy else (NOT_RECORDED, ''))),
+        ('Bumps', str(totals.bumps) if totals.bumps is not None else NOT_RECORDED, '')]
     return '<dl class="tiles">' + ''.join(
         f'<div><dt>{name}</dt><dd>{value}{more and f"<small>{more}</small>"}</dd></div>' for name, value, more in tiles
     ) + '</dl>'
 
 
-def _outcome(record: MissionRecord, told: Summary) -> str:
-    colour = 'bump' if record.states and record.states[-1].state == STRANDED else 'swept' if told.outcome else 'rule'
+def _outcome(record: MissionRecord, totals: Summary) -> str:
+    is_stranded = bool(record.states) and record.states[-1].state == State.STRANDED
+    colour = 'bump' if is_stranded else 'swept' if totals.outcome else 'rule'
     return (f'<p class="outcome" style="border-color:var(--{colour})"><strong>Outcome:</strong> '
-            f'{html.escape(told.outcome or NOT_RECORDED)}</p>')
+            f'{html.escape(totals.outcome or NOT_RECORDED)}</p>')
 
 
 def _times(count: int, what: str = '') -> str:
@@ -155,7 +150,7 @@ def _section(title: str, drawn: str, legend: str) -> str:
 
 
 def _legend(entries: Iterable[Tuple[str, str]]) -> str:
-    """What the marks of a figure mean: pairs of a mark as HTML and words."""
+    """The legend of a figure: pairs of a mark as HTML and its meaning."""
     items = ''.join(f'<li>{mark} {html.escape(words)}</li>' for mark, words in entries)
     return f'<ul class="legend">{items}</ul>' if items else ''
 
@@ -176,13 +171,13 @@ def _map_legend(record: MissionRecord) -> str:
         entries += [(_patch('var(--swept)', opacity=0.4), 'swept'), (_patch('var(--missed)', opacity=0.7), 'missed')]
     if contacts(record):
         entries.append((_sign('◇', 'dock'), 'dock'))
-    if len(bump_places(record).times):
+    if len(bump_positions(record).times):
         entries.append((_sign('✕', 'bump'), 'bump'))
     return _legend(entries)
 
 
 def _state_legend(record: MissionRecord) -> str:
-    """The states that occurred, in order of their first time, with the time spent in each."""
+    """The states that occurred, in the order of their first occurrence, with the time spent in each."""
     spent: Dict[int, float] = {}
     names: Dict[int, str] = {}
     for begin, end, state in state_spans(record):

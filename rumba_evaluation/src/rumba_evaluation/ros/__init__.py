@@ -1,1 +1,1 @@
-"""The ROS face of the evaluation: finds maps, reads bags, listens to missions."""
+"""What needs ROS: the nodes and commands of the evaluation."""

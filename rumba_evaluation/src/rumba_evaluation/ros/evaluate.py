@@ -1,4 +1,4 @@
-"""evaluate: finds the maps of the package for `rumba_evaluation`, which knows no ROS; needs no master."""
+"""The command evaluate with the maps of the installed package rumba_sim, which are found by rospkg; needs no master."""
 
 import sys
 
@@ -7,5 +7,5 @@ from rumba_sim.ros.common.maps import map_path
 
 
 def main() -> None:
-    """Run what the command line says; leaves the process with its exit code."""
+    """Run the command line of this process; leaves the process with the exit code."""
     sys.exit(evaluate.main(sys.argv[1:], map_path))

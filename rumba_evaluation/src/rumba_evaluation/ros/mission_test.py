@@ -1,4 +1,4 @@
-"""mission_test: a verdict on a robot's run, for rostest, as hztest and paramtest give.
+"""mission_test: a test node for rostest, like hztest and paramtest: gives a verdict on a robot's run.
 
 In a .test file, beside the nodes under test:
   <test test-name="cleans" pkg="rumba_evaluation" type="mission_test" time-limit="120">
@@ -6,21 +6,21 @@ In a .test file, beside the nodes under test:
     <param name="collisions" value="20" />
     <param name="time_limit" value="600" />
   </test>
-Each condition is a test case of its own, which tells what was asked and what was measured. time_limit is in the time
-of the robots; rostest's own time-limit is in real time, and must leave room for the start. The run begins with the
-first message of what is judged.
+Each condition is a test case of its own, which reports the requirement and the measured values. time_limit is in the
+time of the robots; rostest's own time-limit is in real time, and must include the start. The run begins with the first
+message of a topic that a condition needs.
 
-Goals are to be met: coverage (the newest counts), reach (each place once), docked (the contacts are closed, and were
-open before: a robot that never left its dock has not docked). The run ends as soon as all of them are met at once,
-or when the time is up. Guards must hold in every message until then: battery, collisions (times the bumper was
-pressed anew), fields. Without goals the whole time is judged. A condition of which nothing was heard has failed, and
-so has a guard where the run ended early, because nothing was heard for `patience` or the test was stopped.
+Goals must be met at the end: coverage (the newest value counts), reach (each waypoint once), docked (the contacts are
+closed after they were open: a robot that never left its dock has not docked). The run ends as soon as all goals are met
+at the same time, or when the time limit is reached. Guards must hold in every message until then: battery, collisions
+(a bumper that stays pressed is one), fields. Without goals the run lasts until the time limit. A condition without any
+message has failed, and so has a guard if the run was aborted: no message came for `patience`, or the test was stopped.
 
-Of the robot it subscribes to what is needed for what is asked:
+It subscribes to those topics of the robot that the conditions need:
   cleaning_status  rumba_msg/CleaningStatus   ground_truth    nav_msgs/Odometry
   dock_status      rumba_msg/DockStatus       bumper          rumba_msg/Bumper
   battery_state    sensor_msgs/BatteryState   battery_status  rumba_msg/BatteryStatus
-and to the topics of `fields`, of whatever type. The lower of both charges counts.
+and to the topics of `fields`, of any type. The lower charge of the two topics counts.
 
 Parameters:
 """
@@ -39,17 +39,18 @@ from nav_msgs.msg import Odometry
 from sensor_msgs.msg import BatteryState
 
 from rumba_evaluation.verdicts import mission_verdict
-from rumba_evaluation.verdicts.mission_asked import Asked
+from rumba_evaluation.verdicts.mission_requirements import Requirements
 from rumba_evaluation.verdicts.mission_verdict import Condition, Field, Judge, Verdict
 from rumba_msg.msg import BatteryStatus, Bumper, CleaningStatus, DockStatus
 from rumba_sim.model.config import setting
+from rumba_sim.model.robot import FIRST
 from rumba_sim.ros.common import conversions, node
 from rumba_sim.ros.common.names import check_names
 
-NAME = 'mission_test'
+PACKAGE, NAME = 'rumba_evaluation', 'mission_test'
 PERIOD = 0.05  # [s] of the wall clock
-OUTPUT = '--gtest_output=xml:'  # what rostest gives every test: where to write the results ...
-TEXT = '--text'  # ... or to print them
+OUTPUT = '--gtest_output=xml:'  # rostest gives each test the file for its results ...
+TEXT = '--text'  # ... or tells it to print them
 FAILED = 1
 Value = Callable[[Any], Any]
 TOPICS: Dict[Type[Condition], List[Tuple[str, Any, Value]]] = {
@@ -65,14 +66,15 @@ TOPICS: Dict[Type[Condition], List[Tuple[str, Any, Value]]] = {
 
 
 @dataclasses.dataclass(frozen=True)
-class Settings(Asked):
-    """The node's private parameters: what is asked, and of whom."""
+class Settings(Requirements):
+    """The node's private parameters: the requirements, and the robot that must meet them."""
 
-    robot: str = setting('rumba', 'name of the robot, below which its topics are')
-    patience: float = setting(20.0, 'with robots of which nothing is heard, of the wall clock', 's', 0.1, 1e6)
+    robot: str = setting(FIRST, 'name of the robot: its topics are below it')
+    patience: float = setting(20.0, 'time of the wall clock without any message after which the run is aborted', 's',
+                              0.1, 1e6)
 
     def __post_init__(self) -> None:
-        """Names of topics are made of the robot's name."""
+        """The robot's name is a part of names of topics."""
         check_names(self, 'robot')
 
 
@@ -83,66 +85,66 @@ def main() -> None:
 
 
 def judge(settings: Settings) -> None:
-    """Judge one run and report; leaves the process with exit code 1 where a condition was not met.
+    """Judge one run and report; leaves the process with exit code 1 if a condition was not met.
 
     Raises:
-        ConfigError: what is asked makes no sense.
+        ConfigError: there is no requirement, or one cannot be understood.
     """
-    court = Court(settings)
-    court.sit()
-    if not report(court.verdicts()):
+    monitor = MissionMonitor(settings)
+    monitor.run()
+    if not report(monitor.verdicts()):
         sys.exit(FAILED)
 
 
-class Court:
-    """A judge, and the topics on which the evidence comes."""
+class MissionMonitor:
+    """Judges a run by the messages of a robot's topics."""
 
     def __init__(self, settings: Settings) -> None:
-        """Listen to all that is needed.
+        """Subscribe to the topics that the conditions need.
 
         Raises:
-            ConfigError: what is asked makes no sense.
+            ConfigError: there is no requirement, or one cannot be understood.
         """
         self._robot = settings.robot
         self._patience = settings.patience
         self._judge = Judge(settings.conditions(), settings.time_limit)
         self._lock = threading.Lock()
-        self._heard = time.monotonic()
-        self._unknown = [condition for condition in self._judge.conditions if isinstance(condition, Field)]
+        self._last_message = time.monotonic()
+        self._unpublished = [condition for condition in self._judge.conditions if isinstance(condition, Field)]
         for condition in self._judge.conditions:
             for topic, kind, value in TOPICS.get(type(condition), []):
-                self._listen(condition, f'{self._robot}/{topic}', kind, value)
+                self._subscribe(condition, f'{self._robot}/{topic}', kind, value)
 
-    def _listen(self, condition: Condition, topic: str, kind: Any, value: Value) -> None:
-        rospy.Subscriber(topic, kind, lambda message: self._hear(condition, value(message)))
+    def _subscribe(self, condition: Condition, topic: str, kind: Any, value: Value) -> None:
+        rospy.Subscriber(topic, kind, lambda message: self._update(condition, value(message)))
 
-    def _hear(self, condition: Condition, value: Any) -> None:
+    def _update(self, condition: Condition, value: Any) -> None:
         with self._lock:
-            self._heard = time.monotonic()
-            self._judge.hear(condition, value, rospy.get_time())
+            self._last_message = time.monotonic()
+            self._judge.update(condition, value, rospy.get_time())
 
-    def sit(self) -> None:
+    def run(self) -> None:
         """Wait until the run is over."""
         while not self._judge.is_over:
-            self._find_fields()
-            time.sleep(PERIOD)  # not rospy's, which waits for the time of robots that may have gone
+            self._subscribe_to_fields()
+            time.sleep(PERIOD)  # rospy.sleep would wait for the clock of a simulator, which may have ended
             with self._lock:
-                self._judge.look(rospy.get_time())
-                if time.monotonic() - self._heard > self._patience:
-                    self._judge.give_up(f'nothing was heard for {self._patience:g} s of the wall clock')
+                self._judge.check_time(rospy.get_time())
+                if time.monotonic() - self._last_message > self._patience:
+                    self._judge.abort(f'no message came for {self._patience:g} s of the wall clock')
                 if rospy.is_shutdown():
-                    self._judge.give_up('the test was stopped')
+                    self._judge.abort('the test was stopped')
 
-    def _find_fields(self) -> None:
-        """Listen to fields that somebody has begun to publish."""
-        for field in self._unknown[:]:
+    def _subscribe_to_fields(self) -> None:
+        """Subscribe to the topics of those fields that have a publisher since the last call."""
+        for field in self._unpublished[:]:
             kind, topic, value = rostopic.get_topic_class(rospy.resolve_name(field.path))
             if kind is not None:
-                self._unknown.remove(field)
-                self._listen(field, topic, kind, value or (lambda message: message))
+                self._unpublished.remove(field)
+                self._subscribe(field, topic, kind, value or (lambda message: message))
 
     def verdicts(self) -> List[Verdict]:
-        """What is to be said."""
+        """The verdict on each condition."""
         with self._lock:
             return self._judge.verdicts(self._source)
 
@@ -153,7 +155,7 @@ class Court:
 
 
 def report(verdicts: List[Verdict]) -> bool:
-    """Tell the verdicts as rostest wants them, a test case for each; returns whether all are good."""
+    """Report the verdicts to rostest, each as a test case; returns whether all conditions are met."""
     for verdict in verdicts:
         print(('met     ' if verdict.is_met else 'NOT MET ') + verdict.words, flush=True)
     cases = type('Mission', (unittest.TestCase,), {f'test_{verdict.name}': _case(verdict) for verdict in verdicts})
@@ -161,11 +163,11 @@ def report(verdicts: List[Verdict]) -> bool:
     if TEXT in sys.argv:
         return unittest.TextTestRunner(verbosity=2).run(suite).wasSuccessful()
     path = next((argument[len(OUTPUT):] for argument in sys.argv if argument.startswith(OUTPUT)), '')
-    if not path:  # by hand: the lines above tell all
+    if not path:  # started by hand: the lines above are the report
         return all(verdict.is_met for verdict in verdicts)
-    result = rosunit.create_xml_runner('rumba_sim', NAME, path).run(suite)
+    result = rosunit.create_xml_runner(PACKAGE, NAME, path).run(suite)
     rosunit.print_unittest_summary(result)
-    return result.wasSuccessful()
+    return bool(result.wasSuccessful())
 
 
 def _case(verdict: Verdict) -> Callable[[unittest.TestCase], None]:

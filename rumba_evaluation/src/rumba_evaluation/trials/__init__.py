@@ -1,1 +1,1 @@
-"""Whole missions in process, by the hundred, and the tables and plots made of them."""
+"""Whole missions in process, many in parallel, and the tables and plots of their results."""

@@ -1,4 +1,4 @@
-"""Many missions at once: on all cores of this machine, or on those of a Dask cluster."""
+"""Runs many missions in parallel: on all cores of this machine, or on a Dask cluster."""
 
 import concurrent.futures
 import contextlib
@@ -18,40 +18,41 @@ import numpy as np
 from tqdm import tqdm
 
 from rumba_cleaning import strategies
-from rumba_evaluation.trials.cases import CRASHED, Case, Conditions, Result
+from rumba_cleaning.outcome import Outcome
+from rumba_evaluation.trials.cases import Case, Conditions, Result
 from rumba_evaluation.trials.trial import Trial
 from rumba_sim.model import kernel, map_file
 from rumba_sim.model.errors import ConfigError
 from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.model.kernel import Array
 
-PATIENCE = 10.0  # [s] until a scheduler answers
+SCHEDULER_TIMEOUT = 10.0  # [s]
 EXAMPLE = 'tcp://10.0.0.1:8786'
 PLANS = 8  # floor plans that a worker keeps
 Done = TypeVar('Done')
 
 
 class Job(NamedTuple):
-    """All that a worker must know to run a case."""
+    """Everything that a worker needs to run a case."""
 
     case: Case
     conditions: Conditions
     path: str  # of the map
-    modules: str  # that make strategies known, with commas between them
+    modules: str  # modules that register strategies, with commas between them
 
 
 class Trace(NamedTuple):
-    """Where robots went, and what they missed."""
+    """The paths of robots, and the floor that they missed."""
 
     job: Job
     result: Result
     paths: List[Array]  # float32 (any, 2) [m] of each robot
-    missed: Array  # bool (rows, columns): reachable, and not swept
+    missed: Array  # bool (rows, columns): reachable but not swept
 
 
 @functools.lru_cache(maxsize=PLANS)
 def floor_plan(path: str) -> FloorPlan:
-    """The floor plan in a file, read once.
+    """The floor plan in a file; the last few are kept in memory.
 
     Raises:
         MapError: it cannot be used.
@@ -60,32 +61,32 @@ def floor_plan(path: str) -> FloorPlan:
 
 
 def prepare(job: Job) -> Trial:
-    """The mission of a case.
+    """The trial of a job.
 
     Raises:
-        RumbaError: the map, the strategy or the number of robots cannot be.
+        RumbaError: the map, the strategy or the number of robots cannot be used.
     """
     strategies.load(job.modules)
     return Trial(floor_plan(job.path), job.case.strategy, job.conditions, job.case.seed, job.case.robots)
 
 
 def run(job: Job) -> Result:
-    """Run a mission to its end; where the strategy itself goes wrong, this is its result."""
+    """Run a trial to its end; an exception of a strategy gives a result too."""
     return _finish(prepare(job), lambda: None)
 
 
 def trace(job: Job) -> Trace:
-    """Run a mission again, and note where the robots go."""
+    """Run a trial again, and record the paths of the robots."""
     trial = prepare(job)
     robots = list(trial.world.robots.values())
     paths: List[List[Tuple[float, float]]] = [[robot.pose[:2]] for robot in robots]
 
-    def note() -> None:
+    def record() -> None:
         for robot, path in zip(robots, paths):
             if robot.pose[:2] != path[-1]:
                 path.append(robot.pose[:2])
 
-    result = _finish(trial, note)
+    result = _finish(trial, record)
     missed = trial.world.floor.cells & (kernel.REACHABLE | kernel.SWEPT) == kernel.REACHABLE
     return Trace(job, result, [np.array(path, np.float32) for path in paths], missed)
 
@@ -95,10 +96,10 @@ def _finish(trial: Trial, after_each_step: Callable[[], None]) -> Result:
         while not trial.is_over:
             trial.step()
             after_each_step()
-    except Exception as error:  # in a strategy: the other missions need not suffer
-        place = traceback.extract_tb(error.__traceback__)[-1]
-        message = f'{type(error).__name__}: {error} ({os.path.basename(place.filename)}:{place.lineno})'
-        return dataclasses.replace(trial.result(), outcome=CRASHED, message=message)
+    except Exception as error:  # in a strategy: the other missions go on
+        frame = traceback.extract_tb(error.__traceback__)[-1]
+        message = f'{type(error).__name__}: {error} ({os.path.basename(frame.filename)}:{frame.lineno})'
+        return dataclasses.replace(trial.result(), outcome=Outcome.ERROR, message=message)
     return trial.result()
 
 
@@ -106,7 +107,7 @@ def _finish(trial: Trial, after_each_step: Callable[[], None]) -> Result:
 
 def each(executor: Executor, function: Callable[[Job], Done], jobs: Sequence[Job],
          unit: str) -> Iterator[Tuple[Job, Done]]:
-    """Jobs and what a function made of them, in the order in which they are done; shows how far it is."""
+    """Jobs with the results of a function, in the order in which they are finished; shows a progress bar."""
     futures = {executor.submit(function, job): job for job in jobs}
     with tqdm(total=len(jobs), unit=f' {unit}', disable=None) as bar:
         for future in concurrent.futures.as_completed(futures):
@@ -121,7 +122,7 @@ def local(count: int) -> Iterator[Executor]:
     try:
         yield executor
     except BaseException:
-        for process in multiprocessing.active_children():  # lest one wait for missions that nobody wants any more
+        for process in multiprocessing.active_children():  # else shutdown waits for missions that are not needed
             process.terminate()
         raise
     finally:
@@ -129,7 +130,7 @@ def local(count: int) -> Iterator[Executor]:
 
 
 def _begin_worker() -> None:
-    """Leave Ctrl-C to the process that began this one, and end with it, even if it is killed."""
+    """Ignore Ctrl-C, which the parent process handles, and end with the parent even if that is killed."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     threading.Thread(target=_end_with_parent, daemon=True).start()
 
@@ -143,14 +144,14 @@ def _end_with_parent() -> None:
 
 @contextlib.contextmanager
 def remote(address: str) -> Iterator[Executor]:
-    """The workers of a Dask cluster; they need this package, and the maps, where this machine has them.
+    """The workers of a Dask cluster; they need this package and the maps at the same paths as this machine.
 
     Args:
-        address: of its scheduler, as in EXAMPLE.
+        address: of the scheduler, as in EXAMPLE.
 
     Raises:
-        ConfigError: Dask is missing, or there is no scheduler.
-        BrokenExecutor: scheduler or workers died.
+        ConfigError: Dask is not installed, or no scheduler answers.
+        BrokenExecutor: the scheduler or the workers died.
     """
     try:
         import distributed
@@ -160,12 +161,12 @@ def remote(address: str) -> Iterator[Executor]:
         raise ConfigError(f'--scheduler {address}: must be the address of a Dask scheduler, as in {EXAMPLE}')
     make_client: Any = distributed.Client
     try:
-        client = make_client(address, timeout=PATIENCE, set_as_default=False)
+        client = make_client(address, timeout=SCHEDULER_TIMEOUT, set_as_default=False)
     except (OSError, ValueError) as error:
         raise ConfigError(f'--scheduler {address}: no Dask scheduler answers there ({error})') from None
     with client:
         if not client.scheduler_info()['workers']:
-            print(f'evaluate: {address} has no workers yet: missions wait for them', file=sys.stderr)
+            print(f'evaluate: {address} has no workers yet: waiting for them', file=sys.stderr)
         try:
             yield client.get_executor(pure=False)
         except (distributed.scheduler.KilledWorker, concurrent.futures.CancelledError) as error:

@@ -1,8 +1,8 @@
-"""evaluate: cleaning missions in process, without ROS and faster than real time, and what became of them.
+"""evaluate: runs cleaning missions in process, without ROS and faster than real time, and prints how well they went.
 
-Runs a mission for each map, strategy, number of robots and seed. Each result is written to DIR/results.csv at once: a
-run that was cut short goes on where it was, when the same command is given again. In the end it prints a table and
-draws pictures.
+Runs a mission for each map, strategy, number of robots and seed. Each result is written to DIR/results.csv as soon as
+the mission has ended: after an interruption the same command goes on from there. At the end it prints a table and
+draws pictures, for which it needs matplotlib.
 """
 
 import argparse
@@ -14,9 +14,10 @@ from concurrent.futures import BrokenExecutor, Executor
 from typing import Callable, ContextManager, Dict, List, NoReturn, Sequence
 
 from rumba_cleaning import strategies
+from rumba_cleaning.outcome import Outcome
 from rumba_evaluation.trials import batch, table
 from rumba_evaluation.trials.batch import Job
-from rumba_evaluation.trials.cases import ANYWHERE, CRASHED, DOCK, Case, Conditions, Result, grid
+from rumba_evaluation.trials.cases import ANYWHERE, DOCK, Case, Conditions, Result, grid
 from rumba_evaluation.trials.results import Results
 from rumba_sim.model.config import explain, updated
 from rumba_sim.model.errors import ConfigError, RumbaError
@@ -24,20 +25,20 @@ from rumba_sim.model.errors import ConfigError, RumbaError
 NAME = 'evaluate'
 MAPS = ('apartment', 'studio', 'field')
 STRATEGIES = ('boustrophedon', 'bounce')
-CRASH, BAD_INPUT, INTERRUPTED = 1, 2, 130
+ERROR, BAD_INPUT, INTERRUPTED = 1, 2, 130
 MOST = 1_000_000  # seeds
 
 
 class _Parser(argparse.ArgumentParser):
-    """Says in one line what is wrong."""
+    """Reports an error in one line."""
 
     def error(self, message: str) -> NoReturn:
-        """Leave with that line."""
-        self.exit(BAD_INPUT, f'{NAME}: {message}; --help lists all\n')
+        """Print the line and exit."""
+        self.exit(BAD_INPUT, f'{NAME}: {message}; see --help\n')
 
 
 def main(arguments: Sequence[str], map_path: Callable[[str], str]) -> int:
-    """Evaluate as the arguments of a command line say; returns the exit code.
+    """Run the command with the arguments of a command line; returns the exit code.
 
     Args:
         arguments: without the name of the program.
@@ -49,9 +50,9 @@ def main(arguments: Sequence[str], map_path: Callable[[str], str]) -> int:
     except RumbaError as error:
         print(f'{NAME}:', *str(error).split(), file=sys.stderr)
         return BAD_INPUT
-    except OSError as error:  # no space left, for one
+    except OSError as error:  # for example no space left
         print(f'{NAME}: {error}', file=sys.stderr)
-        return CRASH
+        return ERROR
     except KeyboardInterrupt:
         print(f'{NAME}: stopped before the first mission', file=sys.stderr)
         return INTERRUPTED
@@ -61,24 +62,25 @@ def _parser() -> argparse.ArgumentParser:
     about, details = (__doc__ or '').split('\n\n')
     parser = _Parser(NAME, description=about, epilog=details, allow_abbrev=False)
     add = parser.add_argument
-    add('--maps', nargs='+', default=MAPS, metavar='MAP', help='names of maps of the package, or paths of map_server '
+    add('--maps', nargs='+', default=MAPS, metavar='MAP', help='names of maps of rumba_sim, or paths of map_server '
                                                                f'YAML files; default {" ".join(MAPS)}')
-    add('--strategies', nargs='+', default=STRATEGIES, metavar='NAME', help=f'default {" ".join(STRATEGIES)}')
-    add('--seeds', type=_seeds, default='10', metavar='N or A-B', help='1 to N, or A to B; default 10')
+    add('--strategies', nargs='+', default=STRATEGIES, metavar='NAME',
+        help=f'names of cleaning strategies; default {" ".join(STRATEGIES)}')
+    add('--seeds', type=_seeds, default='10', metavar='N or A-B', help='seeds 1 to N, or A to B; default 10')
     add('--robots', type=_positive, nargs='+', default=[1], metavar='N', help='numbers of robots; default 1')
     add('--start', choices=(DOCK, ANYWHERE), default=DOCK,
-        help='where robots begin: where the map says, or drawn from the seed; default %(default)s')
+        help='where robots start: at the start of the map, or anywhere, drawn from the seed; default %(default)s')
     for field in dataclasses.fields(Conditions)[1:]:
         add(f'--{field.name}', type=float, default=field.default,
             help=f'{explain(field)}; default {field.default:g}'.replace('%', '%%'))
     add('--import', dest='modules', default='', metavar='MODULES',
-        help='Python modules that make strategies known, with commas between them')
+        help='Python modules that register strategies, with commas between them')
     add('--output', default='evaluation', metavar='DIR', help='folder for results, table and pictures; default '
                                                               './%(default)s')
     add('--jobs', type=_positive, default=len(os.sched_getaffinity(0)), metavar='N',
-        help='missions at once; default %(default)s, all cores')
+        help='number of missions that run in parallel; default %(default)s, all cores')
     add('--scheduler', default='', metavar='ADDRESS', help='run on a Dask cluster: address of its scheduler')
-    add('--no-plots', action='store_true', help='draw no pictures')
+    add('--no-plots', action='store_true', help='draw no pictures; without this option matplotlib is needed')
     return parser
 
 
@@ -102,6 +104,8 @@ def _positive(text: str) -> int:
 def _evaluate(options: argparse.Namespace, map_path: Callable[[str], str]) -> int:
     conditions = updated(Conditions(), {field.name: getattr(options, field.name)
                                         for field in dataclasses.fields(Conditions)}, 'conditions')
+    if not options.no_plots:
+        _check_matplotlib()
     cases = grid(options.maps, options.strategies, options.seeds, options.robots)
     jobs = _jobs(cases, conditions, {name: map_path(name) for name in options.maps}, options.modules)
     results = Results(_in_folder(options.output, 'results.csv'), conditions)
@@ -112,24 +116,37 @@ def _evaluate(options: argparse.Namespace, map_path: Callable[[str], str]) -> in
             if not options.no_plots:
                 _draw(executor, options.output, jobs, results.found)
     except KeyboardInterrupt:
-        print(f'{NAME}: stopped; {_progress(cases, results)}; the same command again goes on from there',
+        print(f'{NAME}: stopped; {_progress(cases, results)}; the same command goes on from there',
               file=sys.stderr)
         return INTERRUPTED
     except BrokenExecutor as error:
-        print(f'{NAME}: the workers are gone, perhaps for lack of memory ({error}); {_progress(cases, results)}; '
-              'the same command again, perhaps with fewer --jobs, goes on from there', file=sys.stderr)
-        return CRASH
+        print(f'{NAME}: the workers have died, perhaps for lack of memory ({error}); {_progress(cases, results)}; '
+              'the same command, perhaps with fewer --jobs, goes on from there', file=sys.stderr)
+        return ERROR
     finally:
         results.close()
-    crashed = [case for case in cases if results.found[case].outcome == CRASHED]
-    for case in crashed:
-        print(f'{NAME}: {case.strategy} crashed on {case.map}, seed {case.seed}, robots {case.robots}: '
+    failed = [case for case in cases if results.found[case].outcome is Outcome.ERROR]
+    for case in failed:
+        print(f'{NAME}: {case.strategy} raised an exception on {case.map}, seed {case.seed}, robots {case.robots}: '
               f'{results.found[case].message}', file=sys.stderr)
-    return CRASH if crashed else 0
+    return ERROR if failed else 0
+
+
+def _check_matplotlib() -> None:
+    """Fail before the first mission, not after the last one."""
+    try:
+        import matplotlib  # noqa: F401
+    except ImportError as error:
+        raise ConfigError(f'pictures need matplotlib ({error}): install the package python3-matplotlib, or give '
+                          '--no-plots') from error
 
 
 def _jobs(cases: Sequence[Case], conditions: Conditions, paths: Dict[str, str], modules: str) -> List[Job]:
-    """A job for each case; what cannot be is refused before any of them begins."""
+    """A job for each case; checks maps, strategies and numbers of robots before the first job begins.
+
+    Raises:
+        RumbaError: one of them cannot be used.
+    """
     strategies.load(modules)
     for name in dict.fromkeys(case.strategy for case in cases):
         strategies.check(name)
@@ -144,7 +161,7 @@ def _in_folder(folder: str, name: str) -> str:
     try:
         os.makedirs(folder, exist_ok=True)
     except OSError as error:
-        raise ConfigError(f'{folder}: {error.strerror}: --output must be a folder that can be written to') from None
+        raise ConfigError(f'{folder}: {error.strerror}: --output must be a writable folder') from None
     return os.path.join(folder, name)
 
 
@@ -159,14 +176,14 @@ def _progress(cases: Sequence[Case], results: Results) -> str:
 def _run_missing(executor: Executor, jobs: Sequence[Job], results: Results) -> None:
     missing = [job for job in jobs if job.case not in results.found]
     if len(missing) < len(jobs):
-        print(f'{NAME}: {_progress([job.case for job in jobs], results)} already; to run them again, delete it or give '
-              'another --output', file=sys.stderr)
+        print(f'{NAME}: {_progress([job.case for job in jobs], results)} already; to run them again, delete it or '
+              'choose another --output', file=sys.stderr)
     for job, result in batch.each(executor, batch.run, missing, 'missions'):
         results.add(job.case, result)
 
 
 def _report(folder: str, cases: Sequence[Case], found: Dict[Case, Result]) -> None:
-    """Print the tables, and write what else is made of the results."""
+    """Print the tables, and write them and the curves to files."""
     tables = table.text(table.grouped(cases, found))
     print(tables, end='')
     table.write_curves(_in_folder(folder, 'coverage.csv'), cases, found)
@@ -176,7 +193,7 @@ def _report(folder: str, cases: Sequence[Case], found: Dict[Case, Result]) -> No
 
 def _draw(executor: Executor, folder: str, jobs: Sequence[Job], found: Dict[Case, Result]) -> None:
     """Draw pictures: of all results, and of the path of the slowest mission of each group."""
-    from rumba_evaluation.trials import plots  # Matplotlib takes its time to load
+    from rumba_evaluation.trials import plots  # here, because matplotlib is optional and loads slowly
     plots.draw_results(folder, table.grouped([job.case for job in jobs], found))
     slowest: Dict[table.Group, Job] = {}
     for job in jobs:

@@ -1,4 +1,7 @@
-"""Pictures of results. Colours are those of Okabe and Ito, which people of any colour vision can tell apart."""
+"""Pictures of results; needs matplotlib.
+
+The colours are those of Okabe and Ito, which people with any colour vision can tell apart.
+"""
 
 import math
 import os
@@ -18,19 +21,19 @@ from rumba_sim.model.floor_plan import OCCUPIED, FloorPlan
 from rumba_sim.model.kernel import Array
 
 COLOURS = ('#0072B2', '#D55E00', '#009E73', '#CC79A7', '#E69F00', '#56B4E9')
-STYLES = ('-', '--', '-.', ':')  # where colours come again
+STYLES = ('-', '--', '-.', ':')  # for lines of the same colour
 GREY, LIGHT, DARK, AMBER, RED = '#808080', '#D8D8D8', '#404040', '#E69F00', '#D55E00'
 BAND = (10.0, 50.0, 90.0)  # [%] of the runs
 BARS = (90, 98, 99)  # [%] of coverage
 POINTS = 500  # of a curve
-DOTS = 120  # an inch
-CHUNK = 10_000  # of a path: more at once is more than Agg can draw
+DOTS = 120  # per inch
+CHUNK = 10_000  # points of a path: Agg cannot draw much more at once
 
 Results = Dict[Group, List[Result]]
 
 
 def draw_results(folder: str, groups: Results) -> None:
-    """Draw coverage over time for each map, and one picture of the times to coverage for all."""
+    """Draw coverage over time for each map, and the times to coverage of all maps in one picture."""
     for name in dict.fromkeys(group.map for group in groups):
         of_map = {group: results for group, results in groups.items() if group.map == name}
         _save(_coverage(of_map), folder, f'coverage_{_file_name(name)}')
@@ -38,7 +41,7 @@ def draw_results(folder: str, groups: Results) -> None:
 
 
 def draw_path(folder: str, plan: FloorPlan, trace: Trace) -> None:
-    """Draw where robots went, and what they missed."""
+    """Draw the paths of the robots, and the floor that they missed."""
     case = trace.job.case
     parts = [_file_name(case.map), _file_name(case.strategy), str(case.robots)]
     with matplotlib.rc_context({'agg.path.chunksize': CHUNK}):
@@ -77,8 +80,8 @@ def _coverage(groups: Results) -> Any:
         low, median, high = np.percentile([_sampled(result, times) for result in results], BAND, axis=0)
         axes.plot(times, median, linewidth=1.8, label=f'{_label(strategy, robots)} ({len(results)} runs)', **look)
         axes.fill_between(times, low, high, color=look['color'], alpha=0.25, linewidth=0.0)
-    axes.plot([0.0, 1.0, times[-1]], [0.0, 100.0, 100.0], color=GREY, linestyle=':', label='one brush, nothing twice')
-    axes.set(title=f'{name}: median, and the band of 80 % of the runs', xlim=(0.0, times[-1]), ylim=(0.0, 102.0),
+    axes.plot([0.0, 1.0, times[-1]], [0.0, 100.0, 100.0], color=GREY, linestyle=':', label='one brush, no overlap')
+    axes.set(title=f'{name}: median and band of 80 % of the runs', xlim=(0.0, times[-1]), ylim=(0.0, 102.0),
              xlabel='working time [T = reachable area / (brush width x cleaning speed)]',
              ylabel='reachable floor that is swept [%]')
     axes.yaxis.set_major_locator(ticker.MultipleLocator(10.0))
@@ -117,17 +120,17 @@ def _bars(axes: Any, groups: Results, looks: Dict[Tuple[str, int], Dict[str, str
     width = 0.8 / len(groups)
     highest = 0.0
     for index, (group, results) in enumerate(groups.items()):
-        places = np.arange(len(BARS)) + (index - 0.5 * (len(groups) - 1)) * width
+        positions = np.arange(len(BARS)) + (index - 0.5 * (len(groups) - 1)) * width
         times = np.array([[result.multiple_to(percent) for result in results] for percent in BARS])
         medians, worst = np.median(times, axis=1), times.max(axis=1)
         finite = np.where(np.isfinite(medians), medians, 0.0)
-        axes.bar(places, finite, 0.92 * width, color=looks[group[1:]]['color'], label=_label(*group[1:]))
-        for place, median, most in zip(places, medians, worst):
+        axes.bar(positions, finite, 0.92 * width, color=looks[group[1:]]['color'], label=_label(*group[1:]))
+        for position, median, most in zip(positions, medians, worst):
             if math.isfinite(most):
-                axes.plot([place, place], [median, most], color=DARK, linewidth=1.2)
+                axes.plot([position, position], [median, most], color=DARK, linewidth=1.2)
             top = most if math.isfinite(most) else median if math.isfinite(median) else 0.0
-            says = f'{median:.2f}' if math.isfinite(median) else 'not\nreached'
-            axes.annotate(says, (place, top), (0, 2), textcoords='offset points', ha='center', va='bottom',
+            label = f'{median:.2f}' if math.isfinite(median) else 'not\nreached'
+            axes.annotate(label, (position, top), (0, 2), textcoords='offset points', ha='center', va='bottom',
                           fontsize='small')
             highest = max(highest, top)
     axes.set(xticks=range(len(BARS)), xticklabels=[f'{percent} %' for percent in BARS],
@@ -159,7 +162,7 @@ def _path(plan: FloorPlan, trace: Trace) -> Any:
     if plan.cliff is not None:
         axes.plot([], [], 's', color=AMBER, label='cliff')
     axes.set(title=f'{_label(case.strategy, case.robots)} on {case.map}, seed {case.seed}: '
-                   f'{100.0 * result.coverage:.1f} % swept, {result.outcome} after {_end(result):.2f} T',
+                   f'{100.0 * result.coverage:.1f} % swept, {result.outcome.name.lower()} after {_end(result):.2f} T',
              xlabel='x [m]', ylabel='y [m]')
     handles, labels = axes.get_legend_handles_labels()
     unique = dict(zip(labels, handles))

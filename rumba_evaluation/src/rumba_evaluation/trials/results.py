@@ -1,4 +1,4 @@
-"""Results in a CSV file, a row as soon as its mission has ended, so that a run that was cut short can go on."""
+"""Results in a CSV file: a row is written as soon as its mission has ended, so that an interrupted run can go on."""
 
 import csv
 import dataclasses
@@ -6,10 +6,11 @@ import io
 import os
 from typing import Any, Dict, List, Tuple
 
+from rumba_cleaning.outcome import Outcome
 from rumba_evaluation.trials.cases import LEVELS, Case, Conditions, Curve, Result
 from rumba_sim.model.errors import ConfigError
 
-DIGITS = 7  # of a number: 0.1 s in ten days
+DIGITS = 7  # of a number: enough for 0.1 s in ten days
 PARTS: Tuple[Any, ...] = (Case, Conditions, Result)
 TRUTH = {'True': True, 'False': False}
 
@@ -23,18 +24,18 @@ class Results:
     """
 
     def __init__(self, path: str, conditions: Conditions) -> None:
-        """Open a file, and read what it holds; a last line that was cut short is dropped.
+        """Open a file and read its rows; an incomplete last line is removed.
 
         Raises:
-            ConfigError: it cannot be read or written, or holds something else.
+            ConfigError: the file cannot be read or written, is of another kind, or was made under other conditions.
         """
         self.path = path
         self._conditions = conditions
         self.found: Dict[Case, Result] = {}
         try:
-            self._file = open(path, 'ab+')  # creates it where there is none
+            self._file = open(path, 'ab+')  # creates it if it does not exist
         except OSError as error:
-            raise ConfigError(f'{path}: {error.strerror}: --output must be a folder that can be written to') from None
+            raise ConfigError(f'{path}: {error.strerror}: --output must be a writable folder') from None
         self._file.seek(0)
         whole, end, cut = self._file.read().rpartition(b'\n')
         try:
@@ -50,28 +51,28 @@ class Results:
         header = _header()
         first = rows[0] if rows else []
         if first != header if is_whole else not ','.join(header).startswith(','.join(first)):
-            raise self._other('is no file of results of this version')
+            raise self._refusal('is not a file of results of this version')
         for number, row in enumerate(rows[1:], 2):
             try:
                 case, conditions, result = _parts([_value(kind, text) for kind, text in zip(_kinds(), row)])
             except (LookupError, TypeError, ValueError, ConfigError):
-                raise self._other(f'has a line {number} that cannot be read') from None
+                raise self._refusal(f'cannot be read in line {number}') from None
             for field in dataclasses.fields(Conditions):
                 old, new = (_text(getattr(each, field.name)) for each in (conditions, self._conditions))
                 if old != new:
-                    raise self._other(f'was made with {field.name} {old}, not {new}')
+                    raise self._refusal(f'was made with {field.name} {old}, not {new}')
             self.found[case] = result
 
-    def _other(self, what: str) -> ConfigError:
-        return ConfigError(f'{self.path} {what}: give another --output, or delete it')
+    def _refusal(self, what: str) -> ConfigError:
+        return ConfigError(f'{self.path} {what}: choose another --output, or delete it')
 
     def add(self, case: Case, result: Result) -> None:
-        """Write a row, so that nothing can happen to it any more."""
+        """Write a row, and wait until it is on the disk."""
         values = [*case, *dataclasses.astuple(self._conditions), *dataclasses.astuple(result)]
         times = [time for percent in LEVELS for time in (result.time_to(percent), result.multiple_to(percent))]
         texts = [_text(value) for value in values]
         self._write(texts + [_text(time) for time in times])
-        # As it will be read: a run that was cut short and went on ends with the same table.
+        # Rounded as in the file, so that an interrupted run ends with the same table.
         _, _, self.found[case] = _parts([_value(kind, text) for kind, text in zip(_kinds(), texts)])
 
     def _write(self, row: List[str]) -> None:
@@ -87,7 +88,7 @@ class Results:
 
 
 def _header() -> List[str]:
-    """Names of all columns; the last, seconds and multiples of T, are for people, and not read."""
+    """Names of all columns; the last ones, seconds and multiples of T, are for people and are not read."""
     return [name for part in PARTS for name in part.__annotations__] + [
         f'to_{percent}_{unit}' for percent in LEVELS for unit in ('s', 'T')]
 
@@ -98,7 +99,7 @@ def _kinds() -> List[Any]:
 
 
 def _parts(values: List[Any]) -> Tuple[Case, Conditions, Result]:
-    """What the values of a row make; TypeError where there are too few."""
+    """The values of a row as objects; raises TypeError if there are too few."""
     parts, begin = [], 0
     for part in PARTS:
         end = begin + len(part.__annotations__)
@@ -108,6 +109,8 @@ def _parts(values: List[Any]) -> Tuple[Case, Conditions, Result]:
 
 
 def _text(value: Any) -> str:
+    if isinstance(value, Outcome):
+        return value.name.lower()
     if isinstance(value, float):
         return f'{value:.{DIGITS}g}'
     if isinstance(value, tuple):
@@ -116,7 +119,9 @@ def _text(value: Any) -> str:
 
 
 def _value(kind: Any, text: str) -> Any:
-    """What a text stands for; LookupError or ValueError where that is nothing of its kind."""
+    """The value of a text; raises LookupError or ValueError if it is not of that kind."""
+    if kind is Outcome:
+        return Outcome[text.upper()]
     if kind is Curve:
         return tuple(float(number) for number in text.split())
     return TRUTH[text] if kind is bool else kind(text)

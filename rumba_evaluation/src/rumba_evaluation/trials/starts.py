@@ -1,4 +1,4 @@
-"""Places to begin at."""
+"""Random poses at which robots start."""
 
 import math
 from typing import List
@@ -11,21 +11,22 @@ from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.robot_config import RobotConfig
 
-ANY_RATE = 50  # [Hz] how near a robot can come to a wall does not depend on it
+ANY_RATE = 50  # [Hz] a robot's least clearance does not depend on the step rate
 
 
 def anywhere(plan: FloorPlan, config: RobotConfig, origin: Pose, count: int,
              generator: np.random.Generator) -> List[Pose]:
-    """Poses at random for robots that do not overlap, wherever they fit and can drive to from an origin.
+    """Random poses for robots that do not overlap, anywhere a robot fits and can drive to from an origin.
 
-    Elsewhere, as between four legs of a table, a robot may fit too, but has nothing to clean.
+    A robot may also fit at a position that it cannot reach, for example between the legs of a table, but there is
+    nothing to clean there.
 
     Raises:
         MapError: no robot fits at the origin.
-        WorldError: there is no room for so many.
+        WorldError: there is no space for so many robots.
     """
-    room, radius = plan.safe_clearance, config.drive.radius
-    at_centres = 0.25 * (room[:-1, :-1] + room[:-1, 1:] + room[1:, :-1] + room[1:, 1:])
+    clearance, radius = plan.safe_clearance, config.drive.radius
+    at_centres = 0.25 * (clearance[:-1, :-1] + clearance[:-1, 1:] + clearance[1:, :-1] + clearance[1:, 1:])
     stands = plan.reachable(origin.x, origin.y, radius, 0.0) & (
         at_centres >= constants(config, plan, ANY_RATE)[0]['reach'])
     poses: List[Pose] = []

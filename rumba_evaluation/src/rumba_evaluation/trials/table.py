@@ -5,9 +5,9 @@ import math
 import statistics
 from typing import Dict, Iterable, List, NamedTuple, Sequence
 
-from rumba_evaluation.trials.cases import LEVELS, SUCCEEDED, Case, Result
+from rumba_evaluation.trials.cases import LEVELS, Case, Result
 
-LEFT = 2  # columns of a table that hold text
+TEXTS = ('map', 'strategy', 'outcomes')  # columns that are aligned to the left
 NEVER = '-'
 
 
@@ -27,7 +27,7 @@ EFFORTS = (
 
 
 class Group(NamedTuple):
-    """What a row of the tables is about."""
+    """The missions of one row of the tables."""
 
     map: str
     strategy: str
@@ -40,7 +40,7 @@ def group(case: Case) -> Group:
 
 
 def grouped(cases: Sequence[Case], found: Dict[Case, Result]) -> Dict[Group, List[Result]]:
-    """Results of the cases that are known, in the order of the cases."""
+    """Results by group, in the order of the cases; cases without a result are left out."""
     groups: Dict[Group, List[Result]] = {}
     for case in cases:
         if case in found:
@@ -49,22 +49,28 @@ def grouped(cases: Sequence[Case], found: Dict[Case, Result]) -> Dict[Group, Lis
 
 
 def text(groups: Dict[Group, List[Result]]) -> str:
-    """Two tables: how fast floors got clean, and what that took."""
+    """Two tables: the time to coverage with the outcomes, and the effort."""
     ideal = {name.map: results[0] for name, results in groups.items()}
     floors = ', '.join(f'{name} {result.ideal_time:.0f} s ({result.area:.1f} m2)' for name, result in ideal.items())
-    times = [['map', 'strategy', 'robots', 'runs', *(f'{percent} %' for percent in LEVELS), 'failed']]
+    times = [['map', 'strategy', 'robots', 'runs', *(f'{percent} %' for percent in LEVELS), 'failed', 'outcomes']]
     efforts = [['map', 'strategy', 'robots', 'least %', *(effort.title for effort in EFFORTS), 'in walls']]
     for name, results in groups.items():
-        failed = sum(result.outcome != SUCCEEDED for result in results)
+        failed = sum(result.has_failed for result in results)
         penetrated = sum(result.penetrated for result in results)
         least = 100.0 * min(result.coverage for result in results)
         times.append([*map(str, name), str(len(results)), *(_median_and_worst(results, percent) for percent in LEVELS),
-                      str(failed)])
+                      str(failed), _outcomes(results)])
         efforts.append([*map(str, name), f'{least:.1f}', *(_median(results, effort) for effort in EFFORTS),
                         str(penetrated)])
     return (f'Working time to coverage in multiples of T, median and worst of the runs; T: {floors}\n'
             f'{_aligned(times)}\nLeast coverage, medians of the runs, and runs in which a robot was in a wall\n'
             f'{_aligned(efforts)}')
+
+
+def _outcomes(results: Sequence[Result]) -> str:
+    """How often each outcome occurred, in the order of their codes."""
+    found = [result.outcome for result in results]
+    return ', '.join(f'{found.count(outcome)} {outcome.name.lower()}' for outcome in sorted(set(found)))
 
 
 def _median_and_worst(results: Iterable[Result], percent: int) -> str:
@@ -84,8 +90,9 @@ def _median(results: Iterable[Result], effort: Effort) -> str:
 
 def _aligned(rows: Sequence[Sequence[str]]) -> str:
     widths = [max(len(row[column]) for row in rows) for column in range(len(rows[0]))]
-    return ''.join('  '.join(cell.ljust(width) if column < LEFT else cell.rjust(width)
-                             for column, (cell, width) in enumerate(zip(row, widths))) + '\n' for row in rows)
+    lines = ['  '.join(cell.ljust(width) if title in TEXTS else cell.rjust(width)
+                       for title, cell, width in zip(rows[0], row, widths)) for row in rows]
+    return ''.join(f'{line.rstrip()}\n' for line in lines)
 
 
 def write_curves(path: str, cases: Sequence[Case], found: Dict[Case, Result]) -> None:

@@ -1,4 +1,4 @@
-"""One mission in process: a world, its robots, and a mission for each, advanced at the control rate.
+"""One trial in process: a world, its robots, and a mission for each, advanced at the control rate.
 
     trial = Trial(map_file.load('studio.yaml'), 'boustrophedon', seed=3)
     while not trial.is_over:
@@ -6,7 +6,7 @@
     print(trial.result())
 """
 
-from typing import List, Optional, Sequence
+from typing import Dict, List, Optional, Sequence
 
 import numpy as np
 
@@ -15,28 +15,28 @@ from rumba_cleaning.belief.context import Context
 from rumba_cleaning.cleaning_config import CleaningConfig
 from rumba_cleaning.control import CONTROL_DT, CONTROL_TICKS, STEP_RATE, act
 from rumba_cleaning.mission.mission import Mission, State
+from rumba_cleaning.outcome import Outcome
 from rumba_evaluation.trials import starts
-from rumba_evaluation.trials.cases import ANYWHERE, FAILED, SUCCEEDED, TIME_OUT, Conditions, Result
+from rumba_evaluation.trials.cases import ANYWHERE, Conditions, Result, severity
 from rumba_sim.model.config import updated
 from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.model.geometry import Pose, wrap_angle
 from rumba_sim.model.robot import Robot, nth_name
-from rumba_sim.model.robot_config import RobotConfig
+from rumba_sim.model.robot_config import TURN, RobotConfig
 from rumba_sim.model.world import World
 
-OVERLAP = 0.001  # [m] of body and wall that rounding explains
-SECONDS = 3600.0  # in an hour
-TURN = 2.0 * np.pi  # [rad]
+OVERLAP = 0.001  # [m] of body and wall that can come from rounding
+HOUR = 3600.0  # [s]
 
 
 class Trial:
-    """Missions of one or more robots on a dirty floor, each of which cleans all of it.
+    """Missions of one or more robots on a dirty floor; each robot cleans all of it.
 
     Attributes:
-        world: with the robots, and the floor as it truly is.
+        world: the robots and the true state of the floor.
         contexts: what each robot knows, in the order of the world's robots.
-        missions: of each robot.
-        ideal_time: T [s], what one brush needs at the cleaning speed to sweep the reachable floor, nothing twice.
+        missions: the mission of each robot, in the same order.
+        ideal_time: T [s], for one brush to sweep the reachable floor at the cleaning speed, without any overlap.
         curve: working time [s] until 1 %, 2 %, ... of the reachable floor were swept.
     """
 
@@ -45,7 +45,7 @@ class Trial:
         """Put charged robots on a floor plan.
 
         Raises:
-            RumbaError: there is no such strategy, or no room for so many robots.
+            RumbaError: the strategy is unknown, or there is no space for so many robots.
         """
         config = updated(RobotConfig(), {'battery': {'drain': conditions.drain}}, 'conditions')
         cleaning = CleaningConfig()
@@ -63,32 +63,34 @@ class Trial:
         self.ideal_time = self.world.floor.reachable_area / (config.brush.width * cleaning.speed)
         self.curve: List[float] = []
         self._meters = [_Meter(plan, robot) for robot in self.world.robots.values()]
-        self._dt = 0.0  # [s] since the observations before
+        self._dt = 0.0  # [s] since the last observations
         self._steps = 0
         self._charging_steps = 0
         self.world.step()  # the contacts of the dock close in the first tick
 
     @property
     def working_time(self) -> float:
-        """Time since the beginning [s] without that in which all robots that still have a mission charge."""
+        """Time since the start [s] without the time in which all robots that still have a mission charge."""
         return (self._steps - self._charging_steps) * CONTROL_DT
 
     @property
     def is_over(self) -> bool:
-        """Whether all missions have ended, or the time is up."""
-        return not self._running() or self.working_time >= self._conditions.bound * self.ideal_time or (
+        """Whether all missions have ended, or the bound or the time limit is reached."""
+        return not self._running or self.working_time >= self._conditions.bound * self.ideal_time or (
             self.world.time >= self._time_limit)
 
-    def _running(self) -> List[Mission]:
-        return [mission for mission in self.missions if mission.status is Status.RUNNING]
+    @property
+    def _running(self) -> Dict[str, Mission]:
+        """The missions that have not ended, by the name of the robot; a fall ends a mission."""
+        return {name: mission for (name, robot), mission in zip(self.world.robots.items(), self.missions)
+                if mission.status is Status.RUNNING and not robot.has_fallen}
 
     def step(self) -> None:
-        """Each robot looks, and is told what to do; then time passes until they look again."""
-        for robot, mission in zip(self.world.robots.values(), self.missions):
-            if mission.status is Status.RUNNING:
-                act(mission, self.world, robot.name, self._dt)
+        """Each robot observes and gets a command; then time passes until the next observation."""
+        for name, mission in self._running.items():
+            act(mission, self.world, name, self._dt)
         self._dt = CONTROL_DT
-        running = self._running()
+        running = self._running.values()
         if running and all(mission.state is State.CHARGING for mission in running):
             self._charging_steps += 1
         self.world.step(CONTROL_TICKS)
@@ -100,7 +102,7 @@ class Trial:
             self.curve.append(self.working_time)
 
     def result(self) -> Result:
-        """How it went so far."""
+        """The result so far."""
         floor, meters = self.world.floor, self._meters
         robots = list(self.world.robots.values())
         start = robots[0].start.pose
@@ -116,25 +118,28 @@ class Trial:
             docked=sum(robot.is_docked for robot in robots), penetrated=any(meter.penetrated for meter in meters),
             x=start.x, y=start.y, theta=start.theta, curve=tuple(self.curve))
 
-    def _outcome(self) -> str:
-        if self._running():
-            return TIME_OUT
-        return SUCCEEDED if all(mission.status is Status.SUCCEEDED for mission in self.missions) else FAILED
+    def _outcome(self) -> Outcome:
+        if self._running:
+            return Outcome.TIMED_OUT
+        return max((Outcome.FALLEN if robot.has_fallen else mission.outcome
+                    for robot, mission in zip(self.world.robots.values(), self.missions)), key=severity)
 
     def _message(self) -> str:
-        if len(self.missions) == 1:
-            return self.missions[0].message
-        return '; '.join(f'{name}: {mission.message}' for name, mission in zip(self.world.robots, self.missions))
+        messages = {name: f'fell over a cliff; {mission.message}' if robot.has_fallen else mission.message
+                    for (name, robot), mission in zip(self.world.robots.items(), self.missions)}
+        if len(messages) == 1:
+            return next(iter(messages.values()))
+        return '; '.join(f'{name}: {message}' for name, message in messages.items())
 
 
 class _Meter:
-    """Adds up at the control rate what one robot does.
+    """Sums of one robot, updated at the control rate.
 
     Attributes:
-        turned: [rad] to either side.
-        charge: out of the battery [Ah], as if its drain were 1.
+        turned: rotation [rad], left and right added up.
+        charge: out of the battery [Ah], at a drain of 1.
         energy: the same [Wh].
-        penetrated: whether it was inside a wall, or fell from a cliff.
+        penetrated: whether the robot was inside a wall, or fell over a cliff.
     """
 
     def __init__(self, plan: FloorPlan, robot: Robot) -> None:
@@ -153,7 +158,7 @@ class _Meter:
         self.turned += abs(wrap_angle(pose.theta - self._theta))
         self._theta = pose.theta
         if battery.current < 0.0:
-            charge = -battery.current * CONTROL_DT / SECONDS
+            charge = -battery.current * CONTROL_DT / HOUR
             self.charge += charge
             self.energy += battery.voltage * charge
         self.penetrated |= self._robot.has_fallen or (

@@ -1,1 +1,1 @@
-"""What is asked of a mission, and whether it was met."""
+"""Requirements of a mission, and the verdict on each of them."""

@@ -1,17 +1,17 @@
-"""A verdict on a robot's run: what is asked of it, and what was measured. The caller owns time and topics.
+"""A verdict on a robot's run: its conditions and the measured values. The caller supplies time and values.
 
-Two kinds of conditions:
+There are two kinds of conditions:
 
-A goal (coverage, reach, docked) is to be met. The coverage that counts is the newest; a place that was reached stays
-reached, whatever comes later; docked is a robot whose contacts are closed, after they were open: one that never left
-its dock has not docked. So `coverage` and `docked` together ask for a robot that is on its dock after it cleaned.
+A goal (coverage, reach, docked) must be met at the end. For coverage the newest value counts. A waypoint that was
+reached once counts as reached. For docked, the contacts must be closed after they were open: a robot that never left
+its dock has not docked. So `coverage` and `docked` together require that the robot is on its dock after it has cleaned.
 
-A guard (battery, collisions, fields) must hold in every message. What broke it once broke it for good; the run goes
-on all the same, so that the verdict tells of every condition.
+A guard (battery, collisions, fields) must hold in every message. If it is violated once, it has failed; the run goes
+on nevertheless, so that the verdict covers every condition.
 
-A run begins with the first message. It is over as soon as all goals are met at once, with every guard heard at least
-once, or when the time is up; without any goal, when the time is up. What comes later counts no more. A condition of
-which nothing was heard is not met, nor is a guard that could not be judged to the end.
+A run begins with the first message. It ends as soon as all goals are met at the same time and each guard has a value,
+or when the time limit is reached; without any goal, only at the time limit. Later values are ignored. A condition
+without any value has failed, and so has a guard if the run was aborted.
 """
 
 import abc
@@ -22,60 +22,60 @@ from rumba_sim.model.geometry import Pose, wrap_angle
 
 
 class Condition(abc.ABC):
-    """One thing that is asked of a run.
+    """One requirement of a run.
 
     Attributes:
         name: letters, digits and _, unique among the conditions of a run.
-        asked: what is asked, in words.
-        is_guard: whether it must hold throughout, not once.
-        is_heard: whether anything was measured.
+        required: the requirement, in words.
+        is_guard: whether it must hold in every message; else it must be met at the end.
+        is_measured: whether there was a value.
     """
 
     is_guard = False
 
-    def __init__(self, name: str, asked: str) -> None:
-        """Nothing is measured yet."""
+    def __init__(self, name: str, required: str) -> None:
+        """There is no value yet."""
         self.name = name
-        self.asked = asked
-        self.is_heard = False
+        self.required = required
+        self.is_measured = False
 
-    def hear(self, value: Any) -> None:
+    def update(self, value: Any) -> None:
         """Take a measured value."""
-        self.is_heard = True
-        self._take(value)
+        self.is_measured = True
+        self._update(value)
 
     @property
     def is_met(self) -> bool:
-        """Whether it is met, by what was heard until now."""
-        return self.is_heard and self._is_met()
+        """Whether it is met by the values so far; not without any."""
+        return self.is_measured and self._is_met()
 
     def measured(self) -> str:
-        """What was measured, in words."""
-        return self._measured() if self.is_heard else 'nothing'
+        """The measured values, in words."""
+        return self._measured() if self.is_measured else 'nothing'
 
     @abc.abstractmethod
-    def _take(self, value: Any) -> None:
+    def _update(self, value: Any) -> None:
         """Take a measured value."""
 
     @abc.abstractmethod
     def _is_met(self) -> bool:
-        """Whether it is met, by the values taken."""
+        """Whether it is met by the values so far, of which there is at least one."""
 
     @abc.abstractmethod
     def _measured(self) -> str:
-        """The values taken, in words."""
+        """The values, in words; there is at least one."""
 
 
 class Coverage(Condition):
-    """So much of the floor is swept; hears shares [0..1]."""
+    """A share of the floor is swept; the values are shares [0..1]."""
 
     def __init__(self, least: float) -> None:
-        """Ask for a share [0..1]."""
+        """Require a share [0..1]."""
         super().__init__('coverage', f'at least {100.0 * least:.1f} % of the floor swept')
         self._least = least
         self._newest = math.nan
 
-    def _take(self, value: float) -> None:
+    def _update(self, value: float) -> None:
         self._newest = value
 
     def _is_met(self) -> bool:
@@ -86,42 +86,44 @@ class Coverage(Condition):
 
 
 class Reach(Condition):
-    """The robot was at a pose once; hears poses in the map frame."""
+    """The robot was at a waypoint once; the values are poses in the map frame."""
 
-    def __init__(self, name: str, target: Pose, distance: float, angle: float) -> None:
-        """Ask for a target within a distance [m] and an angle [rad]; a heading of NaN is any."""
-        heading = '' if math.isnan(target.theta) else f' and heading {target.theta:.2f} rad within {angle:.2f} rad'
-        super().__init__(name, f'to reach ({target.x:.2f}, {target.y:.2f}) m within {distance:.2f} m{heading}')
-        self._target, self._distance, self._angle = target, distance, angle
-        self._nearest, self._off = math.inf, math.inf
+    def __init__(self, name: str, waypoint: Pose, distance: float, angle: float) -> None:
+        """Require a waypoint within a distance [m] and an angle [rad]; a heading of NaN allows any."""
+        any_heading = math.isnan(waypoint.theta)
+        heading = '' if any_heading else f' and heading {waypoint.theta:.2f} rad within {angle:.2f} rad'
+        super().__init__(name, f'to reach ({waypoint.x:.2f}, {waypoint.y:.2f}) m within {distance:.2f} m{heading}')
+        self._waypoint, self._distance, self._angle = waypoint, distance, angle
+        self._nearest, self._least_error = math.inf, math.inf  # [m], and of the heading within the distance [rad]
         self._is_reached = False
 
-    def _take(self, value: Pose) -> None:
-        distance = math.hypot(value.x - self._target.x, value.y - self._target.y)
-        off = 0.0 if math.isnan(self._target.theta) else abs(wrap_angle(value.theta - self._target.theta))
+    def _update(self, value: Pose) -> None:
+        waypoint = self._waypoint
+        distance = math.hypot(value.x - waypoint.x, value.y - waypoint.y)
+        error = 0.0 if math.isnan(waypoint.theta) else abs(wrap_angle(value.theta - waypoint.theta))
         self._nearest = min(self._nearest, distance)
         if distance <= self._distance:
-            self._off = min(self._off, off)
-            self._is_reached = self._is_reached or off <= self._angle
+            self._least_error = min(self._least_error, error)
+            self._is_reached = self._is_reached or error <= self._angle
 
     def _is_met(self) -> bool:
         return self._is_reached
 
     def _measured(self) -> str:
-        if self._is_reached or math.isinf(self._off):
-            return f'{self._nearest:.2f} m from it at the nearest'
-        return f'there, with a heading {self._off:.2f} rad off at the least'
+        if self._is_reached or math.isinf(self._least_error):
+            return f'a smallest distance of {self._nearest:.2f} m'
+        return f'the position, with a smallest error of the heading of {self._least_error:.2f} rad'
 
 
 class Docked(Condition):
-    """The robot is on its dock, to which it came; hears whether the contacts are closed."""
+    """The robot has come to its dock; the values tell whether the contacts are closed."""
 
     def __init__(self) -> None:
-        """Nothing is known of its past."""
+        """The contacts have not been open yet."""
         super().__init__('docked', 'to come to the dock')
         self._is_docked = self._was_off = False
 
-    def _take(self, value: bool) -> None:
+    def _update(self, value: bool) -> None:
         self._is_docked = value
         self._was_off = self._was_off or not value
 
@@ -135,44 +137,44 @@ class Docked(Condition):
 
 
 class Battery(Condition):
-    """The charge never falls below a limit; hears charges [%]."""
+    """The charge never falls below a limit; the values are charges [%]."""
 
     is_guard = True
 
     def __init__(self, least: float) -> None:
-        """Ask for a charge [%]."""
+        """Require a charge [%]."""
         super().__init__('battery', f'never less than {least:.1f} % of charge')
         self._least = least
         self._lowest = math.inf
 
-    def hear(self, value: float) -> None:
-        """Take a charge [%]; NaN is none, not measured."""
+    def update(self, value: float) -> None:
+        """Take a charge [%]; NaN (not measured) is ignored."""
         if not math.isnan(value):
-            super().hear(value)
+            super().update(value)
 
-    def _take(self, value: float) -> None:
+    def _update(self, value: float) -> None:
         self._lowest = min(self._lowest, value)
 
     def _is_met(self) -> bool:
         return self._lowest >= self._least
 
     def _measured(self) -> str:
-        return f'{self._lowest:.1f} % at the least'
+        return f'a lowest charge of {self._lowest:.1f} %'
 
 
 class Collisions(Condition):
-    """The bumper is pressed anew no more often than allowed; hears whether it is pressed."""
+    """The number of collisions is limited; the values tell whether the bumper is pressed."""
 
     is_guard = True
 
     def __init__(self, most: int) -> None:
-        """Allow so many."""
+        """Allow a number of collisions; a bumper that stays pressed is one collision."""
         super().__init__('collisions', f'at most {most} collision{"" if most == 1 else "s"}')
         self._most = most
         self._count = 0
         self._is_pressed = False
 
-    def _take(self, value: bool) -> None:
+    def _update(self, value: bool) -> None:
         self._count += value and not self._is_pressed
         self._is_pressed = value
 
@@ -184,35 +186,35 @@ class Collisions(Condition):
 
 
 class Field(Condition):
-    """A field of a topic stays within a range, both ends allowed; hears numbers."""
+    """A field of a topic stays within a range, both ends allowed; the values are those of the field."""
 
     is_guard = True
 
     def __init__(self, path: str, low: float, high: float) -> None:
-        """Ask for a range of the field at a path, as in `rumba/battery_state/voltage`."""
+        """Require a range of the field at a path such as `rumba/battery_state/voltage`."""
         super().__init__('field_' + ''.join(letter if letter.isalnum() else '_' for letter in path.strip('/')),
                          f'{path} always within {low:g} to {high:g}')
         self.path = path
         self._low, self._high = low, high
         self._lowest, self._highest = math.inf, -math.inf
-        self._trouble = ''
+        self._problem = ''
 
-    def _take(self, value: Any) -> None:
-        number = isinstance(value, (bool, int, float)) and not math.isnan(value)
-        if number:
+    def _update(self, value: Any) -> None:
+        is_number = isinstance(value, (bool, int, float)) and not math.isnan(value)
+        if is_number:
             self._lowest, self._highest = min(self._lowest, value), max(self._highest, value)
-        elif not self._trouble:
-            self._trouble = f'{value!r}, which is no number'
+        elif not self._problem:
+            self._problem = f'{value!r}, which is not a number'
 
     def _is_met(self) -> bool:
-        return not self._trouble and self._low <= self._lowest and self._highest <= self._high
+        return not self._problem and self._low <= self._lowest and self._highest <= self._high
 
     def _measured(self) -> str:
-        return self._trouble or f'{self._lowest:g} to {self._highest:g}'
+        return self._problem or f'{self._lowest:g} to {self._highest:g}'
 
 
 class Verdict(NamedTuple):
-    """What is said of one condition."""
+    """The verdict on one condition."""
 
     name: str
     is_met: bool
@@ -223,12 +225,12 @@ class Judge:
     """Judges one run.
 
     Attributes:
-        conditions: all that is asked.
+        conditions: all conditions of the run.
         is_over: whether the verdicts are final.
     """
 
     def __init__(self, conditions: Sequence[Condition], time_limit: float) -> None:
-        """The run has not begun; it may take so long [s], of the time that the caller tells."""
+        """The run has not begun; `time_limit` [s] is of the same clock as the times that the caller gives."""
         self.conditions = list(conditions)
         self.is_over = False
         self._time_limit = time_limit
@@ -237,29 +239,29 @@ class Judge:
         self._is_complete = False
         self._reason = ''
 
-    def hear(self, condition: Condition, value: Any, now: float) -> None:
-        """Take a value for one of the conditions, measured at a time [s] that never runs backward."""
-        self.look(now)
+    def update(self, condition: Condition, value: Any, now: float) -> None:
+        """Take a value of one of the conditions, measured at a time [s] that never goes backwards."""
+        self.check_time(now)
         if self.is_over:
             return
         if self._began is None:
             self._began = now
-        condition.hear(value)
+        condition.update(value)
         goals = [one for one in self.conditions if not one.is_guard]
-        if goals and all(one.is_met for one in goals) and all(one.is_heard for one in self.conditions):
+        if goals and all(one.is_met for one in goals) and all(one.is_measured for one in self.conditions):
             self._end('', is_complete=True)
 
-    def look(self, now: float) -> None:
-        """See whether the time [s] is up."""
+    def check_time(self, now: float) -> None:
+        """End the run if the time [s] has reached the limit."""
         if self.is_over or self._began is None:
             return
         self._passed = now - self._began
         if self._passed >= self._time_limit:
             self._passed = self._time_limit
-            self._end('the time was up', is_complete=True)
+            self._end('the time limit is reached', is_complete=True)
 
-    def give_up(self, reason: str) -> None:
-        """The run ends early, for a reason in words."""
+    def abort(self, reason: str) -> None:
+        """End the run early, for a reason in words."""
         if not self.is_over:
             self._end(reason, is_complete=False)
 
@@ -267,13 +269,13 @@ class Judge:
         self.is_over, self._reason, self._is_complete = True, reason, is_complete
 
     def verdicts(self, source: Callable[[Condition], str]) -> List[Verdict]:
-        """What is to be said of each condition; `source` names where its values should have come from."""
+        """The verdict on each condition; `source` gives the topics from which its values come."""
         return [self._verdict(condition, source) for condition in self.conditions]
 
     def _verdict(self, condition: Condition, source: Callable[[Condition], str]) -> Verdict:
         is_met = condition.is_met and (self._is_complete or not condition.is_guard)
-        silence = '' if condition.is_heard else f' on {source(condition)}'
+        topics = '' if condition.is_measured else f' on {source(condition)}'
         reason = f': {self._reason}' if self._reason else ''
         return Verdict(condition.name, is_met,
-                       f'{condition.name}: asked {condition.asked}; measured {condition.measured()}{silence} '
+                       f'{condition.name}: required {condition.required}; measured {condition.measured()}{topics} '
                        f'after {self._passed:.1f} s of {self._time_limit:g} s{reason}')

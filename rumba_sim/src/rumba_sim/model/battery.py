@@ -1,4 +1,4 @@
-"""The battery: 12 NiMH cells that loads run down and the dock fills again."""
+"""The battery: 12 NiMH cells, discharged by the loads and charged on the dock."""
 
 import dataclasses
 import math
@@ -7,32 +7,34 @@ from rumba_sim.model import kernel
 from rumba_sim.model.config import setting
 
 CELLS = 12
-# Rest voltage of one NiMH cell over its state of charge [0..1] [V]: the flat middle and the two knees of the
-# chemistry, set so that the pack has its nominal 14.4 V at 10 % and about 18 V at the end of a charge
-# (iRobot Roomba 600 Open Interface specification; makers' data).
+# Pairs of the state of charge [0..1] and the rest voltage [V] of one NiMH cell: a flat middle part and a knee at each
+# end. The pack has its nominal 14.4 V at 10 % and about 18 V at the end of a charge (iRobot Roomba 600 Open Interface
+# specification; data of battery makers).
 REST_VOLTAGE = ((0.0, 1.00), (0.1, 1.20), (0.5, 1.27), (0.9, 1.34), (1.0, 1.47))
-ROUNDING = 1e-6  # [%] lest 29 %, put into ampere-hours and taken back, be 30 %
+ROUNDING = 1e-6  # [%] so that 29 %, converted to ampere-hours and back, does not become 30 %
 
 
 @dataclasses.dataclass(frozen=True)
 class BatteryConfig:
-    """What sets one battery apart from another."""
+    """The figures of a battery and its charger."""
 
     capacity: float = setting(2.7, 'charge of a full battery (makers: 2.7 to 3.0)', 'Ah', low=0.01, high=1000.0)
-    resistance: float = setting(0.25, 'inner resistance of the pack, about 20 mOhm a cell', 'Ohm', low=0.0, high=10.0)
-    idle_current: float = setting(0.19, 'electronics alone (readings of owners)', 'A', low=0.0, high=100.0)
-    brush_current: float = setting(0.5, 'brushes and vacuum while cleaning (published measurements)', 'A',
+    resistance: float = setting(0.25, 'inner resistance of the pack, about 20 mOhm per cell', 'Ohm', low=0.0, high=10.0)
+    idle_current: float = setting(0.19, 'current of the electronics alone (readings of owners)', 'A',
+                                  low=0.0, high=100.0)
+    brush_current: float = setting(0.5, 'current of brushes and vacuum while cleaning (published measurements)', 'A',
                                    low=0.0, high=100.0)
-    wheel_current_slow: float = setting(0.3, 'both wheels, as slow as they turn (published measurements)', 'A',
+    wheel_current_slow: float = setting(0.3, 'current of both wheels at the lowest speed (published measurements)', 'A',
                                         low=0.0, high=100.0)
-    wheel_current: float = setting(1.0, 'both wheels at wheel_speed (published measurements)', 'A',
+    wheel_current: float = setting(1.0, 'current of both wheels at wheel_speed (published measurements)', 'A',
                                    low=0.0, high=100.0)
-    wheel_speed: float = setting(0.3, 'normal speed while cleaning (Create 3: 0.306)', 'm/s', low=0.01, high=10.0)
-    charge_current: float = setting(1.25, 'charger, until the taper; fills the battery in about 3 h', 'A',
-                                    low=0.001, high=100.0)
-    trickle_current: float = setting(0.06, 'charger, at the end of the taper', 'A', low=0.001, high=100.0)
-    taper_start: float = setting(0.85, 'state of charge where the charger begins to taper', '0..1', low=0.0, high=0.99)
-    drain: float = setting(1.0, 'how many times faster than a real one this battery runs down and fills',
+    wheel_speed: float = setting(0.3, 'usual speed while cleaning (Create 3: 0.306)', 'm/s', low=0.01, high=10.0)
+    charge_current: float = setting(1.25, 'current of the charger before the taper; charges the battery in about 3 h',
+                                    'A', low=0.001, high=100.0)
+    trickle_current: float = setting(0.06, 'current of the charger at the end of the taper', 'A', low=0.001, high=100.0)
+    taper_start: float = setting(0.85, 'state of charge at which the current of the charger begins to fall', '0..1',
+                                 low=0.0, high=0.99)
+    drain: float = setting(1.0, 'how many times faster than a real battery this one discharges and charges',
                            low=0.0, high=1e4)
 
 
@@ -40,24 +42,24 @@ class Battery:
     """State of one battery, advanced by `step`.
 
     Attributes:
-        config: its constants.
-        charge: what is left [Ah], 0 to `config.capacity`.
-        current: through the terminals in the last step [A], negative while discharging.
+        config: figures of the battery.
+        charge: charge that is left [Ah], 0 to `config.capacity`.
+        current: current through the terminals in the last step [A], negative while discharging.
     """
 
     def __init__(self, config: BatteryConfig, state_of_charge: float = 1.0, current: float = 0.0) -> None:
-        """Begin with the given state of charge [0..1], and a current [A] that flowed last."""
+        """Start with a state of charge [0..1] and the current [A] of the step before."""
         self.config = config
         self.charge = config.capacity * state_of_charge
         self.current = current
 
     def step(self, dt: float, load: float, on_dock: bool = False) -> None:
-        """Let time pass.
+        """Simulate some time.
 
-        On the dock the charger feeds the loads, and the battery on top of them.
+        On the dock the charger supplies the loads in addition to charging the battery.
 
         Args:
-            dt: time that passes [s], not negative.
+            dt: duration [s], not negative.
             load: sum of the loads [A], not negative.
             on_dock: whether the charging contacts are closed.
         """
@@ -66,22 +68,22 @@ class Battery:
 
     @property
     def state_of_charge(self) -> float:
-        """Share of the capacity that is left [0..1]."""
+        """Charge that is left as a share of the capacity [0..1]."""
         return self.charge / self.config.capacity
 
     @property
     def percentage(self) -> int:
-        """Charge left [%], 0 to 100, rounded up: 0 says empty."""
+        """Charge that is left [%], 0 to 100, rounded up: 0 means empty."""
         return math.ceil(100.0 * self.state_of_charge - ROUNDING)
 
     @property
     def voltage(self) -> float:
-        """At the terminals [V]: the rest voltage, less what the current loses in the inner resistance."""
+        """Voltage at the terminals [V]: the rest voltage less the drop across the inner resistance."""
         return CELLS * _rest_voltage(self.state_of_charge) + self.current * self.config.resistance
 
 
 def _rest_voltage(state_of_charge: float) -> float:
-    """Rest voltage of one cell [V] at a state of charge [0..1], by straight lines between the points."""
+    """Rest voltage of one cell [V] at a state of charge [0..1], interpolated linearly in REST_VOLTAGE."""
     for (left, low), (right, high) in zip(REST_VOLTAGE, REST_VOLTAGE[1:]):
         if state_of_charge <= right:
             return low + (high - low) * (state_of_charge - left) / (right - left)

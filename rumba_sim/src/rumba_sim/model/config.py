@@ -1,4 +1,4 @@
-"""Settings: frozen dataclasses whose fields know their unit and range, filled strictly from a mapping."""
+"""Settings: frozen dataclasses whose fields have a unit and a range, read from mappings with strict checks."""
 
 import dataclasses
 import difflib
@@ -8,7 +8,7 @@ from typing import Any, Iterator, List, Mapping, Optional, Tuple, Type, TypeVar
 from rumba_sim.model.errors import ConfigError
 
 Settings = TypeVar('Settings')
-LARGEST = 1e300  # what YAML may write as a whole number need not fit into a float
+LARGEST = 1e300  # a larger number is out of range: an integer of YAML may be too large for a float
 Field = Any  # of dataclasses.Field: Python 3.8 cannot subscript it at run time
 
 
@@ -16,10 +16,11 @@ def setting(default: Any, doc: str, unit: str = '', low: Optional[float] = None,
     """A dataclass field that a user may set.
 
     Args:
-        default: value where the user gives none; its type is the type of the setting.
-        doc: what it is, for people, and where its figure comes from.
-        unit: unit of a number, as in `m/s`.
-        low, high: the range of a number, both ends allowed; None for any finite number.
+        default: value if the user gives none; its type is the type of the setting.
+        doc: the meaning of the setting and the source of its default, for people.
+        unit: unit of a number, for example `m/s`.
+        low: smallest allowed number; None for any finite number.
+        high: largest allowed number; None for any finite number.
     """
     return dataclasses.field(default=default, metadata={'doc': doc, 'unit': unit, 'low': low, 'high': high})
 
@@ -35,12 +36,12 @@ def names(cls: type) -> List[str]:
 
 
 def part(settings: Any, cls: Type[Settings]) -> Settings:
-    """Those of the settings of a class that come from `cls`, which it extends."""
+    """The part of some settings that belongs to `cls`, a base class of theirs, as an instance of `cls`."""
     return cls(**{name: getattr(settings, name) for name in names(cls)})
 
 
 def describe(cls: type) -> str:
-    """One line for each setting of a class: name, default, unit, meaning and range."""
+    """A line for each setting of a class: name, default, unit, meaning and range."""
     rows = [(path, f'{field.default!s}', _unit(field), f'{field.metadata["doc"]}; {_range(field)}')
             for path, field in leaves(cls)]
     widths = [max(len(row[column]) for row in rows) for column in range(3)] if rows else []
@@ -54,7 +55,7 @@ def explain(field: Field) -> str:
 
 
 def leaves(cls: type, path: str = '') -> Iterator[Tuple[str, Field]]:
-    """Path, as in `battery/drain`, and field of each setting; those in sections come last."""
+    """Path (for example `battery/drain`) and field of each setting; settings in sections come last."""
     for field in sections_last(cls):
         if 'section' in field.metadata:
             yield from leaves(field.metadata['section'], f'{path}{field.name}/')
@@ -63,17 +64,17 @@ def leaves(cls: type, path: str = '') -> Iterator[Tuple[str, Field]]:
 
 
 def sections_last(cls: type) -> List[Field]:
-    """The fields of a class of settings as people want to read them."""
+    """The fields of a class of settings, sections after single settings."""
     return sorted(dataclasses.fields(cls), key=lambda field: 'section' in field.metadata)
 
 
 def from_mapping(cls: Type[Settings], mapping: Mapping[str, Any], where: str) -> Settings:
-    """Settings of class `cls` from a mapping, as YAML or the parameter server give it.
+    """Settings of class `cls` from a mapping that comes from YAML or from the parameter server.
 
     Args:
-        cls: a frozen dataclass, its fields made by `setting` and `section`.
-        mapping: value by field name; fields that it leaves out keep their default.
-        where: what the mapping was read from, for the error message.
+        cls: a frozen dataclass with fields made by `setting` and `section`.
+        mapping: values by field name; other fields keep their defaults.
+        where: source of the mapping, for error messages.
 
     Raises:
         ConfigError: a name is unknown, or a value has the wrong type or is out of range.
@@ -82,10 +83,10 @@ def from_mapping(cls: Type[Settings], mapping: Mapping[str, Any], where: str) ->
 
 
 def updated(settings: Settings, mapping: Mapping[str, Any], where: str) -> Settings:
-    """A copy of settings in which the values of a mapping, nested as they are, take the place of the old.
+    """A copy of settings with values replaced by those of a mapping, which is nested like the settings.
 
     Raises:
-        ConfigError: as `from_mapping`.
+        ConfigError: as for `from_mapping`.
     """
     try:
         return _updated(settings, mapping, '')
@@ -110,7 +111,7 @@ def _updated(settings: Settings, mapping: Mapping[str, Any], path: str) -> Setti
 
 
 def nearest(name: Any, known: List[str]) -> str:
-    """What a user may have meant by an unknown name, as the end of a message."""
+    """End of a message about an unknown name: the known name that is most similar, or all known names."""
     close = difflib.get_close_matches(str(name), known, n=1)
     return f'did you mean {close[0]!r}?' if close else f'known are {", ".join(known)}'
 

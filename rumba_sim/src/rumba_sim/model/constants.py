@@ -1,22 +1,88 @@
-"""The kernel's record of constants, from a configuration and a floor plan."""
+"""The constants of the kernel, computed from the configuration of the robots and a floor plan."""
 
 import math
+import typing
+from typing import Any, Dict, NamedTuple
 
 import numpy as np
 
-from rumba_sim.model import kernel
 from rumba_sim.model.errors import ConfigError, MapError
 from rumba_sim.model.floor_plan import FloorPlan
+from rumba_sim.model.geometry import Pose
 from rumba_sim.model.kernel import Array
 from rumba_sim.model.robot_config import RobotConfig
 
+NO_DOCK = Pose(math.nan, math.nan, math.nan)
+FORMATS: Dict[Any, str] = {float: 'f8', int: 'i8', bool: '?'}
+
+
+class Constants(NamedTuple):
+    """Everything that stays the same from tick to tick; no field has a default, so that none can be forgotten."""
+
+    # time and floor
+    dt: float  # duration of a tick [s]
+    origin_x: float  # lower left corner of cell (0, 0), map frame [m]
+    origin_y: float
+    resolution: float  # side of a cell [m]
+    has_layers: bool  # whether the floor has cliffs or carpets
+    # body and wheels
+    radius: float  # [m]
+    reach: float  # interpolated clearance at which the body touches a wall [m]
+    wheel_base: float  # [m]
+    ticks_per_metre: float
+    max_speed: float  # of a wheel [m/s]
+    max_turn_rate: float  # [rad/s]
+    acceleration: float  # of a wheel [m/s^2]
+    dead_band: float  # of a wheel [m/s]
+    timeout_ticks: int  # a command is in force for so many ticks
+    noise: float  # standard deviation of a wheel after 1 m [m]
+    floor_traction: float  # driven distance / counted distance
+    carpet_traction: float
+    # bumper and laser
+    bumper_half: float  # half of the angle that the bumper covers [rad]
+    overlap_half: float  # half of the angle in which a contact presses both switches [rad]
+    range_min: float  # [m]
+    range_max: float  # [m]
+    range_noise: float  # standard deviation of a range [m]
+    # dock
+    has_dock: bool
+    dock_x: float  # pose of a docked robot, map frame [m, rad]; NaN without a dock
+    dock_y: float
+    dock_theta: float
+    contact_distance: float  # the contacts close at or below [m]
+    contact_angle: float  # and [rad]
+    release_distance: float  # the contacts open above [m]
+    release_angle: float  # or [rad]
+    buoy_range: float  # [m]
+    buoy_half: float  # half of the angle that both buoys cover together [rad]
+    buoy_overlap_half: float  # half of the angle in which both are received [rad]
+    halo: float  # range of the force field [m]
+    # brush
+    brush_width: float  # [m]
+    log_kept: float  # natural logarithm of the share of dirt that one pass leaves
+    # battery
+    capacity: float  # [Ah]
+    idle_current: float  # [A]
+    wheel_current_slow: float  # [A]
+    wheel_current: float  # [A]
+    wheel_speed: float  # [m/s]
+    brush_current: float  # [A]
+    charge_current: float  # [A]
+    trickle_current: float  # [A]
+    taper_start: float  # state of charge [0..1]
+    drain: float  # factor on the change of charge
+
+
+RECORD = np.dtype((np.record, np.dtype(
+    [(name, FORMATS[kind]) for name, kind in typing.get_type_hints(Constants).items()], align=True)))
+
 
 def constants(config: RobotConfig, plan: FloorPlan, step_rate: float) -> Array:
-    """An array of one record `kernel.CONSTANTS`.
+    """The record of `Constants` that the kernel reads, as an array of one element.
 
     Raises:
-        ConfigError: a robot would move by more than its radius in one tick.
-        MapError: the cells are larger than the robot's radius.
+        ConfigError: a robot could move by more than its radius in one tick.
+        MapError: the cells are larger than the radius of a robot.
     """
     drive = config.drive
     if drive.max_speed > drive.radius * step_rate:
@@ -25,36 +91,39 @@ def constants(config: RobotConfig, plan: FloorPlan, step_rate: float) -> Array:
     if plan.resolution > drive.radius:
         raise MapError(f'{plan.name}: cells of {plan.resolution:g} m are too coarse for a robot of radius '
                        f'{drive.radius:g} m')
-    k = np.zeros(1, kernel.CONSTANTS)
-    for part in (drive, config.battery):
-        for name in k.dtype.names or ():
-            if hasattr(part, name):
-                k[0][name] = getattr(part, name)
-    _fill(k[0], config, plan)
-    k[0]['dt'] = 1.0 / step_rate
-    k[0]['timeout_ticks'] = max(round(drive.command_timeout * step_rate), 1)
-    return k
+    return np.array([tuple(_values(config, plan, step_rate))], RECORD)
 
 
-def _fill(k: kernel.Record, config: RobotConfig, plan: FloorPlan) -> None:
-    """What has another name here than in the configuration, or comes from the plan."""
-    drive, odometry, bumper, laser, dock = config.drive, config.odometry, config.bumper, config.laser, config.dock
-    k['origin_x'], k['origin_y'] = plan.origin
-    k['resolution'] = plan.resolution
-    # Bilinear interpolation of the distance to a corner is too large by resolution^2 / 8 * (second derivatives,
-    # together 1 / distance), or by 5 % more, since these change within a cell: with so much more room the body itself
-    # never overlaps a wall.
-    k['reach'] = drive.radius + 1.05 * plan.resolution ** 2 / (8.0 * drive.radius)
-    k['ticks_per_metre'] = drive.ticks_per_turn / (math.pi * drive.wheel_diameter)
-    k['noise'] = odometry.noise
-    k['floor_traction'], k['carpet_traction'] = odometry.floor_traction, odometry.carpet_traction
-    k['bumper_half'], k['overlap_half'] = 0.5 * bumper.field, 0.5 * bumper.overlap
-    k['range_min'], k['range_max'], k['range_noise'] = laser.range_min, laser.range_max, laser.noise
-    for name in ('contact_distance', 'contact_angle', 'release_distance', 'release_angle', 'buoy_range', 'halo'):
-        k[name] = getattr(dock, name)
-    k['buoy_half'], k['buoy_overlap_half'] = 0.5 * dock.buoy_field, 0.5 * dock.buoy_overlap
-    k['brush_width'], k['log_kept'] = config.brush.width, math.log1p(-config.brush.pickup)
-    k['has_layers'] = plan.cliff is not None or plan.carpet is not None
-    if plan.dock is not None:
-        k['has_dock'] = True
-        k['dock_x'], k['dock_y'], k['dock_theta'] = plan.dock
+def _values(config: RobotConfig, plan: FloorPlan, step_rate: float) -> Constants:
+    drive, odometry, bumper, laser = config.drive, config.odometry, config.bumper, config.laser
+    dock, brush, battery = config.dock, config.brush, config.battery
+    docked = plan.dock or NO_DOCK
+    return Constants(
+        dt=1.0 / step_rate, origin_x=plan.origin[0], origin_y=plan.origin[1], resolution=plan.resolution,
+        has_layers=plan.cliff is not None or plan.carpet is not None,
+        radius=drive.radius, reach=_reach(drive.radius, plan.resolution), wheel_base=drive.wheel_base,
+        ticks_per_metre=drive.ticks_per_turn / (math.pi * drive.wheel_diameter), max_speed=drive.max_speed,
+        max_turn_rate=drive.max_turn_rate, acceleration=drive.acceleration, dead_band=drive.dead_band,
+        timeout_ticks=max(round(drive.command_timeout * step_rate), 1), noise=odometry.noise,
+        floor_traction=odometry.floor_traction, carpet_traction=odometry.carpet_traction,
+        bumper_half=0.5 * bumper.field, overlap_half=0.5 * bumper.overlap,
+        range_min=laser.range_min, range_max=laser.range_max, range_noise=laser.noise,
+        has_dock=plan.dock is not None, dock_x=docked.x, dock_y=docked.y, dock_theta=docked.theta,
+        contact_distance=dock.contact_distance, contact_angle=dock.contact_angle,
+        release_distance=dock.release_distance, release_angle=dock.release_angle, buoy_range=dock.buoy_range,
+        buoy_half=0.5 * dock.buoy_field, buoy_overlap_half=0.5 * dock.buoy_overlap, halo=dock.halo,
+        brush_width=brush.width, log_kept=math.log1p(-brush.pickup),
+        capacity=battery.capacity, idle_current=battery.idle_current, wheel_current_slow=battery.wheel_current_slow,
+        wheel_current=battery.wheel_current, wheel_speed=battery.wheel_speed, brush_current=battery.brush_current,
+        charge_current=battery.charge_current, trickle_current=battery.trickle_current,
+        taper_start=battery.taper_start, drain=battery.drain)
+
+
+def _reach(radius: float, resolution: float) -> float:
+    """The interpolated clearance [m] that keeps a body of a radius [m] out of the walls.
+
+    Bilinear interpolation of the distance to a corner is too large by resolution^2 / 8 * (sum of the second
+    derivatives, which is 1 / distance), or by 5 % more, since the derivatives change within a cell. With a clearance
+    that is larger by as much, the body itself never overlaps a wall.
+    """
+    return radius + 1.05 * resolution ** 2 / (8.0 * radius)

@@ -1,8 +1,8 @@
-"""What can go wrong, by name; each message says in one line what was wrong, where, and what would be right."""
+"""Errors of this package; each message says in one line what is wrong, where, and what would be right."""
 
 
 class RumbaError(Exception):
-    """Base of every error that this package raises on purpose."""
+    """Base class of all errors that this package raises on purpose."""
 
 
 class ConfigError(RumbaError):
@@ -10,16 +10,16 @@ class ConfigError(RumbaError):
 
 
 class MapError(RumbaError):
-    """A map cannot be read, or has no room for what was asked of it."""
+    """A map cannot be read, or a robot does not fit at a pose on it."""
 
 
 class CommandError(RumbaError):
-    """A command that no robot can follow."""
+    """No robot can follow a command."""
 
 
 class WorldError(RumbaError):
-    """The world cannot do what was asked of it: a name that is taken or unknown, a place that is not free."""
+    """The world cannot do what was requested: a name is taken or unknown, or a position is not free."""
 
 
 class StrategyError(RumbaError):
-    """No cleaning strategy has this name, or two would."""
+    """No cleaning strategy has this name, or more than one would have it."""

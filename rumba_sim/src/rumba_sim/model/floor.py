@@ -1,4 +1,4 @@
-"""The state of the floor: which cells were swept, and how much dirt still lies in each."""
+"""The state of the floor: which cells are swept, and how much dirt is left in each."""
 
 import math
 
@@ -10,29 +10,29 @@ from rumba_sim.model.geometry import Pose
 from rumba_sim.model.kernel import Array
 from rumba_sim.model.robot_config import RobotConfig
 
-DUST = 0.3  # dirt of a cell where nothing was spilt
-AREA_PER_SPOT = 2.0  # [m^2] of floor for each spot of spilt dirt
+DUST = 0.3  # dirt in a cell outside all spots
+AREA_PER_SPOT = 2.0  # [m^2] of free floor for each spot of dirt
 SPOT_RADIUS = (0.1, 0.4)  # [m]
-SPOT_DIRT = (1.0, 4.0)  # in the middle of a spot, on top of the dust
+SPOT_DIRT = (1.0, 4.0)  # in the centre of a spot, in addition to the dust
 
 
 class Floor:
-    """What there is to clean on a floor plan, and what of it is clean.
+    """The floor of a plan that can be cleaned, and how far it is clean.
 
     Attributes:
         cells: uint8 (rows, columns), the bits BLOCKED, CLIFF, CARPET, REACHABLE, SWEPT of `kernel`.
-        dirt: float32 (rows, columns), 0 where it is clean.
-        tally: record (`kernel.TALLY`) of the reachable cells that are swept, and of the dirt left on reachable cells.
+        dirt: float32 (rows, columns), 0 in a clean cell.
+        tally: array of one record (`kernel.TALLY`): number of swept reachable cells, and dirt left on reachable cells.
     """
 
     def __init__(self, plan: FloorPlan, config: RobotConfig, start: Pose, generator: np.random.Generator) -> None:
-        """An unswept floor with random dirt.
+        """Create an unswept floor with random dirt.
 
         Args:
             plan: the floor plan.
-            config: of the robots: their radius and brush say what can be reached.
-            start: where from [m, rad], map frame.
-            generator: what the dirt is drawn from.
+            config: of the robots, whose radius and brush decide which cells are reachable.
+            start: pose [m, rad], map frame, from which cells are reachable.
+            generator: source of the random dirt.
 
         Raises:
             MapError: a robot does not fit at the start.
@@ -43,7 +43,7 @@ class Floor:
         for layer, bit in ((plan.cliff, kernel.CLIFF), (plan.carpet, kernel.CARPET)):
             if layer is not None:
                 self.cells[layer & plan.free] |= bit
-        self.dirt = _spilt(plan, generator)
+        self.dirt = _random_dirt(plan, generator)
         self._reachable = int(np.count_nonzero(reachable))
         self._dirt = float(np.sum(self.dirt[reachable], dtype=np.float64))
         self._cell_area = plan.resolution ** 2
@@ -52,33 +52,33 @@ class Floor:
 
     @property
     def reachable_area(self) -> float:
-        """What the brush can reach [m^2]."""
+        """Area that the brush can reach [m^2]."""
         return self._reachable * self._cell_area
 
     @property
     def cleaned_area(self) -> float:
-        """What of that was swept at least once [m^2]."""
+        """Part of the reachable area that was swept at least once [m^2]."""
         return int(self.tally[0]['swept']) * self._cell_area
 
     @property
     def coverage(self) -> float:
-        """cleaned_area / reachable_area [0..1]; 1 where nothing can be reached."""
+        """cleaned_area / reachable_area [0..1]; 1 if nothing is reachable."""
         return int(self.tally[0]['swept']) / self._reachable if self._reachable else 1.0
 
     @property
     def dirt_left(self) -> float:
-        """Share of the dirt that still lies on the reachable floor [0..1]."""
+        """Share of the dirt on reachable cells that is still there [0..1]."""
         return min(max(float(self.tally[0]['dirt']) / self._dirt, 0.0), 1.0) if self._dirt else 0.0
 
     def swept(self) -> Array:
-        """int8 (rows, columns), as nav_msgs/OccupancyGrid: 100 swept, 0 still to sweep, -1 out of reach."""
+        """int8 (rows, columns), as for nav_msgs/OccupancyGrid: 100 swept, 0 not swept, -1 not reachable."""
         swept = np.where(self.cells & kernel.SWEPT, 100, 0).astype(np.int8)
         swept[self.cells & kernel.REACHABLE == 0] = -1
         return swept
 
 
-def _spilt(plan: FloorPlan, generator: np.random.Generator) -> Array:
-    """Dust everywhere, and spots of more: float32 (rows, columns)."""
+def _random_dirt(plan: FloorPlan, generator: np.random.Generator) -> Array:
+    """Dust on all free cells, and spots with more dirt: float32 (rows, columns)."""
     dirt = np.where(plan.free, DUST, 0.0).astype(np.float32)
     spots = math.ceil(np.count_nonzero(plan.free) * plan.resolution ** 2 / AREA_PER_SPOT)
     for share_x, share_y, radius, amount in zip(

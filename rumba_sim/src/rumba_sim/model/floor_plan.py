@@ -1,4 +1,4 @@
-"""The floor: a grid of free and blocked cells, and how much room there is anywhere on it."""
+"""The floor plan: a grid of free and blocked cells, and the distance from any point to the nearest obstacle."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple, Optional, Tuple
 import numpy as np
 from scipy import ndimage
 
+from rumba_sim.model.compiled import fast
 from rumba_sim.model.errors import MapError
 from rumba_sim.model.geometry import Pose
 
@@ -15,9 +16,9 @@ if TYPE_CHECKING:  # NumPy 1.17 of Ubuntu 20.04 has no numpy.typing
     from numpy.typing import NDArray
 
 OCCUPIED, FREE, UNKNOWN = 100, 0, -1  # the values of nav_msgs/OccupancyGrid
-MAX_CELLS = 25_000_000  # the distance fields of more would want gigabytes
-HALF_DIAGONAL = 0.7072  # [cells] of a cell: no place in it is farther from the nearest corner
-ROUNDING = 1e-9  # [m] lest two equal lengths, computed in two ways, differ
+MAX_CELLS = 25_000_000  # the distance fields of a larger map would need gigabytes
+MAX_SKIP = 255  # [cells] the largest number in a byte
+ROUNDING = 1e-9  # [m] by which two equal lengths, computed in two ways, may differ
 
 
 class Bounds(NamedTuple):
@@ -30,33 +31,34 @@ class Bounds(NamedTuple):
 
 
 class FloorPlan:
-    """What is where on the floor; all that is not free (wall, unknown, beyond the grid) is an obstacle.
+    """A map of the floor; everything that is not free (wall, unknown, outside the grid) is an obstacle.
 
-    Cells and nodes: cell (row, column) is a square whose lower left corner is node (row, column), the place
+    Cells and nodes: cell (row, column) is a square; its lower left corner is node (row, column), the point
     `origin + resolution * (column, row)`. Row 0 lies at the lowest y, column 0 at the lowest x.
 
     Attributes:
-        name: what messages call it, mostly the path of its file.
+        name: what messages call it, usually the path of its file.
         occupancy: int8 (rows, columns), OCCUPIED, FREE or UNKNOWN.
         resolution: side of a cell [m].
         origin: x and y of the lower left corner of cell (0, 0) in the map frame [m].
-        cliff: bool (rows, columns), where the floor drops; None where it never does.
-        carpet: bool (rows, columns); None where there is none.
+        cliff: bool (rows, columns), cells over which there is no floor; None without cliffs.
+        carpet: bool (rows, columns), cells with a carpet; None without carpets.
         dock: pose of a robot that stands at the contacts of the dock and faces it; None without a dock.
-        start: pose where a robot begins; None where the map leaves it open.
+        start: pose in which a robot begins; None if the map does not say.
         clearance: float64 (rows + 1, columns + 1), exact distance from each node to the nearest obstacle [m],
-            0 on the edge of one and inside it. C-contiguous.
-        skips: uint8 (rows, columns), so many whole cells from any place in this one there is no obstacle; at most 255.
-        safe_clearance: as `clearance`, but a cliff counts as an obstacle too: where a robot may plan to go.
+            0 inside an obstacle and on its border. C-contiguous.
+        skips: uint8 (rows, columns), how many cells a beam may skip from any point of a cell, in any direction,
+            without entering an obstacle. At most MAX_SKIP.
+        safe_clearance: as `clearance`, but cliffs count as obstacles too: where a robot may plan to go.
     """
 
     def __init__(self, name: str, occupancy: NDArray[np.int8], resolution: float, origin: Tuple[float, float], *,
                  cliff: Optional[NDArray[np.bool_]] = None, carpet: Optional[NDArray[np.bool_]] = None,
                  dock: Optional[Pose] = None, start: Optional[Pose] = None) -> None:
-        """Take the grid and its layers, and compute the distances.
+        """Copy the grid and its layers, and compute the distances.
 
         Raises:
-            MapError: nothing is free, the grid is too large, or a layer does not have its shape.
+            MapError: no cell is free, the grid is too large, or a layer has another shape than the grid.
         """
         check_size(name, occupancy.shape)
         self.name = name
@@ -70,8 +72,9 @@ class FloorPlan:
         free = self.free
         if not free.any():
             raise MapError(f'{name}: no free floor: every cell is wall or unknown')
-        self.clearance = _distances(free) * self.resolution
-        self.skips = _skips(self.clearance / self.resolution)
+        distances = _distances(free)
+        self.clearance = distances * self.resolution
+        self.skips = _skips(distances)
         self.safe_clearance = self.clearance
         if self.cliff is not None:
             self.safe_clearance = _distances(free & ~self.cliff) * self.resolution
@@ -106,23 +109,23 @@ class FloorPlan:
         return Bounds(left, bottom, left + self.columns * self.resolution, bottom + self.rows * self.resolution)
 
     def cell(self, x: float, y: float) -> Tuple[int, int]:
-        """Row and column of the cell that holds a place [m], which may lie beyond the grid, but must be finite."""
+        """Row and column of the cell that contains a finite point [m], which may lie outside the grid."""
         return (math.floor((y - self.origin[1]) / self.resolution),
                 math.floor((x - self.origin[0]) / self.resolution))
 
     def centre(self, row: int, column: int) -> Tuple[float, float]:
-        """x and y of the middle of a cell [m]."""
+        """x and y of the centre of a cell [m]."""
         return (self.origin[0] + (column + 0.5) * self.resolution, self.origin[1] + (row + 0.5) * self.resolution)
 
     def contains(self, x: float, y: float) -> bool:
-        """Whether a place [m] is on the grid."""
+        """Whether a point [m] lies on the grid."""
         return (0.0 <= (x - self.origin[0]) / self.resolution < self.columns
                 and 0.0 <= (y - self.origin[1]) / self.resolution < self.rows)
 
     def clearance_at(self, x: float, y: float) -> float:
-        """Distance from a place [m] to the nearest obstacle [m]; 0 beyond the grid.
+        """Distance from a point [m] to the nearest obstacle [m]; 0 outside the grid.
 
-        Interpolated (bilinear) between the nodes, and so right within half a cell.
+        The distance is interpolated between the nodes (bilinear); its error is at most half a cell.
         """
         return self._interpolated(self.clearance, x, y)
 
@@ -131,30 +134,20 @@ class FloorPlan:
         return self._interpolated(self.safe_clearance, x, y)
 
     def _interpolated(self, field: NDArray[np.float64], x: float, y: float) -> float:
-        u = (x - self.origin[0]) / self.resolution
-        v = (y - self.origin[1]) / self.resolution
-        columns, rows = self.columns, self.rows
-        if not (0.0 < u < columns and 0.0 < v < rows):  # also where u or v is NaN
-            return 0.0
-        column, row = int(u), int(v)
-        u -= column
-        v -= row
-        item = field.item  # plain floats: quicker here than NumPy's
-        lower = row * (columns + 1) + column
-        upper = lower + columns + 1
-        return float((item(lower) * (1.0 - u) + item(lower + 1) * u) * (1.0 - v)
-                     + (item(upper) * (1.0 - u) + item(upper + 1) * u) * v)
+        left, bottom = self.origin
+        value: float = fast.interpolated(field, (x - left) / self.resolution, (y - bottom) / self.resolution)[0]
+        return value
 
     def check_place(self, pose: Pose, radius: float, what: str) -> None:
-        """Refuse a pose where a round robot does not fit.
+        """Refuse a pose in which a round robot does not fit.
 
         Args:
             pose: of the robot, in the map frame.
             radius: of the robot [m].
-            what: the name of the place, for the message.
+            what: what the message calls the pose.
 
         Raises:
-            MapError: the pose is beyond the grid, or nearer than `radius` to an obstacle or a cliff.
+            MapError: the pose is outside the grid, or nearer than `radius` to an obstacle or a cliff.
         """
         place = f'{self.name}: {what} at ({pose.x:.2f}, {pose.y:.2f}) m'
         if not self.contains(pose.x, pose.y):
@@ -168,13 +161,13 @@ class FloorPlan:
                            f'a robot of radius {radius:.3f} m does not fit')
 
     def reachable(self, x: float, y: float, radius: float, brush_width: float) -> NDArray[np.bool_]:
-        """Which cells a round robot, the brush across its middle, can sweep from a start.
+        """Which cells a round robot with the brush across its middle can sweep from a start.
 
-        The robot may stand in a cell where there is room for it at the cell's centre, and moves from such a cell
-        to its four neighbours. The brush then sweeps the free cells whose centre lies within half its width.
+        The robot may stand in a cell if it fits at the centre of the cell, and moves from such a cell to its four
+        neighbours. The brush sweeps the free cells whose centres are at most half its width from where it stands.
 
         Args:
-            x, y: the start [m]; its cell counts as one to stand in.
+            x, y: the start [m]; the robot may stand in its cell.
             radius: of the robot [m].
             brush_width: [m]
 
@@ -198,7 +191,7 @@ class FloorPlan:
         return np.asarray(swept & self.free)
 
     def most_open_pose(self) -> Pose:
-        """The place with the most room around it, facing along x."""
+        """The node with the largest safe clearance, facing along x."""
         row, column = np.unravel_index(int(np.argmax(self.safe_clearance)), self.safe_clearance.shape)
         return Pose(self.origin[0] + float(column) * self.resolution,
                     self.origin[1] + float(row) * self.resolution, 0.0)
@@ -217,10 +210,10 @@ def check_size(name: str, shape: Tuple[int, ...]) -> None:
 
 
 def _distances(free: NDArray[np.bool_]) -> NDArray[np.float64]:
-    """Distance of each node to the nearest cell that is not free or lies beyond the grid [cells].
+    """Distance [cells] of each node to the nearest cell that is not free or lies outside the grid.
 
-    Exact, since the point of a square that is nearest to a node of its lattice is itself a node: it is enough to
-    mark the nodes that touch an obstacle and to measure from node to node.
+    The distances are exact: the point of a square that is nearest to a node of its lattice is itself a node. So it is
+    enough to mark the nodes that touch an obstacle, and to measure from node to node.
     """
     padded = np.pad(free, 1, mode='constant', constant_values=False)
     inside = padded[:-1, :-1] & padded[:-1, 1:] & padded[1:, :-1] & padded[1:, 1:]
@@ -228,10 +221,13 @@ def _distances(free: NDArray[np.bool_]) -> NDArray[np.float64]:
 
 
 def _skips(distances: NDArray[np.float64]) -> NDArray[np.uint8]:
-    """How far [cells] a beam may leap from anywhere in a cell, by the distance of its corners to an obstacle [cells].
+    """Whole cells that are free around every point of a cell, from the distances of the nodes [cells].
 
-    A byte for each cell: a laser asks for it so often that it should fit into the processor's cache.
+    Within one cell, each coordinate of the vector to a square of the same lattice is monotonic or zero. So the
+    distance to the nearest obstacle is smallest at a corner of the cell. The distances are square roots of integers,
+    which are exact if they are whole numbers. A byte for each cell, so that what a laser reads all the time fits into
+    the cache of the processor.
     """
     nearest = np.minimum(np.minimum(distances[:-1, :-1], distances[:-1, 1:]),
                          np.minimum(distances[1:, :-1], distances[1:, 1:]))
-    return np.clip(nearest - HALF_DIAGONAL, 0.0, 255.0).astype(np.uint8)
+    return np.minimum(nearest, MAX_SKIP).astype(np.uint8)

@@ -1,4 +1,4 @@
-"""A world of one robot that something else moves: a turtle of turtlesim, say, is its body."""
+"""A world whose only robot is moved by something else, for example by a turtle of turtlesim."""
 
 from typing import Optional
 
@@ -12,69 +12,83 @@ from rumba_sim.model.robot import Robot, Twist, put
 from rumba_sim.model.robot_config import RobotConfig
 from rumba_sim.model.world import World
 
-WISHES = ('command_v', 'command_w', 'command_tick', 'charge', 'fallen')  # what wheels go by
+INPUTS = ('command_v', 'command_w', 'command_tick', 'charge', 'fallen')  # fields of a robot that its wheels depend on
 
 
-class GuidedWorld(World):
-    """A world that is told where its robot is, and says how that would drive.
+class GuidedWorld:
+    """Tells a world where its robot is, and says how that robot would drive.
 
-    What follows from the motion, energy, coverage, odometry, sensors, is the same as in any world. Time passes by
-    `follow` and `jump`, not by `step`.
+    Everything that follows from the motion (energy, coverage, odometry, sensors) is the same as in any world. Time
+    passes by `follow` and `jump`.
 
     Attributes:
-        robot: the only one.
+        world: the world, to be read.
     """
 
     def __init__(self, plan: FloorPlan, config: Optional[RobotConfig] = None, step_rate: float = 50, seed: int = 0,
                  name: str = 'rumba', state_of_charge: float = 1.0, brushes_up: bool = False) -> None:
-        """A world with one robot, at the start of the plan until it is told where.
+        """Create a world with one robot, which stands at the start of the plan until its pose is told.
+
+        Args:
+            plan: the floor plan.
+            config: of the robot.
+            step_rate: ticks per second [Hz].
+            seed: seed of everything that is random.
+            name: of the robot.
+            state_of_charge: of its battery [0..1].
+            brushes_up: whether its brushes are lifted.
 
         Raises:
-            RumbaError: as of `World`, and of `spawn`.
+            RumbaError: as `World` and `World.spawn`.
         """
-        super().__init__(plan, config, step_rate, seed)
+        self.world = World(plan, config, step_rate, seed)
         self._name = name
-        self._wheels_wished: kernel.Array = np.zeros(1, kernel.ROBOT)
-        self.spawn(name, None, state_of_charge, brushes_up)
+        self._wheels: kernel.Array = np.zeros(1, kernel.ROBOT)  # of a robot that drives as `wish` says
+        self.world.spawn(name, None, state_of_charge, brushes_up)
 
     @property
     def robot(self) -> Robot:
-        """The only one; another after a reset."""
-        return self.robots[self._name]
+        """The robot; another object after a reset."""
+        return self.world.robots[self._name]
 
     def follow(self, pose: Pose) -> None:
-        """Let one tick pass in which the robot drove to a pose [m, rad], map frame."""
-        self._pass(pose, is_driven=True)
+        """Simulate one tick in which the robot drives to a pose [m, rad], map frame."""
+        self._lead(pose, is_driven=True)
 
     def jump(self, pose: Pose) -> None:
-        """Let one tick pass in which the robot was carried to a pose: it stands there, its odometry did not notice.
+        """Simulate one tick in which the robot is carried to a pose, where it rests; its odometry does not notice.
 
-        Where to is not checked: whoever moves it may put it into a wall.
+        The pose is not checked: whatever moves the robot may put it into a wall.
         """
-        put(self._states[0], pose)
-        self._wheels_wished.fill(0)
-        self._pass(pose, is_driven=False)
+        put(self.robot.state, pose)
+        self._wheels.fill(0)
+        self._lead(pose, is_driven=False)
 
-    def _pass(self, pose: Pose, is_driven: bool) -> None:
-        self._advance(1, np.array([[*pose, is_driven]], np.float64))
+    def reset(self) -> None:
+        """Start again: dirty floor, tick 0, the robot at rest as it began."""
+        self.world.reset()
+        self._wheels.fill(0)
+
+    def _lead(self, pose: Pose, is_driven: bool) -> None:
+        self.world.lead(np.array([[*pose, is_driven]], np.float64))
 
     def wish(self) -> Twist:
         """How the robot would drive in the next tick: as commanded, within the limits of drive and battery.
 
-        It stops before it runs into a wall.
+        It stops before it drives into a wall. To be called once in each tick, since its wheels accelerate.
         """
-        wheels, constants = self._wheels_wished[0], self._constants[0]
-        for name in WISHES:
-            wheels[name] = self.robot.state[name]
-        fast.drive(wheels, constants, self.tick)
+        wheels, state, constants = self._wheels[0], self.robot.state, self.world.constants[0]
+        for name in INPUTS:
+            wheels[name] = state[name]
+        fast.drive(wheels, constants, self.world.tick)
         left, right = float(wheels['left_speed']), float(wheels['right_speed'])
-        forward = fast.halted(self.robot.state, constants, self.plan.clearance, 0.5 * (left + right))
-        return Twist(forward, (right - left) / self._config.drive.wheel_base)
+        forward = fast.halted(state, constants, self.world.plan.clearance, 0.5 * (left + right))
+        return Twist(forward, (right - left) / self.world.config.drive.wheel_base)
 
     def check(self, pose: Pose) -> Pose:
-        """A pose [m, rad] at which the robot can stand, its heading wrapped.
+        """Check that the robot can stand at a pose [m, rad], map frame; returns it with its heading in (-pi, pi].
 
         Raises:
-            WorldError: it cannot.
+            WorldError: it cannot stand there.
         """
-        return self._checked(pose, 0)
+        return self.world.check(pose, self._name)

@@ -1,11 +1,15 @@
-"""What happens in one tick, for every robot: drive, collide, count, drain, sweep; and what laser and infrared see.
+"""What every robot does in one tick (drive, collide, count, drain, sweep), and what laser and infrared see.
 
-Plain Python that `compiled` hands to numba whole: only numbers, arrays and records, and no imports but math and NumPy.
-The same functions run uncompiled, with the same results, some hundred times slower.
+This is plain Python that `compiled` hands to numba as a whole: it uses only numbers, arrays and records, and imports
+only math and NumPy. Uncompiled, the same functions give the same results about a hundred times slower.
 
-Units: [m], [rad], [s], [A], [Ah]. `k` is the record of constants (CONSTANTS), `robots` an array of ROBOT, `field` the
-clearance [m] at the corners of the cells (rows + 1, columns + 1), `leaps` and `cells` a byte for each cell (rows,
-columns), row 0 at the lowest y: of how many cells are free on all sides of it, and of the bits below.
+Units: [m], [rad], [s], [A], [Ah]. Arguments that many functions share:
+    k: the record of constants (`constants.Constants`).
+    robots: array of records of type ROBOT.
+    field: float64 (rows + 1, columns + 1), clearance at the corners of the cells.
+    cells: uint8 (rows, columns), the bits BLOCKED, CLIFF, CARPET, REACHABLE and SWEPT of each cell.
+    skips: uint8 (rows, columns), how many cells a beam may skip from anywhere in a cell (`FloorPlan.skips`).
+In arrays of cells row 0 lies at the lowest y.
 """
 
 import math
@@ -20,12 +24,12 @@ Triple = Tuple[float, float, float]
 BLOCKED, CLIFF, CARPET, REACHABLE, SWEPT = 1, 2, 4, 8, 16
 LEFT, RIGHT = 1, 2  # bits of the bumper
 NO_BEAM, FORCE_FIELD, GREEN_BUOY, RED_BUOY = 0, 1, 4, 8  # rumba_msg/DockStatus
-INNER, OUTER = 0.26, 1.57  # [rad] how far the left receiver sees to the right, and to the left
+INNER, OUTER = 0.26, 1.57  # [rad] how far the left receiver sees to the right and to the left
 NEVER = -1
-TOUCH = 0.0005  # [m] closer than this is contact
-PUSH = 0.0001  # [m] a push leaves this much room, lest rounding leave an overlap
-PUSHES = 8  # how often a robot is pushed before it stays where it was
-NUDGE = 1e-7  # [cells] across the border of one, and the drift of a beam that counts as parallel to it
+TOUCH = 0.0005  # [m] a smaller gap is a contact
+PUSH = 0.0001  # [m] a push leaves this gap, so that rounding cannot leave an overlap
+PUSHES = 8  # how often a robot is pushed in one tick before it stays where it was
+NUDGE = 1e-7  # [cells] that carries a beam across a border; a beam with less drift per cell is parallel to the border
 
 ROBOT = np.dtype((np.record, np.dtype([(name, 'f8') for name in (
     'x', 'y', 'theta', 'left_speed', 'right_speed', 'command_v', 'command_w', 'left_scale', 'right_scale',
@@ -33,24 +37,20 @@ ROBOT = np.dtype((np.record, np.dtype([(name, 'f8') for name in (
     'brush_time', 'contact_angle')] + [
         (name, 'i8') for name in ('command_tick', 'left_ticks', 'right_ticks', 'bumps', 'alone_until')] + [
             (name, 'u1') for name in ('bumper', 'brushes_up', 'docked', 'fallen')], align=True)))
-CONSTANTS = np.dtype((np.record, np.dtype([(name, 'f8') for name in (
-    'dt', 'origin_x', 'origin_y', 'resolution', 'radius', 'reach', 'wheel_base', 'ticks_per_metre', 'max_speed',
-    'max_turn_rate', 'acceleration', 'dead_band', 'noise', 'floor_traction', 'carpet_traction', 'bumper_half',
-    'overlap_half', 'range_min', 'range_max', 'range_noise', 'dock_x', 'dock_y', 'dock_theta', 'contact_distance',
-    'contact_angle', 'release_distance', 'release_angle', 'buoy_range', 'buoy_half', 'buoy_overlap_half', 'halo',
-    'brush_width', 'log_kept', 'capacity', 'idle_current', 'wheel_current_slow', 'wheel_current', 'wheel_speed',
-    'brush_current', 'charge_current', 'trickle_current', 'taper_start', 'drain')] + [
-        ('timeout_ticks', 'i8'), ('has_dock', 'u1'), ('has_layers', 'u1')], align=True)))
 TALLY = np.dtype((np.record, np.dtype([('swept', 'i8'), ('dirt', 'f8')], align=True)))
 
 
 def advance(robots: Array, constants: Array, field: Array, cells: Array, dirt: Array, tallies: Array,
             noise: Array, led: Array, tick: int, ticks: int) -> None:
-    """Let `ticks` ticks pass from `tick` on; `noise` (robots, any, 2) is normal, row t of it for tick t.
+    """Simulate `ticks` ticks; the first of them has the number `tick`.
 
-    `constants` and `tallies` are arrays of one record. `led` (robots, 4) says where something else brings each robot in
-    each of the ticks: x, y, theta, and 1 where its wheels turned on the way, 0 where it was carried; empty (0, 4) where
-    robots drive themselves.
+    Args, apart from those above:
+        constants: array of one record `k`.
+        dirt: float32 (rows, columns), dirt in each cell.
+        tallies: array of one record of type TALLY.
+        noise: float64 (robots, any, 2), standard normal; tick t uses row t modulo the number of rows.
+        led: float64 (robots, 4), if something else moves the robots: x, y and theta after each tick, and 1 if the
+            wheels turned on the way, 0 if the robot was carried. Shape (0, 4) if the robots drive themselves.
     """
     k, tally = constants[0], tallies[0]
     for now in range(tick, tick + ticks):
@@ -84,16 +84,18 @@ def wrap(angle: float) -> float:
     return angle if -math.pi < angle <= math.pi else math.pi - (math.pi - angle) % (2.0 * math.pi)
 
 
-def arc(x: float, y: float, theta: float, way: float, turn: float) -> Triple:
-    """The pose after an exact arc: `way` along it, `turn` of the heading."""
+def arc(x: float, y: float, theta: float, distance: float, turn: float) -> Triple:
+    """The pose after an exact arc of length `distance` that changes the heading by `turn`."""
     half = 0.5 * turn
-    chord = way * (math.sin(half) / half) if abs(half) > 1e-6 else way
+    chord = distance * (math.sin(half) / half) if abs(half) > 1e-6 else distance
     return x + chord * math.cos(theta + half), y + chord * math.sin(theta + half), wrap(theta + turn)
 
 
-def clearance(k: Record, field: Array, x: float, y: float) -> Triple:
-    """Distance to the nearest wall, bilinear between the corners of a cell, and its gradient along x and y."""
-    u, v = (x - k.origin_x) / k.resolution, (y - k.origin_y) / k.resolution
+def interpolated(field: Array, u: float, v: float) -> Triple:
+    """Bilinear interpolation between the corners of a cell: the value at (u, v) [cells], and its slopes along u and v.
+
+    All are 0 outside the grid and if a coordinate is NaN.
+    """
     if not (0.0 <= u < field.shape[1] - 1 and 0.0 <= v < field.shape[0] - 1):
         return 0.0, 0.0, 0.0
     column, row = int(u), int(v)
@@ -101,13 +103,18 @@ def clearance(k: Record, field: Array, x: float, y: float) -> Triple:
     lower = field[row, column + 1] - field[row, column]
     upper = field[row + 1, column + 1] - field[row + 1, column]
     left = field[row + 1, column] - field[row, column]
-    along_x = lower + v * (upper - lower)
-    return field[row, column] + u * along_x + v * left, along_x / k.resolution, (
-        left + u * (upper - lower)) / k.resolution
+    along_u = lower + v * (upper - lower)
+    return field[row, column] + u * along_u + v * left, along_u, left + u * (upper - lower)
+
+
+def clearance(k: Record, field: Array, x: float, y: float) -> Triple:
+    """Distance to the nearest wall, and its gradient along x and y."""
+    gap, along_u, along_v = interpolated(field, (x - k.origin_x) / k.resolution, (y - k.origin_y) / k.resolution)
+    return gap, along_u / k.resolution, along_v / k.resolution
 
 
 def cell_bits(k: Record, cells: Array, x: float, y: float) -> int:
-    """The byte of the cell at a place; outside the map all is wall."""
+    """The byte of the cell that contains a point; outside the map everything is BLOCKED."""
     u, v = (x - k.origin_x) / k.resolution, (y - k.origin_y) / k.resolution
     if 0.0 <= u < cells.shape[1] and 0.0 <= v < cells.shape[0]:
         return int(cells[int(v), int(u)])
@@ -117,7 +124,7 @@ def cell_bits(k: Record, cells: Array, x: float, y: float) -> int:
 # --- motion -------------------------------------------------------------------------------------------------------
 
 def drive(robot: Record, k: Record, now: int) -> None:
-    """Bring the wheels nearer to the speeds that the last command asks for, as far as limits allow."""
+    """Change the speeds of the wheels toward the last command, as far as the limits allow."""
     v, w = 0.0, 0.0
     if robot.command_tick != NEVER and now - robot.command_tick < k.timeout_ticks and robot.charge > 0.0 and (
             not robot.fallen):
@@ -125,14 +132,14 @@ def drive(robot: Record, k: Record, now: int) -> None:
         w = min(max(robot.command_w, -k.max_turn_rate), k.max_turn_rate)
     left, right = v - 0.5 * w * k.wheel_base, v + 0.5 * w * k.wheel_base
     fastest = max(abs(left), abs(right))
-    if fastest > k.max_speed:  # both alike, so that the arc stays the same
+    if fastest > k.max_speed:  # both by the same factor, so that the arc stays the same
         left, right = left * k.max_speed / fastest, right * k.max_speed / fastest
     robot.left_speed = approach(robot.left_speed, left, k)
     robot.right_speed = approach(robot.right_speed, right, k)
 
 
 def approach(speed: float, wanted: float, k: Record) -> float:
-    """The speed of a wheel after one tick of acceleration toward what is wanted."""
+    """The speed of a wheel after one tick of acceleration toward the wanted speed."""
     if abs(wanted) < k.dead_band:
         wanted = 0.0
     change = k.acceleration * k.dt
@@ -140,17 +147,17 @@ def approach(speed: float, wanted: float, k: Record) -> float:
 
 
 def move(robots: Array, me: int, k: Record, field: Array, now: int) -> Tuple[float, float]:
-    """Follow the wheels for one tick; what is in the way is slid along, never entered.
+    """Move a robot as its wheels turn for one tick; it slides along obstacles and never enters them.
 
-    Returns where the wheels led from where the robot came to be: (0, 0) where nothing was in the way.
+    Returns the vector from where the robot is now to where its wheels led: (0, 0) if nothing was in the way.
     """
     robot = robots[me]
-    way = 0.5 * (robot.left_speed + robot.right_speed) * k.dt
+    distance = 0.5 * (robot.left_speed + robot.right_speed) * k.dt
     turn = (robot.right_speed - robot.left_speed) / k.wheel_base * k.dt
-    if way == 0.0:
+    if distance == 0.0:
         robot.theta = wrap(robot.theta + turn)
         return 0.0, 0.0
-    to_x, to_y, robot.theta = arc(robot.x, robot.y, robot.theta, way, turn)
+    to_x, to_y, robot.theta = arc(robot.x, robot.y, robot.theta, distance, turn)
     x, y = settle(robots, me, k, field, now, to_x, to_y)
     robot.distance += math.hypot(x - robot.x, y - robot.y)
     robot.x, robot.y = x, y
@@ -158,7 +165,10 @@ def move(robots: Array, me: int, k: Record, field: Array, now: int) -> Tuple[flo
 
 
 def lead(robot: Record, k: Record, to: Array) -> Triple:
-    """Bring a robot to a pose within a tick, and have its wheels turn as they must; returns where its way began."""
+    """Put a robot at the pose `to` within one tick, and set the speeds of its wheels to match.
+
+    `to` is a row of `led` of `advance`. Returns the pose from which the brush sweeps in this tick.
+    """
     from_x, from_y, from_theta = robot.x, robot.y, robot.theta
     robot.x, robot.y, robot.theta = to[0], to[1], to[2]
     if to[3] == 0.0:
@@ -166,15 +176,15 @@ def lead(robot: Record, k: Record, to: Array) -> Triple:
         return to[0], to[1], to[2]
     turn = wrap(to[2] - from_theta)
     along = from_theta + 0.5 * turn
-    way = (to[0] - from_x) * math.cos(along) + (to[1] - from_y) * math.sin(along)
-    robot.left_speed = (way - 0.5 * turn * k.wheel_base) / k.dt
-    robot.right_speed = (way + 0.5 * turn * k.wheel_base) / k.dt
-    robot.distance += abs(way)
+    distance = (to[0] - from_x) * math.cos(along) + (to[1] - from_y) * math.sin(along)
+    robot.left_speed = (distance - 0.5 * turn * k.wheel_base) / k.dt
+    robot.right_speed = (distance + 0.5 * turn * k.wheel_base) / k.dt
+    robot.distance += abs(distance)
     return from_x, from_y, from_theta
 
 
 def halted(robot: Record, k: Record, field: Array, v: float) -> float:
-    """As much of a speed, forward, as does not lead a robot into a wall within a tick."""
+    """The part of a forward speed `v` that does not drive a robot into a wall within one tick."""
     gap, along_x, along_y = clearance(k, field, robot.x, robot.y)
     nearer = -v * k.dt * (along_x * math.cos(robot.theta) + along_y * math.sin(robot.theta))
     if nearer <= 0.0 or gap - nearer >= k.reach:
@@ -183,7 +193,7 @@ def halted(robot: Record, k: Record, field: Array, v: float) -> float:
 
 
 def settle(robots: Array, me: int, k: Record, field: Array, now: int, x: float, y: float) -> Tuple[float, float]:
-    """Where a robot comes to rest that wants to be at (x, y): pushed out of walls and robots, else where it was."""
+    """Where a robot ends that moves to (x, y): pushed out of walls and other robots, or where it was if that fails."""
     for _ in range(PUSHES):
         gap, along_x, along_y = clearance(k, field, x, y)
         free = gap >= k.reach
@@ -202,21 +212,21 @@ def settle(robots: Array, me: int, k: Record, field: Array, now: int, x: float, 
                 push = (2.0 * k.radius + PUSH - distance) / distance
                 x, y = x + push * (x - robots[other].x), y + push * (y - robots[other].y)
         if free:
-            if math.hypot(x - robots[me].x, y - robots[me].y) > leap(k):
+            if math.hypot(x - robots[me].x, y - robots[me].y) > max_displacement(k):
                 break
             return x, y
     return robots[me].x, robots[me].y
 
 
-def leap(k: Record) -> float:
-    """The farthest that one tick may take a robot: a push may double its way."""
+def max_displacement(k: Record) -> float:
+    """The farthest that a robot may move in one tick: a push may double what it drives."""
     return 2.0 * (k.max_speed * k.dt + PUSH)
 
 
 def nearest(robots: Array, me: int, k: Record, now: int, x: float, y: float) -> Tuple[int, float]:
-    """Index of the robot that is nearest to (x, y), -1 where there is none, and its distance.
+    """Index of the other robot that is nearest to (x, y), -1 if there is none, and its distance.
 
-    Notes until when nobody can come near, so that robots far apart need not look.
+    Sets `alone_until`: before that tick no other robot can come near, so that robots far apart need not search.
     """
     other, square = -1, math.inf
     for index in range(len(robots)):
@@ -228,13 +238,16 @@ def nearest(robots: Array, me: int, k: Record, now: int, x: float, y: float) -> 
     if other < 0:
         robots[me].alone_until = now + 1000
     else:
-        # Two robots approach each other, and this one may yet be pushed from (x, y).
-        robots[me].alone_until = now + int((distance - 2.0 * k.radius - TOUCH) / (2.0 * leap(k))) - 1
+        # Both robots may approach each other, and this one may still be pushed away from (x, y).
+        robots[me].alone_until = now + int((distance - 2.0 * k.radius - TOUCH) / (2.0 * max_displacement(k))) - 1
     return other, distance
 
 
 def touch(robots: Array, me: int, k: Record, field: Array, now: int, toward_x: float, toward_y: float) -> None:
-    """Press the switches of the bumper where a wall or a robot touches the front, or is in the way (toward it)."""
+    """Press the switches of the bumper if a wall or a robot touches the front.
+
+    (toward_x, toward_y) points to an obstacle that stopped the robot; (0, 0) if none did.
+    """
     robot = robots[me]
     robot.contact_angle = math.nan
     pressed = press(robot, k, toward_x, toward_y) if toward_x != 0.0 or toward_y != 0.0 else 0
@@ -254,9 +267,9 @@ def touch(robots: Array, me: int, k: Record, field: Array, now: int, toward_x: f
 
 
 def press(robot: Record, k: Record, toward_x: float, toward_y: float) -> int:
-    """Switches that a contact in this direction presses; notes the contact that is nearest to the front."""
+    """The switches that a contact in this direction presses; updates `contact_angle` if it is nearer to the front."""
     angle = wrap(math.atan2(toward_y, toward_x) - robot.theta)
-    if not abs(angle) >= abs(robot.contact_angle):  # also where there was none, NaN
+    if not abs(angle) >= abs(robot.contact_angle):  # true also if there was no contact yet: NaN
         robot.contact_angle = angle
     if abs(angle) > k.bumper_half:
         return 0
@@ -264,7 +277,7 @@ def press(robot: Record, k: Record, toward_x: float, toward_y: float) -> int:
 
 
 def stand(robot: Record, k: Record, cells: Array) -> float:
-    """Fall, and lie there, where a wheel has no floor under it; returns how well the wheels hold."""
+    """Mark a robot as fallen if a wheel is over a cliff; returns the traction of its wheels."""
     x, y = -0.5 * k.wheel_base * math.sin(robot.theta), 0.5 * k.wheel_base * math.cos(robot.theta)
     left, right = cell_bits(k, cells, robot.x + x, robot.y + y), cell_bits(k, cells, robot.x - x, robot.y - y)
     if (left | right) & CLIFF:
@@ -273,7 +286,7 @@ def stand(robot: Record, k: Record, cells: Array) -> float:
 
 
 def count(robot: Record, k: Record, traction: float, noise: Array) -> None:
-    """Encoder ticks of both wheels, slip, scale and noise included, and the pose that follows from them alone."""
+    """Count the encoder ticks of both wheels, with slip, scale and noise, and update the odometry from them alone."""
     left, right = robot.left_speed * k.dt, robot.right_speed * k.dt
     left = left / traction * robot.left_scale + k.noise * math.sqrt(abs(left)) * noise[0]
     right = right / traction * robot.right_scale + k.noise * math.sqrt(abs(right)) * noise[1]
@@ -294,17 +307,18 @@ def count(robot: Record, k: Record, traction: float, noise: Array) -> None:
 
 def sweep(robot: Record, k: Record, cells: Array, dirt: Array, tally: Record, from_x: float, from_y: float,
           from_theta: float) -> None:
-    """Clean what the brush, a line across the middle of the robot, passes over in one tick.
+    """Clean the cells that the brush, a line across the middle of the robot, passes over in one tick.
 
-    A cell loses `pickup` of its dirt in one pass, however slow: each line takes the share of its way in the cell's.
+    The movement is divided into lines, less than a cell apart. A cell loses the share `pickup` of its dirt in one pass,
+    at any speed: each line removes dirt in proportion to its distance from the line before.
     """
     turn = wrap(robot.theta - from_theta)
-    way = math.hypot(robot.x - from_x, robot.y - from_y)
-    if way == 0.0 and turn == 0.0:
+    distance = math.hypot(robot.x - from_x, robot.y - from_y)
+    if distance == 0.0 and turn == 0.0:
         return
-    lines = 1 + int((way + 0.5 * abs(turn) * k.brush_width) / k.resolution)
+    lines = 1 + int((distance + 0.5 * abs(turn) * k.brush_width) / k.resolution)
     points = 2 + int(2.0 * k.brush_width / k.resolution)
-    kept = math.exp(k.log_kept * (way + 0.25 * abs(turn) * k.brush_width) / (lines * k.resolution))
+    kept = math.exp(k.log_kept * (distance + 0.25 * abs(turn) * k.brush_width) / (lines * k.resolution))
     for line in range(1, lines + 1):
         share = line / lines
         theta = from_theta + share * turn
@@ -322,7 +336,7 @@ def sweep(robot: Record, k: Record, cells: Array, dirt: Array, tally: Record, fr
 
 
 def clean(cells: Array, dirt: Array, tally: Record, row: int, column: int, kept: float) -> None:
-    """One line of the brush over one cell."""
+    """Let one line of the brush pass over one cell; the share `kept` of its dirt stays."""
     bits = int(cells[row, column])
     if bits & (BLOCKED | CLIFF):
         return
@@ -338,7 +352,7 @@ def clean(cells: Array, dirt: Array, tally: Record, row: int, column: int, kept:
 # --- energy -------------------------------------------------------------------------------------------------------
 
 def load(robot: Record, k: Record) -> float:
-    """Sum of the loads [A]: electronics, wheels by their speed, brushes."""
+    """Sum of the loads [A]: electronics, wheels at their speed, brushes."""
     wheels = 0.5 * (abs(robot.left_speed) + abs(robot.right_speed))
     current = k.idle_current
     if wheels > 0.0:
@@ -349,7 +363,7 @@ def load(robot: Record, k: Record) -> float:
 
 
 def battery_current(charge: float, k: Record, load: float, on_dock: bool) -> float:
-    """Current into the battery [A], negative out of it: the charger tapers as the battery fills."""
+    """Current into the battery [A], negative while it discharges; the charger tapers as the battery fills."""
     if not on_dock:
         return -load if charge > 0.0 else 0.0
     if charge >= k.capacity:
@@ -366,7 +380,7 @@ def charge_after(charge: float, k: Record, current: float, dt: float) -> float:
 # --- dock ---------------------------------------------------------------------------------------------------------
 
 def at_contacts(robot: Record, k: Record) -> bool:
-    """Whether the charging contacts are closed: they open later than they close."""
+    """Whether the charging contacts are closed: they open at a larger distance than they close."""
     distance = math.hypot(robot.x - k.dock_x, robot.y - k.dock_y)
     angle = abs(wrap(robot.theta - k.dock_theta))
     if robot.docked:
@@ -374,10 +388,10 @@ def at_contacts(robot: Record, k: Record) -> bool:
     return distance <= k.contact_distance and angle <= k.contact_angle
 
 
-def infrared(robot: Record, k: Record, leaps: Array, cells: Array) -> Tuple[int, int, int]:
-    """Sums of the dock's beams that the receivers get: all around, front left, front right.
+def infrared(robot: Record, k: Record, skips: Array, cells: Array) -> Tuple[int, int, int]:
+    """Sums of the dock's beams that the three receivers get: omnidirectional, front left, front right.
 
-    The dock sends from the wall in front of the docked robot, against the direction in which that robot looks.
+    The dock sends from the wall in front of a docked robot, opposite to the heading of that robot.
     """
     if not k.has_dock:
         return NO_BEAM, NO_BEAM, NO_BEAM
@@ -385,10 +399,11 @@ def infrared(robot: Record, k: Record, leaps: Array, cells: Array) -> Tuple[int,
     from_y = k.dock_y + k.radius * math.sin(k.dock_theta)
     dx, dy = robot.x - from_x, robot.y - from_y
     distance = math.hypot(dx, dy)
-    if distance < 1e-6 or cast(k, leaps, cells, from_x, from_y, dx / distance, dy / distance, distance) < distance:
+    if distance < 1e-6 or cast(k, skips, cells, from_x, from_y, dx / distance, dy / distance, distance) < distance:
         return NO_BEAM, NO_BEAM, NO_BEAM
     beams = FORCE_FIELD if distance <= k.halo else NO_BEAM
-    off_axis = wrap(math.atan2(dy, dx) - k.dock_theta - math.pi)  # positive: right of it for who faces the dock
+    # Positive if a robot that faces the dock is to the right of its axis.
+    off_axis = wrap(math.atan2(dy, dx) - k.dock_theta - math.pi)
     if distance <= k.buoy_range:
         if -k.buoy_overlap_half <= off_axis <= k.buoy_half:
             beams |= GREEN_BUOY
@@ -402,50 +417,56 @@ def infrared(robot: Record, k: Record, leaps: Array, cells: Array) -> Tuple[int,
 
 # --- laser --------------------------------------------------------------------------------------------------------
 
-def cast(k: Record, leaps: Array, cells: Array, x: float, y: float, along_x: float, along_y: float,
+def cast(k: Record, skips: Array, cells: Array, x: float, y: float, along_x: float, along_y: float,
          limit: float) -> float:
     """Distance from (x, y) along a unit vector to the first wall, at most `limit`.
 
-    Far from walls it leaps, near them it goes from border to border of the cells, so that the wall is met exactly.
-    Counts in cells.
+    Far from walls the beam skips whole cells; near walls it goes from border to border of the cells, so that it meets
+    the wall exactly. Distances inside this function are in cells.
     """
     u, v, far = (x - k.origin_x) / k.resolution, (y - k.origin_y) / k.resolution, limit / k.resolution
-    way = 0.0
-    while way < far:
-        column, row = u + way * along_x, v + way * along_y
+    distance = 0.0
+    while distance < far:
+        column, row = u + distance * along_x, v + distance * along_y
         if not (0.0 <= column < cells.shape[1] and 0.0 <= row < cells.shape[0]):
-            return way * k.resolution
-        leap = int(leaps[int(row), int(column)])
-        if leap > 0:
-            way += leap
+            return distance * k.resolution
+        skip = int(skips[int(row), int(column)])
+        if skip > 0:
+            distance += skip
         elif cells[int(row), int(column)] & BLOCKED:
-            return way * k.resolution
+            return distance * k.resolution
         else:
-            way += min(to_border(column, along_x), to_border(row, along_y)) + NUDGE
+            distance += min(to_border(column, along_x), to_border(row, along_y)) + NUDGE
     return limit
 
 
-def to_border(place: float, along: float) -> float:
-    """Way [cells] until one coordinate [cells] that grows by `along` each step reaches the border of its cell.
+def to_border(position: float, along: float) -> float:
+    """Distance [cells] until one coordinate [cells], which grows by `along` per cell, reaches the border of its cell.
 
-    A beam that runs along a border, but for rounding, never crosses it: a nudge would not bring it to the other side.
+    It is infinite for a beam that is parallel to the border except for rounding: NUDGE would not carry it across.
     """
     if along > NUDGE:
-        return (math.floor(place) + 1.0 - place) / along
+        return (math.floor(position) + 1.0 - position) / along
     if along < -NUDGE:
-        return (math.floor(place) - place) / along
+        return (math.floor(position) - position) / along
     return math.inf
 
 
-def scan(robots: Array, me: int, k: Record, leaps: Array, cells: Array, fan: Array, noise: Array,
+def scan(robots: Array, me: int, k: Record, skips: Array, cells: Array, fan: Array, noise: Array,
          ranges: Array) -> None:
-    """Fill `ranges` (beams) for a robot; `fan` (beams, 2) holds their directions in its frame, `noise` is normal."""
+    """Measure with the laser of the robot with index `me`.
+
+    Args, apart from those above:
+        fan: float64 (beams, 2), directions of the beams as unit vectors in the frame of the robot.
+        noise: float64 (beams), standard normal.
+        ranges: float64 (beams), receives the measured distances.
+    """
     robot = robots[me]
     cos, sin = math.cos(robot.theta), math.sin(robot.theta)
     for beam in range(len(ranges)):
         along_x = cos * fan[beam, 0] - sin * fan[beam, 1]
         along_y = sin * fan[beam, 0] + cos * fan[beam, 1]
-        ranges[beam] = cast(k, leaps, cells, robot.x, robot.y, along_x, along_y, k.range_max)
+        ranges[beam] = cast(k, skips, cells, robot.x, robot.y, along_x, along_y, k.range_max)
     for other in range(len(robots)):
         if other != me:
             see(robots[other].x - robot.x, robots[other].y - robot.y, robot.theta, k, ranges)
@@ -459,17 +480,17 @@ def scan(robots: Array, me: int, k: Record, leaps: Array, cells: Array, fan: Arr
 
 
 def see(dx: float, dy: float, theta: float, k: Record, ranges: Array) -> None:
-    """Shorten the beams that another robot at (dx, dy) from the laser stands in."""
+    """Shorten the beams that hit another robot, which is (dx, dy) away from the laser."""
     square = dx * dx + dy * dy
     if square >= (k.range_max + k.radius) ** 2 or square <= k.radius ** 2:
         return
     distance = math.sqrt(square)
     step = 2.0 * math.pi / len(ranges)
     half = math.asin(k.radius / distance)
-    middle = wrap(math.atan2(dy, dx) - theta) + math.pi  # beam 0 looks backward
+    middle = wrap(math.atan2(dy, dx) - theta) + math.pi  # beam 0 points backward
     for beam in range(math.ceil((middle - half) / step), math.floor((middle + half) / step) + 1):
         off = beam * step - middle
         side = distance * math.sin(off)
-        way = distance * math.cos(off) - math.sqrt(max(0.0, k.radius * k.radius - side * side))
+        edge = distance * math.cos(off) - math.sqrt(max(0.0, k.radius * k.radius - side * side))
         index = beam % len(ranges)
-        ranges[index] = min(ranges[index], way)
+        ranges[index] = min(ranges[index], edge)

@@ -1,8 +1,8 @@
-"""Maps as map_server stores them: a YAML file that names an image; and what Rumba adds to it.
+"""Map files in the format of map_server: a YAML file that names an image, with some more keys for Rumba.
 
-map_server's keys: image, resolution [m a pixel], origin [x, y, yaw] of the lower left corner, negate,
-occupied_thresh, free_thresh, mode (trinary, scale or raw). Those of Rumba, all optional: dock and start,
-[x, y, theta] each, and cliff and carpet, images of the same size where dark pixels mark the cells.
+Keys of map_server: image, resolution [m/pixel], origin [x, y, yaw] of the lower left corner, negate,
+occupied_thresh, free_thresh, mode (trinary, scale or raw). Optional keys of Rumba: dock and start, each
+[x, y, theta], and cliff and carpet, images of the same size whose dark pixels mark the cells.
 """
 
 from __future__ import annotations
@@ -29,16 +29,16 @@ if TYPE_CHECKING:  # NumPy 1.17 of Ubuntu 20.04 has no numpy.typing
 REQUIRED = ('image', 'resolution', 'origin', 'negate', 'occupied_thresh', 'free_thresh')
 OPTIONAL = ('mode', 'dock', 'start', 'cliff', 'carpet')
 MODES = ('trinary', 'scale', 'raw')
-FAR = 1e9  # [m] coordinates of maps on the grid of a country reach 1e7
+FAR = 1e9  # [m] the largest coordinate; those of national grids reach 1e7
 RESOLUTIONS = (1e-4, 10.0)  # [m]
-ROUNDING = 1e-6  # [cells] lest a quarter turn add a row
-TYPO = 0.75  # how alike a key must be to one of ours to be taken for a slip of the pen
+ROUNDING = 1e-6  # [cells] so that a quarter turn does not add a row
+TYPO = 0.75  # similarity from which on an unknown key is taken for a misspelt one
 
 Cell = TypeVar('Cell', bound=np.generic)
 
 
 class Header(NamedTuple):
-    """What the YAML file of a map says, checked."""
+    """The checked values of the YAML file of a map."""
 
     path: str
     image: str
@@ -55,16 +55,16 @@ class Header(NamedTuple):
 
 
 def load(path: Union[str, os.PathLike[str]]) -> FloorPlan:
-    """Read a map and cut it to its free cells and one cell more around them.
+    """Read a map and crop it to its free cells and a border of one cell.
 
-    The maps of SLAM are mostly unknown, so that this saves time and memory; the origin moves along, and the
-    coordinates of all things stay. A map whose origin has a yaw is drawn anew, parallel to the axes.
+    Most cells of a map from SLAM are unknown, so that this saves time and memory. The origin changes with the crop, so
+    that all coordinates stay the same. If the origin has a yaw, the map is resampled parallel to the axes.
 
     Args:
-        path: of the YAML file.
+        path: path of the YAML file.
 
     Raises:
-        MapError: the file, or one that it names, cannot be used; the message begins with that file's path.
+        MapError: the file, or a file that it names, cannot be used; the message begins with the path of that file.
     """
     header = read_header(os.fspath(path))
     picture = map_image.read(header.image, Alpha.AVERAGE if header.mode == 'trinary' else Alpha.IGNORE)
@@ -85,10 +85,10 @@ def load(path: Union[str, os.PathLike[str]]) -> FloorPlan:
 
 
 def read_header(path: str) -> Header:
-    """Read and check the YAML file of a map; its images are not looked at.
+    """Read and check the YAML file of a map, but not its images.
 
     Raises:
-        MapError: it cannot be read, or a key is missing, misspelt or has a value that cannot be.
+        MapError: the file cannot be read, or a key is missing or misspelt, or a value is not allowed.
     """
     entries = _Entries(path, read_mapping(path, MapError))
     header = Header(
@@ -105,13 +105,13 @@ def read_header(path: str) -> Header:
 
 
 class _Entries:
-    """The values of a map's YAML file, each given out checked."""
+    """The values of the YAML file of a map; each method checks the value that it returns."""
 
     def __init__(self, path: str, values: Dict[Any, Any]) -> None:
         self._path = path
         self._values = {'mode': MODES[0], **values}
         known = REQUIRED + OPTIONAL
-        for key in values:  # other tools put keys of their own into such files: only what looks like ours is wrong
+        for key in values:  # other tools add keys of their own: only a key that is similar to ours is wrong
             close = difflib.get_close_matches(str(key)[:80].lower(), known, n=1, cutoff=TYPO)
             if key not in known and close:
                 raise MapError(f'{path}: {key!r} is unknown: did you mean {close[0]!r}?')
@@ -154,7 +154,7 @@ class _Entries:
 
 
 def _number(value: Any) -> Optional[float]:
-    """A finite number, also where YAML 1.1 takes one for text, as it does 5e-2; else None."""
+    """The value as a finite number, also if YAML 1.1 reads it as text, for example 5e-2; else None."""
     if isinstance(value, bool) or not isinstance(value, (int, float, str)):
         return None
     try:
@@ -165,10 +165,10 @@ def _number(value: Any) -> Optional[float]:
 
 
 def _occupancy(header: Header, picture: Picture) -> NDArray[np.int8]:
-    """int8 (rows, columns), row 0 at the bottom, after the rules of map_server of ROS Noetic.
+    """int8 (rows, columns), row 0 at the bottom, by the rules of map_server in ROS Noetic.
 
-    What its modes scale and raw leave between free and occupied is unknown here. In mode raw the pixel is the
-    probability in percent, and more than 100 is unknown.
+    Values between free and occupied in the modes scale and raw become unknown here. In mode raw a pixel is the
+    probability in percent, and a pixel above 100 is unknown.
     """
     value = np.arange(picture.white + 1) / (picture.white / 255.0)
     if header.negate:
@@ -177,12 +177,12 @@ def _occupancy(header: Header, picture: Picture) -> NDArray[np.int8]:
     table = np.full(value.shape, UNKNOWN, np.int8)
     table[probability < header.free_thresh] = FREE
     table[(probability > header.occupied_thresh) & (probability <= 1.0)] = OCCUPIED
-    return np.stack([table[row] for row in picture.levels[::-1]])  # all at once would take 8 bytes a pixel
+    return np.stack([table[row] for row in picture.levels[::-1]])  # the whole image at once takes 8 bytes per pixel
 
 
 def _layer(header: Header, path: Optional[str], picture: Picture,
            part: Tuple[slice, slice]) -> Optional[NDArray[np.bool_]]:
-    """bool (rows, columns), row 0 at the bottom: the dark pixels in a part of a layer of the map."""
+    """The dark pixels of a layer in a part of the map: bool (rows, columns), row 0 at the bottom."""
     if path is None:
         return None
     layer = map_image.read(path, Alpha.ON_WHITE)
@@ -194,26 +194,26 @@ def _layer(header: Header, path: Optional[str], picture: Picture,
 
 
 def _around_free(occupancy: NDArray[np.int8]) -> Tuple[slice, slice]:
-    """The rows and columns from one before the first to one after the last that has a free cell."""
+    """The rows and columns that contain a free cell, and one more on each side."""
     free = occupancy == FREE
     return _span(free.any(axis=1)), _span(free.any(axis=0))
 
 
 def _span(used: NDArray[np.bool_]) -> slice:
-    places = np.flatnonzero(used)
-    if places.size == 0:
+    indices = np.flatnonzero(used)
+    if indices.size == 0:
         return slice(0, 1)
-    return slice(max(int(places[0]) - 1, 0), int(places[-1]) + 2)
+    return slice(max(int(indices[0]) - 1, 0), int(indices[-1]) + 2)
 
 
 def _moved(origin: Pose, x: float, y: float) -> Pose:
-    """The origin of a grid that begins at (x, y) of this one [m]."""
+    """The origin of a grid that begins at the point (x, y) [m] of the grid with this origin."""
     cos, sin = math.cos(origin.theta), math.sin(origin.theta)
     return Pose(origin.x + cos * x - sin * y, origin.y + sin * x + cos * y, origin.theta)
 
 
 def _box(theta: float, shape: Tuple[int, ...]) -> Bounds:
-    """Edges of the upright rectangle around a grid (rows, columns) turned about its origin, as whole cells."""
+    """Edges [cells] of the rectangle, parallel to the axes, around a grid (rows, columns) turned about its origin."""
     corners = [_moved(Pose(0.0, 0.0, theta), x, y) for x in (0, shape[1]) for y in (0, shape[0])]
     left, bottom = min(corner.x for corner in corners), min(corner.y for corner in corners)
     columns = math.ceil(max(corner.x for corner in corners) - left - ROUNDING)
@@ -222,12 +222,12 @@ def _box(theta: float, shape: Tuple[int, ...]) -> Bounds:
 
 
 def _turned(layer: NDArray[Cell], theta: float, box: Bounds, beyond: int) -> NDArray[Cell]:
-    """A turned layer as an upright one: each cell is what lies under its centre, or `beyond` where nothing does."""
+    """Resample a turned layer parallel to the axes; cells whose centre is not on the layer become `beyond`."""
     cos, sin = math.cos(theta), math.sin(theta)
     x, y = box.left + 0.5, box.bottom + 0.5
-    # Indices count from the centre of a cell (-0.5), and the rim that is put around the layer shifts them (+1).
+    # Indices refer to the centre of a cell (-0.5), and the border that is added to the layer shifts them (+1).
     offset = (cos * y - sin * x + 0.5, sin * y + cos * x + 0.5)
     shape = (round(box.top - box.bottom), round(box.right - box.left))
-    rimmed = np.pad(layer.astype(np.int8), 1, mode='constant', constant_values=beyond)
-    upright = ndimage.affine_transform(rimmed, [[cos, -sin], [sin, cos]], offset, shape, order=0, cval=beyond)
-    return np.asarray(upright, dtype=layer.dtype)
+    padded = np.pad(layer.astype(np.int8), 1, mode='constant', constant_values=beyond)
+    resampled = ndimage.affine_transform(padded, [[cos, -sin], [sin, cos]], offset, shape, order=0, cval=beyond)
+    return np.asarray(resampled, dtype=layer.dtype)

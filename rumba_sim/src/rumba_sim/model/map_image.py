@@ -1,4 +1,7 @@
-"""Pictures of maps as arrays of brightness: PGM, which old versions of Pillow read in part, and what Pillow reads."""
+"""Images of maps as arrays of brightness.
+
+PGM is read here, since old versions of Pillow read only some kinds of it; Pillow reads all other formats.
+"""
 
 from __future__ import annotations
 
@@ -15,18 +18,18 @@ from rumba_sim.model.errors import MapError
 if TYPE_CHECKING:  # NumPy 1.17 of Ubuntu 20.04 has no numpy.typing
     from numpy.typing import NDArray
 
-MAX_PIXELS = 150_000_000  # less than where Pillow refuses; decoded, such an image takes up to a gigabyte
+MAX_PIXELS = 150_000_000  # below the limit of Pillow; a decoded image of this size takes up to a gigabyte
 STRIP = 256  # rows
 PGM_HEADER = re.compile(rb'P([25])' + 3 * rb'(?:\s+#[^\n]*(?=\n))*\s+(\d{1,9})' + rb'\s')
 PGM_LIMIT = 65535
 
 
 class Picture(NamedTuple):
-    """Brightness of an image's pixels.
+    """Brightness of the pixels of an image.
 
     Attributes:
         levels: unsigned integers (rows, columns), row 0 at the top; 0 is black.
-        white: the level of white.
+        white: level of white.
     """
 
     levels: NDArray[Any]
@@ -34,18 +37,18 @@ class Picture(NamedTuple):
 
 
 class Alpha(enum.Enum):
-    """What becomes of the transparency of an image that has some."""
+    """How the transparency of an image is used."""
 
-    AVERAGE = 'it counts as one more colour, as map_server has it in mode trinary'
-    IGNORE = 'it counts for nothing, as map_server has it in the other modes'
-    ON_WHITE = 'the image lies on white paper'
+    AVERAGE = 'alpha counts as one more colour, as in mode trinary of map_server'
+    IGNORE = 'alpha is ignored, as in the other modes of map_server'
+    ON_WHITE = 'the image is drawn on a white background'
 
 
 def read(path: str, alpha: Alpha) -> Picture:
     """Read an image file.
 
     Raises:
-        MapError: it is not there, is no image, is cut short or has more than MAX_PIXELS; names the file.
+        MapError: the file is missing, not an image, truncated, or has more than MAX_PIXELS; the message names it.
     """
     try:
         with open(path, 'rb') as file:
@@ -78,7 +81,7 @@ def _read_pgm(path: str, data: bytes) -> Picture:
     size = rows * columns
     if header.group(1) == b'2':
         with warnings.catch_warnings():
-            warnings.simplefilter('ignore')  # numbers that end early are told from their count, below
+            warnings.simplefilter('ignore')  # a text that ends early is reported below
             levels = np.fromstring(data[header.end():].decode('latin-1'), dtype=np.int32, count=-1, sep=' ')[:size]
     else:
         sample = np.dtype('>u2' if white > 255 else 'u1')
@@ -93,30 +96,30 @@ def _read_pgm(path: str, data: bytes) -> Picture:
 def _read_other(path: str, alpha: Alpha) -> Picture:
     try:
         with warnings.catch_warnings():
-            warnings.simplefilter('ignore')  # Pillow warns of an image that is large, but allowed here
+            warnings.simplefilter('ignore')  # Pillow warns about large images that are allowed here
             with Image.open(path) as image:
                 _check_pixels(path, *image.size)
                 return _levels(image, alpha)
     except MapError:
         raise
     except UnidentifiedImageError as exc:
-        raise MapError(f'{path}: is no image of a known kind: must be PNG or PGM, for example') from exc
+        raise MapError(f'{path}: is not an image of a known format: must be PNG or PGM, for example') from exc
     except Image.DecompressionBombError as exc:
         raise MapError(f'{path}: more than {MAX_PIXELS // 1_000_000} million pixels: '
                        'cut the image to the part to be cleaned') from exc
-    except Exception as exc:  # a damaged file makes Pillow's decoders raise whatever they stumble over
+    except Exception as exc:  # a damaged file can make the decoders of Pillow raise any exception
         raise MapError(f'{path}: the image is damaged: {" ".join(str(exc).split()) or type(exc).__name__}') from exc
 
 
 def _levels(image: Any, alpha: Alpha) -> Picture:
-    if image.mode.startswith('I'):  # 16 bits of grey; some versions of Pillow put them into 32
+    if image.mode.startswith('I'):  # 16 bit grey, which some versions of Pillow store in 32 bits
         return Picture(np.clip(np.asarray(image), 0, PGM_LIMIT).astype(np.uint16), PGM_LIMIT)
     if image.mode in ('1', 'L') and 'transparency' not in image.info:
         return Picture(np.asarray(image.convert('L')), 255)
     transparent = 'A' in image.mode or 'transparency' in image.info
     bands = 4 if transparent and alpha is Alpha.AVERAGE else 3
     levels = np.empty((image.height, image.width), np.uint16)
-    for top in range(0, image.height, STRIP):  # the whole image at once would lie in memory several times
+    for top in range(0, image.height, STRIP):  # the whole image at once would be in memory several times
         strip = image.crop((0, top, image.width, min(top + STRIP, image.height)))
         strip = strip.convert('RGBA' if transparent else 'RGB')
         if transparent and alpha is Alpha.ON_WHITE:

@@ -1,4 +1,4 @@
-"""One Rumba: what it is told, and what its sensors and the world know of it."""
+"""One Rumba: its commands, its true state, and the readings of its sensors."""
 
 import math
 from typing import NamedTuple, Optional, Tuple
@@ -14,7 +14,7 @@ FIRST = 'rumba'  # name of the first robot
 
 
 def nth_name(number: int) -> str:
-    """Name of a robot that has none of its own: rumba, rumba2, rumba3, ...; the first has the number 1."""
+    """Default name of a robot: rumba, rumba2, rumba3, ... for the numbers 1, 2, 3, ..."""
     return FIRST if number == 1 else f'{FIRST}{number}'
 
 
@@ -26,7 +26,7 @@ class Twist(NamedTuple):
 
 
 class Infrared(NamedTuple):
-    """Sums of the dock's beams that each receiver gets: bits FORCE_FIELD, GREEN_BUOY, RED_BUOY of `kernel`."""
+    """Beams of the dock that each receiver gets: sums of the bits FORCE_FIELD, GREEN_BUOY, RED_BUOY of `kernel`."""
 
     omni: int
     left: int
@@ -34,7 +34,7 @@ class Infrared(NamedTuple):
 
 
 class Start(NamedTuple):
-    """How a robot began, and begins again after a reset."""
+    """How a robot begins, and begins again after a reset."""
 
     pose: Pose  # [m, rad] in the map frame
     state_of_charge: float = 1.0  # [0..1]
@@ -42,29 +42,34 @@ class Start(NamedTuple):
 
 
 class Robot:
-    """A robot of a world, which moves it; made by `World.spawn`.
+    """A robot in a world; made by `World.spawn` and moved by `World.step`.
 
     Attributes:
-        name: unique in its world.
+        name: name, unique in its world.
         start: how it began.
-        config: its constants.
+        config: configuration of the robot.
         state: its record (`kernel.ROBOT`) in the array of the world.
     """
 
     def __init__(self, name: str, start: Start, config: RobotConfig, state: Record) -> None:
-        """Look at the record of a world."""
+        """Wrap a record of a world."""
         self.name = name
         self.start = start
         self.config = config
         self.state = state
 
     def command(self, v: float, w: float, tick: int) -> None:
-        """Ask for a velocity, forward [m/s] and counter-clockwise [rad/s], at a tick of the world.
+        """Command a velocity.
 
-        What exceeds the limits of the drive is cut; after `drive/command_timeout` without a command the robot stops.
+        It is cut to the limits of the drive; after `drive/command_timeout` without a command the robot stops.
+
+        Args:
+            v: forward velocity [m/s].
+            w: angular velocity, counter-clockwise [rad/s].
+            tick: the present tick of the world.
 
         Raises:
-            CommandError: a velocity is not a finite number; the command before stays in force.
+            CommandError: a velocity is not a finite number; the previous command stays in force.
         """
         if not (math.isfinite(v) and math.isfinite(w)):
             raise CommandError(f'{self.name}: velocity {v} m/s, {w} rad/s: must be finite numbers')
@@ -74,25 +79,25 @@ class Robot:
 
     @property
     def pose(self) -> Pose:
-        """Where it truly is, map frame."""
+        """True pose, map frame."""
         state = self.state
         return Pose(float(state['x']), float(state['y']), float(state['theta']))
 
     @property
     def twist(self) -> Twist:
-        """How its wheels turn, without their errors."""
+        """Velocity from the true speeds of the wheels."""
         left, right = float(self.state['left_speed']), float(self.state['right_speed'])
         return Twist(0.5 * (left + right), (right - left) / self.config.drive.wheel_base)
 
     @property
     def odometry(self) -> Pose:
-        """Where its encoders make it believe to be, in a frame that began where it was put."""
+        """Pose by its encoders, in a frame whose origin is its first pose."""
         state = self.state
         return Pose(float(state['odom_x']), float(state['odom_y']), float(state['odom_theta']))
 
     @property
     def odometry_twist(self) -> Twist:
-        """How fast its encoders make it believe to be."""
+        """Velocity by its encoders."""
         return Twist(float(self.state['odom_v']), float(self.state['odom_w']))
 
     @property
@@ -102,13 +107,13 @@ class Robot:
 
     @property
     def battery(self) -> Battery:
-        """A copy of the state of its battery."""
+        """Copy of the state of its battery."""
         config = self.config.battery
         return Battery(config, float(self.state['charge']) / config.capacity, float(self.state['current']))
 
     @property
     def brushes_up(self) -> bool:
-        """Whether the brushes are lifted and still."""
+        """Whether the brushes are lifted and stopped."""
         return bool(self.state['brushes_up'])
 
     @brushes_up.setter
@@ -123,13 +128,13 @@ class Robot:
 
     @property
     def contact_angle(self) -> Optional[float]:
-        """Where something touches the body, counter-clockwise from its front [rad]; None where nothing does."""
+        """Direction of a contact with the body, counter-clockwise from its front [rad]; None without a contact."""
         angle = float(self.state['contact_angle'])
         return None if math.isnan(angle) else angle
 
     @property
     def bumps(self) -> int:
-        """How often the bumper was pressed anew."""
+        """How often the bumper was pressed since the start."""
         return int(self.state['bumps'])
 
     @property
@@ -139,22 +144,22 @@ class Robot:
 
     @property
     def has_fallen(self) -> bool:
-        """Whether a wheel hangs over a cliff: the robot cannot drive until somebody puts it elsewhere."""
+        """Whether a wheel is over a cliff: the robot cannot drive until it is put elsewhere."""
         return bool(self.state['fallen'])
 
     @property
     def distance(self) -> float:
-        """Way driven since the start [m]."""
+        """Distance driven since the start [m]."""
         return float(self.state['distance'])
 
     @property
     def brush_time(self) -> float:
-        """Time with brushes down and a charged battery since the start [s]."""
+        """Time with the brushes down and a battery that is not empty, since the start [s]."""
         return float(self.state['brush_time'])
 
 
 def put(state: Record, pose: Pose) -> None:
-    """Set a robot down at a pose, at rest; odometry does not notice."""
+    """Put a robot at a pose, at rest; its odometry does not notice."""
     for name in ('left_speed', 'right_speed', 'command_v', 'command_w', 'odom_v', 'odom_w'):
         state[name] = 0.0
     state['x'], state['y'], state['theta'] = pose
@@ -165,7 +170,14 @@ def put(state: Record, pose: Pose) -> None:
 
 
 def begin(state: Record, start: Start, capacity: float, scales: Array) -> None:
-    """Fill the record of a new robot: capacity of its battery [Ah], scale errors of the left and right wheel."""
+    """Fill the record of a new robot.
+
+    Args:
+        state: the record.
+        start: how the robot begins.
+        capacity: of its battery [Ah].
+        scales: scale errors of the left and the right wheel.
+    """
     state.fill(0)
     put(state, start.pose)
     state['charge'] = capacity * start.state_of_charge

@@ -1,8 +1,8 @@
-"""What sets one Rumba apart from another: every figure with its unit, its range and its source.
+"""The configuration of a Rumba: every figure with its unit, its range and its source.
 
 Sources: OI is the iRobot Roomba 600 Open Interface specification; libcreate and create_robot are drivers of the
-Create 2; create3_sim and Create 3 are the simulator and the documentation of the Create 3; owners and makers are
-what owners measured and makers state.
+Create 2; create3_sim and Create 3 are the simulator and the documentation of the Create 3; makers and owners are data
+of battery makers and measurements by owners.
 """
 
 import dataclasses
@@ -19,27 +19,28 @@ TURN = 2.0 * math.pi
 class DriveConfig:
     """Body and wheels."""
 
-    radius: float = setting(0.17425, 'of the body, a disc (create_robot: diameter 0.3485)', 'm', 0.02, 5.0)
-    wheel_base: float = setting(0.235, 'from wheel to wheel (libcreate)', 'm', 0.01, 10.0)
-    wheel_diameter: float = setting(0.072, 'of a wheel (libcreate)', 'm', 0.001, 10.0)
-    ticks_per_turn: float = setting(508.8, 'encoder ticks of one turn of a wheel (OI)', '', 1.0, 1e6)
-    max_speed: float = setting(0.5, 'of a wheel over the ground (OI)', 'm/s', 0.01, 10.0)
-    max_turn_rate: float = setting(1.9, 'of the body (Create 3)', 'rad/s', 0.01, 50.0)
-    acceleration: float = setting(0.9, 'of a wheel (Create 3)', 'm/s^2', 0.01, 1000.0)
-    dead_band: float = setting(0.011, 'wheels that are told less stand still (owners)', 'm/s', 0.0, 0.1)
-    command_timeout: float = setting(0.5, 'the robot stops when no command came for so long (create_robot: 0.2, '
+    radius: float = setting(0.17425, 'radius of the body, a disc (create_robot: diameter 0.3485)', 'm', 0.02, 5.0)
+    wheel_base: float = setting(0.235, 'distance between the wheels (libcreate)', 'm', 0.01, 10.0)
+    wheel_diameter: float = setting(0.072, 'diameter of a wheel (libcreate)', 'm', 0.001, 10.0)
+    ticks_per_turn: float = setting(508.8, 'encoder ticks per turn of a wheel (OI)', '', 1.0, 1e6)
+    max_speed: float = setting(0.5, 'largest speed of a wheel over the ground (OI)', 'm/s', 0.01, 10.0)
+    max_turn_rate: float = setting(1.9, 'largest angular velocity of the body (Create 3)', 'rad/s', 0.01, 50.0)
+    acceleration: float = setting(0.9, 'acceleration of a wheel (Create 3)', 'm/s^2', 0.01, 1000.0)
+    dead_band: float = setting(0.011, 'a wheel that is commanded a lower speed stands still (owners)', 'm/s', 0.0, 0.1)
+    command_timeout: float = setting(0.5, 'the robot stops if it gets no command for this time (create_robot: 0.2, '
                                           'turtlesim: 1)', 's', 0.02, 60.0)
 
 
 @dataclasses.dataclass(frozen=True)
 class OdometryConfig:
-    """How the wheels mislead."""
+    """Errors of the wheels."""
 
-    scale_error: float = setting(0.01, 'standard deviation of the scale of each wheel, drawn once a robot '
+    scale_error: float = setting(0.01, 'standard deviation of the scale of each wheel, drawn once for each robot '
                                        '(our choice: a wheel worn by 0.4 mm)', '', 0.0, 0.2)
-    noise: float = setting(0.002, 'standard deviation of a wheel after 1 m, growing with the square root of the way '
-                                  '(our choice)', 'm', 0.0, 0.1)
-    floor_traction: float = setting(0.98, 'way over hard floor / way that the encoder counts (owners)', '', 0.5, 1.0)
+    noise: float = setting(0.002, 'standard deviation of the distance of a wheel after 1 m; it grows with the square '
+                                  'root of the distance (our choice)', 'm', 0.0, 0.1)
+    floor_traction: float = setting(0.98, 'driven distance / distance that the encoder counts, on hard floor (owners)',
+                                    '', 0.5, 1.0)
     carpet_traction: float = setting(0.92, 'the same on carpet (owners)', '', 0.5, 1.0)
 
 
@@ -49,47 +50,48 @@ class BumperConfig:
 
     field: float = setting(2.6, 'angle of the body that the bumper covers, half to each side (our choice: 150 degrees)',
                            'rad', 0.1, TURN)
-    overlap: float = setting(0.35, 'angle in the middle where a contact presses both switches (our choice: '
+    overlap: float = setting(0.35, 'angle in the middle in which a contact presses both switches (our choice: '
                                    '20 degrees)', 'rad', 0.0, 3.0)
 
 
 @dataclasses.dataclass(frozen=True)
 class CliffConfig:
-    """The sensors under the front that miss the floor (OI: four; their places are our choice)."""
+    """The cliff sensors under the front (OI: there are four; their positions are our choice)."""
 
-    distance: float = setting(0.15, 'from the middle of the robot', 'm', 0.0, 5.0)
-    inner_angle: float = setting(0.26, 'of front left and front right', 'rad', 0.0, math.pi)
-    outer_angle: float = setting(1.05, 'of left and right', 'rad', 0.0, math.pi)
+    distance: float = setting(0.15, 'distance from the centre of the robot', 'm', 0.0, 5.0)
+    inner_angle: float = setting(0.26, 'angle from straight ahead to front left and front right', 'rad', 0.0, math.pi)
+    outer_angle: float = setting(1.05, 'angle from straight ahead to left and right', 'rad', 0.0, math.pi)
 
 
 @dataclasses.dataclass(frozen=True)
 class LaserConfig:
-    """A scanner on top, in the middle, that looks all around (no Roomba of the 600 series has one)."""
+    """A laser scanner on top, in the centre, that sees all around (no Roomba of the 600 series has one)."""
 
-    beams: int = setting(360, 'of one turn, evenly spread', '', 1, 10000)
-    range_min: float = setting(0.12, 'what is nearer is reported as -inf', 'm', 0.0, 10.0)
-    range_max: float = setting(8.0, 'what is farther is reported as +inf', 'm', 0.1, 1000.0)
-    noise: float = setting(0.01, 'standard deviation of a range (our choice, as of a cheap scanner)', 'm', 0.0, 1.0)
+    beams: int = setting(360, 'number of beams in a full turn, evenly spread', '', 1, 10000)
+    range_min: float = setting(0.12, 'shorter ranges are reported as -inf', 'm', 0.0, 10.0)
+    range_max: float = setting(8.0, 'longer ranges are reported as +inf', 'm', 0.1, 1000.0)
+    noise: float = setting(0.01, 'standard deviation of a range (our choice: that of a cheap scanner)', 'm', 0.0, 1.0)
 
 
 @dataclasses.dataclass(frozen=True)
 class DockConfig:
-    """Contacts, and the infrared beams that lead to them."""
+    """Contacts of the dock, and the infrared beams that lead to them."""
 
-    contact_distance: float = setting(0.075, 'the contacts close within (create3_sim)', 'm', 0.001, 1.0)
-    contact_angle: float = setting(0.105, 'and within this heading (create3_sim: 6 degrees)', 'rad', 0.01, 3.0)
-    release_distance: float = setting(0.1, 'closed contacts open beyond: more, so that they do not flicker', 'm',
-                                      0.001, 1.0)
-    release_angle: float = setting(0.157, 'or beyond this heading (9 degrees)', 'rad', 0.01, 3.0)
-    buoy_range: float = setting(3.0, 'how far red and green buoy reach (our choice)', 'm', 0.1, 100.0)
+    contact_distance: float = setting(0.075, 'the contacts close within this distance (create3_sim)', 'm', 0.001, 1.0)
+    contact_angle: float = setting(0.105, 'and within this error of the heading (create3_sim: 6 degrees)', 'rad',
+                                   0.01, 3.0)
+    release_distance: float = setting(0.1, 'closed contacts open beyond this distance, which is larger so that they do '
+                                           'not flicker', 'm', 0.001, 1.0)
+    release_angle: float = setting(0.157, 'or beyond this error of the heading (9 degrees)', 'rad', 0.01, 3.0)
+    buoy_range: float = setting(3.0, 'range of the red and the green buoy (our choice)', 'm', 0.1, 100.0)
     buoy_field: float = setting(0.873, 'angle that both buoys cover together (create3_sim: 50 degrees)', 'rad',
                                 0.05, 3.0)
-    buoy_overlap: float = setting(0.087, 'angle about the axis where both are seen (our choice: 5 degrees)', 'rad',
-                                  0.0, 1.0)
-    halo: float = setting(0.6, 'how far the force field reaches (create3_sim)', 'm', 0.0, 10.0)
+    buoy_overlap: float = setting(0.087, 'angle about the axis in which both buoys are received (our choice: '
+                                         '5 degrees)', 'rad', 0.0, 1.0)
+    halo: float = setting(0.6, 'range of the force field (create3_sim)', 'm', 0.0, 10.0)
 
     def __post_init__(self) -> None:
-        """Contacts that open before they close would flicker."""
+        """Refuse contacts that open before they close: they would flicker."""
         for what in ('distance', 'angle'):
             contact, release = getattr(self, f'contact_{what}'), getattr(self, f'release_{what}')
             if release < contact:
@@ -98,22 +100,22 @@ class DockConfig:
 
 @dataclasses.dataclass(frozen=True)
 class BrushConfig:
-    """What cleans."""
+    """The brush."""
 
-    width: float = setting(0.17, 'of the main brush, under the middle of the robot (its usual size; none published)',
-                           'm', 0.01, 10.0)
-    pickup: float = setting(0.9, 'share of the dirt that one pass takes (our choice)', '', 0.0, 0.999)
+    width: float = setting(0.17, 'width of the main brush, under the centre of the robot (the usual size; none is '
+                                 'published)', 'm', 0.01, 10.0)
+    pickup: float = setting(0.9, 'share of the dirt that one pass removes (our choice)', '', 0.0, 0.999)
 
 
 @dataclasses.dataclass(frozen=True)
 class RobotConfig:
-    """All of it."""
+    """The whole configuration of a robot."""
 
     drive: DriveConfig = section(DriveConfig, 'body and wheels')
-    odometry: OdometryConfig = section(OdometryConfig, 'how the wheels mislead')
+    odometry: OdometryConfig = section(OdometryConfig, 'errors of the wheels')
     bumper: BumperConfig = section(BumperConfig, 'the contact switches at the front')
-    cliff: CliffConfig = section(CliffConfig, 'the sensors under the front that miss the floor')
-    laser: LaserConfig = section(LaserConfig, 'the scanner on top')
-    dock: DockConfig = section(DockConfig, 'contacts, and the infrared beams that lead to them')
-    brush: BrushConfig = section(BrushConfig, 'what cleans')
-    battery: BatteryConfig = section(BatteryConfig, 'what drives all of it')
+    cliff: CliffConfig = section(CliffConfig, 'the cliff sensors under the front')
+    laser: LaserConfig = section(LaserConfig, 'the laser scanner on top')
+    dock: DockConfig = section(DockConfig, 'contacts of the dock, and the infrared beams that lead to them')
+    brush: BrushConfig = section(BrushConfig, 'the brush')
+    battery: BatteryConfig = section(BatteryConfig, 'battery and charger')

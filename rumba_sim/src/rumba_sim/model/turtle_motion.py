@@ -1,7 +1,8 @@
-"""What turtlesim's poses tell of the way between them.
+"""How a turtle moved between two poses that turtlesim published.
 
-Turtlesim tells a pose every 16 ms, with the velocity that led there, and no time. A turtle can be put elsewhere at
-any moment, and a pose can get lost where the machine is busy: the way between two poses tells which it was.
+Turtlesim publishes a pose every 16 ms, with the velocity of the last frame but without a time. A turtle can be put
+elsewhere at any moment, and a pose can get lost if the machine is busy; the distance between two poses shows which of
+them happened.
 """
 
 import math
@@ -9,38 +10,41 @@ from typing import List
 
 from rumba_sim.model.geometry import Pose, wrap_angle
 
-FRAME_RATE = 62.5  # [Hz] of poses (turtlesim: a timer of 16 ms)
+FRAME_RATE = 62.5  # [Hz] rate of poses (turtlesim: a timer of 16 ms)
 FRAME = 1.0 / FRAME_RATE  # [s]
-PIXELS_PER_METRE = 45.0  # turtlesim: the height of a turtle's picture is a metre of its field
-MOST_LOST = 25  # poses in a row that may get lost: 0.4 s
-ROUNDING = 1e-4  # [m], [rad] between poses in float32 of a field of 11 m
+PIXELS_PER_METRE = 45.0  # turtlesim: the height of the image of a turtle is one metre
+MOST_LOST = 25  # poses in a row that may get lost, 0.4 s
+ROUNDING = 1e-4  # [m], [rad] errors of float32 on a field of 11 m
 
 
 class TurtleMotion:
     """Follows the poses of one turtle."""
 
     def __init__(self) -> None:
-        """Nothing is known."""
+        """Start without a known pose."""
         self._pose = Pose(math.nan, math.nan, math.nan)
         self._speed = self._turn_rate = 0.0
 
     def driven(self, pose: Pose, speed: float, turn_rate: float) -> List[Pose]:
-        """Where the turtle was in each frame since the pose before, `pose` last; empty where it cannot have driven.
+        """Poses of the turtle in each frame since the previous pose.
 
         Args:
-            pose: where it is [m, rad].
-            speed: how fast it went in the frame that ended there, in whatever direction [m/s].
-            turn_rate: and how fast it turned [rad/s].
+            pose: pose now [m, rad].
+            speed: speed in the last frame, in any direction [m/s].
+            turn_rate: angular velocity in the last frame [rad/s].
+
+        Returns:
+            Poses that end with `pose`; empty if the turtle cannot have driven there, but was put there.
         """
         before, self._pose = self._pose, pose
         fastest, self._speed = max(abs(speed), self._speed), abs(speed)
         turning, self._turn_rate = max(abs(turn_rate), self._turn_rate), abs(turn_rate)
         dx, dy, turn = pose.x - before.x, pose.y - before.y, wrap_angle(pose.theta - before.theta)
-        way = math.hypot(dx, dy)
-        if way <= abs(speed) * FRAME + ROUNDING and abs(wrap_angle(turn - turn_rate * FRAME)) <= ROUNDING:
-            return [pose]  # as nearly all
+        distance = math.hypot(dx, dy)
+        if distance <= abs(speed) * FRAME + ROUNDING and abs(wrap_angle(turn - turn_rate * FRAME)) <= ROUNDING:
+            return [pose]  # the usual case: no pose got lost
         for frames in range(1, MOST_LOST + 2):
-            if way <= frames * fastest * FRAME + ROUNDING and abs(turn) <= frames * turning * FRAME + ROUNDING:
+            if distance <= frames * fastest * FRAME + ROUNDING and abs(turn) <= frames * turning * FRAME + ROUNDING:
                 return [Pose(before.x + share * dx, before.y + share * dy, wrap_angle(before.theta + share * turn))
                         for share in (frame / frames for frame in range(1, frames))] + [pose]
         return []

@@ -1,4 +1,4 @@
-"""Compiles the kernel ahead of its first use: `python3 -m rumba_sim.model.warm_up`, as the build does."""
+"""Compiles the kernel before its first use; the build runs `python3 -m rumba_sim.model.warm_up`."""
 
 import numpy as np
 
@@ -10,15 +10,14 @@ from rumba_sim.model.world import World
 
 def main() -> None:
     """Call every function of the kernel that a world calls."""
-    free = np.zeros((40, 40), np.int8)
-    plan = FloorPlan('a room of 4 m', free, 0.1, (0.0, 0.0), dock=Pose(3.0, 2.0, 0.0))
+    plan = FloorPlan('a room of 4 m', np.zeros((40, 40), np.int8), 0.1, (0.0, 0.0), dock=Pose(3.0, 2.0, 0.0))
     world = World(plan)
     world.spawn('rumba')
     world.step()
     world.scan('rumba')
     world.infrared('rumba')
     guided = GuidedWorld(plan)
-    guided.jump(guided.start)
+    guided.jump(guided.world.start)
     guided.wish()
 
 

@@ -1,4 +1,4 @@
-"""The world: a floor plan, its floor, and the robots on it, advanced tick by tick."""
+"""The world: a floor plan, the state of its floor, and the robots on it, advanced tick by tick."""
 
 import hashlib
 import math
@@ -17,23 +17,25 @@ from rumba_sim.model.kernel import Array
 from rumba_sim.model.robot import Infrared, Robot, Start
 from rumba_sim.model.robot_config import RobotConfig
 
-NOISE_TICKS = 256  # so many ticks of wheel noise are drawn at once
-ON_THEIR_OWN: Array = np.zeros((0, 4))  # what leads robots that drive themselves
-FLOOR, WHEELS, LASER = 0, 1, 2  # what a random generator is for
+NOISE_TICKS = 256  # ticks for which the noise of the wheels is drawn at once
+ON_THEIR_OWN: Array = np.zeros((0, 4))  # `led` of `kernel.advance` if robots drive themselves
+FLOOR, WHEELS, LASER = 0, 1, 2  # purposes of random generators
 
 
 class World:
     """Robots on a floor. The same plan, configuration, seed and calls give the same world, bit for bit.
 
-    Each robot draws from generators of its own, so what one does changes nothing for another.
+    Each robot has random generators of its own, so that what one robot does changes nothing for another.
 
     Attributes:
         plan: the floor plan.
-        step_rate: ticks in a second [Hz].
-        seed: of all that is random.
-        floor: what is clean.
-        robots: by name, in the order in which they came.
-        tick: how many ticks have passed since the beginning or the last reset.
+        step_rate: ticks per second [Hz].
+        seed: seed of everything that is random.
+        constants: array of the one record that the kernel reads (`constants.Constants`).
+        start: pose of the first robot if none is given.
+        floor: which cells are swept, and the dirt on them.
+        robots: robots by name, in the order in which they were added.
+        tick: number of ticks since the beginning or the last reset.
     """
 
     def __init__(self, plan: FloorPlan, config: Optional[RobotConfig] = None, step_rate: float = 50,
@@ -41,13 +43,14 @@ class World:
         """A world without robots.
 
         Raises:
+            ConfigError: a robot could move by more than its radius in one tick.
             MapError: a robot does not fit at the dock or at the start of the plan, or the cells are too large for it.
         """
         self.plan = plan
         self.step_rate = step_rate
         self.seed = seed
         self._config = config or RobotConfig()
-        self._constants = constants(self._config, plan, step_rate)
+        self.constants = constants(self._config, plan, step_rate)
         self.start = self._checked_start()
         self.robots: Dict[str, Robot] = {}
         self._states: Array = np.zeros(0, kernel.ROBOT)
@@ -63,8 +66,8 @@ class World:
         self.floor = Floor(self.plan, self._config, self.start, self._generator(FLOOR, 0))
 
     def _checked_start(self) -> Pose:
-        """Where the first robot begins: the plan's start, else the dock, else where there is most room."""
-        radius = float(self._constants[0]['reach'])
+        """The start of the plan, else the dock, else the position with the largest clearance."""
+        radius = float(self.constants[0]['reach'])
         for what, pose in (('dock', self.plan.dock), ('start', self.plan.start)):
             if pose is not None:
                 self.plan.check_place(pose, radius, what)
@@ -79,27 +82,35 @@ class World:
 
     @property
     def time(self) -> float:
-        """Seconds since the beginning or the last reset."""
+        """Simulated time since the beginning or the last reset [s]."""
         return self.tick / self.step_rate
 
     def step(self, ticks: int = 1) -> None:
-        """Let so many ticks pass."""
+        """Simulate a number of ticks."""
         while ticks > 0:
             now = min(ticks, NOISE_TICKS - self.tick % NOISE_TICKS)
             self._advance(now, ON_THEIR_OWN)
             ticks -= now
 
+    def lead(self, led: Array) -> None:
+        """Simulate one tick in which something else moves the robots.
+
+        Args:
+            led: poses of the robots after the tick, in the order of `robots`, as for `kernel.advance`.
+        """
+        self._advance(1, led)
+
     def _advance(self, ticks: int, led: Array) -> None:
-        """Let ticks pass for which one draw of noise lasts; `led` as of `kernel.advance`."""
+        """Simulate no more ticks than are left of the noise that was drawn last."""
         if self.tick % NOISE_TICKS == 0:
             for row, generator in zip(self._noise, self._wheels):
                 generator.standard_normal(out=row)
-        fast.advance(self._states, self._constants, self.plan.clearance, self.floor.cells, self.floor.dirt,
+        fast.advance(self._states, self.constants, self.plan.clearance, self.floor.cells, self.floor.dirt,
                      self.floor.tally, self._noise, led, self.tick, ticks)
         self.tick += ticks
 
     def reset(self) -> None:
-        """Begin again as at first: dirty floor, tick 0, every robot as it began."""
+        """Start again: dirty floor, tick 0, every robot as it began."""
         before = list(self.robots.values())
         for member in before:
             self.kill(member.name)
@@ -108,21 +119,25 @@ class World:
         for member in before:
             try:
                 self.spawn(member.name, *member.start)
-            except WorldError:  # it began where one that came before it had been
+            except WorldError:  # another robot, which has moved away since, began at the same position
                 self.spawn(member.name, None, *member.start[1:])
 
     # --- robots ---------------------------------------------------------------------------------------------------
 
     @property
     def config(self) -> RobotConfig:
-        """What the robots are like; may be set anew while they drive, their size apart (else ConfigError)."""
+        """Configuration of all robots; it may be replaced while they drive.
+
+        Raises:
+            ConfigError: the new one has another radius, or a robot could move by more than its radius in one tick.
+        """
         return self._config
 
     @config.setter
     def config(self, config: RobotConfig) -> None:
         if config.drive.radius != self._config.drive.radius:
             raise ConfigError(f'drive/radius is {config.drive.radius:g}: must stay {self._config.drive.radius:g} [m]')
-        self._constants = constants(config, self.plan, self.step_rate)
+        self.constants = constants(config, self.plan, self.step_rate)
         self._config = config
         self._fan = _fan(config.laser.beams)
         for member in self.robots.values():
@@ -133,19 +148,19 @@ class World:
         """Add a robot.
 
         Args:
-            name: by which it is known; not taken.
-            pose: where it stands [m, rad], map frame; None: the start, or the free place nearest to it.
+            name: name that no other robot has.
+            pose: where it stands [m, rad], map frame; None for the start, or the nearest free position.
             state_of_charge: of its battery [0..1].
             brushes_up: whether its brushes are lifted.
 
         Raises:
-            WorldError: the name is taken, the place is not free, or the state of charge is out of range.
+            WorldError: the name is taken, the position is not free, or the state of charge is out of range.
         """
         if name in self.robots:
             raise WorldError(f'{name!r} is taken: robots are {", ".join(self.robots)}')
         if not 0.0 <= state_of_charge <= 1.0:
             raise WorldError(f'state of charge is {state_of_charge}: must be 0 to 1')
-        start = Start(self._free_start() if pose is None else self._checked(pose, None), state_of_charge, brushes_up)
+        start = Start(self._free_start() if pose is None else self.check(pose), state_of_charge, brushes_up)
         number = self._spawned
         self._spawned += 1
         wheels, laser = self._generator(WHEELS, number), self._generator(LASER, number)
@@ -160,10 +175,10 @@ class World:
         return self.robots[name]
 
     def kill(self, name: str) -> None:
-        """Take a robot out of the world.
+        """Remove a robot from the world.
 
         Raises:
-            WorldError: there is none of that name.
+            WorldError: there is no robot of that name.
         """
         index = self._index(name)
         del self.robots[name], self._wheels[index], self._lasers[index]
@@ -171,17 +186,42 @@ class World:
         self._take(np.delete(self._states, index))
 
     def teleport(self, name: str, pose: Pose) -> None:
-        """Put a robot elsewhere [m, rad], map frame, at rest; its odometry does not notice.
+        """Put a robot at a pose [m, rad], map frame, at rest; its odometry does not notice.
 
         Raises:
-            WorldError: there is none of that name, or the place is not free.
+            WorldError: there is no robot of that name, or the position is not free.
         """
         index = self._index(name)
-        robot.put(self._states[index], self._checked(pose, index))
+        robot.put(self._states[index], self.check(pose, name))
         self._take(self._states)
 
+    def check(self, pose: Pose, name: Optional[str] = None) -> Pose:
+        """Check that a robot can stand at a pose.
+
+        Args:
+            pose: [m, rad], map frame.
+            name: the robot that would stand there; None for a new one.
+
+        Returns:
+            The pose with its heading in (-pi, pi].
+
+        Raises:
+            WorldError: a number is not finite, or the robot does not fit beside walls, cliffs and other robots.
+        """
+        if not all(map(math.isfinite, pose)):
+            raise WorldError(f'pose ({pose.x}, {pose.y}, {pose.theta}): must be finite numbers')
+        try:
+            self.plan.check_place(pose, float(self.constants[0]['reach']), 'pose')
+        except MapError as error:
+            raise WorldError(str(error)) from None
+        for other in self.robots.values():
+            gap = math.hypot(other.pose.x - pose.x, other.pose.y - pose.y) - 2.0 * self._config.drive.radius
+            if other.name != name and gap < 0.0:
+                raise WorldError(f'({pose.x:.2f}, {pose.y:.2f}) m: {other.name!r} stands there')
+        return Pose(pose.x, pose.y, wrap_angle(pose.theta))
+
     def _take(self, states: Array) -> None:
-        """Make these the states, after robots came, went or were moved: any two may be close now."""
+        """Use these states from now on, after robots were added, removed or moved: any two of them may be close now."""
         states['alone_until'] = 0
         self._states = states
         for member, state in zip(self.robots.values(), states):
@@ -192,22 +232,8 @@ class World:
             raise WorldError(f'there is no robot {name!r}: robots are {", ".join(self.robots) or "none"}')
         return list(self.robots).index(name)
 
-    def _checked(self, pose: Pose, index: Optional[int]) -> Pose:
-        """The pose with its heading wrapped, if the robot of this index (None: a new one) can stand there."""
-        if not all(map(math.isfinite, pose)):
-            raise WorldError(f'pose ({pose.x}, {pose.y}, {pose.theta}): must be finite numbers')
-        try:
-            self.plan.check_place(pose, float(self._constants[0]['reach']), 'pose')
-        except MapError as error:
-            raise WorldError(str(error)) from None
-        for number, (name, other) in enumerate(self.robots.items()):
-            gap = math.hypot(other.pose.x - pose.x, other.pose.y - pose.y) - 2.0 * self._config.drive.radius
-            if number != index and gap < 0.0:
-                raise WorldError(f'({pose.x:.2f}, {pose.y:.2f}) m: {name!r} stands there')
-        return Pose(pose.x, pose.y, wrap_angle(pose.theta))
-
     def _free_start(self) -> Pose:
-        """The start, or the free place nearest to it, on a grid of two robots' width."""
+        """The start, or a free position near it, on a grid that is a little wider than a robot."""
         step = 2.5 * self._config.drive.radius
         bounds = self.plan.bounds
         size = math.ceil(max(bounds.right - bounds.left, bounds.top - bounds.bottom) / step)
@@ -216,8 +242,8 @@ class World:
                 for column in range(-ring, ring + 1):
                     if max(abs(row), abs(column)) == ring:
                         try:
-                            return self._checked(Pose(self.start.x + column * step, self.start.y + row * step,
-                                                      self.start.theta), None)
+                            return self.check(Pose(self.start.x + column * step, self.start.y + row * step,
+                                                   self.start.theta))
                         except WorldError:
                             continue
         raise WorldError(f'{self.plan.name}: no room for another robot')
@@ -225,34 +251,41 @@ class World:
     # --- sensors --------------------------------------------------------------------------------------------------
 
     def scan(self, name: str) -> Array:
-        """What the laser of a robot sees: float64 (beams) [m], counter-clockwise from straight back.
+        """Ranges that the laser of a robot measures: float64 (beams) [m], counter-clockwise from straight back.
 
-        Nothing in range is +inf, something nearer than range_min -inf (REP 117).
+        A range is +inf if nothing is within range_max, and -inf if something is nearer than range_min (REP 117).
+
+        Raises:
+            WorldError: there is no robot of that name.
         """
         index = self._index(name)
         ranges = np.empty(len(self._fan))
-        fast.scan(self._states, index, self._constants[0], self.plan.skips, self.floor.cells, self._fan,
+        fast.scan(self._states, index, self.constants[0], self.plan.skips, self.floor.cells, self._fan,
                   self._lasers[index].standard_normal(len(self._fan)), ranges)
         return ranges
 
     def infrared(self, name: str) -> Infrared:
-        """What the receivers of a robot get from the dock."""
-        return Infrared(*fast.infrared(self._states[self._index(name)], self._constants[0], self.plan.skips,
+        """What the receivers of a robot get from the dock.
+
+        Raises:
+            WorldError: there is no robot of that name.
+        """
+        return Infrared(*fast.infrared(self._states[self._index(name)], self.constants[0], self.plan.skips,
                                        self.floor.cells))
 
     def cliffs(self, name: str) -> List[bool]:
         """Whether there is no floor under the left, front left, front right and right sensor of a robot."""
-        place, config = self.robots[name].pose, self._config.cliff
+        pose, config = self.robots[name].pose, self._config.cliff
         angles = (config.outer_angle, config.inner_angle, -config.inner_angle, -config.outer_angle)
-        return [bool(kernel.cell_bits(self._constants[0], self.floor.cells,
-                                      place.x + config.distance * math.cos(place.theta + angle),
-                                      place.y + config.distance * math.sin(place.theta + angle)) & kernel.CLIFF)
+        return [bool(kernel.cell_bits(self.constants[0], self.floor.cells,
+                                      pose.x + config.distance * math.cos(pose.theta + angle),
+                                      pose.y + config.distance * math.sin(pose.theta + angle)) & kernel.CLIFF)
                 for angle in angles]
 
     def digest(self) -> str:
-        """SHA-256 of all that changes: tick, robots, floor."""
+        """SHA-256 of everything that changes: tick, robots, noise, floor."""
         state = hashlib.sha256(f'{self.tick} {" ".join(self.robots)}'.encode())
-        fields = (self._states[name] for name in self._states.dtype.names or ())  # the bytes between them hold anything
+        fields = (self._states[name] for name in self._states.dtype.names or ())  # bytes between fields are undefined
         for array in (*fields, self._noise, self.floor.cells, self.floor.dirt, self.floor.tally):
             state.update(np.ascontiguousarray(array).tobytes())
         return state.hexdigest()

@@ -1,4 +1,4 @@
-"""YAML files: read with one clear error, and written with a comment on every setting."""
+"""YAML files: read with clear errors, and written with a comment on every setting."""
 
 import inspect
 import textwrap
@@ -13,22 +13,27 @@ WIDTH = 118
 
 
 def read_mapping(path: str, error: Type[RumbaError]) -> Dict[Any, Any]:
-    """Keys and values of a YAML file; an empty file has none.
+    """Read the keys and values of a YAML file; an empty file has none.
+
+    Args:
+        path: path of the file.
+        error: class of the errors to raise.
 
     Raises:
-        error: the file cannot be read, or holds something else; the message begins with the path.
+        error: the file cannot be read, or does not hold keys and values; the message begins with the path.
     """
     try:
         with open(path, encoding='utf-8') as file:
             content = yaml.safe_load(file)
     except UnicodeDecodeError as exc:
-        raise error(f'{path}: is not text: must be a YAML file') from exc
+        raise error(f'{path}: is not a text file: must be YAML') from exc
     except OSError as exc:
         raise error(f'{path}: {exc.strerror}') from exc
     except (yaml.YAMLError, ValueError, RecursionError) as exc:
         mark = getattr(exc, 'problem_mark', None)
         where = f', line {mark.line + 1}' if mark else ''
-        raise error(f'{path}{where}: is no YAML: {getattr(exc, "problem", None) or str(exc).splitlines()[0]}') from exc
+        problem = getattr(exc, 'problem', None) or str(exc).splitlines()[0]
+        raise error(f'{path}{where}: is not valid YAML: {problem}') from exc
     if content is None:
         return {}
     if not isinstance(content, dict):
@@ -37,13 +42,13 @@ def read_mapping(path: str, error: Type[RumbaError]) -> Dict[Any, Any]:
 
 
 def document(settings: Any) -> str:
-    """Settings as a whole YAML file, the docstring of their class at its head."""
+    """Settings as a complete YAML file that begins with the docstring of their class."""
     head = (inspect.getdoc(type(settings)) or '').splitlines()
     return '\n'.join(f'# {line}'.rstrip() for line in head) + '\n\n' + as_yaml(settings) + '\n'
 
 
 def as_yaml(settings: Any, indent: str = '') -> str:
-    """Settings as YAML, each under a comment that tells its meaning, range and unit."""
+    """Settings as YAML, each after a comment with its meaning, range and unit."""
     lines = []
     for field in config.sections_last(type(settings)):
         value = getattr(settings, field.name)

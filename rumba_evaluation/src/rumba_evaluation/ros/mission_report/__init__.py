@@ -1,1 +1,1 @@
-"""The command mission_report: from a bag to the record of a mission."""
+"""The command mission_report: reads a bag and writes a report of the mission."""

@@ -1,4 +1,4 @@
-"""The messages of one robot in a bag, on the robot's own clock, as the record of its mission."""
+"""Makes the record of a mission from the messages of one robot in a bag; times are those of the robot's clock."""
 
 import math
 from typing import Any, Callable, Dict, Iterator, List, NamedTuple, Optional, Sequence, Tuple
@@ -10,23 +10,23 @@ from sensor_msgs.msg import BatteryState
 
 from rumba_evaluation.report.mission_record import NOTHING, Grid, MissionRecord, MissionState, Series, series
 
-FAR = 1e7  # [m] what claims to be farther away was never measured
+FAR = 1e7  # [m] larger coordinates are not valid
 LATE = 5.0  # [s] a stamp farther from the time of recording is of another clock, or of a latched message
-BACK = 1.0  # [s] stamps that go back farther are those of a clock that was set anew
-FINEST = 1e-4  # [m] edge of a cell
-GRIDS = 200  # so many make a curve of the coverage
-UPRIGHT = 1e-3  # z of the quaternion of a grid along the axes
+BACK = 1.0  # [s] if stamps go back farther, the clock was reset
+FINEST = 1e-4  # [m] smallest edge of a cell
+GRIDS = 200  # about as many are read for the curve of the coverage
+UPRIGHT = 1e-3  # largest z of the quaternion of a grid that is not rotated
 GRID = 'nav_msgs/OccupancyGrid'
 
-Topics = Dict[str, List[str]]  # by the name below that of the robot: the topics in the bag
+Topics = Dict[str, List[str]]  # the topics in the bag, by their name relative to the robot
 
 
-def _where(x: float, y: float) -> Tuple[float, float]:
+def _position(x: float, y: float) -> Tuple[float, float]:
     return (x, y) if abs(x) < FAR and abs(y) < FAR else (math.nan, math.nan)
 
 
 def _battery(message: BatteryState) -> Sequence[float]:
-    """Charge [%], power [W], whether it is charged, whether it is at the dock."""
+    """Charge [%], power [W], whether it is charging, whether it is docked."""
     status = message.power_supply_status
     is_docked = status in (BatteryState.POWER_SUPPLY_STATUS_CHARGING, BatteryState.POWER_SUPPLY_STATUS_FULL)
     is_charging = status == BatteryState.POWER_SUPPLY_STATUS_CHARGING
@@ -35,24 +35,24 @@ def _battery(message: BatteryState) -> Sequence[float]:
             *((float(is_charging), float(is_docked)) if is_known else (math.nan, math.nan)))
 
 
-# What is read of each message; but for coverage, of which most are not even unpacked.
+# The type of each topic, and the values that are read of a message. Not coverage: most of its messages are skipped.
 ROWS: Dict[str, Tuple[str, Callable[[Any], Sequence[Any]]]] = {
-    'ground_truth': ('nav_msgs/Odometry', lambda m: _where(m.pose.pose.position.x, m.pose.pose.position.y)),
-    # No message has a field for a wheel over a cliff: only the line for a person tells.
+    'ground_truth': ('nav_msgs/Odometry', lambda m: _position(m.pose.pose.position.x, m.pose.pose.position.y)),
     'battery_status': ('rumba_msg/BatteryStatus', lambda m: (
-        m.percentage_battery, 'cliff' in m.debug_message, *_where(m.location_x, m.location_y))),
+        m.percentage_battery, *_position(m.location_x, m.location_y))),
     'battery_state': ('sensor_msgs/BatteryState', _battery),
     'bumper': ('rumba_msg/Bumper', lambda m: (m.is_left_pressed or m.is_right_pressed,)),
+    'cliff': ('rumba_msg/Cliff', lambda m: (m.is_wheel_dropped,)),
     'dock_status': ('rumba_msg/DockStatus', lambda m: (m.is_docked,)),
     'cleaning_status': ('rumba_msg/CleaningStatus', lambda m: (m.coverage, m.cleaned_area, m.reachable_area)),
     'mission_status': ('rumba_msg/MissionStatus', lambda m: (m.state, m.strategy, m.message))}
 TYPES = {**{name: kind for name, (kind, _) in ROWS.items()}, 'coverage': GRID}
-CLOCKS = ('ground_truth', 'battery_state', 'bumper', 'dock_status', 'cleaning_status')  # stamped as they happen
+CLOCKS = ('ground_truth', 'battery_state', 'bumper', 'cliff', 'dock_status', 'cleaning_status')  # never latched
 STARTS = ('ground_truth', 'battery_status', 'battery_state')
 
 
 class Samples(NamedTuple):
-    """The messages of a topic in the order of recording: when each was recorded, its stamp [s], and what it says."""
+    """The messages of a topic in the order of recording: time of recording [s], stamp [s], and values of each."""
 
     recorded: List[float]
     stamps: List[float]
@@ -63,9 +63,9 @@ NONE = Samples([], [], [])
 
 
 class RecordedRobot:
-    """All that a bag has of a robot but its grids, which are read when they are asked for.
+    """The messages of a robot in a bag; grids are read when they are needed.
 
-    Times are those of the robot's clock, from the first of its poses and readings of its battery.
+    Times are those of the robot's clock, and count from its first pose or reading of the battery.
     """
 
     def __init__(self, bag: rosbag.Bag, topics: Topics) -> None:
@@ -90,38 +90,38 @@ class RecordedRobot:
     # --- time -------------------------------------------------------------------------------------------------------
 
     def _on_clock(self, recorded: Sequence[float]) -> Any:
-        """When something was recorded [s]: the stamps of what was recorded around it tell."""
+        """Times of recording [s] as times of the robot's clock, by the stamps that were recorded before and after."""
         times = np.asarray(recorded, float)
         if self._clock is not NONE:
             marks, stamps = np.array(self._clock.recorded), np.maximum.accumulate(self._clock.stamps)
-            way = marks[-1] - marks[0]
-            rate = (stamps[-1] - stamps[0]) / way if way > 0.0 else 1.0
+            span = marks[-1] - marks[0]
+            rate = (stamps[-1] - stamps[0]) / span if span > 0.0 else 1.0
             beyond = np.minimum(times - marks[0], 0.0) + np.maximum(times - marks[-1], 0.0)
             times = np.interp(times, marks, stamps) + rate * beyond
         return times - self._began
 
     def _times(self, topic: str) -> Any:
-        """When the messages of a topic were true: their stamps, where they have some of the robot's clock."""
+        """Times of the messages of a topic: their stamps, if these are of the robot's clock, else as _on_clock."""
         recorded, stamps, _ = self._samples[topic]
         times, own = self._on_clock(recorded), np.array(stamps) - self._began
         return np.where((np.array(stamps) > 0.0) & (np.abs(own - times) < LATE), own, times)
 
-    # --- what was said ----------------------------------------------------------------------------------------------
+    # --- values -----------------------------------------------------------------------------------------------------
 
     def _column(self, topic: str, *columns: int) -> Series:
-        """Columns of the rows of a topic, without those that are not finite; empty where there is none."""
+        """Columns of the rows of a topic, without rows that are not finite; empty if there are none."""
         rows = self._samples.get(topic, NONE).rows
         if not rows:
             return NOTHING
         found = series(self._times(topic), [[row[column] for column in columns] for row in rows])
         return found if len(columns) > 1 else Series(found.times, found.values[:, 0])
 
-    def _place(self) -> Series:
-        """Where it was, x and y (n, 2) [m]."""
-        return _first(self._column('ground_truth', 0, 1), self._column('battery_status', 2, 3))
+    def _path(self) -> Series:
+        """Positions x and y (n, 2) [m]."""
+        return _first(self._column('ground_truth', 0, 1), self._column('battery_status', 1, 2))
 
     def _charge(self) -> Series:
-        """What its battery had left [%]."""
+        """Charge of the battery [%]."""
         return _first(self._column('battery_state', 0), self._column('battery_status', 0))
 
     def _states(self) -> List[MissionState]:
@@ -131,7 +131,7 @@ class RecordedRobot:
                       key=lambda state: state.time)
 
     def _grids(self, topics: Sequence[str], most: int) -> Iterator[Tuple[float, Grid]]:
-        """About so many of the grids of topics, the last among them, with their times [s]."""
+        """About `most` of the grids of topics, always with the last one, with their times [s]."""
         count = self._bag.get_message_count(list(topics)) if topics else 0
         for index, (_, raw, time) in enumerate(self._bag.read_messages(list(topics), raw=True) if count else []):
             if (count - 1 - index) % -(-count // most) == 0 and raw[0] == GRID:
@@ -142,23 +142,23 @@ class RecordedRobot:
                     yield float(self._on_clock([time.to_sec()])[0]), cells
 
     def record(self, source: str, name: str, map_topics: Sequence[str], remarks: Sequence[str]) -> MissionRecord:
-        """All of it, and the last map of a topic; path and charge can be empty."""
+        """The record of the mission with the last map of `map_topics`; path and charge can be empty."""
         remarks = list(remarks)
         if self._was_set_back:
             remarks.append('The clock was set back during the recording: times are those of the recorder.')
         maps = [cells for _, cells in self._grids(map_topics, 1)]
         if map_topics and not maps:
-            remarks.append('The map is damaged, or turned against the axes: it is not drawn.')
+            remarks.append('The map is not drawn: it is damaged, or rotated against the axes.')
         coverage, areas, swept = self._cleaning()
         return MissionRecord(
-            source=source, robot=name, path=self._place(), charge=self._charge(), began=self._began,
+            source=source, robot=name, path=self._path(), charge=self._charge(), began=self._began,
             power=self._column('battery_state', 1), charging=self._column('battery_state', 2),
             docked=_first(self._column('dock_status', 0), self._column('battery_state', 3)),
-            pressed=self._column('bumper', 0), fallen=self._column('battery_status', 1), coverage=coverage,
+            pressed=self._column('bumper', 0), fallen=self._column('cliff', 0), coverage=coverage,
             areas=areas, states=self._states(), floor=maps[-1] if maps else None, swept=swept, remarks=remarks)
 
     def _cleaning(self) -> Tuple[Series, Optional[Tuple[float, float]], Optional[Grid]]:
-        """Coverage [0..1], areas swept and within reach [m^2], and the last grid; the grids tell where nothing else."""
+        """Coverage [0..1], areas swept and within reach [m^2], last grid; without cleaning_status from the grids."""
         status = self._column('cleaning_status', 0, 1, 2)
         grids = list(self._grids(self._topics.get('coverage', []), 1 if len(status.times) else GRIDS))
         last = grids[-1][1] if grids else None
@@ -174,16 +174,16 @@ class RecordedRobot:
 
 
 def _first(*choices: Series) -> Series:
-    """The first that is not empty."""
+    """The first series that is not empty."""
     return next((choice for choice in choices if len(choice.times)), NOTHING)
 
 
 def _grid(message: OccupancyGrid) -> Optional[Grid]:
-    """The cells; None where they are turned against the axes, or not as many as the message says."""
-    info, place = message.info, message.info.origin
-    is_sound = (0 < info.width * info.height == len(message.data) and FINEST < info.resolution < FAR
-                and abs(place.position.x) < FAR and abs(place.position.y) < FAR)
-    if not is_sound or not abs(place.orientation.z) < UPRIGHT:
+    """The cells of a message; None if they are rotated against the axes, or their number or position is not valid."""
+    info, origin = message.info, message.info.origin
+    is_valid = (0 < info.width * info.height == len(message.data) and FINEST < info.resolution < FAR
+                and abs(origin.position.x) < FAR and abs(origin.position.y) < FAR)
+    if not is_valid or not abs(origin.orientation.z) < UPRIGHT:
         return None
     cells = np.array(message.data, np.int8).reshape(info.height, info.width)
-    return Grid(cells, info.resolution, place.position.x, place.position.y)
+    return Grid(cells, info.resolution, origin.position.x, origin.position.y)

@@ -1,26 +1,24 @@
-"""zigzag: straight on; where something is in the way, back a little and turn, now to the left, now to the right."""
+"""zigzag: straight ahead; if something is in the way, back a little and turn, now to the left, now to the right."""
 
 from rumba_cleaning.behaviour import Behaviour, Command
 from rumba_cleaning.strategies import strategy
 
 BACK = 1.5  # [s]
-TURN = (0.8, 1.6)  # [s] least and longest: one turn for ever would end in a circle that leaves the rest of the floor
+TURN = (0.8, 1.6)  # [s] least and longest: turns of the same length would end in a circle that misses most of the floor
 
 
 @strategy('zigzag')
 class Zigzag(Behaviour):
-    """Goes to and fro."""
+    """Drives to and fro."""
 
     def __init__(self, context):
         self._speed = context.config.speed
         self._generator = context.generator
-        self.initialise()
 
     def initialise(self):
-        """Begin by going ahead."""
-        super().initialise()
+        """Begin by driving ahead."""
         self._side = 1.0
-        self._since = None  # [s] since the last contact; None where the way ahead is free
+        self._since = None  # [s] since the last contact; None while the robot drives ahead
         self._turn = TURN[0]
 
     def update(self, observation):

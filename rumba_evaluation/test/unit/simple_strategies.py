@@ -1,4 +1,4 @@
-"""Cleaning strategies for tests, each of which does one thing."""
+"""Cleaning strategies for tests; each does one thing."""
 
 import os
 
@@ -6,8 +6,8 @@ from rumba_cleaning.behaviour import STOP, Behaviour, Command
 from rumba_cleaning.strategies import strategy
 
 
-class Manner(Behaviour):
-    """Gives one command without end."""
+class Simple(Behaviour):
+    """Gives one command without end, and records the observations."""
 
     COMMAND = STOP
 
@@ -16,31 +16,31 @@ class Manner(Behaviour):
 
     def update(self, observation):
         self.seen.append(observation)
-        self.message = 'at it'
+        self.message = 'working'
         return self.COMMAND
 
 
 @strategy('wait')
-class Wait(Manner):
+class Wait(Simple):
     """Stands still."""
 
 
 @strategy('ahead')
-class Ahead(Manner):
-    """Goes straight on."""
+class Ahead(Simple):
+    """Drives straight on."""
 
     COMMAND = Command(0.3, 0.0)
 
 
 @strategy('turn')
-class Turn(Manner):
+class Turn(Simple):
     """Turns on the spot, brushes up."""
 
     COMMAND = Command(0.0, -1.0, brushes_up=True)
 
 
 @strategy('give_up')
-class GiveUp(Manner):
+class GiveUp(Simple):
     """Fails at once."""
 
     def update(self, observation):
@@ -48,16 +48,16 @@ class GiveUp(Manner):
 
 
 @strategy('crash')
-class Crash(Manner):
-    """Has a bug that shows after a second."""
+class Crash(Simple):
+    """Raises an exception after a second."""
 
     def update(self, observation):
         return 1 / 0 if len(self.seen) == 10 else super().update(observation)
 
 
 @strategy('die')
-class Die(Manner):
-    """Takes its process along."""
+class Die(Simple):
+    """Ends the process that runs it."""
 
     def update(self, observation):
         os._exit(1)

@@ -1,0 +1,19 @@
+"""What a node imports in a fresh interpreter: the simulator must run on a machine without a display."""
+
+import subprocess
+import sys
+
+import pytest
+
+TOO_LARGE = ('PyQt5', 'matplotlib', 'skimage', 'tqdm', 'dask', 'distributed', 'pandas')
+NODES = ('simulator.simulator', 'turtlesim_body.turtlesim_body', 'teleop_key.teleop_key', 'battery_status_publisher',
+         'battery_status_listener')
+
+
+@pytest.mark.parametrize('node', NODES)
+def test_a_node_imports_neither_a_window_nor_what_evaluation_needs(node):
+    code = f'import sys; import rumba_sim.ros.{node}; print(*sys.modules)'
+    modules = subprocess.run([sys.executable, '-c', code], stdout=subprocess.PIPE, universal_newlines=True,
+                             check=True).stdout.split()
+    assert f'rumba_sim.ros.{node}' in modules
+    assert not [name for name in modules if name.split('.')[0] in TOO_LARGE]
