@@ -1,9 +1,12 @@
-"""What the tests of the simulator share: a simulator as a user starts it, and what it says and is asked."""
+"""What the tests of the simulator share: a simulator, started as by a user, its messages and its services."""
 
 import os
+import pathlib
 import signal
 import subprocess
+import tempfile
 import time
+import unittest
 
 import rosgraph
 import rospy
@@ -14,17 +17,21 @@ from rosgraph_msgs.msg import Clock, Log
 from sensor_msgs.msg import BatteryState, LaserScan
 from std_srvs.srv import SetBool, Trigger
 
-from rumba_msg.msg import BatteryStatus, Bumper, CleaningStatus, Cliff, DockStatus
+from rumba_msg.msg import BatteryStatus, Bumper, CleaningStatus, Cliff, DockStatus, SimulatorState
 from rumba_msg.srv import Kill, Spawn, Step, Teleport
 
 TIMEOUT = 30.0
 STEP_RATE = 50  # the simulator's default [Hz]
 TICK = 1_000_000_000 // STEP_RATE  # [ns]
 ENDS_WITHIN = 5.0  # [s]: a deadlock lasts longer, a busy machine does not
+ROOM = {  # an empty room of 2 m, 40 x 40 cells
+    'room.yaml': b'image: room.pgm\nresolution: 0.05\norigin: [0, 0, 0]\nnegate: 0\noccupied_thresh: 0.65\n'
+                 b'free_thresh: 0.196\n',
+    'room.pgm': b'P5 40 40 255\n' + 1600 * b'\xff'}
 TOPICS = {
     'battery_status': BatteryStatus, 'battery_state': BatteryState, 'odom': Odometry, 'ground_truth': Odometry,
     'scan': LaserScan, 'bumper': Bumper, 'cliff': Cliff, 'dock_status': DockStatus, 'cleaning_status': CleaningStatus,
-    'coverage': OccupancyGrid, 'clock': Clock, 'map': OccupancyGrid, 'rosout': Log}
+    'coverage': OccupancyGrid, 'clock': Clock, 'map': OccupancyGrid, 'rosout': Log, 'state': SimulatorState}
 SERVICES = {
     'pause': Trigger, 'resume': Trigger, 'reset': Trigger, 'step': Step, 'spawn': Spawn, 'kill': Kill,
     'set_brushes_up': SetBool, 'teleport': Teleport, 'static_map': GetMap}
@@ -42,15 +49,32 @@ def wait(test, condition, what='it'):
 
 
 def lookup(service, master=None):
-    """URI of a service at the master; None where there is none."""
+    """URI of a service at the master; None if there is none."""
     try:
         return rosgraph.Master('/test', master_uri=master).lookupService(service)
     except (rosgraph.MasterException, OSError):
         return None
 
 
+def folder_of(test, contents):
+    """A new folder with files, given by name and content, until the end of a test; returns its path."""
+    folder = tempfile.TemporaryDirectory()
+    test.addCleanup(folder.cleanup)
+    path = pathlib.Path(folder.name).resolve()
+    for name, content in contents.items():
+        (path / name).write_bytes(content)
+    return path
+
+
+def shared(test_class):
+    """A test whose cleanups are those of a whole class of tests."""
+    test = unittest.TestCase()
+    test.addCleanup = test_class.addClassCleanup
+    return test
+
+
 class Master:
-    """A master of its own that is not there yet."""
+    """A separate master that does not run yet."""
 
     def __init__(self, test):
         self._test = test
@@ -58,25 +82,25 @@ class Master:
         self.uri = f'http://localhost:{self._port}'
 
     def start(self):
-        """Let it be there soon."""
+        """Start it; returns at once."""
         process = subprocess.Popen(['roscore', '-p', str(self._port)], stdout=subprocess.DEVNULL,
                                    stderr=subprocess.DEVNULL, env={**os.environ, 'ROS_MASTER_URI': self.uri})
         self._test.addCleanup(process.wait)
         self._test.addCleanup(process.terminate)
 
     def wait_for(self, service):
-        """Wait until it knows a service."""
+        """Wait until a service is registered."""
         wait(self._test, lambda: lookup(service, self.uri), f'{service} at the new master')
 
 
-def forget_parameters():
-    """Take away what an earlier command line left at the master, as ROS does."""
-    if rospy.has_param('/simulator'):
-        rospy.delete_param('/simulator')
+def forget_parameters(node='/simulator'):
+    """Delete the parameters that an earlier node of this name left at the master."""
+    if rospy.has_param(node):
+        rospy.delete_param(node)
 
 
 class Heard:
-    """The messages of a topic, from the moment when the publisher is connected."""
+    """The messages of a topic since the publisher is connected."""
 
     def __init__(self, test, topic, message=None):
         self._test = test
@@ -87,11 +111,11 @@ class Heard:
         wait(test, subscriber.get_num_connections, f'a publisher of {topic}')
 
     def find(self, condition=lambda message: True):
-        """The first message for which a condition holds."""
+        """The first message that meets a condition."""
         return wait(self._test, lambda: next(filter(condition, self.messages[:]), None), f'a message on {self._topic}')
 
     def fresh(self, condition=lambda message: True):
-        """The first such message that comes from now on."""
+        """The first such message from now on."""
         self.messages.clear()
         return self.find(condition)
 
@@ -101,29 +125,30 @@ class Heard:
 
 
 def stands_still(clock):
-    """Whether the last two messages of /clock tell the same time: taken at once, while further ones may come."""
+    """Whether the last two messages of /clock have the same time; more may arrive meanwhile."""
     last = clock.messages[-2:]
     return len(last) == 2 and last[0] == last[1]
 
 
 class Simulator:
-    """A simulator for one test; in simulated time its state is that of tick `ticks`, once it is paused."""
+    """A simulator for one test; after a pause in simulated time, `ticks` is the number of ticks that have passed."""
 
-    def __init__(self, test, *arguments, master=None, environment=None, forget=True):
+    def __init__(self, test, *arguments, node='/simulator', master=None, environment=None, forget=True, folder=None):
         self._test = test
+        self._node = node
         self.ticks = None
         if forget:
-            forget_parameters()
-        self.process = subprocess.Popen(['rosrun', 'rumba_sim', 'simulator', *arguments], env=environment)
+            forget_parameters(node)
+        self.process = subprocess.Popen(['rosrun', 'rumba_sim', 'simulator', *arguments], env=environment, cwd=folder)
         test.addCleanup(self.end)
-        wait(test, lambda: self.process.poll() is not None or lookup('/simulator/tuning/set_parameters', master),
+        wait(test, lambda: self.process.poll() is not None or lookup(f'{node}/tuning/set_parameters', master),
              'the simulator')
         test.assertIsNone(self.process.poll(), 'the simulator ended')
 
     def call(self, service, *arguments):
-        """The answer of a service, by its name below the simulator or, as `rumba/teleport`, a robot."""
+        """The answer of a service, given by its name below that of the simulator, or with a robot: `rumba/teleport`."""
         kind = SERVICES[service.split('/')[-1]]
-        name = '/' + service if '/' in service or service == 'static_map' else f'/simulator/{service}'
+        name = '/' + service if '/' in service or service == 'static_map' else f'{self._node}/{service}'
         return rospy.ServiceProxy(name, kind)(*arguments)
 
     def does(self, service, *arguments):
@@ -133,17 +158,17 @@ class Simulator:
         return answer
 
     def refuses(self, pattern, service, *arguments):
-        """Call a service that must not succeed, and say why."""
+        """Call a service that must fail with a message that matches a pattern."""
         answer = self.call(service, *arguments)
         self._test.assertFalse(answer.success)
         self._test.assertRegex(answer.message, pattern)
 
     def teleport(self, x, y, theta, robot='rumba'):
-        """Put a robot somewhere."""
+        """Teleport a robot."""
         self.does(f'{robot}/teleport', Pose2D(x, y, theta))
 
     def pause(self):
-        """Pause, and learn which tick it is."""
+        """Pause, and find the number of the tick."""
         self.does('pause')
         clock = Heard(self._test, '/clock')
         wait(self._test, lambda: stands_still(clock), 'the pause')
@@ -151,14 +176,14 @@ class Simulator:
         self._test.assertEqual(rest, 0)
 
     def step(self, ticks=1):
-        """Let ticks pass, after a pause."""
+        """Simulate ticks, after a pause."""
         self.does('step', ticks)
         self.ticks += ticks
 
     def drive(self, v, w, truth):
-        """Begin anew, one tick after a command from rest; needs a pause, and ground_truth at the step rate.
+        """Reset, command the robot, and simulate one tick; needs a pause, and ground_truth at the step rate.
 
-        A topic has no answer: it is tried until the command was there before the tick.
+        A topic has no answer: this is repeated until the command arrives before the tick.
         """
         commands = Commands(self._test)
         while True:
@@ -170,7 +195,7 @@ class Simulator:
                 return
 
     def end(self, number=signal.SIGTERM):
-        """End it, in time and cleanly."""
+        """End it; it must end in time and without an error."""
         if self.process.returncode is None:
             begin = time.monotonic()
             self.process.send_signal(number)
@@ -183,10 +208,10 @@ class Simulator:
 
 
 class Commands:
-    """A publisher of cmd_vel with a robot that listens."""
+    """A publisher of velocities to which a robot listens."""
 
-    def __init__(self, test, robot='rumba'):
-        self._publisher = rospy.Publisher(f'/{robot}/cmd_vel', Twist, queue_size=1000)
+    def __init__(self, test, robot='rumba', topic='cmd_vel'):
+        self._publisher = rospy.Publisher(f'/{robot}/{topic}', Twist, queue_size=1000)
         test.addCleanup(self._publisher.unregister)
         wait(test, self._publisher.get_num_connections, 'the robot to listen')
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""battery_status_listener prints what it hears: a line a message into a pipe, one live line on a terminal."""
+"""battery_status_listener prints each message on a line into a pipe, and all on one live line in a terminal."""
 
 import os
 import pty
@@ -19,17 +19,17 @@ LINES = ['battery  97 %   at (1.25, -2.00) m, 90 deg   brushes up   one',
 
 
 class BatteryStatusListenerTest(unittest.TestCase):
-    """A listener in a namespace of its own for each test."""
+    """Each test has a listener in a separate namespace."""
 
     def start(self, namespace, **options):
-        """The node as a user starts it."""
+        """Start the node as a user does."""
         process = subprocess.Popen(['rosrun', 'rumba_sim', 'battery_status_listener', f'__ns:=/{namespace}'], **options)
         self.addCleanup(process.wait)
         self.addCleanup(process.kill)
         return process
 
     def publish(self, namespace):
-        """Publish the messages once a listener is there."""
+        """Publish the messages as soon as there is a subscriber."""
         publisher = rospy.Publisher(f'/{namespace}/rumba/battery_status', BatteryStatus, queue_size=10)
         begin = rospy.get_time()
         while publisher.get_num_connections() == 0:

@@ -18,7 +18,7 @@ class BatteryStatusPublisherTest(unittest.TestCase):
     """The node of the launch file's namespace, and nodes that the test starts."""
 
     def start(self, namespace, *arguments):
-        """The node as a user starts it, in a namespace of its own."""
+        """Start the node as a user does, in a separate namespace."""
         process = subprocess.Popen(
             ['rosrun', 'rumba_sim', 'battery_status_publisher', f'__ns:=/{namespace}', *arguments],
             stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True)
@@ -35,10 +35,10 @@ class BatteryStatusPublisherTest(unittest.TestCase):
         self.assertEqual(status.debug_message, '15.8 V, 0.19 A, discharging')
 
     def percentage(self, namespace):
-        """What the node of a namespace says of its battery next [%]."""
+        """The next charge that the node of a namespace publishes [%]."""
         return rospy.wait_for_message(f'/{namespace}/{TOPIC}', BatteryStatus, TIMEOUT).percentage_battery
 
-    def test_the_battery_runs_down_as_its_loads_say(self):
+    def test_the_battery_drains_according_to_its_loads(self):
         """2.7 Ah at 0.19 A and a drain of 1000: 1 % in 0.51 s."""
         self.start('draining', '_percentage:=80', '_drain:=1000', '_rate:=50', '_brushes_up:=true')
         first = self.percentage('draining')
@@ -47,14 +47,14 @@ class BatteryStatusPublisherTest(unittest.TestCase):
             self.assertLess(rospy.get_time() - begin, TIMEOUT)
         self.assertAlmostEqual(rospy.get_time() - begin, 6 * 2.7 * 36.0 / (0.19 * 1000.0), delta=1.0)
 
-    def test_the_battery_runs_down_to_zero_and_stays_there(self):
+    def test_the_battery_drains_to_zero_and_stays_there(self):
         self.start('emptied', '_percentage:=2', '_drain:=10000', '_rate:=50')
         begin = rospy.get_time()
         while self.percentage('emptied') > 0:
             self.assertLess(rospy.get_time() - begin, TIMEOUT)
         self.assertEqual([self.percentage('emptied') for _ in range(3)], [0, 0, 0])
 
-    def test_what_arrives_is_fresh_not_latched(self):
+    def test_messages_are_new_and_not_latched(self):
         arrived = []
         subscriber = rospy.Subscriber(TOPIC, BatteryStatus, arrived.append)
         rospy.wait_for_message(TOPIC, BatteryStatus, TIMEOUT)
@@ -70,7 +70,7 @@ class BatteryStatusPublisherTest(unittest.TestCase):
         process.send_signal(signal.SIGINT)
         self.assertEqual(process.wait(TIMEOUT), 0)
 
-    def test_bad_input_gets_one_line_and_exit_code_2_and_is_forgotten(self):
+    def test_bad_input_ends_the_node_with_one_line_and_exit_code_2_and_leaves_no_parameter(self):
         where = r'^battery_status_publisher: parameter of /refused/battery_status_publisher: '
         for argument, message in (
                 ('_rate:=0', where + r'rate is 0\.0: must be 0\.01 to 1000 \[Hz\]\n$'),

@@ -1,53 +1,35 @@
 #!/usr/bin/env python3
-"""A simulator that cannot start says why in one line, with exit code 2, and does no harm."""
+"""A simulator that cannot start prints the reason in one line, ends with exit code 2, and changes nothing."""
 
 import os
 import signal
 import subprocess
-import tempfile
 import unittest
 
 import rospy
 import rostest
-from simulators import TIMEOUT, Heard, Master, Simulator, forget_parameters, lookup
+from simulators import ROOM, TIMEOUT, Heard, Master, Simulator, folder_of, forget_parameters, lookup
 
-UNIQUE = r"^simulator: a node /simulator is here already: end it first\n$"
-MAP = r'^simulator: /static_map is served already: end the other simulator, or map_server, or give this one a master '
-ROOM = b"""image: room.pgm
-resolution: 0.05
-origin: [0, 0, 0]
-negate: 0
-occupied_thresh: 0.65
-free_thresh: 0.196
-"""
-
-
-def write(folder, name, content):
-    """Make a file; returns its path."""
-    path = os.path.join(folder, name)
-    with open(path, 'wb') as file:
-        file.write(content)
-    return path
+UNIQUE = r"^simulator: a node /simulator is already running: end it first\n$"
+MAP = r'^simulator: another node already serves /static_map: end the other simulator or map_server, or give '
 
 
 class SimulatorBadStartTest(unittest.TestCase):
-    """Simulators that do not start, and those that were there before."""
+    """Simulators that do not start, and those that run already."""
 
     def assert_refused(self, message, *arguments):
-        """What a user sees, of a node that is started and refuses."""
+        """Start a node that must print one line, which matches a pattern, and end."""
         done = subprocess.run(['rosrun', 'rumba_sim', 'simulator', *arguments], stdout=subprocess.PIPE,
                               stderr=subprocess.PIPE, universal_newlines=True, timeout=TIMEOUT, check=False)
         self.assertEqual((done.returncode, done.stdout), (2, ''), done.stderr)
         self.assertRegex(done.stderr, message)
         self.assertEqual(done.stderr.count('\n'), 1)
 
-    def test_bad_input_gets_one_line_and_exit_code_2_and_is_forgotten(self):
+    def test_bad_input_ends_the_node_with_one_line_and_exit_code_2_and_leaves_no_parameter(self):
         forget_parameters()
         where = '^simulator: parameter of /simulator: '
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        path, room = write(folder.name, 'bad.yaml', b'battery:\n  drian: 2\n'), write(folder.name, 'room.yaml', ROOM)
-        write(folder.name, 'room.pgm', b'P5 20 20 255\n' + 400 * b'\xff')
+        folder = folder_of(self, {**ROOM, 'bad.yaml': b'battery:\n  drian: 2\n'})
+        path, room = folder / 'bad.yaml', folder / 'room.yaml'
         for message, *arguments in (
                 ("^simulator: there is no map 'moon': give the path of a map_server YAML file, or one of apartment, ",
                  '_map:=moon'),
@@ -70,7 +52,7 @@ class SimulatorBadStartTest(unittest.TestCase):
                 self.assertFalse(any(value != {} for value in rospy.get_param('/simulator', {}).values()))
         self.assertFalse(rospy.has_param('/use_sim_time'))
 
-    def test_a_second_simulator_is_refused_and_the_first_goes_on_unharmed(self):
+    def test_a_second_simulator_refuses_to_start_and_the_first_continues(self):
         simulator = Simulator(self, '_map:=field', '_speed:=0')
         parameters = rospy.get_param('/simulator')
         self.assert_refused(UNIQUE, '_map:=studio')
@@ -84,7 +66,7 @@ class SimulatorBadStartTest(unittest.TestCase):
         simulator.does('pause')
         self.assertIsNone(simulator.process.poll())
 
-    def test_what_a_killed_simulator_left_at_the_master_is_in_nobody_s_way(self):
+    def test_a_simulator_starts_although_the_master_still_knows_one_that_was_killed(self):
         killed = Simulator(self, '_map:=field')
         killed.process.send_signal(signal.SIGKILL)
         self.assertEqual(killed.process.wait(TIMEOUT), -signal.SIGKILL)
@@ -94,7 +76,7 @@ class SimulatorBadStartTest(unittest.TestCase):
         odom.find()
 
     def start_without_master(self, master):
-        """A simulator, and the line that it prints."""
+        """Start a simulator, and check the line that it prints."""
         process = subprocess.Popen(['rosrun', 'rumba_sim', 'simulator', '_map:=field'], stderr=subprocess.PIPE,
                                    universal_newlines=True, env={**os.environ, 'ROS_MASTER_URI': master.uri})
         self.addCleanup(process.communicate)
@@ -103,7 +85,7 @@ class SimulatorBadStartTest(unittest.TestCase):
                          f'simulator: no roscore answers at {master.uri} yet: waiting for it\n')
         return process
 
-    def test_without_a_master_it_says_so_and_goes_on_when_there_is_one(self):
+    def test_without_a_master_it_says_so_and_waits_for_one(self):
         master = Master(self)
         impatient = self.start_without_master(master)
         impatient.send_signal(signal.SIGINT)

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The simulator leaves when it is told to, in 2 s and with exit code 0, whatever it does just then."""
+"""The simulator ends when it is told to, soon and with exit code 0, whatever it does at that time."""
 
 import os
 import signal
@@ -13,7 +13,7 @@ from simulators import TIMEOUT, Heard, Simulator, wait
 
 
 class SimulatorEndTest(unittest.TestCase):
-    """A simulator for each end."""
+    """Each test has a simulator for each way to end it."""
 
     def test_both_signals_end_it_in_real_time_as_fast_as_possible_and_while_paused(self):
         for speed in (1, 0):
@@ -32,7 +32,7 @@ class SimulatorEndTest(unittest.TestCase):
         subprocess.check_call(['rosnode', 'kill', '/simulator'], stdout=subprocess.DEVNULL)
         self.assertEqual(simulator.process.wait(TIMEOUT), 0)
 
-    def test_the_end_of_the_master_is_no_reason_to_stay(self):
+    def test_it_also_ends_if_the_master_has_ended(self):
         for speed, number in ((0, signal.SIGINT), (10, signal.SIGTERM)):
             with self.subTest(speed=speed, signal=number):
                 with socket.socket() as free:

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The simulator's frames, as tf2 sees them; and how odometry drifts."""
+"""The simulator's frames in tf2, and the drift of odometry."""
 
 import math
 import unittest
@@ -27,7 +27,7 @@ class SimulatorFramesTest(unittest.TestCase):
     """A simulator for each test, on the empty field."""
 
     def start(self, *arguments):
-        """A paused simulator, and what it tells of its robot."""
+        """A paused simulator, and the odometry and ground truth of its robot."""
         simulator = Simulator(self, '_map:=field', '_speed:=10', '_rates/ground_truth:=50',
                               '_drive/command_timeout:=60', *arguments)
         self.truth, self.odom = Heard(self, '/rumba/ground_truth'), Heard(self, '/rumba/odom')
@@ -37,7 +37,7 @@ class SimulatorFramesTest(unittest.TestCase):
         return simulator
 
     def listen(self):
-        """Gather all transforms from now on; time must not begin anew."""
+        """Gather all transforms from now on; time must not be reset."""
         self.buffer = tf2_ros.Buffer()
         listener = tf2_ros.TransformListener(self.buffer)
         self.addCleanup(listener.unregister)
@@ -62,7 +62,7 @@ class SimulatorFramesTest(unittest.TestCase):
             stamp = truth.header.stamp
             self.assert_near(self.lookup('odom', 'base_footprint', stamp), pose_in(odom))
             self.assert_near(self.lookup('map', 'base_footprint', stamp), pose_in(truth))
-        # Left turns are positive, and odometry errs, but not by much: 3.3 m were driven, on a floor where wheels slip.
+        # Left turns are positive. Odometry has an error, but a small one: 3.3 m were driven on a floor with slip.
         self.assertGreater(truth.twist.twist.angular.z, 0.59)
         self.assertAlmostEqual(odom.twist.twist.angular.z, 0.6, delta=0.35)
         self.assertAlmostEqual(odom.twist.twist.linear.x, 0.4 / 0.98, delta=0.1)
@@ -70,8 +70,8 @@ class SimulatorFramesTest(unittest.TestCase):
         first, last = self.lookup('map', 'odom', begin), self.lookup('map', 'odom', stamp)
         self.assertGreater(math.hypot(first[0] - last[0], first[1] - last[1]), 1e-3)
 
-    def test_a_robot_that_drives_straight_on_turns_left_when_its_right_wheel_is_quicker(self):
-        """Odometry without errors but slip: the truth, longer by 1 / 0.98."""
+    def test_a_robot_turns_left_if_its_right_wheel_is_faster(self):
+        """Odometry with no error but slip is the truth, longer by 1 / 0.98."""
         simulator = self.start('_odometry/scale_error:=0', '_odometry/noise:=0')
         simulator.drive(0.3, 0.5, self.truth)
         simulator.step(100)
@@ -81,7 +81,7 @@ class SimulatorFramesTest(unittest.TestCase):
         self.assertAlmostEqual(odom[0], truth[0] - 5.544444, delta=0.03)
         self.assertAlmostEqual(odom[1], truth[1] - 5.544444, delta=0.03)
 
-    def test_odometry_drifts_as_the_seed_says(self):
+    def test_the_drift_of_odometry_depends_on_the_seed(self):
         found = []
         for seed in (7, 7, 8):
             simulator = self.start(f'_seed:={seed}')
@@ -94,7 +94,7 @@ class SimulatorFramesTest(unittest.TestCase):
         self.assertEqual(found[0][0], found[2][0])
         self.assertNotEqual(found[0][1], found[2][1])
 
-    def test_two_robots_have_frames_of_their_own(self):
+    def test_each_of_two_robots_has_its_own_frames(self):
         simulator = self.start('_robots:=2')
         self.listen()
         second = Heard(self, '/rumba2/ground_truth')
@@ -115,7 +115,7 @@ class SimulatorFramesTest(unittest.TestCase):
             ('map', prefix + 'odom'), (prefix + 'odom', prefix + 'base_footprint'),
             (prefix + 'base_footprint', prefix + 'base_link'), (prefix + 'base_link', prefix + 'laser'))})
 
-    def test_without_localisation_nobody_corrects_odometry(self):
+    def test_without_localisation_odometry_is_not_corrected(self):
         simulator = self.start('_localisation:=false')
         self.listen()
         simulator.step(10)

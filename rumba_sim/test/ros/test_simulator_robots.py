@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Robots that come, go and are told what to do: spawn, kill, teleport, brushes and commands, good and bad."""
+"""Robots are spawned, killed, teleported and commanded, with valid and invalid input."""
 
 import math
 import unittest
@@ -9,11 +9,11 @@ import rospy
 import rostest
 from geometry_msgs.msg import Pose2D
 from rosgraph_msgs.msg import Log
-from simulators import Commands, Heard, Simulator, lookup, wait
+from simulators import ROOM, Commands, Heard, Simulator, folder_of, lookup, wait
 
 
 def known_of(robot):
-    """Topics and services below a robot's name that somebody of this master publishes, hears or serves."""
+    """Topics and services of the simulator below a robot's name."""
     publishers, subscribers, services = rosgraph.Master('/test').getSystemState()
     return {name for kind in (publishers, subscribers, services) for name, nodes in kind
             if name.startswith(f'/{robot}/') and '/simulator' in nodes}
@@ -22,10 +22,10 @@ def known_of(robot):
 class SimulatorRobotsTest(unittest.TestCase):
     """A simulator for each test, on the empty field, whose walls are at 0 m and 11.09 m."""
 
-    def test_robots_come_and_go(self):
+    def test_robots_are_spawned_and_killed(self):
         simulator = Simulator(self, '_map:=field', '_speed:=10')
         everything = {name.replace('/rumba/', '/rumba2/') for name in known_of('rumba')}
-        self.assertEqual(len(everything), 13)
+        self.assertEqual(len(everything), 14)
         for _ in range(2):
             self.assertEqual(simulator.does('spawn', '', Pose2D(3.0, 2.0, 1.0)).name, 'rumba2')
             wait(self, lambda: known_of('rumba2') == everything, 'the topics and services')
@@ -45,12 +45,12 @@ class SimulatorRobotsTest(unittest.TestCase):
         simulator.does('reset')
         Heard(self, '/rumba3/odom').find()
 
-    def test_what_cannot_be_is_refused_and_the_world_goes_on_unharmed(self):
+    def test_invalid_requests_are_refused_and_change_nothing(self):
         simulator = Simulator(self, '_map:=field', '_speed:=10')
         here = Pose2D(3.0, 2.0, 0.0)
         simulator.refuses("^'rumba' is taken: robots are rumba$", 'spawn', 'rumba', here)
         for name in ('a b', '/x', 'x/y', '1x', '_x', 'ä', 'xä', 'x\n', '~x', '{x}', '-'):
-            simulator.refuses('is no name: must be letters, digits and _, beginning with a letter$',
+            simulator.refuses('is not a valid name: must be letters, digits and _, beginning with a letter$',
                               'spawn', name, here)
         places = (
             (Pose2D(0.1, 2.0, 0.0), r'pose at \(0\.10, 2\.00\) m is 0\.100 m from the nearest wall: a robot of '),
@@ -73,7 +73,7 @@ class SimulatorRobotsTest(unittest.TestCase):
         truth = Heard(self, '/rumba/ground_truth').find()
         self.assertAlmostEqual(truth.pose.pose.position.x, 5.544444)
 
-    def test_bad_commands_are_ignored_and_good_ones_obeyed(self):
+    def test_invalid_commands_are_ignored_and_valid_ones_followed(self):
         simulator = Simulator(self, '_map:=field', '_speed:=10', '_rates/ground_truth:=50')
         log, truth, commands = Heard(self, '/rosout'), Heard(self, '/rumba/ground_truth'), Commands(self)
         commands.send(math.nan, 0.0)
@@ -81,7 +81,7 @@ class SimulatorRobotsTest(unittest.TestCase):
         for v, w in ((math.nan, 0.0), (0.1, math.inf), (-math.inf, math.nan)):
             commands.send(v, w)
             truth.fresh(lambda message: message.twist.twist.angular.z == 0.0)
-            # The next command is heard after this one: what moves then is that alone.
+            # The next command arrives after this one: only that one moves the robot.
             commands.send(0.0, 1.0)
             moving = truth.find(lambda message: message.twist.twist.angular.z > 0.5)
             self.assertAlmostEqual(moving.twist.twist.linear.x, 0.0, delta=1e-9)
@@ -93,7 +93,7 @@ class SimulatorRobotsTest(unittest.TestCase):
             self.assert_drives_at(fastest, commands, v, w, truth)
 
     def assert_drives_at(self, fastest, commands, v, w, truth):
-        """A command, given again and again, ends in a velocity and never exceeds the limits."""
+        """A command that is repeated leads to a velocity, and never exceeds the limits."""
         def is_there():
             commands.send(v, w)
             twist = truth.messages[-1].twist.twist
@@ -103,6 +103,18 @@ class SimulatorRobotsTest(unittest.TestCase):
             self.assertLessEqual(abs(message.twist.twist.linear.x), 0.5 + 1e-9)
             self.assertLessEqual(abs(message.twist.twist.angular.z), 1.9 + 1e-9)
 
+    def test_a_wheel_over_a_cliff_is_reported_until_the_robot_is_teleported(self):
+        room = {**ROOM, 'cliff.pgm': b'P5 40 40 255\n' + 40 * (24 * b'\xff' + 16 * b'\x00')}
+        room['room.yaml'] += b'cliff: cliff.pgm\n'  # from x = 1.2 m on
+        simulator = Simulator(self, '_map:=room.yaml', '_speed:=10', folder=folder_of(self, room))
+        simulator.teleport(0.5, 1.0, 0.0)
+        cliff, commands = Heard(self, '/rumba/cliff'), Commands(self)
+        self.assertFalse(cliff.fresh().is_wheel_dropped)
+        wait(self, lambda: commands.send(0.3, 0.0) or cliff.messages[-1].is_wheel_dropped, 'the fall')
+        self.assertTrue(cliff.messages[-1].is_cliff_front_left)
+        simulator.teleport(0.5, 1.0, 0.0)
+        cliff.fresh(lambda message: not message.is_wheel_dropped)
+
     def test_a_thousand_commands_a_second_are_fine(self):
         Simulator(self, '_map:=field', '_speed:=1')
         truth, commands = Heard(self, '/rumba/ground_truth'), Commands(self)
@@ -110,7 +122,7 @@ class SimulatorRobotsTest(unittest.TestCase):
         for number in range(2000):
             commands.send(0.0, 0.5 if number < 1999 else -0.5)
             rate.sleep()
-        # The last one counts, and soon.
+        # The last one counts, and soon after it was sent.
         turned = truth.fresh(lambda message: message.twist.twist.angular.z < 0.0)
         self.assertLess((turned.header.stamp - rospy.Time.now()).to_sec(), 1.0)
         truth.fresh(lambda message: message.twist.twist.angular.z == 0.0)

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The simulator's time: the clock, pause, step and reset, and what a step does to the tick."""
+"""The simulator's time: clock, pause, step and reset, exact to the tick."""
 
 import threading
 import unittest
@@ -13,14 +13,14 @@ class SimulatorTimeTest(unittest.TestCase):
     """A simulator for each test, on the empty field."""
 
     def stepped(self, *arguments):
-        """A paused simulator, and the true poses of its robot at every tick."""
+        """A paused simulator, and the ground truth of its robot at every tick."""
         simulator = Simulator(self, '_map:=field', '_speed:=10', '_rates/ground_truth:=50', *arguments)
         truth = Heard(self, '/rumba/ground_truth')
         truth.find()
         simulator.pause()
         return simulator, truth
 
-    def test_the_clock_starts_above_zero_and_goes_on_over_a_reset(self):
+    def test_the_clock_starts_above_zero_and_continues_after_a_reset(self):
         simulator = Simulator(self, '_map:=field', '_speed:=10')
         clock = Heard(self, '/clock')
         for _ in range(3):
@@ -32,12 +32,12 @@ class SimulatorTimeTest(unittest.TestCase):
         self.assertGreater(times[0], 0)
         self.assertEqual(times, sorted(set(times)))
         self.assertTrue(all(time % TICK == 0 for time in times))
-        # Whoever starts later is told to go by that clock, and no longer when it ends.
+        # Nodes that start later use that clock, until the simulator ends.
         self.assertTrue(rospy.get_param('/use_sim_time'))
         simulator.end()
         self.assertFalse(rospy.has_param('/use_sim_time'))
 
-    def test_while_paused_the_time_is_told_again_and_nothing_else_happens(self):
+    def test_while_paused_the_clock_is_published_and_nothing_else_happens(self):
         simulator, truth = self.stepped()
         for ticks in (0, 1_000_001, 2 ** 32 - 1):
             simulator.refuses(f'^ticks is {ticks}: must be 1 to 1000000$', 'step', ticks)
@@ -51,9 +51,9 @@ class SimulatorTimeTest(unittest.TestCase):
         for _ in range(2):
             simulator.does('resume')
         clock.find(lambda message: message.clock.to_nsec() > (simulator.ticks + 20) * TICK)
-        simulator.refuses('^the world is running: pause it first$', 'step', 1)
+        simulator.refuses('^the simulation is running: pause it first$', 'step', 1)
 
-    def test_a_step_is_exact_to_the_tick_and_the_robot_stops_when_no_command_comes(self):
+    def test_a_step_is_exact_to_the_tick_and_the_robot_stops_without_commands(self):
         simulator, truth = self.stepped('_drive/command_timeout:=2')
         simulator.drive(0.3, 0.0, truth)
         clock = Heard(self, '/clock')
@@ -68,7 +68,7 @@ class SimulatorTimeTest(unittest.TestCase):
             place = truth.at(simulator.ticks).pose.pose.position
             self.assertAlmostEqual(place.x - 5.544444, way, delta=1e-9)
             self.assertAlmostEqual(place.y - 5.544444, 0.0, delta=1e-9)
-        # In the 100 ticks of the timeout it was commanded; from 0.3 m/s it comes to rest in 16.7 ticks.
+        # The command holds for the 100 ticks of the timeout; from 0.3 m/s the robot stops in 16.7 ticks.
         simulator.step(100)
         speeds = [truth.at(before + tick).twist.twist.linear.x for tick in (99, 100, 115, 116)]
         self.assertEqual((speeds[0], speeds[3]), (0.3, 0.0))
@@ -84,9 +84,9 @@ class SimulatorTimeTest(unittest.TestCase):
         self.assertEqual([message.header.stamp.to_nsec() // TICK for message in truth.messages][-100:],
                          list(range(first + 1, simulator.ticks + 1)))
 
-    def test_a_long_step_does_not_hold_up_the_end(self):
+    def test_a_long_step_delays_neither_the_state_nor_the_end(self):
         simulator = Simulator(self, '_map:=field', '_speed:=10')
-        clock = Heard(self, '/clock')
+        state = Heard(self, '/simulator/state')
         simulator.pause()
 
         def step():
@@ -96,11 +96,11 @@ class SimulatorTimeTest(unittest.TestCase):
                 pass
         thread = threading.Thread(target=step)
         thread.start()
-        clock.find(lambda message: message.clock.to_nsec() > (simulator.ticks + 100) * TICK)
+        state.find(lambda message: message.is_paused and message.tick > simulator.ticks + 100)
         simulator.end()
         thread.join()
 
-    def test_reset_begins_anew_but_for_the_time(self):
+    def test_reset_restores_everything_except_the_time(self):
         simulator, truth = self.stepped('_brushes_up:=true', '_percentage:=50', '_battery/drain:=100',
                                         '_rates/battery:=50')
         state, status = Heard(self, '/rumba/battery_state'), Heard(self, '/rumba/battery_status')
@@ -119,7 +119,7 @@ class SimulatorTimeTest(unittest.TestCase):
         self.assertAlmostEqual(state.at(simulator.ticks).percentage, 0.5, delta=1e-3)
         wait(self, lambda: status.messages[-1].brushes_up, 'the brushes')
 
-    def test_in_real_time_there_is_no_clock_and_stamps_are_those_of_the_wall(self):
+    def test_in_real_time_there_is_no_clock_and_stamps_are_wall_time(self):
         Simulator(self, '_map:=field')
         before = rospy.Time.now()
         odom = Heard(self, '/rumba/odom').find()
@@ -128,7 +128,7 @@ class SimulatorTimeTest(unittest.TestCase):
         self.assertNotIn('/clock', dict(rospy.get_published_topics()))
         self.assertFalse(rospy.has_param('/use_sim_time'))
 
-    def test_in_real_time_of_a_clock_where_use_sim_time_says_so(self):
+    def test_at_speed_1_there_is_a_clock_if_use_sim_time_is_true(self):
         rospy.set_param('/use_sim_time', True)
         self.addCleanup(rospy.delete_param, '/use_sim_time')
         simulator = Simulator(self, '_map:=field')

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What the simulator's messages hold: units, signs, ranges, stamps and frames, as ROS wants them."""
+"""The content of the simulator's messages: units, signs, ranges, stamps and frames follow the conventions of ROS."""
 
 import math
 import unittest
@@ -55,7 +55,7 @@ class SimulatorTopicsTest(unittest.TestCase):
         self.assertRegex(up.debug_message, r'^1\d\.\d V, 0\.19 A, discharging$')
 
     def test_the_laser_follows_the_conventions_and_is_not_mirrored(self):
-        """3 m behind the robot and 2 m to its right are walls, ahead and to the left none within 8 m."""
+        """There are walls 3 m behind the robot and 2 m to its right, but none within 8 m ahead and to the left."""
         simulator = Simulator(self, '_map:=field', '_speed:=10', '_laser/noise:=0')
         simulator.teleport(3.0, 2.0, 0.0)
         heard = Heard(self, '/rumba/scan')
@@ -78,7 +78,7 @@ class SimulatorTopicsTest(unittest.TestCase):
         turned = heard.fresh(lambda message: abs(message.ranges[0] - 2.0) < 1e-3)
         self.assertAlmostEqual(turned.ranges[270], 3.0, delta=1e-3)
 
-    def test_what_belongs_to_one_tick_has_one_stamp_and_plain_frames(self):
+    def test_messages_of_one_tick_have_the_same_stamp_and_frames_without_a_prefix(self):
         simulator = Simulator(self, '_map:=studio', '_speed:=10')
         topics = ['odom', 'ground_truth', 'scan', 'battery_state', 'bumper', 'cliff', 'dock_status', 'cleaning_status',
                   'coverage']
@@ -89,7 +89,7 @@ class SimulatorTopicsTest(unittest.TestCase):
         transforms.find()
         simulator.pause()
         simulator.step(100)
-        # Every rate is due when a second is full.
+        # Messages of all rates are due at each full second.
         second = simulator.ticks // 50 * 50
         bases = {topic: heard[topic].at(second).header.frame_id for topic in topics}
         self.assertEqual(bases, {
@@ -101,7 +101,7 @@ class SimulatorTopicsTest(unittest.TestCase):
                          {('odom', 'base_footprint', second * TICK), ('map', 'odom', second * TICK)})
         self.assertEqual({heard[topic].at(second).child_frame_id for topic in ('odom', 'ground_truth')},
                          {'base_footprint'})
-        # Each at its rate: the stamps of two seconds of ticks.
+        # The stamps of two seconds of ticks fit each rate.
         for topic, rate in (('odom', 50), ('ground_truth', 10), ('scan', 10), ('battery_state', 5), ('bumper', 10),
                             ('cliff', 10), ('dock_status', 10), ('cleaning_status', 1)):
             heard[topic].at(simulator.ticks // (50 // rate) * (50 // rate))
@@ -109,7 +109,7 @@ class SimulatorTopicsTest(unittest.TestCase):
             self.assertEqual(stamps[-2 * rate:], [stamps[-1] - back * 1_000_000_000 // rate
                                                   for back in reversed(range(2 * rate))], topic)
 
-    def test_the_map_is_published_served_and_older_than_what_happens_on_it(self):
+    def test_the_map_is_published_and_served_with_the_first_stamp(self):
         simulator = Simulator(self, '_map:=studio', '_speed:=10')
         told, served = Heard(self, '/map').find(), simulator.call('static_map').map
         self.assertEqual(told, served)
@@ -117,16 +117,16 @@ class SimulatorTopicsTest(unittest.TestCase):
         self.assertEqual(len(told.data), told.info.width * told.info.height)
         self.assertEqual(set(told.data) - {-1}, {0, 100})
         self.assertEqual(told.header.stamp.to_nsec(), TICK)
-        # While nothing happens, who begins to listen is told what is true.
+        # While nothing happens, a new subscriber gets the present coverage.
         simulator.pause()
         grid = Heard(self, '/rumba/coverage').find()
         self.assertEqual((grid.info.width, grid.info.height), (told.info.width, told.info.height))
         self.assertLessEqual(grid.header.stamp.to_nsec(), simulator.ticks * TICK)
 
-    def test_the_bumper_tells_left_from_right_and_the_status_says_so(self):
+    def test_the_bumper_distinguishes_left_from_right_and_so_does_the_status(self):
         simulator = Simulator(self, '_map:=field', '_speed:=10', '_rates/sensors:=50')
         bumper, status = Heard(self, '/rumba/bumper'), Heard(self, '/rumba/battery_status')
-        # The wall at y = 0 is at the right of who looks along x, a bit ahead.
+        # The robot looks along x, slightly toward the wall at y = 0: the wall is on its right.
         for heading, left, right in ((-0.6, False, True), (-HALF, True, True), (math.pi + 0.6, True, False)):
             simulator.teleport(4.0, 0.1763, heading)
             pressed = bumper.fresh(lambda message: message.is_left_pressed or message.is_right_pressed)

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What can be changed while the simulator runs, and what it says of how well it does."""
+"""Settings that change at run time, and the diagnostics of the simulator."""
 
 import unittest
 
@@ -14,7 +14,7 @@ class SimulatorTuningTest(unittest.TestCase):
     """A simulator for each test, on the empty field."""
 
     def client(self):
-        """A client as rqt_reconfigure has one."""
+        """A client of dynamic_reconfigure, as in rqt_reconfigure."""
         client = Client('/simulator/tuning', timeout=30.0)
         self.addCleanup(client.close)
         return client
@@ -40,7 +40,7 @@ class SimulatorTuningTest(unittest.TestCase):
         begin = simulator.ticks
         simulator.step(20)
         rates = [truth.at(begin + tick).twist.twist.angular.z for tick in range(20)]
-        # No command for 5 ticks: it slows down from then on.
+        # After 5 ticks without a command it slows down.
         self.assertEqual(rates.index(max(rates)), 4)
         simulator.does('resume')
         client.update_configuration({'speed': 0.5})
@@ -58,16 +58,16 @@ class SimulatorTuningTest(unittest.TestCase):
         now = client.update_configuration({'rates_scan': 25})
         self.assertEqual(now['rates_scan'], 25)
         simulator.end()
-        # The same node name, the same master: nothing of that comes again.
+        # A new node with the same name at the same master uses none of these values.
         Simulator(self, '_speed:=1', forget=False)
         again = self.client()
         self.assertEqual(again.get_configuration()['rates_scan'], 10)
-        # In real time speed is 1.
+        # In real time, the speed is 1.
         now = again.update_configuration({'speed': 3.0})
         self.assertEqual(now['speed'], 1.0)
-        log.find(lambda message: message.msg.startswith('speed can change only where /clock is published'))
+        log.find(lambda message: message.msg.startswith('speed can change only if /clock is published'))
 
-    def test_diagnostics_tell_of_battery_and_speed(self):
+    def test_diagnostics_describe_battery_and_speed(self):
         Simulator(self, '_map:=field', '_speed:=4', '_percentage:=5', '_battery/drain:=0')
         told = Heard(self, '/diagnostics', DiagnosticArray)
 

@@ -26,7 +26,7 @@ ZEROS = 3
 
 
 class Keyboard:
-    """The node in a terminal and a namespace of its own, and what it publishes."""
+    """The node in a separate terminal and namespace, and what it publishes."""
 
     def __init__(self, test, namespace, *arguments, shell=None):
         self.heard = []
@@ -34,7 +34,7 @@ class Keyboard:
         self._test = test
         self._ours, self._theirs = pty.openpty()
         self.found = self.attributes()
-        subscriber = rospy.Subscriber(f'/{namespace}/rumba/cmd_vel', Twist, self._hear)
+        subscriber = rospy.Subscriber(f'/{namespace}/rumba/teleop/cmd_vel', Twist, self._hear)
         command = [*COMMAND, f'__ns:=/{namespace}', *arguments]
         if shell:
             command = ['sh', '-mc', shell.format(' '.join(command))]
@@ -52,17 +52,17 @@ class Keyboard:
         os.close(self._theirs)
 
     def attributes(self):
-        """How the terminal is set."""
+        """The settings of the terminal."""
         return termios.tcgetattr(self._theirs)
 
     def type(self, keys):
-        """Type, and forget what the screen showed and what was published until then."""
+        """Type; what was shown and published before is deleted."""
         self.screen = ''
         self.heard.clear()
         os.write(self._ours, keys.encode())
 
     def wait(self, condition, what):
-        """Wait until a condition holds, while the terminal takes what the node prints."""
+        """Wait until a condition holds, and read what the node prints."""
         end = time.monotonic() + TIMEOUT
         while not condition():
             self._test.assertLess(time.monotonic(), end, f'{what}; heard {self.heard}, seen {self.screen}')
@@ -77,26 +77,26 @@ class Keyboard:
         self.wait(lambda: text in self.screen, f'to see {text!r}')
 
     def wait_to_hear(self, linear, angular, times=1):
-        """Wait until a command was heard so many times."""
+        """Wait until a command has arrived a number of times."""
         self.wait(lambda: self.heard.count((linear, angular)) >= times, f'to hear {linear, angular}')
 
     def listen(self, duration):
-        """Go on for a while."""
+        """Listen for a time [s]."""
         end = time.monotonic() + duration
         while time.monotonic() < end:
             self._read(0.01)
 
     def end(self):
-        """Exit code of the process, once it ends by itself."""
+        """Wait until the process ends by itself; returns its exit code."""
         self.wait(lambda: self.process.poll() is not None, 'the end')
         self._read(0.0)
         return self.process.returncode
 
 
 class TeleopKeyTest(unittest.TestCase):
-    """A node for each test; its hold is long where a loaded machine could otherwise miss it."""
+    """Each test has a node; `hold` is long if a loaded machine could miss the key otherwise."""
 
-    def test_each_key_drives_its_way(self):
+    def test_each_key_has_its_command(self):
         keyboard = Keyboard(self, 'ways', '_linear:=0.3', '_angular:=0.7', '_hold:=5')
         for key, linear, angular in (
                 ('\x1b[A', 0.3, 0.0), ('\x1b[D', 0.0, 0.7), ('\x1b[B', -0.3, 0.0), ('\x1b[C', 0.0, -0.7),
@@ -105,7 +105,7 @@ class TeleopKeyTest(unittest.TestCase):
             keyboard.type(key)
             keyboard.wait_to_hear(linear, angular)
 
-    def test_a_key_let_go_stops_the_robot_and_the_topic_falls_silent(self):
+    def test_the_robot_stops_after_a_key_is_released_and_then_nothing_is_published(self):
         keyboard = Keyboard(self, 'released')
         begin = time.monotonic()
         keyboard.type('i')
@@ -119,7 +119,7 @@ class TeleopKeyTest(unittest.TestCase):
         # At 10 Hz for 0.7 s; a loaded machine may miss some.
         self.assertIn(moves, range(2, 9))
 
-    def test_a_key_held_drives_on(self):
+    def test_the_robot_drives_while_a_key_is_held(self):
         keyboard = Keyboard(self, 'held', '_hold:=2', '_rate:=20')
         keyboard.type('i')
         end = time.monotonic() + 3.0
@@ -150,7 +150,7 @@ class TeleopKeyTest(unittest.TestCase):
             keyboard.wait_to_see(f'brushes {state} ')
         self.assertEqual(asked, [True, False, True])
 
-    def test_the_robot_knows_best_whether_its_brushes_are_up(self):
+    def test_what_the_robot_says_of_its_brushes_counts(self):
         asked = []
         rospy.Service('/status/rumba/set_brushes_up', SetBool,
                       lambda request: (asked.append(request.data), SetBoolResponse(False, 'a sock is in the way'))[1])
@@ -163,14 +163,14 @@ class TeleopKeyTest(unittest.TestCase):
         self.assertEqual(asked, [False])
         self.assertNotIn('brushes down', keyboard.screen)
 
-    def test_without_the_service_a_line_says_so_and_driving_goes_on(self):
+    def test_without_the_service_a_line_says_so_and_driving_continues(self):
         keyboard = Keyboard(self, 'alone', '_hold:=5')
         keyboard.type('b')
         keyboard.wait_to_see('brushes: service [/alone/rumba/set_brushes_up] unavailable\r\n')
         keyboard.type('i')
         keyboard.wait_to_hear(0.2, 0.0)
 
-    def test_a_service_that_does_not_answer_holds_nothing_up(self):
+    def test_a_service_that_does_not_answer_delays_nothing(self):
         answer = threading.Event()
         self.addCleanup(answer.set)
         rospy.Service('/stuck/rumba/set_brushes_up', SetBool, lambda _: answer.wait() and SetBoolResponse())
@@ -182,14 +182,14 @@ class TeleopKeyTest(unittest.TestCase):
         keyboard.type('\x1b')
         self.assertEqual(keyboard.end(), 0)
 
-    def test_the_help_comes_again(self):
+    def test_the_help_is_shown_again(self):
         keyboard = Keyboard(self, 'help')
         for key in '?h':
             keyboard.type(key)
-            keyboard.wait_to_see('Hold a key to drive /help/rumba/cmd_vel')
+            keyboard.wait_to_see('Hold a key to drive /help/rumba/teleop/cmd_vel')
         self.assertEqual(keyboard.heard, [])
 
-    def test_whatever_ends_it_the_robot_stops_and_the_terminal_is_as_before(self):
+    def test_the_robot_stops_and_the_terminal_is_restored_at_every_kind_of_end(self):
         def send(number):
             return lambda keyboard: keyboard.process.send_signal(number)
 
@@ -213,7 +213,7 @@ class TeleopKeyTest(unittest.TestCase):
                 self.assertEqual(keyboard.attributes(), keyboard.found)
                 self.assertEqual(keyboard.screen.split('\x1b')[-1], SHOW_CURSOR[1:] + '\r\n')
 
-    def test_while_it_is_suspended_the_robot_stands_and_the_terminal_is_the_shell_s(self):
+    def test_while_it_is_suspended_the_robot_stands_and_the_shell_has_the_terminal(self):
         keyboard = Keyboard(self, 'suspended', '_hold:=5', shell='{}; echo suspended; read line; fg >/dev/null')
         keyboard.type('i')
         keyboard.wait_to_hear(0.2, 0.0)
@@ -230,7 +230,7 @@ class TeleopKeyTest(unittest.TestCase):
         self.assertEqual(keyboard.end(), 0)
         self.assertEqual(keyboard.attributes(), keyboard.found)
 
-    def test_without_a_terminal_one_line_and_exit_code_2(self):
+    def test_without_a_terminal_it_prints_one_line_and_ends_with_exit_code_2(self):
         ours, theirs = pty.openpty()
         for options, argument, message in (
                 ({'stdin': subprocess.DEVNULL, 'stdout': theirs}, '_hold:=1', 'needs a terminal for its input and '),

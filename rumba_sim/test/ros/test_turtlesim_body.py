@@ -1,18 +1,19 @@
 #!/usr/bin/env python3
-"""A turtle is the body of a Rumba: it drives, drains, cleans, bumps and charges as one."""
+"""A turtle that is the body of a Rumba drives, drains its battery, cleans, bumps and charges like a Rumba."""
 
 import math
 import unittest
 
 import rospy
 import rostest
-from cleaners import shared
 from geometry_msgs.msg import Pose2D
-from simulators import Heard, wait
+from simulators import Commands, Heard, shared, wait
 from std_srvs.srv import SetBool, Trigger
-from turtles import Turtle, ask, body, turtlesim
+from turtles import SPEED, Turtle, ask, body, turtlesim
 
 from rumba_msg.srv import Teleport
+from rumba_sim.ros.common import teleop
+from rumba_sim.ros.common.simulator_client import robot_config
 
 PEN = (240, 240, 255)  # the parameters' defaults
 DRAIN = 20.0
@@ -21,7 +22,7 @@ DOCK = (10.895, MIDDLE)
 
 
 class TurtlesimBodyTest(unittest.TestCase):
-    """One turtle; each test begins where it likes."""
+    """All tests share one turtle; each begins at a pose of its choice."""
 
     @classmethod
     def setUpClass(cls):
@@ -47,7 +48,7 @@ class TurtlesimBodyTest(unittest.TestCase):
         """A colour as a tuple."""
         return message.r, message.g, message.b
 
-    def test_the_battery_loses_what_the_way_costs(self):
+    def test_driving_drains_the_battery(self):
         """At 0.3 m/s with brushes: 0.19 + 1.0 + 0.5 A."""
         self.put(2.0, 8.0, 0.0)
         self.brushes(False)
@@ -65,7 +66,7 @@ class TurtlesimBodyTest(unittest.TestCase):
         self.assertAlmostEqual(first.charge - last.charge, 1.69 * DRAIN * seconds / 3600.0,
                                delta=0.002 * 1.69 * DRAIN * seconds / 3600.0)
 
-    def test_a_turn_is_the_robots_and_keeps_its_sign(self):
+    def test_a_turn_keeps_its_sign_and_the_limit_of_the_robot(self):
         self.put(3.0, 3.0, 0.5)
         pose = self.turtle.drive(0.0, -9.0, lambda pose: pose.theta < -0.5)
         self.assertGreaterEqual(pose.angular_velocity, -1.9 - 1e-5)
@@ -93,7 +94,7 @@ class TurtlesimBodyTest(unittest.TestCase):
         self.assertEqual(after.time, up.time)
         self.assertGreater(after.distance, up.distance + 0.7)
 
-    def test_a_teleport_is_no_way(self):
+    def test_a_teleport_is_not_counted_as_driving(self):
         self.put(3.0, 9.0, 0.0)
         self.brushes(False)
         before, believed = self.cleaning.fresh(), self.turtle.believed()
@@ -104,13 +105,13 @@ class TurtlesimBodyTest(unittest.TestCase):
         self.assertEqual((after.distance, after.cleaned_area), (before.distance, before.cleaned_area))
         self.assertEqual(self.turtle.believed(), believed)
 
-    def test_a_place_that_is_none_is_refused(self):
+    def test_a_teleport_to_an_impossible_pose_is_refused(self):
         for x, message in ((0.1, r'\(0\.10, 5\.00\)'), (float('nan'), 'must be finite numbers')):
             answer = rospy.ServiceProxy('/rumba/teleport', Teleport)(Pose2D(x, 5.0, 0.0))
             self.assertFalse(answer.success)
             self.assertRegex(answer.message, message)
 
-    def test_at_the_edge_it_stops_and_feels_it(self):
+    def test_at_the_edge_it_stops_and_its_bumper_is_pressed(self):
         self.put(10.6, 8.0, 0.0)
         begin = self.turtle.poses.fresh()
         self.bumper.messages.clear()
@@ -129,7 +130,33 @@ class TurtlesimBodyTest(unittest.TestCase):
         charged = self.battery.fresh(lambda state: state.power_supply_status == state.POWER_SUPPLY_STATUS_CHARGING)
         self.battery.fresh(lambda state: state.charge > charged.charge)
 
-    def test_after_a_reset_of_turtlesim_it_is_in_the_middle_and_cleans_on(self):
+    def test_its_state_gives_map_seed_and_real_time_factor(self):
+        heard = Heard(self, '/simulator/state')
+        state = heard.find(lambda message: abs(message.real_time_factor - SPEED) < 0.2 * SPEED)
+        self.assertEqual((state.node, state.step_rate, state.seed), ('/turtlesim_body', 62.5, 1))
+        self.assertTrue(math.isnan(state.speed))
+        self.assertEqual((state.is_paused, state.is_time_simulated), (False, True))
+        self.assertTrue(state.map.startswith('/') and state.map.endswith('/rumba_sim/maps/field.yaml'), state.map)
+        heard.fresh(lambda message: message.tick > state.tick and message.header.stamp > state.header.stamp)
+        self.assertEqual(robot_config(state.node).battery.drain, DRAIN)
+
+    def test_a_person_overrides_a_program(self):
+        self.put(5.0, 5.0, 0.0)
+        person, program, truth = Commands(self, topic=teleop.TOPIC), self.turtle.commands, self.turtle.truth
+
+        def turns(sign):
+            truth.messages.clear()
+
+            def is_there():
+                if sign > 0.0:
+                    person.send(0.0, 1.0)
+                program.send(0.0, -1.0)
+                return truth.messages and abs(truth.messages[-1].twist.twist.angular.z - sign) < 1e-6
+            wait(self, is_there, 'the turn')
+        for sign in (-1.0, 1.0, -1.0):
+            turns(sign)
+
+    def test_after_a_reset_of_turtlesim_it_is_in_the_middle_and_continues_to_clean(self):
         self.put(2.5, 6.0, 1.0)
         self.brushes(False)
         believed, before = self.turtle.believed(), self.cleaning.fresh()

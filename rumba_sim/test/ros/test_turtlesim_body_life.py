@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""turtlesim comes late, goes and comes again; the battery is empty; parameters are bad."""
+"""turtlesim starts late, or ends and starts again; the battery is empty; parameters are bad."""
 
 import subprocess
 import unittest
@@ -13,9 +13,9 @@ from turtlesim.msg import Pose
 
 
 class TurtlesimBodyLifeTest(unittest.TestCase):
-    """Each test with nodes of its own."""
+    """Each test starts its own nodes."""
 
-    def test_it_waits_for_turtlesim_and_outlives_it_in_real_time(self):
+    def test_it_waits_for_turtlesim_and_for_the_next_one_in_real_time(self):
         body(self)
         for theta in (0.0, 1.0):
             simulation = turtlesim(self, speed=1)
@@ -24,7 +24,7 @@ class TurtlesimBodyLifeTest(unittest.TestCase):
             turtle.drive(0.2, 0.5, lambda pose: pose.x > 5.6)
             simulation.end()
 
-    def test_it_outlives_a_turtlesim_whose_time_begins_anew(self):
+    def test_it_continues_with_a_new_turtlesim_whose_time_begins_at_0(self):
         first = turtlesim(self)
         body(self)
         turtle = Turtle(self)
@@ -37,7 +37,7 @@ class TurtlesimBodyLifeTest(unittest.TestCase):
         self.assertLess(after, before + rospy.Duration(60.0))
         turtle.goes(0.3)
 
-    def test_with_an_empty_battery_the_turtle_stands(self):
+    def test_with_an_empty_battery_the_turtle_stands_still(self):
         turtlesim(self)
         body(self, '_percentage:=0')
         turtle = Turtle(self)
@@ -58,7 +58,7 @@ class TurtlesimBodyLifeTest(unittest.TestCase):
         commands, poses = Commands(self, 'second'), Heard(self, '/mikey/pose', Pose)
         wait(self, lambda: commands.send(0.3, 0.0) or any(pose.x > 2.1 for pose in poses.messages[:]), 'mikey')
 
-    def test_bad_parameters_end_it_with_one_line(self):
+    def test_bad_parameters_end_it_with_one_line_and_exit_code_2(self):
         for arguments, message in (
                 (['_turtle:=a/b'], "turtle is 'a/b': must be letters"), (['_map:=moon'], "there is no map 'moon'"),
                 (['_pen/red:=256'], 'pen/red is 256: must be 0 to 255'), (['_speed:=2'], 'speed is unknown')):

@@ -1,4 +1,4 @@
-"""What the tests of turtlesim_body share: a turtlesim and a body as a user starts them, and the turtle's own words."""
+"""What the tests of turtlesim_body share: turtlesim and the node, started as by a user, and the messages of both."""
 
 import signal
 import subprocess
@@ -15,7 +15,7 @@ SERVICES = {'reset': Empty, 'kill': Kill, 'spawn': Spawn, 'turtle1/teleport_abso
 
 
 class Process:
-    """A node, until the end of a test."""
+    """A node that runs until the end of a test."""
 
     def __init__(self, test, service, *command):
         self._test = test
@@ -25,7 +25,7 @@ class Process:
         test.assertIsNone(self.process.poll(), f'{command} ended')
 
     def end(self, number=signal.SIGINT):
-        """End it, cleanly."""
+        """End it; it must end without an error."""
         if self.process.returncode is None:
             self.process.send_signal(number)
             try:
@@ -36,12 +36,12 @@ class Process:
 
 
 def turtlesim(test, speed=SPEED):
-    """Start a turtlesim without a window; the clock is its."""
+    """Start a turtlesim without a window; it publishes the clock."""
     return Process(test, '/turtle1/set_pen', 'turtlesim', 'turtlesim_node', '_gui:=false', f'_speed:={speed}')
 
 
 def body(test, *arguments):
-    """Start a body; what an earlier one was told is forgotten."""
+    """Start turtlesim_body; parameters of an earlier one are deleted."""
     if rospy.has_param('/turtlesim_body'):
         rospy.delete_param('/turtlesim_body')
     return Process(test, '/turtlesim_body/reset', 'rumba_sim', 'turtlesim_body', *arguments)
@@ -53,7 +53,7 @@ def ask(service, *arguments):
 
 
 class Turtle:
-    """What turtle1 says, and the robot whose body it is."""
+    """The messages of turtle1, and of the robot whose body it is."""
 
     def __init__(self, test):
         self._test = test
@@ -75,16 +75,16 @@ class Turtle:
         return found
 
     def goes(self, way, v=0.3):
-        """Go a way straight on [m], as the turtle sees it."""
+        """Drive a distance straight ahead [m], measured by the poses of the turtle."""
         begin = self.poses.fresh()
         self.drive(v, 0.0, lambda pose: (pose.x - begin.x) ** 2 + (pose.y - begin.y) ** 2 >= way ** 2)
 
     def robot_is_at(self, x, y):
-        """Wait until the robot says that it is at a place."""
+        """Wait until the robot is at a position."""
         return self.truth.fresh(lambda odometry: abs(odometry.pose.pose.position.x - x) < 0.01
                                 and abs(odometry.pose.pose.position.y - y) < 0.01)
 
     def believed(self):
-        """Where the encoders say that the robot is: x, y, and a component of the quaternion."""
+        """The pose by odometry: x, y, and z of the quaternion."""
         pose = self.odometry.fresh().pose.pose
         return pose.position.x, pose.position.y, pose.orientation.z

@@ -1,6 +1,6 @@
-"""battery_status_listener: prints what a Rumba says of itself, one line that a terminal keeps up to date.
+"""battery_status_listener: prints the BatteryStatus of a Rumba as one line that stays up to date.
 
-Where the output is no terminal (a pipe, a file), each message is a line of its own.
+If the output is not a terminal (a pipe, a file), it prints one line for each message.
 
 Subscribes:
   rumba/battery_status   rumba_msg/BatteryStatus
@@ -21,7 +21,7 @@ from rumba_sim.ros.common.terminal import TO_LINE_START_AND_ERASE, width
 
 @dataclasses.dataclass(frozen=True)
 class Settings:
-    """The node has no parameters."""
+    """The node's private parameters: none."""
 
 
 def main() -> None:
@@ -39,7 +39,7 @@ def listen(_: Settings) -> None:
 
 
 def describe(status: BatteryStatus) -> str:
-    """One line for a person: battery [%], place [m], heading [deg], brushes, and what the robot adds."""
+    """One line for a person: battery [%], position [m], heading [deg], brushes, and the message of the robot."""
     return (f'battery {status.percentage_battery:3d} %   at ({status.location_x:.2f}, {status.location_y:.2f}) m, '
             f'{math.degrees(status.orientation_theta):.0f} deg   brushes {"up" if status.brushes_up else "down"}   '
             f'{status.debug_message}')

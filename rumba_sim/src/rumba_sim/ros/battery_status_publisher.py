@@ -1,8 +1,8 @@
-"""battery_status_publisher: the lesson's node. A Rumba that stands still while its battery runs down.
+"""battery_status_publisher: the node of the lesson. A Rumba that stands still while its battery drains.
 
 Publishes:
-  rumba/battery_status   rumba_msg/BatteryStatus, at ~rate, not latched: the message carries no time, so a
-                         subscriber must be able to trust that what arrives is what is true now
+  rumba/battery_status   rumba_msg/BatteryStatus, at ~rate, not latched: the message has no stamp, so it must be new
+                         when it arrives
 
 Parameters, as in `rosrun rumba_sim battery_status_publisher _rate:=10 _drain:=60`:
 """
@@ -22,13 +22,13 @@ from rumba_sim.ros.common import conversions, node
 class Settings:
     """The node's private parameters."""
 
-    rate: float = setting(5.0, 'messages a second', 'Hz', low=0.01, high=1000.0)
-    percentage: float = setting(100.0, 'charge to begin with', '%', low=0.0, high=100.0)
-    drain: float = setting(1.0, 'how many times faster than a real battery this one runs down', low=0.0, high=1e4)
-    location_x: float = setting(0.0, 'where the robot stands in the map frame', 'm')
-    location_y: float = setting(0.0, 'where the robot stands in the map frame', 'm')
-    orientation_theta: float = setting(0.0, 'where it looks, counter-clockwise from the x axis', 'rad')
-    brushes_up: bool = setting(False, 'brushes lifted and still; down they draw current')
+    rate: float = setting(5.0, 'messages per second', 'Hz', low=0.01, high=1000.0)
+    percentage: float = setting(100.0, 'charge at the start', '%', low=0.0, high=100.0)
+    drain: float = setting(1.0, 'factor by which the battery drains faster than a real one', low=0.0, high=1e4)
+    location_x: float = setting(0.0, 'x of the robot in the map frame', 'm')
+    location_y: float = setting(0.0, 'y of the robot in the map frame', 'm')
+    orientation_theta: float = setting(0.0, 'heading of the robot, counter-clockwise from the x axis', 'rad')
+    brushes_up: bool = setting(False, 'whether the brushes are lifted; on the floor they draw current')
 
 
 def main() -> None:
@@ -37,7 +37,7 @@ def main() -> None:
 
 
 def publish(settings: Settings) -> None:
-    """Run the battery down and tell of it, until ROS shuts down."""
+    """Drain the battery and publish its state until ROS shuts down."""
     config = BatteryConfig(drain=settings.drain)
     battery = Battery(config, settings.percentage / 100.0)
     load = config.idle_current + (0.0 if settings.brushes_up else config.brush_current)

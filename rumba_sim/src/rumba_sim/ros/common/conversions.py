@@ -25,7 +25,7 @@ LASER_HEIGHT = 0.07  # [m] of laser over base_link
 
 
 def battery_status(battery: Battery, pose: Pose, brushes_up: bool, trouble: str = '') -> BatteryStatus:
-    """The lesson's message; its debug message tells what the battery does, or a trouble that matters more."""
+    """The lesson's message; its debug message, for a person, is about the battery, or about a trouble."""
     return BatteryStatus(
         percentage_battery=battery.percentage,
         location_x=pose.x,
@@ -43,7 +43,7 @@ def _battery_in_words(battery: Battery) -> str:
 
 
 def trouble(robot: Robot) -> str:
-    """What keeps a robot from going on, for a person; empty where nothing does."""
+    """What keeps a robot from going on, for a person; empty if nothing does."""
     if robot.has_fallen:
         return 'a wheel hangs over a cliff: teleport me'
     left, right = robot.bumper
@@ -88,7 +88,7 @@ def place(pose: PoseMessage) -> Pose:
 
 def odometry(pose: Pose, twist: Twist, header: Header, child: str, pose_variance: Sequence[float] = (0.0, 0.0),
              twist_variance: Sequence[float] = (0.0, 0.0)) -> Odometry:
-    """Pose in the header's frame and velocity in the child's, with variances of place [m^2, (m/s)^2] and heading."""
+    """Pose in the header's frame and velocity in the child's, with variances of position and heading."""
     message = Odometry(header=header, child_frame_id=child)
     message.pose.pose = PoseMessage(Point(pose.x, pose.y, 0.0), quaternion(pose.theta))
     message.pose.covariance = _covariance(*pose_variance)
@@ -98,18 +98,18 @@ def odometry(pose: Pose, twist: Twist, header: Header, child: str, pose_variance
     return message
 
 
-def _covariance(place: float, heading: float) -> List[float]:
+def _covariance(position: float, heading: float) -> List[float]:
     """Row-major 6 x 6 over x, y, z and the rotations about them."""
     covariance = [0.0] * 36
-    covariance[0] = covariance[7] = max(place, KNOWN)
+    covariance[0] = covariance[7] = max(position, KNOWN)
     covariance[14] = covariance[21] = covariance[28] = KNOWN
     covariance[35] = max(heading, KNOWN)
     return covariance
 
 
-def odometry_variance(way: float, config: OdometryConfig, wheel_base: float) -> Sequence[float]:
-    """Variance of place [m^2] and heading [rad^2] after a way [m]: wrong scale and noise of the wheels, added up."""
-    wheel = (config.scale_error * way) ** 2 + config.noise ** 2 * way
+def odometry_variance(distance: float, config: OdometryConfig, wheel_base: float) -> Sequence[float]:
+    """Variance of position [m^2] and heading [rad^2] after a distance [m], by wrong scale and noise of the wheels."""
+    wheel = (config.scale_error * distance) ** 2 + config.noise ** 2 * distance
     return 0.5 * wheel, 2.0 * wheel / wheel_base ** 2
 
 
@@ -120,14 +120,14 @@ def transform(frame: str, child: str, pose: Pose, stamp: object, height: float =
 
 
 def static_transforms(frames: Frames, stamp: object, wheel_diameter: float) -> List[TransformStamped]:
-    """Where the parts of a robot sit that do not move: base_link in the axle of its wheels [m]."""
+    """The parts of a robot that do not move against each other: base_link lies in the axle of its wheels [m]."""
     here = Pose(0.0, 0.0, 0.0)
     return [transform(frames.base_footprint, frames.base_link, here, stamp, 0.5 * wheel_diameter),
             transform(frames.base_link, frames.laser, here, stamp, LASER_HEIGHT)]
 
 
 def scan(ranges: Array, config: LaserConfig, period: float, header: Header) -> LaserScan:
-    """Ranges (beams) [m] from straight back on, counter-clockwise, all taken at the header's stamp."""
+    """Ranges (beams) [m], counter-clockwise from straight back, all taken at the header's stamp."""
     increment = TURN / len(ranges)
     return LaserScan(
         header=header, angle_min=-math.pi, angle_max=-math.pi + (len(ranges) - 1) * increment,
@@ -141,18 +141,18 @@ def bumper(robot: Robot, header: Header) -> Bumper:
     return Bumper(header, left, right)
 
 
-def cliff(cliffs: Sequence[bool], header: Header) -> Cliff:
-    """The floor sensors, from left to right."""
-    return Cliff(header, *cliffs)
+def cliff(robot: Robot, cliffs: Sequence[bool], header: Header) -> Cliff:
+    """The floor sensors, from left to right, and the wheels of a robot."""
+    return Cliff(header, *cliffs, robot.has_fallen)
 
 
 def dock_status(is_docked: bool, infrared: Infrared, header: Header) -> DockStatus:
-    """Contacts and beams."""
+    """Contacts and infrared beams."""
     return DockStatus(header, any(infrared), is_docked, infrared.omni, infrared.left, infrared.right)
 
 
 def cleaning_status(robot: Robot, floor: Floor, header: Header) -> CleaningStatus:
-    """How far the floor is clean, and what the robot did for it."""
+    """How much of the floor is swept, and what the robot did for it."""
     return CleaningStatus(header, floor.coverage, floor.cleaned_area, floor.reachable_area, floor.dirt_left,
                           robot.distance, robot.brush_time)
 

@@ -8,7 +8,7 @@ MAP = 'map'
 
 
 class Frames(NamedTuple):
-    """Where a robot's poses, velocities and readings are meant."""
+    """The frames of a robot's poses, velocities and readings."""
 
     odom: str
     base_footprint: str
@@ -17,6 +17,6 @@ class Frames(NamedTuple):
 
 
 def frames(robot: str) -> Frames:
-    """The frames of a robot by its name: those of `rumba` are plain, all others have the robot's name before them."""
+    """The frames of a robot by its name, which is a prefix of all names but those of `rumba`."""
     prefix = '' if robot == FIRST else f'{robot}/'
     return Frames(*(prefix + name for name in Frames._fields))

@@ -1,4 +1,4 @@
-"""Names of which topics are made."""
+"""Names that become parts of the names of topics."""
 
 from typing import Any
 
@@ -8,10 +8,10 @@ from rumba_sim.model.errors import ConfigError
 
 
 def check_names(settings: Any, *names: str) -> None:
-    """Refuse settings, by their names, that cannot be a part of a topic's name.
+    """Check that settings, given by their names, can be parts of the name of a topic.
 
     Raises:
-        ConfigError: one is no base name of ROS.
+        ConfigError: one of them is not a valid base name of ROS.
     """
     for name in names:
         value = getattr(settings, name)

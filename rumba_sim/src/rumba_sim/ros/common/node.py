@@ -1,4 +1,4 @@
-"""What every node does alike: help, parameters, one clear line and exit code 2 for bad input, a quiet end."""
+"""What all nodes have in common: help, parameters, one clear line and exit code 2 for bad input, a quiet end."""
 
 import http.client
 import inspect
@@ -16,31 +16,33 @@ import rospy
 
 from rumba_sim.model import config, yaml_file
 from rumba_sim.model.errors import ConfigError, RumbaError, WorldError
+from rumba_sim.ros.common.paths import absolute
 
 Settings = TypeVar('Settings')
 BAD_INPUT = 2
-PATIENCE = 2.0  # [s] with a node that the master knows but that does not answer
-LOOK_PERIOD = 0.5  # [s] from one look for a master to the next
+PATIENCE = 10.0  # [s] of the wall clock to wait for another node that starts at the same time
+ANSWER_TIMEOUT = 2.0  # [s] to wait for the answer of a node that the master knows
+LOOK_PERIOD = 0.5  # [s] between two looks for a master
 
 
 def run(name: str, settings_class: Type[Settings], main: Callable[[Settings], None], own_clock: bool = False,
         own_parameters: Sequence[str] = (), is_single: bool = False, arguments_of_others: Sequence[str] = (),
         on_refusal: Callable[[str], Any] = lambda _: None, before: Callable[[], None] = lambda: None) -> None:
-    """Run a node until ROS shuts down; leaves the process with exit code 2 where its input is bad.
+    """Run a node until ROS shuts down; ends the process with exit code 2 if the input is bad.
 
     Args:
-        name: the node's name, unless remapped.
-        settings_class: frozen dataclass of the private parameters, its fields made by `config.setting`.
-        main: the node itself, called once the node is registered; its module's docstring is the node's help.
-        own_clock: the node is the source of time: it does not listen to /clock.
-        own_parameters: private parameters that the node itself writes; what an earlier run left there is deleted.
-        is_single: refuse to start while a node of the same name is alive, which rospy would end otherwise.
-        arguments_of_others: how arguments begin that are not for this function, as those that rostest adds.
-        on_refusal: also told what was wrong with the input.
-        before: called before the node looks for a master, for which it waits without end.
+        name: the node's name, unless it is remapped.
+        settings_class: frozen dataclass of the private parameters, with fields made by `config.setting`.
+        main: the node itself, called after the node is registered; the docstring of its module is the node's help.
+        own_clock: whether the node is the source of time, so that it does not listen to /clock.
+        own_parameters: private parameters that the node itself sets; those of an earlier run are deleted.
+        is_single: whether to refuse to start while a node of the same name is alive; rospy would end that node.
+        arguments_of_others: prefixes of arguments that this function ignores, such as those that rostest adds.
+        on_refusal: called with the message if the input is bad.
+        before: called before the node waits for a master, which has no time limit.
     """
     if isinstance(sys.stdout, io.TextIOWrapper):
-        sys.stdout.reconfigure(line_buffering=True)  # else what rospy logs waits in a pipe until that is full
+        sys.stdout.reconfigure(line_buffering=True)  # otherwise log lines stay in the buffer of a pipe until it is full
     arguments = [argument for argument in rospy.myargv()[1:] if not argument.startswith(tuple(arguments_of_others))]
     if '-h' in arguments or '--help' in arguments:
         print(inspect.getdoc(inspect.getmodule(main)), config.describe(settings_class), sep='\n\n')
@@ -70,31 +72,34 @@ def run(name: str, settings_class: Type[Settings], main: Callable[[Settings], No
         if not rospy.is_shutdown():
             _refuse(name, error, on_refusal)
     except Exception:
-        if not rospy.core.is_shutdown_requested():  # else a topic was closed while the main thread was publishing
+        if not rospy.core.is_shutdown_requested():  # otherwise a topic was closed while the main thread published
             raise
 
 
 def _wait_for_master(line: str) -> None:
-    """Wait for a master, and say so where there is none yet; SIGINT ends the process at once meanwhile.
+    """Wait for a master, and say so if there is none yet; meanwhile, SIGINT ends the process at once.
 
-    rospy waits too, but dies where the command line has a parameter to set.
+    rospy waits too, but it fails if the command line sets a parameter.
     """
     if rosgraph.is_master_online():
         return
-    signal.signal(signal.SIGINT, signal.SIG_DFL)  # rosgraph swallows a KeyboardInterrupt
+    signal.signal(signal.SIGINT, signal.SIG_DFL)  # rosgraph ignores a KeyboardInterrupt
     print(line, file=sys.stderr, flush=True)
     look_for_master()
 
 
 def look_for_master() -> None:
-    """Return once a master answers."""
+    """Return as soon as a master answers."""
     while not rosgraph.is_master_online():
         time.sleep(LOOK_PERIOD)
 
 
 def _shut_down(number: int, _: Any) -> None:
-    """End ROS in a thread: rospy's own handler runs amid whatever the main thread does, and waits for ever for a lock
-    that the main thread holds, as when it was publishing."""
+    """End ROS in a separate thread.
+
+    rospy's own handler interrupts the main thread, and waits forever for a lock that the main thread holds, for example
+    because it is publishing.
+    """
     threading.Thread(target=rospy.signal_shutdown, args=[f'signal {number}']).start()
 
 
@@ -114,7 +119,7 @@ def _check_command_line(arguments: List[str], parameters: List[str]) -> None:
 
 
 def _parameters(settings_class: Type[Settings], own: Sequence[str]) -> Settings:
-    """The private parameters of this node, over those of the file that its parameter `config` names."""
+    """The private parameters of this node, which override those of the file that its parameter `config` names."""
     for name in own:
         if rospy.has_param(f'~{name}'):
             rospy.delete_param(f'~{name}')
@@ -122,25 +127,26 @@ def _parameters(settings_class: Type[Settings], own: Sequence[str]) -> Settings:
     settings = settings_class()
     path = parameters.get('config', '')
     if 'config' in config.names(settings_class) and path:
+        path = absolute(path)
         settings = config.updated(settings, yaml_file.read_mapping(path, ConfigError), path)
     return config.updated(settings, parameters, f'parameter of {rospy.get_name()}')
 
 
 def _take_parameters_back() -> None:
-    """The parameter server outlives a node: what a refused command line put there must not spoil the next start."""
+    """Delete the parameters that a refused command line has set: otherwise the next start would be refused too."""
     for assignment in filter(None, (re.match(r'_([^_]\w*(?:/\w+)*):=', argument) for argument in sys.argv)):
         if rospy.has_param(f'~{assignment.group(1)}'):
             rospy.delete_param(f'~{assignment.group(1)}')
 
 
-# --- who else is there --------------------------------------------------------------------------------------------
+# --- other nodes --------------------------------------------------------------------------------------------------
 
 class _Hasty(xmlrpc.client.Transport):
-    """Gives up on who does not answer."""
+    """Gives up if there is no answer."""
 
     def make_connection(self, host: Any) -> http.client.HTTPConnection:
         connection = super().make_connection(host)
-        connection.timeout = PATIENCE
+        connection.timeout = ANSWER_TIMEOUT
         return connection
 
 
@@ -149,15 +155,15 @@ def _refuse_twin(name: str) -> None:
     try:
         xmlrpc.client.ServerProxy(rosgraph.Master(name).lookupNode(name), _Hasty()).getPid(name)
     except (rosgraph.MasterException, xmlrpc.client.Error, http.client.HTTPException, OSError):
-        return  # no such node, or what a killed one left at the master, or no master yet
-    raise WorldError(f'a node {name} is here already: end it first')
+        return  # no such node, or one that was killed without telling the master, or no master yet
+    raise WorldError(f'a node {name} is already running: end it first')
 
 
 def is_served(service: str) -> bool:
-    """Whether somebody serves a service, and answers: a node that was killed leaves its services at the master."""
+    """Whether a node serves a service, and answers: the master still knows the services of a node that was killed."""
     try:
         rosgraph.Master(rospy.get_name()).lookupService(rospy.resolve_name(service))
-        rospy.wait_for_service(service, PATIENCE)
+        rospy.wait_for_service(service, ANSWER_TIMEOUT)
     except (rosgraph.MasterException, rospy.ROSException):
         return False
     return True

@@ -1,4 +1,4 @@
-"""What callbacks ask of the loop that owns the world: they queue, it acts."""
+"""Requests of callbacks to the loop that owns the world: callbacks queue them, the loop carries them out."""
 
 import concurrent.futures
 import queue
@@ -10,19 +10,19 @@ import rospy
 
 
 class Requests:
-    """A queue of calls from any thread, made one by one in the thread that made this object."""
+    """A queue of calls from any thread, made one by one in the thread that created this object."""
 
     def __init__(self) -> None:
-        """Belong to the present thread."""
+        """Make the current thread the owner."""
         self._owner = threading.current_thread()
-        # Not a SimpleQueue: a signal whose handler takes longer than the timeout makes its get() wait for ever.
+        # Not a SimpleQueue: if the handler of a signal takes longer than the timeout, its get() waits forever.
         self._queue: 'queue.Queue[Tuple[Callable[[], Any], concurrent.futures.Future[Any]]]' = queue.Queue()
 
     def call(self, function: Callable[[], Any]) -> Any:
-        """Have the owner call a function; returns its result, or raises what it raised.
+        """Have the owner call a function; returns its result, or raises its exception.
 
         Raises:
-            rospy.ROSInterruptException: the node ends before the owner came to it.
+            rospy.ROSInterruptException: the node ends before the owner has called the function.
         """
         if threading.current_thread() is self._owner:
             return function()
@@ -41,7 +41,7 @@ class Requests:
         return answer
 
     def serve(self, until: float) -> None:
-        """Make the calls that are queued, and those that come until a time of `time.monotonic`."""
+        """Make the calls that are in the queue, and those that arrive until a time of `time.monotonic`."""
         while True:
             request = self._next(until - time.monotonic())
             if request is None:
@@ -49,7 +49,7 @@ class Requests:
             function, answer = request
             try:
                 answer.set_result(function())
-            except Exception as error:  # for whoever asked
+            except Exception as error:  # passed on to the caller
                 answer.set_exception(error)
 
     def _next(self, seconds: float) -> Optional[Tuple[Callable[[], Any], 'concurrent.futures.Future[Any]']]:

@@ -1,4 +1,4 @@
-"""A terminal that gives single keys as they are typed, shows one live line, and is left as it was found."""
+"""A terminal that returns single keys as they are typed, shows one live line, and is restored at the end."""
 
 import os
 import re
@@ -15,13 +15,13 @@ from rumba_sim.model.errors import RumbaError
 CTRL_C = '\x03'
 CTRL_D = '\x04'
 ESCAPE = '\x1b'
-# What a terminal sends for an arrow key, by the mode that it happens to be in.
+# What a terminal sends for an arrow key: this depends on its mode.
 ARROWS = {introducer + letter: name for introducer in ('\x1b[', '\x1bO')
           for letter, name in zip('ABCD', ('up', 'down', 'right', 'left'))}
 
 ONE_KEY = re.compile(r'\x1b\[[0-?]*[ -/]*[@-~]|\x1bO[@-~]|\x1b[^\x1b\[O]|.', re.DOTALL)
 UNFINISHED = re.compile(r'\x1b(\[[0-?]*[ -/]*|O)?\Z')
-# The rest of an escape sequence may come this late over a slow line; a lone Esc counts only after it [s].
+# [s] The rest of an escape sequence may come this late over a slow line; a single Esc counts only after this time.
 ESCAPE_WAIT = 0.05
 
 TO_LINE_START_AND_ERASE = '\r\x1b[K'
@@ -30,7 +30,7 @@ SHOW_CURSOR = '\x1b[?25h'
 
 
 def split_keys(text: str) -> Tuple[List[str], str]:
-    """The keys that a terminal's input stands for, and what at its end may be the beginning of one more.
+    """Split the input of a terminal into keys, and a rest that may be the beginning of another key.
 
     Arrow keys are `up`, `down`, `left` and `right`; every other key is what the terminal sends for it.
     """
@@ -41,17 +41,17 @@ def split_keys(text: str) -> Tuple[List[str], str]:
 
 
 def width() -> int:
-    """Columns of the terminal; 80 where it does not tell (Python below 3.10 then says 0)."""
+    """Columns of the terminal; 80 if they are not known (Python before 3.10 then returns 0)."""
     return shutil.get_terminal_size().columns or 80
 
 
 class Terminal:
-    """The terminal of standard input and output, taken over while in the context and given back at its end.
+    """The terminal of standard input and output; the context changes its mode and restores it at the end.
 
-    Ctrl-C and Ctrl-Z still send their signals. Lines may be printed as usual: `\\n` stays a whole line end.
+    Ctrl-C and Ctrl-Z still send their signals. Lines can be printed as usual: `\\n` is still a complete line end.
 
     Raises:
-        RumbaError: standard input or output is no terminal.
+        RumbaError: standard input or output is not a terminal.
     """
 
     def __init__(self) -> None:
@@ -70,9 +70,9 @@ class Terminal:
         self._give_back()
 
     def keys(self, timeout: float) -> List[str]:
-        """The keys typed since the last call; waits at most `timeout` [s] where there are none.
+        """The keys typed since the last call; waits at most `timeout` [s] if there are none.
 
-        A terminal that is gone reads as Ctrl-D.
+        A terminal that was closed returns Ctrl-D.
         """
         keys, rest = split_keys(self._read(timeout))
         while rest:
@@ -96,7 +96,7 @@ class Terminal:
         self._shown = ''
 
     def suspend(self) -> None:
-        """Do what Ctrl-Z does to any program; returns when the shell brings this one back."""
+        """Stop the process as Ctrl-Z does; returns when the shell continues it."""
         self._give_back()
         handler = signal.signal(signal.SIGTSTP, signal.SIG_DFL)
         os.kill(os.getpid(), signal.SIGTSTP)
@@ -105,10 +105,10 @@ class Terminal:
 
     def _take(self) -> None:
         attributes = termios.tcgetattr(self._fd)
-        # Ctrl-S and Ctrl-Q too are keys: the one would freeze the picture while the robot drives on.
+        # Ctrl-S and Ctrl-Q count as keys: otherwise Ctrl-S would stop the output while the robot drives on.
         attributes[tty.IFLAG] &= ~termios.IXON
         attributes[tty.LFLAG] &= ~(termios.ICANON | termios.ECHO | termios.IEXTEN)
-        # Ctrl-\ would end the program with the terminal as it is now.
+        # Otherwise Ctrl-\ would end the program without restoring the terminal.
         attributes[tty.CC][termios.VQUIT] = os.fpathconf(self._fd, 'PC_VDISABLE')
         attributes[tty.CC][termios.VMIN], attributes[tty.CC][termios.VTIME] = 1, 0
         termios.tcsetattr(self._fd, termios.TCSAFLUSH, attributes)
@@ -118,16 +118,16 @@ class Terminal:
     def _give_back(self) -> None:
         try:
             self._write(SHOW_CURSOR + '\n')
-            # Keys that were not read yet were meant for the robot: the shell must not get them.
+            # Keys that were not read yet are for the robot: the shell must not get them.
             termios.tcsetattr(self._fd, termios.TCSAFLUSH, self._found)
         except termios.error:
-            pass  # the terminal is gone
+            pass  # the terminal was closed
 
     def _read(self, timeout: float) -> str:
         if not select.select([self._fd], [], [], timeout)[0]:
             return ''
         try:
-            # One character a byte: keys that count are ASCII, and every other byte is a key that is none of them.
+            # One character per byte: all keys with a meaning are ASCII, and any other byte is a key without one.
             return os.read(self._fd, 1000).decode('latin-1') or CTRL_D
         except OSError:
             return CTRL_D
@@ -137,4 +137,4 @@ class Terminal:
         try:
             print(text, end='', flush=True)
         except OSError:
-            pass  # the terminal is gone, which the next read tells
+            pass  # the terminal was closed, as the next read will show

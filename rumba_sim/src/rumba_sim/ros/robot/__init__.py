@@ -1,1 +1,1 @@
-"""One robot as ROS sees it: its topics, services and frames, whatever moves it."""
+"""One robot as ROS sees it: its topics, services and frames, and whose command it follows."""

@@ -1,7 +1,7 @@
 """How often the messages of a robot are published, and which of them are due at a tick."""
 
 import dataclasses
-from typing import NamedTuple
+from typing import List, NamedTuple
 
 from rumba_sim.model.config import names, setting
 from rumba_sim.model.errors import ConfigError
@@ -32,11 +32,11 @@ class Rates:
     cleaning: int = setting(1, 'cleaning_status and coverage', 'Hz', 0, MAX_RATE)
 
     def due(self, ticks: int, step_rate: float) -> Due:
-        """What is due at a tick: where no whole number of ticks gives a rate, at the next after each period."""
+        """What is due at a tick: the first after each period, if a period is no whole number of ticks."""
         return Due(*(ticks * rate // step_rate > (ticks - 1) * rate // step_rate for rate in self._all()))
 
     def check(self, step_rate: int) -> None:
-        """Refuse rates that no whole number of ticks gives.
+        """Refuse rates whose period is no whole number of ticks.
 
         Raises:
             ConfigError: a rate does not divide the step rate.
@@ -47,5 +47,5 @@ class Rates:
                 raise ConfigError(f'rates/{name} is {rate}: must divide step_rate, {step_rate}: one of 0, '
                                   + ', '.join(possible))
 
-    def _all(self) -> Due:
-        return Due(self.odom, self.ground_truth, self.scan, self.sensors, self.battery, self.cleaning)
+    def _all(self) -> List[int]:
+        return [self.odom, self.ground_truth, self.scan, self.sensors, self.battery, self.cleaning]

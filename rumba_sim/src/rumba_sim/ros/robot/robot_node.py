@@ -1,6 +1,8 @@
-"""One robot of the simulator, as ROS sees it: its topics, its services, its frames."""
+"""One robot as a part of the node that moves it: its topics, services and frames."""
 
 import math
+import threading
+import time
 from typing import Any, Callable, List, Optional, Tuple
 
 import rospy
@@ -16,43 +18,47 @@ from rumba_sim.model.errors import RumbaError, WorldError
 from rumba_sim.model.geometry import Pose, compose, inverse
 from rumba_sim.model.robot import Robot
 from rumba_sim.model.world import World
-from rumba_sim.ros.common import conversions, node
+from rumba_sim.ros.common import conversions, node, teleop
 from rumba_sim.ros.common.frames import MAP, frames
 from rumba_sim.ros.common.requests import Requests
 from rumba_sim.ros.robot.rates import Due, Rates
+from rumba_sim.ros.robot.velocity_mux import Input, VelocityMux
 
 COMPLAINT_PERIOD = 1.0  # [s]
 QUEUE = 100  # messages that a subscriber may be behind, at speed 0 too, before it misses one
+# Who may drive, below the robot's name; times are those of the wall clock.
+INPUTS = (Input(teleop.TOPIC, 100, teleop.TIMEOUT), Input('cmd_vel', 10, 0.5))
 
 
 class CoverageRequested(rospy.SubscribeListener):
-    """Has the grid sent to whoever begins to listen, as a latched topic would, but with what is true now."""
+    """Sends the grid to each new subscriber, as a latched topic does, but as the grid is at that time."""
 
     def __init__(self, requests: Requests, message: Callable[[], OccupancyGrid]) -> None:
-        """Ask by `requests` for a `message`."""
+        """Have the owner of `requests` make each `message`."""
         self._requests = requests
         self._message = message
 
     def peer_subscribe(self, topic_name: str, topic_publish: Any, peer_publish: Callable[[Any], None]) -> None:
-        """Somebody listens now."""
+        """There is a new subscriber."""
         self._requests.post(lambda: peer_publish(self._message()))
 
 
 class RobotNode:
-    """Publishers, subscriber and services of one robot; only `publish` and `apply_command` touch the world."""
+    """Publishers, subscribers and services of one robot; only `publish` and `apply_command` touch the world."""
 
     def __init__(self, world: World, name: str, requests: Requests, has_localisation: bool,
                  stamp: rospy.Time, has_laser: bool = True) -> None:
-        """Open the robot's topics and services below its name; its time begins at `stamp`.
+        """Open the robot's topics and services below its name; `stamp` is the present time.
 
         Raises:
-            WorldError: another node serves a robot of that name.
+            WorldError: another node has a robot of that name.
         """
         self._world = world
         self._name = name
         self._frames = frames(name)
         self._has_localisation = has_localisation
         self._command: Optional[Tuple[float, float]] = None
+        self._mux, self._mux_lock = VelocityMux(INPUTS), threading.Lock()
         self._stamp = stamp
         self._requests = requests
         refuse_twin(name)
@@ -66,8 +72,10 @@ class RobotNode:
                 *([('scan', LaserScan, None)] if has_laser else []),
                 ('bumper', Bumper, None), ('cliff', Cliff, None), ('dock_status', DockStatus, None),
                 ('cleaning_status', CleaningStatus, None), ('coverage', OccupancyGrid, coverage))}
-        self._others = [
-            rospy.Subscriber(f'{name}/cmd_vel', Twist, self._on_command, queue_size=1),
+        self._subscribers = [
+            rospy.Subscriber(f'{name}/{each.name}', Twist, self._on_command, each.name, queue_size=1)
+            for each in INPUTS]
+        self._services = [
             rospy.Service(f'{name}/set_brushes_up', SetBool, self._on_brushes),
             rospy.Service(f'{name}/teleport', Teleport, self._on_teleport)]
 
@@ -76,25 +84,26 @@ class RobotNode:
         return self._world.robots[self._name]
 
     def close(self) -> None:
-        """Take topics and services away."""
-        subscriber, *services = self._others
-        for service in services:
+        """Close the robot's topics and services."""
+        for service in self._services:
             service.shutdown('the robot is gone')
-        for publisher in (subscriber, *self._publishers.values()):
-            publisher.unregister()
+        for topic in (*self._subscribers, *self._publishers.values()):
+            topic.unregister()
 
-    # --- what others ask ------------------------------------------------------------------------------------------
+    # --- commands and services ------------------------------------------------------------------------------------
 
-    def _on_command(self, twist: Twist) -> None:
+    def _on_command(self, twist: Twist, topic: str) -> None:
         v, w = twist.linear.x, twist.angular.z
-        if math.isfinite(v) and math.isfinite(w):
-            self._command = v, w
-        else:
-            rospy.logerr_throttle(COMPLAINT_PERIOD, f'{self._name}/cmd_vel: linear.x {v} m/s, angular.z {w} rad/s: '
+        if not (math.isfinite(v) and math.isfinite(w)):
+            rospy.logerr_throttle(COMPLAINT_PERIOD, f'{self._name}/{topic}: linear.x {v} m/s, angular.z {w} rad/s: '
                                                     'must be finite numbers; ignored')
+            return
+        with self._mux_lock:  # each input has a thread of its own
+            if self._mux.passes(topic, time.monotonic()):
+                self._command = v, w
 
     def apply_command(self) -> None:
-        """Give the robot the newest command, if one came since the last tick."""
+        """Give the robot the newest command that counts, if one came since the last tick."""
         command, self._command = self._command, None
         if command is not None:
             self._robot.command(*command, self._world.tick)
@@ -116,10 +125,10 @@ class RobotNode:
     def _teleport(self, pose: Pose) -> None:
         self._requests.call(lambda: self._world.teleport(self._name, pose))
 
-    # --- what it tells --------------------------------------------------------------------------------------------
+    # --- messages -------------------------------------------------------------------------------------------------
 
     def publish(self, due: Due, rates: Rates, stamp: rospy.Time) -> None:
-        """Publish what is due, all with one stamp."""
+        """Publish the messages that are due, all with the same stamp."""
         self._stamp = stamp
         robot = self._robot
         if due.scan:
@@ -146,12 +155,12 @@ class RobotNode:
     def _publish_sensors(self) -> None:
         base = self._frames.base_link
         self._tell('bumper', lambda: conversions.bumper(self._robot, self._header(base)))
-        self._tell('cliff', lambda: conversions.cliff(self._world.cliffs(self._name), self._header(base)))
+        self._tell('cliff', lambda: conversions.cliff(self._robot, self._world.cliffs(self._name), self._header(base)))
         self._tell('dock_status', lambda: conversions.dock_status(
             self._robot.is_docked, self._world.infrared(self._name), self._header(base)))
 
     def _tell(self, topic: str, message: Callable[[], Any]) -> None:
-        """Make and publish a message, if anybody listens: most of the cost is in making it."""
+        """Make and publish a message if there is a subscriber: most of the cost is in making it."""
         publisher = self._publishers[topic]
         if publisher.get_num_connections():
             publisher.publish(message())
@@ -164,14 +173,14 @@ class RobotNode:
         wheel_base = config.drive.wheel_base
         tick = 1.0 / self._world.step_rate
         twist = robot.odometry_twist
-        way = abs(twist.v) * tick
+        distance = abs(twist.v) * tick
         return conversions.odometry(
             robot.odometry, twist, self._header(self._frames.odom), self._frames.base_footprint,
             conversions.odometry_variance(robot.distance, config.odometry, wheel_base),
-            [variance / tick ** 2 for variance in conversions.odometry_variance(way, config.odometry, wheel_base)])
+            [variance / tick ** 2 for variance in conversions.odometry_variance(distance, config.odometry, wheel_base)])
 
     def transforms(self) -> List[TransformStamped]:
-        """Where it believes to be, and what corrects that, at the stamp of what was published last."""
+        """The pose by odometry, and its correction, at the stamp of what was published last."""
         odometry = self._robot.odometry
         found = [conversions.transform(self._frames.odom, self._frames.base_footprint, odometry, self._stamp)]
         if self._has_localisation:
@@ -180,7 +189,7 @@ class RobotNode:
         return found
 
     def static_transforms(self) -> List[TransformStamped]:
-        """Where the parts of the robot sit that do not move."""
+        """The parts of the robot that do not move against each other."""
         return conversions.static_transforms(self._frames, self._stamp, self._robot.config.drive.wheel_diameter)
 
     def _coverage_message(self) -> OccupancyGrid:
@@ -188,11 +197,11 @@ class RobotNode:
 
 
 def refuse_twin(name: str) -> None:
-    """Refuse a robot that another node has already: two that answer to one name would fight over its wheels.
+    """Refuse a robot that another node has already: both would obey the same commands.
 
     Raises:
-        WorldError: another node serves a robot of that name.
+        WorldError: another node has a robot of that name.
     """
     service = rospy.resolve_name(f'{name}/teleport')
     if node.is_served(service):
-        raise WorldError(f'a robot {name!r} is here already ({service} is served): end the node that has it')
+        raise WorldError(f'there is already a robot {name!r} (another node serves {service}): end that node')

@@ -1,56 +1,47 @@
-"""What /diagnostics tells of the simulation and of each battery."""
+"""Diagnostics of the simulation and of each battery, for people."""
 
-import time
 from typing import Callable
 
-import diagnostic_updater
 from diagnostic_msgs.msg import DiagnosticStatus
+from diagnostic_updater import DiagnosticStatusWrapper, Updater
 
 from rumba_sim.model.robot import Robot
 
-Status = diagnostic_updater.DiagnosticStatusWrapper
-PERIOD = 1.0  # [s] of the wall clock (REP 107: 1 Hz)
-LOW, CRITICAL = 10, 3  # [%] (Create 3: goes home below 10 %, warns below 3 %)
+LOW, CRITICAL = 10, 3  # [%] (the Create 3 goes home below 10 % and warns below 3 %)
 SLOW = 0.9  # share of the wanted speed below which the simulation is too slow
 
 
 class Diagnostics:
-    """Counts what passes, and tells it once a second of the wall clock."""
+    """Publishes how fast the simulation is, and the state of each battery."""
 
     def __init__(self, hardware: str) -> None:
-        """Begin to count now."""
-        self._updater = diagnostic_updater.Updater()
+        """Begin without batteries; `hardware` is the name of the map."""
+        self._updater = Updater()
         self._updater.setHardwareID(hardware)
-        self._last = time.monotonic()
-        self._simulated = 0.0
         self._speed, self._wanted, self._late, self._late_before = 0.0, 1.0, 0, 0
         self._updater.add('simulation', self._simulation)
 
     def add(self, robot: str, find: Callable[[], Robot]) -> None:
-        """Watch the battery of a robot."""
+        """Report the battery of a robot from now on."""
         self._updater.add(f'battery of {robot}', lambda status: battery(status, find()))
 
     def remove(self, robot: str) -> None:
-        """Watch the battery of a robot no longer."""
+        """Report the battery of a robot no longer."""
         self._updater.removeByName(f'battery of {robot}')
 
-    def update(self, simulated: float, wanted: float, late: int) -> None:
-        """Tell, if it is time.
+    def update(self, speed: float, wanted: float, late: int) -> None:
+        """Publish; to be called once a second of the wall clock (REP 107).
 
         Args:
-            simulated: time that passed in the simulation [s].
+            speed: reached since the last call [times real time].
             wanted: speed [times real time]; 0: as fast as possible.
             late: how often the simulator gave up to catch up.
         """
-        now = time.monotonic()
-        if now - self._last < PERIOD:
-            return
-        self._speed, self._wanted = (simulated - self._simulated) / (now - self._last), wanted
+        self._speed, self._wanted = speed, wanted
         self._late, self._late_before = late, self._late
-        self._last, self._simulated = now, simulated
         self._updater.force_update()
 
-    def _simulation(self, status: Status) -> Status:
+    def _simulation(self, status: DiagnosticStatusWrapper) -> DiagnosticStatusWrapper:
         slow = self._speed < SLOW * self._wanted
         if self._late > self._late_before:
             status.summary(DiagnosticStatus.WARN, 'this machine is too slow for the wanted speed')
@@ -62,7 +53,7 @@ class Diagnostics:
         return status
 
 
-def battery(status: Status, robot: Robot) -> Status:
+def battery(status: DiagnosticStatusWrapper, robot: Robot) -> DiagnosticStatusWrapper:
     """Fill in the state of a battery."""
     state = robot.battery
     level, word = DiagnosticStatus.OK, 'charged'

@@ -1,4 +1,4 @@
-"""dynamic_reconfigure for settings: their unit, range and meaning stand in the settings themselves, and only there."""
+"""dynamic_reconfigure for settings: unit, range and meaning come from the settings themselves."""
 
 from typing import Any, Callable, Dict, List, Mapping
 
@@ -12,13 +12,13 @@ UNLIMITED = 1e9
 
 
 class Description:
-    """A class of settings as dynamic_reconfigure's server wants it described, in place of a generated module.
+    """A class of settings, described as the server of dynamic_reconfigure needs it, instead of a generated module.
 
     A path such as `battery/drain` becomes the name `battery_drain`.
     """
 
     def __init__(self, settings: Any, paths: List[str]) -> None:
-        """Describe the settings at these paths, their present values the defaults."""
+        """Describe the settings at these paths; their present values become the defaults."""
         fields = {path: field for path, field in leaves(type(settings)) if path in paths}
         values = {path: value_at(settings, path) for path in paths}
         self.defaults = Config({_name(path): values[path] for path in paths})
@@ -36,10 +36,10 @@ def serve(settings: Any, paths: List[str], namespace: str, apply: Callable[[Dict
     """Offer settings to rqt_reconfigure and dynparam.
 
     Args:
-        settings: a frozen dataclass, its fields made by `setting` and `section`.
-        paths: of those that may be changed, as `battery/drain`.
-        namespace: below the node's name, where the server keeps its parameters.
-        apply: called with a nested mapping of all of them; returns the settings that are then in force.
+        settings: a frozen dataclass with fields made by `setting` and `section`.
+        paths: of the settings that can be changed, for example `battery/drain`.
+        namespace: name below the node's name for the parameters of the server.
+        apply: called with a nested mapping of all these settings; returns the settings that are then in force.
     """
     def callback(config: Config, _: int) -> Config:
         in_force = apply(nested({path: config[_name(path)] for path in paths}))
@@ -80,4 +80,4 @@ def _limit(field: Any, end: str) -> Any:
 
 def _text(field: Any) -> str:
     unit = field.metadata['unit']
-    return field.metadata['doc'] + (f' [{unit}]' if unit else '')
+    return f'{field.metadata["doc"]} [{unit}]' if unit else str(field.metadata['doc'])

@@ -1,4 +1,4 @@
-"""The parameters of the simulator: what the robots are like, and how the node runs."""
+"""The parameters of the simulator: properties of the robots, and how the node runs."""
 
 import dataclasses
 
@@ -11,9 +11,9 @@ from rumba_sim.ros.robot.rates import MAX_RATE, Rates
 class Settings(RobotConfig):
     """Parameters of the simulator, with their defaults.
 
-    `rosrun rumba_sim simulator --config` prints this file. A copy, changed, is given as `_config:=PATH`, or
-    `roslaunch rumba_sim simulator.launch config:=PATH`; what it leaves out keeps its default. Single parameters go
-    before it: `_battery/drain:=60`.
+    `rosrun rumba_sim simulator --config` prints this file. Change a copy of it, and give that as `_config:=PATH`, or
+    `roslaunch rumba_sim simulator.launch config:=PATH`; what the copy leaves out keeps its default. Single parameters
+    override the file: `_battery/drain:=60`.
 
     Sources of the figures:
       OI: iRobot Roomba 600 Open Interface specification
@@ -23,23 +23,23 @@ class Settings(RobotConfig):
     """
 
     map: str = setting('apartment', 'name of a map of this package, or path of a map_server YAML file')
-    speed: float = setting(1.0, 'times real time; 0: as fast as possible', '', 0.0, 1e6)
-    robots: int = setting(1, 'robots at the beginning: rumba, rumba2, rumba3, ...', '', 0, 1000)
-    seed: int = setting(1, 'of all that is random', '', 0, 2 ** 31 - 1)
-    step_rate: int = setting(50, 'ticks in a second of simulated time', 'Hz', 1, MAX_RATE)
-    percentage: float = setting(100.0, 'charge to begin with', '%', 0.0, 100.0)
-    brushes_up: bool = setting(False, 'whether the brushes are lifted at the beginning')
-    localisation: bool = setting(True, 'whether map -> odom is published: the perfect correction of odometry')
-    config: str = setting('', 'path of a YAML file with any of these; parameters go before it')
+    speed: float = setting(1.0, 'multiple of real time; 0: as fast as possible', '', 0.0, 1e6)
+    robots: int = setting(1, 'number of robots at the start: rumba, rumba2, rumba3, ...', '', 0, 1000)
+    seed: int = setting(1, 'seed of the random generators', '', 0, 2 ** 31 - 1)
+    step_rate: int = setting(50, 'ticks per second of simulated time', 'Hz', 1, MAX_RATE)
+    percentage: float = setting(100.0, 'charge at the start', '%', 0.0, 100.0)
+    brushes_up: bool = setting(False, 'whether the brushes are lifted at the start')
+    localisation: bool = setting(True, 'whether to publish map -> odom, the exact correction of odometry')
+    config: str = setting('', 'path of a YAML file with any of these; parameters override it')
     rates: Rates = section(Rates, 'how often messages are published; each divides step_rate')
 
     def __post_init__(self) -> None:
-        """Rates must fit the step rate."""
+        """Check that the rates divide the step rate."""
         self.rates.check(self.step_rate)
 
     @property
     def robot(self) -> RobotConfig:
-        """The part that says what the robots are like."""
+        """Properties of the robots."""
         return part(self, RobotConfig)
 
 

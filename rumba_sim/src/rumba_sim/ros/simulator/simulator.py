@@ -8,16 +8,19 @@ For each robot, below its name (rumba, rumba2, ...), it publishes
   cleaning_status  rumba_msg/CleaningStatus   coverage        nav_msgs/OccupancyGrid
 subscribes to
   cmd_vel          geometry_msgs/Twist: linear.x [m/s], angular.z [rad/s]
+  teleop/cmd_vel   geometry_msgs/Twist: the same from a person; overrides cmd_vel until 0.5 s after its last message
 and serves
   set_brushes_up   std_srvs/SetBool           teleport        rumba_msg/Teleport
-It publishes /map, /tf, /tf_static, /diagnostics, and /clock where time is simulated: at any speed but 1, or where
-/use_sim_time is set. It serves /static_map, and below its own name pause, resume, reset (std_srvs/Trigger),
-step (rumba_msg/Step), spawn (rumba_msg/Spawn) and kill (rumba_msg/Kill). rqt_reconfigure finds it as NAME/tuning.
+It publishes simulator/state (rumba_msg/SimulatorState, latched), /map, /tf, /tf_static and /diagnostics, and also
+/clock if time is simulated: at any speed except 1, or if /use_sim_time is true. It serves /static_map and, below its
+own name, pause, resume, reset (std_srvs/Trigger), step (rumba_msg/Step), spawn (rumba_msg/Spawn) and kill
+(rumba_msg/Kill). rqt_reconfigure shows it as NAME/tuning; the parameters NAME/settings are the settings in force.
 
 Parameters, as in `rosrun rumba_sim simulator _map:=studio _speed:=10 _battery/drain:=60`:
 """
 
 import re
+import time
 from typing import Any, Callable, Dict, Tuple
 
 import rospy
@@ -32,33 +35,35 @@ from rumba_sim.model.geometry import Pose
 from rumba_sim.model.robot import nth_name
 from rumba_sim.model.world import World
 from rumba_sim.ros.common import node
-from rumba_sim.ros.common.maps import FLOOR_PLAN, map_path, refuse_second, tell_map
+from rumba_sim.ros.common.maps import map_path, refuse_second, tell_map
 from rumba_sim.ros.common.requests import Requests
+from rumba_sim.ros.common.simulator_client import SETTINGS
 from rumba_sim.ros.robot.robot_node import RobotNode
+from rumba_sim.ros.robot.state_publisher import StatePublisher, tell_settings
 from rumba_sim.ros.simulator import reconfigure
 from rumba_sim.ros.simulator.diagnostics import Diagnostics
 from rumba_sim.ros.simulator.pace import Pace, wake_on_time
 from rumba_sim.ros.simulator.settings import TUNABLE, Settings
 
-TUNING = 'tuning'  # below the node's name: what dynamic_reconfigure keeps on the parameter server
+TUNING = 'tuning'  # below the node's name: the parameters of dynamic_reconfigure
 NAME = re.compile(r'[A-Za-z]\w*', re.ASCII)
-MAX_STEP = 1_000_000  # ticks of one call
+MAX_STEP = 1_000_000  # [ticks] of one call
 
 
 def main() -> None:
     """Run the node."""
     node.run('simulator', Settings, lambda settings: Simulator(settings).run(), own_clock=True,
-             own_parameters=[TUNING, FLOOR_PLAN], is_single=True)
+             own_parameters=[TUNING, SETTINGS], is_single=True)
 
 
 class Simulator:
-    """The world, the loop that owns it, and the robots' faces."""
+    """The world, the loop that owns it, and what the robots publish and serve."""
 
     def __init__(self, settings: Settings) -> None:
-        """Build the world and open all topics and services.
+        """Create the world and open all topics and services.
 
         Raises:
-            RumbaError: the map, a parameter, or another simulator is in the way.
+            RumbaError: the map or a setting is wrong, or another simulator is running.
         """
         refuse_second()
         self._settings = settings
@@ -74,8 +79,10 @@ class Simulator:
         self._nodes: Dict[str, RobotNode] = {}
         for _ in range(settings.robots):
             self._spawn(self._free_name(), None)
-        tell_map(self._world.plan, path, self._pace.stamp)
+        tell_map(self._world.plan, self._pace.stamp)
+        self._state = StatePublisher(settings, path, settings.step_rate, self._pace.is_simulated)
         self._serve()
+        self._publish_state()
 
     def _serve(self) -> None:
         for name, service, response, act in (
@@ -86,11 +93,10 @@ class Simulator:
                 ('spawn', Spawn, SpawnResponse, self._on_spawn),
                 ('kill', Kill, KillResponse, lambda request: self._kill(request.name))):
             rospy.Service(f'~{name}', service, self._handler(response, act))
-        reconfigure.serve(self._settings, TUNABLE, TUNING,
-                          lambda values: self._requests.call(lambda: self._tune(values)))
+        reconfigure.serve(self._settings, TUNABLE, TUNING, self._on_tuning)
 
     def _handler(self, response: Any, act: Callable[[Any], Tuple[Any, ...]]) -> Callable[[Any], Any]:
-        """A service that has the loop act; what goes wrong is its answer."""
+        """A service that has the loop act; an error becomes its answer."""
         def handle(request: Any) -> Any:
             try:
                 return response(True, *self._requests.call(lambda: act(request)))
@@ -101,15 +107,31 @@ class Simulator:
     # --- the loop -------------------------------------------------------------------------------------------------
 
     def run(self) -> None:
-        """Let time pass until ROS shuts down."""
+        """Simulate until ROS shuts down."""
         wake_on_time()
         while not rospy.is_shutdown():
-            self._diagnostics.update(self._ticks / self._settings.step_rate, self._pace.speed, self._pace.late)
             if self._is_paused:
-                self._requests.serve(self._pace.hold())
+                self._serve_requests(self._pace.hold())
             else:
                 self._tick()
-                self._requests.serve(self._pace.next_tick())
+                self._serve_requests(self._pace.next_tick())
+
+    def _serve_requests(self, until: float) -> None:
+        """Carry out requests until a time of `time.monotonic`, and report when a report is due."""
+        while not rospy.is_shutdown():
+            self._requests.serve(min(until, self._state.due))
+            self._report()
+            if time.monotonic() >= until:
+                return
+
+    def _report(self) -> None:
+        """Publish state and diagnostics, if they are due."""
+        if time.monotonic() >= self._state.due:
+            self._publish_state()
+            self._diagnostics.update(self._state.real_time_factor, self._pace.speed, self._pace.late)
+
+    def _publish_state(self) -> None:
+        self._state.publish(self._ticks, self._pace.stamp, self._is_paused, self._pace.speed)
 
     def _tick(self) -> None:
         for robot in self._nodes.values():
@@ -124,31 +146,34 @@ class Simulator:
         if due.odom and self._tf.get_num_connections():
             self._tf.publish([part for robot in self._nodes.values() for part in robot.transforms()])
 
-    # --- what services ask ----------------------------------------------------------------------------------------
+    # --- services -------------------------------------------------------------------------------------------------
 
     def _pause(self, is_paused: bool) -> Tuple[str]:
         self._is_paused = is_paused
+        self._publish_state()
         return ('paused' if is_paused else 'running',)
 
     def _reset(self) -> Tuple[str]:
         self._world.reset()
-        return ('all is as it was at the beginning, but for the time',)
+        return ('everything is as it was at the start, except the time',)
 
     def _step(self, ticks: int) -> Tuple[str]:
         if not self._is_paused:
-            raise WorldError('the world is running: pause it first')
+            raise WorldError('the simulation is running: pause it first')
         if not 1 <= ticks <= MAX_STEP:
             raise WorldError(f'ticks is {ticks}: must be 1 to {MAX_STEP}')
         for _ in range(ticks):
             if rospy.is_shutdown():
                 raise WorldError('the simulator ends')
             self._tick()
+            self._report()
+        self._publish_state()
         return (f'{ticks} ticks have passed',)
 
     def _on_spawn(self, request: Any) -> Tuple[str, str]:
         name = request.name or self._free_name()
         if not NAME.fullmatch(name):
-            raise WorldError(f'{name!r} is no name: must be letters, digits and _, beginning with a letter')
+            raise WorldError(f'{name!r} is not a valid name: must be letters, digits and _, beginning with a letter')
         self._spawn(name, Pose(request.pose.x, request.pose.y, request.pose.theta))
         return name, ''
 
@@ -171,20 +196,26 @@ class Simulator:
         return ('',)
 
     def _free_name(self) -> str:
-        """The first of rumba, rumba2, rumba3, ... that is not taken."""
+        """The first of rumba, rumba2, rumba3, ... that is free."""
         names = map(nth_name, range(1, len(self._nodes) + 2))
         return next(name for name in names if name not in self._nodes)
 
     def _tell_static(self) -> None:
         self._tf_static.publish([part for robot in self._nodes.values() for part in robot.static_transforms()])
 
+    def _on_tuning(self, values: Dict[str, Any]) -> Settings:
+        settings: Settings = self._requests.call(lambda: self._tune(values))
+        tell_settings(settings)
+        self._requests.post(self._publish_state)
+        return settings
+
     def _tune(self, values: Dict[str, Any]) -> Settings:
-        """Take new settings, if they are good; returns those in force."""
+        """Apply new settings if they are valid; returns the settings in force."""
         try:
             settings = updated(self._settings, values, TUNING)
             if settings.speed != 1.0 and not self._pace.is_simulated:
-                raise ConfigError('speed can change only where /clock is published: start with a speed other than 1, '
-                                  'or with /use_sim_time true')
+                raise ConfigError('speed can change only if /clock is published: start with a speed other than 1, or '
+                                  'with /use_sim_time true')
             self._world.config = settings.robot
             self._settings = settings
             self._pace.speed = settings.speed
@@ -194,20 +225,20 @@ class Simulator:
 
 
 def is_time_simulated(speed: float) -> bool:
-    """Whether nodes go by /clock; at a speed other than 1 they must, those that start from now until the end."""
+    """Whether time is that of /clock; at a speed other than 1 this sets /use_sim_time until the node ends."""
     was_simulated = bool(rospy.get_param('/use_sim_time', False))
     if speed == 1.0:
         return was_simulated
     rospy.on_shutdown(forget_simulated_time)
     if not was_simulated:
         rospy.set_param('/use_sim_time', True)
-        rospy.loginfo('speed is not 1: /use_sim_time is now true; nodes that were started before go by the wall clock')
+        rospy.loginfo('speed is not 1: /use_sim_time is now true; nodes that started before keep to the wall clock')
     return True
 
 
 def forget_simulated_time() -> None:
-    """Take /use_sim_time back: with nobody to tell it, time would stand still for whatever node starts next."""
+    """Delete /use_sim_time: without a publisher of /clock, time would not pass for nodes that start later."""
     try:
         rospy.delete_param('/use_sim_time')
-    except (KeyError, OSError):  # somebody else did, or the master has gone
+    except (KeyError, OSError):  # another node has deleted it, or the master has ended
         pass

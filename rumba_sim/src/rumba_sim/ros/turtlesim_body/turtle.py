@@ -12,48 +12,48 @@ from std_srvs.srv import Empty
 from rumba_sim.model.errors import ConfigError, WorldError
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.robot import Twist
+from rumba_sim.ros.common.node import ANSWER_TIMEOUT
 
 try:
     from turtlesim.msg import Pose as PoseMessage
     from turtlesim.srv import SetPen, TeleportAbsolute
-except ImportError:  # told when somebody wants a turtle, not when somebody asks for help
+except ImportError:  # an error only if a turtle is needed: --help works without turtlesim
     PoseMessage = None
 
-REMINDER = 15  # frames after which a command that stays is told again: turtlesim forgets it after 1 s
-PATIENCE = 2.0  # [s] with a turtlesim that does not answer
+REMINDER = 15  # [frames] after which an unchanged command is sent again: turtlesim stops the turtle after 1 s
 COMPLAINT_PERIOD = 10.0  # [s]
 STILL = Twist(0.0, 0.0)
 Pen = Tuple[int, int, int, int, bool]  # red, green, blue [0..255], width [pixels], whether it is up
 
 
 class Turtle(rospy.SubscribeListener):
-    """Drives a turtle and holds its pen; turtle and turtlesim may come and go."""
+    """Drives a turtle and sets its pen; turtle and turtlesim may end and start again."""
 
-    def __init__(self, name: str, on_pose: Callable[[Any], None]) -> None:
-        """Listen to a turtle, by its name; `on_pose` is called with each turtlesim/Pose in a thread of rospy.
+    def __init__(self, name: str, on_pose: Callable[[Any], object]) -> None:
+        """Listen to a turtle, given by its name; `on_pose` is called with each turtlesim/Pose in a thread of rospy.
 
         Raises:
             ConfigError: turtlesim is not installed.
         """
         if PoseMessage is None:
-            raise ConfigError("turtlesim's messages are not here: install turtlesim (ROS Noetic: "
+            raise ConfigError('the messages of turtlesim are missing: install turtlesim (ROS Noetic: '
                               'ros-noetic-turtlesim), or build compat/turtlesim of this repository')
         self._name = name
         self._command = STILL
         self._reminder = 0
-        self._pen: Optional[Pen] = None  # as the turtle has it; None: unknown
-        self._wishes: 'queue.Queue[Callable[[], Any]]' = queue.Queue()
+        self._pen: Optional[Pen] = None  # that the turtle has; None: unknown
+        self._calls: 'queue.Queue[Callable[[], Any]]' = queue.Queue()
         threading.Thread(target=self._serve, daemon=True).start()
         self._publisher = rospy.Publisher(f'{name}/cmd_vel', TwistMessage, self, queue_size=1)
         rospy.Subscriber(f'{name}/pose', PoseMessage, on_pose, tcp_nodelay=True)
 
     def peer_subscribe(self, *_: Any) -> None:
-        """Somebody obeys: a new turtle, it may be, with a pen of its own."""
+        """There is a new subscriber of the commands: it may be a new turtle with another pen."""
         self._pen = None
         self._reminder = 0
 
     def drive(self, twist: Twist) -> None:
-        """Have the turtle drive; to be called each frame. A turtle at rest is left to whoever else drives it."""
+        """Have the turtle drive; to be called in each frame. While it rests, other nodes can drive the turtle."""
         self._reminder -= 1
         if twist == self._command and (twist == STILL or self._reminder > 0):
             return
@@ -61,17 +61,17 @@ class Turtle(rospy.SubscribeListener):
         self._publisher.publish(Vector3(twist.v, 0.0, 0.0), Vector3(0.0, 0.0, twist.w))
 
     def hold_pen(self, pen: Pen) -> None:
-        """Have the turtle hold a pen, if it does not yet; returns at once."""
+        """Set the pen of the turtle, unless it has this pen already; returns at once."""
         if pen != self._pen:
             self._pen = pen
-            self._wishes.put(lambda: _call(f'{self._name}/set_pen', SetPen, *pen))
+            self._calls.put(lambda: _call(f'{self._name}/set_pen', SetPen, *pen))
 
     def forget_pen(self) -> None:
-        """Somebody may have changed the pen."""
+        """Set the pen again at the next opportunity: it may have changed."""
         self._pen = None
 
     def teleport(self, pose: Pose, pen: Pen) -> None:
-        """Put the turtle elsewhere, without drawing the way: the pen is lifted, until `hold_pen` is asked anew.
+        """Move the turtle to a pose without drawing a line: the pen is lifted until the next `hold_pen`.
 
         Raises:
             WorldError: turtlesim does not answer.
@@ -85,20 +85,20 @@ class Turtle(rospy.SubscribeListener):
             raise WorldError(f'{rospy.resolve_name(self._name)}: {error}') from None
 
     def clear(self) -> None:
-        """Have turtlesim forget all lines; returns at once."""
-        self._wishes.put(lambda: _call('clear', Empty))
+        """Delete all lines of turtlesim; returns at once."""
+        self._calls.put(lambda: _call('clear', Empty))
 
     def _serve(self) -> None:
-        """A call takes longer than a frame: a thread makes them."""
+        """Call services; in a thread, since a call takes longer than a frame."""
         while not rospy.is_shutdown():
-            wish = self._wishes.get()
+            call = self._calls.get()
             try:
-                wish()
+                call()
             except (rospy.ServiceException, rospy.ROSException) as error:
                 self.forget_pen()
                 rospy.logwarn_throttle(COMPLAINT_PERIOD, f'turtlesim does not answer: {error}')
 
 
 def _call(service: str, kind: Any, *arguments: Any) -> None:
-    rospy.wait_for_service(service, PATIENCE)
+    rospy.wait_for_service(service, ANSWER_TIMEOUT)
     rospy.ServiceProxy(service, kind)(*arguments)

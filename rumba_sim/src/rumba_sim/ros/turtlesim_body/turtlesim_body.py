@@ -8,13 +8,15 @@ Below the robot's name it publishes
   coverage         nav_msgs/OccupancyGrid
 subscribes to
   cmd_vel          geometry_msgs/Twist: linear.x [m/s], angular.z [rad/s]
+  teleop/cmd_vel   geometry_msgs/Twist: the same from a person; overrides cmd_vel until 0.5 s after its last message
 and serves
-  set_brushes_up   std_srvs/SetBool: up, the turtle's pen is up too
+  set_brushes_up   std_srvs/SetBool: lifts or lowers the brushes, and the turtle's pen with them
   teleport         rumba_msg/Teleport: by the turtle's teleport_absolute
-It publishes /map, /tf and /tf_static, and serves /static_map and, below its own name, reset (std_srvs/Trigger): a dirty
-floor, a charged battery. A turtle has no laser: there is no scan.
-Of turtlesim it uses TURTLE/pose (turtlesim/Pose), TURTLE/cmd_vel (geometry_msgs/Twist), TURTLE/set_pen,
-TURTLE/teleport_absolute and clear. Time is that of poses, 16 ms each: while none come it stands still.
+It publishes simulator/state (rumba_msg/SimulatorState, latched), /map, /tf and /tf_static. It serves /static_map and,
+below its own name, reset (std_srvs/Trigger), which makes the floor dirty and charges the battery; the parameters
+NAME/settings are the settings in force. A turtle has no laser, so there is no scan.
+It uses TURTLE/pose (turtlesim/Pose), TURTLE/cmd_vel (geometry_msgs/Twist), TURTLE/set_pen, TURTLE/teleport_absolute and
+clear of turtlesim. Time passes with the poses, 16 ms with each: without poses it stands still.
 
 Parameters, as in `rosrun rumba_sim turtlesim_body _turtle:=turtle2 _battery/drain:=10`:
 """
@@ -34,54 +36,57 @@ from rumba_sim.model.geometry import Pose, wrap_angle
 from rumba_sim.model.guided_world import GuidedWorld
 from rumba_sim.model.robot_config import RobotConfig
 from rumba_sim.model.turtle_motion import FRAME_RATE, PIXELS_PER_METRE, TurtleMotion
+from rumba_sim.model.world import World
 from rumba_sim.ros.common import node
-from rumba_sim.ros.common.maps import FLOOR_PLAN, map_path, refuse_second, tell_map
+from rumba_sim.ros.common.maps import map_path, refuse_second, tell_map
 from rumba_sim.ros.common.names import check_names
 from rumba_sim.ros.common.requests import Requests
+from rumba_sim.ros.common.simulator_client import SETTINGS
 from rumba_sim.ros.robot.rates import Rates
 from rumba_sim.ros.robot.robot_node import RobotNode
+from rumba_sim.ros.robot.state_publisher import StatePublisher
 from rumba_sim.ros.turtlesim_body.turtle import Pen, Turtle
 
 RATES = Rates(scan=0)
 FRAME_NS = round(1e9 / FRAME_RATE)
-ASTRAY = 10_000_000_000  # [ns] by which counted time may be behind /clock
-PERIOD = 0.1  # [s] of the wall clock
-LANDING = 10  # frames after a teleport in which the pen stays up: turtlesim draws when it comes to it
+MAX_LAG = 10_000_000_000  # [ns] by which counted time may be behind /clock
+PERIOD = 0.1  # [s] of the wall clock between two looks whether ROS shuts down
+LANDING = 10  # [frames] after a teleport in which the pen stays up: turtlesim may draw the line late
 
 
 @dataclasses.dataclass(frozen=True)
 class PenSettings:
-    """What the cleaned floor looks like."""
+    """The line that shows the cleaned floor."""
 
-    red: int = setting(240, 'share of red', '', 0, 255)
-    green: int = setting(240, 'share of green', '', 0, 255)
-    blue: int = setting(255, 'share of blue', '', 0, 255)
-    width: int = setting(0, 'of the line, 0: that of the brush, 45 to the metre', 'pixels', 0, 255)
+    red: int = setting(240, 'red part of the colour', '', 0, 255)
+    green: int = setting(240, 'green part of the colour', '', 0, 255)
+    blue: int = setting(255, 'blue part of the colour', '', 0, 255)
+    width: int = setting(0, 'width of the line; 0: that of the brush, at 45 pixels per metre', 'pixels', 0, 255)
 
 
 @dataclasses.dataclass(frozen=True)
 class Settings(RobotConfig):
-    """The node's private parameters: what the robot is like, and whose body it has."""
+    """The node's private parameters: properties of the robot, and which turtle is its body."""
 
     robot: str = setting('rumba', 'name of the robot, below which its topics are')
     turtle: str = setting('turtle1', 'name of the turtle that is its body')
-    map: str = setting('field', "name of a map of this package, or path of a map_server YAML file: turtlesim's field, "
-                                'and where on it the dock stands')
-    seed: int = setting(1, 'of all that is random', '', 0, 2 ** 31 - 1)
-    percentage: float = setting(100.0, 'charge to begin with', '%', 0.0, 100.0)
-    brushes_up: bool = setting(False, 'whether the brushes are lifted at the beginning')
-    localisation: bool = setting(True, 'whether map -> odom is published: the perfect correction of odometry')
-    config: str = setting('', 'path of a YAML file with any of these; parameters go before it')
-    pen: PenSettings = section(PenSettings, 'what the cleaned floor looks like')
+    map: str = setting('field', "name of a map of this package, or path of a map_server YAML file, of turtlesim's "
+                                'field with a dock')
+    seed: int = setting(1, 'seed of the random generators', '', 0, 2 ** 31 - 1)
+    percentage: float = setting(100.0, 'charge at the start', '%', 0.0, 100.0)
+    brushes_up: bool = setting(False, 'whether the brushes are lifted at the start')
+    localisation: bool = setting(True, 'whether to publish map -> odom, the exact correction of odometry')
+    config: str = setting('', 'path of a YAML file with any of these; parameters override it')
+    pen: PenSettings = section(PenSettings, 'the line that shows the cleaned floor')
 
     def __post_init__(self) -> None:
-        """Names of topics are made of the robot's name."""
+        """Check the names of robot and turtle, which are parts of the names of topics."""
         check_names(self, 'robot', 'turtle')
 
 
 def main() -> None:
     """Run the node."""
-    node.run('turtlesim_body', Settings, lambda settings: TurtlesimBody(settings).run(), own_parameters=[FLOOR_PLAN],
+    node.run('turtlesim_body', Settings, lambda settings: TurtlesimBody(settings).run(), own_parameters=[SETTINGS],
              is_single=True)
 
 
@@ -89,47 +94,55 @@ class TurtlesimBody:
     """The loop that owns the robot's world; each pose of the turtle is a tick of it."""
 
     def __init__(self, settings: Settings) -> None:
-        """Build the world and open all topics and services.
+        """Create the world and open all topics and services.
 
         Raises:
-            RumbaError: the map, a parameter, or a simulator is in the way, or turtlesim is not installed.
+            RumbaError: the map or a setting is wrong, a simulator is running, or turtlesim is not installed.
         """
         refuse_second()
         path = map_path(settings.map)
         plan = map_file.load(path)
-        self._world = GuidedWorld(plan, part(settings, RobotConfig), FRAME_RATE, settings.seed, settings.robot,
-                                  settings.percentage / 100.0, settings.brushes_up)
+        self._guided = GuidedWorld(plan, part(settings, RobotConfig), FRAME_RATE, settings.seed, settings.robot,
+                                   settings.percentage / 100.0, settings.brushes_up)
         self._colour = settings.pen
         self._requests = Requests()
         self._motion = TurtleMotion()
         self._ticks = 0
-        self._landed = 0.0  # the tick from which on the pen may be down; inf during a teleport
+        self._landed = 0.0  # tick from which the pen may be down again; inf during a teleport
         self._stamp = self._clock = rospy.Time.now()
         self._turtle = Turtle(settings.turtle, lambda pose: self._requests.post(lambda: self._on_pose(pose)))
-        self._node = TurtleNode(self._world, settings.robot, self._requests, settings.localisation, self._stamp,
+        self._node = TurtleNode(self._guided.world, settings.robot, self._requests, settings.localisation, self._stamp,
                                 self._teleport)
         self._tf = rospy.Publisher('/tf', TFMessage, queue_size=100)
         self._tf_static = rospy.Publisher('/tf_static', TFMessage, queue_size=1, latch=True)
         self._tf_static.publish(self._node.static_transforms())
-        tell_map(plan, path, self._stamp)
+        tell_map(plan, self._stamp)
         rospy.Service('~reset', Trigger, lambda _: TriggerResponse(True, self._requests.call(self._reset)))
+        self._state = StatePublisher(settings, path, FRAME_RATE, not rospy.rostime.is_wallclock())
+        self._state.publish(self._ticks, self._stamp)
 
     def run(self) -> None:
-        """Live as the turtle does, until ROS shuts down."""
+        """Follow the turtle until ROS shuts down."""
         while not rospy.is_shutdown():
             self._requests.serve(time.monotonic() + PERIOD)
+            self._report()
+
+    def _report(self) -> None:
+        """Publish the state, if it is due."""
+        if time.monotonic() >= self._state.due:
+            self._state.publish(self._ticks, self._stamp)
 
     # --- what the turtle does -----------------------------------------------------------------------------------------
 
     def _on_pose(self, message: Any) -> None:
         pose = Pose(message.x, message.y, wrap_angle(message.theta))
         driven = self._motion.driven(pose, message.linear_velocity, message.angular_velocity)
-        for place in driven:
-            self._world.follow(place)
+        for each in driven:
+            self._guided.follow(each)
             self._tick()
         if not driven:
             self._turtle.forget_pen()
-            self._world.jump(pose)
+            self._guided.jump(pose)
             self._tick()
 
     def _tick(self) -> None:
@@ -140,24 +153,29 @@ class TurtlesimBody:
         if due.odom and self._tf.get_num_connections():
             self._tf.publish(self._node.transforms())
         self._node.apply_command()
-        self._turtle.drive(self._world.wish())
+        self._turtle.drive(self._guided.wish())
         if self._ticks >= self._landed:
             self._turtle.hold_pen(self._pen())
+        self._report()
 
     def _next_stamp(self) -> rospy.Time:
-        """In real time that of the wall clock. In simulated time poses are counted, since /clock comes on another way,
-        and is taken where it ran back, or is far ahead: turtlesim was started anew, or poses got lost."""
+        """The stamp of this tick.
+
+        In real time, this is the time of the wall clock. In simulated time, it counts the poses, since /clock and poses
+        arrive separately. If /clock runs backward or is far ahead, turtlesim was started again or poses were lost: then
+        the stamp is that of /clock.
+        """
         now, before = rospy.Time.now(), self._clock
         self._clock = now
         if rospy.rostime.is_wallclock():
             return max(now, self._stamp)
         counted = self._stamp.to_nsec() + FRAME_NS
-        if now < before or now.to_nsec() - counted > ASTRAY:
+        if now < before or now.to_nsec() - counted > MAX_LAG:
             return now
         return rospy.Time(*divmod(counted, 1_000_000_000))
 
     def _pen(self) -> Pen:
-        robot, colour = self._world.robot, self._colour
+        robot, colour = self._guided.robot, self._colour
         width = colour.width or max(round(robot.config.brush.width * PIXELS_PER_METRE), 1)
         return colour.red, colour.green, colour.blue, min(width, 255), robot.brushes_up or robot.battery.charge <= 0.0
 
@@ -165,7 +183,7 @@ class TurtlesimBody:
 
     def _teleport(self, pose: Pose) -> None:
         def take_off() -> Tuple[Pose, Pen]:
-            target = self._world.check(pose)
+            target = self._guided.check(pose)
             self._landed = math.inf
             return target, self._pen()
 
@@ -179,19 +197,19 @@ class TurtlesimBody:
             self._requests.post(land)
 
     def _reset(self) -> str:
-        pose = self._world.robot.pose
-        self._world.reset()
-        self._world.jump(pose)
+        pose = self._guided.robot.pose
+        self._guided.reset()
+        self._guided.jump(pose)
         self._turtle.clear()
-        return 'the floor is dirty, the battery as at the beginning; the turtle stays where it is'
+        return 'the floor is dirty, and the battery is charged as at the start; the turtle stays where it is'
 
 
 class TurtleNode(RobotNode):
-    """A robot whose body is a turtle."""
+    """A robot with a turtle as its body."""
 
-    def __init__(self, world: GuidedWorld, name: str, requests: Requests, has_localisation: bool, stamp: rospy.Time,
+    def __init__(self, world: World, name: str, requests: Requests, has_localisation: bool, stamp: rospy.Time,
                  teleport: Any) -> None:
-        """As any robot, but without a laser; `teleport` puts the turtle at a pose."""
+        """Open the topics and services of a robot without a laser; `teleport` moves the turtle to a pose."""
         self._put = teleport
         super().__init__(world, name, requests, has_localisation, stamp, has_laser=False)
 
