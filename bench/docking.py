@@ -1,4 +1,4 @@
-"""How many robots find home, from 200 places at random on each map that has a dock, and how long that takes them."""
+"""How many robots reach the dock from 200 random poses on each map that has one, and how long that takes them."""
 
 import pathlib
 import statistics
@@ -17,20 +17,20 @@ from rumba_sim.model.world import World
 
 MAPS = pathlib.Path(__file__).resolve().parents[1] / 'rumba_sim' / 'maps'
 STARTS = 200
-LIMIT = 600.0  # [s] for the way home
+LIMIT = 600.0  # [s] of simulated time for each robot
 
 
 def main():
-    """Drive home, and print."""
+    """Dock, and print."""
     for name in ('studio', 'apartment'):
         floor = map_file.load(MAPS / f'{name}.yaml')
-        figures.heading(f'The way home on the map {name}, from {STARTS} places')
+        figures.heading(f'Docking on the map {name}, from {STARTS} poses')
         measure('anywhere', [begun(floor, seed) for seed in range(STARTS)])
         measure('in the field of the buoys', in_field(floor))
 
 
 def begun(floor, seed):
-    """A world with a robot somewhere, and the behaviour that leads it home; the same for the same seed."""
+    """A world with a robot at a random pose, and the behaviour that docks it; the same for the same seed."""
     world = World(floor, seed=seed)
     pose, = starts.anywhere(floor, world.config, world.start, 1, np.random.default_rng(seed))
     world.spawn('rumba', pose)
@@ -49,7 +49,7 @@ def in_field(floor):
 
 
 def measure(title, worlds):
-    """Bring all home."""
+    """Dock all robots."""
     seconds = [run(world, behaviour) for world, behaviour in worlds]
     docked = sum(world.robots['rumba'].is_docked for world, _ in worlds)
     figures.row(f'{title}: at the contacts', docked, at_least=STARTS)

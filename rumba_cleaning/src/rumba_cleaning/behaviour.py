@@ -1,14 +1,16 @@
-"""What a behaviour sees, what it answers, and how it lives."""
+"""What a behaviour gets, what it answers, and the life cycle that all behaviours share."""
 
 import abc
 import enum
-from typing import NamedTuple, Sequence, Tuple
+from typing import Any, NamedTuple, Sequence, Tuple, final
 
+from rumba_cleaning.outcome import Outcome
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.kernel import NO_BEAM
 from rumba_sim.model.robot import Infrared
 
 NO_CLIFFS = (False, False, False, False)
+FINAL = ('step', 'stand_by', 'stop', 'restart', 'succeed', 'fail')  # methods of Behaviour that no subclass overrides
 
 
 class Observation(NamedTuple):
@@ -31,7 +33,7 @@ class Observation(NamedTuple):
 
 
 class Command(NamedTuple):
-    """What a robot shall do until the next command."""
+    """What a robot does until the next command."""
 
     v: float  # [m/s] forward
     w: float  # [rad/s] counter-clockwise
@@ -42,7 +44,7 @@ STOP = Command(0.0, 0.0, brushes_up=True)
 
 
 class Status(enum.Enum):
-    """How far a behaviour is."""
+    """Whether a behaviour goes on, or how it ended."""
 
     RUNNING = 'running'
     SUCCEEDED = 'succeeded'
@@ -50,34 +52,99 @@ class Status(enum.Enum):
 
 
 class Behaviour(abc.ABC):
-    """One thing that a robot can do. `update` never blocks; the caller owns time.
+    """Something that a robot can do. No method blocks; the caller owns time.
+
+    Callers use `step`, `stand_by`, `stop` and `restart`; subclasses write the hooks `initialise`, `update`, `terminate`
+    and `take_note`, which only the methods above call. A run of a behaviour begins with the first step and ends when
+    the behaviour succeeds or fails, or when somebody stops or restarts it:
+
+        initialise, update, update, ..., update, terminate
+
+    Each run gets exactly one `initialise` and one `terminate`.
 
     Attributes:
-        status: RUNNING, until it has succeeded or failed; what `update` answers then is to stop.
+        status: RUNNING, until it has succeeded or failed.
         message: one line for a person: what it does, or how it ended.
+        outcome: UNKNOWN, until it has succeeded or failed.
     """
 
     status = Status.RUNNING
     message = ''
+    outcome = Outcome.UNKNOWN
+    _is_under_way = False  # initialised, and not terminated since
+
+    def __init_subclass__(cls, **kwargs: Any) -> None:
+        """Refuse a subclass that replaces what callers rely on.
+
+        Raises:
+            TypeError: it overrides a method that is final.
+        """
+        super().__init_subclass__(**kwargs)
+        for name in FINAL:
+            if name in vars(cls):
+                raise TypeError(f'{cls.__name__} overrides {name}, which is final: '
+                                'a behaviour overrides initialise, update, terminate and take_note')
+
+    # --- for callers; final ---------------------------------------------------------------------------------------
+
+    @final
+    def step(self, observation: Observation) -> Command:
+        """What to do now; STOP from the step on in which the behaviour ends."""
+        if self.status is Status.RUNNING and not self._is_under_way:
+            self.message = ''
+            self.initialise()
+            self._is_under_way = True
+        command = self.update(observation) if self.status is Status.RUNNING else STOP
+        if self.status is Status.RUNNING:
+            return command
+        self.stop()
+        return STOP
+
+    @final
+    def stand_by(self, observation: Observation) -> None:
+        """Watch while a person drives; the next step goes on from wherever the robot is then."""
+        if self._is_under_way:
+            self.take_note(observation)
+
+    @final
+    def stop(self) -> None:
+        """End the run that is under way, if there is one; status, message and outcome stay as they are.
+
+        A step after it begins a new run, unless the behaviour has succeeded or failed.
+        """
+        if self._is_under_way:
+            self._is_under_way = False
+            self.terminate()
+
+    @final
+    def restart(self) -> None:
+        """End the run that is under way, if there is one; the next step begins a new one, even after an end."""
+        self.stop()
+        self.status, self.message, self.outcome = Status.RUNNING, '', Outcome.UNKNOWN
+
+    @final
+    def succeed(self, message: str, outcome: Outcome = Outcome.SUCCEEDED) -> Command:
+        """End as planned; returns the command to stop."""
+        self.status, self.message, self.outcome = Status.SUCCEEDED, message, outcome
+        return STOP
+
+    @final
+    def fail(self, message: str, outcome: Outcome = Outcome.FAILED) -> Command:
+        """Give up, and say why; returns the command to stop."""
+        self.status, self.message, self.outcome = Status.FAILED, message, outcome
+        return STOP
+
+    # --- hooks for subclasses -------------------------------------------------------------------------------------
 
     def initialise(self) -> None:
-        """Begin anew; called before the first update, and whenever the behaviour is taken up again."""
-        self.status = Status.RUNNING
-        self.message = ''
+        """Begin a run; called right before its first update, and never in an `__init__`."""
 
     @abc.abstractmethod
     def update(self, observation: Observation) -> Command:
         """What to do now."""
 
     def terminate(self) -> None:
-        """End, at any moment."""
+        """End a run: let go of what it holds, and stop its parts. Called once for each run."""
 
-    def succeed(self, message: str) -> Command:
-        """End well; returns the command to stop."""
-        self.status, self.message = Status.SUCCEEDED, message
-        return STOP
-
-    def fail(self, message: str) -> Command:
-        """Give up, and say why; returns the command to stop."""
-        self.status, self.message = Status.FAILED, message
-        return STOP
+    def take_note(self, observation: Observation) -> None:
+        """Remember what is needed to go on after a person drove the robot; called in place of `update` meanwhile."""

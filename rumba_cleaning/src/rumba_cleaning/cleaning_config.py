@@ -1,4 +1,4 @@
-"""How a Rumba goes about its work: every figure with its unit and range."""
+"""Settings of a Rumba at work: each with its unit and range."""
 
 import dataclasses
 
@@ -9,7 +9,7 @@ DAY = 86400.0  # [s]
 
 @dataclasses.dataclass(frozen=True)
 class TimeLimits:
-    """When an action that came to no end is given up; a goal may name its own."""
+    """When an action that has not ended is given up; a goal may name its own limit."""
 
     clean: float = setting(DAY, 'for clean, with all its charging', 's', 1.0, 1e7)
     dock: float = setting(600.0, 'for dock', 's', 1.0, 1e7)
@@ -21,12 +21,13 @@ class TimeLimits:
 class CleaningConfig:
     """Speeds, thresholds and limits."""
 
-    strategy: str = setting('boustrophedon', 'cleaning strategy of a goal that names none')
-    target_coverage: float = setting(0.99, 'share of the reachable floor after which a goal that names none ends',
+    strategy: str = setting('boustrophedon', 'cleaning strategy if a goal names none')
+    target_coverage: float = setting(0.99, 'share of the reachable floor to sweep if a goal names none',
                                      '0..1', 0.0, 1.0)
     speed: float = setting(0.3, 'while cleaning (Create 3: 0.306 is its safe speed)', 'm/s', 0.02, 10.0)
-    transit_speed: float = setting(0.45, 'on the way from one place to another', 'm/s', 0.02, 10.0)
-    reserve: float = setting(0.05, 'charge that no plan counts on', '0..1', 0.0, 0.5)
+    transit_speed: float = setting(0.45, 'from one part of the floor to the next, and to the dock (our choice: less '
+                                         'than the wheels can, so that the robot can steer)', 'm/s', 0.02, 10.0)
+    reserve: float = setting(0.05, 'charge that is kept for the unexpected (our choice)', '0..1', 0.0, 0.5)
     charge_to: float = setting(0.95, 'charge at which cleaning is resumed; the charger tapers above 0.85', '0..1',
                                0.1, 1.0)
     time_limit: TimeLimits = section(TimeLimits, 'when an action is given up; simulated time')

@@ -1,4 +1,4 @@
-"""Robots of a world that look and act at the control rate, in process."""
+"""Has the robots of a world follow behaviours, in process, at the control rate."""
 
 from typing import Iterator, Tuple
 
@@ -19,10 +19,10 @@ def observe(world: World, name: str, dt: float) -> Observation:
 
 
 def act(behaviour: Behaviour, world: World, name: str, dt: float) -> Tuple[Observation, Command]:
-    """Have a robot look, `dt` [s] after it did before, and do what a behaviour says; returns what it saw, and does."""
+    """Have a robot take one step of a behaviour, `dt` [s] after the step before; returns what it saw, and does."""
     robot = world.robots[name]
     observation = observe(world, name, dt)
-    command = behaviour.update(observation)
+    command = behaviour.step(observation)
     robot.brushes_up = command.brushes_up
     robot.command(command.v, command.w, world.tick)
     return observation, command
@@ -30,7 +30,7 @@ def act(behaviour: Behaviour, world: World, name: str, dt: float) -> Tuple[Obser
 
 def steps(behaviour: Behaviour, world: World, name: str = FIRST,
           seconds: float = 600.0) -> Iterator[Tuple[Observation, Command]]:
-    """Have a robot follow a behaviour until that ends, or the time [s] is up; yields what it sees, and what it does."""
+    """Have a robot follow a behaviour until that ends or the time [s] is up; yields what it sees, and what it does."""
     end = world.time + seconds
     dt = 0.0
     while behaviour.status is Status.RUNNING and world.time < end:

@@ -1,22 +1,32 @@
-"""Has robots of a world do what behaviours say."""
+"""Has robots of a world do what behaviours or people say."""
+
+from concurrent.futures import Executor, Future
 
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.cleaning_config import CleaningConfig
-from rumba_cleaning.control import steps
+from rumba_cleaning.control import CONTROL_DT, CONTROL_TICKS, observe, steps
 from rumba_sim.model.floor_plan import OCCUPIED, FloorPlan
 
 
-def context_of(plan, world, seed=1, **changes):
+def context_of(plan, world, seed=1, executor=None, **changes):
     """What a robot of a world, whose floor may differ from the plan, knows."""
-    return Context(plan, world.config, CleaningConfig(**changes), seed)
+    return Context(plan, world.config, CleaningConfig(**changes), seed, executor)
 
 
 def run(behaviour, world, name='rumba', seconds=600.0):
-    """Update a behaviour until it ends or the time is up; returns the seconds that this took."""
+    """Step a behaviour until it ends or the time is up; returns the seconds that this took."""
     start = world.time
     for _ in steps(behaviour, world, name, seconds):
         pass
     return world.time - start
+
+
+def drive_by_hand(behaviour, world, v, w, seconds, name='rumba'):
+    """Have a person drive a robot at v [m/s] and w [rad/s] for a time [s] while its behaviour stands by."""
+    for _ in range(round(seconds / CONTROL_DT)):
+        behaviour.stand_by(observe(world, name, CONTROL_DT))
+        world.robots[name].command(v, w, world.tick)
+        world.step(CONTROL_TICKS)
 
 
 def with_box(plan, box):
@@ -27,3 +37,34 @@ def with_box(plan, box):
     occupancy[row:last_row, column:last_column] = OCCUPIED
     return FloorPlan(plan.name, occupancy, plan.resolution, plan.origin, cliff=plan.cliff, carpet=plan.carpet,
                      dock=plan.dock, start=plan.start)
+
+
+class Later(Executor):
+    """Keeps what is submitted until it is told to work.
+
+    Attributes:
+        tasks: futures with their functions, in the order in which they were submitted.
+    """
+
+    def __init__(self):
+        self.tasks = []
+
+    def submit(self, fn, /, *args, **kwargs):
+        """Keep a function; returns its future."""
+        future = Future()
+        self.tasks.append((future, lambda: fn(*args, **kwargs)))
+        return future
+
+    def begin(self):
+        """Begin with all that is kept: it cannot be cancelled any more. Returns what ends it."""
+        begun = [(future, call) for future, call in self.tasks if future.set_running_or_notify_cancel()]
+        self.tasks = []
+
+        def end():
+            for future, call in begun:
+                future.set_result(call())
+        return end
+
+    def work(self):
+        """Do all that is kept."""
+        self.begin()()

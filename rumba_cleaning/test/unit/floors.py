@@ -1,4 +1,4 @@
-"""Floors to plan on, and what there is to say of ways on them, found without the code that plans."""
+"""Floors to plan on, and measures of paths on them that do not use the code under test."""
 
 import math
 
@@ -17,24 +17,34 @@ TINY = 1e-4  # [m]
 
 
 def ground(plan):
-    """What the quiet robot knows of a plan."""
+    """The ground that a robot without noise knows from a plan."""
     return Ground(plan, quiet())
 
 
 def knowing(plan, pose, **config):
-    """All that a quiet robot knows that begins at a pose, with nothing swept yet."""
+    """The context of a robot without noise that begins at a pose and has swept nothing yet."""
     context = Context(plan, quiet(), CleaningConfig(**config))
     context.swept.begin(pose.x, pose.y)
     return context
 
 
+def standing_points(floor):
+    """The points of all nodes at which the robot can stand: float64 (any, 2) [m]."""
+    return floor.points(np.argwhere(floor.fits))
+
+
 def part_of(plan, *boxes):
-    """The free cells of a room whose middle lies in one of the boxes [m]: bool (rows, columns)."""
+    """The free cells of a plan whose centre lies in one of the boxes [m]: bool (rows, columns)."""
     rows, columns = plan.occupancy.shape
     x = plan.origin[0] + (np.arange(columns) + 0.5) * plan.resolution
     y = plan.origin[1] + (np.arange(rows)[:, np.newaxis] + 0.5) * plan.resolution
     return plan.free & np.any([(x > left) & (x < right) & (y > bottom) & (y < top)
                                for left, bottom, right, top in boxes], axis=0)
+
+
+def wall_with_gap(resolution=0.05, height=3.0, gap=0.8):
+    """A room of 4 m, and a wall across it with a gap at its upper end."""
+    return room(4.0, height, resolution, [(1.9, 0.0, 2.1, height - gap)])
 
 
 def two_rooms(resolution=0.05, **kwargs):
@@ -59,7 +69,7 @@ def tilted(width, height, angle, resolution=0.05, box=(0.0, 0.0, 0.0, 0.0)):
 # --- floor that was swept before -----------------------------------------------------------------------------------
 
 def wiped(context, box):
-    """The context, once the brush swept a box (left, bottom, right, top) [m] that is as wide, or as high, as it is."""
+    """The context after the brush swept a box (left, bottom, right, top) [m], wide or high enough for the brush."""
     left, bottom, right, top = np.array(box) + np.array([1.0, 1.0, -1.0, -1.0]) * TINY
     half = 0.5 * BRUSH
     if top - bottom > BRUSH:
@@ -68,16 +78,16 @@ def wiped(context, box):
     else:
         ends = [(Pose(x, bottom, 0.5 * math.pi), Pose(x, top, 0.5 * math.pi))
                 for x in np.linspace(left + half, right - half, int((right - left) / half) + 2)]
-    for start, end in ends:  # both ways: a sweep leaves out where it begins
+    for start, end in ends:  # in both directions: a sweep leaves out its first pose
         context.swept.sweep(start, end)
         context.swept.sweep(end, start)
     return context
 
 
 def wiped_but(context, *boxes):
-    """The context, once the brush swept all of a room but boxes; what lies between two of them is as wide as it is.
+    """The context after the brush swept all of a plan except boxes; gaps between them are no narrower than the brush.
 
-    Boxes beside each other have the same bottom and the same top.
+    Boxes that lie side by side have the same bottom and the same top.
     """
     bounds = context.plan.bounds
     height = bounds.bottom
@@ -91,31 +101,31 @@ def wiped_but(context, *boxes):
     return context
 
 
-# --- ways ----------------------------------------------------------------------------------------------------------
+# --- paths ---------------------------------------------------------------------------------------------------------
 
-def length(places):
-    """Of a way (any, 2) [m]."""
-    return float(sum(math.hypot(*step) for step in np.diff(places, axis=0)))
+def length(path):
+    """Length of a path (any, 2) [m]."""
+    return float(sum(math.hypot(*step) for step in np.diff(path, axis=0)))
 
 
-def along(places, step=STEP):
-    """Places on each straight part of a way, its ends included, no farther apart than a step: float64 (any, 2)."""
-    places = np.asarray(places, float)
+def along(path, step=STEP):
+    """Points on each leg of a path, both ends included, no farther apart than a step [m]: float64 (any, 2) [m]."""
+    path = np.asarray(path, float)
     return np.concatenate([np.linspace(start, end, int(math.hypot(*(end - start)) / step) + 2)
-                           for start, end in zip(places[:-1], places[1:])])
+                           for start, end in zip(path[:-1], path[1:])])
 
 
-def off(places, start, end):
-    """Distance of each of the places (any, 2) from the straight line from start to end [m]: float64 (any)."""
+def off(points, start, end):
+    """Distance of each point (any, 2) from the straight line from start to end: float64 (any) [m]."""
     start, end = np.asarray(start, float), np.asarray(end, float)
-    share = np.clip((places - start) @ (end - start) / np.sum((end - start) ** 2), 0.0, 1.0)
-    return np.hypot(*(places - start - share[:, np.newaxis] * (end - start)).T)
+    share = np.clip((points - start) @ (end - start) / np.sum((end - start) ** 2), 0.0, 1.0)
+    return np.hypot(*(points - start - share[:, np.newaxis] * (end - start)).T)
 
 
 def over(start, left, right, end, reach):
-    """Length [m] of the shortest way over two posts, `left` and as high beside it `right`, that keeps at reach of them.
+    """Length [m] of the shortest path over two posts at the same y that keeps a distance, `reach` [m], from both.
 
-    It begins left of the posts and ends right of them, at places (x, y) not higher than they.
+    It begins left of the `left` post and ends right of the `right` one, at points (x, y) that are not higher.
     """
     result = right[0] - left[0]
     for (x, y), post in ((start, left), (end, right)):

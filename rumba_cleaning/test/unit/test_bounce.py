@@ -20,13 +20,13 @@ DT = 0.1
 
 def answers(bounce, count, **observed):
     """What it commands at each of so many observations."""
-    return [bounce.update(Observation(DT, HERE, **observed)) for _ in range(count)]
+    return [bounce.step(Observation(DT, HERE, **observed)) for _ in range(count)]
 
 
 def turn_after(bumper=(False, False), cliffs=(False,) * 4, seed=1):
     """The turn rates that it commands after one contact or cliff, until it goes ahead again."""
     bounce = Bounce(np.random.default_rng(seed))
-    assert bounce.update(Observation(DT, HERE, bumper=bumper, cliffs=cliffs)).v < 0.0
+    assert bounce.step(Observation(DT, HERE, bumper=bumper, cliffs=cliffs)).v < 0.0
     rates = []
     for command in answers(bounce, 100):
         if command.v > 0.0:
@@ -52,11 +52,10 @@ def test_straight_ahead_it_turns_to_either_side_at_random():
     assert {np.sign(sum(turn_after(bumper=BOTH, seed=seed))) for seed in range(20)} == {-1.0, 1.0}
 
 
-def test_taken_up_again_it_goes_ahead():
+def test_restarted_it_goes_ahead():
     bounce = Bounce(np.random.default_rng(1))
     answers(bounce, 1, bumper=BOTH)
-    bounce.terminate()
-    bounce.initialise()
+    bounce.restart()
     assert answers(bounce, 1)[0].v == 0.3
 
 
@@ -73,10 +72,10 @@ def test_it_turns_away_from_stairs_of_the_plan_before_the_sensors_see_them():
     ground = Ground(plan, quiet())
     for theta, sign in ((0.4, -1.0), (math.pi - 0.4, 1.0)):
         bounce = Bounce(np.random.default_rng(1), ground=ground)
-        assert bounce.update(Observation(DT, Pose(2.0, 1.7, theta))).v > 0.0
+        assert bounce.step(Observation(DT, Pose(2.0, 1.7, theta))).v > 0.0
         near = Observation(DT, Pose(2.0, 1.77, theta))
-        assert bounce.update(near).v < 0.0
-        turns = [command.w for command in (bounce.update(near) for _ in range(15)) if command.w]
+        assert bounce.step(near).v < 0.0
+        turns = [command.w for command in (bounce.step(near) for _ in range(15)) if command.w]
         assert turns and all(turn * sign > 0.0 for turn in turns)
     away = Bounce(np.random.default_rng(1), ground=ground)
-    assert away.update(Observation(DT, Pose(2.0, 1.77, -0.4))).v > 0.0
+    assert away.step(Observation(DT, Pose(2.0, 1.77, -0.4))).v > 0.0

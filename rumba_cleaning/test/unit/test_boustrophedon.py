@@ -1,16 +1,20 @@
 """boustrophedon cleans 98 % within 1.5 times the bound and 99 % within 1.8, on the package's maps and on odd ones."""
 
+import math
 import pathlib
+import re
 
 import numpy as np
 import pytest
-from drivers import context_of, with_box
+from drivers import context_of, drive_by_hand, run, with_box
 from rooms import crooked, quiet, room
 
 from rumba_cleaning.behaviour import Status
 from rumba_cleaning.control import steps
 from rumba_cleaning.mission.mission import Mission, State
-from rumba_evaluation.trials.cases import ANYWHERE, SUCCEEDED, Conditions
+from rumba_cleaning.outcome import Outcome
+from rumba_cleaning.strategies.boustrophedon import Boustrophedon
+from rumba_evaluation.trials.cases import ANYWHERE, Conditions
 from rumba_evaluation.trials.trial import Trial
 from rumba_sim.model import map_file
 from rumba_sim.model.floor_plan import FREE, OCCUPIED, FloorPlan
@@ -27,7 +31,7 @@ def test_it_keeps_to_the_bounds_from_anywhere_on_the_maps_of_the_package(name, s
     while not trial.is_over:
         trial.step()
     result = trial.result()
-    assert (result.outcome, result.docked, result.penetrated) == (SUCCEEDED, 1, False), result.message
+    assert (result.outcome, result.docked, result.penetrated) == (Outcome.SUCCEEDED, 1, False), result.message
     assert trial.curve[97] < 1.5 * trial.ideal_time
     assert trial.curve[98] < 1.8 * trial.ideal_time
 
@@ -50,7 +54,7 @@ def test_it_keeps_to_the_bounds_on_other_floors(plan):
     while not trial.is_over:
         trial.step()
     result = trial.result()
-    assert (result.outcome, result.penetrated) == (SUCCEEDED, False), result.message
+    assert (result.outcome, result.penetrated) == (Outcome.SUCCEEDED, False), result.message
     assert trial.curve[97] < 1.5 * trial.ideal_time
     assert trial.curve[98] < 1.8 * trial.ideal_time
 
@@ -61,9 +65,34 @@ def test_a_closed_door_does_not_keep_it_busy_for_ever():
     world.spawn('rumba')
     mission = Mission(context_of(plan, world), 'boustrophedon', 0.99)
     assert max(observation.state_of_charge for observation, _ in steps(mission, world, seconds=3000.0)) == 1.0
-    assert mission.status is Status.SUCCEEDED
+    assert (mission.status, mission.outcome) == (Status.SUCCEEDED, Outcome.INCOMPLETE)
     assert mission.message.endswith('% swept: what can be reached is swept')
     assert world.floor.coverage >= 0.99
+
+
+@pytest.mark.parametrize('v, seconds', [(0.2, 1.0), (0.3, 6.0)])
+def test_driven_elsewhere_by_a_person_it_returns_to_its_route_and_goes_on_where_it_left_off(v, seconds):
+    plan = room(5.0, 4.0, start=Pose(0.5, 0.5, 0.0))
+    world = World(plan, quiet())
+    robot = world.spawn('rumba')
+    context = context_of(plan, world)
+    context.swept.begin(0.5, 0.5)
+    behaviour = Boustrophedon(context)
+    run(behaviour, world, seconds=97.0)
+    before, pose = left(behaviour), robot.pose
+    drive_by_hand(behaviour, world, v, 0.9, seconds)
+    off = math.hypot(robot.pose.x - pose.x, robot.pose.y - pose.y)
+    run(behaviour, world, seconds=0.3)
+    assert before - 0.5 - 1.0 <= left(behaviour) <= before + 2.0 * off + 1.0
+    for _ in steps(behaviour, world):
+        context.swept.follow(robot.pose, robot.brushes_up)
+    assert behaviour.message == 'what can be reached is swept'
+    assert world.floor.coverage > 0.98
+
+
+def left(behaviour):
+    """What is left of the plan [m]."""
+    return float(re.match(r'(\d+) m of the plan to go', behaviour.message).group(1))
 
 
 def test_a_robot_that_parks_in_the_way_is_cleaned_around_and_under_once_it_is_gone():

@@ -1,25 +1,29 @@
-"""The parts of the cleaner's node that need no master: settings, wheels and brushes, goals, the way to a position."""
+"""The parts of the cleaner's node that need no master: settings, map and robot, actuators, goals, go_to_position."""
 
 import math
 import queue
+import threading
 import time
 import types
 
 import numpy as np
 import pytest
 import rospy
+from geometry_msgs.msg import Pose2D, Twist
 from rooms import crooked, quiet, room
 
-from rumba_cleaning.behaviour import Command
+from rumba_cleaning.behaviour import Command, Observation
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.cleaning_config import CleaningConfig
-from rumba_cleaning.ros.cleaner import activities, actuators, settings
+from rumba_cleaning.mission.mission import State
+from rumba_cleaning.ros.cleaner import activities, actuators, executor, teleop, workplace
 from rumba_cleaning.ros.cleaner.go_to_position import velocity_toward
 from rumba_cleaning.ros.cleaner.settings import Settings
-from rumba_msg.msg import CleanGoal, CleaningStatus, DockGoal, GoToGoal
+from rumba_msg.msg import CleanGoal, CleaningStatus, DockGoal, GoToGoal, MissionStatus, SimulatorState, UndockGoal
 from rumba_sim.model.errors import ConfigError, MapError
 from rumba_sim.model.geometry import Pose, compose
-from rumba_sim.ros.common import maps
+from rumba_sim.model.robot_config import RobotConfig
+from rumba_sim.ros.common.maps import map_path
 
 TARGET = Pose(3.5, 2.4, -2.0)
 
@@ -29,7 +33,7 @@ def context(plan, **config):
     return Context(plan, quiet(), CleaningConfig(**config))
 
 
-# --- settings and surroundings ------------------------------------------------------------------------------------
+# --- settings -------------------------------------------------------------------------------------------------------
 
 def test_settings_hold_those_of_cleaning():
     settings = Settings(speed=0.2, strategy='bounce', robot='rumba2')
@@ -37,45 +41,122 @@ def test_settings_hold_those_of_cleaning():
 
 
 @pytest.mark.parametrize('robot', ['', '/rumba', 'a/b', '2', 'a b'])
-def test_what_is_no_name_of_a_robot_is_refused(robot):
+def test_an_invalid_name_of_a_robot_is_refused(robot):
     with pytest.raises(ConfigError, match=r'^robot is .*: must be letters, digits and _, beginning with a letter$'):
         Settings(robot=robot)
 
 
-def test_the_robot_is_that_of_the_simulator_its_file_and_its_parameters(monkeypatch, tmp_path):
-    file = tmp_path / 'robot.yaml'
-    file.write_text('drive: {radius: 0.2, max_speed: 0.4}\nspeed: 5.0\n')
-    parameters = {'config': str(file), 'drive': {'max_speed': 0.3}, 'battery': {'drain': 7}, 'map': 'studio'}
-    monkeypatch.setattr(settings.rospy, 'get_param', lambda name, _: {'body': parameters}[name])
-    found = settings.robot_of_simulator('body')
-    assert (found.drive.radius, found.drive.max_speed, found.battery.drain) == (0.2, 0.3, 7.0)
+# --- map and robot --------------------------------------------------------------------------------------------------
+
+class Simulator:
+    """The state of a simulator, without ROS."""
+
+    def __init__(self, monkeypatch, map=None, node='/sim2'):
+        self.state = map and SimulatorState(node=node, map=str(map))
+        self.robots = {node: quiet()}
+        monkeypatch.setattr(workplace, 'SimulatorClient', lambda: self)
+        monkeypatch.setattr(workplace, 'robot_config', lambda node: self.robots[node])
+
+    def wait(self):
+        """The state, or the error that there is none."""
+        if self.state is None:
+            raise MapError('no simulator publishes /simulator/state')
+        return self.state
+
+
+def test_map_and_robot_are_those_of_the_simulator_whatever_its_name(monkeypatch):
+    simulator = Simulator(monkeypatch, map_path('studio'))
+    plan, robot = workplace.Workplace('').look()
+    assert (plan.name, robot) == (map_path('studio'), simulator.robots['/sim2'])
+
+
+def test_a_simulator_that_is_started_again_may_have_another_map_and_another_robot(monkeypatch):
+    simulator = Simulator(monkeypatch, map_path('studio'))
+    place = workplace.Workplace('')
+    plan, robot = place.look()
+    assert place.look()[0] is plan
+    simulator.robots['/sim2'] = quiet(drive={'max_speed': 0.1})
+    assert place.look() == (plan, simulator.robots['/sim2'])
+    simulator.state.map = map_path('field')
+    assert place.look()[0].name == map_path('field')
+
+
+def test_a_map_that_is_named_goes_before_that_of_the_simulator_and_needs_none(monkeypatch):
+    simulator = Simulator(monkeypatch)
+    place = workplace.Workplace('studio')
+    assert place.look()[0].name == map_path('studio')
+    assert place.look()[1] == RobotConfig()
+    simulator.state = SimulatorState(node='/sim2', map=map_path('field'))
+    assert (place.look()[0].name, place.look()[1]) == (map_path('studio'), simulator.robots['/sim2'])
 
 
 def test_without_a_simulator_a_map_must_be_named(monkeypatch):
-    monkeypatch.setattr(maps.node, 'is_served', lambda _: False)
-    monkeypatch.setattr(maps.rospy, 'is_shutdown', lambda: False)
-    monkeypatch.setattr(maps, 'PATIENCE', 0.3)
-    with pytest.raises(MapError, match=r'^no simulator tells its map, /simulator/floor_plan: start one, or name a map'):
-        maps.map_of_simulator('simulator')
+    Simulator(monkeypatch)
+    with pytest.raises(MapError, match='^no simulator publishes /simulator/state'):
+        workplace.Workplace('')
+
+
+# --- threads ----------------------------------------------------------------------------------------------------------
+
+def test_functions_run_beside_their_caller_in_so_many_threads():
+    gate, threads = threading.Event(), set()
+
+    def wait_at_the_gate(number, *, factor):
+        assert gate.wait(5.0)
+        threads.add(threading.current_thread())
+        return factor * number
+    two = executor.DaemonExecutor(2)
+    futures = [two.submit(wait_at_the_gate, number, factor=2) for number in range(4)]
+    assert not any(future.done() for future in futures)
+    assert futures[3].cancel()
+    gate.set()
+    assert [future.result(5.0) for future in futures[:3]] == [0, 2, 4]
+    assert threading.current_thread() not in threads
+    assert 1 <= len(threads) <= 2
+    assert all(thread.daemon for thread in threads), 'the end of the process would wait for them'
+
+
+def test_an_exception_is_handed_over_and_the_thread_goes_on():
+    one = executor.DaemonExecutor(1)
+    with pytest.raises(ZeroDivisionError):
+        one.submit(lambda: 1 / 0).result(5.0)
+    assert one.submit(lambda: 1).result(5.0) == 1
+
+
+# --- a person ---------------------------------------------------------------------------------------------------------
+
+def test_a_person_drives_from_a_command_on_until_the_time_is_up(monkeypatch):
+    topics, now = {}, [100.0]
+    monkeypatch.setattr(teleop.rospy, 'Subscriber', lambda topic, _, callback, **__: topics.update({topic: callback}))
+    monkeypatch.setattr(teleop.time, 'monotonic', lambda: now[0])
+    person = teleop.Teleop('rumba2')
+    assert not person.is_driving
+    topics['rumba2/teleop/cmd_vel'](Twist())
+    assert person.is_driving
+    now[0] += 0.4
+    topics['rumba2/teleop/cmd_vel'](Twist())
+    now[0] += 0.4
+    assert person.is_driving
+    now[0] += 0.2
+    assert not person.is_driving
 
 
 # --- wheels and brushes -------------------------------------------------------------------------------------------
 
-def test_wheels_that_are_held_heed_no_command(monkeypatch):
+def test_wheels_that_are_closed_have_stopped_and_get_no_command(monkeypatch):
     told = []
     monkeypatch.setattr(actuators.rospy, 'Publisher', lambda *_, **__: types.SimpleNamespace(
         publish=lambda twist: told.append((twist.linear.x, twist.angular.z))))
     wheels = actuators.Wheels('rumba')
     wheels.drive(Command(0.2, -1.0))
-    wheels.hold()
-    wheels.drive(Command(0.3, 0.0))
-    wheels.release()
-    wheels.drive(Command(0.1, 0.5))
     wheels.stop()
+    wheels.drive(Command(0.1, 0.5))
+    wheels.close()
+    wheels.drive(Command(0.3, 0.0))
     assert told == [(0.2, -1.0), (0.0, 0.0), (0.1, 0.5), (0.0, 0.0)]
 
 
-def test_brushes_are_asked_for_what_is_new_and_again_where_that_failed(monkeypatch):
+def test_brushes_are_asked_for_what_is_new_and_again_if_that_failed(monkeypatch):
     asked, failures = queue.Queue(), [rospy.ServiceException('no')]
 
     def serve(are_up):
@@ -110,16 +191,45 @@ def test_a_goal_has_its_time_limit_or_the_usual_one(time_limit, begins):
     assert activity.behaviour._time_limit == begins
 
 
-def test_a_clean_goal_that_names_nothing_has_the_settings_of_the_node():
+def test_a_clean_goal_that_names_nothing_has_the_settings_of_the_node(monkeypatch):
     mine = context(crooked(), strategy='spiral', target_coverage=0.5)
-    activities.Cleaning(mine, CleanGoal())
-    assert (mine.config.strategy, mine.config.target_coverage) == ('spiral', 0.5)
-    activities.Cleaning(mine, CleanGoal('bounce', 0.25, 0.0))
-    assert (mine.config.strategy, mine.config.target_coverage) == ('bounce', 0.25)
+    monkeypatch.setattr(activities, 'Mission', lambda _, strategy, target: types.SimpleNamespace(
+        strategy=strategy, target=target))
+    activity = activities.Cleaning.of_goal(mine, CleanGoal())
+    assert (activity.strategy, activity.behaviour.behaviour.target) == ('spiral', 0.5)
+    activity = activities.Cleaning.of_goal(mine, CleanGoal(strategy='bounce', target_coverage=0.25))
+    assert (activity.strategy, activity.behaviour.behaviour.target) == ('bounce', 0.25)
 
 
-def test_the_report_tells_way_charges_and_floor():
-    activity = activities.Cleaning(context(crooked()), CleanGoal())
+@pytest.mark.parametrize('make, goal', [
+    (activities.Cleaning.of_goal, CleanGoal()), (activities.Docking, DockGoal()), (activities.Undocking, UndockGoal()),
+    (activities.GoingTo, GoToGoal(Pose2D(1.0, 1.0, 0.0), 0.0))])
+def test_feedback_and_state_are_there_before_the_first_step_since_a_person_may_drive_then(make, goal):
+    activity = make(context(crooked(dock=Pose(3.8, 1.5, 0.0))), goal)
+    senses = types.SimpleNamespace(cleaning=None, look=lambda: None, pose=lambda: None)
+    feedback = activity.feedback(senses, MissionStatus())
+    assert math.isnan(getattr(feedback, 'distance_remaining', math.nan)) or feedback.distance_remaining == 0.4
+    assert activity.state in State
+
+
+def test_a_resumed_cleaning_has_the_same_mission_and_its_own_time_limit():
+    first = activities.Cleaning.of_goal(context(crooked()), CleanGoal(strategy='spiral', time_limit=5.0))
+    mission, observation = first.behaviour.behaviour, Observation(0.1, Pose(1.0, 1.0, 0.0))
+    first.begin()
+    first.behaviour.step(observation)
+    mission.charges = 2  # part of the memory
+    first.behaviour.stop()
+    second = first.resumed(7.0)
+    second.begin()
+    second.behaviour.step(observation)
+    assert second.behaviour.behaviour is mission
+    assert (second.strategy, second.behaviour._time_limit, mission.charges) == ('spiral', 7.0, 2)
+    with pytest.raises(ConfigError, match='^time_limit is nan: must be a finite number'):
+        first.resumed(math.nan)
+
+
+def test_the_report_tells_distance_charges_and_coverage():
+    activity = activities.Cleaning.of_goal(context(crooked()), CleanGoal())
     report = activity.report(CleaningStatus(distance=2.0), CleaningStatus(distance=5.0, coverage=0.987))
     assert report == ', 3.0 m, 0 charges; the floor is 98.7 % clean'
     assert activity.report(None, CleaningStatus()) == ', 0 charges'
@@ -134,7 +244,7 @@ def test_a_target_must_be_finite_but_for_its_heading():
         activities.GoingTo(context(crooked()), goal)
 
 
-# --- the way to a position ----------------------------------------------------------------------------------------
+# --- go_to_position -------------------------------------------------------------------------------------------------
 
 def test_velocities_call_by_call_lead_to_the_target_around_what_is_in_the_way():
     mine, pose = context(crooked()), Pose(0.4, 0.4, 1.0)
@@ -162,8 +272,8 @@ def test_the_side_to_turn_to_is_the_nearer_one():
 @pytest.mark.parametrize('target, message', [
     (Pose(math.nan, 1.0, 0.0), 'must be finite numbers'), (Pose(1.0, 1.0, math.nan), 'must be finite numbers'),
     (Pose(1.35, 0.6, 0.0), 'does not fit'), (Pose(-3.0, 1.0, 0.0), 'lies outside the map'),
-    (Pose(3.5, 1.0, 0.0), r'^no way from \(0\.50, 0\.50\) to \(3\.50, 1\.00\) m$')])
-def test_where_no_velocity_leads_there_is_an_error(target, message):
+    (Pose(3.5, 1.0, 0.0), r'^no path from \(0\.50, 0\.50\) to \(3\.50, 1\.00\) m$')])
+def test_a_target_that_cannot_be_reached_is_an_error(target, message):
     plan = room(4.0, 3.0, boxes=((1.2, 0.4, 1.5, 0.9), (2.0, -1.0, 2.1, 4.0)))
     with pytest.raises(MapError, match=message):
         velocity_toward(context(plan), Pose(0.5, 0.5, 0.0), target)

@@ -1,4 +1,4 @@
-"""What the cleaner makes of a robot's topics: complete readings, the time between them, poses, and what is missing."""
+"""How the cleaner reads a robot's topics: complete readings, the time between them, poses, and what is missing."""
 
 import math
 import types
@@ -11,6 +11,7 @@ from std_msgs.msg import Header
 
 from rumba_cleaning.behaviour import Command
 from rumba_cleaning.mission.mission import State
+from rumba_cleaning.outcome import Outcome
 from rumba_cleaning.ros.cleaner import conversions, senses
 from rumba_msg.msg import Bumper, CleaningStatus, Cliff, DockStatus
 from rumba_sim.model.geometry import Pose
@@ -18,7 +19,7 @@ from rumba_sim.ros.common.conversions import transform
 
 
 class Robot:
-    """A robot's topics without ROS: what it publishes goes straight to whoever subscribed."""
+    """A robot's topics without ROS: what it publishes goes straight to the subscribers."""
 
     def __init__(self, monkeypatch, name='rumba'):
         self._name = name
@@ -60,7 +61,7 @@ class Robot:
 
 @pytest.fixture
 def robot(monkeypatch):
-    """A robot that stands at the origin, charged by half."""
+    """A robot that stands at the origin, with half its charge."""
     robot = Robot(monkeypatch)
     robot.stands()
     robot.tells('battery_state', BatteryState(percentage=0.5))
@@ -81,7 +82,7 @@ def test_parts_that_run_ahead_complete_a_reading_and_older_ones_do_not(robot):
     assert robot.senses.stamp == rospy.Time.from_sec(1.1)
 
 
-def test_time_is_that_of_stamps_without_pauses_and_ways_back(robot):
+def test_time_is_that_of_stamps_without_pauses_and_jumps_back(robot):
     for seconds, passed in ((100.0, 0.0), (100.1, 0.1), (101.1, 1.1), (102.2, 1.1), (102.3, 1.2), (7.0, 1.2),
                             (7.25, 1.45)):
         robot.reads(seconds)
@@ -123,20 +124,19 @@ def test_the_pose_is_the_newest_odometry_with_a_correction_that_may_be_older(mon
 
 def test_what_is_missing_is_named(monkeypatch):
     robot = Robot(monkeypatch, 'rumba2')
-    assert robot.senses.missing() == 'nobody tells the charge of its battery'
+    assert robot.senses.missing() == 'no charge: rumba2/battery_state tells no percentage'
     robot.tells('battery_state', BatteryState(percentage=math.nan))
-    assert robot.senses.missing() == 'nobody tells the charge of its battery'
+    assert robot.senses.missing() == 'no charge: rumba2/battery_state tells no percentage'
     robot.tells('battery_state', BatteryState(percentage=0.0))
-    assert robot.senses.missing() == (
-        'nobody tells where it is: tf has no map -> rumba2/odom -> rumba2/base_footprint')
+    assert robot.senses.missing() == 'no pose: tf has no map -> rumba2/odom -> rumba2/base_footprint'
     robot.stands()
     robot.reads(1.0, ['bumper', 'dock_status'])
-    assert robot.senses.missing() == 'nobody tells cliff'
+    assert robot.senses.missing() == 'no reading: nothing new on rumba2/cliff'
     assert robot.senses.look() is None
     robot.reads(1.0, ['cliff'])
     assert robot.senses.look().state_of_charge == 0.0
     robot.reads(1.1, ['dock_status'])
-    assert robot.senses.missing() == 'nobody tells bumper and cliff'
+    assert robot.senses.missing() == 'no reading: nothing new on rumba2/bumper and rumba2/cliff'
 
 
 def test_readings_that_are_not_complete_are_counted(robot):
@@ -153,6 +153,16 @@ def test_a_robot_is_alone_without_any_publisher(robot):
     assert not robot.senses.is_alone
     robot.connections = 0
     assert robot.senses.is_alone
+
+
+def test_a_robot_has_fallen_while_the_newest_reading_of_its_cliff_sensors_says_so(robot):
+    assert not robot.senses.has_fallen
+    robot.reads(1.0, is_cliff_left=True)
+    assert not robot.senses.has_fallen
+    robot.reads(1.1, is_wheel_dropped=True)
+    assert robot.senses.has_fallen
+    robot.reads(1.2)
+    assert not robot.senses.has_fallen
 
 
 def test_the_floor_is_what_was_told_last(robot):
@@ -172,7 +182,7 @@ def test_a_tilted_transform_has_the_heading_of_its_forward_axis():
     assert conversions.plane_pose(upside).theta == pytest.approx(0.0)
 
 
-def test_commands_and_missions_become_messages():
+def test_commands_missions_and_outcomes_become_messages():
     twist = conversions.velocity(Command(0.25, -1.5))
     assert (twist.linear.x, twist.linear.y, twist.angular.z) == (0.25, 0.0, -1.5)
     status = conversions.mission_status(State.CHARGING, 'bounce', 'charging', rospy.Time(5))
@@ -180,3 +190,5 @@ def test_commands_and_missions_become_messages():
     assert (status.header.frame_id, status.header.stamp.secs) == ('map', 5)
     assert {state.name: int(state) for state in State} == {
         name: getattr(status, name) for name in dir(status) if name.isupper()}
+    outcome = conversions.outcome(Outcome.NO_PATH, 'no path')
+    assert (outcome.code, outcome.message) == (outcome.NO_PATH, 'no path')

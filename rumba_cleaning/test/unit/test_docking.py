@@ -1,10 +1,10 @@
-"""dock comes home by the beams alone from anywhere in their field, by the map from anywhere else; undock leaves."""
+"""dock reaches the dock by the beams alone from anywhere in their field, else by the map; undock leaves the dock."""
 
 import math
 
 import numpy as np
 import pytest
-from drivers import context_of, run, with_box
+from drivers import context_of, drive_by_hand, run, with_box
 from rooms import RADIUS, crooked, quiet, room
 
 from rumba_cleaning.behaviour import Status
@@ -12,6 +12,7 @@ from rumba_cleaning.behaviours.dock import Dock
 from rumba_cleaning.behaviours.homing import BUOYS, Homing
 from rumba_cleaning.behaviours.undock import Undock
 from rumba_cleaning.control import steps
+from rumba_cleaning.outcome import Outcome
 from rumba_sim.model.errors import MapError
 from rumba_sim.model.geometry import Pose, wrap_angle
 from rumba_sim.model.world import World
@@ -89,28 +90,30 @@ def test_without_a_dock_there_is_no_home():
 
 def test_a_dock_in_a_niche_too_narrow_is_refused():
     plan = room(5.0, 3.0, boxes=[(2.0, 0.0, 2.3, 1.4), (2.0, 1.6, 2.3, 3.0)], dock=Pose(2.55, 1.5, 0.0))
-    with pytest.raises(MapError, match='no room before the dock at .2.55, 1.50. m'):
+    with pytest.raises(MapError, match='too little space before the dock at .2.55, 1.50. m'):
         Dock(at(Pose(1.0, 1.0, 0.0), plan)[1])
 
 
-def test_a_dock_that_no_way_leads_to_fails_at_once():
+def test_if_no_path_leads_to_the_dock_it_fails_at_once():
     plan = room(5.0, 3.0, boxes=[(2.0, 0.0, 2.3, 3.0)], dock=DOCK)
     world, context = at(Pose(1.0, 1.0, 0.0), plan)
     behaviour = Dock(context)
     assert run(behaviour, world) < 0.5
     assert behaviour.status is Status.FAILED
-    assert behaviour.message.startswith('cannot get to the dock: no way from (1.00, 1.00) to')
+    assert behaviour.message.startswith('cannot get to the dock: no path from (1.00, 1.00) to')
+    assert behaviour.outcome is Outcome.NO_PATH
 
 
 def test_a_dock_with_something_before_it_is_given_up():
     world, context = at(Pose(1.0, 1.0, 0.0), truth=with_box(PLAN, (4.3, 0.8, 4.5, 1.8)))
     behaviour = Dock(context)
     run(behaviour, world, seconds=1500.0)
-    assert behaviour.status is Status.FAILED
+    assert (behaviour.status, behaviour.outcome) == (Status.FAILED, Outcome.FAILED)
+    assert behaviour.message == '3 attempts to dock failed: the beams of the dock are lost'
     assert not world.robots['rumba'].is_docked
 
 
-def test_carried_off_on_the_last_way_it_comes_home_all_the_same():
+def test_moved_elsewhere_while_the_beams_guide_it_it_still_comes_home():
     world, context = at(Pose(3.5, 1.3, 2.0))
     behaviour = Dock(context)
     was_homing = False
@@ -120,6 +123,38 @@ def test_carried_off_on_the_last_way_it_comes_home_all_the_same():
             world.teleport('rumba', Pose(0.5, 2.5, 0.0))
     assert was_homing
     assert behaviour.status is Status.SUCCEEDED
+
+
+@pytest.mark.parametrize('is_homing', [False, True])
+def test_driven_elsewhere_by_a_person_it_still_comes_home(is_homing):
+    world, context = at(Pose(0.5, 2.5, 0.0))
+    behaviour = Dock(context)
+    for _ in steps(behaviour, world, seconds=300.0):
+        if behaviour.is_homing is is_homing and world.time > 3.0:
+            break
+    before = world.robots['rumba'].pose
+    drive_by_hand(behaviour, world, -0.3, 0.2, 8.0)
+    after = world.robots['rumba'].pose
+    assert math.hypot(after.x - before.x, after.y - before.y) > 1.0 and not behaviour.is_homing
+    assert run(behaviour, world, seconds=200.0) < 100.0
+    assert behaviour.status is Status.SUCCEEDED
+
+
+@pytest.mark.parametrize('seconds', [2.0, 6.0, 12.0, 20.0])
+def test_turned_and_pushed_by_a_person_the_beams_lead_it_home_again(seconds):
+    world, context = at(Pose(3.5, 1.8, 2.0))
+    behaviour = Homing(context)
+    run(behaviour, world, seconds=seconds)
+    drive_by_hand(behaviour, world, -0.1, 1.0, 4.0)
+    assert run(behaviour, world, seconds=120.0) < 60.0
+    assert behaviour.status is Status.SUCCEEDED, behaviour.message
+
+
+def test_without_any_beam_the_beams_are_lost():
+    world, context = at(Pose(1.0, 2.6, 0.0))
+    behaviour = Homing(context)
+    assert 8.0 < run(behaviour, world, seconds=120.0) < 9.0
+    assert (behaviour.message, behaviour.outcome) == ('the beams of the dock are lost', Outcome.FAILED)
 
 
 # --- undock ---------------------------------------------------------------------------------------------------------
@@ -158,3 +193,16 @@ def test_something_right_behind_keeps_it_on_the_dock():
     run(behaviour, world)
     assert (behaviour.status, behaviour.message) == (
         Status.FAILED, 'something behind the robot keeps it on the dock')
+    assert behaviour.outcome is Outcome.BLOCKED
+
+
+def test_brought_back_to_the_dock_by_a_person_it_backs_off_again():
+    world, context = at(DOCK)
+    world.step()
+    behaviour = Undock(context)
+    run(behaviour, world, seconds=1.8)
+    assert 0.0 < behaviour.remaining < 0.2
+    drive_by_hand(behaviour, world, 0.2, 0.0, 6.0)
+    assert world.robots['rumba'].is_docked
+    assert run(behaviour, world) < 10.0
+    assert behaviour.status is Status.SUCCEEDED and not world.robots['rumba'].is_docked

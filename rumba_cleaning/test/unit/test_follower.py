@@ -9,8 +9,8 @@ from floors import length, off
 from pytest import approx
 from rooms import alone, quiet
 
-from rumba_cleaning.behaviours.follower import TENDERNESS, Follower, Route, Turn, fastest, turn_rate
-from rumba_sim.model.geometry import Pose, wrap_angle
+from rumba_cleaning.behaviours.follower import Follower, Route
+from rumba_sim.model.geometry import Pose
 
 DRIVE = quiet().drive
 DT, TICKS = 0.1, 5  # [s] from command to command, and ticks of the world in it
@@ -27,21 +27,21 @@ class Run(NamedTuple):
     time: float  # [s] until the route is done
 
 
-def route(places, speeds=0.3):
-    places = np.array(places, float)
-    return Route(places, np.full(len(places) - 1, speeds) if np.isscalar(speeds) else np.array(speeds))
+def route(points, speeds=0.3):
+    points = np.array(points, float)
+    return Route(points, np.full(len(points) - 1, speeds) if np.isscalar(speeds) else np.array(speeds))
 
 
-def follow(places, speeds=0.3, theta=None, shift=0.0, limit=120.0):
-    """Drive along a route from its beginning, or beside it, heading along it where `theta` is None."""
-    way = route(places, speeds)
-    (x, y), ahead = way.places[0], way.places[1] - way.places[0]
+def follow(points, speeds=0.3, theta=None, shift=0.0, limit=120.0):
+    """Drive along a route from its beginning, or beside it, heading along it if `theta` is None."""
+    path = route(points, speeds)
+    (x, y), ahead = path.waypoints[0], path.waypoints[1] - path.waypoints[0]
     world, robot = alone(Pose(x, y + shift, math.atan2(ahead[1], ahead[0]) if theta is None else theta))
-    follower = Follower(way, DRIVE)
+    follower = Follower(path, DRIVE)
     poses, commands, remaining = [robot.pose], [], []
     while not follower.is_done:
         assert world.time < limit, f'{follower.remaining} m are left'
-        commands.append(follower.update(robot.pose, DT))
+        commands.append(follower.velocity(robot.pose, DT))
         remaining.append(follower.remaining)
         assert not follower.is_lost
         poses += drive(world, robot, commands[-1], TICKS)
@@ -60,9 +60,9 @@ def drive(world, robot, command, ticks):
     return poses
 
 
-def nearest(run, place):
-    """How near the robot came to a place [m]."""
-    return min(np.hypot(*(run.poses[:, :2] - place).T))
+def nearest(run, point):
+    """How near the robot came to a point [m]."""
+    return min(np.hypot(*(run.poses[:, :2] - point).T))
 
 
 # --- lines ---------------------------------------------------------------------------------------------------------
@@ -85,7 +85,7 @@ def test_a_robot_beside_its_route_comes_onto_it(shift, theta):
 
 
 @pytest.mark.parametrize('theta', [math.pi, 2.3, -2.8])
-def test_a_robot_that_looks_the_other_way_turns_before_it_drives(theta):
+def test_a_robot_that_looks_in_the_other_direction_turns_before_it_drives(theta):
     run = follow([(10.0, 10.0), (12.0, 10.0)], theta=theta)
     turning = abs(run.poses[:, 2]) > 0.6
     assert turning.any() and max(np.hypot(*(run.poses[turning, :2] - 10.0).T)) < 1e-9
@@ -103,24 +103,24 @@ def test_a_robot_drives_each_part_at_its_own_speed():
 
 
 def test_no_limit_of_the_drive_nor_speed_of_a_part_is_exceeded():
-    places = [(10.0, 10.0), (11.0, 10.0), (11.0, 11.0), (10.9, 11.0), (10.9, 10.2), (10.0, 10.0), (11.0, 10.4)]
+    points = [(10.0, 10.0), (11.0, 10.0), (11.0, 11.0), (10.9, 11.0), (10.9, 10.2), (10.0, 10.0), (11.0, 10.4)]
     for speed in (0.2, DRIVE.max_speed):
-        run = follow(places, speed, theta=2.0)
+        run = follow(points, speed, theta=2.0)
         assert run.commands[:, 0].min() >= 0.0 and run.commands[:, 0].max() == approx(speed)
         assert abs(run.commands[:, 1]).max() <= DRIVE.max_turn_rate + 1e-9
-        assert math.hypot(*(run.poses[-1, :2] - places[-1])) < 0.02
+        assert math.hypot(*(run.poses[-1, :2] - points[-1])) < 0.02
     run = follow([(10.0, 10.0), (13.0, 10.0)], 2.0)
     assert run.commands[:, 0].max() == DRIVE.max_speed and math.hypot(*(run.poses[-1, :2] - (13.0, 10.0))) < 0.02
 
 
-def test_a_robot_that_is_turned_around_on_its_way_turns_back_before_it_drives_on():
+def test_a_robot_that_is_turned_around_on_its_route_turns_back_before_it_drives_on():
     world, robot = alone(Pose(10.0, 10.0, 0.0))
     follower = Follower(route([(10.0, 10.0), (12.0, 10.0)]), DRIVE)
     poses = []
     while not follower.is_done:
         if world.tick == 100:
             world.teleport('rumba', robot.pose._replace(theta=3.0))
-        poses += drive(world, robot, follower.update(robot.pose, DT), TICKS)
+        poses += drive(world, robot, follower.velocity(robot.pose, DT), TICKS)
         assert world.time < 15.0
     poses = np.array(poses)
     turning = (abs(poses[:, 2]) > 0.7)
@@ -168,19 +168,19 @@ def test_a_hairpin_is_driven_to_its_end_before_the_robot_turns(speed):
 
 
 def test_each_of_many_hairpins_is_driven_to_its_end():
-    places = [(10.0 + 0.6 * (index % 2), 10.0 + 0.03 * index) for index in range(6)]
-    run = follow(places)
-    for place in places[1:]:
-        assert nearest(run, place) < 0.02
-    assert run.remaining[0] == approx(length(places))
+    points = [(10.0 + 0.6 * (index % 2), 10.0 + 0.03 * index) for index in range(6)]
+    run = follow(points)
+    for point in points[1:]:
+        assert nearest(run, point) < 0.02
+    assert run.remaining[0] == approx(length(points))
 
 
 @BOTH_SPEEDS
 def test_a_closed_loop_does_not_end_where_it_begins(speed):
     loop = [(10.0, 10.0), (11.0, 10.0), (11.0, 11.0), (10.0, 11.0), (10.0, 10.0)]
     run = follow(loop, speed)
-    for place in loop:
-        assert nearest(run, place) < 0.05
+    for point in loop:
+        assert nearest(run, point) < 0.05
     assert math.hypot(*(run.poses[-1, :2] - (10.0, 10.0))) < 0.02
     assert 3.9 / speed < run.time < 4.0 / speed + 3.0
 
@@ -208,44 +208,60 @@ ZIGZAG = [(10.0, 10.0), (12.0, 10.0), (12.0, 11.0), (11.99, 10.0), (10.0, 10.5),
 
 
 @BOTH_SPEEDS
-def test_the_way_that_remains_shrinks_from_its_length_to_nothing(speed):
+def test_the_distance_that_remains_shrinks_from_its_length_to_nothing(speed):
     run = follow(ZIGZAG, speed)
     assert run.remaining[0] == approx(length(ZIGZAG)) and run.remaining[-1] == 0.0
     assert (np.diff(run.remaining) <= 1e-12).all() and max(-np.diff(run.remaining)) < 0.12
 
 
-def test_the_rest_holds_the_places_and_speeds_that_are_still_to_come():
+def test_the_rest_holds_the_waypoints_and_speeds_that_are_still_to_come():
     speeds = np.array([0.31, 0.32, 0.33, 0.34, 0.35, 0.36])
     follower = Follower(route(ZIGZAG, speeds), DRIVE)
     world, robot = alone(Pose(10.0, 10.0, 0.0))
     lengths = set()
     while not follower.is_done and follower.rest() is not None:
-        command = follower.update(robot.pose, DT)
+        command = follower.velocity(robot.pose, DT)
         rest = follower.rest()
         drive(world, robot, command, TICKS)
         if rest is None:
             break
-        count = len(rest.places)
+        count = len(rest.waypoints)
         lengths.add(count)
-        assert (rest.places == np.array(ZIGZAG)[[1, 2, 3, 4, 6]][-count:]).all()
+        assert (rest.waypoints == np.array(ZIGZAG)[[1, 2, 3, 4, 6]][-count:]).all()
         assert rest.speeds.tolist() == speeds[[1, 2, 3, 5]][5 - count:].tolist()
-        assert length(rest.places) <= follower.remaining + 1e-9
-        assert follower.remaining - length(rest.places) == approx(
-            math.hypot(*(rest.places[0] - robot.pose[:2])), abs=0.15)
+        assert length(rest.waypoints) <= follower.remaining + 1e-9
+        assert follower.remaining - length(rest.waypoints) == approx(
+            math.hypot(*(rest.waypoints[0] - robot.pose[:2])), abs=0.15)
     assert lengths == {1, 2, 3, 4, 5}
+
+
+def test_the_rest_from_here_begins_at_the_point_that_was_reached():
+    speeds = np.array([0.31, 0.32, 0.33, 0.34, 0.35, 0.36])
+    follower = Follower(route(ZIGZAG, speeds), DRIVE)
+    world, robot = alone(Pose(10.0, 10.0, 0.0))
+    while follower.rest() is not None:
+        command = follower.velocity(robot.pose, DT)
+        rest, from_here = follower.rest(), follower.rest_from_here()
+        drive(world, robot, command, TICKS)
+        if rest is None:
+            break
+        assert (from_here.waypoints[1:] == rest.waypoints).all() and (from_here.speeds[1:] == rest.speeds).all()
+        assert length(from_here.waypoints) == approx(follower.remaining)
+        assert from_here.speeds.tolist() == speeds[[0, 1, 2, 3, 5]][5 - len(rest.waypoints):].tolist()
+    assert follower.rest_from_here() is None
 
 
 def test_nothing_is_left_of_a_route_that_is_done():
     follower = Follower(route([(10.0, 10.0), (10.5, 10.0)]), DRIVE)
     assert not follower.is_done and follower.remaining == approx(0.5)
-    assert follower.update(Pose(10.4, 10.0, 0.0), DT)[0] > 0.0 and not follower.is_done
-    assert follower.update(Pose(10.5, 10.0, 0.0), DT) == (0.0, 0.0)
+    assert follower.velocity(Pose(10.4, 10.0, 0.0), DT)[0] > 0.0 and not follower.is_done
+    assert follower.velocity(Pose(10.5, 10.0, 0.0), DT) == (0.0, 0.0)
     assert follower.is_done and follower.remaining == 0.0 and follower.rest() is None
 
 
-def test_a_route_of_one_and_the_same_place_is_done_at_once():
+def test_a_route_of_one_and_the_same_point_is_done_at_once():
     follower = Follower(route([(10.0, 10.0), (10.0, 10.0), (10.0, 10.0)]), DRIVE)
-    assert follower.update(Pose(10.0, 10.0, 1.0), DT) == (0.0, 0.0)
+    assert follower.velocity(Pose(10.0, 10.0, 1.0), DT) == (0.0, 0.0)
     assert follower.is_done and not follower.is_lost and follower.remaining == 0.0 and follower.rest() is None
 
 
@@ -254,79 +270,26 @@ def test_a_robot_that_is_put_elsewhere_is_lost_and_one_that_is_pushed_is_not():
         follower = Follower(route([(10.0, 10.0), (14.0, 10.0)]), DRIVE)
         world, robot = alone(Pose(10.0, 10.0, 0.0))
         for _ in range(30):
-            drive(world, robot, follower.update(robot.pose, DT), TICKS)
+            drive(world, robot, follower.velocity(robot.pose, DT), TICKS)
             assert not follower.is_lost
         world.teleport('rumba', Pose(robot.pose.x, 10.0 + shift, 0.0))
-        follower.update(robot.pose, DT)
+        follower.velocity(robot.pose, DT)
         assert follower.is_lost == is_lost
 
 
 def test_a_robot_that_is_put_onto_a_later_part_of_its_route_is_lost_and_found_again_where_it_was():
     follower = Follower(route([(10.0 + 0.1 * index, 10.0) for index in range(41)]), DRIVE)
-    follower.update(Pose(10.0, 10.0, 0.0), DT)
+    follower.velocity(Pose(10.0, 10.0, 0.0), DT)
     before = follower.remaining
-    follower.update(Pose(13.0, 10.0, 0.0), DT)
+    follower.velocity(Pose(13.0, 10.0, 0.0), DT)
     assert follower.is_lost and before - follower.remaining < 0.5
-    follower.update(Pose(10.5, 10.1, 0.0), DT)
+    follower.velocity(Pose(10.5, 10.1, 0.0), DT)
     assert not follower.is_lost and follower.remaining == approx(3.5)
 
 
 def test_a_route_that_crosses_itself_is_driven_in_its_order():
-    places = [(10.0, 10.0), (11.5, 11.5), (11.5, 10.0), (10.0, 11.5)]
-    run = follow(places)
-    seen = [int(np.argmin(np.hypot(*(run.poses[:, :2] - place).T))) for place in places]
-    assert seen == sorted(seen) and max(nearest(run, place) for place in places) < 0.05
-    assert run.time > length(places) / 0.3
-
-
-# --- turns on the spot ---------------------------------------------------------------------------------------------
-
-@pytest.mark.parametrize('angle', [0.05, -0.3, 1.2, -2.2, 3.1])
-@pytest.mark.parametrize('ticks', [1, 5, 10])
-def test_a_turn_ends_at_rest_at_its_heading_without_a_swing_and_in_good_time(angle, ticks):
-    world, robot = alone(Pose(10.0, 10.0, 0.4))
-    turn, most = Turn(wrap_angle(0.4 + angle), DRIVE), 0.0
-    while not turn.is_done:
-        rate = turn.update(robot.pose, ticks / 50.0)
-        for pose in drive(world, robot, (0.0, rate), ticks):
-            most = max(most, math.copysign(1.0, angle) * wrap_angle(pose.theta - 0.4 - angle))
-        assert world.time < abs(angle) / DRIVE.max_turn_rate + 2.0 and abs(rate) <= DRIVE.max_turn_rate
-    before = robot.pose
-    after = drive(world, robot, (0.0, 0.0), 50)[-1]
-    assert most <= 0.05 and abs(wrap_angle(after.theta - 0.4 - angle)) <= 0.03
-    assert abs(wrap_angle(after.theta - before.theta)) < 0.01 and after[:2] == (10.0, 10.0)
-
-
-def test_a_turn_is_done_once_the_robot_rests_at_the_heading_and_not_when_it_swings_by():
-    turn = Turn(1.0, DRIVE)
-    for theta, is_done in ((0.9, False), (0.99, False), (1.005, False), (1.006, True), (1.2, False), (1.01, False),
-                           (1.01, True)):
-        rate = turn.update(Pose(0.0, 0.0, theta), DT)
-        assert turn.is_done == is_done and (rate == 0.0) == (abs(theta - 1.0) < 0.02), theta
-
-
-@pytest.mark.parametrize('angle', [0.1, -1.2, 3.0])
-def test_the_rate_of_a_turn_leads_to_its_angle_without_a_swing(angle):
-    world, robot = alone(Pose(10.0, 10.0, 0.4))
-    left = angle
-    while abs(left) > 0.03:
-        drive(world, robot, (0.0, turn_rate(left, DT, DRIVE)), TICKS)
-        left = wrap_angle(0.4 + angle - robot.pose.theta)
-        assert world.time < abs(angle) / DRIVE.max_turn_rate + 1.5 and left * angle > -0.05 * abs(angle)
-    drive(world, robot, (0.0, 0.0), 50)
-    assert abs(wrap_angle(robot.pose.theta - 0.4 - angle)) <= 0.05
-
-
-def test_a_turn_is_never_faster_than_the_drive_nor_so_slow_that_it_stands_still():
-    for angle in np.linspace(-3.1, 3.1, 63):
-        for dt in (0.0, 0.02, 0.1, 1.0):
-            rate = turn_rate(angle, dt, DRIVE)
-            assert rate * angle >= 0.0 and abs(rate) <= DRIVE.max_turn_rate
-            assert abs(rate) * 0.5 * DRIVE.wheel_base > DRIVE.dead_band
-    assert turn_rate(3.0, DT, DRIVE) == DRIVE.max_turn_rate
-
-
-@pytest.mark.parametrize('way, dt', [(0.5, 0.1), (0.02, 0.1), (0.02, 0.5), (3.0, 0.02), (1.0, 0.0)])
-def test_at_the_fastest_speed_one_can_go_on_for_a_while_and_still_stop_in_time(way, dt):
-    speed = fastest(way, dt, 0.9)
-    assert speed * dt + speed ** 2 / (2.0 * TENDERNESS * 0.9) == approx(way)
+    points = [(10.0, 10.0), (11.5, 11.5), (11.5, 10.0), (10.0, 11.5)]
+    run = follow(points)
+    seen = [int(np.argmin(np.hypot(*(run.poses[:, :2] - point).T))) for point in points]
+    assert seen == sorted(seen) and max(nearest(run, point) for point in points) < 0.05
+    assert run.time > length(points) / 0.3

@@ -1,15 +1,16 @@
-"""go_to gets to a pose, around walls, unknown things and people who carry the robot off, or says why not."""
+"""go_to reaches a pose, around walls and unknown obstacles, even if somebody moves the robot, or says why not."""
 
 import math
 
 import numpy as np
 import pytest
-from drivers import context_of, run, with_box
+from drivers import context_of, drive_by_hand, run, with_box
 from rooms import RADIUS, crooked, quiet, room
 
 from rumba_cleaning.behaviour import STOP, Status
 from rumba_cleaning.behaviours.go_to import GoTo
 from rumba_cleaning.control import steps
+from rumba_cleaning.outcome import Outcome
 from rumba_sim.model.errors import MapError
 from rumba_sim.model.geometry import Pose, wrap_angle
 from rumba_sim.model.world import World
@@ -45,7 +46,7 @@ def test_it_comes_to_rest_at_the_pose_from_anywhere(seed):
     assert seconds < 30.0
 
 
-def test_any_heading_will_do_where_none_is_asked_for():
+def test_without_a_heading_in_the_goal_any_heading_will_do():
     world, behaviour = going(TARGET._replace(theta=math.nan))
     run(behaviour, world, seconds=60.0)
     assert behaviour.status is Status.SUCCEEDED
@@ -59,7 +60,7 @@ def test_the_brushes_are_up_and_it_answers_stop_at_the_end():
     assert commands[-1] == STOP
 
 
-def test_the_way_left_is_told_and_shrinks():
+def test_the_distance_left_is_known_and_shrinks():
     world, behaviour = going()
     left = [behaviour.remaining for _ in steps(behaviour, world)]
     direct = math.hypot(TARGET.x - START.x, TARGET.y - START.y)
@@ -77,12 +78,13 @@ def test_a_target_in_a_wall_or_outside_is_refused(target, message):
         going(target)
 
 
-def test_a_target_that_no_way_leads_to_fails_at_once():
+def test_if_no_path_leads_to_the_target_it_fails_at_once():
     plan = room(4.0, 2.0, boxes=[(1.9, 0.0, 2.1, 2.0)])
     world, behaviour = going(Pose(3.0, 1.0, 0.0), plan, Pose(1.0, 1.0, 0.0))
     assert run(behaviour, world) < 0.2
     assert behaviour.status is Status.FAILED
-    assert behaviour.message == 'no way from (1.00, 1.00) to (3.00, 1.00) m'
+    assert behaviour.message == 'no path from (1.00, 1.00) to (3.00, 1.00) m'
+    assert behaviour.outcome is Outcome.NO_PATH
 
 
 def test_it_gets_around_what_the_map_does_not_show():
@@ -93,12 +95,12 @@ def test_it_gets_around_what_the_map_does_not_show():
     assert off(world, Pose(4.5, 1.0, 0.0))[0] < 0.03
 
 
-def test_it_gives_up_where_what_it_did_not_know_leaves_no_way():
+def test_it_gives_up_if_an_unknown_obstacle_closes_every_path():
     plan = room(5.0, 2.0)
     world, behaviour = going(Pose(4.5, 1.0, 0.0), plan, Pose(0.5, 1.0, 0.0), with_box(plan, (2.0, 0.0, 2.4, 2.0)))
     run(behaviour, world, seconds=1200.0)
     assert behaviour.status is Status.FAILED
-    assert 'in the way' in behaviour.message
+    assert 'in the way' in behaviour.message and behaviour.outcome is Outcome.BLOCKED
 
 
 def test_it_gets_around_another_robot():
@@ -109,13 +111,27 @@ def test_it_gets_around_another_robot():
     assert behaviour.status is Status.SUCCEEDED
 
 
-def test_it_arrives_though_somebody_carries_it_off():
+def test_it_arrives_even_if_somebody_moves_it():
     world, behaviour = going()
     for number, _ in enumerate(steps(behaviour, world, seconds=120.0)):
         if number == 40:
             world.teleport('rumba', Pose(0.4, 2.7, 0.0))
     assert behaviour.status is Status.SUCCEEDED
     assert off(world, TARGET)[0] < 0.03
+
+
+@pytest.mark.parametrize('share', [0.1, 0.5, 1.0])
+def test_driven_elsewhere_by_a_person_it_arrives(share):
+    world, behaviour = going()
+    direct = math.hypot(TARGET.x - START.x, TARGET.y - START.y)
+    for observation, _ in steps(behaviour, world, seconds=120.0):
+        if behaviour.status is Status.RUNNING and behaviour.remaining <= (1.0 - share) * direct + 0.02:
+            drive_by_hand(behaviour, world, 0.3, 0.8, 6.0)
+            assert math.isnan(behaviour.remaining)
+            break
+    assert run(behaviour, world, seconds=60.0) < 40.0
+    assert behaviour.status is Status.SUCCEEDED
+    assert off(world, TARGET)[0] < 0.03 and off(world, TARGET)[1] < 0.05
 
 
 @pytest.mark.parametrize('theta', [-2.0, math.nan])
@@ -133,13 +149,12 @@ def test_pushed_while_it_turns_to_its_heading_it_comes_back(push, theta):
     assert off(world, TARGET)[0] < 0.02
 
 
-def test_ended_and_taken_up_again_it_arrives():
+def test_restarted_it_arrives():
     world, behaviour = going()
     for number, _ in enumerate(steps(behaviour, world)):
         if number == 30:
             break
-    behaviour.terminate()
-    behaviour.initialise()
+    behaviour.restart()
     run(behaviour, world)
     assert behaviour.status is Status.SUCCEEDED
     assert off(world, TARGET)[0] < 0.03

@@ -1,4 +1,4 @@
-"""Lanes on floors whose best lanes are known, and on random ones: what they clean, and where they lie."""
+"""Lanes on floors whose best lanes are known, and on random floors: what they clean, and where they lie."""
 
 import math
 
@@ -12,8 +12,8 @@ from rooms import RADIUS, crooked, distances, quiet, room
 
 from rumba_cleaning.belief.swept import Swept
 from rumba_cleaning.planning import crumbs
-from rumba_cleaning.planning.lanes import CELL, TURN, cells
-from rumba_cleaning.planning.turned_floor import TurnedFloor, main_direction
+from rumba_cleaning.planning.lanes import BLOCK, TURN, blocks
+from rumba_cleaning.planning.turned_floor import main_direction
 from rumba_sim.model.floor_plan import FREE, OCCUPIED, FloorPlan
 
 SPEED = 0.3
@@ -21,40 +21,40 @@ FINE = pytest.mark.parametrize('resolution', [0.02, 0.05])
 
 
 def direction(lane):
-    """Of a lane, whichever way round: -pi/2 to pi/2 [rad]."""
+    """Direction of a lane, of its two the one from -pi/2 to pi/2 [rad]."""
     (x, y), (to_x, to_y) = lane
     angle = math.atan2(to_y - y, to_x - x)
     return angle - math.copysign(math.pi, angle) if abs(angle) > math.pi / 2.0 else angle
 
 
-def lies_along(cell, axis):
-    """Whether all lanes of a cell run along axis 0, x, or 1, y."""
-    return all(lane[0][1 - axis] == approx(lane[1][1 - axis]) for lane in cell.lanes)
+def lies_along(block, axis):
+    """Whether all lanes of a block run along an axis: 0, x, or 1, y."""
+    return all(lane[0][1 - axis] == approx(lane[1][1 - axis]) for lane in block.lanes)
 
 
 def area(missed, plan):
-    """[m^2]"""
+    """Area of cells [m^2]."""
     return np.count_nonzero(missed) * plan.resolution ** 2
 
 
 def share(found, missed, plan):
-    """Of what was missed, as cells have it."""
-    return sum(cell.area for cell in found) / area(missed, plan)
+    """Share of what was missed that blocks promise to clean."""
+    return sum(block.area for block in found) / area(missed, plan)
 
 
 def cleaned(found, plan, start):
-    """What the brush sweeps on the lanes, driven on paper: bool (rows, columns)."""
+    """The missed cells that the brush sweeps on the lanes, driven on paper: bool (rows, columns)."""
     swept = Swept(plan, quiet())
     swept.begin(*start)
     before = swept.missed()
-    for cell in found:
-        for lane in cell.lanes:
+    for block in found:
+        for lane in block.lanes:
             crumbs.drive(swept, lane)
     return before & ~swept.missed()
 
 
 def all_of(plan):
-    """What the brush can reach in a plan."""
+    """The cells of a plan that the brush can reach: bool (rows, columns)."""
     x, y, _ = plan.most_open_pose()
     return plan.reachable(x, y, RADIUS, BRUSH)
 
@@ -63,31 +63,31 @@ def all_of(plan):
 
 @pytest.mark.parametrize('width, height', [(3.4, 2.0), (3.4, 1.0), (1.4, 2.4), (0.6, 2.0), (1.0, 0.3), (0.4, 0.2)])
 @FINE
-def test_a_rectangle_is_one_cell_with_lanes_along_its_longer_side_a_brush_apart(resolution, width, height):
+def test_a_rectangle_is_one_block_with_lanes_along_its_longer_side_a_brush_apart(resolution, width, height):
     plan = room(4.0, 3.0, resolution)
     missed = part_of(plan, (0.3, 0.3, 0.3 + width, 0.3 + height))
-    cell, = cells(ground(plan), missed, BRUSH, SPEED)
+    block, = blocks(ground(plan), missed, BRUSH, SPEED)
     along_lanes, across = (0, 1) if width > height else (1, 0)
     sides = (width, height)
-    assert lies_along(cell, along_lanes)
-    assert len(cell.lanes) == math.ceil(sides[across] / BRUSH) and cell.area == approx(area(missed, plan))
-    places = sorted(lane[0][across] for lane in cell.lanes)
-    assert places == approx([lane[0][across] for lane in cell.lanes])  # one beside the other
-    assert places[0] - 0.5 * BRUSH <= 0.3 + 0.5 * resolution
-    assert places[-1] + 0.5 * BRUSH >= 0.3 + sides[across] - 0.5 * resolution
-    assert max(np.diff(places)) <= BRUSH + 1e-9
-    for lane in cell.lanes:
+    assert lies_along(block, along_lanes)
+    assert len(block.lanes) == math.ceil(sides[across] / BRUSH) and block.area == approx(area(missed, plan))
+    positions = sorted(lane[0][across] for lane in block.lanes)
+    assert positions == approx([lane[0][across] for lane in block.lanes])  # one beside the other
+    assert positions[0] - 0.5 * BRUSH <= 0.3 + 0.5 * resolution
+    assert positions[-1] + 0.5 * BRUSH >= 0.3 + sides[across] - 0.5 * resolution
+    assert max(np.diff(positions)) <= BRUSH + 1e-9
+    for lane in block.lanes:
         assert lane[:, along_lanes] == approx([0.3, 0.3 + sides[along_lanes]])
-    turns = cell.time - sum(length(lane) for lane in cell.lanes) / SPEED
-    assert turns == approx(CELL + TURN * len(cell.lanes)) and turns > 2.0 + 2.0 * len(cell.lanes)
+    turns = block.time - sum(length(lane) for lane in block.lanes) / SPEED
+    assert turns == approx(BLOCK + TURN * len(block.lanes)) and turns > 2.0 + 2.0 * len(block.lanes)
 
 
 @FINE
-def test_the_brush_cleans_on_the_lanes_all_that_a_cell_counts(resolution):
+def test_the_brush_cleans_on_the_lanes_all_that_a_block_counts(resolution):
     plan = room(4.0, 3.0, resolution, [(1.7, 1.3, 2.2, 1.7)])
     missed = part_of(plan, (0.3, 0.3, 3.5, 2.6)) & all_of(plan)
-    found = cells(ground(plan), missed, BRUSH, SPEED)
-    promised = sum(cell.area for cell in found)
+    found = blocks(ground(plan), missed, BRUSH, SPEED)
+    promised = sum(block.area for block in found)
     assert promised <= area(missed & cleaned(found, plan, (0.5, 0.5)), plan) + 0.01 * promised
 
 
@@ -95,25 +95,25 @@ def test_lanes_are_as_far_apart_as_the_brush_is_wide():
     plan = room(4.0, 3.0)
     missed = part_of(plan, (0.3, 0.3, 3.7, 2.3))
     for brush in (0.1, 0.3):
-        cell, = cells(ground(plan), missed, brush, SPEED)
-        assert len(cell.lanes) == math.ceil(2.0 / brush)
-        assert np.diff([lane[0, 1] for lane in cell.lanes]) == approx(brush)
+        block, = blocks(ground(plan), missed, brush, SPEED)
+        assert len(block.lanes) == math.ceil(2.0 / brush)
+        assert np.diff([lane[0, 1] for lane in block.lanes]) == approx(brush)
 
 
-def test_what_is_cleaned_faster_takes_less_time():
+def test_a_block_that_is_cleaned_faster_takes_less_time():
     plan = room(4.0, 3.0)
     missed = part_of(plan, (0.3, 0.3, 3.7, 1.3))
-    slow, fast = (cells(ground(plan), missed, BRUSH, speed)[0] for speed in (0.2, 0.4))
-    way = sum(length(lane) for lane in slow.lanes)
-    assert slow.time - fast.time == approx(way / 0.2 - way / 0.4)
+    slow, fast = (blocks(ground(plan), missed, BRUSH, speed)[0] for speed in (0.2, 0.4))
+    distance = sum(length(lane) for lane in slow.lanes)
+    assert slow.time - fast.time == approx(distance / 0.2 - distance / 0.4)
 
 
-def test_what_was_missed_is_left_as_it_was():
+def test_the_array_of_missed_cells_is_not_changed():
     plan = room(4.0, 3.0)
     missed = part_of(plan, (0.3, 0.3, 3.7, 1.3))
     before = missed.copy()
-    cells(ground(plan), missed, BRUSH, SPEED)
-    cells(ground(plan), missed, BRUSH, SPEED, 0.3)
+    blocks(ground(plan), missed, BRUSH, SPEED)
+    blocks(ground(plan), missed, BRUSH, SPEED, 0.3)
     assert (missed == before).all()
 
 
@@ -131,7 +131,7 @@ SHAPES = {  # boxes, the first of which is wide and the second high
 def test_each_arm_of_an_l_or_a_t_is_cleaned_along_its_length(resolution, shape):
     plan = room(4.0, 3.0, resolution)
     missed = part_of(plan, *SHAPES[shape])
-    found = cells(ground(plan), missed, BRUSH, SPEED)
+    found = blocks(ground(plan), missed, BRUSH, SPEED)
     assert 0.97 <= share(found, missed, plan) <= 1.0 + 1e-9
     assert np.count_nonzero(missed & cleaned(found, plan, (0.5, 0.5))) >= 0.97 * np.count_nonzero(missed)
     wide, high = found
@@ -140,13 +140,13 @@ def test_each_arm_of_an_l_or_a_t_is_cleaned_along_its_length(resolution, shape):
 
 
 @FINE
-def test_floor_around_an_obstacle_falls_into_cells_beside_it(resolution):
+def test_the_floor_around_an_obstacle_is_cut_into_blocks_beside_it(resolution):
     plan = room(4.0, 3.0, resolution, [(1.7, 1.3, 2.2, 1.7)])
     floor, missed = ground(plan), all_of(plan)
-    found = cells(floor, missed, BRUSH, SPEED)
+    found = blocks(floor, missed, BRUSH, SPEED)
     assert 0.97 <= share(found, missed, plan) <= 1.0 + 1e-9 and len(found) >= 4
-    for cell in found:
-        for lane in cell.lanes:
+    for block in found:
+        for lane in block.lanes:
             assert min(distances(plan, along(lane))) >= floor.reach
     assert np.count_nonzero(missed & ~cleaned(found, plan, (0.5, 0.5))) <= 0.03 * np.count_nonzero(missed)
 
@@ -154,35 +154,35 @@ def test_floor_around_an_obstacle_falls_into_cells_beside_it(resolution):
 def test_a_lane_goes_on_over_a_short_piece_of_clean_floor_and_ends_at_a_long_one():
     plan = room(6.0, 2.0)
     short, long = (part_of(plan, (0.3, 0.5, 2.5, 1.0), (2.5 + gap, 0.5, 5.5, 1.0)) for gap in (0.4, 0.7))
-    cell, = cells(ground(plan), short, BRUSH, SPEED)
-    assert [lane[:, 0].tolist() for lane in cell.lanes] == [approx([0.3, 5.5])] * 3
-    assert cell.area == approx(area(short, plan))
-    found = sorted(cells(ground(plan), long, BRUSH, SPEED), key=lambda cell: cell.lanes[0][0, 0])
-    assert [lane[:, 0].tolist() for cell in found for lane in cell.lanes] == [approx([0.3, 2.5])] * 3 + [
+    block, = blocks(ground(plan), short, BRUSH, SPEED)
+    assert [lane[:, 0].tolist() for lane in block.lanes] == [approx([0.3, 5.5])] * 3
+    assert block.area == approx(area(short, plan))
+    found = sorted(blocks(ground(plan), long, BRUSH, SPEED), key=lambda block: block.lanes[0][0, 0])
+    assert [lane[:, 0].tolist() for block in found for lane in block.lanes] == [approx([0.3, 2.5])] * 3 + [
         approx([3.2, 5.5])] * 3
 
 
-def test_strips_that_lie_apart_are_cells_of_their_own():
+def test_strips_that_lie_apart_are_separate_blocks():
     plan = room(4.0, 3.0)
-    found = cells(ground(plan), part_of(plan, (0.5, 0.4, 3.5, 0.9), (0.5, 1.6, 3.5, 2.1)), BRUSH, SPEED)
-    assert sorted(round(cell.lanes[0][0, 1], 1) for cell in found) == [0.5, 1.7]
-    assert [len(cell.lanes) for cell in found] == [3, 3]
+    found = blocks(ground(plan), part_of(plan, (0.5, 0.4, 3.5, 0.9), (0.5, 1.6, 3.5, 2.1)), BRUSH, SPEED)
+    assert sorted(round(block.lanes[0][0, 1], 1) for block in found) == [0.5, 1.7]
+    assert [len(block.lanes) for block in found] == [3, 3]
 
 
 @FINE
 def test_among_pillars_no_floor_is_counted_twice(resolution):
     plan = crooked(resolution, cliff=(3.4, 2.4, 4.0, 3.0))
     missed = all_of(plan)
-    found = cells(ground(plan), missed, BRUSH, SPEED)
+    found = blocks(ground(plan), missed, BRUSH, SPEED)
     assert 0.95 <= share(found, missed, plan) <= 1.0 + 1e-9
-    promised = sum(cell.area for cell in found)
+    promised = sum(block.area for block in found)
     assert promised <= area(missed & cleaned(found, plan, (0.5, 0.5)), plan) + 0.01 * promised
 
 
 def test_a_strip_that_is_narrower_than_the_brush_is_one_lane():
     plan = room(4.0, 3.0, 0.02)
-    cell, = cells(ground(plan), part_of(plan, (0.5, 1.4, 3.0, 1.5)), BRUSH, SPEED)
-    lane, = cell.lanes
+    block, = blocks(ground(plan), part_of(plan, (0.5, 1.4, 3.0, 1.5)), BRUSH, SPEED)
+    lane, = block.lanes
     assert lane[:, 0] == approx([0.5, 3.0]) and lane[0, 1] == lane[1, 1] == approx(1.45, abs=0.05)
 
 
@@ -190,84 +190,43 @@ def test_what_lies_along_a_wall_is_cleaned_from_as_near_as_the_robot_can_come():
     plan = room(4.0, 3.0, 0.02)
     floor = ground(plan)
     missed = part_of(plan, (0.5, 0.0, 3.5, 0.24))
-    cell, = cells(floor, missed, BRUSH, SPEED)
-    lane, = cell.lanes
+    block, = blocks(floor, missed, BRUSH, SPEED)
+    lane, = block.lanes
     assert floor.reach <= lane[0, 1] <= floor.reach + 0.03 and min(distances(plan, along(lane))) >= floor.reach
 
 
-def test_specks_make_no_cells_and_neither_does_nothing():
+def test_neither_specks_nor_a_clean_floor_make_blocks():
     plan = room(4.0, 3.0)
     floor = ground(plan)
     specks = np.zeros(plan.occupancy.shape, bool)
-    assert cells(floor, specks, BRUSH, SPEED) == []
+    assert blocks(floor, specks, BRUSH, SPEED) == []
     specks[10:60:12, 10:80:12] = True
     assert specks.any()
-    assert cells(floor, specks, BRUSH, SPEED) == [] and cells(floor, specks, BRUSH, SPEED, 0.5) == []
+    assert blocks(floor, specks, BRUSH, SPEED) == [] and blocks(floor, specks, BRUSH, SPEED, 0.5) == []
 
 
-def test_floor_where_the_robot_cannot_stand_makes_no_cells():
+def test_floor_that_the_robot_cannot_reach_makes_no_blocks():
     plan = room(4.0, 3.0, boxes=[(0.0, 0.3, 4.0, 0.35)])
     missed = part_of(plan, (0.0, 0.0, 4.0, 0.25))
-    assert missed.any() and cells(ground(plan), missed, BRUSH, SPEED) == []
+    assert missed.any() and blocks(ground(plan), missed, BRUSH, SPEED) == []
 
 
 # --- turned floors -------------------------------------------------------------------------------------------------
 
-@pytest.mark.parametrize('degrees', [0, 20, -20, 45, 65, -70])
-@FINE
-def test_the_main_direction_is_that_of_the_walls(resolution, degrees):
-    found = math.degrees(main_direction(ground(tilted(4.0, 2.5, math.radians(degrees), resolution))))
-    assert -45.0 <= found <= 45.0 and abs((found - degrees + 45.0) % 90.0 - 45.0) <= 1.5
-
-
-@pytest.mark.parametrize('degrees', [1.0, -2.0])
-def test_a_floor_that_is_turned_by_hardly_anything_is_taken_as_not_turned(degrees):
-    assert main_direction(ground(tilted(4.0, 2.5, math.radians(degrees), 0.02))) == 0.0
-
-
-def test_of_walls_in_several_directions_those_that_are_longer_count():
-    slanting = [(0.8 + way, 1.5 + 0.58 * way, 0.85 + way, 1.55 + 0.58 * way) for way in np.arange(0.0, 1.5, 0.01)]
-    assert main_direction(ground(room(4.0, 4.0, 0.02, slanting))) == 0.0
-
-
-@pytest.mark.parametrize('angle', [0.0, 0.35, -0.7])
-def test_a_turned_floor_is_the_floor_itself_cell_by_cell(angle):
-    plan = crooked(0.1)
-    floor = ground(plan)
-    missed = plan.free & (np.random.default_rng(9).random(plan.occupancy.shape) < 0.5)
-    turned = TurnedFloor(floor, missed, angle)
-    rows, columns = turned.missed.shape
-    assert turned.room.shape == (rows + 1, columns + 1) and turned.resolution == 0.1
-    seen = np.zeros_like(missed)
-    for row, column in np.ndindex(rows, columns):
-        (x, y), = turned.places(np.array([[column + 0.5, row + 0.5]]))
-        cell = plan.cell(x, y)
-        inside = 0 <= cell[0] < plan.rows and 0 <= cell[1] < plan.columns
-        assert turned.missed[row, column] == (inside and missed[cell])
-        if inside:
-            seen[cell] = True
-    assert seen.mean() > 0.75  # a turned grid leaves out some cells and has others twice
-    for row, column in np.ndindex(rows + 1, columns + 1):
-        (x, y), = turned.places(np.array([[column, row]]))
-        if turned.room[row, column] > 0.1:
-            assert turned.room[row, column] == approx(floor.plan.safe_clearance_at(x, y), abs=1e-9)
-    assert (turned.room > 0.1).sum() > 0.5 * (plan.safe_clearance > 0.1).sum()
-
-
 @pytest.mark.parametrize('degrees', [20, -20])
 @FINE
-def test_lanes_of_a_turned_room_run_along_its_walls_where_the_robot_can_stand(resolution, degrees):
+def test_lanes_of_a_turned_room_run_along_its_walls_and_keep_off_them(resolution, degrees):
     plan = tilted(4.0, 2.5, math.radians(degrees), resolution)
     floor, missed = ground(plan), all_of(plan)
-    found = cells(floor, missed, BRUSH, SPEED, main_direction(floor))
-    for cell in found:
-        for lane in cell.lanes:
+    found = blocks(floor, missed, BRUSH, SPEED, main_direction(floor))
+    for block in found:
+        for lane in block.lanes:
             assert abs((math.degrees(direction(lane)) - degrees + 45.0) % 90.0 - 45.0) <= 1.5
             assert min(distances(plan, along(lane))) >= floor.reach
     assert 0.9 <= share(found, missed, plan) <= 1.01
     x, y, _ = plan.most_open_pose()
     assert np.count_nonzero(missed & ~cleaned(found, plan, (x, y))) <= 0.06 * np.count_nonzero(missed)
-    most = max(found, key=lambda cell: cell.area)
+    most = max(found, key=lambda block: block.area)
     assert abs(math.degrees(direction(most.lanes[0])) - degrees) <= 1.5  # along the longer walls
     apart = np.diff([lane[0] for lane in most.lanes], axis=0) @ [-math.sin(math.radians(degrees)),
                                                                  math.cos(math.radians(degrees))]
@@ -278,7 +237,7 @@ def test_lanes_of_a_turned_room_run_along_its_walls_where_the_robot_can_stand(re
 
 @st.composite
 def floors(draw):
-    """A small plan with boxes, some of its floor missed, and an angle."""
+    """A small plan with boxes, the missed cells of it, and an angle [rad]."""
     resolution = draw(st.sampled_from([0.1, 0.05, 0.02]))
     generator = np.random.default_rng(draw(st.integers(0, 10 ** 6)))
     boxes = [(x, y, x + width, y + height) for x, y, width, height in generator.uniform(
@@ -296,20 +255,20 @@ def floors(draw):
 
 @settings(max_examples=25)
 @given(floors())
-def test_on_any_floor_lanes_end_lie_where_the_robot_can_stand_and_count_no_floor_twice(example):
+def test_on_any_floor_lanes_keep_off_walls_and_count_no_floor_twice(example):
     plan, missed, angle = example
     floor = ground(plan)
-    found = cells(floor, missed, BRUSH, SPEED, angle)
-    assert all(cell.area > 0.0 and cell.time > 0.0 and cell.lanes for cell in found)
-    assert sum(cell.area for cell in found) <= area(missed, plan) * (1.0 if angle == 0.0 else 1.05) + 1e-9
-    lanes = [along(lane, plan.resolution) for cell in found for lane in cell.lanes]
+    found = blocks(floor, missed, BRUSH, SPEED, angle)
+    assert all(block.area > 0.0 and block.time > 0.0 and block.lanes for block in found)
+    assert sum(block.area for block in found) <= area(missed, plan) * (1.0 if angle == 0.0 else 1.05) + 1e-9
+    lanes = [along(lane, plan.resolution) for block in found for lane in block.lanes]
     if lanes:
         least = floor.reach if angle == 0.0 else floor.reach - 0.1 * plan.resolution
         assert min(distances(plan, np.concatenate(lanes))) >= least
 
 
-def test_a_floor_of_a_single_cell_makes_no_cells():
+def test_a_floor_of_a_single_cell_makes_no_blocks():
     grid = np.full((9, 9), OCCUPIED, np.int8)
     grid[4, 4] = FREE
     plan = FloorPlan('one', grid, 0.1, (0.0, 0.0))
-    assert cells(ground(plan), plan.free, BRUSH, SPEED) == []
+    assert blocks(ground(plan), plan.free, BRUSH, SPEED) == []

@@ -1,4 +1,4 @@
-"""A mission leaves the dock, cleans, charges when it must, never strands where it need not, and comes home."""
+"""A mission leaves the dock, cleans, charges when it must, never strands without need, and returns to the dock."""
 
 import itertools
 import math
@@ -6,33 +6,16 @@ import re
 
 import pytest
 from drivers import context_of, run, with_box
-from rooms import RADIUS, crooked, quiet, room
+from missions import DOCK, PLAN, mission, percent_swept, states, until
+from rooms import RADIUS, crooked, room
 
-from rumba_cleaning.behaviour import STOP, Behaviour, Command, Observation, Status
-from rumba_cleaning.behaviours.bounded import Bounded
+from rumba_cleaning.behaviour import STOP, Observation, Status
 from rumba_cleaning.control import steps
-from rumba_cleaning.mission.battery_watch import BatteryWatch
 from rumba_cleaning.mission.mission import Mission, State
+from rumba_cleaning.outcome import Outcome
 from rumba_sim.model.errors import ConfigError, StrategyError
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.world import World
-
-DOCK = Pose(4.0 - RADIUS - 0.01, 1.2, 0.0)
-PLAN = crooked(dock=DOCK)
-
-
-def mission(plan=PLAN, truth=None, start=None, charge=1.0, strategy='boustrophedon', target=0.98, **battery):
-    """A world after its first tick, and a robot that begins a mission."""
-    world = World(truth or plan, quiet(battery=battery))
-    world.spawn('rumba', start, charge, brushes_up=True)
-    world.step()
-    return world, Mission(context_of(plan, world), strategy, target)
-
-
-def states(behaviour, world, seconds=4000.0):
-    """The states of a mission, one after the other."""
-    return [state for state, _ in itertools.groupby(
-        behaviour.state for _ in steps(behaviour, world, seconds=seconds))]
 
 
 def test_it_undocks_cleans_and_comes_home():
@@ -41,7 +24,7 @@ def test_it_undocks_cleans_and_comes_home():
     assert behaviour.status is Status.SUCCEEDED
     assert world.robots['rumba'].is_docked
     assert world.floor.coverage >= 0.98
-    assert behaviour.message == '98.0 % swept'
+    assert (behaviour.message, behaviour.outcome) == ('98.0 % swept', Outcome.SUCCEEDED)
     assert (behaviour.charges, behaviour.charging_time) == (0, 0.0)
 
 
@@ -81,6 +64,7 @@ def test_a_battery_that_brings_nothing_is_not_charged_for_ever():
     run(behaviour, world, seconds=20000.0)
     assert behaviour.status is Status.FAILED
     assert '3 charges brought no more: the battery does not last' in behaviour.message
+    assert behaviour.outcome is Outcome.BATTERY_LOW
 
 
 def test_an_almost_empty_battery_is_charged_before_it_leaves():
@@ -105,11 +89,12 @@ def test_without_a_dock_a_low_battery_ends_it():
     world, behaviour = mission(crooked(), start=Pose(0.4, 0.4, 0.0), drain=60.0)
     run(behaviour, world)
     assert behaviour.status is Status.FAILED
-    assert behaviour.message.endswith('% swept: the battery is low, and no way leads to a dock')
+    assert behaviour.message.endswith('% swept: the battery is low, and no path leads to a dock')
+    assert behaviour.outcome is Outcome.BATTERY_LOW
     assert world.robots['rumba'].battery.state_of_charge > 0.0
 
 
-def test_a_dock_that_no_way_leads_to_is_as_none():
+def test_a_dock_that_no_path_leads_to_counts_as_none():
     plan = room(4.0, 3.0, boxes=[(2.4, 0.0, 2.6, 3.0)], dock=DOCK, start=Pose(1.0, 1.0, 0.0))
     world, behaviour = mission(plan)
     assert State.RETURNING not in states(behaviour, world)
@@ -117,13 +102,14 @@ def test_a_dock_that_no_way_leads_to_is_as_none():
     assert world.floor.coverage >= 0.98
 
 
-def test_where_another_robot_keeps_the_dock_it_says_so_and_how_much_is_swept():
+def test_if_another_robot_occupies_the_dock_the_message_says_so_and_how_much_is_swept():
     world, behaviour = mission(start=Pose(0.4, 0.4, 0.0), target=0.3)
     world.spawn('rumba2', DOCK, brushes_up=True)
     run(behaviour, world)
     assert (behaviour.status, behaviour.state) == (Status.FAILED, State.STRANDED)
     assert re.fullmatch(r'3\d\.\d % swept: 3 attempts to dock failed: something keeps the robot from the contacts',
                         behaviour.message)
+    assert behaviour.outcome is Outcome.BLOCKED
 
 
 def test_an_empty_battery_strands_it():
@@ -133,9 +119,10 @@ def test_an_empty_battery_strands_it():
             world.robots['rumba'].state['charge'] = 0.0
     assert (behaviour.status, behaviour.state, behaviour.message) == (
         Status.FAILED, State.STRANDED, 'the battery is empty')
+    assert behaviour.outcome is Outcome.BATTERY_EMPTY
 
 
-def test_carried_off_while_charging_it_goes_on():
+def test_moved_while_charging_it_goes_on():
     world, behaviour = mission(drain=30.0)
     carried = False
     for _ in steps(behaviour, world, seconds=9000.0):
@@ -147,7 +134,7 @@ def test_carried_off_while_charging_it_goes_on():
     assert world.robots['rumba'].is_docked
 
 
-def test_carried_off_while_cleaning_it_cleans_the_rest():
+def test_moved_while_cleaning_it_cleans_the_rest():
     world, behaviour = mission()
     for number, _ in enumerate(steps(behaviour, world)):
         if number in (300, 700):
@@ -176,13 +163,13 @@ def test_two_robots_clean_one_floor_without_harm():
     assert world.floor.coverage >= 0.97
 
 
-def test_it_may_end_at_any_moment_and_begin_anew():
+def test_restarted_it_forgets_what_was_swept_and_begins_again():
     world, behaviour = mission()
-    for number, _ in enumerate(steps(behaviour, world)):
-        if number == 400:
-            break
-    behaviour.terminate()
-    behaviour.initialise()
+    until(behaviour, world, 0.4)
+    behaviour.restart()
+    assert (behaviour.status, behaviour.message) == (Status.RUNNING, '')
+    run(behaviour, world, seconds=1.0)
+    assert percent_swept(behaviour) < 5.0
     run(behaviour, world)
     assert behaviour.status is Status.SUCCEEDED
 
@@ -190,13 +177,41 @@ def test_it_may_end_at_any_moment_and_begin_anew():
 def test_at_the_end_it_answers_stop():
     world, behaviour = mission(target=0.2)
     run(behaviour, world)
-    assert behaviour.update(Observation(0.1, world.robots['rumba'].pose)) == STOP
+    assert behaviour.step(Observation(0.1, world.robots['rumba'].pose)) == STOP
 
 
-def test_the_same_mission_is_the_same_bit_for_bit():
+def test_it_stops_its_part_when_it_is_stopped():
+    world, behaviour = mission()
+    run(behaviour, world, seconds=20.0)
+    assert behaviour.state is State.CLEANING
+    ends = []
+    behaviour._cleaning.terminate = lambda: ends.append('cleaning')
+    behaviour.stop()
+    behaviour.stop()
+    assert ends == ['cleaning']
+
+
+def test_a_strategy_that_has_done_its_job_ends_the_mission_well():
+    world, behaviour = mission(start=Pose(0.6, 0.6, 0.0), strategy='spiral')
+    run(behaviour, world)
+    assert world.robots['rumba'].is_docked
+    assert (behaviour.status, behaviour.outcome) == (Status.SUCCEEDED, Outcome.SUCCEEDED)
+    assert re.fullmatch(r'\d+\.\d % swept: (a spot|something) .*', behaviour.message)
+
+
+def test_the_context_that_it_is_made_with_keeps_its_target():
+    context = context_of(PLAN, World(PLAN), target_coverage=0.7)
+    config = context.config
+    one, other = Mission(context, 'bounce', 0.5), Mission(context, 'spiral', 0.6)
+    assert (one.strategy, other.strategy) == ('bounce', 'spiral')
+    assert context.config is config and context.target_coverage == 0.7
+
+
+@pytest.mark.parametrize('strategy', ['bounce', 'boustrophedon'])
+def test_the_same_mission_is_the_same_bit_for_bit(strategy):
     digests = set()
     for _ in range(2):
-        world, behaviour = mission(strategy='bounce', target=0.5)
+        world, behaviour = mission(strategy=strategy, target=0.5)
         run(behaviour, world)
         digests.add(world.digest())
     assert len(digests) == 1
@@ -211,63 +226,3 @@ def test_a_target_out_of_range_is_refused(target):
 def test_an_unknown_strategy_is_refused_with_those_that_are_known():
     with pytest.raises(StrategyError, match="unknown strategy 'zigzag': known are .*boustrophedon.*spiral"):
         mission(strategy='zigzag')
-
-
-# --- the battery ----------------------------------------------------------------------------------------------------
-
-def test_the_way_home_is_counted_in_charge():
-    world, behaviour = mission()
-    context = context_of(PLAN, world)
-    watch = BatteryWatch(context)
-    near, far = watch.needed(Pose(3.0, 1.2, 0.0)), watch.needed(Pose(0.4, 0.4, 0.0))
-    rate = (0.19 + 1.0 + 0.5) / (2.7 * 3600.0)
-    assert context.config.reserve + 40.0 * rate <= near < far
-    assert far - near > rate * 2.5 / context.config.transit_speed
-
-
-def test_a_charge_that_falls_faster_counts():
-    world, _ = mission()
-    watch = BatteryWatch(context_of(PLAN, world))
-    before = watch.needed(DOCK)
-    for tick in range(101):
-        watch.update(Observation(0.1, DOCK, state_of_charge=1.0 - 0.001 * tick))
-    assert watch.needed(DOCK) - 0.05 == pytest.approx(0.01 * (before - 0.05) / ((0.19 + 1.0 + 0.5) / 9720.0), rel=0.05)
-
-
-def test_no_way_home_needs_more_than_any_battery_has():
-    plan = room(4.0, 3.0, boxes=[(2.4, 0.0, 2.6, 3.0)], dock=DOCK, start=Pose(1.0, 1.0, 0.0))
-    world, _ = mission(plan)
-    assert BatteryWatch(context_of(plan, world)).needed(Pose(1.0, 1.0, 0.0)) == math.inf
-
-
-# --- bounds ---------------------------------------------------------------------------------------------------------
-
-class Forever(Behaviour):
-    """Goes ahead."""
-
-    def update(self, observation):
-        """Ahead."""
-        self.message = 'ahead'
-        return Command(0.1, 0.0)
-
-
-def test_what_does_not_end_is_given_up_after_its_time():
-    bounded = Bounded(Forever(), 5.0)
-    answers = [bounded.update(Observation(0.1, DOCK)) for _ in range(60)]
-    assert answers.index(STOP) == 50
-    assert (bounded.status, bounded.message) == (Status.FAILED, 'not done after 5 s: ahead')
-
-
-def test_what_runs_out_of_charge_is_given_up():
-    bounded = Bounded(Forever(), 5.0)
-    assert bounded.update(Observation(0.1, DOCK, state_of_charge=0.0)) == STOP
-    assert (bounded.status, bounded.message) == (Status.FAILED, 'the battery is empty')
-
-
-def test_begun_anew_it_has_all_its_time_again():
-    bounded = Bounded(Forever(), 5.0)
-    for _ in range(60):
-        bounded.update(Observation(0.1, DOCK))
-    bounded.initialise()
-    assert bounded.update(Observation(0.1, DOCK)) != STOP
-    assert bounded.status is Status.RUNNING

@@ -1,10 +1,10 @@
-"""spiral sweeps a round spot without a gap, and ends where something is in the way."""
+"""spiral sweeps a round spot without a gap, and ends if something is in the way."""
 
 import math
 
 import numpy as np
 import pytest
-from drivers import context_of, run
+from drivers import context_of, drive_by_hand, run
 from rooms import RADIUS, quiet, room
 
 from rumba_cleaning.behaviour import Status
@@ -39,22 +39,34 @@ def test_a_spot_is_swept_without_a_gap():
     assert np.count_nonzero(swept) * PLAN.resolution ** 2 == pytest.approx(math.pi * SIZE ** 2, rel=0.35)
 
 
-def test_it_ends_where_something_is_in_the_way():
+def test_it_ends_if_something_is_in_the_way():
     world, behaviour = spiral(Pose(4.0 - RADIUS - 0.2, 2.0, 0.0))
     assert behaviour.status is Status.SUCCEEDED
     assert behaviour.message.startswith('something is in the way 0.')
     assert world.robots['rumba'].bumps == 1
 
 
-def test_taken_up_again_it_begins_in_the_middle():
+def test_restarted_it_begins_in_the_middle():
     world = World(PLAN, quiet())
     world.spawn('rumba', Pose(2.0, 2.0, 0.0))
     behaviour = Spiral(context_of(PLAN, world))
     run(behaviour, world, seconds=20.0)
-    behaviour.initialise()
+    behaviour.restart()
     run(behaviour, world, seconds=1.0)
     assert behaviour.status is Status.RUNNING
     assert abs(world.robots['rumba'].twist.w) > 1.5  # as tight as it can
+
+
+def test_driven_elsewhere_by_a_person_it_begins_a_new_spot_there():
+    world = World(PLAN, quiet())
+    world.spawn('rumba', Pose(2.0, 2.0, 0.0))
+    behaviour = Spiral(context_of(PLAN, world))
+    run(behaviour, world, seconds=20.0)
+    drive_by_hand(behaviour, world, 0.2, 0.0, 3.0)
+    run(behaviour, world, seconds=1.0)
+    assert abs(world.robots['rumba'].twist.w) > 1.5  # as tight as it can
+    run(behaviour, world, seconds=120.0)
+    assert behaviour.message == 'a spot of 1.2 m is swept'
 
 
 @pytest.mark.parametrize('away', [0.3, 0.4, 0.5])

@@ -1,4 +1,4 @@
-"""Strategies are known by name, those of other packages included; bad names and modules are refused in one line."""
+"""Strategies are registered by name, those of other packages too; bad names and modules are refused in one line."""
 
 import sys
 
@@ -42,7 +42,7 @@ def test_those_of_this_package_are_known():
 
 
 @pytest.mark.parametrize('name', ['bounce', 'boustrophedon', 'spiral', 'wall_follow'])
-def test_each_is_made_anew_for_a_context(name):
+def test_each_call_makes_a_new_one(name):
     context = context_of(PLAN, World(PLAN))
     one, other = strategies.make(name, context), strategies.make(name, context)
     assert isinstance(one, Behaviour) and one is not other
@@ -51,7 +51,7 @@ def test_each_is_made_anew_for_a_context(name):
 def test_bounce_is_made_with_the_speed_that_was_asked_for():
     bounce = strategies.make('bounce', context_of(PLAN, World(PLAN), speed=0.21))
     assert isinstance(bounce, Bounce)
-    assert bounce.update(Observation(0.0, Pose(1.0, 1.0, 0.0))).v == 0.21
+    assert bounce.step(Observation(0.0, Pose(1.0, 1.0, 0.0))).v == 0.21
 
 
 def test_another_package_adds_its_own(package):
@@ -59,7 +59,7 @@ def test_another_package_adds_its_own(package):
     strategies.load(' their_statues, ')
     statue = strategies.make('statue', context_of(PLAN, World(PLAN)))
     assert statue.name == 'room'
-    assert statue.update(Observation(0.0, Pose(1.0, 1.0, 0.0))) == STOP
+    assert statue.step(Observation(0.0, Pose(1.0, 1.0, 0.0))) == STOP
 
 
 def test_a_name_that_is_taken_is_refused(package):

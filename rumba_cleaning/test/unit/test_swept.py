@@ -1,4 +1,4 @@
-"""The robot's memory of what it swept against the floor of the world, which sees the same brush."""
+"""The memory of what a robot swept, against the floor of the world in which the same brush sweeps."""
 
 import math
 
@@ -19,21 +19,21 @@ CLIFF = (3.8, 2.8, 4.0, 3.0)
 
 
 def memory(plan, x=1.0, y=1.0):
-    """Of a robot that begins at (x, y)."""
+    """The memory of a robot that begins at (x, y) [m]."""
     swept = Swept(plan, quiet())
     swept.begin(x, y)
     return swept
 
 
-def followed(swept, *places, brushes_up=False):
-    """The memory of a robot that came by places (x, y), heading along x."""
-    for x, y in places:
+def followed(swept, *points, brushes_up=False):
+    """The memory after the robot passed points (x, y) [m], heading along x."""
+    for x, y in points:
         swept.follow(Pose(x, y, 0.0), brushes_up)
     return swept
 
 
 def area(swept, plan):
-    """What was swept [m^2]."""
+    """Area that was swept [m^2]."""
     return np.count_nonzero(swept.cells & kernel.SWEPT) * plan.resolution ** 2
 
 
@@ -60,7 +60,7 @@ def test_a_robot_that_knows_its_pose_in_each_tick_knows_what_it_swept(resolution
     assert (swept.missed() == (reachable & ~passed)).all() and swept.missed().dtype == np.bool_
 
 
-def test_brushes_that_are_up_sweep_nothing_and_the_way_with_them_up_is_not_swept_later():
+def test_brushes_that_are_up_sweep_nothing_even_once_they_are_down_again():
     plan = room(4.0, 3.0)
     swept = followed(memory(plan), *((x, 1.0) for x in np.arange(1.0, 2.01, 0.1)), brushes_up=True)
     assert area(swept, plan) == 0.0 and swept.coverage == 0.0
@@ -69,12 +69,12 @@ def test_brushes_that_are_up_sweep_nothing_and_the_way_with_them_up_is_not_swept
     assert (np.flatnonzero((swept.cells & kernel.SWEPT).any(axis=0)) * 0.05 >= 2.0).all()
 
 
-def test_a_leap_sweeps_nothing_and_a_long_step_does():
+def test_a_jump_sweeps_nothing_and_a_long_step_does():
     plan = room(4.0, 3.0)
     for step in ((1.0, 0.0), (0.0, -0.6), (0.4, 0.4)):
         swept = followed(memory(plan), (1.0, 1.0), (1.0 + step[0], 1.0 + step[1]))
         assert area(swept, plan) == 0.0, step
-    followed(swept, (1.8, 1.4))  # goes on from where it was put
+    followed(swept, (1.8, 1.4))  # it goes on from the pose after the jump
     columns = np.flatnonzero((swept.cells & kernel.SWEPT).any(axis=0)) * 0.05 - 0.05
     assert area(swept, plan) >= 0.4 * 0.17 and columns.min() == approx(1.4) and columns.max() == approx(1.8)
 
@@ -87,7 +87,7 @@ def test_a_robot_that_turns_sweeps_a_disc():
     assert area(swept, plan) == approx(math.pi * (0.085 + 0.01) ** 2, rel=0.1)
 
 
-def test_to_sweep_from_pose_to_pose_is_to_follow_them():
+def test_sweep_from_pose_to_pose_equals_follow():
     plan = room(4.0, 3.0, 0.02)
     one, other = memory(plan), memory(plan)
     one.sweep(Pose(1.0, 1.0, 0.3), Pose(1.2, 1.1, 0.5))
@@ -96,7 +96,7 @@ def test_to_sweep_from_pose_to_pose_is_to_follow_them():
     assert (one.cells == other.cells).all() and one.coverage == other.coverage > 0.0
 
 
-def test_to_begin_is_to_forget_what_was_swept_and_where_the_robot_was():
+def test_begin_forgets_what_was_swept_and_where_the_robot_was():
     plan = room(4.0, 3.0)
     swept = followed(memory(plan), (1.0, 1.0), (1.3, 1.0))
     assert swept.coverage > 0.0
@@ -108,7 +108,7 @@ def test_to_begin_is_to_forget_what_was_swept_and_where_the_robot_was():
     assert swept.coverage == approx(area(swept, plan) / swept.reachable_area)
 
 
-def test_what_can_be_reached_is_counted_anew_from_each_beginning():
+def test_begin_counts_what_can_be_reached_from_there():
     plan = room(5.0, 2.4, boxes=[(2.8, 0.0, 2.9, 2.4)])
     swept = memory(plan, 1.0, 1.0)
     left = swept.missed()
@@ -120,7 +120,7 @@ def test_what_can_be_reached_is_counted_anew_from_each_beginning():
         swept.begin(2.7, 1.0)
 
 
-def test_a_copy_holds_the_same_and_changes_alone():
+def test_a_copy_holds_the_same_and_changes_on_its_own():
     plan = two_rooms()
     swept = followed(memory(plan), (1.0, 1.0), (1.3, 1.0))
     copy = swept.copy()
@@ -134,7 +134,7 @@ def test_a_copy_holds_the_same_and_changes_alone():
     assert copy.coverage == approx(area(copy, plan) / copy.reachable_area)
 
 
-def test_where_nothing_can_be_reached_all_of_it_is_swept():
+def test_coverage_is_complete_if_nothing_can_be_reached():
     plan = room(4.0, 3.0)
     swept = Swept(plan, quiet())
     assert (swept.coverage, swept.reachable_area) == (1.0, 0.0) and not swept.missed().any()
@@ -152,12 +152,12 @@ def test_cliffs_are_never_reachable_nor_swept():
     assert (swept.cells[cliff] == kernel.CLIFF).all() and (swept.cells & kernel.SWEPT).any()
 
 
-def test_walls_and_floor_that_no_brush_reaches_count_for_nothing():
+def test_walls_and_floor_that_the_brush_cannot_reach_do_not_count():
     plan = crooked()
     swept = memory(plan)
     reachable = plan.reachable(1.0, 1.0, quiet().drive.radius, quiet().brush.width)
     assert (swept.missed() == reachable).all() and swept.reachable_area == approx(reachable.sum() * 0.05 ** 2)
     assert ((swept.cells & kernel.BLOCKED > 0) == ~plan.free).all()
-    followed(swept, (0.3, 0.0), (0.6, 0.0), (0.9, 0.0))  # along the rim, which no brush reaches
+    followed(swept, (0.3, 0.0), (0.6, 0.0), (0.9, 0.0))  # along the rim, which the brush cannot reach
     assert not (swept.cells & kernel.SWEPT)[~plan.free].any() and area(swept, plan) > 0.0
     assert swept.coverage == approx(np.count_nonzero(reachable & (swept.cells & kernel.SWEPT > 0)) / reachable.sum())

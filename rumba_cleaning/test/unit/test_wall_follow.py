@@ -48,7 +48,7 @@ def test_it_does_not_fall_from_a_cliff(heading):
     assert not world.robots['rumba'].has_fallen
 
 
-def test_where_there_is_no_wall_any_more_it_looks_for_another():
+def test_if_the_wall_ends_it_looks_for_another():
     plan = room(6.0, 4.0)
     world = World(plan, quiet())
     world.spawn('rumba', Pose(0.3, 2.0, math.pi))

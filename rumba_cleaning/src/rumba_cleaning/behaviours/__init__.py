@@ -1,1 +1,1 @@
-"""Single things that a robot can do, from a turn on the spot to the way into the dock."""
+"""Behaviours for a single task, such as going to a pose or docking, and the controllers that they use."""

@@ -1,6 +1,7 @@
 """Ends a behaviour that does not end by itself."""
 
-from rumba_cleaning.behaviour import STOP, Behaviour, Command, Observation, Status
+from rumba_cleaning.behaviour import Behaviour, Command, Observation, Status
+from rumba_cleaning.outcome import Outcome
 
 
 class Bounded(Behaviour):
@@ -8,32 +9,41 @@ class Bounded(Behaviour):
 
     Attributes:
         behaviour: the other one.
-        time: [s] since it began.
+        time: since the run began, with the time in which a person drove [s].
     """
+
+    time = 0.0
 
     def __init__(self, behaviour: Behaviour, time_limit: float) -> None:
         """Give it `time_limit` [s] of simulated time."""
         self.behaviour = behaviour
         self._time_limit = time_limit
-        self.initialise()
 
     def initialise(self) -> None:
-        """Begin anew."""
-        super().initialise()
-        self.behaviour.initialise()
+        """Begin with all the time left."""
+        self.behaviour.restart()
         self.time = 0.0
 
     def update(self, observation: Observation) -> Command:
-        """What the other one says, while it may."""
+        """Step the other one, within the limits."""
         self.time += observation.dt
         if observation.state_of_charge <= 0.0 and not observation.is_docked:
-            return self.fail('the battery is empty')
+            return self.fail('the battery is empty', Outcome.BATTERY_EMPTY)
         if self.time > self._time_limit:
-            return self.fail(f'not done after {self._time_limit:g} s: {self.behaviour.message}')
-        command = self.behaviour.update(observation)
-        self.status, self.message = self.behaviour.status, self.behaviour.message
-        return command if self.status is Status.RUNNING else STOP
+            return self.fail(f'not done after {self._time_limit:g} s: {self.behaviour.message}', Outcome.TIMED_OUT)
+        command = self.behaviour.step(observation)
+        self.message = self.behaviour.message
+        if self.behaviour.status is Status.SUCCEEDED:
+            return self.succeed(self.message, self.behaviour.outcome)
+        if self.behaviour.status is Status.FAILED:
+            return self.fail(self.message, self.behaviour.outcome)
+        return command
 
     def terminate(self) -> None:
-        """End the other one."""
-        self.behaviour.terminate()
+        """Stop the other one."""
+        self.behaviour.stop()
+
+    def take_note(self, observation: Observation) -> None:
+        """Count the time, and have the other one stand by."""
+        self.time += observation.dt
+        self.behaviour.stand_by(observation)

@@ -9,34 +9,34 @@ from rumba_cleaning.belief.context import Context
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.kernel import Array
 
-HORIZON = 6.0  # [m] of the route that are looked at; what is still in the way later is met later
+HORIZON = 6.0  # [m] of the route that are looked at: longer than a lane and a turn; the rest is looked at if it is met
 
 
 def detour(context: Context, pose: Pose, rest: Route) -> Optional[Route]:
-    """From a pose onto the rest of a route, around what is marked; None where none of it can be reached.
+    """A route from a pose onto the rest of another route, around what is marked; None if no path leads to any of it.
 
-    Places of the route that an obstacle covers are left out.
+    It leaves out waypoints that an obstacle covers.
     """
     ground = context.ground
-    places: List[Array] = [np.array([pose[:2]])]
+    parts: List[Array] = [np.array([pose[:2]])]
     speeds: List[Array] = []
-    lengths = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(rest.places, axis=0).T))])
+    lengths = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(rest.waypoints, axis=0).T))])
     is_on_route = False
-    for index, place in enumerate(rest.places):
-        here = places[-1][-1]
+    for index, waypoint in enumerate(rest.waypoints):
+        here = parts[-1][-1]
         if is_on_route and lengths[index] > HORIZON:
-            places.append(rest.places[index:])
+            parts.append(rest.waypoints[index:])
             speeds.append(rest.speeds[index - 1:])
             break
-        if is_on_route and not ground.is_marked(here, place):
-            places.append(place[np.newaxis])
+        if is_on_route and not ground.is_marked(here, waypoint):
+            parts.append(waypoint[np.newaxis])
             speeds.append(rest.speeds[index - 1:index])
             continue
-        is_on_route = not ground.is_marked(place, place)
-        way = ground.way(here, place) if is_on_route else None
-        if way is None:
+        is_on_route = not ground.is_marked(waypoint, waypoint)
+        path = ground.path(here, waypoint) if is_on_route else None
+        if path is None:
             is_on_route = False
             continue
-        places.append(way[1:])
-        speeds.append(np.full(len(way) - 1, context.config.speed))
-    return Route(np.concatenate(places), np.concatenate(speeds)) if speeds else None
+        parts.append(path[1:])
+        speeds.append(np.full(len(path) - 1, context.config.speed))
+    return Route(np.concatenate(parts), np.concatenate(speeds)) if speeds else None

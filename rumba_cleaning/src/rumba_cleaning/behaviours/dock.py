@@ -1,4 +1,4 @@
-"""dock: home, by the infrared beams where they are received, by the map from anywhere else."""
+"""dock: home, by the infrared beams if they are received, by the map from anywhere else."""
 
 import math
 from typing import Optional
@@ -11,12 +11,15 @@ from rumba_sim.model.errors import MapError
 from rumba_sim.model.geometry import Pose
 
 STEP = 0.05  # [m]
-BEFORE = (16, 14, 12, 10, 8, 6)  # steps before the dock, on its axis: homing begins where all the way is free
-TRIES = 3
+BEFORE = (16, 14, 12, 10, 8, 6)  # steps from the dock to the point on its axis at which homing begins: the most that
+#                                  are free; bench/docking.py brings all robots home from there
+TRIES = 3  # our choice: a robot that stands in the way has left after that, or stays
 
 
 class Dock(Behaviour):
     """Drives onto the contacts with the brushes up."""
+
+    _part: Optional[Behaviour] = None
 
     def __init__(self, context: Context) -> None:
         """Go to the dock of the plan.
@@ -26,45 +29,55 @@ class Dock(Behaviour):
         """
         self._context = context
         self._approach = approach(context)
-        self.initialise()
 
     def initialise(self) -> None:
         """Begin with what is received."""
-        super().initialise()
-        self._part: Optional[Behaviour] = None
+        self._part = None
         self._tries = 0
 
     @property
     def is_homing(self) -> bool:
-        """Whether it is guided by the beams now."""
+        """Whether the beams guide it now."""
         return isinstance(self._part, Homing)
 
     @property
     def remaining(self) -> float:
-        """Way left to the place before the dock [m]; NaN where it is not known."""
+        """Distance left to the point before the dock [m]; NaN if it is not known."""
         return self._part.remaining if isinstance(self._part, GoTo) else math.nan
 
     def update(self, observation: Observation) -> Command:
-        """To the place before the dock, then home; again, where that fails."""
+        """Go to the point before the dock, then home; if that fails, try again."""
         if observation.is_docked:
             return self.succeed('docked')
         if self._part is None:
             self._part = Homing(self._context) if observation.infrared.omni & BUOYS else GoTo(
                 self._context, self._approach)
-        command = self._part.update(observation)
+        command = self._part.step(observation)
         self.message = self._part.message
         if self._part.status is Status.RUNNING:
             return command
+        outcome = self._part.outcome
         if isinstance(self._part, GoTo):
             if self._part.status is Status.FAILED:
-                return self.fail(f'cannot get to the dock: {self._part.message}')
+                return self.fail(f'cannot get to the dock: {self._part.message}', outcome)
             self._part = Homing(self._context)
         else:
             self._part = GoTo(self._context, self._approach)
             self._tries += 1
             if self._tries >= TRIES:
-                return self.fail(f'{TRIES} attempts to dock failed: {self.message}')
+                return self.fail(f'{TRIES} attempts to dock failed: {self.message}', outcome)
         return Command(0.0, 0.0, brushes_up=True)
+
+    def terminate(self) -> None:
+        """Stop the part that is under way."""
+        if self._part is not None:
+            self._part.stop()
+
+    def take_note(self, observation: Observation) -> None:
+        """Choose between beams and map again, wherever the robot will be."""
+        if self._part is not None:
+            self._part.stop()
+        self._part = None
 
 
 def approach(context: Context) -> Pose:
@@ -81,5 +94,5 @@ def approach(context: Context) -> Pose:
                      dock.theta) for step in range(1, steps + 1)]
         if all(context.plan.safe_clearance_at(pose.x, pose.y) > context.ground.reach for pose in line):
             return line[-1]
-    raise MapError(f'{context.plan.name}: no room before the dock at ({dock.x:.2f}, {dock.y:.2f}) m: '
+    raise MapError(f'{context.plan.name}: too little space before the dock at ({dock.x:.2f}, {dock.y:.2f}) m: '
                    f'a robot of radius {context.robot.drive.radius:.3f} m cannot drive up to it')

@@ -1,7 +1,8 @@
 """go_to: to a pose, around what is in the way."""
 
 import math
-from typing import Optional
+from concurrent.futures import Future
+from typing import Optional, Tuple
 
 import numpy as np
 
@@ -9,17 +10,25 @@ from rumba_cleaning.behaviour import STOP, Behaviour, Command, Observation
 from rumba_cleaning.behaviours.follower import Route, Turn
 from rumba_cleaning.behaviours.travel import Going, Travel
 from rumba_cleaning.belief.context import Context
+from rumba_cleaning.outcome import Outcome
 from rumba_sim.model.geometry import Pose
+from rumba_sim.model.kernel import Array
 
-TRIES = 30  # times that something unknown may be in the way, or the robot be elsewhere in the end
-CLOSE = 0.02  # [m] from the target, at most, where it rests
+TRIES = 30  # times that it may find something unknown in the way, or rest beside the target; our choice
+CLOSE = 0.02  # [m] from the target at which the robot rests, at most, as docs/interfaces.md says
+
+Found = Tuple[Optional[Array], bool]  # a path, and whether obstacles that were met had to be forgotten for it
 
 
 class GoTo(Behaviour):
     """Drives to a pose with the brushes up."""
 
+    _travel: Optional[Travel] = None
+    _turn: Optional[Turn] = None  # at the end
+    _search: 'Optional[Future[Found]]' = None
+
     def __init__(self, context: Context, target: Pose) -> None:
-        """Go to a target [m, rad], map frame; theta NaN: any heading will do.
+        """Go to a target [m, rad], map frame; if theta is NaN, the robot may face anywhere at the end.
 
         Raises:
             MapError: the robot does not fit there, or it lies outside the map.
@@ -27,31 +36,26 @@ class GoTo(Behaviour):
         context.plan.check_place(target, context.robot.drive.radius, 'target')
         self._context = context
         self._target = target
-        self.initialise()
 
     def initialise(self) -> None:
-        """Begin with looking for a way."""
-        super().initialise()
-        self._travel: Optional[Travel] = None
-        self._turn: Optional[Turn] = None  # at the end
+        """Begin with the search for a path."""
+        self._leave()
         self._tries = 0
 
     @property
     def remaining(self) -> float:
-        """Way left to the target [m]; NaN where none is known yet."""
+        """Distance left to the target [m]; NaN if no path is known yet."""
         return self._travel.remaining if self._travel is not None else math.nan
 
     def update(self, observation: Observation) -> Command:
-        """Along the way, then turn."""
+        """Follow the path, then turn."""
         if self._turn is not None:
             return self._turned(self._turn, observation)
         if self._travel is None:
-            route = self._route(observation.pose)
-            if route is None:
-                here, target = observation.pose, self._target
-                return self.fail(f'no way from ({here.x:.2f}, {here.y:.2f}) to ({target.x:.2f}, {target.y:.2f}) m')
-            self._travel = Travel(self._context, route)
-        command = self._travel.update(observation, brushes_up=True)
+            self._travel = self._found(observation.pose)
+            if self._travel is None:
+                return STOP
+        command = self._travel.command(observation, brushes_up=True)
         if self._travel.going is Going.ARRIVED:
             any_heading = math.isnan(self._target.theta)
             self._turn = Turn(observation.pose.theta if any_heading else self._target.theta, self._context.robot.drive)
@@ -60,19 +64,46 @@ class GoTo(Behaviour):
         self.message = f'{self.remaining:.1f} m to go'
         return command
 
-    def _route(self, pose: Pose) -> Optional[Route]:
-        """The way as a route; where obstacles that were met close every way, these are forgotten."""
-        ground, ends = self._context.ground, np.array([pose[:2], self._target[:2]])
-        way = ground.way(*ends)
-        if way is None and ground.has_marks:
-            ground.forget()
-            way = ground.way(*ends)
-        return None if way is None else Route(way, np.full(len(way) - 1, self._context.config.transit_speed))
+    def terminate(self) -> None:
+        """Drop the search for a path."""
+        self._drop_search()
+
+    def take_note(self, observation: Observation) -> None:
+        """Look for a path again, from wherever the robot will be."""
+        self._leave()
+
+    def _leave(self) -> None:
+        """Drop the path, or the search for it."""
+        self._travel = self._turn = None
+        self._drop_search()
+
+    def _drop_search(self) -> None:
+        if self._search is not None:
+            self._search.cancel()
+            self._search = None
+
+    def _found(self, pose: Pose) -> Optional[Travel]:
+        """A travel to the target; None while the search for a path goes on, and if there is none."""
+        if self._search is None:
+            self._search = self._context.submit(_search, pose, self._target)
+        if not self._search.done():
+            self.message = 'planning'
+            return None
+        path, has_forgotten = self._search.result()
+        self._search = None
+        if has_forgotten:
+            self._context.ground.forget()
+        if path is None:
+            target = self._target
+            self.fail(f'no path from ({pose.x:.2f}, {pose.y:.2f}) to ({target.x:.2f}, {target.y:.2f}) m',
+                      Outcome.NO_PATH)
+            return None
+        return Travel(self._context, Route(path, np.full(len(path) - 1, self._context.config.transit_speed)))
 
     def _turned(self, turn: Turn, observation: Observation) -> Command:
-        """Turn to the heading; where commands come late, or somebody gives a push, go back to the target."""
+        """Turn to the heading; if the robot is off the target then, go back: commands came late, or it was pushed."""
         pose = observation.pose
-        rate = turn.update(pose, observation.dt)
+        rate = turn.rate(pose, observation.dt)
         if not turn.is_done:
             return Command(0.0, rate, brushes_up=True)
         if math.hypot(pose.x - self._target.x, pose.y - self._target.y) > CLOSE:
@@ -80,8 +111,18 @@ class GoTo(Behaviour):
         return self.succeed(f'at ({pose.x:.2f}, {pose.y:.2f}) m')
 
     def _try_again(self, meanwhile: Command) -> Command:
-        self._travel = self._turn = None
+        self._leave()
         self._tries += 1
         if self._tries > TRIES:
-            return self.fail(f'after {TRIES} attempts something is still in the way')
+            return self.fail(f'after {TRIES} attempts something is still in the way', Outcome.BLOCKED)
         return meanwhile
+
+
+def _search(context: Context, pose: Pose, target: Pose) -> Found:
+    """A path to a target; if obstacles that were met close every path, they are forgotten."""
+    ground, ends = context.ground, np.array([pose[:2], target[:2]])
+    path = ground.path(*ends)
+    if path is not None or not ground.has_marks:
+        return path, False
+    ground.forget()
+    return ground.path(*ends), True

@@ -1,4 +1,8 @@
-"""Drives along routes, and notices what is in the way."""
+"""Drives along a route, and notices what is in the way.
+
+`Travel` is a controller, not a behaviour: a behaviour makes one for each route, and throws it away when it is no longer
+ON.
+"""
 
 import enum
 import math
@@ -11,13 +15,13 @@ from rumba_cleaning.belief.context import Context
 from rumba_cleaning.belief.ground import Ground
 from rumba_sim.model.geometry import Pose
 
-KNOWN = 0.03  # [m] a contact so near a known obstacle is a contact with that
-SIDE = 0.74  # [rad] about where a contact is that presses one switch alone
-OBSTACLE = 0.05  # [m] radius of what a contact tells of
-GAP = 0.02  # [m] from the body to that
-PATIENCE = 4.0  # [s] without progress: longer than any turn takes
-PROGRESS = 0.01  # [m]
-LONGEST = 0.5  # [s] of one update that count as waiting: in a longer one a route was planned
+KNOWN = 0.03  # [m] if a known obstacle is so near to the body, a contact is a contact with that: three errors of a pose
+SIDE = 0.74  # [rad] the middle of the part of the bumper that presses one switch alone: (field + overlap) / 4
+OBSTACLE = 0.05  # [m] radius that is assumed for what a contact reveals; `Ground` makes it larger if it is met again
+GAP = 0.02  # [m] from the body to that: one cell of a fine map
+PATIENCE = 4.0  # [s] without progress, which is longer than any turn takes: the robot is stuck
+PROGRESS = 0.01  # [m]: more than the noise of a pose
+LONGEST = 0.5  # [s] of one observation that count as waiting: in a longer one the node was busy, not the robot
 
 
 class Going(enum.Enum):
@@ -30,10 +34,10 @@ class Going(enum.Enum):
 
 
 class Travel:
-    """Along one route.
+    """Follows one route.
 
     Attributes:
-        going: how it goes; what `update` answers is of use only while it is ON.
+        going: how it goes; what `command` answers is of use only while it is ON.
     """
 
     def __init__(self, context: Context, route: Route) -> None:
@@ -41,22 +45,25 @@ class Travel:
         self._context = context
         self._follower = Follower(route, context.robot.drive)
         self._back = 0.0  # [s] still to back off
-        self._nearest = math.inf  # [m] least way that was left
+        self._nearest = math.inf  # [m] least distance that was left
         self._waited = 0.0  # [s] since then
-        self._is_first = True  # update
-        self._was_touching = True  # what is felt at once was felt, and dealt with, before
+        self._is_first = True  # command
+        self._was_touching = True  # a contact that exists at the start was dealt with before
         self.going = Going.ON
 
     @property
     def remaining(self) -> float:
-        """Way left [m]."""
+        """Distance left [m]."""
         return self._follower.remaining
 
     def rest(self) -> Optional[Route]:
-        """What of the route is left; None where nothing is."""
-        return self._follower.rest()
+        """What is left of the route, if it has to be left; None if nothing is.
 
-    def update(self, observation: Observation, brushes_up: bool) -> Command:
+        It begins behind the obstacle if one is in the way, and at the point that was reached if the robot is lost.
+        """
+        return self._follower.rest_from_here() if self.going is Going.LOST else self._follower.rest()
+
+    def command(self, observation: Observation, brushes_up: bool) -> Command:
         """What to do now."""
         if self._is_first and _is_at_edge(self._context.ground, observation):
             self._back = recoil.CLIFF / recoil.SPEED
@@ -69,7 +76,7 @@ class Travel:
         if self._is_blocked(observation):
             self._back = recoil.time_back(observation)
             return Command(-recoil.SPEED, 0.0, brushes_up)
-        v, w = self._follower.update(observation.pose, observation.dt)
+        v, w = self._follower.velocity(observation.pose, observation.dt)
         if self._follower.is_lost:
             self.going = Going.LOST
         elif self._follower.is_done:
@@ -100,7 +107,7 @@ def mark(context: Context, pose: Pose, angle: float) -> None:
 
 
 def _is_at_edge(ground: Ground, observation: Observation) -> bool:
-    """Whether a robot that turned here might swing a wheel over a cliff, and the way back leads away from it."""
+    """Whether a turn here might swing a wheel over a cliff, and backing off leads away from it."""
     pose = observation.pose
     behind = pose.x - recoil.CLIFF * math.cos(pose.theta), pose.y - recoil.CLIFF * math.sin(pose.theta)
     here, there = ground.plan.safe_clearance_at(pose.x, pose.y), ground.plan.safe_clearance_at(*behind)
@@ -110,4 +117,4 @@ def _is_at_edge(ground: Ground, observation: Observation) -> bool:
 def _is_known(ground: Ground, pose: Pose) -> bool:
     """Whether the ground shows an obstacle that a robot here touches."""
     row, column = ground.node(pose.x, pose.y)
-    return bool(ground.room[row, column] < ground.reach + KNOWN)
+    return bool(ground.clearance[row, column] < ground.reach + KNOWN)

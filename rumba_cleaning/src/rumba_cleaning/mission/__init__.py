@@ -1,1 +1,1 @@
-"""A whole mission: which behaviour comes when, and when the robot must go home."""
+"""A whole mission: decides which behaviour the robot follows, and when it must return to the dock."""

@@ -1,5 +1,7 @@
-"""How long the charge lasts, as the robot sees it fall, and whether that is enough for the way home."""
+"""How long the charge lasts, as the robot measures it, and whether that is enough for the way to the dock."""
 
+import math
+from concurrent.futures import Future
 from typing import Optional
 
 from rumba_cleaning.behaviour import Observation
@@ -7,38 +9,45 @@ from rumba_cleaning.behaviours.dock import approach
 from rumba_cleaning.belief.context import Context
 from rumba_sim.model.errors import MapError
 from rumba_sim.model.geometry import Pose
+from rumba_sim.model.kernel import Array
 
-DOCKING = 40.0  # [s] from before the dock onto its contacts
-SLOWNESS = 1.6  # so many times longer than its length at full speed a way home takes at most
-SHORTEST = 2.0  # [s] over which a fall of the charge says something
+DOCKING = 40.0  # [s] from before the dock onto its contacts; the median of bench/docking.py is 31 s
+SLOWNESS = 1.6  # times longer than its length at full speed the drive to the dock takes at most, with turns and detours
+SHORTEST = 2.0  # [s] over which a fall of the charge is a measurement
 SECONDS = 3600.0  # in an hour
 
 
 class BatteryWatch:
-    """Measures the rate of discharge, and knows the way home from everywhere.
+    """Measures the rate of discharge, and knows the length of the path to the dock from everywhere.
 
     Attributes:
-        has_home: whether there is a dock with room before it.
+        has_home: whether there is a dock with enough space before it.
     """
 
     def __init__(self, context: Context) -> None:
-        """Count with the loads that a robot is known for until its charge falls faster."""
+        """Assume the loads of the robot's settings until its charge falls faster."""
         self._context = context
         battery = context.robot.battery
         load = battery.idle_current + battery.wheel_current + battery.brush_current
         self._rate = load * battery.drain / (battery.capacity * SECONDS)  # [1/s] of the state of charge
         self._since: Optional[float] = None  # state of charge when it began to fall
         self._time = 0.0  # [s] since then
+        self._lengths: 'Optional[Future[Array]]' = None
         try:
-            place = approach(context)
+            goal = approach(context)
         except MapError:
             self.has_home = False
         else:
             self.has_home = True
-            self._lengths = context.ground.lengths_to(place.x, place.y)
+            self._lengths = context.submit(_lengths_to, goal)
 
-    def update(self, observation: Observation) -> None:
-        """Take note of the charge."""
+    @property
+    def is_ready(self) -> bool:
+        """Whether the lengths of the paths are computed, so that `needed` can answer."""
+        return self._lengths is None or self._lengths.done()
+
+    def measure(self, observation: Observation) -> None:
+        """Measure the charge."""
         if observation.is_docked or self._since is None or observation.state_of_charge > self._since:
             self._since, self._time = observation.state_of_charge, 0.0
             return
@@ -47,10 +56,17 @@ class BatteryWatch:
             self._rate = max(self._rate, (self._since - observation.state_of_charge) / self._time)
 
     def needed(self, pose: Pose) -> float:
-        """State of charge that takes the robot home from here, with the reserve; inf where no way leads home."""
-        if not self.has_home:
-            return float('inf')
+        """State of charge that is enough to reach the dock from a pose, with the reserve; inf if no path leads there.
+
+        It waits for the lengths of the paths if they are not ready.
+        """
+        if self._lengths is None:
+            return math.inf
         config = self._context.config
-        length = float(self._lengths[self._context.ground.standing_at(pose.x, pose.y)])
+        length = float(self._lengths.result()[self._context.ground.standing_at(pose.x, pose.y)])
         seconds = SLOWNESS * length / config.transit_speed + DOCKING
         return self._rate * seconds + config.reserve
+
+
+def _lengths_to(context: Context, goal: Pose) -> Array:
+    return context.ground.path_lengths_to(goal.x, goal.y)

@@ -1,6 +1,5 @@
-"""A whole mission: undock, clean, go home when the battery runs low, charge, go on, come home at the end."""
+"""A whole mission: undock, clean, return when the battery runs low, charge, go on, and return at the end."""
 
-import dataclasses
 import enum
 import math
 from typing import Optional, Tuple
@@ -13,19 +12,20 @@ from rumba_cleaning.behaviours.dock import Dock
 from rumba_cleaning.behaviours.undock import Undock
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.mission.battery_watch import BatteryWatch
-from rumba_sim.model.errors import ConfigError
+from rumba_cleaning.outcome import Outcome
+from rumba_sim.model.errors import CommandError, ConfigError
 from rumba_sim.model.geometry import Pose
 
-LEAP = 0.5  # [m] from one update to the next: somebody put the robot elsewhere
-OFF = 1.0  # [s] off the contacts while charging, until that counts
-GAIN = 0.002  # of coverage that a charge must bring, once it is ...
-VAIN = 3  # ... so many charges that brought less
-HOMES = 2  # attempts to get home
-START = 0.1  # charge beyond what the way home needs, without which a mission begins with charging
+JUMP = 0.5  # [m] from one observation to the next: the robot did not drive there, somebody moved it; as in `Swept`
+OFF = 1.0  # [s] off the contacts while charging: the robot was moved; contacts that bounce are closed again sooner
+GAIN = 0.002  # of coverage: a charge that brings less brings nothing; as boustrophedon judges its rounds
+VAIN = 3  # charges, one after the other, that brought nothing: the mission is given up; our choice
+HOMES = 2  # attempts to return to the dock, each with the tries of `Dock`; our choice
+START = 0.1  # charge beyond what the way to the dock needs, without which a mission begins with charging; our choice
 
 
 class State(enum.IntEnum):
-    """What the robot is at; the constants of rumba_msg/MissionStatus."""
+    """What the robot does; the constants of rumba_msg/MissionStatus."""
 
     IDLE = 0
     UNDOCKING = 1
@@ -35,20 +35,31 @@ class State(enum.IntEnum):
     CHARGING = 5
     GOING_TO = 6
     STRANDED = 7
+    YIELDING = 8
 
 
 class Mission(Behaviour):
     """Cleans a floor until its target is met, with as many charges as it takes.
 
     Attributes:
-        state: what the robot is at.
+        state: what the robot does.
         strategy: name of the cleaning strategy.
-        charging_time: [s] spent at the contacts.
-        charges: how often it went home to charge.
+        charging_time: time spent at the contacts to charge [s].
+        charges: how often it returned to charge.
     """
 
+    state = State.IDLE
+    charging_time = 0.0
+    charges = 0
+    _part: Optional[Behaviour] = None
+    _last: Optional[Pose] = None
+    _has_memory = False  # of a floor on which it has begun
+    _resumes = False  # the next run goes on with that memory
+
     def __init__(self, context: Context, strategy: str, target_coverage: float) -> None:
-        """Plan to clean.
+        """Clean with a strategy until a share of the reachable floor is swept [0..1]; the context stays as it is.
+
+        The mission shares ground and swept floor with the context, and forgets what they hold when it begins.
 
         Raises:
             StrategyError: there is no strategy of this name.
@@ -56,74 +67,98 @@ class Mission(Behaviour):
         """
         if not 0.0 <= target_coverage <= 1.0:
             raise ConfigError(f'target_coverage is {target_coverage}: must be 0 to 1')
-        context.config = dataclasses.replace(context.config, strategy=strategy, target_coverage=target_coverage)
-        self._context = context
-        self._cleaning = strategies.make(strategy, context)
+        self._context = context.with_target(target_coverage)
+        self._cleaning = strategies.make(strategy, self._context)
         self.strategy = strategy
-        self.initialise()
+
+    def resume(self) -> None:
+        """Have the next run go on with the memory of the last one, which was stopped: the swept floor, the charges.
+
+        Raises:
+            CommandError: the mission has ended.
+        """
+        if self.status is not Status.RUNNING:
+            raise CommandError(f'a mission that has ended cannot be resumed: {self.message}')
+        self._resumes = self._has_memory and not self._is_under_way
 
     def initialise(self) -> None:
-        """Begin with a floor of which nothing is swept."""
-        super().initialise()
+        """Begin with a floor that is not swept, unless the mission is resumed."""
         self.state = State.IDLE
-        self.charging_time = 0.0
-        self.charges = 0
-        self._part: Optional[Behaviour] = None
-        self._watch = BatteryWatch(self._context)
-        self._last: Optional[Pose] = None
+        self._part = None
+        self._last = None
         self._brushes_up = True
-        self._closing: Optional[Tuple[Status, str]] = None  # how it will have ended, once the robot is home
+        self._closing: Optional[Tuple[Status, str, Outcome]] = None  # how the mission ends once the robot is back
         self._off = 0.0  # [s] off the contacts
-        self._homes = 0  # attempts to get home in vain
-        self._gained = 0.0  # coverage at the last charge
+        self._homes = 0  # failed attempts to return to the dock
         self._vain = 0  # charges that brought little, one after the other
+        self._is_undisturbed = True  # nobody drove or moved the robot since it began or was charged
+        if not self._resumes:
+            self.charging_time = 0.0
+            self.charges = 0
+            self._gained = 0.0  # coverage at the last charge
+            self._has_memory = False
+            self._context.ground.forget()
+            self._watch = BatteryWatch(self._context)
+        self._resumes = False
 
     def update(self, observation: Observation) -> Command:
-        """What the state asks for."""
-        if self.status is not Status.RUNNING:
-            return STOP
-        self._take_note(observation)
+        """Do what the state asks for."""
+        self._track(observation)
         if observation.state_of_charge <= 0.0 and not observation.is_docked:
-            return self._strand('the battery is empty')
+            return self._strand('the battery is empty', Outcome.BATTERY_EMPTY)
+        if not self._watch.is_ready:
+            self.message = 'planning'
+            return STOP
         command = {
             State.IDLE: self._begin, State.UNDOCKING: self._undock, State.CLEANING: self._clean,
-            State.RETURNING: self._go_home, State.DOCKING: self._go_home, State.CHARGING: self._charge,
+            State.RETURNING: self._return, State.DOCKING: self._return, State.CHARGING: self._charge,
         }[self.state](observation)
         self._brushes_up = command.brushes_up
         return command
 
     def terminate(self) -> None:
-        """End the part that is under way."""
+        """Stop the part that is under way."""
         if self._part is not None:
-            self._part.terminate()
+            self._part.stop()
 
-    def _take_note(self, observation: Observation) -> None:
+    def take_note(self, observation: Observation) -> None:
+        """Follow the robot; what it passes over does not count as swept, since the person may move the brushes."""
+        self._brushes_up = True
+        self._is_undisturbed = False
+        self._track(observation)
+        if self._part is not None:
+            self._part.stand_by(observation)
+
+    def _track(self, observation: Observation) -> None:
         pose, last = observation.pose, self._last
-        if last is None:
-            self._forget_floor(pose)
-        elif math.hypot(pose.x - last.x, pose.y - last.y) > LEAP and self._part is not None:
-            self._part.initialise()
+        if not self._has_memory:
+            self._begin_floor(pose)
+        if last is not None and math.hypot(pose.x - last.x, pose.y - last.y) > JUMP and self._part is not None:
+            self._is_undisturbed = False
+            self._part.restart()
+        if self.state is State.CHARGING:
+            self.charging_time += observation.dt
         self._last = pose
         self._context.swept.follow(pose, self._brushes_up)
-        self._watch.update(observation)
+        self._watch.measure(observation)
 
-    def _forget_floor(self, pose: Pose) -> None:
-        """Nothing is swept yet; what can be reached is counted from where the robot stands, or right beside."""
+    def _begin_floor(self, pose: Pose) -> None:
+        """Forget what was swept; what can be reached is counted from the robot, or from the nearest free node."""
         ground = self._context.ground
-        ground.forget()
-        place = np.array([pose[:2]])
-        if not ground.are_free(place)[0]:
-            place = ground.places(ground.standing(ground.nodes(place)))
-        self._context.swept.begin(*place[0].tolist())
+        point = np.array([pose[:2]])
+        if not ground.are_free(point)[0]:
+            point = ground.points(ground.standing(ground.nodes(point)))
+        self._context.swept.begin(*point[0].tolist())
+        self._has_memory = True
 
     # --- states ---------------------------------------------------------------------------------------------------
 
     def _enter(self, state: State, part: Optional[Behaviour]) -> Command:
         if self._part is not None:
-            self._part.terminate()
+            self._part.stop()
         self.state, self._part = state, part
         if part is not None:
-            part.initialise()
+            part.restart()
         return STOP
 
     def _begin(self, observation: Observation) -> Command:
@@ -135,84 +170,90 @@ class Mission(Behaviour):
 
     def _undock(self, observation: Observation) -> Command:
         assert self._part is not None
-        command = self._part.update(observation)
+        command = self._part.step(observation)
         if self._part.status is Status.FAILED:
-            return self._strand(self._part.message)
+            return self._strand(self._part.message, self._part.outcome)
         if self._part.status is Status.SUCCEEDED:
             return self._enter(State.CLEANING, self._cleaning)
         return command
 
     def _clean(self, observation: Observation) -> Command:
         coverage = self._context.swept.coverage
-        if coverage >= self._context.config.target_coverage:
-            return self._close(Status.SUCCEEDED, f'{_percent(coverage)} swept')
+        if coverage >= self._context.target_coverage:
+            return self._close(Status.SUCCEEDED, f'{_percent(coverage)} swept', Outcome.SUCCEEDED)
         needed = self._watch.needed(observation.pose)
         if observation.state_of_charge < needed:
             if math.isfinite(needed):
                 return self._enter(State.RETURNING, Dock(self._context))
             if observation.state_of_charge < self._context.config.reserve:
-                return self._close(Status.FAILED, f'{_percent(coverage)} swept: the battery is low, and no way leads '
-                                                  'to a dock')
-        command = self._cleaning.update(observation)
-        self.message = '; '.join(filter(None, [f'{_percent(coverage)} swept', self._cleaning.message]))
-        if self._cleaning.status is not Status.RUNNING:
-            return self._close(self._cleaning.status, f'{_percent(coverage)} swept: {self._cleaning.message}')
+                return self._close(Status.FAILED, f'{_percent(coverage)} swept: the battery is low, and no path leads '
+                                                  'to a dock', Outcome.BATTERY_LOW)
+        cleaning = self._cleaning
+        command = cleaning.step(observation)
+        self.message = '; '.join(filter(None, [f'{_percent(coverage)} swept', cleaning.message]))
+        if cleaning.status is not Status.RUNNING:
+            return self._close(cleaning.status, f'{_percent(coverage)} swept: {cleaning.message}', cleaning.outcome)
         return command
 
-    def _go_home(self, observation: Observation) -> Command:
+    def _return(self, observation: Observation) -> Command:
         assert isinstance(self._part, Dock)
-        command = self._part.update(observation)
+        command = self._part.step(observation)
         self.state = State.DOCKING if self._part.is_homing else State.RETURNING
         self.message = self._part.message
         if self._part.status is Status.FAILED:
             self._homes += 1
             if self._homes >= HOMES:
-                return self._strand(f'{_percent(self._context.swept.coverage)} swept: {self._part.message}')
-            self._part.initialise()
+                return self._strand(f'{_percent(self._context.swept.coverage)} swept: {self._part.message}',
+                                    self._part.outcome)
+            self._part.restart()
         elif self._part.status is Status.SUCCEEDED:
             self._homes = 0
             return self._end() if self._closing else self._arrive()
         return command
 
     def _arrive(self) -> Command:
-        """At the dock, to charge; not for ever, where that brings nothing."""
+        """Charge, unless several charges brought nothing although nobody interfered."""
         coverage = self._context.swept.coverage
-        self._vain = 0 if coverage > self._gained + GAIN else self._vain + 1
+        if coverage > self._gained + GAIN:
+            self._vain = 0
+        elif self._is_undisturbed:
+            self._vain += 1
         self._gained = coverage
         if self._vain >= VAIN:
             return self._strand(f'{_percent(coverage)} swept: {VAIN} charges brought no more: the battery does not '
-                                'last')
+                                'last', Outcome.BATTERY_LOW)
         self.charges += 1
         return self._enter(State.CHARGING, None)
 
     def _charge(self, observation: Observation) -> Command:
-        self.charging_time += observation.dt
         self.message = f'charging, {_percent(observation.state_of_charge)}'
         self._off = 0.0 if observation.is_docked else self._off + observation.dt
         if self._off > OFF:
+            self._is_undisturbed = False
             return self._enter(State.CLEANING, self._cleaning)
         if observation.state_of_charge >= self._context.config.charge_to:
+            self._is_undisturbed = True
             return self._enter(State.UNDOCKING, Undock(self._context, turns=False))
         return STOP
 
     # --- the end --------------------------------------------------------------------------------------------------
 
-    def _close(self, status: Status, message: str) -> Command:
-        """Go home, where there is one, and end then."""
-        self._closing = status, message
-        if not self._watch.has_home or not math.isfinite(self._watch.needed(self._last or Pose(0.0, 0.0, 0.0))):
+    def _close(self, status: Status, message: str, outcome: Outcome) -> Command:
+        """Return to the dock, if a path leads there, and end then."""
+        self._closing = status, message, outcome
+        if self._last is None or not math.isfinite(self._watch.needed(self._last)):
             return self._end()
         return self._enter(State.RETURNING, Dock(self._context))
 
     def _end(self) -> Command:
         assert self._closing is not None
         self.state = State.IDLE
-        status, message = self._closing
-        return self.succeed(message) if status is Status.SUCCEEDED else self.fail(message)
+        status, message, outcome = self._closing
+        return self.succeed(message, outcome) if status is Status.SUCCEEDED else self.fail(message, outcome)
 
-    def _strand(self, message: str) -> Command:
+    def _strand(self, message: str, outcome: Outcome) -> Command:
         self.state = State.STRANDED
-        return self.fail(message)
+        return self.fail(message, outcome)
 
 
 def _percent(share: float) -> str:

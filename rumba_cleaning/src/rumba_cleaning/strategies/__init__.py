@@ -1,6 +1,6 @@
 """Cleaning strategies by name, those of other packages included.
 
-A strategy is made known by a decorator above a function, or a class, that makes its behaviour from a `Context`:
+A decorator registers a strategy: that of a function, or a class, which makes its behaviour from a `Context`:
 
     @strategy('zigzag')
     class Zigzag(Behaviour): ...
@@ -21,7 +21,7 @@ _factories: Dict[str, Factory] = {}
 
 
 def strategy(name: str) -> Callable[[Made], Made]:
-    """Make a strategy known by a name.
+    """Register a strategy by a name.
 
     Raises:
         StrategyError: the name is taken.
@@ -35,7 +35,7 @@ def strategy(name: str) -> Callable[[Made], Made]:
 
 
 def load(modules: str) -> None:
-    """Import modules, named with commas between them, for the strategies that they make known.
+    """Import modules, whose names are separated by commas, for the strategies that they register.
 
     Raises:
         StrategyError: a module cannot be imported.
@@ -56,7 +56,7 @@ def known() -> List[str]:
 
 
 def check(name: str) -> None:
-    """Refuse a strategy that nobody made known.
+    """Refuse a strategy that is not registered.
 
     Raises:
         StrategyError: there is none of that name.

@@ -1,4 +1,4 @@
-"""bounce: straight on until something is in the way, then off in another direction, as early Roombas did."""
+"""bounce: straight ahead until something is in the way, then in another direction, as early Roombas did."""
 
 import enum
 import math
@@ -14,7 +14,7 @@ from rumba_cleaning.strategies import strategy
 
 
 class _Phase(enum.Enum):
-    """What bounce is at."""
+    """What bounce does now."""
 
     AHEAD = 'ahead'
     BACK = 'back'
@@ -24,22 +24,20 @@ class _Phase(enum.Enum):
 class Bounce(Behaviour):
     """Goes ahead; at a contact or a cliff it backs off a little and turns away, by an angle drawn at random."""
 
-    TURN_RATE = 1.5  # [rad/s]
-    TURNS = (0.3 * math.pi, 0.9 * math.pi)  # [rad] least and largest turn
+    TURN_RATE = 1.5  # [rad/s]; a Create 3 turns at 1.9 at most
+    TURNS = (0.3 * math.pi, 0.9 * math.pi)  # [rad] least and largest turn; our choice: away, but not straight back
 
     def __init__(self, generator: np.random.Generator, speed: float = 0.3, ground: Optional[Ground] = None) -> None:
         """Draw the angles from a generator; go ahead at a speed [m/s] (Create 3: 0.306 is its safe speed).
 
-        Where a ground is known, keep off the cliffs that it shows, before the sensors see them.
+        If a ground is given, keep away from the cliffs that it shows, before the sensors see them.
         """
         self._generator = generator
         self._ground = ground
         self._speed = speed
-        self.initialise()
 
     def initialise(self) -> None:
         """Begin by going ahead."""
-        super().initialise()
         self._phase = _Phase.AHEAD
         self._remaining = 0.0  # [s] of the phase
         self._side = 1.0  # turn to the left: 1, to the right: -1

@@ -1,66 +1,123 @@
 """boustrophedon: plans on the map, then drives in lanes, to and fro, as an ox ploughs."""
 
-from typing import Optional
+from concurrent.futures import Future
+from typing import Optional, Tuple
 
 from rumba_cleaning.behaviour import STOP, Behaviour, Command, Observation
 from rumba_cleaning.behaviours.detour import detour
 from rumba_cleaning.behaviours.follower import Route
 from rumba_cleaning.behaviours.travel import Going, Travel
 from rumba_cleaning.belief.context import Context
+from rumba_cleaning.outcome import Outcome
 from rumba_cleaning.planning.planner import plan
 from rumba_cleaning.strategies import strategy
 from rumba_sim.model.geometry import Pose
 
-WORTH = 0.002  # of coverage: a round that gains less is the last
-ROUNDS = 20  # with what was missed in the round before
+WORTH = 0.002  # of coverage: a round that gains less is the last; on the maps of rumba_sim 0.0005 and 0.01 do as well
+ROUNDS = 20  # at most, each with what was missed before: far more than the maps of rumba_sim need
+
+Planned = Tuple[Optional[Route], bool]  # a route, and whether obstacles that were met had to be forgotten for it
 
 
 @strategy('boustrophedon')
 class Boustrophedon(Behaviour):
     """Cleans what was missed, round by round, until a round gains nothing more.
 
-    Obstacles that were met are forgotten then, since they may be gone, as long as that helps.
+    Then it forgets the obstacles that were met, since they may be gone, as long as that helps.
     """
+
+    _planning: 'Optional[Future[Planned]]' = None
 
     def __init__(self, context: Context) -> None:
         """Clean the floor plan of a context."""
         self._context = context
-        self.initialise()
 
     def initialise(self) -> None:
         """Begin with a plan for what was missed so far."""
-        super().initialise()
+        self._drop_plan()
         self._travel: Optional[Travel] = None
+        self._is_round = False  # what is planned: a round, or a detour
         self._rounds = 0
         self._forgot_at = -1.0  # coverage when obstacles that were met were forgotten
         self._before = -1.0  # coverage when the round began
+        self._brushes_up = True
 
     def update(self, observation: Observation) -> Command:
-        """Along the plan."""
+        """Follow the plan, once there is one."""
         if self._travel is None:
-            route = self._next_round(observation.pose)
-            if route is None:
-                return self.succeed('what can be reached is swept')
-            self._travel = Travel(self._context, route)
-        command = self._travel.update(observation, brushes_up=False)
+            if self._planning is None:
+                self._plan_round(observation.pose)
+            self._take_plan()
+            if self._travel is None:
+                return self._wait() if self._planning is not None or not self._is_round else self._end()
+        self._brushes_up = False
+        command = self._travel.command(observation, self._brushes_up)
         self.message = f'{self._travel.remaining:.0f} m of the plan to go'
-        if self._travel.going is Going.BLOCKED:
-            rest = self._travel.rest()
-            around = None if rest is None else detour(self._context, observation.pose, rest)
-            self._travel = None if around is None else Travel(self._context, around)
-        elif self._travel.going is not Going.ON:
-            self._travel = None
-        return command if self._travel is not None else STOP._replace(brushes_up=False)
+        if self._travel.going is not Going.ON:
+            self._leave_route(self._travel, observation.pose)
+        return command if self._travel is not None else self._wait()
 
-    def _next_round(self, pose: Pose) -> Optional[Route]:
-        """A plan for what was missed; None where another round is not worth it."""
-        coverage = self._context.swept.coverage
+    def terminate(self) -> None:
+        """Ignore what is being planned."""
+        self._drop_plan()
+
+    # --- planning -------------------------------------------------------------------------------------------------
+
+    def _plan_round(self, pose: Pose) -> None:
+        """Plan for what was missed, unless another round is not worth it."""
+        context, coverage = self._context, self._context.swept.coverage
         is_worth = coverage > self._before + WORTH and self._rounds < ROUNDS
+        may_forget = context.ground.has_marks and coverage > self._forgot_at + WORTH
         self._before = coverage
         self._rounds += 1
-        route = plan(self._context, pose) if is_worth else None
-        if route is None and self._context.ground.has_marks and coverage > self._forgot_at + WORTH:
-            self._forgot_at = coverage
+        self._is_round = True
+        self._planning = context.submit(_round, pose, is_worth, may_forget)
+
+    def _leave_route(self, travel: Travel, pose: Pose) -> None:
+        """Plan the way back onto the route if the robot had to leave it."""
+        self._travel = None
+        rest = None if travel.going is Going.ARRIVED else travel.rest()
+        if rest is not None:
+            self._is_round = False
+            self._planning = self._context.submit(_detour, pose, rest)
+            self._take_plan()
+
+    def _take_plan(self) -> None:
+        """Follow what was planned, if that is done."""
+        if self._planning is None or not self._planning.done():
+            return
+        route, has_forgotten = self._planning.result()
+        self._planning = None
+        if has_forgotten:
+            self._forgot_at = self._before
             self._context.ground.forget()
-            route = plan(self._context, pose)
-        return route
+        self._travel = None if route is None else Travel(self._context, route)
+
+    def _drop_plan(self) -> None:
+        if self._planning is not None:
+            self._planning.cancel()
+            self._planning = None
+
+    def _wait(self) -> Command:
+        if self._planning is not None:
+            self.message = 'planning'
+        return STOP._replace(brushes_up=self._brushes_up)
+
+    def _end(self) -> Command:
+        context = self._context
+        is_met = context.swept.coverage >= context.target_coverage
+        return self.succeed('what can be reached is swept', Outcome.SUCCEEDED if is_met else Outcome.INCOMPLETE)
+
+
+def _round(context: Context, pose: Pose, is_worth: bool, may_forget: bool) -> Planned:
+    """A route that cleans what was missed; if there is none, one without the obstacles that were met."""
+    route = plan(context, pose) if is_worth else None
+    if route is not None or not may_forget:
+        return route, False
+    context.ground.forget()
+    return plan(context, pose), True
+
+
+def _detour(context: Context, pose: Pose, rest: Route) -> Planned:
+    """A route around the obstacles that were met, onto the rest of another one."""
+    return detour(context, pose, rest), False

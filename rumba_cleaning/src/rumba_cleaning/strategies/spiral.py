@@ -1,4 +1,4 @@
-"""spiral: around and around, from where the robot stands outward, to clean a spot."""
+"""spiral: around and around, outward from where the robot is, to clean a spot."""
 
 import math
 
@@ -8,28 +8,26 @@ from rumba_cleaning.belief.context import Context
 from rumba_cleaning.strategies import strategy
 
 SIZE = 0.6  # [m] radius of the spot (our choice; a spot of a Roomba is about a metre across)
-OVERLAP = 0.85  # of the brush: by so much of it one turn lies outside the one before
+OVERLAP = 0.85  # of the brush's width from one turn to the next: the rest hides errors of the odometry
 
 
 @strategy('spiral')
 class Spiral(Behaviour):
-    """An Archimedean spiral, r = pitch * angle / 2 pi, counter-clockwise; it ends where something is in the way."""
+    """An Archimedean spiral, r = pitch * angle / 2 pi, counter-clockwise; it ends if something is in the way."""
 
     def __init__(self, context: Context) -> None:
-        """Make it as tight as the brush of a context is wide."""
+        """Make its turns as tight as the brush of the robot needs."""
         self._ground = context.ground
         self._drive = context.robot.drive
         self._speed = context.config.speed
         self._pitch = OVERLAP * context.robot.brush.width
-        self.initialise()
 
     def initialise(self) -> None:
         """Begin in the middle of a new spot."""
-        super().initialise()
         self._angle = 0.0  # [rad] around the middle
 
     def update(self, observation: Observation) -> Command:
-        """Farther out with every update."""
+        """Drive on, farther out with every update."""
         radius = self._pitch * self._angle / (2.0 * math.pi)
         if any(observation.contact) or recoil.is_near_edge(self._ground, observation.pose):
             return self.succeed(f'something is in the way {radius:.2f} m from the middle of the spot')
@@ -40,3 +38,7 @@ class Spiral(Behaviour):
         v = min(self._speed, self._drive.max_turn_rate / curvature)
         self._angle += v * observation.dt / math.hypot(radius, pitch)
         return Command(v, v * curvature)
+
+    def take_note(self, observation: Observation) -> None:
+        """Begin a new spot, wherever the robot will be."""
+        self._angle = 0.0

@@ -1,0 +1,325 @@
+"""A goal of the cleaner from its first reading to its result: commands, a person who drives, and how it ends."""
+
+import types
+
+import pytest
+import rospy
+
+from rumba_cleaning.behaviour import STOP, Behaviour, Command, Observation
+from rumba_cleaning.mission.mission import State
+from rumba_cleaning.outcome import Outcome
+from rumba_cleaning.ros.cleaner import run as module
+from rumba_cleaning.ros.cleaner.activities import Activity
+from rumba_cleaning.ros.cleaner.run import Run
+from rumba_msg.msg import CleaningStatus
+from rumba_sim.model.geometry import Pose
+
+AHEAD = Command(0.2, 0.5, brushes_up=False)
+DT = 100_000_000  # [ns]
+
+
+class Scripted(Behaviour):
+    """Answers what a list of functions says, one after the other; the last one for ever."""
+
+    def __init__(self, *script):
+        self.script = list(script)
+        self.watched = []
+        self.ends = 0
+
+    def update(self, observation):
+        decide = self.script.pop(0) if len(self.script) > 1 else self.script[0]
+        return decide(self)
+
+    def take_note(self, observation):
+        self.watched.append(observation.pose.x)
+
+    def terminate(self):
+        self.ends += 1
+
+
+def ahead(_):
+    """Drive on."""
+    return AHEAD
+
+
+def arrive(behaviour):
+    """End as planned."""
+    return behaviour.succeed('there')
+
+
+def divide(_):
+    """Go wrong."""
+    return 1 / 0
+
+
+class Going(Activity):
+    """What the robot does for the goals of these tests."""
+
+    state = State.CLEANING
+    strategy = 'zigzag'
+
+    def feedback(self, senses, mission):
+        return mission
+
+    @staticmethod
+    def result(senses, outcome):
+        return outcome
+
+
+class Senses:
+    """What a robot senses, without ROS."""
+
+    def __init__(self):
+        self.passed, self.stamp, self.heard, self.unread = 0, rospy.Time(1), 0.0, 0
+        self.cleaning = None
+        self.is_alone = self.has_fallen = False
+        self.is_complete = True
+        self.x = 0.0
+
+    def begin(self):
+        """Nothing to do."""
+
+    def observe(self):
+        """What it knows."""
+        return Observation(DT / 1e9, Pose(self.x, 0.0, 0.0)) if self.is_complete else None
+
+    def missing(self):
+        """What is missing."""
+        return 'no reading'
+
+
+class Robot:
+    """A robot without ROS, and the client of its goal, on a clock of their own.
+
+    Attributes:
+        told: what was commanded, published and answered, in this order.
+    """
+
+    def __init__(self, monkeypatch, *script, time_limit=100.0):
+        self.told = []
+        self.now = 1000.0
+        self.senses = Senses()
+        self.senses.heard = self.now
+        self.teleop = types.SimpleNamespace(is_driving=False)
+        self.wheels = types.SimpleNamespace(drive=lambda command: self.told.append(command[:2]))
+        self.brushes = types.SimpleNamespace(
+            want=lambda are_up: self.told.append('up' if are_up else 'down'), forget=lambda: self.told.append('forget'))
+        self.announcer = types.SimpleNamespace(tell=self._tell, say=self.told.append, status='status')
+        monkeypatch.setattr(module.time, 'monotonic', lambda: self.now)
+        monkeypatch.setattr(module.rospy, 'logerr', lambda _: None)
+        self.behaviour = Scripted(*script)
+        answers = {f'set_{how}': lambda outcome, message, how=how: self.told.append((how, outcome.code, message))
+                   for how in ('succeeded', 'canceled', 'aborted')}
+        handle = types.SimpleNamespace(publish_feedback=lambda _: self.told.append('feedback'), **answers)
+        self.run = Run(Going(self.behaviour, time_limit, 0.0), handle, self)
+
+    def _tell(self, state, strategy, message, stamp, is_due):
+        self.status = (state, strategy, message)
+
+    def rest(self):
+        """Stop."""
+        self.told.append('rest')
+
+    def reads(self, seconds=0.1, moved=0.01):
+        """A reading comes after a time; returns what was told since the one before."""
+        self.told.clear()
+        self.senses.passed += round(seconds * 1e9)
+        self.senses.stamp = rospy.Time(1) + rospy.Duration(nsecs=self.senses.passed)
+        self.senses.x += moved
+        self.now += seconds
+        self.senses.heard = self.now
+        self.run.read()
+        return self.told[:]
+
+    def waits(self, seconds):
+        """No reading comes for a time of the wall clock; returns what was told."""
+        self.told.clear()
+        self.now += seconds
+        self.run.look_after()
+        return self.told[:]
+
+    @property
+    def answer(self):
+        """How the client's goal ended, with what code, and the text."""
+        assert self.run.is_closed
+        return self.told[-1]
+
+
+def test_a_goal_drives_and_is_answered_once_the_robot_is_at_rest(monkeypatch):
+    robot = Robot(monkeypatch, ahead, ahead, arrive)
+    assert robot.reads() == [(0.2, 0.5), 'down', 'feedback']
+    assert robot.reads() == [(0.2, 0.5), 'down']
+    assert robot.status == (State.CLEANING, 'zigzag', '')
+    assert robot.reads() == ['rest']
+    assert robot.reads(moved=0.02) == []
+    assert not robot.run.is_closed
+    assert robot.reads(moved=0.0) == ['done after 0 s: there', ('succeeded', Outcome.SUCCEEDED, 'there')]
+    assert robot.status == (State.IDLE, '', 'there')
+    assert robot.behaviour.ends == 1
+
+
+def test_feedback_comes_once_a_second_of_the_robots_time(monkeypatch):
+    robot = Robot(monkeypatch, ahead)
+    assert ['feedback' in robot.reads(0.25) for _ in range(9)] == [
+        True, False, False, True, False, False, False, True, False]
+
+
+def test_figures_of_the_end_are_awaited_if_the_result_needs_them(monkeypatch):
+    robot = Robot(monkeypatch, arrive)
+    robot.run.activity.needs_figures = True
+    for _ in range(5):
+        robot.reads(moved=0.0)
+        assert not robot.run.is_closed
+    robot.senses.cleaning = CleaningStatus()
+    robot.senses.cleaning.header.stamp = robot.senses.stamp
+    robot.reads(moved=0.0)
+    assert robot.answer[0] == 'succeeded'
+
+
+@pytest.mark.parametrize('readings', [21, 0])
+def test_a_robot_that_does_not_come_to_rest_is_not_waited_for_without_end(monkeypatch, readings):
+    robot = Robot(monkeypatch, arrive)
+    robot.reads()
+    for _ in range(readings):
+        assert not robot.run.is_closed
+        robot.reads()
+    if not readings:
+        assert robot.waits(4.9) == []
+        robot.waits(0.2)
+    assert robot.answer[0] == 'succeeded'
+
+
+# --- a person drives --------------------------------------------------------------------------------------------------
+
+def test_while_a_person_drives_nothing_is_commanded_and_then_the_goal_goes_on(monkeypatch):
+    robot = Robot(monkeypatch, ahead)
+    robot.reads()
+    robot.teleop.is_driving = True
+    for _ in range(3):
+        assert robot.reads(moved=0.5) == ['forget']
+        assert robot.status == (State.YIELDING, 'zigzag', 'a person drives')
+    assert robot.behaviour.watched == pytest.approx([0.51, 1.01, 1.51])
+    robot.teleop.is_driving = False
+    assert robot.reads() == [(0.2, 0.5), 'down']
+    assert robot.status[0] is State.CLEANING
+    assert robot.behaviour.ends == 0
+
+
+def test_feedback_goes_on_while_a_person_drives(monkeypatch):
+    robot = Robot(monkeypatch, ahead)
+    robot.reads()
+    robot.teleop.is_driving = True
+    assert sum('feedback' in robot.reads() for _ in range(30)) == 3
+
+
+def test_the_time_in_which_a_person_drives_counts_for_the_time_limit(monkeypatch):
+    robot = Robot(monkeypatch, ahead, time_limit=5.0)
+    robot.reads()
+    robot.teleop.is_driving = True
+    for _ in range(60):
+        robot.reads()
+    robot.teleop.is_driving = False
+    assert robot.reads() == ['rest']
+    robot.reads(moved=0.0)
+    robot.reads(moved=0.0)
+    assert robot.answer[:2] == ('aborted', Outcome.TIMED_OUT)
+
+
+# --- ends that nobody planned -----------------------------------------------------------------------------------------
+
+def test_an_exception_ends_the_goal_with_a_line_that_says_which(monkeypatch):
+    robot = Robot(monkeypatch, ahead, divide)
+    robot.reads()
+    assert robot.reads() == ['rest']
+    robot.reads(moved=0.0)
+    robot.reads(moved=0.0)
+    assert robot.answer == ('aborted', Outcome.ERROR, 'ZeroDivisionError: division by zero')
+    assert robot.behaviour.ends == 1
+    assert robot.status[0] is State.IDLE
+
+
+def test_a_robot_that_falls_gives_up_at_once_and_is_stranded(monkeypatch):
+    robot = Robot(monkeypatch, ahead)
+    robot.reads()
+    robot.senses.has_fallen = robot.teleop.is_driving = True
+    assert robot.reads() == ['rest']
+    robot.reads(moved=0.0)
+    robot.reads(moved=0.0)
+    assert robot.answer == ('aborted', Outcome.FALLEN, 'a wheel hangs over a cliff: the robot must be put elsewhere')
+    assert robot.status[0] is State.STRANDED
+
+
+def test_an_empty_battery_leaves_the_robot_stranded(monkeypatch):
+    robot = Robot(monkeypatch, lambda behaviour: behaviour.fail('the battery is empty', Outcome.BATTERY_EMPTY))
+    for _ in range(3):
+        robot.reads(moved=0.0)
+    assert robot.answer == ('aborted', Outcome.BATTERY_EMPTY, 'the battery is empty')
+    assert robot.status == (State.STRANDED, '', 'the battery is empty')
+
+
+def test_a_sensor_that_is_silent_ends_the_goal_after_5_s(monkeypatch):
+    robot = Robot(monkeypatch, ahead)
+    robot.reads()
+    robot.senses.is_complete = False
+    for _ in range(10):
+        assert robot.reads(0.5) == []
+    robot.reads(0.5)
+    assert robot.answer == ('aborted', Outcome.NO_READINGS, 'no reading')
+
+
+def test_dock_status_without_bumper_and_cliff_ends_the_goal_once_they_had_time_to_connect(monkeypatch):
+    robot = Robot(monkeypatch, ahead)
+    robot.reads()
+    robot.senses.unread = 51
+    assert robot.waits(1.9) == []
+    robot.waits(0.2)
+    assert robot.answer[1] == Outcome.NO_READINGS
+
+
+@pytest.mark.parametrize('stamp, patience', [(rospy.Time(1), 2.0), (None, module.NEVER_CAME_AFTER)])
+def test_a_robot_that_nobody_publishes_for_is_gone(monkeypatch, stamp, patience):
+    robot = Robot(monkeypatch, ahead)
+    robot.senses.stamp = stamp
+    robot.senses.is_alone = True
+    assert robot.waits(patience - 0.1) == []
+    robot.waits(0.2)
+    assert robot.answer == ('aborted', Outcome.NO_READINGS, 'the robot is gone')
+
+
+def test_a_robot_whose_time_stands_still_is_waited_for(monkeypatch):
+    robot = Robot(monkeypatch, ahead)
+    robot.reads()
+    assert robot.waits(1000.0) == []
+    assert not robot.run.is_closed
+
+
+# --- clients ----------------------------------------------------------------------------------------------------------
+
+@pytest.mark.parametrize('outcome', [Outcome.CANCELLED, Outcome.PREEMPTED])
+def test_an_interrupted_goal_stops_the_robot_and_is_answered_at_once(monkeypatch, outcome):
+    robot = Robot(monkeypatch, ahead)
+    robot.reads()
+    robot.told.clear()
+    robot.run.interrupt(outcome, 'for a reason')
+    assert robot.told == ['rest', 'ended after 0 s: for a reason', ('canceled', outcome, 'for a reason')]
+    assert robot.status == (State.IDLE, '', 'for a reason')
+    assert robot.behaviour.ends == 1
+
+
+def test_a_goal_that_has_ended_keeps_its_outcome_if_it_is_interrupted_before_the_robot_is_at_rest(monkeypatch):
+    robot = Robot(monkeypatch, arrive)
+    robot.reads()
+    robot.run.interrupt(Outcome.CANCELLED, 'cancelled')
+    assert robot.answer == ('succeeded', Outcome.SUCCEEDED, 'there')
+
+
+def test_a_behaviour_that_goes_wrong_when_it_ends_still_gets_its_client_an_answer(monkeypatch):
+    robot = Robot(monkeypatch, ahead)
+    robot.reads()
+    monkeypatch.setattr(robot.behaviour, 'terminate', lambda: 1 / 0)
+    robot.run.interrupt(Outcome.CANCELLED, 'cancelled')
+    assert robot.answer[0] == 'canceled'
+
+
+def test_brushes_are_asked_again_at_the_beginning_of_each_goal(monkeypatch):
+    assert Robot(monkeypatch, lambda _: STOP).told == ['forget']

@@ -1,0 +1,127 @@
+"""Obstacles that the robot has met: the clearance beside them, and the paths around them."""
+
+import itertools
+import math
+
+import numpy as np
+from floors import along, ground, length, off, standing_points, wall_with_gap
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from pytest import approx
+from rooms import PLANS, crooked, room
+
+from rumba_cleaning.belief.ground import GROWTH, INFLATION, LARGEST, MARGIN
+
+
+def exact_clearance(floor, marks):
+    """Distance of each node to walls and round obstacles [m]."""
+    rows, columns = np.indices(floor.plan.safe_clearance.shape)
+    points = floor.points(np.stack([rows.ravel(), columns.ravel()], axis=1))
+    away = [np.maximum(np.hypot(*(points - mark[:2]).T) - mark[2], 0.0) for mark in marks]
+    return np.min([floor.plan.safe_clearance.ravel(), *away], axis=0).reshape(rows.shape)
+
+
+@settings(max_examples=30)
+@given(st.sampled_from([0.02, 0.05, 0.1]),
+       st.lists(st.tuples(st.floats(-0.3, 4.3), st.floats(-0.3, 3.3), st.floats(0.02, 0.2)), min_size=1, max_size=3))
+def test_near_obstacles_that_were_met_the_clearance_is_the_distance_to_them(resolution, marks):
+    floor = ground(PLANS['crooked', resolution])
+    apart = [mark for index, mark in enumerate(marks) if all(
+        math.hypot(mark[0] - other[0], mark[1] - other[1]) > mark[2] + other[2] for other in marks[:index])]
+    for mark in apart:
+        floor.mark(*mark)
+    exact = exact_clearance(floor, apart)
+    limit = floor.reach + INFLATION
+    assert np.minimum(floor.clearance, limit) == approx(np.minimum(exact, limit))
+    assert (floor.clearance <= floor.plan.safe_clearance).all()
+    assert (floor.fits == (floor.clearance >= floor.reach + MARGIN)).all()
+
+
+def test_a_path_leads_around_an_obstacle_that_was_met_until_it_is_forgotten():
+    floor = ground(room(4.0, 3.0))
+    start, end, post = np.array([0.5, 1.4]), np.array([3.5, 1.4]), np.array([2.0, 1.5])
+    assert not floor.has_marks and (floor.path(start, end) == [start, end]).all()
+    floor.mark(*post, 0.05)
+    path = floor.path(start, end)
+    assert floor.has_marks and min(np.hypot(*(along(path) - post).T)) >= floor.reach + 0.05
+    assert max(off(path, start, end)) < 0.3 and min(path[:, 1]) < 1.3  # past it on its nearer side
+    floor.forget()
+    assert not floor.has_marks and (floor.path(start, end) == [start, end]).all()
+    assert (floor.clearance == floor.plan.safe_clearance).all()
+
+
+def test_a_copy_of_the_ground_and_the_original_change_independently():
+    floor = ground(room(4.0, 3.0))
+    floor.mark(1.0, 1.5, 0.05)
+    copy, clearance, fits = floor.copy(), floor.clearance.copy(), floor.fits.copy()
+    floor.mark(3.0, 1.5, 0.05)
+    assert copy.has_marks and (copy.clearance == clearance).all() and (copy.fits == fits).all()
+    assert (floor.clearance != clearance).any()
+    assert copy.is_straight(np.array([3.0, 0.5]), np.array([3.0, 2.5]))
+    copy.mark(3.0, 1.5, 0.05)
+    assert radius_at(copy, 3.0, 1.5) == approx(0.05)  # it does not know that the original met this one
+    clearance = floor.clearance.copy()
+    copy.mark(1.0, 1.5, 0.05)  # met again: with the memory of the first touch
+    assert radius_at(copy, 1.0, 1.5) == approx(0.05 + GROWTH) and (floor.clearance == clearance).all()
+    copy.forget()
+    assert floor.has_marks and not copy.has_marks and (floor.clearance == clearance).all()
+
+
+def test_obstacles_in_a_door_close_it():
+    floor = ground(wall_with_gap())
+    start, end = np.array([0.5, 0.5]), np.array([3.5, 0.5])
+    floor.mark(2.0, 2.6, 0.05)
+    assert floor.path(start, end) is None and np.isinf(floor.path_lengths_to(*end)[floor.node(*start)])
+    floor.forget()
+    assert floor.path(start, end) is not None and np.isfinite(floor.path_lengths_to(*end)[floor.node(*start)])
+
+
+def radius_at(floor, x, y):
+    """Radius of the obstacle around a point, from the clearance beside it [m]."""
+    return 0.4 - float(floor.clearance[floor.node(x + 0.4, y)])
+
+
+def test_an_obstacle_that_is_met_again_grows_up_to_a_limit_and_others_do_not():
+    floor = ground(room(6.0, 4.0))
+    floor.mark(4.0, 2.0, 0.05)
+    for times in range(14):
+        floor.mark(2.0, 2.0, 0.05)
+        if times == 0:
+            assert radius_at(floor, 2.0, 2.0) == approx(0.05)
+        if times == 2:
+            assert radius_at(floor, 2.0, 2.0) == approx(0.05 + 2.0 * GROWTH)
+    assert radius_at(floor, 2.0, 2.0) == approx(LARGEST) and radius_at(floor, 4.0, 2.0) == approx(0.05)
+    floor.mark(4.05, 2.0, 0.05)  # overlaps the other: met again a little farther on
+    assert radius_at(floor, 4.05, 2.0) == approx(0.05 + GROWTH)
+    floor.forget()
+    floor.mark(2.0, 2.0, 0.05)
+    assert radius_at(floor, 2.0, 2.0) == approx(0.05)
+
+
+def test_lines_through_an_obstacle_that_was_met_are_marked_and_lines_through_walls_are_not():
+    floor = ground(room(4.0, 3.0, boxes=[(1.0, 0.0, 1.2, 1.0)]))
+    through = np.array([0.5, 0.5]), np.array([3.5, 0.5])
+    assert not floor.is_straight(*through) and not floor.is_marked(*through)
+    floor.mark(2.5, 1.5, 0.05)
+    for (start, end), is_marked in [(((0.5, 1.5), (3.5, 1.5)), True), (((2.5, 0.5), (2.5, 2.5)), True),
+                                    (((0.5, 1.25), (3.5, 1.25)), False), (((0.5, 1.75), (3.5, 1.8)), False),
+                                    (((0.5, 1.3), (3.5, 1.3)), True), (((2.4, 1.5), (2.4, 1.5)), True),
+                                    (((0.5, 1.5), (2.2, 1.5)), False), (((0.5, 0.5), (3.5, 0.5)), False)]:
+        assert floor.is_marked(np.array(start), np.array(end)) == is_marked, (start, end)
+    floor.forget()
+    assert not floor.is_marked(np.array([0.5, 1.5]), np.array([3.5, 1.5]))
+
+
+def test_every_point_among_obstacles_has_a_path_if_its_path_length_is_finite():
+    floor = ground(crooked())
+    for mark in ((2.0, 1.0, 0.1), (1.5, 1.5, 0.1), (2.0, 2.5, 0.1)):
+        floor.mark(*mark)
+    lengths = floor.path_lengths_to(0.5, 0.5)
+    points = standing_points(floor)
+    end = np.array([0.5, 0.5])
+    for start in itertools.islice(points, 0, None, max(len(points) // 60, 1)):
+        path = floor.path(start, end)
+        expected = lengths[floor.node(*start)]
+        assert (path is None) == np.isinf(expected)
+        if path is not None:
+            assert math.hypot(*(start - end)) - 1e-9 <= length(path) <= 1.3 * expected + 0.1
