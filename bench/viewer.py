@@ -1,7 +1,7 @@
-"""What the window costs: a picture alone, and the node beside a mission; without a display (Qt's platform offscreen).
+"""What the window costs: pictures alone, and the node beside a mission; without a display (Qt's platform offscreen).
 
-The map is the apartment. Pictures are drawn whole, as many as a core can; the node draws when something has changed,
-30 times a second while the robot moves.
+The map is the apartment. The first part draws whole pictures as fast as one core can. The node draws when something
+has changed, 30 times a second while the robot moves.
 """
 
 import os
@@ -24,15 +24,15 @@ from rumba_sim.model.robot_config import RobotConfig  # noqa: E402
 from rumba_sim.ros.common.maps import map_path  # noqa: E402
 from rumba_viewer.painting.paint_scene import ScenePainter  # noqa: E402
 from rumba_viewer.scene.dock_field import dock  # noqa: E402
-from rumba_viewer.scene.snapshot import Grid, Path, Place, Robot, Snapshot  # noqa: E402
+from rumba_viewer.scene.snapshot import Grid, MapFeatures, Path, Robot, Snapshot  # noqa: E402
 from rumba_viewer.scene.theme import LIGHT  # noqa: E402
 from rumba_viewer.scene.view_transform import ViewTransform  # noqa: E402
 
 MAP = 'apartment'
-SIZES = ((860, 660), (1640, 1080))  # [pixels] of the floor in a window of usual size and on a full screen
-POINTS = 10_000  # of the path, 200 m
-PICTURES = 30.0  # a second, at least
-SHARE = 25.0  # [%] of a core, below
+SIZES = ((860, 660), (1640, 1080))  # [pixels] of the floor in a window of the default size and on a full screen
+POINTS = 10_000  # of the path, which is 200 m long
+PICTURES = 30.0  # wanted in a second, at least
+SHARE = 25.0  # [%] of a core, wanted at most
 WARM, SECONDS, RUNS = 8.0, 8.0, 3  # [s]
 
 
@@ -49,21 +49,30 @@ def main():
 
 
 def snapshot(step, number):
-    """The robot at a step of its way, its laser on; coverage of which `number` tells the painter whether it is new."""
+    """A function that makes snapshots of a robot with its laser on, one after another along its path.
+
+    Args:
+        step: returns the index of the next point of the path.
+        number: identifies the coverage; a painter paints it again if it changes.
+    """
     plan = map_file.load(map_path(MAP))
-    place = Place(dock(plan, RobotConfig()), plan.carpet, plan.cliff, True)
+    features = MapFeatures(dock(plan, RobotConfig()), plan.carpet, plan.cliff, True)
     grid = Grid(plan.occupancy, plan.resolution, *plan.origin, 0)
     swept = Grid(np.where(plan.free, 100, -1).astype(np.int8), plan.resolution, *plan.origin, number)
     angles = np.linspace(-np.pi, np.pi, 360)
     beams = 2.0 * np.stack([np.cos(angles), np.sin(angles)], axis=1)
     turns = np.linspace(0.0, 60.0, POINTS)
-    way = np.stack([4.0 + 0.05 * turns * np.cos(turns), 3.0 + 0.04 * turns * np.sin(turns)], axis=1)
-    return lambda: Snapshot(grid, swept, place, (Robot('rumba', Pose(*way[step()], 0.0), beams=beams,
-                                                       path=Path(way, 0)),))
+    path = np.stack([4.0 + 0.05 * turns * np.cos(turns), 3.0 + 0.04 * turns * np.sin(turns)], axis=1)
+
+    def now():
+        point = path[step()]
+        return Snapshot(grid, swept, features, (Robot('rumba', Pose(*point, 0.0), beams=point + beams,
+                                                      path=Path(path, 0)),))
+    return now
 
 
 def alone(width, height):
-    """Pictures in a CPU second, when the robot moves, and when all is new."""
+    """Pictures in a CPU second, if only the robot moves, and if everything is new."""
     image = QImage(width, height, QImage.Format_RGB32)
     steps = iter(range(10 ** 9))
     now = snapshot(lambda: next(steps) % POINTS, 1)
@@ -75,14 +84,14 @@ def alone(width, height):
         scene.paint(painter, now(), view, LIGHT)
         painter.end()
     paint(kept)
-    figures.row(f'{width} x {height}: pictures in a CPU second, the robot moves',
+    figures.row(f'{width} x {height}: pictures in a CPU second, only the robot moves',
                 figures.per_cpu_second(lambda: paint(kept), 1), at_least=PICTURES)
-    figures.row('  pictures in a CPU second, all is new, as when the map is zoomed',
+    figures.row('  pictures in a CPU second, everything is new, as after zooming',
                 figures.per_cpu_second(lambda: paint(ScenePainter()), 1))
 
 
 def beside_a_mission(speed):
-    """Share of a core that the node takes while the robot cleans: the median."""
+    """The share of a core that the node uses while the robot cleans: the median."""
     with ros_session.fresh_parameters(), ros_session.process(
             ['roslaunch', 'rumba_bringup', 'demo.launch', f'speed:={speed}', 'gui:=false', 'drain:=1']), \
             ros_session.process(['rosrun', 'rumba_viewer', 'viewer', '_laser:=true']):
@@ -99,7 +108,7 @@ def beside_a_mission(speed):
 
 
 def pid_of_viewer():
-    """Process of the node; None before it is there."""
+    """Process id of the node; None before it has started."""
     try:
         return xmlrpc.client.ServerProxy(rosgraph.Master('/bench').lookupNode('/viewer')).getPid('/bench')[2]
     except (rosgraph.MasterException, OSError):

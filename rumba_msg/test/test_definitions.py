@@ -37,7 +37,8 @@ MD5 = {
     'TargetPosition.srv': ['dd76aff00a72b33e8d77950fa07ebddf'],
     'Teleport.srv': ['3bd059df70d5e80971945ad044457a3c'],
 }
-UNIT_OF_A_NUMBER = re.compile(r'\[(%|0\.\.1|m|m\^2|rad|s|m/s|rad/s|Hz|ticks|times real time)\]|constants? above|sum of the beams above|seed of')
+UNIT_OF_A_NUMBER = re.compile(r'\[(%|0\.\.1|m|m\^2|rad|s|m/s|rad/s|Hz|ticks|times real time)\]'
+                              r'|constants? above|sum of the beams above|seed of')
 PARTS = [part for path in FILES for part in parts(path)]
 ROSIDL_PARSERS = {'.msg': 'parse_message_string', '.srv': 'parse_service_string', '.action': 'parse_action_string'}
 

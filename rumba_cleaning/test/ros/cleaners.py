@@ -1,34 +1,27 @@
-"""What the tests of the cleaner share: a cleaner as a user starts it, its actions, and what it says of them."""
+"""What the tests of the cleaner share: a cleaner as a user starts it, and clients of its actions."""
 
 import signal
 import subprocess
+import threading
 import time
-import unittest
 
 import actionlib
 import rospy
 from actionlib_msgs.msg import GoalStatus
 from geometry_msgs.msg import Pose2D, Twist
-from simulators import TIMEOUT, Heard, lookup, wait
+from simulators import ENDS_WITHIN, TIMEOUT, Heard, lookup, wait
 
-from rumba_msg.msg import CleanAction, DockAction, GoToAction, GoToGoal, MissionStatus, UndockAction
+from rumba_msg.msg import CleanAction, DockAction, GoToAction, GoToGoal, MissionStatus, Outcome, UndockAction
 
-ENDS_WITHIN = 5.0  # [s]: it has thirty topics to take back
+KEY_PERIOD = 0.1  # [s] from one command of a person to the next, as of teleop_key
 ACTIONS = {'clean': CleanAction, 'dock': DockAction, 'undock': UndockAction, 'go_to': GoToAction}
-ENDS = {GoalStatus.PREEMPTED: 'preempted', GoalStatus.SUCCEEDED: 'succeeded', GoalStatus.ABORTED: 'aborted',
-        GoalStatus.REJECTED: 'rejected', GoalStatus.RECALLED: 'recalled', GoalStatus.LOST: 'lost'}
+STATUSES = {Outcome.SUCCEEDED: GoalStatus.SUCCEEDED, Outcome.CANCELLED: GoalStatus.PREEMPTED,
+            Outcome.PREEMPTED: GoalStatus.PREEMPTED}  # of actionlib, by the outcome; all others are aborted
 
 
 def go_to(x, y, theta=float('nan'), time_limit=0.0):
     """A goal of go_to."""
     return GoToGoal(Pose2D(x, y, theta), time_limit)
-
-
-def shared(test_class):
-    """A test whose cleanups are those of a whole class of tests."""
-    test = unittest.TestCase()
-    test.addCleanup = test_class.addClassCleanup
-    return test
 
 
 class Cleaner:
@@ -39,7 +32,7 @@ class Cleaner:
         self._robot = robot
         if rospy.has_param(name):
             rospy.delete_param(name)
-        # As in a launch file: simulator and cleaner start at the same time, in simulated time both.
+        # As in a launch file: simulator and cleaner start at the same time, both in simulated time.
         rospy.set_param('/use_sim_time', True)
         self.process = subprocess.Popen(['rosrun', 'rumba_cleaning', 'cleaner', *arguments])
         test.addCleanup(self.end)
@@ -62,18 +55,18 @@ class Cleaner:
         """Send a goal; returns it as it goes on."""
         return Goal(self._test, self.clients[action].send_goal, goal)
 
-    def refuses(self, pattern, action, goal):
-        """Send a goal that must be aborted for a reason, without any command to the wheels."""
+    def refuses(self, pattern, action, goal, code=Outcome.REFUSED):
+        """Send a goal that must end with an outcome for a reason, without any command to the wheels."""
         self.commands.messages.clear()
-        answer = self.send(action, goal).ends('aborted')
-        self._test.assertRegex(answer.message, pattern)
-        self._test.assertNotIn('\n', answer.message)
+        message = self.send(action, goal).ends(code).outcome.message
+        self._test.assertRegex(message, pattern)
+        self._test.assertNotIn('\n', message)
         self._test.assertFalse([twist for twist in self.commands.messages if twist.linear.x or twist.angular.z])
 
     def states(self):
-        """What mission_status told so far, without repetitions."""
-        told = [message.state for message in self.status.messages]
-        return [state for index, state in enumerate(told) if index == 0 or told[index - 1] != state]
+        """What mission_status said so far, without repetitions."""
+        said = [message.state for message in self.status.messages]
+        return [state for index, state in enumerate(said) if index == 0 or said[index - 1] != state]
 
     def waits_to_drive(self):
         """Wait until it commands the wheels from now on."""
@@ -106,13 +99,44 @@ class Goal:
         return self.handle.get_comm_state() == actionlib.CommState.DONE
 
     def is_active(self):
-        """Wait until it was taken up, and has told so; returns itself."""
+        """Wait until its first feedback; returns itself."""
         wait(self._test, lambda: self.feedback, 'feedback')
         return self
 
-    def ends(self, how):
-        """Wait for the end, which must be as told; returns the result."""
+    def ends(self, code):
+        """Wait for the end, which must have this outcome; returns the result."""
         wait(self._test, lambda: self.has_ended, 'a result')
         result = self.handle.get_result()
-        self._test.assertEqual(ENDS[self.handle.get_goal_status()], how, result)
+        self._test.assertEqual(result.outcome.code, code, result)
+        self._test.assertEqual(self.handle.get_goal_status(), STATUSES.get(code, GoalStatus.ABORTED), result)
         return result
+
+
+class Person:
+    """Somebody who presses a key from `press` to `release`."""
+
+    def __init__(self, test):
+        self._publisher = rospy.Publisher('/rumba/teleop/cmd_vel', Twist, queue_size=1)
+        test.addCleanup(self._publisher.unregister)
+        wait(test, lambda: self._publisher.get_num_connections() >= 2, 'simulator and cleaner to listen')
+        test.addCleanup(self.release)
+        self._thread = None
+
+    def press(self, v, w):
+        """Drive with a velocity [m/s], [rad/s]."""
+        twist = Twist()
+        twist.linear.x, twist.angular.z = v, w
+        self._released = threading.Event()
+        self._thread = threading.Thread(target=self._publish, args=(twist,), daemon=True)
+        self._thread.start()
+
+    def _publish(self, twist):
+        while not self._released.wait(KEY_PERIOD):
+            self._publisher.publish(twist)
+
+    def release(self):
+        """Press no key."""
+        if self._thread is not None:
+            self._released.set()
+            self._thread.join()
+            self._thread = None

@@ -6,22 +6,35 @@ import unittest
 import rospy
 import rostest
 from cleaners import Cleaner
-from rospkg import RosPack
 from simulators import Simulator
 
-from rumba_evaluation.trials.trial import Trial
-from rumba_msg.msg import CleanGoal
+from rumba_cleaning.behaviour import Status
+from rumba_cleaning.belief.context import Context
+from rumba_cleaning.cleaning_config import CleaningConfig
+from rumba_cleaning.control import STEP_RATE, steps
+from rumba_cleaning.mission.mission import Mission
+from rumba_msg.msg import CleanGoal, Outcome
 from rumba_sim.model import map_file
+from rumba_sim.model.robot import FIRST
+from rumba_sim.model.robot_config import RobotConfig
+from rumba_sim.model.world import World
+from rumba_sim.ros.common.maps import map_path
 
 SPEED = 20
 
 
 def mission_without_ros():
     """Coverage at the end, and how long it took [s]."""
-    trial = Trial(map_file.load(f'{RosPack().get_path("rumba_sim")}/maps/studio.yaml'), 'boustrophedon', seed=1)
-    while not trial.is_over:
-        trial.step()
-    return trial.world.floor.coverage, trial.world.time
+    config = CleaningConfig()
+    plan = map_file.load(map_path('studio'))
+    world = World(plan, RobotConfig(), STEP_RATE, seed=1)
+    world.spawn(FIRST, brushes_up=True)
+    world.step()  # the contacts of the dock close in the first tick
+    mission = Mission(Context(plan, RobotConfig(), config, seed=1), config.strategy, config.target_coverage)
+    for _ in steps(mission, world, FIRST, 3600.0):
+        pass
+    assert mission.status is Status.SUCCEEDED, mission.message
+    return world.floor.coverage, world.time
 
 
 class CleanerMissionTest(unittest.TestCase):
@@ -32,7 +45,7 @@ class CleanerMissionTest(unittest.TestCase):
         Simulator(self, '_map:=studio', f'_speed:={SPEED}')
         goal = cleaner.connect().send('clean', CleanGoal())
         coverage, seconds = mission_without_ros()
-        answer = goal.ends('succeeded')
+        answer = goal.ends(Outcome.SUCCEEDED)
         self.assertGreaterEqual(answer.cleaning.coverage, 0.98)
         self.assertAlmostEqual(answer.cleaning.coverage, coverage, delta=0.02)
         self.assertAlmostEqual(len(goal.feedback), seconds, delta=0.25 * seconds)
@@ -40,4 +53,4 @@ class CleanerMissionTest(unittest.TestCase):
 
 if __name__ == '__main__':
     rospy.init_node('test_cleaner_mission')
-    rostest.rosrun('rumba_sim', 'cleaner_mission', CleanerMissionTest)
+    rostest.rosrun('rumba_cleaning', 'cleaner_mission', CleanerMissionTest)

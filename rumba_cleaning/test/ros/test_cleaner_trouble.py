@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The cleaner where something is wrong: with its parameters, or with a robot that goes away, or whose battery does."""
+"""The cleaner when something goes wrong: bad parameters, a robot that is gone, has fallen, or has no charge."""
 
 import signal
 import subprocess
@@ -8,12 +8,12 @@ import unittest
 
 import rospy
 import rostest
-from cleaners import Cleaner, go_to, shared
+from cleaners import Cleaner, go_to
 from dynamic_reconfigure.client import Client
 from geometry_msgs.msg import Pose2D
-from simulators import TIMEOUT, Heard, Simulator
+from simulators import TIMEOUT, Heard, Simulator, shared
 
-from rumba_msg.msg import CleanGoal, MissionStatus, UndockGoal
+from rumba_msg.msg import CleanGoal, MissionStatus, Outcome, UndockGoal
 
 BAD_STARTS = (
     (r"^cleaner: unknown strategy 'zigzag': known are bounce, boustrophedon, spiral, wall_follow\n$",
@@ -45,9 +45,9 @@ class CleanerTroubleTest(unittest.TestCase):
         goal = self.cleaner.send('clean', CleanGoal())
         self.cleaner.waits_to_drive()
         self.simulator.does('kill', 'rumba')
-        self.assertEqual(goal.ends('aborted').message, 'the robot is gone')
+        self.assertEqual(goal.ends(Outcome.NO_READINGS).outcome.message, 'the robot is gone')
         self.simulator.does('spawn', 'rumba', Pose2D(1.0, 2.5, 0.0))
-        self.cleaner.send('go_to', go_to(2.0, 2.4)).ends('succeeded')
+        self.cleaner.send('go_to', go_to(2.0, 2.4)).ends(Outcome.SUCCEEDED)
 
     def test_2_a_robot_whose_time_stands_still_is_not_gone(self):
         goal = self.cleaner.send('go_to', go_to(1.0, 2.5))
@@ -56,17 +56,17 @@ class CleanerTroubleTest(unittest.TestCase):
         time.sleep(LONGER_THAN_A_ROBOT_IS_MISSED)
         self.assertFalse(goal.has_ended)
         self.simulator.does('resume')
-        goal.ends('succeeded')
+        goal.ends(Outcome.SUCCEEDED)
 
-    def test_3_what_is_cancelled_while_time_stands_still_is_answered(self):
+    def test_3_a_goal_that_is_cancelled_while_time_stands_still_is_answered(self):
         goal = self.cleaner.send('go_to', go_to(2.4, 2.5))
         self.cleaner.waits_to_drive()
         self.simulator.does('pause')
         goal.handle.cancel()
-        goal.ends('preempted')
+        goal.ends(Outcome.CANCELLED)
         self.simulator.does('resume')
 
-    def test_4_an_empty_battery_ends_every_action_where_the_robot_stands(self):
+    def test_4_an_empty_battery_ends_every_action_and_leaves_the_robot_stranded(self):
         tuning = Client('/simulator/tuning', timeout=TIMEOUT)
         docked, battery = Heard(self, '/rumba/dock_status'), Heard(self, '/rumba/battery_state')
         for action, goal in (('undock', UndockGoal()), ('go_to', go_to(0.8, 2.4)), ('clean', CleanGoal())):
@@ -78,8 +78,8 @@ class CleanerTroubleTest(unittest.TestCase):
                 battery.fresh(lambda message: message.percentage > 0.99)
                 self.cleaner.status.messages.clear()
                 tuning.update_configuration({'battery_drain': 10000.0})
-                answer = self.cleaner.send(action, goal).ends('aborted')
-                self.assertEqual(answer.message, 'the battery is empty')
+                outcome = self.cleaner.send(action, goal).ends(Outcome.BATTERY_EMPTY).outcome
+                self.assertEqual(outcome.message, 'the battery is empty')
                 stranded = self.cleaner.status.find(lambda message: message.state == MissionStatus.STRANDED)
                 self.assertEqual(stranded.message, 'the battery is empty')
         tuning.update_configuration({'battery_drain': 1.0})
@@ -99,9 +99,9 @@ class CleanerTroubleTest(unittest.TestCase):
         self.simulator.process.send_signal(signal.SIGKILL)
         self.simulator.process.wait(TIMEOUT)
         rospy.delete_param('/use_sim_time')
-        self.assertEqual(goal.ends('aborted').message, 'the robot is gone')
+        self.assertEqual(goal.ends(Outcome.NO_READINGS).outcome.message, 'the robot is gone')
 
 
 if __name__ == '__main__':
     rospy.init_node('test_cleaner_trouble')
-    rostest.rosrun('rumba_sim', 'cleaner_trouble', CleanerTroubleTest)
+    rostest.rosrun('rumba_cleaning', 'cleaner_trouble', CleanerTroubleTest)

@@ -51,11 +51,26 @@ def test_an_invalid_name_of_a_robot_is_refused(robot):
 class Simulator:
     """The state of a simulator, without ROS."""
 
-    def __init__(self, monkeypatch, map=None, node='/sim2'):
-        self.state = map and SimulatorState(node=node, map=str(map))
-        self.robots = {node: quiet()}
-        monkeypatch.setattr(workplace, 'SimulatorClient', lambda: self)
-        monkeypatch.setattr(workplace, 'robot_config', lambda node: self.robots[node])
+    def __init__(self, monkeypatch, map=None):
+        self.state = map and SimulatorState(node='/sim2', map=map)
+        self.robots = {'/sim2': quiet(), '/sim3': quiet(drive={'max_speed': 0.3})}
+        monkeypatch.setattr(workplace, 'SimulatorClient', self._listen)
+        monkeypatch.setattr(workplace, 'robot_config', self._robot)
+
+    def _listen(self, on_state):
+        self._on_state = on_state
+        return self
+
+    def _robot(self, node):
+        found = self.robots[node]
+        if isinstance(found, Exception):
+            raise found
+        return found
+
+    def tells(self, map, node='/sim2'):
+        """Publish a state."""
+        self.state = SimulatorState(node=node, map=map)
+        self._on_state(self.state)
 
     def wait(self):
         """The state, or the error that there is none."""
@@ -76,9 +91,22 @@ def test_a_simulator_that_is_started_again_may_have_another_map_and_another_robo
     plan, robot = place.look()
     assert place.look()[0] is plan
     simulator.robots['/sim2'] = quiet(drive={'max_speed': 0.1})
+    simulator.tells(map_path('studio'))
     assert place.look() == (plan, simulator.robots['/sim2'])
-    simulator.state.map = map_path('field')
-    assert place.look()[0].name == map_path('field')
+    simulator.tells(map_path('field'), '/sim3')
+    assert (place.look()[0].name, place.look()[1]) == (map_path('field'), simulator.robots['/sim3'])
+
+
+def test_settings_of_the_simulator_that_became_invalid_are_an_error_until_they_are_valid_again(monkeypatch):
+    simulator = Simulator(monkeypatch, map_path('studio'))
+    place = workplace.Workplace('')
+    valid, simulator.robots['/sim2'] = simulator.robots['/sim2'], ConfigError('drive/radius is -1')
+    simulator.tells(map_path('studio'))
+    with pytest.raises(ConfigError, match='^drive/radius is -1$'):
+        place.look()
+    simulator.robots['/sim2'] = valid
+    simulator.tells(map_path('studio'))
+    assert place.look()[1] == valid
 
 
 def test_a_map_that_is_named_goes_before_that_of_the_simulator_and_needs_none(monkeypatch):
@@ -86,7 +114,7 @@ def test_a_map_that_is_named_goes_before_that_of_the_simulator_and_needs_none(mo
     place = workplace.Workplace('studio')
     assert place.look()[0].name == map_path('studio')
     assert place.look()[1] == RobotConfig()
-    simulator.state = SimulatorState(node='/sim2', map=map_path('field'))
+    simulator.tells(map_path('field'))
     assert (place.look()[0].name, place.look()[1]) == (map_path('studio'), simulator.robots['/sim2'])
 
 

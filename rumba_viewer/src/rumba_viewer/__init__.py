@@ -1,1 +1,1 @@
-"""The window: it listens to topics and draws what they say."""
+"""The window: it listens to topics and draws what they contain."""

@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
-"""The viewer beside a simulator: it shows, drives, asks, comes and goes, and the simulation never needs it."""
+"""The viewer beside a simulator: it shows, drives, sends goals, is opened and closed; the simulation never needs it."""
 
+import os
 import pathlib
 import signal
+import subprocess
 import tempfile
 import unittest
 
@@ -12,18 +14,28 @@ import rospy
 import rostest
 from geometry_msgs.msg import Pose2D, Twist
 from PIL import Image
-from simulators import Heard, Master, Simulator, stands_still, wait
-from viewers import CARD, CLIFF, ROBOT, Display, Viewer, of_colour
+from simulators import Heard, Master, Simulator, lookup, stands_still, wait
+from viewers import CARD, CLIFF, ROBOT, Cleaner, Display, Viewer, of_colour
 
-from rumba_msg.msg import CleanActionGoal, MissionStatus
+from rumba_msg.msg import MissionStatus, Outcome
 
 KEY_SPEED = 0.3  # [m/s]
 
 
 def middle(shown):
-    """Column and row in the middle of what is true: bool (rows, columns)."""
+    """Column and row of the centre of all true pixels: bool (rows, columns)."""
     rows, columns = np.nonzero(shown)
     return columns.mean(), rows.mean()
+
+
+class Node:
+    """A node that serves a service, until the end of a test."""
+
+    def __init__(self, test, service, *command):
+        process = subprocess.Popen(['rosrun', *command])
+        test.addCleanup(process.wait)
+        test.addCleanup(process.terminate)
+        wait(test, lambda: process.poll() is not None or lookup(service), service)
 
 
 class ViewerTest(unittest.TestCase):
@@ -32,7 +44,7 @@ class ViewerTest(unittest.TestCase):
     def test_keys_drive_pause_and_close_the_window_and_the_simulation_goes_on(self):
         simulator = Simulator(self, '_map:=field', '_speed:=2')
         viewer = Viewer(self, display=Display(self)).is_there()
-        commands, truth, clock = Heard(self, '/rumba/cmd_vel', Twist), Heard(self, '/rumba/ground_truth'), Heard(
+        commands, truth, clock = Heard(self, '/rumba/teleop/cmd_vel', Twist), Heard(self, '/rumba/ground_truth'), Heard(
             self, '/clock')
         viewer.wait_to_see(ROBOT, 20)
         viewer.front()
@@ -56,17 +68,52 @@ class ViewerTest(unittest.TestCase):
         clock.fresh()
         self.assertIsNone(simulator.process.poll())
 
-    def test_a_goal_goes_to_the_cleaner(self):
+    def test_a_cleaning_is_started_interrupted_and_resumed(self):
         Simulator(self, '_map:=studio')
         viewer = Viewer(self, display=Display(self)).is_there()
-        status = rospy.Publisher('/rumba/mission_status', MissionStatus, queue_size=1, latch=True)
-        self.addCleanup(status.unregister)
-        status.publish(MissionStatus(state=MissionStatus.IDLE, message='waits'))
-        goals = Heard(self, '/rumba/clean/goal', CleanActionGoal)
-        wait(self, status.get_num_connections, 'the viewer to listen')
+        cleaner = Cleaner(self)
+        cleaner.tell(MissionStatus.IDLE)
         viewer.wait_to_see(ROBOT, 20)
         viewer.front()
-        self.assertEqual(viewer.key_until('c', lambda: goals.messages, 'a goal')[0].goal.strategy, '')
+        self.assertFalse(viewer.key_until('c', lambda: cleaner.goals, 'a goal')[0].goal.resume)
+        cleaner.tell(MissionStatus.CLEANING, 'bounce')
+        cleaner.ends(Outcome.CANCELLED)
+        cleaner.tell(MissionStatus.IDLE)
+        cleaner.goals.clear()
+        self.assertTrue(viewer.key_until('r', lambda: cleaner.goals, 'a goal')[0].goal.resume)
+
+    def test_a_click_shows_a_target_and_only_a_double_click_sends_a_goal(self):
+        Simulator(self, '_map:=studio')
+        viewer = Viewer(self, display=Display(self)).is_there()
+        cleaner = Cleaner(self)
+        cleaner.tell(MissionStatus.IDLE)
+        seen = viewer.wait_to_see(ROBOT, 20).sum()
+        viewer.front()
+        viewer.click(0.5, 0.5)
+        viewer.wait_to_see(ROBOT, seen + 40)  # the mark has the colour of the robot
+        viewer.key('key', 'Escape')
+        viewer.wait_to_see(ROBOT, 0, seen + 20)
+        self.assertEqual(cleaner.goals, [])
+        viewer.click(0.5, 0.5, times=2)
+        goal = wait(self, lambda: cleaner.goals, 'a goal')[0].goal
+        self.assertTrue(1.0 < goal.target.x < 5.0 and 1.0 < goal.target.y < 5.0, goal)
+
+    def test_it_works_beside_a_simulator_of_another_name(self):
+        Simulator(self, '_map:=apartment', '_speed:=2', '__name:=sim2', node='/sim2')
+        viewer = Viewer(self, display=Display(self)).is_there()
+        clock = Heard(self, '/clock')
+        viewer.wait_to_see(ROBOT, 20)
+        viewer.wait_to_see(CLIFF, 100)  # read from the files of the map
+        viewer.front()
+        viewer.key_until('space', lambda: stands_still(clock), 'the pause')
+
+    def test_it_works_beside_a_turtle_as_the_body(self):
+        Node(self, '/turtle1/set_pen', 'turtlesim', 'turtlesim_node', '_gui:=false')
+        Node(self, '/turtlesim_body/reset', 'rumba_sim', 'turtlesim_body')
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder, 'picture.png')
+            Viewer(self, f'_save_png:={path}').ends()
+            self.assertGreater(of_colour(np.asarray(Image.open(str(path)).convert('RGB')).astype(int), ROBOT).sum(), 20)
 
     def test_it_ends_cleanly_by_signals_and_by_rosnode_kill(self):
         Simulator(self, '_map:=studio')
@@ -79,7 +126,7 @@ class ViewerTest(unittest.TestCase):
         rosnode.kill_nodes(['/viewer'])
         viewer.ends()
 
-    def test_it_goes_on_when_the_simulator_was_killed_and_another_begins(self):
+    def test_it_goes_on_if_the_simulator_is_killed_and_another_starts(self):
         first = Simulator(self, '_map:=field', '_speed:=2')
         viewer = Viewer(self).is_there()
         viewer.wait_to_see(ROBOT, 20)
@@ -88,7 +135,7 @@ class ViewerTest(unittest.TestCase):
         viewer.wait_to_see(ROBOT, 0, 0)
         Simulator(self, '_map:=apartment', '_speed:=2')
         viewer.wait_to_see(ROBOT, 20)
-        viewer.wait_to_see(CLIFF, 100)  # that is in the map's files alone
+        viewer.wait_to_see(CLIFF, 100)  # read from the files of the map
 
     def test_robots_come_and_go_and_y_points_upward(self):
         simulator = Simulator(self, '_map:=field', '_robots:=0')
@@ -100,12 +147,12 @@ class ViewerTest(unittest.TestCase):
         simulator.teleport(8.0, 3.0, 0.0)
         wait(self, lambda: middle(viewer.wait_to_see(ROBOT, 20))[0] > across + 100, 'the robot elsewhere')
         self.assertGreater(middle(viewer.wait_to_see(ROBOT, 20))[1], down + 100)
-        simulator.does('spawn', 'rumba7', Pose2D(5.0, 5.0, 0.0))  # the colour of rumba, after six others
+        simulator.does('spawn', 'rumba7', Pose2D(5.0, 5.0, 0.0))  # has the colour of rumba: there are six
         viewer.wait_to_see(ROBOT, int(1.5 * first.sum()))
         simulator.does('kill', 'rumba7')
         viewer.wait_to_see(ROBOT, 20, int(1.2 * first.sum()))
 
-    def test_a_picture_can_be_had_without_a_display(self):
+    def test_a_picture_is_saved_without_a_display(self):
         Simulator(self, '_map:=studio')
         with tempfile.TemporaryDirectory() as folder:
             path = pathlib.Path(folder, 'new', 'picture.png')
@@ -120,7 +167,7 @@ class ViewerTest(unittest.TestCase):
         printed = Viewer(self, '_save_png:=/proc/none/picture.png').ends(2)
         self.assertRegex(printed, r'(?m)^viewer: save_png: .*/proc/none')
 
-    def test_without_a_master_the_window_says_so_and_goes_on_when_there_is_one(self):
+    def test_without_a_master_the_window_tells_so_and_goes_on_when_there_is_one(self):
         display, master = Display(self), Master(self)
         viewer = Viewer(self, display=display, master=master.uri)
         wait(self, lambda: f'No roscore answers at {master.uri}' in viewer.printed, 'the line')
@@ -141,14 +188,25 @@ class ViewerTest(unittest.TestCase):
             else:
                 viewer.end(end)
 
-    def test_without_a_display_it_is_one_line_and_where_possible_no_error(self):
+    def test_without_a_display_one_line_tells_why_and_with_where_possible_it_is_no_error(self):
         nowhere = type('Nowhere', (), {'name': ''})
         for arguments, code, line in (
                 ([], 2, r'(?m)^viewer: no window: there is no display: neither DISPLAY nor WAYLAND_DISPLAY is set$'),
-                (['_where_possible:=true'], 0, r'no window, the simulation goes on without: there is no display')):
+                (['_where_possible:=true'], 0, r'the simulation runs without a window: there is no display')):
             self.assertRegex(Viewer(self, *arguments, display=nowhere).ends(code), line)
         closed = type('Closed', (), {'name': ':9999'})
         self.assertRegex(Viewer(self, display=closed).ends(2), 'no window: the display :9999 cannot be opened')
+
+    def test_without_qt_one_line_names_the_package_and_with_where_possible_it_is_no_error(self):
+        package = 'PyQt5 is not installed: apt-get install python3-pyqt5'
+        with tempfile.TemporaryDirectory() as folder:
+            pathlib.Path(folder, 'PyQt5.py').write_text('raise ModuleNotFoundError("No module named \'PyQt5\'")\n')
+            path = f'{folder}:{os.environ["PYTHONPATH"]}'
+            for arguments, code, line in (
+                    ([], 2, f'viewer: no window: {package}'),
+                    (['_where_possible:=true'], 0, f'the simulation runs without a window: {package}')):
+                printed = Viewer(self, *arguments, PYTHONPATH=path).ends(code).strip()
+                self.assertTrue(printed.endswith(line) and len(printed.splitlines()) == 1, printed)
 
 
 if __name__ == '__main__':

@@ -1,4 +1,4 @@
-"""The same examples in every run, on a machine of any speed, and nothing written beside the tests."""
+"""Hypothesis: the same examples in every run, no time limit, no database beside the tests."""
 
 import signal
 
@@ -8,14 +8,14 @@ import pytest
 hypothesis.settings.register_profile('rumba', derandomize=True, database=None, deadline=None)
 hypothesis.settings.load_profile('rumba')
 
-# Tests that a shell runs in its background would ignore Ctrl-C, and so would all that they start.
+# A shell makes its background processes ignore Ctrl-C; these tests and their children must not.
 signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 @pytest.fixture
 def opened():
     """A window that shows one robot."""
-    from windows import Opened, robot, snapshot  # Qt is for those who ask for it
+    from windows import Opened, robot, snapshot  # other tests work without Qt
     opened = Opened(snapshot(robot()))
     yield opened
     opened.window.close()

@@ -1,4 +1,4 @@
-"""Why there is no window, told before Qt would end the process."""
+"""Why no window can be opened: found out before Qt would end the process."""
 
 import pytest
 
@@ -7,10 +7,10 @@ from rumba_viewer.window import display
 
 @pytest.mark.parametrize('attempt, patience, reason', [
     ('print(flush=True); import sys; sys.stdin.read()', 20.0, ''),
-    ('import PyQt5_that_is_not_there', 20.0, 'PyQt5 is not installed: '),
+    ('import PyQt5_that_is_not_there', 20.0, 'PyQt5 is not installed: apt-get install python3-pyqt5'),
     ('import sys; sys.exit("qt.qpa.xcb: could not connect to display")', 20.0, 'the display :7 cannot be opened'),
-    ('import time; time.sleep(60.0)', 0.3, 'the display :7 does not answer for 0.3 s')])
-def test_whether_a_display_can_be_opened_is_tried_by_another_process(attempt, patience, reason, monkeypatch):
+    ('import time; time.sleep(60.0)', 0.3, 'the display :7 has not answered for 0.3 s')])
+def test_another_process_tries_whether_a_display_can_be_opened(attempt, patience, reason, monkeypatch):
     monkeypatch.delenv('QT_QPA_PLATFORM', raising=False)
     monkeypatch.setenv('DISPLAY', ':7')
     monkeypatch.setattr(display, 'TRY', attempt)
@@ -19,7 +19,7 @@ def test_whether_a_display_can_be_opened_is_tried_by_another_process(attempt, pa
         assert trouble.startswith(reason) and bool(trouble) is bool(reason)
 
 
-def test_without_any_display_nothing_is_tried(monkeypatch):
+def test_without_a_display_no_process_is_started(monkeypatch):
     for name in ('QT_QPA_PLATFORM', 'DISPLAY', 'WAYLAND_DISPLAY'):
         monkeypatch.delenv(name, raising=False)
     monkeypatch.setattr(display, 'TRY', 'print(flush=True)')

@@ -1,4 +1,4 @@
-"""What is painted, pixel by pixel where it counts, without ROS and without a window."""
+"""What is painted, checked pixel by pixel, without ROS and without a window."""
 
 import math
 
@@ -9,7 +9,7 @@ from windows import BOTTOM, HEIGHT, LEFT, SCALE, WIDTH, count, near, path, pixel
 
 from rumba_sim.model.geometry import Pose
 from rumba_viewer.painting.paint_scene import ScenePainter, picture
-from rumba_viewer.scene.snapshot import Dock, Place, Snapshot
+from rumba_viewer.scene.snapshot import Dock, MapFeatures, Point, Snapshot
 from rumba_viewer.scene.theme import DARK, LIGHT, robot_colour
 from rumba_viewer.scene.view_transform import ViewTransform
 
@@ -18,33 +18,33 @@ VIEWS = pytest.mark.parametrize('view', [
     ViewTransform(WIDTH, HEIGHT, 1.0, 3.5, SCALE), ViewTransform(1200, 800, 1.0, 3.5, 270.0),
     ViewTransform(500, 250, 0.8, 3.3, 80.0)], ids=['all', 'large', 'small'])
 WHOLE = ViewTransform(WIDTH, HEIGHT, 1.0, 3.5, SCALE)
-FLOOR = [  # places [m] and what is there
+FLOOR = [  # points [m] and what is there
     (-0.9, 4.0, 'wall'), (2.45, 4.55, 'wall'), (2.75, 2.2, 'unknown'), (0.5, 2.4, 'swept'), (0.5, 3.0, 'to_sweep'),
     (1.0, 4.0, 'out_of_reach'), (2.45, 3.5, 'out_of_reach')]
 
 
 def at(image, view, x, y, colour, tolerance=12):
-    """Whether the picture of a view has a colour at a place [m]."""
+    """Whether the picture of a view has a colour at a point [m]."""
     return near(image, *view.to_pixel(x, y), colour, tolerance)
 
 
 @THEMES
 @VIEWS
-def test_walls_and_swept_floor_are_where_they_are_and_y_points_upward(view, theme):
+def test_walls_and_swept_floor_are_at_their_positions_and_y_points_upward(view, theme):
     image = picture(snapshot(), view, theme)
     assert (image.width(), image.height()) == (view.width, view.height)
     for x, y, what in FLOOR:
         assert at(image, view, x, y, getattr(theme, what)), (x, y, what)
 
 
-def test_beyond_the_map_there_is_nothing():
+def test_outside_the_map_nothing_is_painted():
     view = ViewTransform(WIDTH, HEIGHT, 1.0, 3.5, 50.0)
     image = picture(snapshot(), view, LIGHT)
     assert at(image, view, LEFT - 0.2, BOTTOM + 1.0, LIGHT.background)
     assert at(image, view, LEFT + 1.0, BOTTOM + 3.2, LIGHT.background)
 
 
-def test_without_coverage_all_free_floor_is_alike():
+def test_without_coverage_all_free_floor_has_one_colour():
     image = picture(snapshot(coverage=None), WHOLE, LIGHT)
     for x, y in ((0.5, 2.4), (0.5, 3.0), (1.0, 4.0)):
         assert at(image, WHOLE, x, y, LIGHT.swept)
@@ -77,12 +77,12 @@ def test_a_robot_is_true_to_scale_and_its_bumper_is_in_front(theta, view, theme)
 
 def test_the_side_of_the_bumper_that_is_pressed_is_red():
     pose, radius = Pose(1.0, 4.0, 0.0), 0.17425
-    place = {side: (pose.x + 0.9 * radius * math.cos(side * 0.6), pose.y + 0.9 * radius * math.sin(side * 0.6))
+    point = {side: (pose.x + 0.9 * radius * math.cos(side * 0.6), pose.y + 0.9 * radius * math.sin(side * 0.6))
              for side in (1, -1)}
     for bumper in ((True, False), (False, True), (False, False), (True, True)):
         image = picture(snapshot(robot(pose=pose, bumper=bumper)), WHOLE, LIGHT)
         for side, is_pressed in zip((1, -1), bumper):
-            assert at(image, WHOLE, *place[side], LIGHT.bad, 40) is is_pressed
+            assert at(image, WHOLE, *point[side], LIGHT.bad, 40) is is_pressed
 
 
 @pytest.mark.parametrize('are_up, pixels', [(False, range(40, 120)), (True, range(1)), (None, range(1))])
@@ -91,9 +91,32 @@ def test_brushes_that_clean_are_lit(are_up, pixels):
     assert count(image, LIGHT.lit, 180, 80, 220, 120) in pixels
 
 
-def test_the_path_is_painted_as_it_was_driven_and_not_over_a_leap():
-    way = path((0.0, 2.5), (1.0, 2.5), (1.0, 4.5), (np.nan, np.nan), (2.0, 3.0), (2.0, 3.4))
-    image = picture(snapshot(robot(pose=Pose(2.0, 3.7, 0.0), path=way)), WHOLE, LIGHT)
+@THEMES
+@pytest.mark.parametrize('has_fallen', [True, False])
+def test_a_robot_that_has_fallen_has_a_red_ring_and_a_red_cross(has_fallen, theme):
+    pose, radius = Pose(1.0, 4.0, 0.4), 0.17425
+    image = picture(snapshot(robot(pose=pose, has_fallen=has_fallen)), WHOLE, theme)
+
+    def is_red(forward, left):
+        x = pose.x + forward * math.cos(pose.theta) - left * math.sin(pose.theta)
+        y = pose.y + forward * math.sin(pose.theta) + left * math.cos(pose.theta)
+        return at(image, WHOLE, x, y, theme.bad, 40)
+    for forward, left in ((-1.0, 0.0), (0.0, 1.0), (0.4, 0.4), (-0.4, 0.4), (0.4, -0.4)):
+        assert is_red(forward * radius, left * radius) is has_fallen
+
+
+@THEMES
+def test_a_target_is_a_ring_with_cross_hairs(theme):
+    image = picture(snapshot(robot(pose=Pose(0.0, 2.5, 0.0)), target=Point(1.5, 4.0)), WHOLE, theme)
+    colour = robot_colour(theme, 'rumba')
+    for x, y in ((0.09, 0.0), (-0.14, 0.0), (0.0, 0.09), (0.0, -0.14), (0.064, 0.064)):
+        assert at(image, WHOLE, 1.5 + x, 4.0 + y, colour, 60), (x, y)
+    assert not at(image, WHOLE, 1.5, 4.0, colour, 60)
+
+
+def test_the_path_is_painted_as_it_was_driven_and_not_across_a_jump():
+    driven = path((0.0, 2.5), (1.0, 2.5), (1.0, 4.5), (np.nan, np.nan), (2.0, 3.0), (2.0, 3.4))
+    image = picture(snapshot(robot(pose=Pose(2.0, 3.7, 0.0), path=driven)), WHOLE, LIGHT)
     plain = picture(snapshot(robot(pose=Pose(2.0, 3.7, 0.0))), WHOLE, LIGHT)
 
     difference = (pixels(image) != pixels(plain)).any(axis=2)
@@ -101,11 +124,11 @@ def test_the_path_is_painted_as_it_was_driven_and_not_over_a_leap():
     def differs(x, y):
         across, down = (round(pixel) for pixel in WHOLE.to_pixel(x, y))
         return difference[down - 1:down + 2, across - 1:across + 2].any()
-    assert all(differs(*place) for place in ((0.5, 2.5), (1.0, 3.5), (2.0, 3.2)))
-    assert not any(differs(*place) for place in ((0.0, 3.5), (1.5, 3.75), (1.2, 4.2), (2.0, 2.6)))
+    assert all(differs(*point) for point in ((0.5, 2.5), (1.0, 3.5), (2.0, 3.2)))
+    assert not any(differs(*point) for point in ((0.0, 3.5), (1.5, 3.75), (1.2, 4.2), (2.0, 2.6)))
 
 
-def test_what_is_kept_from_picture_to_picture_is_the_same_as_what_is_painted_anew():
+def test_a_picture_that_is_extended_equals_one_that_is_painted_at_once():
     points = [(0.0, 2.5), (1.0, 2.6), (1.2, 4.5), (np.nan, np.nan), (2.0, 3.0), (2.0, 3.4), (1.5, 3.0)]
     keeping = ScenePainter()
     for shown in range(1, len(points) + 1):
@@ -115,7 +138,7 @@ def test_what_is_kept_from_picture_to_picture_is_the_same_as_what_is_painted_ane
         keeping.paint(painter, now, WHOLE, LIGHT)
         painter.end()
     anew = picture(now, WHOLE, LIGHT)
-    assert abs(pixels(kept) - pixels(anew)).max() < 90  # where two parts of a line meet, their edges are smoothed twice
+    assert abs(pixels(kept) - pixels(anew)).max() < 90  # edges are smoothed twice where two parts of a line meet
     far = path((0.0, 2.5), (2.0, 4.5), number=8)
     painter = QPainter(kept)
     keeping.paint(painter, snapshot(robot(path=far)), WHOLE, LIGHT)
@@ -124,8 +147,8 @@ def test_what_is_kept_from_picture_to_picture_is_the_same_as_what_is_painted_ane
 
 
 @THEMES
-def test_the_laser_shines_on_what_it_reaches(theme):
-    beams = np.array([(1.0, -0.5), (1.0, 0.5), (0.0, 0.5), (0.0, -0.5)])  # before the robot, seen from it
+def test_the_beams_of_the_laser_are_tinted(theme):
+    beams = np.array([(1.5, 4.6), (0.5, 4.6), (0.5, 3.6), (1.5, 3.6)])  # in front of the robot
     pose = Pose(1.0, 3.6, 0.5 * math.pi)
     lit = picture(snapshot(robot(pose=pose, beams=beams)), WHOLE, theme)
     assert not at(lit, WHOLE, 1.0, 4.2, theme.out_of_reach, 2)
@@ -138,8 +161,8 @@ def test_dock_carpet_and_cliff_are_painted_on_their_cells():
     carpet[8:12, 5:10] = cliff[20:28, 20:30] = True
     pose = Pose(0.0, 4.0, math.pi)  # faces the left
     field = np.array([(-0.2, 4.0), (0.8, 4.4), (0.8, 3.6)])
-    place = Place(Dock(pose, field, field), carpet, cliff, True)
-    image, plain = (picture(snapshot(robot(pose=Pose(2.0, 2.6, 0.0)), place=place), WHOLE, LIGHT),
+    features = MapFeatures(Dock(pose, field, field), carpet, cliff, True)
+    image, plain = (picture(snapshot(robot(pose=Pose(2.0, 2.6, 0.0)), features=features), WHOLE, LIGHT),
                     picture(snapshot(robot(pose=Pose(2.0, 2.6, 0.0))), WHOLE, LIGHT))
     assert at(image, WHOLE, -0.17, 4.0, LIGHT.dock)
     assert not at(image, WHOLE, 0.17, 4.0, LIGHT.dock, 40)
@@ -165,7 +188,7 @@ def test_several_robots_have_colours_names_and_a_ring_around_the_selected():
     assert not at(alone, WHOLE, 1.22 * 0.17425, 4.0, first, 60)
 
 
-def test_a_robot_that_would_be_too_small_to_be_found_gets_a_ring():
+def test_a_robot_that_is_too_small_to_be_seen_gets_a_ring():
     view = ViewTransform(WIDTH, HEIGHT, 1.0, 3.5, 10.0)
     image = picture(snapshot(robot(pose=Pose(1.0, 4.0, 0.0))), view, LIGHT)
     across, down = view.to_pixel(1.0, 4.0)
@@ -173,7 +196,7 @@ def test_a_robot_that_would_be_too_small_to_be_found_gets_a_ring():
 
 
 @pytest.mark.parametrize('scale, length', [(100.0, 100), (10.0, 100), (300.0, 60), (3000.0, 60)])
-def test_the_bar_of_the_scale_is_a_round_length(scale, length):
+def test_the_scale_bar_has_a_round_length(scale, length):
     image = picture(snapshot(), ViewTransform(WIDTH, HEIGHT, 1.0, 3.5, scale), LIGHT)
     rows = [count(image, LIGHT.text, 0, row, 200, row + 1, 40) for row in range(HEIGHT - 30, HEIGHT)]
     assert abs(max(rows) - length) <= 2
@@ -181,7 +204,7 @@ def test_the_bar_of_the_scale_is_a_round_length(scale, length):
 
 @THEMES
 @pytest.mark.parametrize('size', [(640, 480), (300, 200)])
-def test_what_is_missing_is_said_in_the_middle(size, theme):
+def test_what_is_missing_is_written_in_the_middle(size, theme):
     text = 'Waiting for a simulator\nTo start one, in another terminal:\nroslaunch rumba_sim simulator.launch'
     view = ViewTransform(*size, 1.0, 3.5, 10.0)
     image = picture(Snapshot(missing=text), view, theme)

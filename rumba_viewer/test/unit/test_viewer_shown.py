@@ -6,13 +6,15 @@ import numpy as np
 import pytest
 from PIL import Image
 from PyQt5.QtCore import Qt
+from PyQt5.QtGui import QFontMetrics
 from pytest import approx
-from windows import MISSING, Opened, count, robot, snapshot
+from windows import MISSING, Opened, count, robot, simulation, snapshot
 
 from rumba_sim.model.geometry import Pose
 from rumba_viewer.scene.acts import ACTS, legend
-from rumba_viewer.scene.snapshot import Battery, Snapshot
+from rumba_viewer.scene.snapshot import YIELDING, Battery, Mission, Snapshot
 from rumba_viewer.scene.theme import DARK, LIGHT
+from rumba_viewer.window import notices
 from rumba_viewer.window.recorder import WIDTH
 
 
@@ -21,7 +23,7 @@ from rumba_viewer.window.recorder import WIDTH
     (0.6, 'on battery', 'good'), (0.2, 'on battery', 'warning'), (0.05, 'on battery', 'bad'),
     (0.05, 'charging', 'good')])
 @pytest.mark.parametrize('size', [(640, 480), (1920, 1080)])
-def test_the_bar_of_the_battery_is_as_long_as_its_charge(share, state, colour, style, theme, size):
+def test_the_length_of_the_battery_bar_is_the_charge(share, state, colour, style, theme, size):
     opened = Opened(snapshot(robot(battery=Battery(share, 15.0, -1.0, state))), style, size)
     card = opened.window.panel.card
     image = card.grab().toImage()
@@ -30,7 +32,7 @@ def test_the_bar_of_the_battery_is_as_long_as_its_charge(share, state, colour, s
     assert max(rows) == approx(share * (card.width() - 24), abs=4)
 
 
-def test_the_card_and_the_floor_fill_a_small_window_and_all_buttons_can_be_reached():
+def test_a_small_window_shows_card_and_floor_and_its_panel_scrolls_to_every_button():
     opened = Opened(snapshot(robot()), size=(640, 480))
     assert opened.window.floor.width() > 300
     panel = opened.window.panel
@@ -40,9 +42,18 @@ def test_the_card_and_the_floor_fill_a_small_window_and_all_buttons_can_be_reach
     assert panel.viewport().rect().contains(last.mapTo(panel.viewport(), last.rect().center()))
 
 
+@pytest.mark.parametrize('size', [(640, 480), (1180, 720)])
+def test_the_text_of_every_button_fits(size):
+    opened = Opened(snapshot(robot(), simulation=simulation(is_paused=True)), size=size)
+    opened.window.act('record')
+    opened.window.act('laser')
+    for button in opened.window.panel.buttons.values():
+        assert QFontMetrics(button.font()).horizontalAdvance(button.text()) + 2 <= button.width(), button.text()
+
+
 @pytest.mark.parametrize('style, theme', [('light', LIGHT), ('dark', DARK)])
 @pytest.mark.parametrize('size', [(640, 480), (1180, 720)])
-def test_the_legend_comes_and_goes_with_its_key(style, theme, size):
+def test_the_legend_is_shown_and_hidden_by_its_key(style, theme, size):
     opened = Opened(snapshot(robot()), style, size)
     without = opened.picture()
     opened.type(Qt.Key_F1)
@@ -52,13 +63,13 @@ def test_the_legend_comes_and_goes_with_its_key(style, theme, size):
     assert opened.picture() == without
 
 
-def test_every_act_has_a_key_of_its_own_and_stands_in_the_legend():
+def test_every_act_has_its_own_key_and_is_in_the_legend():
     keys = [act.key for act in ACTS]
     assert len(set(keys)) == len(keys)
     assert {act.tip for act in ACTS} <= {text for _, text in legend()}
 
 
-def test_what_the_actor_has_to_say_is_shown(opened):
+def test_notices_of_the_actor_are_shown(opened):
     before = opened.window.floor.grab().toImage()
     opened.actor.notices.put('dock: done')
     opened.window.update_picture()
@@ -66,7 +77,38 @@ def test_what_the_actor_has_to_say_is_shown(opened):
     assert count(opened.window.floor.grab().toImage(), LIGHT.text) > count(before, LIGHT.text) + 500
 
 
-def test_what_is_missing_is_shown_until_it_is_there():
+def test_the_last_notices_are_shown_below_each_other_and_each_only_once(opened):
+    for notice in ('one', 'two', 'one', 'three'):
+        opened.window.tell(notice)
+    assert opened.window.floor.notice == 'one\nthree'
+
+
+def test_a_notice_ends_after_a_while(opened, monkeypatch):
+    opened.window.tell('lasts')
+    monkeypatch.setattr(notices, 'DURATION', -1.0)
+    opened.window.tell('ends')
+    opened.window.update_picture()
+    assert opened.window.floor.notice == 'lasts'
+
+
+@pytest.mark.parametrize('shown, colour', [
+    (robot(mission=Mission(YIELDING, True, 'bounce', 'a person drives')), 'warning'),
+    (robot(), 'good'), (robot(has_fallen=True), 'bad')])
+def test_the_pill_of_the_card_has_the_colour_of_the_state(shown, colour):
+    image = Opened(snapshot(shown)).window.panel.card.grab().toImage()
+    found = {name: count(image, getattr(LIGHT, name), 120, 0, None, 30) for name in ('good', 'warning', 'bad')}
+    assert found[colour] > 500
+    assert sum(found.values()) == found[colour]
+
+
+def test_a_yielding_robot_is_told_in_the_card_in_place_of_its_last_message():
+    missions = [Mission(state, True, 'bounce', message) for state, message in (
+        (YIELDING, 'drives straight'), (YIELDING, 'turns'), ('cleaning', 'drives straight'))]
+    cards = [Opened(snapshot(robot(mission=mission))).window.panel.card.grab().toImage() for mission in missions]
+    assert cards[0] == cards[1] != cards[2]
+
+
+def test_what_the_window_waits_for_is_shown_until_it_is_there():
     opened = Opened(Snapshot(missing=MISSING))
     empty = opened.window.floor.grab().toImage()
     assert count(empty, LIGHT.text, tolerance=40) > 100
@@ -76,32 +118,32 @@ def test_what_is_missing_is_shown_until_it_is_there():
 
 # --- pictures ------------------------------------------------------------------------------------------------------
 
-def test_a_picture_is_saved_under_a_new_name_each_time(tmp_path):
+def test_each_picture_is_saved_under_a_new_name(tmp_path):
     opened = Opened(snapshot(robot()), folder=str(tmp_path))
     opened.type(Qt.Key_S, Qt.ControlModifier)
     assert re.fullmatch(rf'saved {tmp_path}/rumba-[\d-]+.png', opened.window.floor.notice)
-    opened.window.save_anywhere()
+    opened.window.pictures.save_anywhere()
     pictures = list(tmp_path.iterdir())
     assert len(pictures) == 2
     assert {Image.open(picture).size for picture in pictures} == {(900, 600)}
 
 
-def test_where_a_picture_cannot_be_saved_the_window_says_so(tmp_path):
+def test_a_picture_that_cannot_be_saved_is_told(tmp_path):
     (tmp_path / 'file').write_text('')
     opened = Opened(snapshot(robot()), folder=str(tmp_path / 'file'))
     opened.type(Qt.Key_S, Qt.ControlModifier)
     assert opened.window.floor.notice.startswith('not saved: ')
 
 
-def test_a_record_is_a_gif_of_the_floor_as_it_was(tmp_path):
+def test_a_record_is_a_gif_of_the_floor(tmp_path):
     opened = Opened(snapshot(robot()), folder=str(tmp_path), size=(1300, 700))
     opened.type(Qt.Key_G, Qt.ControlModifier)
     assert opened.window.panel.buttons['record'].isChecked()
     for x in (0.0, 1.0, 2.0):
         opened.show(snapshot(robot(pose=Pose(x, 3.5, 0.0))))
-        opened.window._record_picture()
+        opened.window.pictures.add_frame()
     opened.window.resize(700, 700)
-    opened.window._record_picture()
+    opened.window.pictures.add_frame()
     opened.type(Qt.Key_G, Qt.ControlModifier)
     [(_, recorder, path)] = [done for done in opened.actor.done if done[0] == 'write']
     recorder.write(path)

@@ -1,4 +1,4 @@
-"""What the tests of the window share: a floor that no mirror maps onto itself, and Qt without a display."""
+"""What the tests of the window share: a floor without symmetry, and Qt without a display."""
 
 import math
 import os
@@ -24,6 +24,7 @@ APPLICATION = QApplication.instance() or QApplication(['test'])
 SCALE = 100.0  # [pixels/m] of the pictures
 WIDTH, HEIGHT = 400, 300  # [pixels] of a picture of the whole floor
 LEFT, BOTTOM = -1.0, 2.0  # [m]
+SERVICES = frozenset({'pause', 'resume', 'step', 'reset', 'spawn', 'kill', 'tuning/set_parameters'})
 MISSING = 'Waiting for a simulator\nTo start one, in another terminal:\nroslaunch rumba_sim simulator.launch'
 
 
@@ -37,7 +38,7 @@ def plan(number=1):
 
 
 def coverage(number=2):
-    """Out of reach but for a band at the lower edge, swept, and one above it, still to sweep."""
+    """A swept band at the lower edge, above it one that is still to sweep; the rest is out of reach."""
     cells = np.full((30, 40), -1, np.int8)
     cells[:8, 5:30] = 100
     cells[8:12, 5:30] = 0
@@ -45,22 +46,27 @@ def coverage(number=2):
 
 
 def robot(name='rumba', pose=Pose(0.5, 4.0, 0.0), **known):
-    """A robot that told all that it can tell, but for what is given."""
-    told = {'brushes_up': False, 'battery': Battery(0.6, 15.5, -1.7, 'on battery'), 'message': 'all is well',
+    """A robot of which everything is known; arguments replace some of it."""
+    told = {'brushes_up': False, 'battery': Battery(0.6, 15.5, -1.7, 'on battery'), 'message': 'no trouble',
             'cleaning': Cleaning(0.25, 1.5, 6.0, 0.8, 12.5), 'has_cleaner': True,
-            'mission': Mission('cleaning', True, 'bounce', 'on its way')}
+            'mission': Mission('cleaning', True, 'bounce', 'drives straight')}
     return Robot(name, pose, **{**told, **known})
+
+
+def simulation(**known):
+    """A simulator in simulated time, twice as fast as real time; arguments replace some of it."""
+    return Simulation(**{**{'node': '/simulator', 'speed': 2.0, 'wanted': 2.0, 'is_simulated': True, 'time': 83.0,
+                            'services': SERVICES}, **known})
 
 
 def snapshot(*robots, **known):
     """The floor with robots on it, and a simulator in simulated time."""
-    told = {'plan': plan(), 'coverage': coverage(),
-            'simulation': Simulation(2.0, 2.0, False, True, 83.0, True)}
+    told = {'plan': plan(), 'coverage': coverage(), 'simulation': simulation()}
     return Snapshot(robots=robots, **{**told, **known})
 
 
 def path(*points, number=7):
-    """A way along points [m]."""
+    """A path along points [m]."""
     return Path(np.array(points, float), number)
 
 
@@ -73,7 +79,7 @@ def pixels(picture):
 
 
 def near(picture, x, y, colour, tolerance=12):
-    """Whether the pixel at a place in the picture has a colour, or next to it."""
+    """Whether the pixel at a position has a colour, or nearly so."""
     return count(picture, colour, math.floor(x), math.floor(y), math.floor(x) + 1, math.floor(y) + 1, tolerance) == 1
 
 
@@ -84,11 +90,11 @@ def count(picture, colour, left=0, top=0, right=None, bottom=None, tolerance=12)
 
 
 class Source:
-    """Stands for the listener: has the snapshot that a test gives it."""
+    """A fake listener: it has the snapshot that a test gives it."""
 
     def __init__(self, first):
         self.next = first
-        self.attended = []
+        self.selected = []
 
     def has_news(self, _):
         return self.next is not None
@@ -97,12 +103,12 @@ class Source:
         found, self.next = self.next, None
         return found
 
-    def attend(self, *what):
-        self.attended.append(what)
+    def select(self, *what):
+        self.selected.append(what)
 
 
 class Actor:
-    """Stands for the actor: writes down what it is asked to do."""
+    """A fake actor: it records the calls of its methods."""
 
     def __init__(self):
         self.done = []
@@ -113,7 +119,7 @@ class Actor:
 
 
 class Opened:
-    """A window that shows a snapshot, and hands to use it with."""
+    """A window that shows a snapshot, and the events of a person who uses it."""
 
     def __init__(self, shown, style='light', size=(900, 600), folder='', **options):
         self.source, self.actor = Source(shown), Actor()
@@ -127,7 +133,7 @@ class Opened:
         APPLICATION.processEvents()
 
     def show(self, shown):
-        """What the listener has to tell next."""
+        """Make the listener have another snapshot."""
         self.source.next = shown
         self.window.update_picture()
 
@@ -136,7 +142,7 @@ class Opened:
         APPLICATION.sendEvent(self.window, QKeyEvent(QEvent.KeyPress, key, modifiers))
 
     def release(self, key, stays=True):
-        """A key goes up, and stays there long enough to be believed."""
+        """A key goes up, and stays up until the window takes that for a release."""
         APPLICATION.sendEvent(self.window, QKeyEvent(QEvent.KeyRelease, key, Qt.NoModifier))
         end = time.monotonic() + 5.0
         while stays and not self.window.keyboard.is_idle and time.monotonic() < end:
@@ -160,11 +166,22 @@ class Opened:
             self.mouse(QEvent.MouseMove, *(a + share * (b - a) for a, b in zip(start, end)), button)
         self.mouse(QEvent.MouseButtonRelease, *end, button)
 
+    def click(self, x, y):
+        """A click at a pixel of the floor."""
+        self.mouse(QEvent.MouseButtonPress, x, y)
+        self.mouse(QEvent.MouseButtonRelease, x, y)
+
+    def double_click(self, x, y):
+        """A double click at a pixel of the floor: the events that Qt makes of it."""
+        self.click(x, y)
+        self.mouse(QEvent.MouseButtonDblClick, x, y)
+        self.mouse(QEvent.MouseButtonRelease, x, y)
+
     def wheel(self, x, y, notches):
         """The wheel turns by so many notches."""
-        place = QPointF(x, y)
+        position = QPointF(x, y)
         APPLICATION.sendEvent(self.window.floor, QWheelEvent(
-            place, self.window.floor.mapToGlobal(place.toPoint()), QPoint(), QPoint(0, round(120 * notches)),
+            position, self.window.floor.mapToGlobal(position.toPoint()), QPoint(), QPoint(0, round(120 * notches)),
             Qt.NoButton, Qt.NoModifier, Qt.NoScrollPhase, False))
 
     def picture(self):

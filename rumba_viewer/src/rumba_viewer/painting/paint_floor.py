@@ -1,50 +1,50 @@
 """Paints the floor: walls, carpet, cliffs, what is swept and what is not, and the paths of robots.
 
-Each layer is drawn to the size of the picture once, and kept until it, or the view, is another.
+Each layer is drawn at the size of the picture once, and kept until its content or the view changes.
 """
 
-from typing import Dict, Iterator, Optional, Tuple
+from typing import Any, Dict, Iterator, Optional, Tuple
 
 import numpy as np
 from PyQt5.QtCore import QPointF, QRectF, Qt
 from PyQt5.QtGui import QColor, QImage, QPainter, QPen, QPolygonF
 
 from rumba_sim.model.floor_plan import FREE, OCCUPIED
-from rumba_viewer.scene.snapshot import Array, Grid, Path, Place, Snapshot
+from rumba_viewer.scene.snapshot import Array, Grid, MapFeatures, Path, Snapshot
 from rumba_viewer.scene.theme import Theme, robot_colour
 from rumba_viewer.scene.view_transform import ViewTransform
 
-CRISP = 4.0  # [pixels] of a cell from which on its edges are not smoothed
-COARSE = 0.5  # [pixels] of a cell below which several make one pixel
+CRISP = 4.0  # [pixels] side of a cell; larger cells are drawn with sharp edges
+COARSE = 0.5  # [pixels] side of a cell; smaller cells are averaged
 PATH_WIDTH = 1.4  # [pixels]
 PATH_ALPHA = 150
-CORNERS = 4.0  # [pixels] from one corner of a path to the next, at least
-STRIPES = 0.12  # [m] from one to the next, along an axis
-SWEPT, TO_SWEEP = 100, 0  # in the coverage grid
+MIN_SEGMENT = 4.0  # [pixels] from one corner of a path to the next
+STRIPES = 0.12  # [m] from one stripe of a cliff to the next, along an axis
+SWEPT, TO_SWEEP = 100, 0  # values of the coverage grid
 
 
 class FloorPainter:
-    """Keeps the floor as it was painted last."""
+    """Paints floors, and keeps the last picture of one."""
 
     def __init__(self) -> None:
-        """Begin with nothing."""
-        self._cells: Tuple[object, Optional[QImage]] = (None, None)
-        self._view: Tuple[object, Optional[QImage]] = (None, None)
+        """Start with no picture."""
+        self._cells: Tuple[object, QImage] = (None, QImage())
+        self._view: Tuple[object, QImage] = (None, QImage())
 
     def paint(self, painter: QPainter, snapshot: Snapshot, view: ViewTransform, theme: Theme) -> None:
         """Paint the floor of a snapshot that has a plan."""
-        plan, coverage, place = snapshot.plan, snapshot.coverage, snapshot.place
+        plan, coverage, features = snapshot.plan, snapshot.coverage, snapshot.features
         assert plan is not None
-        content = (plan.number, coverage and coverage.number, id(place), theme)
+        content = (plan.number, coverage and coverage.number, id(features), theme)
         if self._cells[0] != content:
-            self._cells = content, floor_image(plan, coverage, place, theme)
+            self._cells = content, floor_image(plan, coverage, features, theme)
         if self._view[0] != (content, view):
             self._view = (content, view), _scaled(self._cells[1], plan, view, theme)
         painter.drawImage(0, 0, self._view[1])
 
 
-def floor_image(plan: Grid, coverage: Optional[Grid], place: Place, theme: Theme) -> QImage:
-    """One pixel a cell, the top row that of the highest y."""
+def floor_image(plan: Grid, coverage: Optional[Grid], features: MapFeatures, theme: Theme) -> QImage:
+    """The floor with one pixel for each cell; the top row has the highest y."""
     colours = np.full(plan.cells.shape, _rgb(theme.unknown), np.uint32)
     free = plan.cells == FREE
     colours[plan.cells == OCCUPIED] = _rgb(theme.wall)
@@ -52,34 +52,34 @@ def floor_image(plan: Grid, coverage: Optional[Grid], place: Place, theme: Theme
     if coverage is not None and coverage.cells.shape == plan.cells.shape:
         colours[free & (coverage.cells == TO_SWEEP)] = _rgb(theme.to_sweep)
         colours[free & (coverage.cells == SWEPT)] = _rgb(theme.swept)
-    if place.carpet is not None and place.carpet.shape == plan.cells.shape:
-        _tint(colours, free & place.carpet, QColor(theme.carpet))
-    if place.cliff is not None and place.cliff.shape == plan.cells.shape:
-        rows, columns = np.nonzero(free & place.cliff)
+    if features.carpet is not None and features.carpet.shape == plan.cells.shape:
+        _tint(colours, free & features.carpet, QColor(theme.carpet))
+    if features.cliff is not None and features.cliff.shape == plan.cells.shape:
+        rows, columns = np.nonzero(free & features.cliff)
         striped = (rows + columns) * plan.resolution % STRIPES < 0.5 * STRIPES
         colours[rows[striped], columns[striped]] = _rgb(theme.cliff)
-    rows, columns = colours.shape
-    top_first = np.ascontiguousarray(colours[::-1])
-    return QImage(top_first.data, columns, rows, 4 * columns, QImage.Format_RGB32).copy()
+    height, width = colours.shape
+    pixels: Any = np.ascontiguousarray(colours[::-1]).data
+    return QImage(pixels, width, height, 4 * width, QImage.Format_RGB32).copy()  # which owns its pixels
 
 
 def _rgb(colour: str) -> int:
     return int(QColor(colour).rgb())
 
 
-def _tint(colours: Array, where: Array, tint: QColor) -> None:
-    """Lay a colour that shines through over some cells."""
+def _tint(colours: Array, cells: Array, tint: QColor) -> None:
+    """Mix a transparent colour into the colours of some cells."""
     alpha = tint.alphaF()
-    chosen = colours[where]
+    chosen = colours[cells]
     mixed = np.full(chosen.shape, 0xff000000, np.uint32)
     for shift, value in ((16, tint.red()), (8, tint.green()), (0, tint.blue())):
         below = (chosen >> np.uint32(shift)) & np.uint32(0xff)
         mixed |= (below * (1.0 - alpha) + value * alpha).astype(np.uint32) << np.uint32(shift)
-    colours[where] = mixed
+    colours[cells] = mixed
 
 
 def _scaled(cells: QImage, plan: Grid, view: ViewTransform, theme: Theme) -> QImage:
-    """The part of the floor that a view shows, at its size."""
+    """The part of the floor that a view shows, at the size of the view."""
     picture = QImage(max(int(view.width), 1), max(int(view.height), 1), QImage.Format_RGB32)
     picture.fill(QColor(theme.background))
     box = plan.box
@@ -87,7 +87,7 @@ def _scaled(cells: QImage, plan: Grid, view: ViewTransform, theme: Theme) -> QIm
     target = QRectF(left, top, right - left, bottom - top)
     side = plan.resolution * view.scale
     painter = QPainter(picture)
-    if side < COARSE:  # else every other cell would be left out
+    if side < COARSE:  # QPainter would leave out whole cells
         cells = cells.scaled(max(round(target.width()), 1), max(round(target.height()), 1), Qt.IgnoreAspectRatio,
                              Qt.SmoothTransformation)
     painter.setRenderHint(QPainter.SmoothPixmapTransform, side < CRISP)
@@ -97,12 +97,12 @@ def _scaled(cells: QImage, plan: Grid, view: ViewTransform, theme: Theme) -> QIm
 
 
 class PathPainter:
-    """Keeps the paths as they were painted last, and adds only what is new."""
+    """Paints paths: keeps the last picture of them and adds only what is new."""
 
     def __init__(self) -> None:
-        """Begin with nothing."""
+        """Start with no picture."""
         self._content: object = None
-        self._picture: Optional[QImage] = None
+        self._picture = QImage()
         self._drawn: Dict[str, int] = {}
 
     def paint(self, painter: QPainter, snapshot: Snapshot, view: ViewTransform, theme: Theme) -> None:
@@ -120,7 +120,7 @@ class PathPainter:
             painter.drawImage(0, 0, self._picture)
 
     def _add(self, name: str, path: Path, view: ViewTransform, theme: Theme) -> None:
-        first = max(self._drawn.get(name, 0) - 1, 0)  # from the last point that was drawn
+        first = max(self._drawn.get(name, 0) - 1, 0)  # start at the last point that was drawn
         if len(path.points) - first < 2 or self._drawn.get(name) == len(path.points):
             return
         self._drawn[name] = len(path.points)
@@ -128,7 +128,7 @@ class PathPainter:
         colour.setAlpha(PATH_ALPHA)
         painter = QPainter(self._picture)
         painter.setRenderHint(QPainter.Antialiasing)
-        painter.setCompositionMode(QPainter.CompositionMode_Source)  # where lines cross they do not add up
+        painter.setCompositionMode(QPainter.CompositionMode_Source)  # so that crossings are not darker
         painter.setPen(QPen(colour, PATH_WIDTH, Qt.SolidLine, Qt.SquareCap, Qt.BevelJoin))
         for line in _lines(path.points[first:], view):
             painter.drawPolyline(QPolygonF([QPointF(x, y) for x, y in line.tolist()]))
@@ -136,11 +136,11 @@ class PathPainter:
 
 
 def _lines(points: Array, view: ViewTransform) -> Iterator[Array]:
-    """Corners (n, 2) [pixels] of the lines between rows of NaN, but for those that are close to the one before."""
+    """Corners (n, 2) [pixels] of the lines between rows of NaN, without those that are close to the one before."""
     pixels = np.stack(view.to_pixel(points[:, 0], points[:, 1]), axis=1)
     for line in np.split(pixels, np.flatnonzero(np.isnan(points[:, 0]))):
         line = line[~np.isnan(line[:, 0])]
         if len(line) > 1:
-            way = np.cumsum(np.hypot(*np.diff(line, axis=0).T)) // CORNERS
-            keep = np.concatenate([[True], way[1:] != way[:-1], [True]])
+            segment = np.cumsum(np.hypot(*np.diff(line, axis=0).T)) // MIN_SEGMENT
+            keep = np.concatenate([[True], segment[1:] != segment[:-1], [True]])
             yield line[keep]

@@ -1,4 +1,4 @@
-"""Paints what keys and mouse do, over the floor."""
+"""Paints the list of what keys and mouse do, over the floor."""
 
 from PyQt5.QtCore import QPointF, QRectF, Qt
 from PyQt5.QtGui import QColor, QFont, QFontMetricsF, QPainter, QPen
@@ -6,11 +6,11 @@ from PyQt5.QtGui import QColor, QFont, QFontMetricsF, QPainter, QPen
 from rumba_viewer.scene.acts import legend
 from rumba_viewer.scene.theme import Theme
 
-GAP, EDGE = 16.0, 18.0  # [pixels] between the columns, around the rows
+GAP, EDGE = 16.0, 18.0  # [pixels] between the columns; around the rows
 
 
 def paint_legend(painter: QPainter, width: float, height: float, theme: Theme) -> None:
-    """Paint all rows into the middle of a picture, smaller where they would not fit."""
+    """Paint all rows into the middle of a picture, smaller if they would not fit."""
     rows = legend()
     bold = QFont(painter.font())
     bold.setBold(True)

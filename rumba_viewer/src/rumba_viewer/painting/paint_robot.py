@@ -1,4 +1,4 @@
-"""Paints robots true to scale, their laser, and the dock. The painter counts in metres, y upward."""
+"""Paints robots true to scale, their laser beams, and the dock. The unit of the painter is the metre, y upward."""
 
 import math
 from typing import Sequence
@@ -11,22 +11,22 @@ from rumba_viewer.scene.snapshot import Dock, Robot
 from rumba_viewer.scene.theme import Theme, robot_colour
 from rumba_viewer.scene.view_transform import ViewTransform
 
-SMALL = 9.0  # [pixels] radius of a ring around a robot that would be smaller
-BUMPER = 65.0  # [degrees] of the front, to each side, that the bumper covers
+SMALL = 9.0  # [pixels] radius of the ring around a robot that is smaller in the picture
+BUMPER = 65.0  # [degrees] to each side of the front that the bumper covers
 LEFT, RIGHT = (0.0, BUMPER), (-BUMPER, 0.0)
 DOCK_DEPTH, DOCK_WIDTH = 0.07, 0.28  # [m]
 GHOST = 0.45  # opacity of a robot that is being dragged
 
 
 def in_metres(painter: QPainter, view: ViewTransform) -> None:
-    """Have a painter count as the map does."""
+    """Make a painter use the coordinates of the map."""
     painter.translate(0.5 * view.width, 0.5 * view.height)
     painter.scale(view.scale, -view.scale)
     painter.translate(-view.x, -view.y)
 
 
 def paint_dock_field(painter: QPainter, dock: Dock, theme: Theme) -> None:
-    """The floor on which the beams of a dock are received."""
+    """Paint the area in which the beams of a dock are received."""
     painter.setPen(Qt.NoPen)
     for corners, colour in ((dock.field, theme.field), (dock.halo, theme.halo)):
         painter.setBrush(QColor(colour))
@@ -34,7 +34,7 @@ def paint_dock_field(painter: QPainter, dock: Dock, theme: Theme) -> None:
 
 
 def paint_dock(painter: QPainter, dock: Dock, radius: float, theme: Theme) -> None:
-    """The dock itself, before a robot of a radius [m] that stands at its contacts."""
+    """Paint the dock itself, in front of a docked robot of a radius [m]."""
     painter.save()
     _into(painter, dock.pose)
     painter.setPen(_pen(theme.body_edge, 1.0))
@@ -44,19 +44,16 @@ def paint_dock(painter: QPainter, dock: Dock, radius: float, theme: Theme) -> No
 
 
 def paint_beams(painter: QPainter, robot: Robot, theme: Theme) -> None:
-    """What the laser of a robot sees."""
+    """Paint what the laser of a robot measures."""
     if robot.beams is None or len(robot.beams) == 0:
         return
-    painter.save()
-    _into(painter, robot.pose)
     painter.setPen(_pen(theme.laser_edge, 1.0))
     painter.setBrush(QColor(theme.laser))
     painter.drawPolygon(_polygon(robot.beams))
-    painter.restore()
 
 
 def paint_robot(painter: QPainter, robot: Robot, view: ViewTransform, theme: Theme, is_selected: bool) -> None:
-    """A robot: body, bumper, heading, brush."""
+    """Paint a robot: body, bumper, brush, heading; a red cross over one that has fallen."""
     colour = QColor(robot_colour(theme, robot.name))
     painter.save()
     _into(painter, robot.pose)
@@ -71,11 +68,13 @@ def paint_robot(painter: QPainter, robot: Robot, view: ViewTransform, theme: The
     painter.setPen(Qt.NoPen)
     painter.setBrush(colour)
     painter.drawPolygon(_polygon(((0.7 * radius, 0.0), (0.2 * radius, 0.4 * radius), (0.2 * radius, -0.4 * radius))))
+    if robot.has_fallen:
+        _cross(painter, radius, theme)
     painter.restore()
 
 
 def paint_ghost(painter: QPainter, robot: Robot, pose: Pose, theme: Theme) -> None:
-    """Where a robot that is being dragged would be put."""
+    """Paint the pose to which a robot is being dragged."""
     painter.save()
     _into(painter, pose)
     painter.setOpacity(GHOST)
@@ -90,7 +89,7 @@ def paint_ghost(painter: QPainter, robot: Robot, pose: Pose, theme: Theme) -> No
 
 
 def _ring(painter: QPainter, radius: float, view: ViewTransform, colour: QColor, is_selected: bool) -> None:
-    """Around the robot that keys drive, and around one that is too small to be found."""
+    """A ring around the selected robot, and around one that is too small to be seen."""
     if is_selected or radius * view.scale < SMALL:
         painter.setPen(_pen(colour, 2.0))
         painter.setBrush(Qt.NoBrush)
@@ -99,7 +98,7 @@ def _ring(painter: QPainter, radius: float, view: ViewTransform, colour: QColor,
 
 
 def _bumper(painter: QPainter, radius: float, span: Sequence[float], colour: QColor, is_pressed: bool) -> None:
-    """Half of the bumper; Qt turns clockwise where y points upward."""
+    """Half of the bumper; Qt measures angles clockwise if y points upward."""
     painter.setPen(QPen(colour, (0.3 if is_pressed else 0.16) * radius, Qt.SolidLine, Qt.FlatCap))
     painter.setBrush(Qt.NoBrush)
     inner = 0.9 * radius
@@ -108,7 +107,7 @@ def _bumper(painter: QPainter, radius: float, span: Sequence[float], colour: QCo
 
 
 def _brush(painter: QPainter, robot: Robot, theme: Theme) -> None:
-    """A bar as wide as the brush: full where it cleans, a line where it is lifted, none where nobody told."""
+    """A bar as wide as the brush: filled while it cleans, a frame while it is lifted, none if unknown."""
     if robot.brushes_up is None:
         return
     wide, thick = robot.size.brush, 0.2 * robot.size.radius
@@ -119,14 +118,24 @@ def _brush(painter: QPainter, robot: Robot, theme: Theme) -> None:
     painter.drawRect(bar)
 
 
+def _cross(painter: QPainter, radius: float, theme: Theme) -> None:
+    """A red cross and ring over a robot that has fallen over a cliff."""
+    painter.setPen(QPen(QColor(theme.bad), 0.22 * radius, Qt.SolidLine, Qt.RoundCap))
+    painter.setBrush(Qt.NoBrush)
+    painter.drawEllipse(QPointF(0.0, 0.0), radius, radius)
+    reach = 0.6 * radius
+    for side in (-1.0, 1.0):
+        painter.drawLine(QPointF(-reach, -side * reach), QPointF(reach, side * reach))
+
+
 def _into(painter: QPainter, pose: Pose) -> None:
-    """Have a painter count from a pose on, x forward."""
+    """Make a painter use the coordinates of a pose, x forward."""
     painter.translate(pose.x, pose.y)
     painter.rotate(math.degrees(pose.theta))
 
 
 def _pen(colour: object, width: float) -> QPen:
-    """A line so many pixels wide, however the painter counts."""
+    """A line of a width in pixels, whatever the unit of the painter is."""
     pen = QPen(QColor(colour), width)
     pen.setCosmetic(True)
     return pen

@@ -1,4 +1,4 @@
-"""Paints a snapshot: the floor and all that is on it, as the middle of the window and as a picture of its own."""
+"""Paints a snapshot: the floor and everything on it, in the window or as a picture."""
 
 import math
 from typing import Optional, Tuple
@@ -15,17 +15,18 @@ from rumba_viewer.scene.view_transform import ViewTransform
 
 SCALE_BAR = 130.0  # [pixels] at most
 LABEL_GAP = 4.0  # [pixels] from a robot to its name
+TARGET = 9.0  # [pixels] radius of the mark of a target
 
 
 class ScenePainter:
-    """Paints snapshots one after another; what did not change is kept.
+    """Paints one snapshot after another; what did not change is not painted again.
 
     Attributes:
-        shows_path, shows_field: whether to paint the paths of robots, and where the dock is heard.
+        shows_path, shows_field: whether to paint the paths of robots, and the area in which the dock is received.
     """
 
     def __init__(self) -> None:
-        """Begin with nothing painted."""
+        """Start with nothing painted."""
         self.shows_path = self.shows_field = True
         self._floor, self._paths = FloorPainter(), PathPainter()
 
@@ -34,11 +35,11 @@ class ScenePainter:
         """Paint a snapshot.
 
         Args:
-            painter: onto what; counts in pixels.
-            snapshot: what is the case.
-            view: which part of the map to show, how large.
+            painter: what to paint with; its unit is the pixel.
+            snapshot: what to paint.
+            view: the part of the map to show, and its scale.
             theme: colours.
-            ghost: name of a robot that is being dragged, and where to.
+            ghost: name of a robot that is being dragged, and the pose to which it is dragged.
         """
         painter.setRenderHint(QPainter.Antialiasing)
         painter.fillRect(QRectF(0.0, 0.0, view.width, view.height), QColor(theme.background))
@@ -46,13 +47,14 @@ class ScenePainter:
             self._floor.paint(painter, snapshot, view, theme)
             self._paint_things(painter, snapshot, view, theme, ghost)
             _paint_names(painter, snapshot, view, theme)
+            _paint_target(painter, snapshot, view, theme)
             _paint_scale_bar(painter, view, theme)
         if snapshot.missing:
             _paint_missing(painter, snapshot, view, theme)
 
     def _paint_things(self, painter: QPainter, snapshot: Snapshot, view: ViewTransform, theme: Theme,
                       ghost: Optional[Tuple[str, Pose]]) -> None:
-        dock = snapshot.place.dock
+        dock = snapshot.features.dock
         if dock is not None and self.shows_field:
             painter.save()
             paint_robot.in_metres(painter, view)
@@ -89,7 +91,7 @@ def _size(snapshot: Snapshot) -> float:
 
 
 def _paint_names(painter: QPainter, snapshot: Snapshot, view: ViewTransform, theme: Theme) -> None:
-    """Who is who, where there are several."""
+    """The names of the robots, if there are several."""
     if len(snapshot.robots) < 2:
         return
     painter.save()
@@ -101,15 +103,30 @@ def _paint_names(painter: QPainter, snapshot: Snapshot, view: ViewTransform, the
         below = y + max(1.3 * robot.size.radius * view.scale, paint_robot.SMALL) + LABEL_GAP
         area = painter.boundingRect(QRectF(x - 100.0, below, 200.0, 40.0), Qt.AlignHCenter | Qt.AlignTop, robot.name)
         painter.setPen(Qt.NoPen)
-        painter.setBrush(_shining(theme.card, 200))
+        painter.setBrush(_transparent(theme.card, 200))
         painter.drawRoundedRect(area.adjusted(-4.0, 0.0, 4.0, 0.0), 3.0, 3.0)
         painter.setPen(QColor(robot_colour(theme, robot.name)))
         painter.drawText(area, Qt.AlignCenter, robot.name)
     painter.restore()
 
 
+def _paint_target(painter: QPainter, snapshot: Snapshot, view: ViewTransform, theme: Theme) -> None:
+    """A ring with cross hairs around the target, in the colour of the robot that would go there."""
+    if snapshot.target is None:
+        return
+    across, down = view.to_pixel(*snapshot.target)
+    painter.save()
+    painter.setBrush(Qt.NoBrush)
+    for colour, width in ((theme.card, 6.0), (robot_colour(theme, snapshot.selected), 2.5)):
+        painter.setPen(QPen(QColor(colour), width, Qt.SolidLine, Qt.RoundCap))
+        painter.drawEllipse(QPointF(across, down), TARGET, TARGET)
+        for x, y in ((TARGET, 0.0), (-TARGET, 0.0), (0.0, TARGET), (0.0, -TARGET)):
+            painter.drawLine(QPointF(across + 0.4 * x, down + 0.4 * y), QPointF(across + 1.7 * x, down + 1.7 * y))
+    painter.restore()
+
+
 def _paint_scale_bar(painter: QPainter, view: ViewTransform, theme: Theme) -> None:
-    """How long a round number of metres is, in the lower left corner."""
+    """A bar whose length is a round number of metres, in the lower left corner."""
     most = SCALE_BAR / view.scale
     power = 10.0 ** math.floor(math.log10(most))
     length = next(step * power for step in (5.0, 2.0, 1.0) if step * power <= most)
@@ -118,7 +135,7 @@ def _paint_scale_bar(painter: QPainter, view: ViewTransform, theme: Theme) -> No
     wide, high = max(length * view.scale, metrics.horizontalAdvance(text)) + 16.0, metrics.height() + 14.0
     box = QRectF(8.0, view.height - high - 8.0, wide, high)
     painter.setPen(Qt.NoPen)
-    painter.setBrush(_shining(theme.card, 200))
+    painter.setBrush(_transparent(theme.card, 200))
     painter.drawRoundedRect(box, 4.0, 4.0)
     painter.setPen(QPen(QColor(theme.text), 2.0))
     left, bottom = box.left() + 8.0, box.bottom() - 6.0
@@ -141,7 +158,7 @@ def _paint_missing(painter: QPainter, snapshot: Snapshot, view: ViewTransform, t
     area.setHeight(head.height() + body.height() + 42.0)
     area.moveCenter(QPointF(0.5 * view.width, 0.5 * view.height))
     painter.setPen(QPen(QColor(theme.line), 1.0))
-    painter.setBrush(_shining(theme.card, 240))
+    painter.setBrush(_transparent(theme.card, 240))
     painter.drawRoundedRect(area, 8.0, 8.0)
     inside = area.adjusted(16.0, 16.0, -16.0, -16.0)
     painter.setPen(QColor(theme.text))
@@ -152,8 +169,8 @@ def _paint_missing(painter: QPainter, snapshot: Snapshot, view: ViewTransform, t
     painter.drawText(inside.adjusted(0.0, head.height() + 10.0, 0.0, 0.0), wrapped, rest)
 
 
-def _shining(colour: str, alpha: int) -> QColor:
-    """A colour through which something shines, 0 to 255."""
+def _transparent(colour: str, alpha: int) -> QColor:
+    """A transparent colour; alpha is 0 to 255."""
     mixed = QColor(colour)
     mixed.setAlpha(alpha)
     return mixed

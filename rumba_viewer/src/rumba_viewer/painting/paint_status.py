@@ -1,4 +1,4 @@
-"""Paints the card that tells how the selected robot is: battery, coverage, mission, place, time."""
+"""Paints the card of the selected robot: mission, battery, coverage, pose, time."""
 
 import math
 from typing import Callable, List, Optional, Tuple
@@ -7,19 +7,21 @@ from PyQt5.QtCore import QPointF, QRectF, Qt
 from PyQt5.QtGui import QColor, QFont, QFontMetricsF, QPainter
 
 from rumba_sim.model.geometry import Pose
-from rumba_viewer.scene.snapshot import Battery, Cleaning, Robot, Simulation, Snapshot
+from rumba_viewer.scene.snapshot import YIELDING, Battery, Cleaning, Robot, Simulation, Snapshot
 from rumba_viewer.scene.theme import Theme, robot_colour
 
 BAR = 14.0  # [pixels] height of a bar
-EDGE, TOP = 12.0, 8.0  # [pixels] from the card's edges to what it says
+FALLEN = 'fallen'
+EDGE, TOP = 12.0, 8.0  # [pixels] from the edges of the card to its text
+PILL_GAP = 8.0  # [pixels] from the name to the pill
 LINES = 9  # of small text
-LOW, CRITICAL = 0.25, 0.10  # charge: getting low, and where a robot goes home at the latest
-STATES = {'cleaning': 'good', 'charging': 'good', 'stranded': 'bad'}
+LOW, CRITICAL = 0.25, 0.10  # charge, below which the bar is yellow, red
+STATES = {'cleaning': 'good', 'charging': 'good', YIELDING: 'warning', 'stranded': 'bad', FALLEN: 'bad'}
 UNKNOWN, MINUS = '-', '\u2212'
 
 
 def status_height(font: QFont) -> int:
-    """How high the card is in a font [pixels]."""
+    """Height of the card in a font [pixels]."""
     small, bold = (QFontMetricsF(one).height() for one in _fonts(font)[1:])
     return math.ceil(2.0 * TOP + (bold + 5.0) + LINES * (small + 1.0) + 2.0 * (bold + BAR + 7.0) + 3.0)
 
@@ -33,7 +35,7 @@ def _fonts(font: QFont) -> Tuple[QFont, QFont, QFont]:
 
 
 def paint_status(painter: QPainter, area: QRectF, snapshot: Snapshot, theme: Theme) -> None:
-    """Paint the card into an area that is as high as `status_height` says."""
+    """Paint the card into an area that has the height of `status_height`."""
     painter.setRenderHint(QPainter.Antialiasing)
     painter.setPen(QColor(theme.line))
     painter.setBrush(QColor(theme.card))
@@ -52,10 +54,9 @@ class _Card:
     def paint(self, snapshot: Snapshot) -> None:
         robot = snapshot.robot
         self._title(snapshot.selected, robot)
-        mission = robot.mission if robot is not None else None
-        self._small_line('' if robot is None else 'no cleaner' if mission is None else mission.message)
+        self._small_line(_mission_text(robot))
         battery, cleaning = (robot.battery, robot.cleaning) if robot is not None else (None, None)
-        # Rounded as in battery_status: upward, so that 0 % is empty; and downward, so that 100 % is all.
+        # Charge is rounded up, as in battery_status: 0 % is empty. Coverage is rounded down: 100 % is everything.
         self._bar('Battery', battery and battery.share, math.ceil, _battery_colour(battery, self._theme))
         self._small_line(_battery_text(battery))
         self._bar('Swept', cleaning and cleaning.coverage, math.floor, self._theme.robots[0])
@@ -66,28 +67,30 @@ class _Card:
         self._small_line(robot.message if robot is not None else '')
 
     def _title(self, name: str, robot: Optional[Robot]) -> None:
-        """Name on the left, state in a pill on the right."""
+        """The name on the left, the state in a pill on the right."""
         height = QFontMetricsF(self._bold).height() + 4.0
         row = QRectF(self._area.left(), self._y, self._area.width(), height)
         self._painter.setPen(Qt.NoPen)
         self._painter.setBrush(QColor(robot_colour(self._theme, name)))
         self._painter.drawEllipse(QPointF(row.left() + 6.0, row.center().y()), 5.0, 5.0)
-        state = 'not there' if robot is None else robot.mission.state if robot.mission is not None else ''
-        if state:
-            self._pill(row, state)
-        self._text(row.adjusted(18.0, 0.0, -90.0, 0.0), name, self._bold, self._theme.text)
+        used = self._pill(row, _state_text(robot))
+        self._text(row.adjusted(18.0, 0.0, -used, 0.0), name, self._bold, self._theme.text)
         self._y += height + 1.0
 
-    def _pill(self, row: QRectF, state: str) -> None:
+    def _pill(self, row: QRectF, state: str) -> float:
+        """Returns the width that it takes from the row [pixels]."""
+        if not state:
+            return 0.0
         wide = QFontMetricsF(self._small).horizontalAdvance(state) + 16.0
         pill = QRectF(row.right() - wide, row.top() + 1.0, wide, row.height() - 2.0)
         colour = QColor(getattr(self._theme, STATES.get(state, 'faint_text')))
         self._painter.setBrush(colour)
         self._painter.drawRoundedRect(pill, 0.5 * pill.height(), 0.5 * pill.height())
         self._text(pill, state, self._small, self._theme.card, Qt.AlignCenter)
+        return wide + PILL_GAP
 
     def _bar(self, name: str, share: Optional[float], rounded: Callable[[float], int], colour: str) -> None:
-        """A name, a share 0..1 in percent, and a bar below."""
+        """A name, a share 0..1 as a percentage, and a bar below them."""
         height = QFontMetricsF(self._bold).height()
         row = QRectF(self._area.left(), self._y + 3.0, self._area.width(), height)
         self._text(row, name, self._bold, self._theme.text)
@@ -118,7 +121,7 @@ class _Card:
         self._y += height
 
     def _text(self, area: QRectF, text: str, font: QFont, colour: str, align: int = Qt.AlignLeft) -> None:
-        """One line, cut with dots where it is too long."""
+        """One line, cut off with an ellipsis if it is too long."""
         self._painter.setFont(font)
         self._painter.setPen(QColor(colour))
         fitting = QFontMetricsF(font).elidedText(text, Qt.ElideRight, area.width())
@@ -127,6 +130,24 @@ class _Card:
 
 def _percent(share: Optional[float], rounded: Callable[[float], int]) -> str:
     return UNKNOWN if share is None or math.isnan(share) else f'{rounded(round(100.0 * share, 6))} %'
+
+
+def _state_text(robot: Optional[Robot]) -> str:
+    if robot is None:
+        return 'absent'
+    if robot.has_fallen:
+        return FALLEN
+    return robot.mission.state if robot.mission is not None else ''
+
+
+def _mission_text(robot: Optional[Robot]) -> str:
+    if robot is None:
+        return ''
+    if robot.has_fallen:
+        return 'over a cliff: drag the robot elsewhere'
+    if robot.mission is None:
+        return 'no cleaner'
+    return 'yielding to a person' if robot.mission.state == YIELDING else robot.mission.message
 
 
 def _battery_colour(battery: Optional[Battery], theme: Theme) -> str:
@@ -151,25 +172,26 @@ def _cleaning_text(cleaning: Optional[Cleaning]) -> str:
 
 def _rows(robot: Optional[Robot], simulation: Simulation) -> List[Tuple[str, str]]:
     return [('Strategy', robot.mission.strategy or UNKNOWN if robot and robot.mission else UNKNOWN),
-            ('Place', _place_text(robot.pose) if robot else UNKNOWN), ('Way', _way_text(robot) if robot else UNKNOWN),
+            ('Pose', _pose_text(robot.pose) if robot else UNKNOWN),
+            ('Driven', _driven_text(robot) if robot else UNKNOWN),
             ('Time', _time_text(simulation)), ('Speed', _speed_text(simulation))]
 
 
-def _place_text(pose: Pose) -> str:
+def _pose_text(pose: Pose) -> str:
     return f'{pose.x:.2f}, {pose.y:.2f} m, {math.degrees(pose.theta):.0f}\u00b0'.replace('-', MINUS)
 
 
-def _way_text(robot: Robot) -> str:
-    way = UNKNOWN if robot.cleaning is None else f'{robot.cleaning.distance:.1f} m'
+def _driven_text(robot: Robot) -> str:
+    distance = UNKNOWN if robot.cleaning is None else f'{robot.cleaning.distance:.1f} m'
     brushes = {None: UNKNOWN, True: 'up', False: 'down'}[robot.brushes_up]
-    return f'{way}, brushes {brushes}'
+    return f'{distance}, brushes {brushes}'
 
 
 def _time_text(simulation: Simulation) -> str:
     if simulation.time is None:
         return UNKNOWN
     if not simulation.is_simulated:
-        return 'that of the wall clock'
+        return 'wall clock'
     minutes, seconds = divmod(int(simulation.time), 60)
     hours, minutes = divmod(minutes, 60)
     return f'{hours}:{minutes:02}:{seconds:02} simulated'
@@ -180,6 +202,8 @@ def _speed_text(simulation: Simulation) -> str:
         return 'paused'
     if simulation.speed is None:
         return UNKNOWN
-    wanted = '' if simulation.wanted is None else f' of {simulation.wanted:g}' if simulation.wanted else ' (all it can)'
+    wanted = ''
+    if simulation.wanted is not None:
+        wanted = f' of {simulation.wanted:g}' if simulation.wanted else ' (maximum)'
     digits = 0 if simulation.speed >= 100.0 else 1
     return f'{simulation.speed:.{digits}f}{wanted} \u00d7 real time'

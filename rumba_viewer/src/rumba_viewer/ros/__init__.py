@@ -1,1 +1,1 @@
-"""The node viewer: what topics and the master tell, and what the window asks of the robot."""
+"""The node viewer: it listens to topics and the master, and calls services and actions of robots."""

@@ -1,4 +1,4 @@
-"""The window as a program: waits for a master, runs until it is closed or ROS shuts down, saves when it is asked to."""
+"""The window as a program: waits for a master, runs until it is closed or ROS shuts down, saves pictures on request."""
 
 import pathlib
 import signal
@@ -15,7 +15,7 @@ from PyQt5.QtGui import QColor, QPalette
 from PyQt5.QtWidgets import QApplication
 from std_srvs.srv import Trigger, TriggerResponse
 
-from rumba_cleaning.ros.cleaner.settings import STRATEGIES
+from rumba_cleaning import strategies
 from rumba_sim.model.errors import WorldError
 from rumba_sim.ros.common import node
 from rumba_sim.ros.common.requests import Requests
@@ -25,15 +25,16 @@ from rumba_viewer.scene.snapshot import Snapshot
 from rumba_viewer.scene.theme import DARK, LIGHT
 from rumba_viewer.window.window import Options, Window
 
-PERIOD = 50  # [ms] to look whether there is anything to do, or ROS has ended
-SETTLE = 0.5  # [s] from when all is there until a picture is saved
+PERIOD = 50  # [ms] from one check for requests and for the end of ROS to the next
+SETTLE = 0.5  # [s] from a complete snapshot until a picture is saved
+STRATEGIES = sorted(strategies.OWN)  # that every cleaner knows
 
 
 class Application:
     """Qt, and the one window."""
 
     def __init__(self) -> None:
-        """Reach for the display, which must be there."""
+        """Connect to the display, which must be there."""
         self._qt = QApplication.instance() or QApplication(['rumba'])
         self._qt.setApplicationDisplayName('Rumba')
         self._error: Optional[Exception] = None
@@ -42,8 +43,8 @@ class Application:
         sys.excepthook = self._on_exception
 
     def _on_exception(self, kind: Any, error: Any, trace: Any) -> None:
-        """PyQt ends the process at once where an event goes wrong: end in order."""
-        if not rospy.core.is_shutdown_requested():  # else a topic was closed while a key drove
+        """End in order: PyQt aborts the process if a handler of an event raises."""
+        if not rospy.core.is_shutdown_requested():  # else a topic may be closed already
             traceback.print_exception(kind, error, trace)
             self._error = error
         self._qt.quit()
@@ -51,7 +52,7 @@ class Application:
     # --- before there is a master -------------------------------------------------------------------------------------
 
     def wait_for_master(self) -> None:
-        """Show an empty window, and what it waits for, until a master answers; leaves the process if it is closed."""
+        """Show a window that tells what it waits for, until a master answers; exits if it is closed."""
         if rosgraph.is_master_online():
             return
         window = Window(_Nobody(), _Nobody(), Options(0.0, 0.0, '', STRATEGIES, False),
@@ -79,16 +80,16 @@ class Application:
     # --- with a master ------------------------------------------------------------------------------------------------
 
     def run(self, settings: Any) -> None:
-        """Show the window until it is closed or ROS shuts down; for a picture alone, until that is saved.
+        """Show the window until it is closed or ROS shuts down; with save_png, until the picture is saved.
 
         Raises:
             WorldError: the picture cannot be saved.
         """
         _set_style(self._qt, settings.style)
-        strategies = [*STRATEGIES, *filter(None, (name.strip() for name in settings.strategies.split(',')))]
-        options = Options(settings.linear, settings.angular, settings.folder, strategies, settings.laser)
+        offered = [*STRATEGIES, *filter(None, (name.strip() for name in settings.strategies.split(',')))]
+        options = Options(settings.linear, settings.angular, settings.folder, offered, settings.laser)
         listener = Listener(settings.robot, settings.laser)
-        actor = Actor(settings.robot, listener.note_pause)
+        actor = Actor(settings.robot)
         window = Window(listener, actor, options, listener.snapshot(time.monotonic()))
         window.resize(settings.width, settings.height)
         requests = Requests()
@@ -97,7 +98,7 @@ class Application:
             if self._service is not None:
                 self._service.shutdown('another master')
             self._service = rospy.Service('~save_png', Trigger, lambda _: _save(requests, window))
-            actor.reach()
+            actor.connect()
         listener.start(register)
         window.setAttribute(Qt.WA_DontShowOnScreen, bool(settings.save_png))
         window.show()
@@ -116,13 +117,13 @@ class Application:
             self._qt.quit()
         elif settings.save_png and self._is_complete(window.snapshot, settings.laser):
             try:
-                window.save_as(pathlib.Path(settings.save_png).expanduser())
+                window.pictures.save_as(pathlib.Path(settings.save_png).expanduser())
             except OSError as error:
                 self._error = error
             self._qt.quit()
 
     def _is_complete(self, snapshot: Snapshot, needs_laser: bool) -> bool:
-        """Whether all has been there for a while."""
+        """Whether the snapshot has been complete for a while."""
         robot = snapshot.robot
         now = time.monotonic()
         if not snapshot.is_complete or needs_laser and robot is not None and robot.beams is None:
@@ -133,10 +134,10 @@ class Application:
 
 
 class _Nobody:
-    """Has nothing to tell, and does nothing."""
+    """A source without news and an actor that does nothing."""
 
     class notices:  # noqa: N801 (stands for a queue)
-        """Empty for ever."""
+        """Always empty."""
 
         @staticmethod
         def empty() -> bool:
@@ -151,15 +152,15 @@ class _Nobody:
 
 
 def _save(requests: Requests, window: Window) -> TriggerResponse:
-    """Have the window's own thread save a picture."""
+    """Make the thread of the window save a picture."""
     try:
-        return TriggerResponse(True, str(requests.call(window.save_anywhere)))
+        return TriggerResponse(True, str(requests.call(window.pictures.save_anywhere)))
     except OSError as error:
         return TriggerResponse(False, str(error))
 
 
 def _set_style(qt: QApplication, style: str) -> None:
-    """Light or dark whatever the desktop has; `auto` leaves it alone."""
+    """Set a light or dark style; `auto` keeps that of the desktop."""
     if style == 'auto':
         return
     theme = DARK if style == 'dark' else LIGHT

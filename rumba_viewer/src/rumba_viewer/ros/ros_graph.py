@@ -1,4 +1,4 @@
-"""Who is there, as the master tells it."""
+"""The part of the ROS graph that the window needs, as the master describes it."""
 
 import socket
 from typing import FrozenSet, NamedTuple, Tuple
@@ -9,11 +9,11 @@ import rospy
 ODOMETRY, TRUTH = 'nav_msgs/Odometry', '/ground_truth'
 
 
-class Surroundings(NamedTuple):
-    """What was found.
+class RosGraph(NamedTuple):
+    """What the master knows.
 
     Attributes:
-        master: which run of which master told it; empty where none answers.
+        master: identifies one run of a master; empty if none answers.
         robots: names below which a ground_truth is published.
         services: full names of all services.
         has_clock: whether /clock is published.
@@ -25,17 +25,16 @@ class Surroundings(NamedTuple):
     has_clock: bool = False
 
 
-def look() -> Surroundings:
-    """Ask the master; takes as long as that needs to answer."""
+def look() -> RosGraph:
+    """Ask the master; blocks until it answers."""
     master = rosgraph.Master(rospy.get_name())
     try:
         run = str(master.getParam('/run_id'))
         topics = master.getPublishedTopics('')
         services = frozenset(name for name, _ in master.getSystemState()[2])
     except (rosgraph.MasterException, socket.error):
-        return Surroundings()
-    return Surroundings(run, robots(topics, rospy.get_namespace()), services,
-                        '/clock' in (name for name, _ in topics))
+        return RosGraph()
+    return RosGraph(run, robots(topics, rospy.get_namespace()), services, '/clock' in (name for name, _ in topics))
 
 
 def robots(topics: Tuple[Tuple[str, str], ...], namespace: str) -> Tuple[str, ...]:

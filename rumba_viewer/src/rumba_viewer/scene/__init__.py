@@ -1,1 +1,1 @@
-"""What there is to show at one moment, as plain values: neither ROS nor Qt."""
+"""What the window shows at one moment, as plain values: neither ROS nor Qt."""

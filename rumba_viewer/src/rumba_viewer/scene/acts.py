@@ -1,4 +1,4 @@
-"""What a person can do in the window: keys, buttons, and why one of them cannot act now. No ROS, no Qt."""
+"""What a person can do in the window: keys, buttons, and why one of them is not available. No ROS, no Qt."""
 
 import math
 from typing import Callable, Dict, NamedTuple, Tuple
@@ -6,18 +6,20 @@ from typing import Callable, Dict, NamedTuple, Tuple
 from rumba_sim.model.robot import FIRST
 from rumba_viewer.scene.snapshot import Snapshot
 
-SPEEDS = (0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 0.0)  # that are offered; 0: as fast as it can
+SPEEDS = (0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 0.0)  # that are offered [times real time]; 0: as fast as possible
+TUNING = 'tuning/set_parameters'  # the service that changes the speed
 
 
 class Act(NamedTuple):
-    """Something to do.
+    """One thing that a person can do.
 
     Attributes:
-        name: of the method that does it.
+        name: which method does it.
         label: on its button.
-        key: as Qt names it; empty where there is none.
+        key: as Qt names it; empty if it has none.
         tip: what it does.
-        lacks: why it cannot be done now; empty where it can.
+        lacks: why it is not available; empty if it is.
+        warning: what is lost by it for good; if not empty, a person must ask for it twice.
     """
 
     name: str
@@ -25,21 +27,31 @@ class Act(NamedTuple):
     key: str
     tip: str
     lacks: Callable[[Snapshot], str]
+    warning: str = ''
 
 
 def nothing(_: Snapshot) -> str:
-    """It can always be done."""
+    """It is always available."""
     return ''
 
 
 def simulator(now: Snapshot) -> str:
     """It needs a simulator."""
-    return '' if now.simulation.is_controlled else 'no simulator is running: roslaunch rumba_sim simulator.launch'
+    return '' if now.simulation.node else 'no simulator is running: roslaunch rumba_sim simulator.launch'
+
+
+def service(name: str) -> Callable[[Snapshot], str]:
+    """It needs a service of the simulator, by its name below that of the node."""
+    def lacks(now: Snapshot) -> str:
+        simulation = now.simulation
+        is_there = name in simulation.services
+        return simulator(now) or ('' if is_there else f'{simulation.node} has no service {name.split("/")[0]}')
+    return lacks
 
 
 def robot(now: Snapshot) -> str:
     """It needs the selected robot."""
-    return '' if now.robot is not None else simulator(now) or f'there is no {now.selected}: Tab takes another robot'
+    return '' if now.robot is not None else simulator(now) or f'there is no {now.selected}: Tab selects another robot'
 
 
 def cleaner(now: Snapshot) -> str:
@@ -50,27 +62,45 @@ def cleaner(now: Snapshot) -> str:
     return f'no cleaner is running: rosrun rumba_cleaning cleaner{arguments}'
 
 
-def home(now: Snapshot) -> str:
-    """It needs a dock too."""
-    lacks_dock = now.place.is_known and now.place.dock is None
+def no_cleaning(now: Snapshot) -> str:
+    """It needs a cleaner that is not cleaning."""
+    mission = now.robot.mission if now.robot is not None else None
+    is_cleaning = mission is not None and mission.is_cleaning
+    return cleaner(now) or (f'{now.selected} is already cleaning: cancel that first' if is_cleaning else '')
+
+
+def interrupted_cleaning(now: Snapshot) -> str:
+    """It needs a cleaning that was interrupted; the cleaner refuses if the window does not know that there is none."""
+    has_none = now.robot is not None and now.robot.can_resume is False
+    return no_cleaning(now) or ('no cleaning was interrupted' if has_none else '')
+
+
+def target(now: Snapshot) -> str:
+    """It needs a cleaner and a target."""
+    return cleaner(now) or ('' if now.target is not None else 'there is no target: click on the floor first')
+
+
+def dock(now: Snapshot) -> str:
+    """It needs a cleaner and a dock."""
+    lacks_dock = now.features.is_known and now.features.dock is None
     return cleaner(now) or ('this map has no dock: `dock` in its YAML file' if lacks_dock else '')
 
 
 def goal(now: Snapshot) -> str:
-    """It needs a cleaner that is at something."""
+    """It needs a cleaner that has a goal."""
     mission = now.robot.mission if now.robot is not None else None
-    return cleaner(now) or ('' if mission is not None and mission.is_active else 'the cleaner does nothing')
+    return cleaner(now) or ('' if mission is not None and mission.is_active else 'the cleaner has no goal')
 
 
 def paused(now: Snapshot) -> str:
-    """It needs time to stand still."""
-    return simulator(now) or ('' if now.simulation.is_paused else 'time is running: pause it first')
+    """It needs time to be paused."""
+    return service('step')(now) or ('' if now.simulation.is_paused else 'time is running: pause it first')
 
 
 def simulated(now: Snapshot) -> str:
-    """It needs time that is not the wall clock's."""
-    return simulator(now) or ('' if now.simulation.is_simulated else
-                              'time is real: start the simulator with another speed, as speed:=2')
+    """It needs a simulator that can change the speed of time."""
+    return service(TUNING)(now) or ('' if now.simulation.is_simulated else
+                                    'time is real: start the simulator with another speed, such as speed:=2')
 
 
 def another_robot(now: Snapshot) -> str:
@@ -79,24 +109,27 @@ def another_robot(now: Snapshot) -> str:
 
 
 ACTS = (
-    Act('clean', 'Clean', 'C', 'leave the dock, clean by the strategy beside, come home', cleaner),
-    Act('dock', 'Dock', 'H', 'go home, into the dock', home),
-    Act('undock', 'Undock', 'U', 'leave the dock backward', cleaner),
-    Act('cancel', 'Cancel', 'Esc', 'stop what the cleaner does', goal),
-    Act('pause', 'Pause', 'Space', 'let time stand still, or go on', simulator),
-    Act('step', 'Step', 'N', 'let 5 ticks pass while time stands still', paused),
+    Act('clean', 'Clean', 'C', 'clean the floor by the chosen strategy, then return to the dock', no_cleaning),
+    Act('resume_cleaning', 'Resume cleaning', 'R', 'continue the cleaning that was interrupted', interrupted_cleaning),
+    Act('go_there', 'Go there', 'Enter', 'send the robot to the target', target),
+    Act('dock', 'Dock', 'H', 'return to the dock', dock),
+    Act('undock', 'Undock', 'U', 'leave the dock', cleaner),
+    Act('cancel', 'Cancel', 'Esc', 'cancel what the cleaner does (first clears a target)', goal),
+    Act('pause', 'Pause', 'Space', 'pause or unpause time', service('pause')),
+    Act('step', 'Step', 'N', 'advance the paused time by 5 ticks', paused),
     Act('brushes', 'Brushes', 'B', 'lift or lower the brushes', robot),
-    Act('reset', 'Reset', 'Ctrl+R', 'make the floor dirty, and put robots back', simulator),
-    Act('slower', 'Slower', '-', 'let time pass slower', simulated),
-    Act('faster', 'Faster', '+', 'let time pass faster', simulated),
-    Act('laser', 'Laser', 'L', 'show what the laser sees', nothing),
-    Act('path', 'Path', 'P', 'show the way driven', nothing),
-    Act('field', 'Beams', 'I', 'show where the dock is heard', nothing),
+    Act('reset', 'Reset', 'Ctrl+R', 'make the floor dirty again and put all robots back', service('reset'),
+        'what was cleaned is forgotten and the robots are put back'),
+    Act('slower', 'Slower', '-', 'make time pass slower', simulated),
+    Act('faster', 'Faster', '+', 'make time pass faster', simulated),
+    Act('laser', 'Laser', 'L', 'show or hide what the laser measures', nothing),
+    Act('path', 'Path', 'P', 'show or hide the path driven', nothing),
+    Act('field', 'Beams', 'I', 'show or hide where the dock is received', nothing),
     Act('fit', 'Fit', 'Home', 'show the whole map', nothing),
-    Act('next_robot', 'Next robot', 'Tab', 'take the next robot', another_robot),
+    Act('next_robot', 'Next robot', 'Tab', 'select the next robot', another_robot),
     Act('save', 'Save PNG', 'Ctrl+S', 'save a picture of the window', nothing),
-    Act('record', 'Record GIF', 'Ctrl+G', 'begin or end to record the floor', nothing),
-    Act('legend', 'Keys', 'F1', 'show or hide the keys', nothing),
+    Act('record', 'Record GIF', 'Ctrl+G', 'start or stop recording the floor', nothing),
+    Act('legend', 'Keys', 'F1', 'show or hide this list', nothing),
 )
 BY_NAME: Dict[str, Act] = {act.name: act for act in ACTS}
 
@@ -104,16 +137,17 @@ BY_NAME: Dict[str, Act] = {act.name: act for act in ACTS}
 DRIVE = {'Up': (1, 0), 'W': (1, 0), 'Down': (-1, 0), 'S': (-1, 0),
          'Left': (0, 1), 'A': (0, 1), 'Right': (0, -1), 'D': (0, -1)}
 MOUSE = (
-    ('Arrows, W A S D', 'drive; let go, and the robot stops'),
-    ('Click', 'have the cleaner go there; take the robot clicked on'),
-    ('Drag the robot', 'put it elsewhere; the wheel turns it meanwhile'),
+    ('Arrows, W A S D', 'drive while held; the cleaner waits meanwhile'),
+    ('Click', 'choose a target on the floor; select a robot'),
+    ('Double click', 'send the robot to that point'),
+    ('Drag the robot', 'put it elsewhere; the wheel turns it'),
     ('Wheel', 'zoom'),
     ('Drag with middle or right button', 'move the map'),
 )
 
 
 def next_speed(wanted: float, direction: int) -> float:
-    """The next of SPEEDS that is faster (1) or slower (-1) than the one that is wanted; itself where there is none."""
+    """The next of SPEEDS that is faster (1) or slower (-1) than the wanted one; the same if there is none."""
     def rank(speed: float) -> float:
         return speed or math.inf
     beyond = [speed for speed in SPEEDS if direction * rank(speed) > direction * rank(wanted)]
@@ -121,17 +155,17 @@ def next_speed(wanted: float, direction: int) -> float:
 
 
 def legend() -> Tuple[Tuple[str, str], ...]:
-    """What keys and mouse do, a row each."""
+    """What keys and mouse do, one row each."""
     return MOUSE + tuple((act.key, act.tip) for act in ACTS)
 
 
 class Steering:
-    """Which way the keys that are held down drive; knows no clock."""
+    """The command of the keys that are held down; does not know the time."""
 
     ZEROS = 3  # a single message could get lost on a poor connection
 
     def __init__(self) -> None:
-        """Begin with no key."""
+        """Start with no key."""
         self._held: Dict[str, Tuple[int, int]] = {}
         self._zeros = 0
 
@@ -147,7 +181,7 @@ class Steering:
         return self._held.pop(key, None) is not None
 
     def command(self) -> Tuple[Tuple[int, int], bool]:
-        """Shares of the linear and the angular speed, and whether to say so: after the last key a few times zero."""
+        """Shares of the linear and the angular speed, and whether to publish them: after the last key a few zeros."""
         if not self._held:
             is_due, self._zeros = self._zeros > 0, max(self._zeros - 1, 0)
             return (0, 0), is_due

@@ -1,4 +1,4 @@
-"""Where the beams of a dock reach: sectors that walls cut."""
+"""The areas in which the beams of a dock are received: sectors that walls cut off."""
 
 import math
 
@@ -10,11 +10,11 @@ from rumba_sim.model.robot_config import RobotConfig
 from rumba_viewer.scene.snapshot import Array, Dock
 
 BEAMS = 90  # of a sector
-CLEAR = 0.5  # [cells] from the wall in which the dock stands before a wall counts
+CLEAR = 0.5  # [cells] from the dock, within which a wall is ignored: the dock itself stands at one
 
 
 def dock(plan: FloorPlan, config: RobotConfig) -> Dock:
-    """The dock of a floor plan that has one, its force field all around and its buoys before it."""
+    """The dock of a floor plan that has one, with its force field around it and its buoys in front of it."""
     pose = plan.dock
     assert pose is not None
     sender = Pose(pose.x + config.drive.radius * math.cos(pose.theta),
@@ -24,7 +24,7 @@ def dock(plan: FloorPlan, config: RobotConfig) -> Dock:
 
 
 def _sector(plan: FloorPlan, sender: Pose, half: float, reach: float) -> Array:
-    """Corners (n, 2) [m] of a sector about the direction of a sender, as far as no wall is in the way."""
+    """Corners (n, 2) [m] of a sector around the direction of a sender, up to the first wall."""
     angles = sender.theta + np.linspace(-half, half, BEAMS)
     steps = np.arange(CLEAR * plan.resolution, reach, 0.5 * plan.resolution)
     x = sender.x + np.outer(np.cos(angles), steps)

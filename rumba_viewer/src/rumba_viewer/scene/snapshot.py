@@ -1,12 +1,20 @@
-"""What the window shows at one moment, and nothing of where it came from: no ROS, no Qt."""
+"""What the window shows at one moment, as plain values: no ROS, no Qt."""
 
 import dataclasses
-from typing import Any, NamedTuple, Optional, Tuple
+from typing import Any, FrozenSet, NamedTuple, Optional, Tuple
 
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.robot_config import BrushConfig, DriveConfig
 
 Array = Any  # numpy.ndarray
+YIELDING = 'yielding'  # state of a mission
+
+
+class Point(NamedTuple):
+    """A point of the map [m]."""
+
+    x: float
+    y: float
 
 
 class Box(NamedTuple):
@@ -26,7 +34,7 @@ class Grid:
         cells: int8 (rows, columns); row 0 lies at the lowest y.
         resolution: side of a cell [m].
         left, bottom: the lower left corner of cell (0, 0) [m].
-        number: another one for every other content; painters keep by it what they made of a grid.
+        number: changes with the content; painters keep a finished picture as long as it stays the same.
     """
 
     cells: Array
@@ -37,7 +45,7 @@ class Grid:
 
     @property
     def box(self) -> Box:
-        """Where it lies."""
+        """The rectangle that it covers."""
         rows, columns = self.cells.shape
         return Box(self.left, self.bottom, self.left + columns * self.resolution,
                    self.bottom + rows * self.resolution)
@@ -45,12 +53,12 @@ class Grid:
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Dock:
-    """The dock, and where its beams reach.
+    """The dock, and how far its infrared beams reach.
 
     Attributes:
-        pose: of a robot that stands at the contacts and faces the dock.
-        halo: corners (n, 2) [m] of the floor on which its force field is received.
-        field: corners (n, 2) [m] of the floor on which its buoys are received.
+        pose: of a robot that is docked and faces the dock.
+        halo: corners (n, 2) [m] of the area in which its force field is received.
+        field: corners (n, 2) [m] of the area in which its buoys are received.
     """
 
     pose: Pose
@@ -59,12 +67,12 @@ class Dock:
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
-class Place:
-    """What a map's files tell beyond its cells.
+class MapFeatures:
+    """What the files of a map contain besides the cells of /map.
 
     Attributes:
-        dock: None where there is none, or where the files cannot be read from here.
-        carpet, cliff: bool (rows, columns) as the map's cells; None where there is none.
+        dock: None if the map has none, or if its files cannot be read on this machine.
+        carpet, cliff: bool (rows, columns), a value for each cell of the map; None if the map has none.
         is_known: whether the files were read.
     """
 
@@ -76,11 +84,11 @@ class Place:
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Path:
-    """The way that a robot drove.
+    """The path that a robot drove.
 
     Attributes:
-        points: (n, 2) [m]; a row of NaN lifts the pen.
-        number: as long as it stays, points are only added.
+        points: (n, 2) [m]; a row of NaN separates two parts that are not connected.
+        number: as long as it stays the same, points are only added.
     """
 
     points: Array
@@ -88,7 +96,7 @@ class Path:
 
 
 class Battery(NamedTuple):
-    """Charge 0..1, [V], [A] (negative out of the battery; NaN: unknown), and `charging`, `full` or `on battery`."""
+    """Charge 0..1, [V], [A] (negative while discharging; NaN: unknown), and `charging`, `full` or `on battery`."""
 
     share: float
     voltage: float
@@ -97,7 +105,7 @@ class Battery(NamedTuple):
 
 
 class Cleaning(NamedTuple):
-    """How far the floor is clean: shares 0..1, areas [m^2], way [m]."""
+    """How much of the floor is clean: shares 0..1, areas [m^2], and the distance driven [m]."""
 
     coverage: float
     cleaned_area: float
@@ -107,12 +115,12 @@ class Cleaning(NamedTuple):
 
 
 class Mission(NamedTuple):
-    """What the cleaner has a robot do.
+    """What the cleaner makes a robot do.
 
     Attributes:
-        state: in a word or two, as `cleaning`.
+        state: in a few words, such as `cleaning`; YIELDING while a person drives the robot.
         is_active: whether there is a goal.
-        strategy: in use; empty where none is.
+        strategy: name of the cleaning strategy in use; empty if the goal is not a cleaning.
         message: one line for a person.
     """
 
@@ -121,9 +129,14 @@ class Mission(NamedTuple):
     strategy: str
     message: str
 
+    @property
+    def is_cleaning(self) -> bool:
+        """Whether the goal is a cleaning, in whatever state: it may also return, charge, or yield."""
+        return self.is_active and bool(self.strategy)
+
 
 class Size(NamedTuple):
-    """What a robot is like [m]."""
+    """Radius of a robot and width of its brush [m]."""
 
     radius: float = DriveConfig.radius
     brush: float = BrushConfig.width
@@ -131,20 +144,23 @@ class Size(NamedTuple):
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Robot:
-    """One robot; what it did not tell yet is None.
+    """One robot; a value that was not received yet is None.
 
     Attributes:
-        name: below which its topics are.
+        name: its topics are below this name.
         bumper: left and right switch.
-        message: the debug message of battery_status.
-        beams: ends (n, 2) of the laser's beams in the robot's frame [m]; None while it is not shown.
+        has_fallen: whether a wheel hangs over a cliff, so that it cannot drive.
+        message: the debug message of battery_status, for a person.
+        beams: ends (n, 2) of the laser's beams [m]; None while they are not shown.
         has_cleaner: whether a cleaner takes goals for it.
+        can_resume: whether its cleaner has an interrupted cleaning to resume; None: unknown.
     """
 
     name: str
     pose: Pose
     size: Size = Size()
     bumper: Tuple[bool, bool] = (False, False)
+    has_fallen: bool = False
     brushes_up: Optional[bool] = None
     message: str = ''
     battery: Optional[Battery] = None
@@ -153,45 +169,50 @@ class Robot:
     path: Optional[Path] = None
     beams: Optional[Array] = None
     has_cleaner: bool = False
+    can_resume: Optional[bool] = None
 
 
 class Simulation(NamedTuple):
-    """How time passes.
+    """The simulator, and how time passes.
 
     Attributes:
-        speed: measured, times real time; None where nobody tells.
-        wanted: what it shall be; 0: as fast as possible; None where nobody tells.
-        is_paused: whether time stands still.
-        is_simulated: whether /clock is told, so that the speed can change.
+        node: full name of the simulator's node; empty if no simulator runs.
+        speed: reached, times real time; None if unknown.
+        wanted: wanted speed, times real time; 0: as fast as possible; None if the simulator does not decide it.
+        is_paused: whether simulated time is stopped.
+        is_simulated: whether time is that of /clock, so that the speed can change.
         time: stamp of the newest reading [s]; None before the first.
-        is_controlled: whether there is a simulator that serves pause, step, reset and so on.
+        services: names of the simulator's services, below the name of its node.
     """
 
+    node: str = ''
     speed: Optional[float] = None
     wanted: Optional[float] = None
     is_paused: bool = False
     is_simulated: bool = False
     time: Optional[float] = None
-    is_controlled: bool = False
+    services: FrozenSet[str] = frozenset()
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Snapshot:
-    """All of it.
+    """Everything that the window shows.
 
     Attributes:
-        plan: OCCUPIED, FREE or UNKNOWN of each cell, as nav_msgs/OccupancyGrid has it.
-        coverage: 100 swept, 0 still to sweep, -1 out of reach, on the cells of the plan.
-        selected: name of the robot that keys drive and the panel tells of; it need not be there.
-        missing: what the window waits for, and how to start it; empty where a robot is there.
+        plan: OCCUPIED, FREE or UNKNOWN for each cell, as in nav_msgs/OccupancyGrid.
+        coverage: 100 swept, 0 still to sweep, -1 out of reach, for each cell of the plan.
+        selected: name of the robot that the keys drive and the panel describes; it may be absent.
+        target: where a person may send the selected robot; None while none is chosen.
+        missing: what the window waits for, and how to start it; empty if a robot and a map are there.
     """
 
     plan: Optional[Grid] = None
     coverage: Optional[Grid] = None
-    place: Place = Place()
+    features: MapFeatures = MapFeatures()
     robots: Tuple[Robot, ...] = ()
     selected: str = 'rumba'
     simulation: Simulation = Simulation()
+    target: Optional[Point] = None
     missing: str = ''
 
     @property
@@ -201,7 +222,7 @@ class Snapshot:
 
     @property
     def is_complete(self) -> bool:
-        """Whether all is there that makes a good picture."""
+        """Whether everything was received that a complete picture shows."""
         robot = self.robot
         return None not in (self.plan, self.coverage, robot) and robot is not None and None not in (
             robot.battery, robot.cleaning, robot.brushes_up)

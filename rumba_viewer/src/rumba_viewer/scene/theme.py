@@ -1,4 +1,4 @@
-"""Colours, light and dark; the desktop's palette says which."""
+"""Colours, light and dark; the palette of the desktop decides between them."""
 
 import dataclasses
 import zlib
@@ -9,7 +9,7 @@ from rumba_sim.model.robot import FIRST
 
 @dataclasses.dataclass(frozen=True)
 class Theme:
-    """Colours as #rrggbb, or #aarrggbb where something shines through."""
+    """Colours as #rrggbb, or #aarrggbb if they are transparent."""
 
     is_dark: bool
     background: str
@@ -18,7 +18,7 @@ class Theme:
     out_of_reach: str
     to_sweep: str
     swept: str
-    carpet: str  # over each of the three, with its alpha
+    carpet: str  # over each of the three above, with its alpha
     cliff: str
     text: str
     faint_text: str
@@ -54,7 +54,7 @@ DARK = Theme(
 
 
 def robot_colour(theme: Theme, name: str) -> str:
-    """A robot's colour, the same in every window: rumba, rumba2, ... in turn, others by their name."""
+    """The colour of a robot, the same in every window: rumba, rumba2, ... in turn, others by their name."""
     number = name[len(FIRST):] if name.startswith(FIRST) else None
     if number == '':
         index = 0

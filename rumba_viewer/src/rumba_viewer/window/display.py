@@ -1,4 +1,4 @@
-"""Whether a window can be opened here."""
+"""Whether a window can be opened on this machine."""
 
 import contextlib
 import os
@@ -8,7 +8,7 @@ import sys
 import tempfile
 from typing import Iterator
 
-WITHOUT_DISPLAY = ('offscreen', 'minimal', 'vnc', 'linuxfb', 'eglfs')  # platforms of Qt that need none
+WITHOUT_DISPLAY = ('offscreen', 'minimal', 'vnc', 'linuxfb', 'eglfs')  # platforms of Qt that need no display
 PATIENCE = 20.0  # [s]
 TRY = ('import sys; from PyQt5.QtWidgets import QApplication; '
        'application = QApplication([]); print(flush=True); sys.stdin.read()')
@@ -16,13 +16,13 @@ TRY = ('import sys; from PyQt5.QtWidgets import QApplication; '
 
 @contextlib.contextmanager
 def reached() -> Iterator[str]:
-    """Try to reach the display, and hold on to it as long as the block.
+    """Check that the display can be opened, and keep a connection to it during the block.
 
-    Qt ends the process where it cannot: another one tries. That stays until this one is connected, since a bare X
-    server starts anew when its last client goes, and refuses whoever comes meanwhile.
+    Qt ends the process if it cannot open the display, so another process tries it. That one stays connected until
+    this one is: an X server without clients resets itself, and refuses connections meanwhile.
 
     Yields:
-        Why no window can be opened, in one line; empty where one can.
+        Why no window can be opened, in one line; empty if one can be opened.
     """
     platform = os.environ.get('QT_QPA_PLATFORM', '').split(':')[0]
     name = os.environ.get('DISPLAY') or os.environ.get('WAYLAND_DISPLAY')
@@ -32,18 +32,19 @@ def reached() -> Iterator[str]:
     with tempfile.TemporaryFile('w+') as errors, subprocess.Popen(
             [sys.executable, '-c', TRY], stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=errors) as attempt:
         try:
+            assert attempt.stdout is not None
             if not select.select([attempt.stdout], [], [], PATIENCE)[0]:
-                yield f'the display {name} does not answer for {PATIENCE:g} s'
+                yield f'the display {name} has not answered for {PATIENCE:g} s'
             elif attempt.stdout.readline():
                 yield ''
             else:
                 errors.seek(0)
-                yield _why(errors.read(), platform or name)
+                yield _why(errors.read(), platform or name or '')
         finally:
             attempt.kill()
 
 
-def _why(errors: str, where: str) -> str:
+def _why(errors: str, display: str) -> str:
     if 'ModuleNotFoundError' in errors or 'ImportError' in errors:
-        return 'PyQt5 is not installed: python3-pyqt5 of Debian'
-    return f'the display {where} cannot be opened'
+        return 'PyQt5 is not installed: apt-get install python3-pyqt5'
+    return f'the display {display} cannot be opened'

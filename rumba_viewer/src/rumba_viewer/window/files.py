@@ -1,23 +1,23 @@
-"""Where the window saves what it saves."""
+"""Paths of the files that the window saves."""
 
 import datetime
 import pathlib
 
 
 def new_file(folder: str, ending: str) -> pathlib.Path:
-    """The path of a file that is not there yet, named by the time.
+    """The path of a new file, named by the time.
 
     Args:
-        folder: where; empty: the user's folder for pictures, or home where there is none.
-        ending: as `png`.
+        folder: where to save it; empty: ~/Pictures, or the home directory if there is no such folder.
+        ending: such as `png`.
     """
     home = pathlib.Path.home()
-    where = pathlib.Path(folder).expanduser() if folder else home / 'Pictures'
-    if not folder and not where.is_dir():
-        where = home
+    parent = pathlib.Path(folder).expanduser() if folder else home / 'Pictures'
+    if not folder and not parent.is_dir():
+        parent = home
     name = f'rumba-{datetime.datetime.now():%Y%m%d-%H%M%S}'
-    path, number = where / f'{name}.{ending}', 1
+    path, number = parent / f'{name}.{ending}', 1
     while path.exists():
         number += 1
-        path = where / f'{name}-{number}.{ending}'
+        path = parent / f'{name}-{number}.{ending}'
     return path.resolve()

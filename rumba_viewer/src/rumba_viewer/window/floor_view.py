@@ -1,7 +1,7 @@
-"""The floor in the window: paints snapshots, and tells what the mouse does on them."""
+"""The floor in the window: paints snapshots, and reports what the mouse does on them."""
 
 import math
-from typing import Optional, Tuple
+from typing import Any, Optional, Tuple
 
 from PyQt5.QtCore import QPoint, QRectF, QSize, Qt, pyqtSignal
 from PyQt5.QtGui import QColor, QPainter, QPalette
@@ -14,28 +14,30 @@ from rumba_viewer.scene.snapshot import Box, Robot, Snapshot
 from rumba_viewer.scene.theme import DARK, LIGHT, Theme
 from rumba_viewer.scene.view_transform import ViewTransform
 
-ZOOM = 1.2  # of one notch of the wheel
-NOTCH = 120.0  # what Qt calls that
-TURN = math.radians(15.0)  # of a robot that is being dragged, by one notch
-GRIP = 8.0  # [pixels] that a robot can be missed by
+ZOOM = 1.2  # for one notch of the wheel
+NOTCH = 120.0  # the angle delta of one notch in Qt
+TURN = math.radians(15.0)  # of a robot that is being dragged, for one notch
+GRIP = 8.0  # [pixels] from a robot's centre within which a click selects it, if its radius is smaller
 NO_MAP = Box(0.0, 0.0, 10.0, 8.0)
 
 
 def theme_of(palette: QPalette) -> Theme:
-    """The colours that go with the desktop's."""
+    """The colours that match a palette of the desktop."""
     return DARK if palette.color(QPalette.Window).lightness() < 128 else LIGHT
 
 
 class FloorView(QWidget):
-    """Shows the map and what is on it.
+    """Shows the map and everything on it.
 
     Signals:
-        clicked: a place [m] that was clicked on.
-        robot_clicked: name of a robot that was.
-        robot_put: name of a robot, and the pose that it was dragged to.
+        clicked: a point of the floor [m].
+        double_clicked: a point of the floor [m].
+        robot_clicked: name of a robot.
+        robot_put: name of a robot, and the pose to which it was dragged.
     """
 
     clicked = pyqtSignal(float, float)
+    double_clicked = pyqtSignal(float, float)
     robot_clicked = pyqtSignal(str)
     robot_put = pyqtSignal(str, object)
 
@@ -56,19 +58,19 @@ class FloorView(QWidget):
         self.setAttribute(Qt.WA_OpaquePaintEvent)
 
     def sizeHint(self) -> QSize:  # noqa: N802 (Qt's name)
-        """What it would like."""
+        """The preferred size."""
         return QSize(860, 660)
 
     @property
     def view(self) -> ViewTransform:
-        """Which part of the map is shown."""
+        """The part of the map that is shown."""
         if self._transform is None:
             plan = self._snapshot.plan
             self._transform = ViewTransform.fitted(plan.box if plan else NO_MAP, self.width(), self.height())
         return self._transform
 
     def show_snapshot(self, snapshot: Snapshot) -> None:
-        """Show what is the case now; another map is shown whole."""
+        """Show a new snapshot; a map of another size or position is shown whole."""
         before, self._snapshot = self._snapshot, snapshot
         box, old = (one.plan.box if one.plan else NO_MAP for one in (snapshot, before))
         if box != old:
@@ -81,15 +83,15 @@ class FloorView(QWidget):
         self.update()
 
     def switch_path(self) -> None:
-        """Show the ways driven, or no longer."""
+        """Show or hide the paths driven."""
         self.scene.shows_path = not self.scene.shows_path
 
     def switch_field(self) -> None:
-        """Show where the dock is heard, or no longer."""
+        """Show or hide where the dock is received."""
         self.scene.shows_field = not self.scene.shows_field
 
     def switch_legend(self) -> None:
-        """Show the keys, or no longer."""
+        """Show or hide the list of keys."""
         self.shows_legend = not self.shows_legend
 
     def show_notice(self, notice: str) -> None:
@@ -97,10 +99,10 @@ class FloorView(QWidget):
         self.notice = notice
         self.update()
 
-    # --- what Qt asks -------------------------------------------------------------------------------------------------
+    # --- events of Qt -------------------------------------------------------------------------------------------------
 
-    def paintEvent(self, _: object) -> None:  # noqa: N802
-        """Paint all of it."""
+    def paintEvent(self, _: Any) -> None:  # noqa: N802
+        """Paint everything."""
         theme = theme_of(self.palette())
         painter = QPainter(self)
         painter.setFont(self.font())
@@ -110,12 +112,12 @@ class FloorView(QWidget):
         if self.shows_legend:
             paint_legend(painter, self.width(), self.height(), theme)
 
-    def resizeEvent(self, _: object) -> None:  # noqa: N802
-        """Keep the whole map in view, or its middle."""
+    def resizeEvent(self, _: Any) -> None:  # noqa: N802
+        """Keep the whole map in view, or its centre."""
         self._transform = None if self._is_fitted else self.view.resized(self.width(), self.height())
 
-    def wheelEvent(self, event: object) -> None:  # noqa: N802
-        """Zoom, or turn what is being dragged."""
+    def wheelEvent(self, event: Any) -> None:  # noqa: N802
+        """Zoom, or turn the robot that is being dragged."""
         notches = event.angleDelta().y() / NOTCH
         if self._ghost is not None:
             name, pose = self._ghost
@@ -125,28 +127,36 @@ class FloorView(QWidget):
             self._is_fitted = False
         self.update()
 
-    def mousePressEvent(self, event: object) -> None:  # noqa: N802
-        """Something may be clicked on or dragged from here."""
+    def mousePressEvent(self, event: Any) -> None:  # noqa: N802
+        """A click or a drag may begin."""
         if event.button() == Qt.LeftButton:
             self._pressed = event.pos(), self._robot_at(event.pos())
         elif event.button() in (Qt.MiddleButton, Qt.RightButton):
             self._pan_from = event.pos()
             self.setCursor(Qt.ClosedHandCursor)
 
-    def mouseMoveEvent(self, event: object) -> None:  # noqa: N802
+    def mouseDoubleClickEvent(self, event: Any) -> None:  # noqa: N802
+        """The second press of a double click; on a robot it counts as any other press."""
+        pos = event.pos()
+        if event.button() == Qt.LeftButton and self._robot_at(pos) is None and self._snapshot.plan is not None:
+            self.double_clicked.emit(*self.view.to_map(pos.x(), pos.y()))
+        else:
+            self.mousePressEvent(event)
+
+    def mouseMoveEvent(self, event: Any) -> None:  # noqa: N802
         """Drag the map or a robot."""
         if self._pan_from is not None:
-            way = event.pos() - self._pan_from
+            moved = event.pos() - self._pan_from
             self._pan_from, self._is_fitted = event.pos(), False
-            self._transform = self.view.panned(way.x(), way.y())
+            self._transform = self.view.panned(moved.x(), moved.y())
             self.update()
         elif self._pressed is not None:
-            self._drag(event.pos())
+            self._drag(event.pos(), *self._pressed)
         else:
             self.setCursor(Qt.OpenHandCursor if self._robot_at(event.pos()) else Qt.ArrowCursor)
 
-    def mouseReleaseEvent(self, event: object) -> None:  # noqa: N802
-        """It was a click, or the end of a drag."""
+    def mouseReleaseEvent(self, event: Any) -> None:  # noqa: N802
+        """A click or a drag ends."""
         if event.button() != Qt.LeftButton:
             self._pan_from = None
             self.unsetCursor()
@@ -162,13 +172,12 @@ class FloorView(QWidget):
         self.update()
 
     def let_go(self) -> bool:
-        """Forget what is being dragged; returns whether something was."""
+        """Stop dragging; returns whether a robot was being dragged."""
         was, self._ghost, self._pressed = self._ghost is not None, None, None
         self.update()
         return was
 
-    def _drag(self, pos: QPoint) -> None:
-        start, robot = self._pressed
+    def _drag(self, pos: QPoint, start: QPoint, robot: Optional[Robot]) -> None:
         if robot is None or (
                 self._ghost is None and (pos - start).manhattanLength() < QApplication.startDragDistance()):
             return
@@ -177,7 +186,7 @@ class FloorView(QWidget):
         self.update()
 
     def _robot_at(self, pos: QPoint) -> Optional[Robot]:
-        """The robot under a pixel."""
+        """The robot at a pixel."""
         for robot in reversed(self._snapshot.robots):
             x, y = self.view.to_pixel(robot.pose.x, robot.pose.y)
             if math.hypot(pos.x() - x, pos.y() - y) <= max(robot.size.radius * self.view.scale, GRIP):
@@ -186,7 +195,7 @@ class FloorView(QWidget):
 
 
 def _paint_notice(painter: QPainter, notice: str, width: float, height: float, theme: Theme) -> None:
-    """A line, or a few, at the lower edge."""
+    """One or a few lines at the lower edge."""
     area = QRectF(0.0, 0.0, min(width - 24.0, 560.0), height)
     text = painter.boundingRect(area.adjusted(12.0, 6.0, -12.0, -6.0), Qt.AlignCenter | Qt.TextWordWrap, notice)
     box = QRectF(0.0, 0.0, text.width() + 24.0, text.height() + 12.0)

@@ -1,6 +1,6 @@
-"""The panel beside the floor: how the selected robot is, and buttons."""
+"""The panel beside the floor: the card of the selected robot, and buttons."""
 
-from typing import Callable, Dict, List, Sequence
+from typing import Any, Callable, Dict, List, Sequence
 
 from PyQt5.QtCore import QRectF, QSize, Qt
 from PyQt5.QtGui import QPainter
@@ -13,14 +13,15 @@ from rumba_viewer.window.floor_view import theme_of
 
 WIDTH = 276  # [pixels]
 EDGE = 8  # [pixels]
-ROWS = (  # of two or three buttons; an empty name leaves room for a list
-    ('clean', ''), ('dock', 'undock', 'cancel'), ('pause', 'step', ''), ('brushes', 'reset'),
-    ('laser', 'path', 'field'), ('fit', 'next_robot'), ('save', 'record'), ('legend',))
-SWITCHES = ('laser', 'path', 'field', 'record', 'legend')  # that stay pressed
+LONG = 12  # letters of a label that needs a wider button
+ROWS = (  # of buttons, by name; an empty name stands for a list
+    ('clean', ''), ('resume_cleaning', 'go_there'), ('dock', 'undock', 'cancel'), ('pause', 'step', ''),
+    ('brushes', 'reset'), ('laser', 'path', 'field'), ('fit', 'next_robot'), ('save', 'record'), ('legend',))
+SWITCHES = ('laser', 'path', 'field', 'record', 'legend')  # buttons that stay pressed
 
 
 class StatusCard(QWidget):
-    """How the selected robot is."""
+    """The state of the selected robot."""
 
     def __init__(self, snapshot: Snapshot) -> None:
         """Show a snapshot."""
@@ -29,11 +30,11 @@ class StatusCard(QWidget):
         self.setFixedHeight(status_height(self.font()))
 
     def show_snapshot(self, snapshot: Snapshot) -> None:
-        """Show what is the case now."""
+        """Show a new snapshot."""
         self._snapshot = snapshot
         self.update()
 
-    def paintEvent(self, _: object) -> None:  # noqa: N802 (Qt's name)
+    def paintEvent(self, _: Any) -> None:  # noqa: N802 (Qt's name)
         """Paint it."""
         painter = QPainter(self)
         painter.setFont(self.font())
@@ -41,17 +42,17 @@ class StatusCard(QWidget):
 
 
 class Panel(QScrollArea):
-    """The card and the buttons; scrolls where the window is low.
+    """The card and the buttons; scrolls if the window is too low.
 
     Attributes:
-        buttons: by the name of what they do.
-        strategies: list of cleaning strategies; the first leaves it to the cleaner.
+        buttons: by the names of ACTS.
+        strategies: list of cleaning strategies; the first is the default of the cleaner.
         speeds: list of speeds.
     """
 
     def __init__(self, snapshot: Snapshot, strategies: Sequence[str], act: Callable[[str], None],
                  set_speed: Callable[[float], None]) -> None:
-        """Show a snapshot; `act` is called with the name of what to do."""
+        """Show a snapshot; `act` is called with one of the names of ACTS."""
         super().__init__()
         inside = QWidget()
         self.card = StatusCard(snapshot)
@@ -76,14 +77,15 @@ class Panel(QScrollArea):
 
     def sizeHint(self) -> QSize:  # noqa: N802 (Qt's name)
         """High enough not to scroll."""
-        return self.widget().sizeHint()
+        size: QSize = self.widget().sizeHint()
+        return size
 
     def _row(self, names: Sequence[str], lists: List[QComboBox], act: Callable[[str], None]) -> QGridLayout:
         row = QGridLayout()
         row.setSpacing(6)
         for index, name in enumerate(names):
             row.addWidget(self._button(name, act) if name else lists.pop(0), 0, index)
-            row.setColumnStretch(index, 1)
+            row.setColumnStretch(index, 3 if name and len(BY_NAME[name].label) > LONG else 2)
         return row
 
     def _button(self, name: str, act: Callable[[str], None]) -> QPushButton:
@@ -96,11 +98,11 @@ class Panel(QScrollArea):
         return button
 
     def show_snapshot(self, snapshot: Snapshot, checked: Dict[str, bool]) -> None:
-        """Show what is the case now.
+        """Show a new snapshot.
 
         Args:
-            snapshot: of the simulation.
-            checked: by name, whether a switch is on.
+            snapshot: what to show.
+            checked: whether a switch is on, by its name.
         """
         self.card.show_snapshot(snapshot)
         for name, button in self.buttons.items():
@@ -111,7 +113,7 @@ class Panel(QScrollArea):
             if button.isCheckable():
                 button.setChecked(checked[name])
                 button.setText(f'\u2713 {act.label}' if checked[name] else act.label)
-        self.buttons['pause'].setText('Resume' if snapshot.simulation.is_paused else 'Pause')
+        self.buttons['pause'].setText('Unpause' if snapshot.simulation.is_paused else 'Pause')
         self.strategies.setEnabled(self.buttons['clean'].isEnabled())
         self.strategies.setToolTip('cleaning strategy')
         lacks = simulated(snapshot)
@@ -122,7 +124,7 @@ class Panel(QScrollArea):
 
     @property
     def strategy(self) -> str:
-        """The strategy that was chosen; empty: the cleaner's own choice."""
+        """The chosen strategy; empty: the default of the cleaner."""
         return self.strategies.currentText() if self.strategies.currentIndex() > 0 else ''
 
 
@@ -135,4 +137,4 @@ def _list(texts: Sequence[str]) -> QComboBox:
 
 
 def _speed_text(speed: float) -> str:
-    return f'{speed:g} \u00d7' if speed else 'all it can'
+    return f'{speed:g} \u00d7' if speed else 'maximum'

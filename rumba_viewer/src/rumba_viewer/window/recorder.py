@@ -9,38 +9,38 @@ from PyQt5.QtGui import QImage
 
 RATE = 8  # [Hz]
 WIDTH = 640  # [pixels] at most
-MOST = 60 * RATE  # pictures: Pillow keeps all of them until the file is written, some 300 kB each
+MAX_FRAMES = 60 * RATE  # Pillow keeps all frames until the file is written, about 300 kB each
 COLOURS = 128
 
 
 class Recorder:
-    """Takes pictures until it is full, then writes them."""
+    """Collects pictures until it is full, and writes them to a file."""
 
     def __init__(self) -> None:
-        """Begin with none."""
+        """Start with no picture."""
         self._frames: List[Image.Image] = []
 
     @property
     def is_full(self) -> bool:
-        """Whether it takes no more."""
-        return len(self._frames) >= MOST
+        """Whether it takes no more pictures."""
+        return len(self._frames) >= MAX_FRAMES
 
     def add(self, picture: QImage) -> None:
-        """Take a picture."""
+        """Add a picture."""
         if self._frames:
             width, height = self._frames[0].size
             picture = picture.scaled(width, height, Qt.KeepAspectRatio, Qt.SmoothTransformation)
         elif picture.width() > WIDTH:
             picture = picture.scaledToWidth(WIDTH, Qt.SmoothTransformation)
         frame = _image(picture)
-        if self._frames and frame.size != self._frames[0].size:  # the window has another shape now
+        if self._frames and frame.size != self._frames[0].size:  # the window was resized
             sheet = Image.new('RGB', self._frames[0].size)
             sheet.paste(frame)
             frame = sheet
         self._frames.append(frame.quantize(COLOURS, method=Image.FASTOCTREE, dither=0))
 
     def write(self, path: pathlib.Path) -> None:
-        """Write what was taken.
+        """Write the pictures as a GIF.
 
         Raises:
             OSError: the file cannot be written.
@@ -50,7 +50,7 @@ class Recorder:
 
 
 def _image(picture: QImage) -> Image.Image:
-    """The same picture for Pillow."""
+    """The same picture as an image of Pillow."""
     picture = picture.convertToFormat(QImage.Format_RGB888)
     bits = picture.constBits()
     bits.setsize(picture.bytesPerLine() * picture.height())

@@ -1,37 +1,41 @@
-"""The window: floor and panel, keys, buttons and mouse; asks for snapshots, and hands what is to be done on."""
+"""The window: floor and panel, keys, buttons and mouse; it asks for snapshots, and passes on what is to be done."""
 
-import pathlib
+import dataclasses
+import math
 import time
-from typing import Any, Callable, Dict, NamedTuple, Optional, Sequence
+from typing import Any, Callable, Dict, NamedTuple, Optional, Sequence, Tuple
 
 from PyQt5.QtCore import QEvent, Qt, QTimer
 from PyQt5.QtWidgets import QHBoxLayout, QWidget
 
 from rumba_sim.model.geometry import Pose
-from rumba_viewer.scene.acts import ACTS, BY_NAME, Steering, cleaner, next_speed, robot
-from rumba_viewer.scene.snapshot import Snapshot
-from rumba_viewer.window.files import new_file
+from rumba_viewer.scene.acts import ACTS, BY_NAME, Act, Steering, cleaner, next_speed, robot
+from rumba_viewer.scene.snapshot import Point, Snapshot
 from rumba_viewer.window.floor_view import FloorView
 from rumba_viewer.window.keyboard import Keyboard
+from rumba_viewer.window.notices import Notices
 from rumba_viewer.window.panel import Panel
-from rumba_viewer.window.recorder import RATE, Recorder
+from rumba_viewer.window.pictures import Pictures
+from rumba_viewer.window.recorder import RATE
 
 PERIOD = 33  # [ms] from one picture to the next, at least
 COMMAND_PERIODS = (0.02, 0.1)  # [s] of the wall clock from one command to the next: least, usual
 COMMAND_AGE = 0.25  # [s] of simulated time that a command may be old: half of what stops a robot
-NOTICE = 6.0  # [s] for which a line is shown
-KEYS = {**{act.key: act.name for act in ACTS}, '=': 'faster', '?': 'legend'}  # = is + without Shift
+CONFIRM = 4.0  # [s] within which a person must ask a second time for what loses something
+KEYS = {**{act.key: act.name for act in ACTS}, 'Return': 'go_there', '?': 'legend',
+        '=': 'faster'}  # = is + without Shift
+TARGET = 'Target'  # with this begins the notice about one
 CLOSE = ('Ctrl+Q', 'Ctrl+W')
 
 
 class Options(NamedTuple):
-    """How the window works.
+    """Settings of the window.
 
     Attributes:
         linear, angular: speeds at which keys drive [m/s], [rad/s].
-        folder: where pictures are saved; empty: the user's.
+        folder: where pictures are saved; empty: the default of `new_file`.
         strategies: cleaning strategies to offer.
-        shows_laser: whether to begin with the laser shown.
+        shows_laser: whether the laser is shown at first.
     """
 
     linear: float
@@ -42,16 +46,22 @@ class Options(NamedTuple):
 
 
 class Window(QWidget):
-    """Shows what a source tells, and has an actor act."""
+    """Shows the snapshots of a source, and makes an actor act.
+
+    Attributes:
+        snapshot: what is shown.
+        pictures: saves what is shown.
+        tell: shows a line for a while.
+    """
 
     def __init__(self, source: Any, actor: Any, options: Options, snapshot: Snapshot) -> None:
-        """Begin with a snapshot.
+        """Start with a snapshot.
 
         Args:
-            source: has `has_news`, `snapshot` and `attend`, as `Listener`.
-            actor: has a method for each thing to do, as `Actor`.
-            options: how to work.
-            snapshot: to show until the source has one.
+            source: has `has_news`, `snapshot` and `select`, such as `Listener`.
+            actor: has a method for each thing to do, such as `Actor`.
+            options: settings of the window.
+            snapshot: what to show until the source has news.
         """
         super().__init__()
         self.snapshot = snapshot
@@ -59,10 +69,12 @@ class Window(QWidget):
         self._shows_laser = options.shows_laser
         self._steering = Steering()
         self.keyboard = Keyboard(self._on_press, self._on_release)
-        self._recorder: Optional[Recorder] = None
-        self._notice_until = 0.0
+        self._asked: Tuple[str, float] = '', -math.inf  # what a person asked for once, and until when twice counts
         self.floor = FloorView(snapshot)
-        self.panel = Panel(snapshot, options.strategies, self.act, actor.set_speed)
+        self._notices = Notices(self.floor.show_notice)
+        self.tell = self._notices.tell
+        self.panel = Panel(snapshot, options.strategies, self.act, self._set_speed)
+        self.pictures = Pictures(self, self.floor, options.folder, self.tell, actor.write)
         row = QHBoxLayout(self)
         row.setContentsMargins(0, 0, 0, 0)
         row.setSpacing(0)
@@ -70,10 +82,11 @@ class Window(QWidget):
         row.addWidget(self.panel)
         self.setWindowTitle('Rumba')
         self.setFocusPolicy(Qt.StrongFocus)
-        self.floor.clicked.connect(self._go_to)
-        self.floor.robot_clicked.connect(self._take)
+        self.floor.clicked.connect(self._choose_target)
+        self.floor.double_clicked.connect(self._go_to)
+        self.floor.robot_clicked.connect(self._select)
         self.floor.robot_put.connect(self._put)
-        self._timers = [self._timer(PERIOD, self.update_picture), self._timer(1000 // RATE, self._record_picture)]
+        self._timers = [self._timer(PERIOD, self.update_picture), self._timer(1000 // RATE, self.pictures.add_frame)]
         self._commands = self._timer(round(1000 * COMMAND_PERIODS[1]), self._command)
         self._show()
 
@@ -88,127 +101,130 @@ class Window(QWidget):
     # --- what is shown ------------------------------------------------------------------------------------------------
 
     def update_picture(self) -> None:
-        """Show what is the case now, where that is new."""
+        """Show the news, if there are any."""
         now = time.monotonic()
         while not self._actor.notices.empty():
             self.tell(self._actor.notices.get())
-        if self.floor.notice and now > self._notice_until:
-            self.floor.show_notice('')
+        self._notices.expire()
         if self._source.has_news(now):
-            self.snapshot = self._source.snapshot(now)
+            new = self._source.snapshot(now)
+            is_same_map = _map_number(new) == _map_number(self.snapshot)
+            self.snapshot = dataclasses.replace(new, target=self.snapshot.target if is_same_map else None)
             self._show()
 
     def _show(self) -> None:
         self.floor.show_snapshot(self.snapshot)
         self.panel.show_snapshot(self.snapshot, {
             'laser': self._shows_laser, 'path': self.floor.scene.shows_path, 'field': self.floor.scene.shows_field,
-            'record': self._recorder is not None, 'legend': self.floor.shows_legend})
-
-    def tell(self, notice: str) -> None:
-        """Show a line for a while."""
-        self._notice_until = time.monotonic() + NOTICE
-        self.floor.show_notice(notice)
+            'record': self.pictures.is_recording, 'legend': self.floor.shows_legend})
 
     # --- what is done -------------------------------------------------------------------------------------------------
 
     def act(self, name: str) -> None:
-        """Do what a key or a button says, or tell why not."""
-        lacks = BY_NAME[name].lacks(self.snapshot)
+        """Do what a key or a button stands for, or tell why it is not available."""
+        act = BY_NAME[name]
+        lacks = act.lacks(self.snapshot)
         if lacks:
-            self.tell(f'{BY_NAME[name].label}: {lacks}')
-        else:
-            self._deeds()[name]()
+            self.tell(f'{act.label}: {lacks}')
+        elif self._is_confirmed(act):
+            self._methods()[name]()
         self._show()
 
-    def _deeds(self) -> Dict[str, Callable[[], None]]:
-        """What to do, by the names of ACTS."""
+    def _is_confirmed(self, act: Act) -> bool:
+        """Whether it may be done now: at once, or, if something is lost by it, when it is asked for twice."""
+        now = time.monotonic()
+        name, until = self._asked
+        self._asked = '', -math.inf
+        if not act.warning or act.name == name and now <= until:
+            return True
+        self._asked = act.name, now + CONFIRM
+        self.tell(f'{act.label}: {act.warning}; press it again to confirm')
+        return False
+
+    def _methods(self) -> Dict[str, Callable[[], Any]]:
+        """What to call, by the names of ACTS."""
         actor, snapshot = self._actor, self.snapshot
+        simulator, is_paused = snapshot.simulation.node, snapshot.simulation.is_paused
+        brushes_up = snapshot.robot is not None and bool(snapshot.robot.brushes_up)
         return {
-            'clean': lambda: actor.clean(self.panel.strategy), 'dock': actor.dock, 'undock': actor.undock,
-            'cancel': actor.cancel, 'pause': actor.resume if snapshot.simulation.is_paused else actor.pause,
-            'step': actor.step, 'reset': actor.reset,
-            'brushes': lambda: actor.set_brushes_up(not snapshot.robot.brushes_up),
+            'clean': lambda: actor.clean(self.panel.strategy), 'resume_cleaning': actor.resume_cleaning,
+            'go_there': lambda: self._go_to(*snapshot.target) if snapshot.target is not None else None,
+            'dock': lambda: self._interrupt('dock', actor.dock),
+            'undock': lambda: self._interrupt('undock', actor.undock),
+            'cancel': lambda: self._interrupt('cancel', actor.cancel),
+            'pause': lambda: actor.unpause(simulator) if is_paused else actor.pause(simulator),
+            'step': lambda: actor.step(simulator), 'reset': lambda: actor.reset(simulator),
+            'brushes': lambda: actor.set_brushes_up(not brushes_up),
             'slower': lambda: self._change_speed(-1), 'faster': lambda: self._change_speed(1),
             'laser': self._laser, 'path': self.floor.switch_path, 'field': self.floor.switch_field,
             'legend': self.floor.switch_legend, 'fit': self.floor.fit, 'next_robot': self._next_robot,
-            'save': self._save, 'record': self._record}
+            'save': self.pictures.save, 'record': self.pictures.switch_record}
+
+    def _interrupt(self, name: str, act: Callable[[], Any]) -> None:
+        """Do what interrupts a cleaning, and tell how to continue that."""
+        mission = self.snapshot.robot.mission if self.snapshot.robot is not None else None
+        if mission is not None and mission.is_cleaning:
+            resume = BY_NAME['resume_cleaning']
+            self.tell(f'{BY_NAME[name].label}: {resume.label} [{resume.key}] continues the cleaning later')
+        act()
 
     def _change_speed(self, direction: int) -> None:
         wanted = self.snapshot.simulation.wanted
         if wanted is not None:
-            self._actor.set_speed(next_speed(wanted, direction))
+            self._set_speed(next_speed(wanted, direction))
+
+    def _set_speed(self, speed: float) -> None:
+        self._actor.set_speed(self.snapshot.simulation.node, speed)
 
     def _laser(self) -> None:
         self._shows_laser = not self._shows_laser
-        self._source.attend(self.snapshot.selected, self._shows_laser)
+        self._source.select(self.snapshot.selected, self._shows_laser)
 
     def _next_robot(self) -> None:
         names = [one.name for one in self.snapshot.robots]
         if names:
-            place = names.index(self.snapshot.selected) if self.snapshot.selected in names else -1
-            self._take(names[(place + 1) % len(names)])
+            index = names.index(self.snapshot.selected) if self.snapshot.selected in names else -1
+            self._select(names[(index + 1) % len(names)])
 
-    def _take(self, name: str) -> None:
-        """Drive another robot from now on, and tell of it."""
+    def _select(self, name: str) -> None:
+        """Drive and describe another robot from now on."""
         self.keyboard.forget()
-        self._source.attend(name, self._shows_laser)
-        self._actor.attend(name)
+        self._source.select(name, self._shows_laser)
+        self._actor.select(name)
+
+    def _choose_target(self, x: float, y: float) -> None:
+        """Show where the robot could go; nothing is sent yet."""
+        lacks = cleaner(self.snapshot)
+        if lacks:
+            self.tell(f'Go there: {lacks}')
+            return
+        self._clear_target()
+        self.tell(f'{TARGET} {x:.2f}, {y:.2f} m: double click or Enter sends {self.snapshot.selected} there, '
+                  'Esc clears it')
+        self._set_target(Point(x, y))
+
+    def _set_target(self, target: Optional[Point]) -> None:
+        self.snapshot = dataclasses.replace(self.snapshot, target=target)
+        self._show()
+
+    def _clear_target(self) -> bool:
+        """Forget the target and how to go there; returns whether there was one."""
+        had_one = self.snapshot.target is not None
+        self._set_target(None)
+        self._notices.retract(TARGET)
+        return had_one
 
     def _go_to(self, x: float, y: float) -> None:
         lacks = cleaner(self.snapshot)
         if lacks:
             self.tell(f'Go there: {lacks}')
-        else:
-            self.tell(f'{self.snapshot.selected} goes to {x:.2f}, {y:.2f} m')
-            self._actor.go_to(x, y)
+            return
+        self._clear_target()
+        self.tell(f'Sent {self.snapshot.selected} to {x:.2f}, {y:.2f} m')
+        self._interrupt('go_there', lambda: self._actor.go_to(x, y))
 
     def _put(self, name: str, pose: Pose) -> None:
         self._actor.teleport(name, pose)
-
-    # --- pictures -----------------------------------------------------------------------------------------------------
-
-    def _save(self) -> None:
-        try:
-            self.tell(f'saved {self.save_anywhere()}')
-        except OSError as error:
-            self.tell(f'not saved: {error}')
-
-    def save_anywhere(self) -> pathlib.Path:
-        """Save a picture of the window under a name of its own; returns its path.
-
-        Raises:
-            OSError: it cannot be written.
-        """
-        path = new_file(self._options.folder, 'png')
-        self.save_as(path)
-        return path
-
-    def save_as(self, path: pathlib.Path) -> None:
-        """Save a picture of the window.
-
-        Raises:
-            OSError: it cannot be written.
-        """
-        self.floor.show_notice('')
-        path.parent.mkdir(parents=True, exist_ok=True)
-        if not self.grab().save(str(path), 'PNG'):
-            raise OSError(f'{path}: cannot be written')
-
-    def _record(self) -> None:
-        if self._recorder is None:
-            self._recorder = Recorder()
-        else:
-            self._end_record()
-
-    def _record_picture(self) -> None:
-        if self._recorder is not None:
-            self._recorder.add(self.floor.grab().toImage())
-            if self._recorder.is_full:
-                self._end_record()
-
-    def _end_record(self) -> None:
-        recorder, self._recorder = self._recorder, None
-        self._actor.write(recorder, new_file(self._options.folder, 'gif'))
 
     # --- driving ------------------------------------------------------------------------------------------------------
 
@@ -221,45 +237,54 @@ class Window(QWidget):
         self.keyboard.release(event)
 
     def _on_press(self, key: str) -> None:
-        """Drive, or do what the key says."""
+        """Drive, or do what the key stands for."""
         if not robot(self.snapshot) and self._steering.press(key):
-            mission = self.snapshot.robot.mission
-            if mission is not None and mission.is_active:
-                self._actor.cancel()
-                self.tell('you drive: the cleaner was told to stop')
+            self._tell_who_drives()
             self._command()
-        elif key == 'Esc' and self.floor.let_go():
+        elif key == 'Esc' and (self.floor.let_go() or self._clear_target()):
             return
         elif key in CLOSE:
             self.close()
         elif key in KEYS:
             self.act(KEYS[key])
 
+    def _tell_who_drives(self) -> None:
+        shown = self.snapshot.robot
+        if shown is not None and shown.has_fallen:
+            self.tell(f'{shown.name} has fallen over a cliff and cannot drive: drag it elsewhere')
+        elif shown is not None and shown.mission is not None and shown.mission.is_active:
+            self.tell('You drive: the cleaner waits, and goes on when you let go')
+
     def _on_release(self, key: str) -> None:
-        """Stop, where no other key drives."""
+        """Stop, unless another key drives."""
         if self._steering.release(key):
             self._command()
 
     def focusNextPrevChild(self, _: bool) -> bool:  # noqa: N802
-        """Tab is for the robots."""
+        """Tab selects robots, not widgets."""
         return False
 
     def event(self, event: Any) -> bool:
-        """Stop when another window comes to the front: it gets the release of the key."""
+        """Stop if another window comes to the front: it gets the release of the key."""
         if event.type() == QEvent.WindowDeactivate:
             self.keyboard.forget()
-        return super().event(event)
+        return bool(super().event(event))
 
     def closeEvent(self, event: Any) -> None:  # noqa: N802
-        """Leave no robot driving."""
+        """Stop the robot before the window closes."""
         self.keyboard.forget()
         super().closeEvent(event)
 
     def _command(self) -> None:
-        """Tell the wheels, as often as the robot needs to go on."""
+        """Publish the command of the keys, as often as the robot needs it to keep driving."""
         (linear, angular), is_due = self._steering.command()
         if is_due:
             self._actor.drive(linear * self._options.linear, angular * self._options.angular)
             least, usual = COMMAND_PERIODS
             speed = max(self.snapshot.simulation.speed or 1.0, 1.0)
             self._commands.setInterval(round(1000 * max(least, min(COMMAND_AGE / speed, usual))))
+
+
+def _map_number(snapshot: Snapshot) -> Optional[int]:
+    """The number of the map of a snapshot; None if it has none."""
+    return snapshot.plan.number if snapshot.plan is not None else None

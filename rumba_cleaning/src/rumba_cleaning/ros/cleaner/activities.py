@@ -1,8 +1,8 @@
-"""What the cleaner does with a goal of each of its actions, and what it tells of it."""
+"""What the cleaner does for a goal of each of its actions, and what its feedback and its result say."""
 
 import abc
 import math
-from typing import Any, Optional
+from typing import Any, Callable, Dict, NamedTuple, Optional
 
 from rumba_cleaning.behaviour import Behaviour
 from rumba_cleaning.behaviours.bounded import Bounded
@@ -15,65 +15,78 @@ from rumba_cleaning.ros.cleaner import conversions
 from rumba_cleaning.ros.cleaner.go_to_position import check_finite
 from rumba_cleaning.ros.cleaner.senses import Senses
 from rumba_msg.msg import (CleanAction, CleanFeedback, CleaningStatus, CleanResult, DockAction, DockFeedback,
-                           DockResult, GoToAction, GoToFeedback, GoToResult, MissionStatus, UndockAction,
+                           DockResult, GoToAction, GoToFeedback, GoToResult, MissionStatus, Outcome, UndockAction,
                            UndockFeedback, UndockResult)
 from rumba_sim.model.errors import ConfigError
 from rumba_sim.model.geometry import Pose
 
-NOWHERE = Pose(math.nan, math.nan, math.nan)
+UNKNOWN_POSE = Pose(math.nan, math.nan, math.nan)
 
 
 class Activity(abc.ABC):
-    """A goal on its way.
+    """What the robot does for one goal.
 
     Attributes:
-        action: type of the action.
-        behaviour: what the robot does; it ends in time.
-        strategy: name of the cleaning strategy; empty where none is in use.
-        needs_figures: whether the result wants a CleaningStatus that is newer than the end.
+        behaviour: what decides on the robot's commands; it ends by itself, at the latest at its time limit.
+        strategy: name of the cleaning strategy; empty if none is in use.
+        needs_figures: whether the result needs a CleaningStatus that is newer than the end.
     """
 
-    action: Any = None
     strategy = ''
     needs_figures = False
 
-    def __init__(self, behaviour: Behaviour, time_limit: float, usual_limit: float) -> None:
-        """Give a behaviour the time [s] that its goal allows, where it names any.
+    def __init__(self, behaviour: Behaviour, time_limit: float, default_limit: float) -> None:
+        """Give a behaviour the time limit [s] of its goal, or the default if that is 0.
 
         Raises:
-            ConfigError: the time limit is none.
+            ConfigError: the time limit is negative or not finite.
         """
         if not (math.isfinite(time_limit) and time_limit >= 0.0):
             raise ConfigError(f'time_limit is {time_limit}: must be a finite number, 0 or more [s]')
-        self.behaviour = Bounded(behaviour, time_limit or usual_limit)
+        self.behaviour = Bounded(behaviour, time_limit or default_limit)
+
+    def begin(self) -> None:
+        """Called once, after the activity before was terminated."""
 
     @property
     @abc.abstractmethod
     def state(self) -> State:
-        """What the robot is at."""
+        """What the robot does now."""
 
     @abc.abstractmethod
     def feedback(self, senses: Senses, mission: MissionStatus) -> Any:
-        """How far it is."""
+        """The feedback message of the action."""
 
     @staticmethod
     @abc.abstractmethod
-    def result(senses: Senses, message: str) -> Any:
-        """How it ended, or why it never began."""
+    def result(senses: Senses, outcome: Outcome) -> Any:
+        """The result message of the action."""
 
     def report(self, before: Optional[CleaningStatus], after: Optional[CleaningStatus]) -> str:
-        """What a person may want to know at the end, by the state of the floor before and after."""
+        """What else the log says at the end, from the state of the floor before and after."""
         return ''
 
 
 class Cleaning(Activity):
-    """A whole mission."""
+    """A mission, or the rest of one that was interrupted."""
 
-    action = CleanAction
     needs_figures = True
 
-    def __init__(self, context: Context, goal: Any) -> None:
-        """Begin with a floor of which nothing is swept.
+    def __init__(self, mission: Mission, time_limit: float, default_limit: float, is_resumed: bool = False) -> None:
+        """Carry out a mission; if `is_resumed` is true, go on with what it knows of the swept floor.
+
+        Raises:
+            ConfigError: the time limit is negative or not finite.
+        """
+        self._mission = mission
+        self._default_limit = default_limit
+        self._is_resumed = is_resumed
+        self.strategy = mission.strategy
+        super().__init__(mission, time_limit, default_limit)
+
+    @classmethod
+    def of_goal(cls, context: Context, goal: Any) -> 'Cleaning':
+        """A new mission as a goal asks for it, with the defaults of the context for what the goal leaves open.
 
         Raises:
             StrategyError: there is no strategy of this name.
@@ -81,26 +94,38 @@ class Cleaning(Activity):
         """
         config = context.config
         target = config.target_coverage if goal.target_coverage == 0.0 else goal.target_coverage
-        self._mission = Mission(context, goal.strategy or config.strategy, target)
-        self.strategy = self._mission.strategy
-        super().__init__(self._mission, goal.time_limit, config.time_limit.clean)
+        return cls(Mission(context, goal.strategy or config.strategy, target), goal.time_limit,
+                   config.time_limit.clean)
+
+    def resumed(self, time_limit: float) -> 'Cleaning':
+        """The rest of this mission, under a time limit of its own.
+
+        Raises:
+            ConfigError: the time limit is negative or not finite.
+        """
+        return Cleaning(self._mission, time_limit, self._default_limit, is_resumed=True)
+
+    def begin(self) -> None:
+        """Have an interrupted mission go on."""
+        if self._is_resumed:
+            self._mission.resume()
 
     @property
     def state(self) -> State:
-        """What the mission is at."""
+        """The state of the mission."""
         return self._mission.state
 
     def feedback(self, senses: Senses, mission: MissionStatus) -> CleanFeedback:
-        """The mission, and the floor."""
+        """The mission and the floor."""
         return CleanFeedback(mission, senses.cleaning or conversions.no_cleaning_status())
 
     @staticmethod
-    def result(senses: Senses, message: str) -> CleanResult:
+    def result(senses: Senses, outcome: Outcome) -> CleanResult:
         """The floor at the end."""
-        return CleanResult(senses.cleaning or conversions.no_cleaning_status(), message)
+        return CleanResult(senses.cleaning or conversions.no_cleaning_status(), outcome)
 
     def report(self, before: Optional[CleaningStatus], after: Optional[CleaningStatus]) -> str:
-        """What it cost."""
+        """Distance, charges and coverage."""
         charges = f'{self._mission.charges} charge{"" if self._mission.charges == 1 else "s"}'
         if before is None or after is None:
             return f', {charges}'
@@ -109,76 +134,70 @@ class Cleaning(Activity):
 
 
 class Docking(Activity):
-    """Home, and onto the contacts."""
-
-    action = DockAction
+    """To the dock, and onto its contacts."""
 
     def __init__(self, context: Context, goal: Any) -> None:
-        """Begin with looking for the beams.
+        """Prepare to dock.
 
         Raises:
-            MapError: the plan has no dock, or the robot fits nowhere before it.
-            ConfigError: the time limit is none.
+            MapError: the plan has no dock, or the robot does not fit in front of it.
+            ConfigError: the time limit is negative or not finite.
         """
         self._dock = Dock(context)
         super().__init__(self._dock, goal.time_limit, context.config.time_limit.dock)
 
     @property
     def state(self) -> State:
-        """By the beams, or on the way there."""
+        """DOCKING while the beams guide it, RETURNING before."""
         return State.DOCKING if self._dock.is_homing else State.RETURNING
 
     def feedback(self, senses: Senses, mission: MissionStatus) -> DockFeedback:
-        """What is seen of the dock."""
+        """Whether beams are seen, and the distance left."""
         seen = senses.look()
         return DockFeedback(seen is not None and any(seen.infrared), self._dock.remaining)
 
     @staticmethod
-    def result(senses: Senses, message: str) -> DockResult:
-        """Whether it is there."""
-        return DockResult(_is_docked(senses), message)
+    def result(senses: Senses, outcome: Outcome) -> DockResult:
+        """Whether the robot is docked."""
+        return DockResult(_is_docked(senses), outcome)
 
 
 class Undocking(Activity):
     """Off the dock."""
 
-    action = UndockAction
-
     def __init__(self, context: Context, goal: Any) -> None:
-        """Begin with the way backward.
+        """Prepare to undock.
 
         Raises:
-            ConfigError: the time limit is none.
+            ConfigError: the time limit is negative or not finite.
         """
         self._undock = Undock(context)
         super().__init__(self._undock, goal.time_limit, context.config.time_limit.undock)
 
     @property
     def state(self) -> State:
-        """One thing only."""
+        """Always UNDOCKING."""
         return State.UNDOCKING
 
     def feedback(self, senses: Senses, mission: MissionStatus) -> UndockFeedback:
-        """The way left."""
+        """The distance left to drive backward."""
         return UndockFeedback(self._undock.remaining)
 
     @staticmethod
-    def result(senses: Senses, message: str) -> UndockResult:
-        """Whether it is off."""
-        return UndockResult(_is_docked(senses), message)
+    def result(senses: Senses, outcome: Outcome) -> UndockResult:
+        """Whether the robot is docked."""
+        return UndockResult(_is_docked(senses), outcome)
 
 
 class GoingTo(Activity):
     """To a pose."""
 
-    action = GoToAction
-
     def __init__(self, context: Context, goal: Any) -> None:
-        """Begin with looking for a way.
+        """Prepare to go there.
 
         Raises:
-            MapError: the target is no place for the robot.
-            ConfigError: the time limit is none.
+            MapError: the robot cannot stand at the target.
+            ConfigError: the time limit is negative or not finite.
         """
         target = Pose(goal.target.x, goal.target.y, goal.target.theta)
         check_finite(target, may_face_anywhere=True)
@@ -187,17 +206,17 @@ class GoingTo(Activity):
 
     @property
     def state(self) -> State:
-        """One thing only."""
+        """Always GOING_TO."""
         return State.GOING_TO
 
     def feedback(self, senses: Senses, mission: MissionStatus) -> GoToFeedback:
-        """Where it is, and the way left."""
-        return GoToFeedback(conversions.pose_message(senses.pose() or NOWHERE), self._go_to.remaining)
+        """The pose, and the distance left."""
+        return GoToFeedback(conversions.pose_message(senses.pose() or UNKNOWN_POSE), self._go_to.remaining)
 
     @staticmethod
-    def result(senses: Senses, message: str) -> GoToResult:
-        """Where it stands."""
-        return GoToResult(conversions.pose_message(senses.pose() or NOWHERE), message)
+    def result(senses: Senses, outcome: Outcome) -> GoToResult:
+        """The pose at the end."""
+        return GoToResult(conversions.pose_message(senses.pose() or UNKNOWN_POSE), outcome)
 
 
 def _is_docked(senses: Senses) -> bool:
@@ -205,4 +224,16 @@ def _is_docked(senses: Senses) -> bool:
     return seen is not None and seen.is_docked
 
 
-ACTIVITIES = {'clean': Cleaning, 'dock': Docking, 'undock': Undocking, 'go_to': GoingTo}  # by the name of the action
+class Action(NamedTuple):
+    """What belongs to an action."""
+
+    type: Any  # of rumba_msg
+    activity: Callable[[Context, Any], Activity]  # made of a goal; raises RumbaError if it cannot be carried out
+    result: Callable[[Senses, Outcome], Any]  # the message, also of a goal for which there never was an activity
+
+
+ACTIONS: Dict[str, Action] = {
+    'clean': Action(CleanAction, Cleaning.of_goal, Cleaning.result),
+    'dock': Action(DockAction, Docking, Docking.result),
+    'undock': Action(UndockAction, Undocking, Undocking.result),
+    'go_to': Action(GoToAction, GoingTo, GoingTo.result)}

@@ -1,4 +1,4 @@
-"""What the cleaner moves of one robot: its wheels, by a topic, and its brushes, by a service."""
+"""What the cleaner moves of one robot: its wheels through a topic, and its brushes through a service."""
 
 import queue
 import threading
@@ -15,55 +15,49 @@ COMPLAINT_PERIOD = 10.0  # [s]
 
 
 class Wheels:
-    """Commands of velocity, which whoever wants the robot to stand still can hold back from any thread."""
+    """Publishes commands of velocity."""
 
     def __init__(self, robot: str) -> None:
         """Drive a robot, by its name."""
         self._publisher = rospy.Publisher(f'{robot}/cmd_vel', Twist, queue_size=1)
         self._lock = threading.Lock()
-        self._is_held = False
+        self._is_closed = False
 
     def drive(self, command: Command) -> None:
-        """Do as a command says, unless held."""
+        """Command a velocity."""
         with self._lock:
-            if not self._is_held:
+            if not self._is_closed:
                 self._publisher.publish(conversions.velocity(command))
 
     def stop(self) -> None:
-        """Stand still until the next command."""
-        with self._lock:
-            self._publisher.publish(conversions.velocity(STOP))
+        """Command to stand still."""
+        self.drive(STOP)
 
-    def hold(self) -> None:
-        """Stand still, and heed no command until `release`."""
+    def close(self) -> None:
+        """Command to stand still, and nothing from now on; may be called from any thread."""
         with self._lock:
-            self._is_held = True
+            self._is_closed = True
             self._publisher.publish(conversions.velocity(STOP))
-
-    def release(self) -> None:
-        """Heed commands again."""
-        with self._lock:
-            self._is_held = False
 
 
 class Brushes:
-    """Lifts and lowers the brushes in a thread of its own: a call of the service may take longer than a reading."""
+    """Lifts and lowers the brushes in a thread of its own, because a call of the service may take long."""
 
     def __init__(self, robot: str) -> None:
         """Use the service of a robot, by its name."""
         self._service = rospy.ServiceProxy(f'{robot}/set_brushes_up', SetBool)
-        self._wanted: Optional[bool] = None  # None: nothing that the robot is known to have done
+        self._wanted: Optional[bool] = None  # what the robot was asked for last; None: where they are is unknown
         self._wishes: 'queue.Queue[bool]' = queue.Queue()
         threading.Thread(target=self._serve, daemon=True).start()
 
     def want(self, are_up: bool) -> None:
-        """Have the brushes up, or down; asks the robot only where that is new."""
+        """Have the brushes up or down; asks the robot only if that is new."""
         if are_up is not self._wanted:
             self._wanted = are_up
             self._wishes.put(are_up)
 
     def forget(self) -> None:
-        """Somebody else may have moved them: ask the robot at the next wish in any case."""
+        """Somebody else may have moved them: ask the robot at the next call of `want` in any case."""
         self._wanted = None
 
     def _serve(self) -> None:

@@ -1,4 +1,4 @@
-"""Tells what a robot is at: programs by mission_status, people by the log."""
+"""Tells what a robot does: programs by mission_status, people by the log."""
 
 import sys
 from typing import Optional
@@ -12,11 +12,12 @@ from rumba_sim.ros.common.terminal import TO_LINE_START_AND_ERASE
 
 WORDS = {
     State.UNDOCKING: 'undocking', State.CLEANING: 'cleaning', State.RETURNING: 'going home', State.DOCKING: 'docking',
-    State.CHARGING: 'charging', State.GOING_TO: 'on the way', State.STRANDED: 'stranded'}
+    State.CHARGING: 'charging', State.GOING_TO: 'on the way', State.STRANDED: 'stranded',
+    State.YIELDING: 'yielding: a person drives'}
 
 
 class Announcer:
-    """Publishes mission_status at each change of state and strategy, and whenever it is asked to.
+    """Publishes mission_status at each change of state or strategy, and whenever that is due.
 
     Attributes:
         status: what was published last.
@@ -29,7 +30,7 @@ class Announcer:
         self._publish(conversions.mission_status(State.IDLE, '', 'waits for a goal', rospy.Time.now()))
 
     def tell(self, state: State, strategy: str, message: str, stamp: Optional[rospy.Time], is_due: bool) -> None:
-        """Publish where that is new, or due."""
+        """Publish if state or strategy is new, or a message is due."""
         is_new = (int(state), strategy) != (self.status.state, self.status.strategy)
         if is_new and state in WORDS:
             self.say(WORDS[state] + (f' by {strategy}' if state is State.CLEANING else ''))
@@ -37,7 +38,7 @@ class Announcer:
             self._publish(conversions.mission_status(state, strategy, message, stamp or rospy.Time.now()))
 
     def say(self, text: str) -> None:
-        """Log a line, over what battery_status_listener may have left on the terminal that it shares with this."""
+        """Log a line; erases what battery_status_listener may have left on the line of a terminal that both use."""
         if sys.stdout.isatty():
             print(TO_LINE_START_AND_ERASE, end='', flush=True)
         rospy.loginfo(f'{self._robot}: {text}')

@@ -1,4 +1,4 @@
-"""Between messages and what behaviours know and command: pure functions."""
+"""Converts between messages and what behaviours know and command: pure functions."""
 
 import math
 
@@ -7,7 +7,9 @@ from std_msgs.msg import Header
 
 from rumba_cleaning.behaviour import Command, Observation
 from rumba_cleaning.mission.mission import State
+from rumba_cleaning.outcome import Outcome
 from rumba_msg.msg import Bumper, CleaningStatus, Cliff, DockStatus, MissionStatus
+from rumba_msg.msg import Outcome as OutcomeMessage
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.robot import Infrared
 from rumba_sim.ros.common.conversions import heading
@@ -29,7 +31,7 @@ def observation(pose: Pose, bumper: Bumper, cliff: Cliff, dock: DockStatus, stat
 
 
 def velocity(command: Command) -> Twist:
-    """A command, but for the brushes."""
+    """The velocity of a command."""
     return Twist(Vector3(command.v, 0.0, 0.0), Vector3(0.0, 0.0, command.w))
 
 
@@ -39,10 +41,15 @@ def pose_message(pose: Pose) -> Pose2D:
 
 
 def mission_status(state: State, strategy: str, message: str, stamp: object) -> MissionStatus:
-    """What a robot is doing."""
+    """What a robot does."""
     return MissionStatus(Header(stamp=stamp, frame_id=MAP), int(state), strategy, message)
 
 
+def outcome(code: Outcome, message: str) -> OutcomeMessage:
+    """How a goal ended."""
+    return OutcomeMessage(int(code), message)
+
+
 def no_cleaning_status() -> CleaningStatus:
-    """What is said of the floor where nobody measures it."""
+    """The state of a floor that nobody measures: NaN."""
     return CleaningStatus(Header(), *[math.nan] * 6)

@@ -16,8 +16,8 @@ from rumba_sim.model.geometry import Pose, compose
 from rumba_sim.ros.common.frames import MAP, frames
 
 SECOND = 1_000_000_000  # [ns]
-PAUSE = SECOND  # [ns] between two stamps, no time of the robot's: a pause in real time, a reset, another simulator
-QUEUE = 100  # messages that this node may be behind in reading a topic
+PAUSE = SECOND  # [ns] between two stamps; more is not counted as time: a pause in real time, or another simulator
+QUEUE = 100  # messages of a topic that may wait to be read
 CLOCK = 'dock_status'  # the simulator publishes it last
 READING = {'bumper': Bumper, 'cliff': Cliff, 'dock_status': DockStatus}
 
@@ -26,11 +26,11 @@ class Senses:
     """The newest of each topic of a robot.
 
     The simulator publishes bumper, cliff and dock_status with one stamp, but each topic comes in a thread of its own,
-    in any order: a reading is complete with a dock_status, and a bumper and a cliff that are no older. (To ask for
-    equal stamps could wait for ever: where the threads come in bursts, one is always ahead.)
+    and in any order: a reading is complete if there are a dock_status, and a bumper and a cliff that are not older.
+    (Equal stamps might never be found: if messages come in bursts, one topic is always ahead of the others.)
 
     Attributes:
-        passed: [ns] of the robot's time, as the stamps of readings tell it, without pauses.
+        passed: [ns] of the robot's time by the stamps of readings, without pauses.
         stamp: of the newest complete reading; None before the first.
         heard: when any part of a reading came last, as a time of `time.monotonic`.
         unread: how many times dock_status came since the newest complete reading.
@@ -39,6 +39,7 @@ class Senses:
 
     def __init__(self, robot: str, on_reading: Callable[[], None]) -> None:
         """Listen to a robot, by its name; `on_reading` is called in a thread of rospy."""
+        self._robot = robot
         self._on_reading = on_reading
         self._frames = frames(robot)
         self._lock = threading.Lock()
@@ -88,18 +89,18 @@ class Senses:
     # --- what is known ----------------------------------------------------------------------------------------------
 
     def begin(self) -> None:
-        """The next observation will be the first."""
+        """Make the next observation the first one, with dt 0."""
         self._observed = None
 
     def observe(self) -> Optional[Observation]:
-        """As `look`, with the time since the observation before; for the one who acts upon it."""
+        """As `look`, with the time since the observation before."""
         found, passed = self.look(), self.passed
         dt = passed - self._observed if self._observed is not None else 0
         self._observed = passed
         return found._replace(dt=dt / SECOND) if found is not None else None
 
     def look(self) -> Optional[Observation]:
-        """What the robot knows now, dt 0; None where something is missing."""
+        """What the robot knows now, with dt 0; None if something is missing."""
         pose = self.pose()
         if pose is None or self._state_of_charge is None or self.stamp is None:
             return None
@@ -108,9 +109,9 @@ class Senses:
                                        self._state_of_charge)
 
     def pose(self) -> Optional[Pose]:
-        """Where the robot is in the map frame; None where nobody tells.
+        """The pose of the robot in the map frame; None if tf does not have it.
 
-        The newest odometry, with the newest correction of it: a localisation may come later and less often.
+        It is the newest odometry with the newest correction, since a localisation publishes later and less often.
         """
         try:
             correction = self._buffer.lookup_transform(MAP, self._frames.odom, rospy.Time())
@@ -122,12 +123,18 @@ class Senses:
     def missing(self) -> str:
         """What is missing for an observation, for a person."""
         if self._state_of_charge is None:
-            return 'nobody tells the charge of its battery'
+            return f'no charge: {self._robot}/battery_state tells no percentage'
         if self.pose() is None:
-            return f'nobody tells where it is: tf has no {MAP} -> {self._frames.odom} -> {self._frames.base_footprint}'
-        return f'nobody tells {" and ".join(self._late())}'
+            return f'no pose: tf has no {MAP} -> {self._frames.odom} -> {self._frames.base_footprint}'
+        return f'no reading: nothing new on {" and ".join(f"{self._robot}/{topic}" for topic in self._late())}'
+
+    @property
+    def has_fallen(self) -> bool:
+        """Whether a wheel hangs over a cliff."""
+        cliff = self._newest.get('cliff')
+        return cliff is not None and bool(cliff.is_wheel_dropped)
 
     @property
     def is_alone(self) -> bool:
-        """Whether there is no robot: nobody publishes what it senses."""
+        """Whether no node publishes what the robot senses."""
         return not any(subscriber.get_num_connections() for subscriber in self._subscribers.values())
