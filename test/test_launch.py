@@ -47,7 +47,7 @@ def test_the_demo_shows_a_mission_from_dock_to_dock_and_reports(workspace):
 
 
 @pytest.mark.parametrize('gui, line', [
-    ('auto', r'no window, the simulation goes on without: there is no display'),
+    ('auto', r'the simulation runs without a window: there is no display'),
     ('true', r'^viewer: no window: there is no display')])
 def test_without_a_display_the_demo_says_so_in_a_line_and_goes_on(workspace, gui, line):
     bare = 'env -u DISPLAY -u WAYLAND_DISPLAY -u QT_QPA_PLATFORM'

@@ -29,9 +29,9 @@ import rospy
 
 from rumba_sim.model.config import setting
 from rumba_sim.model.errors import ConfigError, WorldError
-from rumba_sim.model.robot_config import DriveConfig
 from rumba_sim.ros.common import node
 from rumba_sim.ros.common.names import check_names
+from rumba_sim.ros.common.teleop import ANGULAR_RANGE, LINEAR_RANGE
 from rumba_viewer.window import display
 
 STYLES = ('auto', 'light', 'dark')
@@ -43,8 +43,8 @@ class Settings:
 
     robot: str = setting('rumba', 'name of the robot that is selected at first')
     laser: bool = setting(False, 'whether the laser is shown at first')
-    linear: float = setting(0.3, 'driving speed of the keys', 'm/s', 0.02, DriveConfig.max_speed)
-    angular: float = setting(1.5, 'turning speed of the keys', 'rad/s', 0.1, DriveConfig.max_turn_rate)
+    linear: float = setting(0.3, 'driving speed of the keys', 'm/s', *LINEAR_RANGE)
+    angular: float = setting(1.5, 'turning speed of the keys', 'rad/s', *ANGULAR_RANGE)
     strategies: str = setting('', 'further cleaning strategies to offer, separated by commas')
     style: str = setting('auto', 'light, dark, or auto: that of the desktop')
     width: int = setting(1180, 'width of the window', 'pixels', 320, 10000)

@@ -3,7 +3,8 @@
 import math
 from typing import Optional, Tuple
 
-from rumba_sim.ros.teleop_key.settings import ANGULAR_RANGE, LINEAR_RANGE, Settings
+from rumba_sim.ros.common.teleop import ANGULAR_RANGE, LINEAR_RANGE
+from rumba_sim.ros.teleop_key.settings import Settings
 
 # Shares of the linear and of the angular speed, and a name for people. The key m drives back along the arc of u.
 FORWARD, BACKWARD = (1, 0, 'forward'), (-1, 0, 'backward')

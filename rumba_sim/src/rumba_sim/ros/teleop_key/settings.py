@@ -3,10 +3,7 @@
 import dataclasses
 
 from rumba_sim.model.config import setting
-from rumba_sim.model.robot_config import DriveConfig
-
-LINEAR_RANGE = (0.02, DriveConfig.max_speed)  # [m/s]
-ANGULAR_RANGE = (0.1, DriveConfig.max_turn_rate)  # [rad/s]
+from rumba_sim.ros.common.teleop import ANGULAR_RANGE, LINEAR_RANGE
 
 
 @dataclasses.dataclass(frozen=True)
