@@ -31,7 +31,7 @@ class CleanerActionsTest(unittest.TestCase):
         self.docked.fresh(lambda message: message.is_docked)
         self.truth = Heard(self, '/rumba/ground_truth')
 
-    def place(self):
+    def pose(self):
         """Where the robot is now, in truth."""
         pose = self.truth.fresh().pose.pose
         return pose.position.x, pose.position.y, 2.0 * math.atan2(pose.orientation.z, pose.orientation.w)
@@ -48,7 +48,7 @@ class CleanerActionsTest(unittest.TestCase):
     def test_go_to_arrives_where_it_says_at_rest_with_the_heading(self):
         goal = self.cleaner.send('go_to', go_to(1.0, 2.5, -2.0))
         answer = goal.ends(Outcome.SUCCEEDED)
-        x, y, theta = self.place()
+        x, y, theta = self.pose()
         self.assertLess(math.hypot(x - 1.0, y - 2.5), 0.03)
         self.assertLess(abs(theta + 2.0), 0.05)
         for told, true in zip((answer.pose.x, answer.pose.y, answer.pose.theta), (x, y, theta)):
@@ -63,7 +63,7 @@ class CleanerActionsTest(unittest.TestCase):
 
     def test_any_heading_will_do_if_none_is_named(self):
         self.cleaner.send('go_to', go_to(2.0, 2.4)).ends(Outcome.SUCCEEDED)
-        x, y, _ = self.place()
+        x, y, _ = self.pose()
         self.assertLess(math.hypot(x - 2.0, y - 2.4), 0.03)
 
     def test_feedback_comes_at_1_hz_of_simulated_time(self):
@@ -80,7 +80,7 @@ class CleanerActionsTest(unittest.TestCase):
         undock = self.cleaner.send('undock', UndockGoal())
         self.assertFalse(undock.ends(Outcome.SUCCEEDED).is_docked)
         self.assertAlmostEqual(undock.feedback[0].distance_remaining, 0.4, delta=0.05)
-        x, y, theta = self.place()
+        x, y, theta = self.pose()
         self.assertAlmostEqual(x, 3.075 - 0.45, delta=0.1)
         self.assertAlmostEqual(abs(theta), math.pi, delta=0.1)
         outcome = self.cleaner.send('undock', UndockGoal()).ends(Outcome.SUCCEEDED).outcome
@@ -126,7 +126,7 @@ class CleanerActionsTest(unittest.TestCase):
                 goal.handle.cancel()
                 self.assertEqual(goal.ends(Outcome.CANCELLED).outcome.message, 'cancelled')
                 self.assert_at_rest()
-                self.assertGreater(math.hypot(self.place()[0] - 0.8, self.place()[1] - 2.4), 0.5)
+                self.assertGreater(math.hypot(self.pose()[0] - 0.8, self.pose()[1] - 2.4), 0.5)
         self.assertEqual(self.cleaner.status.messages[-1].state, MissionStatus.IDLE)
 
     def test_a_new_goal_preempts_the_one_before_on_any_action(self):
@@ -138,7 +138,7 @@ class CleanerActionsTest(unittest.TestCase):
         third = self.cleaner.send('go_to', go_to(2.4, 2.4, 1.0))
         self.assertEqual(second.ends(Outcome.PREEMPTED).outcome.message, 'preempted by a goal of go_to')
         third.ends(Outcome.SUCCEEDED)
-        x, y, theta = self.place()
+        x, y, theta = self.pose()
         self.assertLess(math.hypot(x - 2.4, y - 2.4), 0.03)
         self.assertLess(abs(theta - 1.0), 0.05)
 
@@ -173,7 +173,7 @@ class CleanerActionsTest(unittest.TestCase):
         self.assertGreater((self.truth.fresh().header.stamp - begin).to_sec(), 2.0)
         self.assertLess((self.truth.messages[-1].header.stamp - begin).to_sec(), 8.0)
         self.assert_at_rest()
-        self.assertGreater(self.place()[0], 1.5)
+        self.assertGreater(self.pose()[0], 1.5)
 
     def test_a_robot_that_is_put_elsewhere_arrives_nevertheless(self):
         for action, goal in (('go_to', go_to(2.4, 2.4, 1.0)), ('dock', DockGoal())):
@@ -198,7 +198,7 @@ class CleanerActionsTest(unittest.TestCase):
             return answer.message == 'there' and (answer.linear_x, answer.angular_z) == (0.0, 0.0)
         wait(self, is_there, 'the target')
         self.truth.fresh(lambda message: message.twist.twist.linear.x == 0.0)
-        x, y, theta = self.place()
+        x, y, theta = self.pose()
         self.assertLess(math.hypot(x - target[0], y - target[1]), 0.03)
         self.assertLess(abs(theta - target[2]), 0.1)
         for pattern, place in ((r'must be finite numbers$', (NAN, 2.0, 0.0)), ('does not fit$', (3.9, 2.5, 0.0)),
@@ -213,7 +213,7 @@ class CleanerActionsTest(unittest.TestCase):
         while not goal.has_ended:
             self.assertTrue(ask(2.6, 0.6, 0.0).feedback)
         goal.ends(Outcome.SUCCEEDED)
-        self.assertLess(abs(self.place()[0] - 0.8), 0.03)
+        self.assertLess(abs(self.pose()[0] - 0.8), 0.03)
 
     def test_brushes_are_down_only_to_clean(self):
         battery = Heard(self, '/rumba/battery_status')
@@ -224,7 +224,7 @@ class CleanerActionsTest(unittest.TestCase):
 
     def test_dock_on_the_dock_is_done_at_once(self):
         self.assertTrue(self.cleaner.send('dock', DockGoal()).ends(Outcome.SUCCEEDED).is_docked)
-        self.assertGreater(self.place()[0], 3.0)
+        self.assertGreater(self.pose()[0], 3.0)
 
 
 if __name__ == '__main__':

@@ -250,11 +250,11 @@ def test_a_robot_may_start_where_it_fits_only_between_the_centres_of_cells():
 def test_a_pose_in_which_the_robot_does_not_fit_is_refused_with_the_reason(x, y, message):
     plan = drawn(TWO_ROOMS, resolution=0.1)
     with pytest.raises(MapError, match=message):
-        plan.check_place(Pose(x, y, 0.0), 0.17, 'dock')
+        plan.check_pose(Pose(x, y, 0.0), 0.17, 'dock')
 
 
 def test_a_pose_with_just_enough_clearance_is_allowed():
-    drawn(TWO_ROOMS, resolution=0.1).check_place(Pose(0.5, 0.3, 1.0), 0.2, 'dock')
+    drawn(TWO_ROOMS, resolution=0.1).check_pose(Pose(0.5, 0.3, 1.0), 0.2, 'dock')
 
 
 def test_a_grid_without_free_floor_is_refused():

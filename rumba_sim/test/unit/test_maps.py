@@ -49,12 +49,12 @@ def test_the_script_draws_the_maps_of_the_folder(tmp_path):
 
 
 def test_a_robot_fits_at_the_dock_and_the_start_and_the_dock_is_at_a_wall(plan):
-    plan.check_place(plan.dock, RADIUS, 'dock')
+    plan.check_pose(plan.dock, RADIUS, 'dock')
     assert 0.02 <= plan.safe_clearance_at(plan.dock.x, plan.dock.y) - RADIUS <= 0.05
     ahead = plan.dock.x + RADIUS + 0.06
     assert plan.dock.theta == 0.0 and plan.occupancy[plan.cell(ahead, plan.dock.y)] != FREE
     if plan.start is not None:
-        plan.check_place(plan.start, RADIUS, 'start')
+        plan.check_pose(plan.start, RADIUS, 'start')
 
 
 def test_the_floor_before_the_dock_is_free(plan):

@@ -33,7 +33,7 @@ class GoTo(Behaviour):
         Raises:
             MapError: the robot does not fit there, or it lies outside the map.
         """
-        context.plan.check_place(target, context.robot.drive.radius, 'target')
+        context.plan.check_pose(target, context.robot.drive.radius, 'target')
         self._context = context
         self._target = target
 

@@ -55,7 +55,7 @@ FAILED = 1
 Value = Callable[[Any], Any]
 TOPICS: Dict[Type[Condition], List[Tuple[str, Any, Value]]] = {
     mission_verdict.Coverage: [('cleaning_status', CleaningStatus, lambda message: message.coverage)],
-    mission_verdict.Reach: [('ground_truth', Odometry, lambda message: conversions.place(message.pose.pose))],
+    mission_verdict.Reach: [('ground_truth', Odometry, lambda message: conversions.plane_pose(message.pose.pose))],
     mission_verdict.Docked: [('dock_status', DockStatus, lambda message: message.is_docked)],
     mission_verdict.Collisions: [
         ('bumper', Bumper, lambda message: message.is_left_pressed or message.is_right_pressed)],

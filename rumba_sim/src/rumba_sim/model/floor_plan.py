@@ -138,7 +138,7 @@ class FloorPlan:
         value: float = fast.interpolated(field, (x - left) / self.resolution, (y - bottom) / self.resolution)[0]
         return value
 
-    def check_place(self, pose: Pose, radius: float, what: str) -> None:
+    def check_pose(self, pose: Pose, radius: float, what: str) -> None:
         """Refuse a pose in which a round robot does not fit.
 
         Args:
@@ -177,7 +177,7 @@ class FloorPlan:
         Raises:
             MapError: the robot does not fit at the start.
         """
-        self.check_place(Pose(x, y, 0.0), radius, 'start')
+        self.check_pose(Pose(x, y, 0.0), radius, 'start')
         clearance = self.safe_clearance
         at_centres = (clearance[:-1, :-1] + clearance[:-1, 1:] + clearance[1:, :-1] + clearance[1:, 1:]) / 4.0
         fits = at_centres >= radius - ROUNDING

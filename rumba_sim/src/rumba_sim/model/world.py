@@ -70,9 +70,9 @@ class World:
         radius = float(self.constants[0]['reach'])
         for what, pose in (('dock', self.plan.dock), ('start', self.plan.start)):
             if pose is not None:
-                self.plan.check_place(pose, radius, what)
+                self.plan.check_pose(pose, radius, what)
         start = self.plan.start or self.plan.dock or self.plan.most_open_pose()
-        self.plan.check_place(start, radius, 'start')
+        self.plan.check_pose(start, radius, 'start')
         return start
 
     def _generator(self, purpose: int, number: int) -> np.random.Generator:
@@ -211,7 +211,7 @@ class World:
         if not all(map(math.isfinite, pose)):
             raise WorldError(f'pose ({pose.x}, {pose.y}, {pose.theta}): must be finite numbers')
         try:
-            self.plan.check_place(pose, float(self.constants[0]['reach']), 'pose')
+            self.plan.check_pose(pose, float(self.constants[0]['reach']), 'pose')
         except MapError as error:
             raise WorldError(str(error)) from None
         for other in self.robots.values():

@@ -12,7 +12,7 @@ from sensor_msgs.msg import BatteryState, LaserScan
 
 from rumba_msg.msg import BatteryStatus, Bumper, CleanActionResult, CleaningStatus, Cliff, MissionStatus, Outcome
 from rumba_sim.model.geometry import Pose
-from rumba_sim.ros.common.conversions import place
+from rumba_sim.ros.common.conversions import plane_pose
 from rumba_viewer.scene.snapshot import YIELDING, Array, Battery, Cleaning, Mission, Robot, Size
 from rumba_viewer.scene.track import Glide, Trail
 
@@ -85,7 +85,7 @@ class RobotListener:
         stamp = message.header.stamp.to_sec()
         if self.stamp is not None and stamp < self.stamp:  # another simulation has started
             self.forget()
-        pose = place(message.pose.pose)
+        pose = plane_pose(message.pose.pose)
         self.stamp, self.came = stamp, time.monotonic()
         self._recent = (*self._recent[1 - RECENT:], (stamp, pose))
         self._trail.add(pose)

@@ -16,7 +16,7 @@ from rumba_sim.ros.common.conversions import heading
 from rumba_sim.ros.common.frames import MAP
 
 
-def plane_pose(transform: Transform) -> Pose:
+def transform_pose(transform: Transform) -> Pose:
     """A transform as a pose in the plane."""
     return Pose(transform.translation.x, transform.translation.y, heading(transform.rotation))
 

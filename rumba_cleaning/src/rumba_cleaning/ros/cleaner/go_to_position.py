@@ -61,7 +61,7 @@ def velocity_toward(context: Context, pose: Pose, target: Pose) -> Tuple[float, 
     """
     check_finite(target)
     drive = context.robot.drive
-    context.plan.check_place(target, drive.radius, 'target')
+    context.plan.check_pose(target, drive.radius, 'target')
     if math.hypot(target.x - pose.x, target.y - pose.y) < THERE:
         angle = wrap_angle(target.theta - pose.theta)
         if abs(angle) < HEADING:

@@ -118,7 +118,7 @@ class Senses:
             odometry = self._buffer.lookup_transform(self._frames.odom, self._frames.base_footprint, rospy.Time())
         except tf2_ros.TransformException:
             return None
-        return compose(conversions.plane_pose(correction.transform), conversions.plane_pose(odometry.transform))
+        return compose(conversions.transform_pose(correction.transform), conversions.transform_pose(odometry.transform))
 
     def missing(self) -> str:
         """What is missing for an observation, for a person."""

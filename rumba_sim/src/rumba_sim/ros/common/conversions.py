@@ -81,7 +81,7 @@ def heading(rotation: Quaternion) -> float:
                       1.0 - 2.0 * (rotation.y * rotation.y + rotation.z * rotation.z))
 
 
-def place(pose: PoseMessage) -> Pose:
+def plane_pose(pose: PoseMessage) -> Pose:
     """A pose in space as one in the plane."""
     return Pose(pose.position.x, pose.position.y, heading(pose.orientation))
 
