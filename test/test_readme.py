@@ -33,7 +33,7 @@ COMMANDS = {
     'viewer': 'env QT_QPA_PLATFORM=offscreen rosrun rumba_viewer viewer _laser:=true',
 }
 # Two simulators need two masters; beside each run the nodes that publish what it subscribes to.
-BODY = ['turtlesim_body', 'turtlesim', 'teleop_key']
+BODY = ['turtlesim_body', 'turtlesim', 'teleop_key', 'cleaner']
 BESIDE = [[node for node in NODES if node not in BODY[:1]], BODY]
 
 
