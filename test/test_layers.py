@@ -115,6 +115,12 @@ def test_only_the_folders_of_the_window_import_qt(package, path):
 
 
 @pytest.mark.parametrize('package', FOLDERS)
+def test_the_tests_of_a_package_use_no_package_above_it(package):
+    imported = {name.split('.')[0] for path in (ROOT / package / 'test').glob('**/*.py') for name in imports(path)}
+    assert imported & set(FOLDERS) <= {package, *BELOW[package]}
+
+
+@pytest.mark.parametrize('package', FOLDERS)
 def test_a_package_declares_what_it_imports_and_no_package_of_ours_besides(package):
     imported = {name.split('.')[0] for path in source(package).glob('**/*.py') for name in imports(path)}
     declared = dependencies(package, 'exec_depend')
