@@ -137,8 +137,8 @@ def test_a_picture_that_is_extended_equals_one_that_is_painted_at_once():
         painter = QPainter(kept)
         keeping.paint(painter, now, WHOLE, LIGHT)
         painter.end()
-    anew = picture(now, WHOLE, LIGHT)
-    assert abs(pixels(kept) - pixels(anew)).max() < 90  # edges are smoothed twice where two parts of a line meet
+    repainted = picture(now, WHOLE, LIGHT)
+    assert abs(pixels(kept) - pixels(repainted)).max() < 90  # edges are smoothed twice where two parts of a line meet
     far = path((0.0, 2.5), (2.0, 4.5), number=8)
     painter = QPainter(kept)
     keeping.paint(painter, snapshot(robot(path=far)), WHOLE, LIGHT)
