@@ -19,9 +19,9 @@ def around(x, y):
 
 
 @pytest.mark.parametrize('theta', [0.0, 1.0, -2.5])
-@pytest.mark.parametrize('sensor, angle', enumerate((1.05, 0.26, -0.26, -1.05)))
+@pytest.mark.parametrize('sensor, angle', enumerate((0.9, 0.26, -0.26, -0.9)))
 def test_each_cliff_sensor_sees_the_floor_under_it(theta, sensor, angle):
-    x, y = 2.0 + 0.15 * math.cos(theta + angle), 1.5 + 0.15 * math.sin(theta + angle)
+    x, y = 2.0 + 0.165 * math.cos(theta + angle), 1.5 + 0.165 * math.sin(theta + angle)
     world, robot = alone(Pose(1.0, 1.0, theta), room(4.0, 3.0, 0.01, cliff=around(x, y)))
     assert world.cliffs('rumba') == [False] * 4
     robot.state['x'], robot.state['y'] = 2.0, 1.5  # where a teleport would be refused
@@ -38,8 +38,8 @@ def test_front_sensors_warn_before_a_wheel_is_over_the_edge():
         if robot.has_fallen:
             first.setdefault('fallen', pose.x)
     assert first == approx({
-        1: 2.0 - 0.15 * math.cos(0.26), 2: 2.0 - 0.15 * math.cos(0.26),
-        0: 2.0 - 0.15 * math.cos(1.05), 3: 2.0 - 0.15 * math.cos(1.05), 'fallen': 2.0}, abs=0.005)
+        1: 2.0 - 0.165 * math.cos(0.26), 2: 2.0 - 0.165 * math.cos(0.26),
+        0: 2.0 - 0.165 * math.cos(0.9), 3: 2.0 - 0.165 * math.cos(0.9), 'fallen': 2.0}, abs=0.005)
 
 
 def test_a_fallen_robot_comes_to_rest_and_stays_until_it_is_teleported():

@@ -10,6 +10,7 @@ from rumba_sim.model import kernel
 from rumba_sim.model.compiled import fast
 from rumba_sim.model.constants import constants
 from rumba_sim.model.geometry import Pose
+from rumba_sim.model.reachability import stands
 from rumba_sim.model.world import ON_THEIR_OWN, World
 
 DOCK = Pose(3.8, 1.0, 0.0)
@@ -25,11 +26,16 @@ class Copy:
         self.robots = np.concatenate([
             np.atleast_1d(world.spawn(str(number), start, charge).state) for number, start in enumerate(STARTS)
         ]).astype(kernel.ROBOT)
-        self.constants = constants(world.config, world.plan, world.step_rate)
-        self.plan, self.floor = world.plan, world.floor
+        self.constants = constants(world.config, world.terrain, world.step_rate)
+        self.plan, self.floor = world.terrain, world.floor
         angles = np.linspace(-math.pi, math.pi, 360, endpoint=False)
         self.fan = np.stack([np.cos(angles), np.sin(angles)], axis=1)
         self.noise = np.random.default_rng(2).standard_normal((len(STARTS), 64, 2))
+
+    def advance(self, functions, led, tick, ticks):
+        """Simulate a number of ticks."""
+        functions.advance(self.robots, self.constants, self.plan.clearance, self.floor.cells, self.floor.sweep.samples,
+                          self.floor.dirt, self.floor.sweep.tally, self.noise, led, tick, ticks)
 
     def run(self, functions, ticks):
         """Drive around; returns the states after each command, the infrared readings and the scans."""
@@ -39,8 +45,7 @@ class Copy:
             for robot in self.robots:
                 robot.command_v, robot.command_w = rng.uniform(-0.1, 0.5), rng.uniform(-1.9, 1.9)
                 robot.command_tick = tick
-            functions.advance(self.robots, self.constants, self.plan.clearance, self.floor.cells, self.floor.dirt,
-                              self.floor.tally, self.noise, ON_THEIR_OWN, tick, 10)
+            self.advance(functions, ON_THEIR_OWN, tick, 10)
             states.append(np.array([[float(robot[name]) for name in kernel.ROBOT.names] for robot in self.robots]))
             for robot in self.robots:
                 seen.append(functions.infrared(robot, self.constants[0], self.plan.skips, self.floor.cells))
@@ -60,9 +65,8 @@ def test_compiled_and_plain_kernel_agree_except_for_rounding(charge):
         np.testing.assert_allclose(fast_states[..., place], states[..., place], ROUNDING, ROUNDING, err_msg=name)
     assert fast_seen == seen
     np.testing.assert_allclose(fast_ranges, ranges, ROUNDING, ROUNDING)
-    np.testing.assert_array_equal(compiled.floor.cells, plain.floor.cells)
-    np.testing.assert_allclose(compiled.floor.dirt, plain.floor.dirt, 1e-6)  # 32 bits
-    np.testing.assert_allclose(compiled.floor.tally[0].tolist(), plain.floor.tally[0].tolist(), 1e-9)
+    np.testing.assert_array_equal(compiled.floor.sweep.samples, plain.floor.sweep.samples)
+    np.testing.assert_allclose(compiled.floor.sweep.tally[0].tolist(), plain.floor.sweep.tally[0].tolist(), 1e-9)
     if charge == 1.0:  # every kind of event happened
         columns = dict(zip(kernel.ROBOT.names, states.transpose(2, 0, 1)))
         assert columns['bumps'].max() > 0 and columns['docked'].any() and columns['fallen'].any()
@@ -75,13 +79,24 @@ def test_compiled_and_plain_kernel_move_led_robots_in_the_same_way():
     states = []
     for functions in (kernel, fast):
         copy = Copy(1.0)
-        functions.advance(copy.robots, copy.constants, copy.plan.clearance, copy.floor.cells, copy.floor.dirt,
-                          copy.floor.tally, copy.noise, led, 0, 1)
+        copy.advance(functions, led, 0, 1)
         assert [(robot.x, robot.y, robot.theta) for robot in copy.robots] == [tuple(to) for to in led[:, :3]]
         states.append(np.array([[float(robot[name]) for name in kernel.ROBOT.names] for robot in copy.robots]))
         halted = [functions.halted(robot, copy.constants[0], copy.plan.clearance, 0.3) for robot in copy.robots]
         states[-1] = np.column_stack([states[-1], halted])
     np.testing.assert_allclose(states[1], states[0], ROUNDING, ROUNDING)
+
+
+def test_compiled_and_plain_kernel_find_the_same_floor_in_reach():
+    plan = crooked(cliff=(3.6, 2.4, 4.0, 3.0))
+    where = stands(plan, 0.17, 0.5, 0.5)
+    found = []
+    for functions in (kernel, fast):
+        samples = np.full((plan.rows * 2, plan.columns * 2), kernel.SWEEPABLE, np.uint8)
+        count = functions.mark_reachable(plan.safe_clearance, plan.resolution, where, 0.17, 0.08, samples)
+        assert count == np.count_nonzero(samples & kernel.REACHABLE) > 1000
+        found.append(samples)
+    np.testing.assert_array_equal(found[1], found[0])
 
 
 def test_every_function_of_the_kernel_is_compiled():

@@ -1,12 +1,15 @@
 """Settings are strict: the error for a wrong one says what would be right."""
 
 import dataclasses
+import functools
 import math
 
 import pytest
 
 from rumba_sim.model import config
-from rumba_sim.model.errors import ConfigError
+from rumba_sim.model.errors import LONGEST, ConfigError
+
+BOMB = functools.reduce(lambda inner, _: [inner] * 9, range(40), ['ha'])  # 9 ** 40 elements
 
 
 @dataclasses.dataclass(frozen=True)
@@ -51,7 +54,7 @@ def test_both_ends_of_a_range_and_whole_numbers_for_floats_are_allowed():
     ({'speed': True}, r'speed is True: must be 0 to 0\.5'),
     ({'speed': 'fast'}, r"speed is 'fast': must be 0 to 0\.5"),
     ({'place': 10 ** 400}, r'place is inf: must be a finite number'),
-    ({'count': 10 ** 400}, r'count is 10+: must be 1 to 9'),
+    ({'count': 10 ** 400}, r'count is a number of 400 digits: must be 1 to 9'),
     ({'place': math.inf}, r'place is inf: must be a finite number \[m\]'),
     ({'count': 2.0}, r'count is 2\.0: must be 1 to 9$'),
     ({'count': 0}, r'count is 0: must be 1 to 9'),
@@ -60,10 +63,23 @@ def test_both_ends_of_a_range_and_whole_numbers_for_floats_are_allowed():
     ({'name': 5}, r'name is 5: must be text'),
     ({'sped': 0.2}, r"here: sped is unknown: did you mean 'speed'\?"),
     ({'zzz': 1}, r'zzz is unknown: known are speed, count, place, quiet, name'),
+    ({'Speed': 1}, r"here: Speed is unknown: did you mean 'speed'\?"),
+    ({1 << 20_000: 1}, r'here: a number of 6021 digits is unknown: known are speed, count, place, quiet, name'),
+    ({'count': 1 << 20_000}, r'count is a number of 6021 digits: must be 1 to 9'),
+    ({'name': [BOMB]}, r'name is \[\[\[\.\.\.\], .*\]: must be text'),
+    ({'count': BOMB}, r'count is \[.*: must be 1 to 9'),
+    ({'count': 'x' * 3_000_000}, r"count is 'xxx.*xxx': must be 1 to 9"),
+    ({'x' * 3_000_000: 1}, r'here: xxx.*xxx is unknown: known are speed, count, place, quiet, name'),
+    ({'count': '\x1b[2J\n'}, r"count is '\\x1b\[2J\\n': must be 1 to 9"),
+    ({'\x1b[2J': 1}, r'here: \\x1b\[2J is unknown: known are'),
+    ('speed', r"^here: is 'speed': must be a mapping of speed, count, place, quiet, name$"),
+    ([], r'^here: is \[\]: must be a mapping of'),
+    (None, r'^here: is None: must be a mapping of'),
 ])
 def test_a_wrong_setting_is_named_with_what_would_be_right(mapping, message):
-    with pytest.raises(ConfigError, match=message):
+    with pytest.raises(ConfigError, match=message) as caught:
         config.from_mapping(Example, mapping, 'here')
+    assert len(str(caught.value)) <= LONGEST and str(caught.value).isprintable()
 
 
 def test_a_description_has_a_line_for_each_setting_with_default_unit_meaning_and_range():

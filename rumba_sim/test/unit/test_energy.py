@@ -74,6 +74,7 @@ def test_a_robot_with_an_empty_battery_comes_to_rest_sweeps_nothing_and_stays():
     world, robot = alone(battery={'drain': 1e4})
     while robot.battery.percentage:
         drove(world, 0.3, 0.5, 1)
+    world.step()  # sweeps what was not swept yet of the last stride
     swept, brush_time = world.floor.cleaned_area, robot.brush_time
     drove(world, 0.3, 0.5, 100)
     rest = robot.pose

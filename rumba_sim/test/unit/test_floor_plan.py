@@ -171,27 +171,6 @@ def test_the_most_open_pose_is_far_from_walls_and_from_cliffs():
         ..........''', origin=(10.0, 20.0)).most_open_pose() == Pose(11.0, 21.0, 0.0)
 
 
-def reachable_by_hand(plan, start, radius, brush_width):
-    """The definition, cell by cell."""
-    def fits(row, column):
-        inside = 0 <= row < plan.rows and 0 <= column < plan.columns
-        return inside and plan.safe_clearance_at(*plan.centre(row, column)) >= radius - 1e-9
-
-    stands = set()
-    open_cells = [plan.cell(*start)]
-    while open_cells:
-        row, column = open_cells.pop()
-        stands.add((row, column))
-        open_cells += [cell for cell in ((row + 1, column), (row - 1, column), (row, column + 1), (row, column - 1))
-                       if cell not in stands and fits(*cell)]
-    swept = np.zeros((plan.rows, plan.columns), bool)
-    for row, column in np.ndindex(*swept.shape):
-        near = min(math.hypot(row - other[0], column - other[1]) for other in stands) * plan.resolution
-        swept[row, column] = near <= brush_width / 2.0 + 1e-9 and plan.occupancy[row, column] == FREE \
-            and not (plan.cliff is not None and plan.cliff[row, column])
-    return swept
-
-
 TWO_ROOMS = '''
     ########################
     #.........#............#
@@ -205,38 +184,26 @@ TWO_ROOMS = '''
     ########################'''
 
 
-@pytest.mark.parametrize('radius, brush_width', [(0.1, 0.1), (0.09, 0.2), (0.2, 0.2), (0.2, 0.7), (0.15, 0.0)])
-@pytest.mark.parametrize('start', [(0.43, 0.51), (1.62, 0.58)])
-def test_reachable_cells_are_those_of_the_definition(radius, brush_width, start):
-    plan = drawn(TWO_ROOMS, resolution=0.1)
-    reached = plan.reachable(*start, radius, brush_width)
-    assert reached.dtype == np.bool_ and (reached == reachable_by_hand(plan, start, radius, brush_width)).all()
+@pytest.mark.parametrize('resolution, refined', [
+    (0.005, 0.005), (0.02, 0.02), (0.025, 0.025), (0.03, 0.015), (0.05, 0.025), (0.1, 0.025)])
+def test_a_refined_plan_is_the_same_floor_in_cells_of_at_most_25_mm(resolution, refined):
+    plan = drawn(TWO_ROOMS, resolution=resolution, origin=(0.5, -1.0), dock=Pose(1.0, 0.0, 0.0))
+    fine = plan.refined()
+    assert fine.resolution == approx(refined) and (fine is plan) == (refined == resolution)
+    assert plan.refined() is fine and fine.refined() is fine
+    assert (fine.name, fine.origin, fine.dock, fine.bounds) == (plan.name, plan.origin, plan.dock, approx(plan.bounds))
+    parts = round(resolution / refined)
+    for layer in ('occupancy', 'cliff'):
+        coarse = getattr(plan, layer)
+        assert all((getattr(fine, layer)[row::parts, column::parts] == coarse).all()
+                   for row, column in np.ndindex(parts, parts))
+    assert (fine.clearance[::parts, ::parts] == approx(plan.clearance))
+    assert plan.sample_pitch <= 0.01 and plan.sample_pitch * plan.sample_squares == plan.resolution
 
 
-def test_only_a_robot_that_is_narrower_than_a_door_gets_through():
-    plan = drawn(TWO_ROOMS, resolution=0.1)
-    right = (slice(None), slice(11, None))
-    assert plan.reachable(0.5, 0.5, 0.1, 0.1)[right].any()
-    assert not plan.reachable(0.5, 0.5, 0.16, 0.1)[right].any()
-    assert plan.reachable(0.5, 0.5, 0.16, 0.1).sum() > 10
-
-
-def test_a_robot_stays_away_from_a_cliff_and_cannot_start_beside_it():
-    plan = drawn(TWO_ROOMS, resolution=0.1)
-    assert plan.clearance_at(2.1, 0.2) == approx(0.1) and plan.safe_clearance_at(2.1, 0.2) == 0.0
-    assert not (plan.reachable(1.5, 0.5, 0.1, 0.4) & plan.cliff).any()
-    with pytest.raises(MapError, match=r'^flat: start at \(2\.10, 0\.35\) m is 0\.050 m from the nearest cliff: '
-                                       r'a robot of radius 0\.174 m does not fit$'):
-        plan.reachable(2.1, 0.35, 0.174, 0.17)
-
-
-def test_a_robot_may_start_where_it_fits_only_between_the_centres_of_cells():
-    plan = drawn('''
-        ####
-        #..#
-        #..#
-        ####''')
-    assert plan.reachable(2.0, 2.0, 0.99, 0.1).sum() == 1
+def test_a_huge_plan_is_not_refined_beyond_the_limit_of_cells():
+    plan = FloorPlan('hall', np.zeros((3000, 4000), np.int8), 0.1, (0.0, 0.0))
+    assert plan.refined() is plan and plan.sample_squares == 1
 
 
 @pytest.mark.parametrize('x, y, message', [

@@ -1,5 +1,6 @@
 """Images of maps: every format, whole and damaged."""
 
+import os
 import struct
 import zlib
 
@@ -72,10 +73,12 @@ def test_an_opaque_image_is_the_same_map_in_mode_scale(tmp_path):
     assert map_file.load(write(tmp_path, opaque, mode='scale')).occupancy.tolist() == grid(CUT).tolist()
 
 
-def test_a_tall_image_in_colour_is_read_to_its_last_row(tmp_path):
+@pytest.mark.parametrize('kind', ['colour', '16 bit', 'grey'])
+def test_a_tall_image_is_read_to_its_last_row(tmp_path, kind):
     pixels = np.kron(PIXELS, np.ones((150, 1), np.uint8))
     pixels[0, 2] = pixels[-1, 3] = W  # nothing is cut from top and bottom
-    plan = map_file.load(write(tmp_path, np.stack([pixels] * 3, axis=2)))
+    image = {'colour': np.stack([pixels] * 3, axis=2), '16 bit': pixels.astype(np.int32) * 257, 'grey': pixels}[kind]
+    plan = map_file.load(write(tmp_path, Image.fromarray(image)))
     assert plan.occupancy.tolist() == grid(pixels)[:, 1:].tolist()
 
 
@@ -117,7 +120,9 @@ def png_header(width, height):
     (b'P2\n3 2\n255\n1 2 3 x 5 6', 'the image is cut short: 3 of its 3 x 2 pixels are there'),
     (b'P5\n99999 99999\n255\n', '99999 x 99999 pixels are more than 150 million: cut the image'),
     (png_header(12300, 12300), '12300 x 12300 pixels are more than 150 million: cut the image'),
-    (png_header(99999, 99999), 'more than 150 million pixels: cut the image'),
+    (png_header(99999, 99999), '99999 x 99999 pixels are more than 150 million: cut the image'),
+    (png_header(200_000, 1), 'has 200000 x 1 pixels: no side must be longer than 100000'),
+    (b'P5\n3 200000\n255\n', 'has 3 x 200000 pixels: no side must be longer than 100000'),
     (png_header(300, 300), '.*truncated|the image is damaged'),
 ], ids=lambda value: repr(value[:20]))
 def test_a_bad_image_is_named(tmp_path, data, message):
@@ -127,9 +132,15 @@ def test_a_bad_image_is_named(tmp_path, data, message):
     assert '\n' not in str(caught.value)
 
 
-def test_a_path_with_a_null_character_is_refused():
-    with pytest.raises(MapError, match='null'):
-        map_image.read('flat\0.png', map_image.Alpha.IGNORE)
+@pytest.mark.parametrize('format', ['EPS', 'BMP', 'GIF', 'JPEG', 'PPM', 'TIFF', 'PDF', 'ICO', 'TGA'])
+def test_other_formats_are_refused_and_start_no_other_program(tmp_path, monkeypatch, format):
+    (tmp_path / 'gs').write_text(f'#!/bin/sh\ntouch {tmp_path}/started\n')
+    (tmp_path / 'gs').chmod(0o755)
+    monkeypatch.setenv('PATH', str(tmp_path), prepend=os.pathsep)
+    Image.fromarray(np.stack([PIXELS] * 3, axis=2)).save(str(tmp_path / 'image'), format)
+    with pytest.raises(MapError, match=f'^{tmp_path}/image: is not an image of a known format: must be PNG or PGM$'):
+        map_file.load(write(tmp_path, image='image'))
+    assert not (tmp_path / 'started').exists()
 
 
 def test_a_truncated_png_is_refused(tmp_path):
@@ -144,7 +155,7 @@ def test_any_error_of_a_decoder_becomes_one_line(tmp_path, monkeypatch):
     def fail_to_decode(_):
         raise IndexError('out of\nrange')
 
-    monkeypatch.setattr(map_image.Image, 'open', fail_to_decode)
+    monkeypatch.setattr(map_image, 'PngImageFile', fail_to_decode)
     with pytest.raises(MapError, match=f'^{tmp_path}/flat.png: the image is damaged: out of range$'):
         map_file.load(write(tmp_path))
 

@@ -10,10 +10,12 @@ from pytest import approx
 
 from rumba_sim.model import map_file
 from rumba_sim.model.floor_plan import FREE
+from rumba_sim.model.robot_config import RobotConfig
+from rumba_sim.model.sweep import Sweep
 
 MAPS = pathlib.Path(__file__).resolve().parents[2] / 'maps'
 NAMES = ('apartment', 'studio', 'field')
-RADIUS, BRUSH_WIDTH = 0.17425, 0.17  # [m] of the default robot
+RADIUS = 0.17425  # [m] of the default robot
 ROOMS = {  # a point in each room
     'apartment': {'living room': (3.3, 2.0), 'kitchen': (2.0, 4.6), 'hall': (4.0, 4.8), 'bath': (6.8, 4.6),
                   'bedroom': (6.0, 1.4), 'beside the bed': (7.6, 2.9), 'under a chair': (0.77, 5.38)},
@@ -64,12 +66,20 @@ def test_the_floor_before_the_dock_is_free(plan):
             assert plan.occupancy[plan.cell(wall - back, plan.dock.y + side)] == FREE, (back, side)
 
 
+def reachable_share(plan):
+    """Share of each cell that can be reached from the dock [0..1]: float (rows, columns)."""
+    sweep = Sweep(plan, RobotConfig())
+    sweep.begin(plan.dock.x, plan.dock.y)
+    return sweep.missing_share()
+
+
 def test_every_room_can_be_cleaned_from_the_dock(plan):
-    reached = plan.reachable(plan.dock.x, plan.dock.y, RADIUS, BRUSH_WIDTH)
+    terrain = plan.refined()
+    reached = reachable_share(terrain)
     for room, place in ROOMS[short_name(plan)].items():
-        assert reached[plan.cell(*place)], room
+        assert reached[terrain.cell(*place)] == 1.0, room
     # The brush cannot reach a strip of 9 cm along every wall and around every leg.
-    assert reached.sum() / plan.free.sum() > {'apartment': 0.72, 'studio': 0.75, 'field': 0.96}[short_name(plan)]
+    assert reached.sum() / terrain.free.sum() > {'apartment': 0.72, 'studio': 0.75, 'field': 0.96}[short_name(plan)]
 
 
 def test_the_free_floor_has_the_stated_area(plan):
@@ -86,14 +96,14 @@ def test_no_map_can_be_mistaken_for_its_mirror_image():
 
 def test_a_robot_passes_under_some_chairs_of_the_apartment_and_not_under_others():
     plan = map_file.load(MAPS / 'apartment.yaml')
-    reached = plan.reachable(plan.dock.x, plan.dock.y, RADIUS, BRUSH_WIDTH)
-    assert reached[plan.cell(0.77, 5.38)] and not reached[plan.cell(0.8, 4.3)]
+    reached = reachable_share(plan)
+    assert reached[plan.cell(0.77, 5.38)] == 1.0 and reached[plan.cell(0.8, 4.3)] == 0.0
 
 
 def test_in_the_apartment_a_robot_reaches_the_carpet_but_not_the_step_down():
     plan = map_file.load(MAPS / 'apartment.yaml')
-    reached = plan.reachable(plan.dock.x, plan.dock.y, RADIUS, BRUSH_WIDTH)
-    assert plan.cliff[plan.cell(4.0, 6.0)] and not plan.cliff[plan.cell(4.0, 5.5)] and not (plan.cliff & reached).any()
+    reached = reachable_share(plan)
+    assert plan.cliff[plan.cell(4.0, 6.0)] and not plan.cliff[plan.cell(4.0, 5.5)] and not reached[plan.cliff].any()
     assert plan.carpet[plan.cell(2.3, 2.5)] and not plan.carpet[plan.cell(3.3, 2.5)]
     assert reached[plan.carpet].mean() > 0.85
 

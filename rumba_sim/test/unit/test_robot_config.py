@@ -111,7 +111,7 @@ def test_the_constants_have_the_values_of_the_configuration_and_of_the_plan():
     assert (k.dt, k.timeout_ticks, k.resolution, k.origin_x) == (0.025, 20, 0.05, -0.05)
     assert (k.has_dock, k.dock_x, k.dock_y, k.dock_theta) == (True, 3.8, 1.0, 0.5)
     assert k.ticks_per_metre == approx(508.8 / (math.pi * 0.072))
-    assert math.exp(k.log_kept) == approx(0.1)
+    assert (k.pickup, k.kept, k.sample_pitch) == approx((0.9, 0.1, 0.01))
     for name in k.dtype.names:
         assert math.isfinite(float(k[name]))
         if name not in ('origin_x', 'origin_y', 'has_layers', 'noise'):

@@ -7,12 +7,14 @@ import time
 import types
 
 import pytest
+import rospy
 from diagnostic_updater import DiagnosticStatusWrapper
 
 from rumba_sim.model.battery import Battery, BatteryConfig
 from rumba_sim.model.errors import ConfigError, MapError, WorldError
 from rumba_sim.ros.common import maps, node, paths
 from rumba_sim.ros.common.requests import Requests
+from rumba_sim.ros.robot.robot_node import CoverageRequested
 from rumba_sim.ros.simulator import diagnostics, reconfigure, simulator
 from rumba_sim.ros.simulator.settings import TUNABLE, Rates, Settings
 
@@ -42,6 +44,25 @@ def test_requests_are_made_in_the_thread_of_the_owner_and_errors_go_to_the_calle
     assert thread is threading.current_thread()
     assert isinstance(error, WorldError)
     assert requests.call(threading.current_thread) is threading.current_thread()
+
+
+def test_an_error_in_what_was_posted_ends_the_loop_since_nobody_else_would_learn_of_it():
+    requests, later = Requests(), []
+    requests.post(lambda: later.append('before'))
+    requests.post(lambda: {}['lost'])
+    requests.post(lambda: later.append('after'))
+    with pytest.raises(KeyError, match='lost'):
+        requests.serve(time.monotonic())
+    assert later == ['before']
+
+
+def test_a_robot_that_is_removed_before_its_grid_is_sent_ends_nothing():
+    requests = Requests()
+
+    def closed(_):
+        raise rospy.ROSException('publish() to a closed topic')
+    CoverageRequested(requests, lambda: None).peer_subscribe('coverage', None, closed)
+    requests.serve(time.monotonic())
 
 
 def test_serving_ends_in_time_even_if_the_handler_of_a_signal_takes_longer():
@@ -87,6 +108,17 @@ def test_the_simulator_refuses_a_rate_whose_period_is_no_whole_number_of_ticks()
     with pytest.raises(ConfigError, match=r'^rates/odom is 30: must divide step_rate, 100: one of 0, 1, 2, 4, 5, '):
         Settings(step_rate=100, rates=Rates(odom=30))
     assert Settings(step_rate=60, rates=Rates(30, 10, 10, 10, 5, 0)).rates.odom == 30
+
+
+@pytest.mark.parametrize('speed', [0.0005, 5e-324, 0.00099999])
+def test_a_speed_at_which_time_would_seem_to_stand_still_is_refused(speed):
+    with pytest.raises(ConfigError, match=rf'^speed is {speed:g}: must be 0, or 0.001 to 1000000$'):
+        Settings(speed=speed)
+
+
+@pytest.mark.parametrize('speed', [0.0, 0.001, 1e6])
+def test_a_speed_of_zero_or_at_least_a_thousandth_is_valid(speed):
+    assert Settings(speed=speed).speed == speed
 
 
 @pytest.mark.parametrize('charge, level, message', [
@@ -143,11 +175,11 @@ def test_a_relative_path_begins_at_the_working_folder_or_where_roslaunch_was_sta
     assert paths.absolute('one.yaml') == str(working / 'one.yaml')
 
 
-@pytest.mark.parametrize('name', ['', 'a b', '/x', 'x/y', '1x', '_x', 'ä', 'xä', 'x\n', 'x٣'])
+@pytest.mark.parametrize('name', ['', 'a b', '/x', 'x/y', '1x', '_x', 'ä', 'xä', 'x\n', 'x٣', 65 * 'x'])
 def test_invalid_names_of_a_robot(name):
     assert simulator.NAME.fullmatch(name) is None
 
 
-@pytest.mark.parametrize('name', ['x', 'Rumba_2', 'r2_d2'])
+@pytest.mark.parametrize('name', ['x', 'Rumba_2', 'r2_d2', 64 * 'x'])
 def test_valid_names_of_a_robot(name):
     assert simulator.NAME.fullmatch(name)

@@ -88,6 +88,13 @@ def test_settings_that_cannot_be_are_refused_by_their_name(monkeypatch):
         robot_config('/sim2')
 
 
+@pytest.mark.parametrize('value', ['text', 'drive', 5, ['drive']])
+def test_settings_that_are_no_mapping_are_refused(monkeypatch, value):
+    given(monkeypatch, value)
+    with pytest.raises(ConfigError, match=r'^parameter /sim2/settings is .*: must be the settings of a simulator$'):
+        robot_config('/sim2')
+
+
 # --- the publisher ----------------------------------------------------------------------------------------------------
 
 @pytest.fixture()

@@ -1,5 +1,6 @@
-"""Commands and pen of a turtle, without a master."""
+"""Commands and pen of a turtle, and what happens without one, without a master."""
 
+import math
 import types
 
 import pytest
@@ -8,7 +9,9 @@ import rospy
 from rumba_sim.model.errors import ConfigError, WorldError
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.robot import Twist
-from rumba_sim.ros.turtlesim_body import turtle
+from rumba_sim.ros.common.requests import Requests
+from rumba_sim.ros.turtlesim_body import turtle, turtlesim_body
+from rumba_sim.ros.turtlesim_body.watch import GONE_AFTER, HUNG_AFTER, SILENT_AFTER, UNHEARD_AFTER, Watch
 
 PEN = (1, 2, 3, 8, False)
 
@@ -92,3 +95,80 @@ def test_without_turtlesim_the_message_says_how_to_install_it(monkeypatch):
     monkeypatch.setattr(turtle, 'PoseMessage', None)
     with pytest.raises(ConfigError, match='install turtlesim .*, or build compat/turtlesim'):
         turtle.Turtle('turtle1', None)
+
+
+# --- no turtle ------------------------------------------------------------------------------------------------------
+
+def said(watch, until, is_heard=False, since=100.0):
+    """The lines of a watch by the time since its start [s], asked every 0.25 s."""
+    times = [since + 0.25 * step for step in range(int(4 * until))]
+    found = [(now - since, watch.line(now, is_heard)) for now in times]
+    return [(passed, line) for passed, line in found if line]
+
+
+def test_a_turtle_that_is_missing_is_told_soon_and_every_10_s():
+    assert said(Watch('/a/pose', 100.0), 33) == [
+        (passed, 'no turtle: nothing publishes /a/pose') for passed in (UNHEARD_AFTER, 12.0, 22.0, 32.0)]
+
+
+def test_a_turtlesim_that_hangs_is_told_later():
+    assert said(Watch('/a/pose', 100.0), 15, is_heard=True) == [
+        (SILENT_AFTER, 'no pose on /a/pose for 10 s: turtlesim hangs, or its time stands still')]
+
+
+def test_while_poses_come_there_is_nothing_to_say():
+    watch = Watch('/a/pose', 100.0)
+    for now in range(101, 200):
+        assert not watch.see(now)
+        assert watch.line(now + 0.9, True) is None
+        assert not watch.is_gone(now + 0.9, True)
+
+
+def test_a_turtle_that_comes_back_is_noticed_once_and_missed_anew():
+    watch = Watch('/a/pose', 100.0)
+    assert watch.line(103.0, False)
+    assert [watch.see(104.0), watch.see(104.1)] == [True, False]
+    assert watch.line(106.2, False)
+
+
+def test_poses_that_are_not_finite_do_not_count():
+    watch = Watch('/a/pose', 100.0)
+    watch.see(101.0)
+    watch.see_odd(102.0)
+    assert watch.line(103.5, True) == (
+        '/a/pose has numbers that are not finite: turtlesim may miss its pictures; ignored')
+    assert not watch.is_gone(101.0 + GONE_AFTER, True)
+    assert watch.is_gone(101.1 + GONE_AFTER, True)
+
+
+@pytest.mark.parametrize('is_heard, bound', [(False, GONE_AFTER), (True, HUNG_AFTER)])
+def test_the_robot_is_gone_after_a_bound(is_heard, bound):
+    watch = Watch('/a/pose', 100.0)
+    assert not watch.is_gone(100.0 + bound, is_heard)
+    assert watch.is_gone(100.1 + bound, is_heard)
+
+
+def idle_body(monkeypatch):
+    """A body without topics and without a world: each pose that it obeys is an error."""
+    monkeypatch.setattr(turtlesim_body.rospy, 'is_shutdown', lambda: False)
+    body = turtlesim_body.TurtlesimBody.__new__(turtlesim_body.TurtlesimBody)
+    body._requests, body._watch = Requests(), Watch('/a/pose', 0.0)
+    return body
+
+
+POSE = {'x': 1.0, 'y': 2.0, 'theta': 0.5, 'linear_velocity': 0.0, 'angular_velocity': 0.0}
+
+
+def test_an_error_at_a_pose_ends_the_node(monkeypatch):
+    body = idle_body(monkeypatch)
+    body._requests.post(lambda: body._on_pose(types.SimpleNamespace(**POSE)))
+    with pytest.raises(AttributeError):
+        body.run()
+
+
+@pytest.mark.parametrize('field', POSE)
+@pytest.mark.parametrize('value', [math.nan, math.inf, -math.inf])
+def test_a_pose_that_is_not_finite_is_not_passed_on(monkeypatch, field, value):
+    body = idle_body(monkeypatch)
+    body._on_pose(types.SimpleNamespace(**{**POSE, field: value}))
+    assert body._watch.is_gone(GONE_AFTER + 0.1, True)

@@ -7,6 +7,7 @@ import pytest
 from pytest import approx
 from rooms import RADIUS, alone, crooked, drive, drove, quiet, room
 
+from rumba_sim.model.constants import constants
 from rumba_sim.model.errors import ConfigError, MapError, WorldError
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.robot_config import OdometryConfig, RobotConfig
@@ -176,7 +177,7 @@ def test_a_robot_for_which_there_is_no_free_position_is_refused():
     (lambda world: world.spawn('a', C), r"^'a' is taken: robots are a, b$"),
     (lambda world: world.spawn('c', Pose(-5.0, 0.0, 0.0)), r'^room: pose at \(-5\.00, 0\.00\) m lies outside the map'),
     (lambda world: world.spawn('c', Pose(0.1, 0.5, 0.0)),
-     r'^room: pose at \(0\.10, 0\.50\) m is 0\.100 m from the nearest wall: a robot of radius 0\.176 m does not fit$'),
+     r'^room: pose at \(0\.10, 0\.50\) m is 0\.100 m from the nearest wall: a robot of radius 0\.175 m does not fit$'),
     (lambda world: world.spawn('c', Pose(0.5, math.nan, 0.0)), r'^pose \(0\.5, nan, 0\.0\): must be finite numbers$'),
     (lambda world: world.spawn('c', Pose(0.5, 0.5, math.inf)), r'^pose \(0\.5, 0\.5, inf\): must be finite numbers$'),
     (lambda world: world.spawn('c', Pose(0.7, 0.5, 0.0)), r"^\(0\.70, 0\.50\) m: 'a' stands there$"),
@@ -242,7 +243,8 @@ def test_a_speed_of_more_than_a_radius_per_tick_and_cells_that_are_too_large_are
                                           r', a radius in a tick$'):
         World(PLAN, quiet(drive={'max_speed': 2.0}), 10)
     with pytest.raises(MapError, match=r'^room: cells of 0\.2 m are too coarse for a robot of radius 0\.17425 m$'):
-        World(room(4.0, 4.0, 0.2))
+        constants(RobotConfig(), room(4.0, 4.0, 0.2), 50)
+    assert World(room(4.0, 4.0, 0.2)).terrain.resolution == 0.025
 
 
 def test_a_start_where_no_robot_fits_is_refused():

@@ -3,16 +3,22 @@
 Compiled functions can call only compiled functions, and numba caches compiled code until the source file changes. So
 the file of the kernel is executed a second time, as a separate module in which every function is replaced by its
 compiled version. Code from the cache loads in a fraction of a second; compiling takes some seconds.
+
+numba caches beside the source file, or in the user's home if that folder cannot be written. If neither can, or the
+cache is damaged, or the disk is full, the kernel is compiled at each start.
 """
 
+import contextlib
 import importlib.util
 import inspect
+import os
 import sys
-from typing import Any
+from typing import Any, List
 
 import numba
 
 from rumba_sim.model import kernel
+from rumba_sim.model.errors import one_line
 
 
 def _compiled(path: str) -> Any:
@@ -24,8 +30,62 @@ def _compiled(path: str) -> Any:
     sys.modules[spec.name] = module  # numba looks for the module there when it loads code from its cache
     spec.loader.exec_module(module)
     for name, function in inspect.getmembers(module, inspect.isfunction):
-        setattr(module, name, numba.njit(cache=True)(function))
+        setattr(module, name, _cached(numba.njit(function), path))
     return module
 
 
+def _cached(function: Any, path: str) -> Any:
+    """A compiled function of a source file with its cache, if there is a place for one."""
+    if not (numba.config.CACHE_DIR or os.access(os.path.dirname(path), os.W_OK) or _knows_home()):
+        _say('no home folder is known')  # numba would take ~ for the name of a folder here, and make it
+        return function
+    try:
+        function.enable_caching()
+    except (RuntimeError, OSError) as exc:
+        _say(str(exc))
+    else:
+        function._cache = _Cache(function._cache)
+    return function
+
+
+def _knows_home() -> bool:
+    return os.path.isabs(os.environ.get('XDG_CACHE_HOME') or os.path.expanduser('~'))
+
+
+class _Cache:
+    """A cache of numba whose errors are no reason to fail."""
+
+    def __init__(self, cache: Any) -> None:
+        self._cache = cache
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self._cache, name)
+
+    def load_overload(self, *what: Any) -> Any:
+        """The compiled code, or None if it is not in the cache or cannot be read."""
+        try:
+            return self._cache.load_overload(*what)
+        except Exception as exc:  # whatever reading a damaged file leads to
+            _say(f'{self.cache_path}: {exc}')
+            with contextlib.suppress(OSError):
+                self._cache.flush()
+            return None
+
+    def save_overload(self, *what: Any) -> None:
+        """Keep compiled code for the next start, if that is possible."""
+        try:
+            self._cache.save_overload(*what)
+        except Exception as exc:
+            _say(f'{self.cache_path}: {exc}')
+
+
+def _say(reason: str) -> None:
+    """Say, once in a process, why the kernel does not come from a cache."""
+    if not _said:
+        _said.append(reason)
+        print(f'rumba_sim: the kernel is compiled anew, which takes some seconds: {one_line(reason)}; '
+              'NUMBA_CACHE_DIR can name a writable folder for its cache', file=sys.stderr)
+
+
+_said: List[str] = []
 fast: Any = _compiled(kernel.__file__)

@@ -5,9 +5,10 @@ import difflib
 import math
 from typing import Any, Iterator, List, Mapping, Optional, Tuple, Type, TypeVar
 
-from rumba_sim.model.errors import ConfigError
+from rumba_sim.model.errors import ConfigError, quoted
 
 Settings = TypeVar('Settings')
+LONGEST_NAME = 80  # [characters] that are compared with the known names
 LARGEST = 1e300  # a larger number is out of range: an integer of YAML may be too large for a float
 Field = Any  # of dataclasses.Field: Python 3.8 cannot subscript it at run time
 
@@ -96,23 +97,23 @@ def updated(settings: Settings, mapping: Mapping[str, Any], where: str) -> Setti
 
 def _updated(settings: Settings, mapping: Mapping[str, Any], path: str) -> Settings:
     fields = {field.name: field for field in dataclasses.fields(settings)}
+    if not isinstance(mapping, Mapping):
+        raise ConfigError(f'{path[:-1]} is {quoted(mapping)}: must be a mapping of {", ".join(fields)}'.lstrip())
     changes = {}
     for name, value in mapping.items():
         if name not in fields:
-            raise ConfigError(f'{path}{name} is unknown: {nearest(name, list(fields))}')
-        if 'section' not in fields[name].metadata:
-            changes[name] = _checked(fields[name], value, path)
-        elif isinstance(value, Mapping):
+            raise ConfigError(f'{path}{name if isinstance(name, str) else quoted(name)} is unknown: '
+                              f'{nearest(name, list(fields))}')
+        if 'section' in fields[name].metadata:
             changes[name] = _updated(getattr(settings, name), value, f'{path}{name}/')
         else:
-            known = ', '.join(names(fields[name].metadata['section']))
-            raise ConfigError(f'{path}{name} is {value!r}: must be a mapping of {known}')
+            changes[name] = _checked(fields[name], value, path)
     return dataclasses.replace(settings, **changes)
 
 
 def nearest(name: Any, known: List[str]) -> str:
     """End of a message about an unknown name: the known name that is most similar, or all known names."""
-    close = difflib.get_close_matches(str(name), known, n=1)
+    close = difflib.get_close_matches(name[:LONGEST_NAME].lower(), known, n=1) if isinstance(name, str) else []
     return f'did you mean {close[0]!r}?' if close else f'known are {", ".join(known)}'
 
 
@@ -121,7 +122,7 @@ def _checked(field: Field, value: Any, path: str) -> Any:
     if wanted is float and type(value) is int:
         value = float(value) if abs(value) < LARGEST else math.inf
     if type(value) is not wanted or not _in_range(field, value):
-        raise ConfigError(f'{path}{field.name} is {value!r}: must be {_range(field)} {_unit(field)}'.rstrip())
+        raise ConfigError(f'{path}{field.name} is {quoted(value)}: must be {_range(field)} {_unit(field)}'.rstrip())
     return value
 
 

@@ -59,7 +59,9 @@ class Constants(NamedTuple):
     halo: float  # range of the force field [m]
     # brush
     brush_width: float  # [m]
-    log_kept: float  # natural logarithm of the share of dirt that one pass leaves
+    sample_pitch: float  # side of the squares of the floor that hold one sample point each [m]
+    pickup: float  # share of the dirt that one pass takes
+    kept: float  # share of the dirt that one pass leaves
     # battery
     capacity: float  # [Ah]
     idle_current: float  # [A]
@@ -81,17 +83,24 @@ def constants(config: RobotConfig, plan: FloorPlan, step_rate: float) -> Array:
     """The record of `Constants` that the kernel reads, as an array of one element.
 
     Raises:
-        ConfigError: a robot could move by more than its radius in one tick.
         MapError: the cells are larger than the radius of a robot.
+    """
+    if plan.resolution > config.drive.radius:
+        raise MapError(f'{plan.name}: cells of {plan.resolution:g} m are too coarse for a robot of radius '
+                       f'{config.drive.radius:g} m')
+    return np.array([tuple(_values(config, plan, step_rate))], RECORD)
+
+
+def check_speed(config: RobotConfig, step_rate: float) -> None:
+    """Check the highest speed of a robot.
+
+    Raises:
+        ConfigError: it could move by more than its radius in one tick.
     """
     drive = config.drive
     if drive.max_speed > drive.radius * step_rate:
         raise ConfigError(f'drive/max_speed is {drive.max_speed:g}: at {step_rate:g} ticks a second must be at most '
                           f'{drive.radius * step_rate:g} [m/s], a radius in a tick')
-    if plan.resolution > drive.radius:
-        raise MapError(f'{plan.name}: cells of {plan.resolution:g} m are too coarse for a robot of radius '
-                       f'{drive.radius:g} m')
-    return np.array([tuple(_values(config, plan, step_rate))], RECORD)
 
 
 def _values(config: RobotConfig, plan: FloorPlan, step_rate: float) -> Constants:
@@ -101,7 +110,7 @@ def _values(config: RobotConfig, plan: FloorPlan, step_rate: float) -> Constants
     return Constants(
         dt=1.0 / step_rate, origin_x=plan.origin[0], origin_y=plan.origin[1], resolution=plan.resolution,
         has_layers=plan.cliff is not None or plan.carpet is not None,
-        radius=drive.radius, reach=_reach(drive.radius, plan.resolution), wheel_base=drive.wheel_base,
+        radius=drive.radius, reach=clearance_needed(drive.radius, plan.resolution), wheel_base=drive.wheel_base,
         ticks_per_metre=drive.ticks_per_turn / (math.pi * drive.wheel_diameter), max_speed=drive.max_speed,
         max_turn_rate=drive.max_turn_rate, acceleration=drive.acceleration, dead_band=drive.dead_band,
         timeout_ticks=max(round(drive.command_timeout * step_rate), 1), noise=odometry.noise,
@@ -112,14 +121,14 @@ def _values(config: RobotConfig, plan: FloorPlan, step_rate: float) -> Constants
         contact_distance=dock.contact_distance, contact_angle=dock.contact_angle,
         release_distance=dock.release_distance, release_angle=dock.release_angle, buoy_range=dock.buoy_range,
         buoy_half=0.5 * dock.buoy_field, buoy_overlap_half=0.5 * dock.buoy_overlap, halo=dock.halo,
-        brush_width=brush.width, log_kept=math.log1p(-brush.pickup),
+        brush_width=brush.width, sample_pitch=plan.sample_pitch, pickup=brush.pickup, kept=1.0 - brush.pickup,
         capacity=battery.capacity, idle_current=battery.idle_current, wheel_current_slow=battery.wheel_current_slow,
         wheel_current=battery.wheel_current, wheel_speed=battery.wheel_speed, brush_current=battery.brush_current,
         charge_current=battery.charge_current, trickle_current=battery.trickle_current,
         taper_start=battery.taper_start, drain=battery.drain)
 
 
-def _reach(radius: float, resolution: float) -> float:
+def clearance_needed(radius: float, resolution: float) -> float:
     """The interpolated clearance [m] that keeps a body of a radius [m] out of the walls.
 
     Bilinear interpolation of the distance to a corner is too large by resolution^2 / 8 * (sum of the second

@@ -1,4 +1,4 @@
-"""The state of the floor: which cells are swept, and how much dirt is left in each."""
+"""The state of the floor: how much of it is swept, and how much dirt is left."""
 
 import math
 
@@ -9,6 +9,7 @@ from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.kernel import Array
 from rumba_sim.model.robot_config import RobotConfig
+from rumba_sim.model.sweep import Sweep
 
 DUST = 0.3  # dirt in a cell outside all spots
 AREA_PER_SPOT = 2.0  # [m^2] of free floor for each spot of dirt
@@ -20,61 +21,66 @@ class Floor:
     """The floor of a plan that can be cleaned, and how far it is clean.
 
     Attributes:
-        cells: uint8 (rows, columns), the bits BLOCKED, CLIFF, CARPET, REACHABLE, SWEPT of `kernel`.
-        dirt: float32 (rows, columns), 0 in a clean cell.
-        tally: array of one record (`kernel.TALLY`): number of swept reachable cells, and dirt left on reachable cells.
+        cells: uint8 (rows, columns), the bits BLOCKED, CLIFF and CARPET of `kernel`.
+        dirt: float32 (rows, columns), on each cell in the beginning.
+        sweep: what was swept since then.
     """
 
     def __init__(self, plan: FloorPlan, config: RobotConfig, start: Pose, generator: np.random.Generator) -> None:
         """Create an unswept floor with random dirt.
 
         Args:
-            plan: the floor plan.
-            config: of the robots, whose radius and brush decide which cells are reachable.
-            start: pose [m, rad], map frame, from which cells are reachable.
+            plan: the refined floor plan.
+            config: of the robots, whose radius and brush decide what can be reached.
+            start: pose [m, rad], map frame, from which that is.
             generator: source of the random dirt.
 
         Raises:
             MapError: a robot does not fit at the start.
         """
-        reachable = plan.reachable(start.x, start.y, config.drive.radius, config.brush.width)
         self.cells = np.where(plan.free, 0, kernel.BLOCKED).astype(np.uint8)
-        self.cells[reachable] |= kernel.REACHABLE
         for layer, bit in ((plan.cliff, kernel.CLIFF), (plan.carpet, kernel.CARPET)):
             if layer is not None:
                 self.cells[layer & plan.free] |= bit
         self.dirt = _random_dirt(plan, generator)
-        self._reachable = int(np.count_nonzero(reachable))
-        self._dirt = float(np.sum(self.dirt[reachable], dtype=np.float64))
-        self._cell_area = plan.resolution ** 2
-        self.tally = np.zeros(1, kernel.TALLY)
-        self.tally[0]['dirt'] = self._dirt
+        self.sweep = Sweep(plan, config)
+        self.sweep.begin(start.x, start.y)
+        reachable, _ = self.sweep.counts(plan.sample_squares)
+        self._dirt = float(np.sum(self.dirt * reachable, dtype=np.float64))
+        self.sweep.tally[0]['dirt'] = self._dirt
 
     @property
     def reachable_area(self) -> float:
         """Area that the brush can reach [m^2]."""
-        return self._reachable * self._cell_area
+        return self.sweep.reachable_area
 
     @property
     def cleaned_area(self) -> float:
         """Part of the reachable area that was swept at least once [m^2]."""
-        return int(self.tally[0]['swept']) * self._cell_area
+        return self.sweep.cleaned_area
 
     @property
     def coverage(self) -> float:
         """cleaned_area / reachable_area [0..1]; 1 if nothing is reachable."""
-        return int(self.tally[0]['swept']) / self._reachable if self._reachable else 1.0
+        return self.sweep.coverage
 
     @property
     def dirt_left(self) -> float:
-        """Share of the dirt on reachable cells that is still there [0..1]."""
-        return min(max(float(self.tally[0]['dirt']) / self._dirt, 0.0), 1.0) if self._dirt else 0.0
+        """Share of the dirt on the reachable floor that is still there [0..1]."""
+        return min(max(float(self.sweep.tally[0]['dirt']) / self._dirt, 0.0), 1.0) if self._dirt else 0.0
 
-    def swept(self) -> Array:
-        """int8 (rows, columns), as for nav_msgs/OccupancyGrid: 100 swept, 0 not swept, -1 not reachable."""
-        swept = np.where(self.cells & kernel.SWEPT, 100, 0).astype(np.int8)
-        swept[self.cells & kernel.REACHABLE == 0] = -1
-        return swept
+    def swept(self, squares: int) -> Array:
+        """How much of each part of the floor is swept, as for nav_msgs/OccupancyGrid.
+
+        Args:
+            squares: of samples along the side of a part.
+
+        Returns:
+            int8 (rows, columns) of the parts: percent of what can be reached there, rounded down; -1 if nothing can.
+        """
+        reachable, swept = self.sweep.counts(squares)
+        percent = 100 * swept.astype(np.int32) // np.maximum(reachable, 1)
+        return np.where(reachable > 0, percent, -1).astype(np.int8)
 
 
 def _random_dirt(plan: FloorPlan, generator: np.random.Generator) -> Array:

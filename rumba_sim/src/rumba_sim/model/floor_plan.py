@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NamedTuple, Optional, Tuple
+from typing import TYPE_CHECKING, Any, NamedTuple, Optional, Tuple
 
 import numpy as np
 from scipy import ndimage
@@ -18,6 +18,9 @@ if TYPE_CHECKING:  # NumPy 1.17 of Ubuntu 20.04 has no numpy.typing
 OCCUPIED, FREE, UNKNOWN = 100, 0, -1  # the values of nav_msgs/OccupancyGrid
 MAX_CELLS = 25_000_000  # the distance fields of a larger map would need gigabytes
 MAX_SKIP = 255  # [cells] the largest number in a byte
+FINE = 0.025  # [m] side of the cells of a refined plan, at most: 36 of them cover a robot
+SAMPLE_PITCH = 0.01  # [m] side of the squares with one sample point each, at most: 17 of them lie across a brush
+MAX_SAMPLES = 25_000_000  # a byte each; on larger floors the squares are larger
 ROUNDING = 1e-9  # [m] by which two equal lengths, computed in two ways, may differ
 
 
@@ -75,6 +78,7 @@ class FloorPlan:
         distances = _distances(free)
         self.clearance = distances * self.resolution
         self.skips = _skips(distances)
+        self._refined: Optional[FloorPlan] = None
         self.safe_clearance = self.clearance
         if self.cliff is not None:
             self.safe_clearance = _distances(free & ~self.cliff) * self.resolution
@@ -160,41 +164,45 @@ class FloorPlan:
             raise MapError(f'{place} is {clearance:.3f} m from the nearest {nearest}: '
                            f'a robot of radius {radius:.3f} m does not fit')
 
-    def reachable(self, x: float, y: float, radius: float, brush_width: float) -> NDArray[np.bool_]:
-        """Which cells a round robot with the brush across its middle can sweep from a start.
+    def refined(self) -> FloorPlan:
+        """The same floor with cells of at most FINE, or this plan if its cells are small enough.
 
-        The robot may stand in a cell if it fits at the centre of the cell, and moves from such a cell to its four
-        neighbours. The brush sweeps the free cells whose centres are at most half its width from where it stands.
-
-        Args:
-            x, y: the start [m]; the robot may stand in its cell.
-            radius: of the robot [m].
-            brush_width: [m]
-
-        Returns:
-            bool (rows, columns)
-
-        Raises:
-            MapError: the robot does not fit at the start.
+        Distances between the nodes are interpolated, so that smaller cells make narrow passages wider and corners
+        sharper, up to what is drawn. On a huge map the cells become no smaller than MAX_CELLS allows.
         """
-        self.check_pose(Pose(x, y, 0.0), radius, 'start')
-        clearance = self.safe_clearance
-        at_centres = (clearance[:-1, :-1] + clearance[:-1, 1:] + clearance[1:, :-1] + clearance[1:, 1:]) / 4.0
-        fits = at_centres >= radius - ROUNDING
-        start = self.cell(x, y)
-        fits[start] = True
-        labels, _ = ndimage.label(fits)
-        stands = labels == labels[start]
-        swept = ndimage.distance_transform_edt(~stands) * self.resolution <= brush_width / 2.0 + ROUNDING
-        if self.cliff is not None:
-            swept &= ~self.cliff
-        return np.asarray(swept & self.free)
+        parts = self._parts(FINE, MAX_CELLS)
+        if parts == 1:
+            return self
+        if self._refined is None:
+            cliff, carpet = (None if layer is None else _enlarged(layer, parts) for layer in (self.cliff, self.carpet))
+            self._refined = FloorPlan(self.name, _enlarged(self.occupancy, parts), self.resolution / parts, self.origin,
+                                      cliff=cliff, carpet=carpet, dock=self.dock, start=self.start)
+        return self._refined
+
+    @property
+    def sample_squares(self) -> int:
+        """Number n of squares along the side of a cell: the sweep is counted at one point in each of n x n squares."""
+        return self._parts(SAMPLE_PITCH, MAX_SAMPLES)
+
+    @property
+    def sample_pitch(self) -> float:
+        """Side of the squares with one sample point each [m]."""
+        return self.resolution / self.sample_squares
+
+    def _parts(self, size: float, most: int) -> int:
+        """Into how many parts to divide the side of a cell, for parts of a size [m] and `most` parts in all."""
+        return max(min(math.ceil(self.resolution / size - ROUNDING), math.isqrt(most // self.occupancy.size)), 1)
 
     def most_open_pose(self) -> Pose:
         """The node with the largest safe clearance, facing along x."""
         row, column = np.unravel_index(int(np.argmax(self.safe_clearance)), self.safe_clearance.shape)
         return Pose(self.origin[0] + float(column) * self.resolution,
                     self.origin[1] + float(row) * self.resolution, 0.0)
+
+
+def _enlarged(grid: Any, parts: int) -> Any:
+    """A grid in which each cell is divided into `parts` x `parts` equal cells."""
+    return grid.repeat(parts, 0).repeat(parts, 1)
 
 
 def check_size(name: str, shape: Tuple[int, ...]) -> None:

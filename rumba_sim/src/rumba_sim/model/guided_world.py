@@ -43,8 +43,8 @@ class GuidedWorld:
         """
         self.world = World(plan, config, step_rate, seed)
         self._name = name
-        self._wheels: kernel.Array = np.zeros(1, kernel.ROBOT)  # of a robot that drives as `wish` says
-        self.world.spawn(name, None, state_of_charge, brushes_up)
+        self._wheels: kernel.Array = np.zeros(1, kernel.ROBOT)  # of a robot that drives as `wish` says ...
+        self._driving = self.world.spawn(name, None, state_of_charge, brushes_up)  # ... which is this one
 
     @property
     def robot(self) -> Robot:
@@ -67,7 +67,6 @@ class GuidedWorld:
     def reset(self) -> None:
         """Start again: dirty floor, tick 0, the robot at rest as it began."""
         self.world.reset()
-        self._wheels.fill(0)
 
     def _lead(self, pose: Pose, is_driven: bool) -> None:
         self.world.lead(np.array([[*pose, is_driven]], np.float64))
@@ -77,12 +76,15 @@ class GuidedWorld:
 
         It stops before it drives into a wall. To be called once in each tick, since its wheels accelerate.
         """
+        if self._driving is not self.robot:  # the world was reset
+            self._driving = self.robot
+            self._wheels.fill(0)
         wheels, state, constants = self._wheels[0], self.robot.state, self.world.constants[0]
         for name in INPUTS:
             wheels[name] = state[name]
         fast.drive(wheels, constants, self.world.tick)
         left, right = float(wheels['left_speed']), float(wheels['right_speed'])
-        forward = fast.halted(state, constants, self.world.plan.clearance, 0.5 * (left + right))
+        forward = fast.halted(state, constants, self.world.terrain.clearance, 0.5 * (left + right))
         return Twist(forward, (right - left) / self.world.config.drive.wheel_base)
 
     def check(self, pose: Pose) -> Pose:

@@ -7,7 +7,10 @@ Units: [m], [rad], [s], [A], [Ah]. Arguments that many functions share:
     k: the record of constants (`constants.Constants`).
     robots: array of records of type ROBOT.
     field: float64 (rows + 1, columns + 1), clearance at the corners of the cells.
-    cells: uint8 (rows, columns), the bits BLOCKED, CLIFF, CARPET, REACHABLE and SWEPT of each cell.
+    cells: uint8 (rows, columns), the bits BLOCKED, CLIFF and CARPET of each cell.
+    samples: uint8 (n * rows, n * columns), the bits SWEEPABLE and REACHABLE, and how often the brush passed, of the
+        sample point in each of the n x n squares of a cell.
+    dirt: float32 (rows, columns), dirt on the samples of each cell in the beginning.
     skips: uint8 (rows, columns), how many cells a beam may skip from anywhere in a cell (`FloorPlan.skips`).
 In arrays of cells row 0 lies at the lowest y.
 """
@@ -21,7 +24,11 @@ Record = Any  # an element of an array of one of the record types below
 Array = Any  # numpy.ndarray
 Triple = Tuple[float, float, float]
 
-BLOCKED, CLIFF, CARPET, REACHABLE, SWEPT = 1, 2, 4, 8, 16
+BLOCKED, CLIFF, CARPET = 1, 2, 4  # bits of a cell
+SWEEPABLE, REACHABLE, PASS = 1, 2, 4  # bits of a sample; the bits from PASS on count how often the brush passed it
+MOST_PASSES = 63  # that fit into a byte; after so many no dirt is left
+BEND = 0.15  # [rad] turns are swept in pieces of at most this: the brush is up to 0.3 % longer or shorter in them
+STRIDE = 0.03  # [m] the floor is swept in strides of about this: sweeping in each tick takes several times longer
 LEFT, RIGHT = 1, 2  # bits of the bumper
 NO_BEAM, FORCE_FIELD, GREEN_BUOY, RED_BUOY = 0, 1, 4, 8  # rumba_msg/DockStatus
 INNER, OUTER = 0.26, 1.57  # [rad] how far the left receiver sees to the right and to the left
@@ -34,19 +41,18 @@ NUDGE = 1e-7  # [cells] that carries a beam across a border; a beam with less dr
 ROBOT = np.dtype((np.record, np.dtype([(name, 'f8') for name in (
     'x', 'y', 'theta', 'left_speed', 'right_speed', 'command_v', 'command_w', 'left_scale', 'right_scale',
     'left_path', 'right_path', 'odom_x', 'odom_y', 'odom_theta', 'odom_v', 'odom_w', 'charge', 'current', 'distance',
-    'brush_time', 'contact_angle')] + [
+    'brush_time', 'contact_angle', 'swept_x', 'swept_y', 'swept_theta', 'swept_distance')] + [
         (name, 'i8') for name in ('command_tick', 'left_ticks', 'right_ticks', 'bumps', 'alone_until')] + [
-            (name, 'u1') for name in ('bumper', 'brushes_up', 'docked', 'fallen')], align=True)))
+            (name, 'u1') for name in ('bumper', 'brushes_up', 'docked', 'fallen', 'sweeps')], align=True)))
 TALLY = np.dtype((np.record, np.dtype([('swept', 'i8'), ('dirt', 'f8')], align=True)))
 
 
-def advance(robots: Array, constants: Array, field: Array, cells: Array, dirt: Array, tallies: Array,
+def advance(robots: Array, constants: Array, field: Array, cells: Array, samples: Array, dirt: Array, tallies: Array,
             noise: Array, led: Array, tick: int, ticks: int) -> None:
     """Simulate `ticks` ticks; the first of them has the number `tick`.
 
     Args, apart from those above:
         constants: array of one record `k`.
-        dirt: float32 (rows, columns), dirt in each cell.
         tallies: array of one record of type TALLY.
         noise: float64 (robots, any, 2), standard normal; tick t uses row t modulo the number of rows.
         led: float64 (robots, 4), if something else moves the robots: x, y and theta after each tick, and 1 if the
@@ -68,9 +74,7 @@ def advance(robots: Array, constants: Array, field: Array, cells: Array, dirt: A
                 traction = stand(robot, k, cells)
             count(robot, k, traction, noise[me, now % noise.shape[1]])
             touch(robots, me, k, field, now, toward_x, toward_y)
-            if not robot.brushes_up and robot.charge > 0.0:
-                robot.brush_time += k.dt
-                sweep(robot, k, cells, dirt, tally, from_x, from_y, from_theta)
+            brush(robot, k, samples, dirt, tally, (from_x, from_y, from_theta))
             if k.has_dock:
                 robot.docked = at_contacts(robot, k)
             robot.current = battery_current(robot.charge, k, load(robot, k), robot.docked)
@@ -305,48 +309,174 @@ def count(robot: Record, k: Record, traction: float, noise: Array) -> None:
 
 # --- floor --------------------------------------------------------------------------------------------------------
 
-def sweep(robot: Record, k: Record, cells: Array, dirt: Array, tally: Record, from_x: float, from_y: float,
-          from_theta: float) -> None:
-    """Clean the cells that the brush, a line across the middle of the robot, passes over in one tick.
+def brush(robot: Record, k: Record, samples: Array, dirt: Array, tally: Record, start: Triple) -> None:
+    """Sweep the floor if the brush works, stride by stride; `start` is the pose at the beginning of the tick.
 
-    The movement is divided into lines, less than a cell apart. A cell loses the share `pickup` of its dirt in one pass,
-    at any speed: each line removes dirt in proportion to its distance from the line before.
+    `swept_x`, `swept_y` and `swept_theta` are the pose up to which the floor is swept.
     """
-    turn = wrap(robot.theta - from_theta)
-    distance = math.hypot(robot.x - from_x, robot.y - from_y)
-    if distance == 0.0 and turn == 0.0:
+    works = not robot.brushes_up and robot.charge > 0.0
+    if robot.sweeps and (not works or is_reversing(robot)):
+        sweep(k, samples, dirt, tally, (robot.swept_x, robot.swept_y, robot.swept_theta), start)
+        robot.sweeps = False
+    if not works:
         return
-    lines = 1 + int((distance + 0.5 * abs(turn) * k.brush_width) / k.resolution)
-    points = 2 + int(2.0 * k.brush_width / k.resolution)
-    kept = math.exp(k.log_kept * (distance + 0.25 * abs(turn) * k.brush_width) / (lines * k.resolution))
-    for line in range(1, lines + 1):
-        share = line / lines
-        theta = from_theta + share * turn
-        x, y = from_x + share * (robot.x - from_x), from_y + share * (robot.y - from_y)
-        half_x, half_y = -0.5 * k.brush_width * math.sin(theta), 0.5 * k.brush_width * math.cos(theta)
-        last_row, last_column = -1, -1
-        for point in range(points):
-            side = 2.0 * point / (points - 1) - 1.0
-            column = int(math.floor((x + side * half_x - k.origin_x) / k.resolution))
-            row = int(math.floor((y + side * half_y - k.origin_y) / k.resolution))
-            if (row != last_row or column != last_column) and (
-                    0 <= row < cells.shape[0] and 0 <= column < cells.shape[1]):
-                last_row, last_column = row, column
-                clean(cells, dirt, tally, row, column, kept)
+    robot.brush_time += k.dt
+    if not robot.sweeps:
+        robot.sweeps = True
+        robot.swept_x, robot.swept_y, robot.swept_theta = start
+        robot.swept_distance = robot.distance
+    if robot.distance - robot.swept_distance >= STRIDE or abs(wrap(robot.theta - robot.swept_theta)) >= BEND:
+        end = robot.x, robot.y, robot.theta
+        sweep(k, samples, dirt, tally, (robot.swept_x, robot.swept_y, robot.swept_theta), end)
+        robot.swept_x, robot.swept_y, robot.swept_theta = end
+        robot.swept_distance = robot.distance
 
 
-def clean(cells: Array, dirt: Array, tally: Record, row: int, column: int, kept: float) -> None:
-    """Let one line of the brush pass over one cell; the share `kept` of its dirt stays."""
-    bits = int(cells[row, column])
-    if bits & (BLOCKED | CLIFF):
+def is_reversing(robot: Record) -> bool:
+    """Whether a robot drives back over the floor that it has not yet swept since its last stride."""
+    along = (robot.x - robot.swept_x) * math.cos(robot.theta) + (robot.y - robot.swept_y) * math.sin(robot.theta)
+    return along * (robot.left_speed + robot.right_speed) < 0.0
+
+
+def sweep(k: Record, samples: Array, dirt: Array, tally: Record, start: Triple, end: Triple) -> None:
+    """Clean what the brush, a segment across the middle of the robot, passes over from one pose to another.
+
+    The brush passes over a sample point if the point changes from one side of the line through the brush to the other
+    while it is at most half the brush's width from the middle. Each pass takes the same share of the dirt.
+    """
+    turn = wrap(end[2] - start[2])
+    pieces = 1 + int(abs(turn) / BEND)
+    before = start
+    for piece in range(1, pieces):
+        share = piece / pieces
+        after = (start[0] + share * (end[0] - start[0]), start[1] + share * (end[1] - start[1]),
+                 start[2] + share * turn)
+        pass_over(k, samples, dirt, tally, before, after)
+        before = after
+    pass_over(k, samples, dirt, tally, before, end)
+
+
+def pass_over(k: Record, samples: Array, dirt: Array, tally: Record, start: Triple, end: Triple) -> None:
+    """Let the brush pass from one pose to another; the headings differ by BEND at most.
+
+    Only samples near the brush in the middle of this movement are looked at: line by line (rows, or columns if the
+    brush lies more along x), and in each line from the first to the last that the brush can pass. Lengths inside this
+    function are in squares of samples.
+    """
+    x, y, cos, sin = to_squares(k, start)
+    to_x, to_y, to_cos, to_sin = to_squares(k, end)
+    half = 0.5 * k.brush_width / k.sample_pitch
+    turn, distance = abs(wrap(end[2] - start[2])), math.hypot(to_x - x, to_y - y)
+    middle_cos, middle_sin = cos + to_cos, sin + to_sin
+    is_upright = abs(middle_cos) >= abs(middle_sin)  # the lines are rows
+    slope = -middle_sin / middle_cos if is_upright else -middle_cos / middle_sin  # of the brush, from line to line
+    steep = math.sqrt(1.0 + slope * slope)
+    middle_x, middle_y = 0.5 * (x + to_x), 0.5 * (y + to_y)
+    middle_line, middle_across = (middle_y, middle_x) if is_upright else (middle_x, middle_y)
+    count, length = (samples.shape[0], samples.shape[1]) if is_upright else (samples.shape[1], samples.shape[0])
+    lines = half / steep + 0.5 * (distance + turn * half)
+    for line in range(max(int(middle_line - lines), 0), min(int(middle_line + lines) + 1, count)):
+        off = line + 0.5 - middle_line
+        centre = middle_across + slope * off
+        margin = 0.505 * (distance + turn * (abs(off) + 0.5) * steep) * steep + 0.5 * abs(slope)
+        for across in range(max(int(centre - margin), 0), min(int(centre + margin) + 1, length)):
+            row, column = (line, across) if is_upright else (across, line)
+            u, v = sample_point(row, column)
+            ahead = (u - x) * cos + (v - y) * sin
+            ahead_after = (u - to_x) * to_cos + (v - to_y) * to_sin
+            if (ahead > 0.0) != (ahead_after > 0.0):
+                beside = (v - y) * cos - (u - x) * sin
+                beside_after = (v - to_y) * to_cos - (u - to_x) * to_sin
+                if abs(beside + ahead / (ahead - ahead_after) * (beside_after - beside)) <= half:
+                    clean(k, samples, dirt, tally, row, column)
+
+
+def to_squares(k: Record, pose: Triple) -> Tuple[float, float, float, float]:
+    """The position of a pose in squares of samples from the corner of the floor, and cosine and sine of its heading."""
+    return ((pose[0] - k.origin_x) / k.sample_pitch, (pose[1] - k.origin_y) / k.sample_pitch,
+            math.cos(pose[2]), math.sin(pose[2]))
+
+
+def sample_point(row: int, column: int) -> Tuple[float, float]:
+    """The sample point of a square (row, column) of the floor, along x and along y [squares].
+
+    It lies anywhere in its square, as a hash of row and column says (stratified sampling). So a strip of floor contains
+    points in proportion to its area whatever its heading; points in the middles of the squares would form lines.
+    """
+    bits = (row * 0x9E3779B1 + column * 0x85EBCA77) & 0xFFFFFFFF
+    bits = ((bits ^ (bits >> 15)) * 0x2C1B3C6D) & 0xFFFFFFFF
+    bits ^= bits >> 13
+    return column + (bits & 0xFFFF) / 65536.0, row + (bits >> 16) / 65536.0
+
+
+def clean(k: Record, samples: Array, dirt: Array, tally: Record, row: int, column: int) -> None:
+    """Count one more pass over the sample of a square (row, column), and take its share of the dirt."""
+    sample = int(samples[row, column])
+    passes = sample // PASS
+    if passes == MOST_PASSES or not sample & SWEEPABLE:
         return
-    before = float(dirt[row, column])
-    dirt[row, column] = before * kept
-    if bits & REACHABLE:
-        tally.dirt -= before - float(dirt[row, column])
-        if not bits & SWEPT:
-            tally.swept += 1
-    cells[row, column] = bits | SWEPT
+    samples[row, column] = sample + PASS
+    if sample & REACHABLE:
+        squares = samples.shape[0] // dirt.shape[0]
+        tally.swept += passes == 0
+        tally.dirt -= float(dirt[row // squares, column // squares]) * k.pickup * k.kept ** passes
+
+
+# --- reach --------------------------------------------------------------------------------------------------------
+
+def mark_reachable(field: Array, resolution: float, stands: Array, reach: float, half: float, samples: Array) -> int:
+    """Set the bit REACHABLE of all samples that the brush can reach; returns how many these are.
+
+    Args, apart from those above:
+        resolution: side of a cell [m].
+        stands: bool (2 * rows + 1, 2 * columns + 1), where a robot can stand and drive to: at the corners of the cells,
+            in the middle of their sides, and at their centres.
+        reach: clearance that a robot needs [m].
+        half: half the width of the brush [m].
+    """
+    squares, count = samples.shape[0] // (field.shape[0] - 1), 0
+    for row in range(samples.shape[0]):
+        for column in range(samples.shape[1]):
+            if samples[row, column] & SWEEPABLE:
+                across, up = sample_point(row, column)
+                if is_reachable(field, resolution, stands, reach, half, across / squares, up / squares):
+                    samples[row, column] |= REACHABLE
+                    count += 1
+    return count
+
+
+def is_reachable(field: Array, resolution: float, stands: Array, reach: float, half: float, u: float,
+                 v: float) -> bool:
+    """Whether the point (u, v) [cells] lies within `half` of a position at which a robot can stand.
+
+    The nearest such position is usually up the slope of the clearance. If that leads nowhere, all positions nearby are
+    tried: around each of them a robot can stand as far as its clearance is larger than it needs.
+    """
+    gap, along_u, along_v = interpolated(field, u, v)
+    if reach - gap > half:
+        return False
+    slope = math.hypot(along_u, along_v)
+    away = max(reach - gap, 0.0) / resolution / slope if slope > 0.0 else 0.0
+    to_u, to_v = u + away * along_u, v + away * along_v
+    if interpolated(field, to_u, to_v)[0] >= reach - PUSH and stands_beside(stands, to_u, to_v):
+        return True
+    size = int(math.ceil(2.0 * half / resolution)) + 2
+    row, column = int(round(2.0 * v)), int(round(2.0 * u))
+    for i in range(max(row - size, 0), min(row + size + 1, stands.shape[0])):
+        for j in range(max(column - size, 0), min(column + size + 1, stands.shape[1])):
+            if stands[i, j]:
+                spare = interpolated(field, 0.5 * j, 0.5 * i)[0] - reach
+                if math.hypot(0.5 * j - u, 0.5 * i - v) * resolution - spare <= half:
+                    return True
+    return False
+
+
+def stands_beside(stands: Array, u: float, v: float) -> bool:
+    """Whether a robot can stand at one of the four positions of `stands` around the point (u, v) [cells]."""
+    i, j = int(2.0 * v), int(2.0 * u)
+    if not (0 <= i < stands.shape[0] - 1 and 0 <= j < stands.shape[1] - 1):
+        return False
+    return bool(stands[i, j] or stands[i, j + 1] or stands[i + 1, j] or stands[i + 1, j + 1])
 
 
 # --- energy -------------------------------------------------------------------------------------------------------
@@ -471,12 +601,12 @@ def scan(robots: Array, me: int, k: Record, skips: Array, cells: Array, fan: Arr
         if other != me:
             see(robots[other].x - robot.x, robots[other].y - robot.y, robot.theta, k, ranges)
     for beam in range(len(ranges)):
+        if ranges[beam] < k.range_max:
+            ranges[beam] += k.range_noise * noise[beam]
         if ranges[beam] >= k.range_max:
             ranges[beam] = math.inf
-        else:
-            ranges[beam] += k.range_noise * noise[beam]
-            if ranges[beam] < k.range_min:
-                ranges[beam] = -math.inf
+        elif ranges[beam] < k.range_min:
+            ranges[beam] = -math.inf
 
 
 def see(dx: float, dy: float, theta: float, k: Record, ranges: Array) -> None:

@@ -7,18 +7,17 @@ occupied_thresh, free_thresh, mode (trinary, scale or raw). Optional keys of Rum
 
 from __future__ import annotations
 
-import difflib
 import math
 import os
-import reprlib
 from typing import TYPE_CHECKING, Any, Dict, NamedTuple, Optional, Tuple, TypeVar, Union
 
 import numpy as np
 from scipy import ndimage
 
 from rumba_sim.model import map_image
-from rumba_sim.model.errors import MapError
-from rumba_sim.model.floor_plan import FREE, OCCUPIED, UNKNOWN, Bounds, FloorPlan
+from rumba_sim.model.config import nearest
+from rumba_sim.model.errors import MapError, quoted
+from rumba_sim.model.floor_plan import FREE, OCCUPIED, UNKNOWN, Bounds, FloorPlan, check_size
 from rumba_sim.model.geometry import Pose, wrap_angle
 from rumba_sim.model.map_image import Alpha, Picture
 from rumba_sim.model.yaml_file import read_mapping
@@ -32,7 +31,6 @@ MODES = ('trinary', 'scale', 'raw')
 FAR = 1e9  # [m] the largest coordinate; those of national grids reach 1e7
 RESOLUTIONS = (1e-4, 10.0)  # [m]
 ROUNDING = 1e-6  # [cells] so that a quarter turn does not add a row
-TYPO = 0.75  # similarity from which on an unknown key is taken for a misspelt one
 
 Cell = TypeVar('Cell', bound=np.generic)
 
@@ -76,6 +74,7 @@ def load(path: Union[str, os.PathLike[str]]) -> FloorPlan:
     origin = _moved(header.origin, part[1].start * header.resolution, part[0].start * header.resolution)
     if origin.theta != 0.0:
         box = _box(origin.theta, occupancy.shape)
+        check_size(f'{header.path}, turned by its yaw', _shape(box))
         origin = Pose(origin.x + box.left * header.resolution, origin.y + box.bottom * header.resolution, 0.0)
         occupancy = _turned(occupancy, header.origin.theta, box, UNKNOWN)
         cliff = None if cliff is None else _turned(cliff, header.origin.theta, box, 0)
@@ -110,17 +109,16 @@ class _Entries:
     def __init__(self, path: str, values: Dict[Any, Any]) -> None:
         self._path = path
         self._values = {'mode': MODES[0], **values}
-        known = REQUIRED + OPTIONAL
-        for key in values:  # other tools add keys of their own: only a key that is similar to ours is wrong
-            close = difflib.get_close_matches(str(key)[:80].lower(), known, n=1, cutoff=TYPO)
-            if key not in known and close:
-                raise MapError(f'{path}: {key!r} is unknown: did you mean {close[0]!r}?')
+        known = [*REQUIRED, *OPTIONAL]
+        for key in values:
+            if key not in known:
+                raise MapError(f'{path}: {quoted(key)} is unknown: {nearest(key, known)}')
         for key in REQUIRED:
             if key not in values:
                 raise MapError(f'{path}: {key} is missing')
 
     def _wrong(self, key: str, right: str) -> MapError:
-        return MapError(f'{self._path}: {key} is {reprlib.repr(self._values[key])}: must be {right}')
+        return MapError(f'{self._path}: {key} is {quoted(self._values[key])}: must be {right}')
 
     def number(self, key: str, low: float, high: float, unit: str = '') -> float:
         value = _number(self._values[key])
@@ -185,11 +183,7 @@ def _layer(header: Header, path: Optional[str], picture: Picture,
     """The dark pixels of a layer in a part of the map: bool (rows, columns), row 0 at the bottom."""
     if path is None:
         return None
-    layer = map_image.read(path, Alpha.ON_WHITE)
-    if layer.levels.shape != picture.levels.shape:
-        rows, columns = layer.levels.shape
-        raise MapError(f'{path}: has {columns} x {rows} pixels, '
-                       f'{header.image} has {picture.levels.shape[1]} x {picture.levels.shape[0]}: must be the same')
+    layer = map_image.read(path, Alpha.ON_WHITE, like=picture)
     return np.asarray(layer.levels[::-1][part] <= (layer.white - 1) // 2)
 
 
@@ -221,13 +215,17 @@ def _box(theta: float, shape: Tuple[int, ...]) -> Bounds:
     return Bounds(left, bottom, left + columns, bottom + rows)
 
 
+def _shape(box: Bounds) -> Tuple[int, int]:
+    """Rows and columns of a grid with these edges [cells]."""
+    return round(box.top - box.bottom), round(box.right - box.left)
+
+
 def _turned(layer: NDArray[Cell], theta: float, box: Bounds, beyond: int) -> NDArray[Cell]:
     """Resample a turned layer parallel to the axes; cells whose centre is not on the layer become `beyond`."""
     cos, sin = math.cos(theta), math.sin(theta)
     x, y = box.left + 0.5, box.bottom + 0.5
     # Indices refer to the centre of a cell (-0.5), and the border that is added to the layer shifts them (+1).
     offset = (cos * y - sin * x + 0.5, sin * y + cos * x + 0.5)
-    shape = (round(box.top - box.bottom), round(box.right - box.left))
     padded = np.pad(layer.astype(np.int8), 1, mode='constant', constant_values=beyond)
-    resampled = ndimage.affine_transform(padded, [[cos, -sin], [sin, cos]], offset, shape, order=0, cval=beyond)
+    resampled = ndimage.affine_transform(padded, [[cos, -sin], [sin, cos]], offset, _shape(box), order=0, cval=beyond)
     return np.asarray(resampled, dtype=layer.dtype)

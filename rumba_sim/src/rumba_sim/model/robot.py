@@ -165,7 +165,7 @@ def put(state: Record, pose: Pose) -> None:
     state['x'], state['y'], state['theta'] = pose
     state['command_tick'] = kernel.NEVER
     state['contact_angle'] = math.nan
-    for name in ('bumper', 'fallen', 'docked'):
+    for name in ('bumper', 'fallen', 'docked', 'sweeps'):
         state[name] = 0
 
 

@@ -56,11 +56,16 @@ class BumperConfig:
 
 @dataclasses.dataclass(frozen=True)
 class CliffConfig:
-    """The cliff sensors under the front (OI: there are four; their positions are our choice)."""
+    """The cliff sensors under the front (OI: there are four; their positions are our choice).
 
-    distance: float = setting(0.15, 'distance from the centre of the robot', 'm', 0.0, 5.0)
+    Wherever an edge or a corner of 90 degrees lies, they see it 0.09 m before a wheel is there. A robot that looks ten
+    times a second stops from 0.3 m/s within 0.08 m.
+    """
+
+    distance: float = setting(0.165, 'distance from the centre of the robot (our choice: 1 cm inside the rim)', 'm',
+                              0.0, 5.0)
     inner_angle: float = setting(0.26, 'angle from straight ahead to front left and front right', 'rad', 0.0, math.pi)
-    outer_angle: float = setting(1.05, 'angle from straight ahead to left and right', 'rad', 0.0, math.pi)
+    outer_angle: float = setting(0.9, 'angle from straight ahead to left and right', 'rad', 0.0, math.pi)
 
 
 @dataclasses.dataclass(frozen=True)

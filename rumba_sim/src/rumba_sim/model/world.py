@@ -1,24 +1,28 @@
 """The world: a floor plan, the state of its floor, and the robots on it, advanced tick by tick."""
 
+import dataclasses
 import hashlib
 import math
-from typing import Dict, List, Optional
+from typing import Any, Dict, List, Optional
 
 import numpy as np
 
-from rumba_sim.model import kernel, robot
+from rumba_sim.model import kernel, robot, world_state
 from rumba_sim.model.compiled import fast
-from rumba_sim.model.constants import constants
+from rumba_sim.model.constants import check_speed, constants
 from rumba_sim.model.errors import ConfigError, MapError, WorldError
 from rumba_sim.model.floor import Floor
 from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.model.geometry import Pose, wrap_angle
 from rumba_sim.model.kernel import Array
+from rumba_sim.model.reachability import stands
 from rumba_sim.model.robot import Infrared, Robot, Start
 from rumba_sim.model.robot_config import RobotConfig
+from rumba_sim.model.world_state import Member, WorldState
 
 NOISE_TICKS = 256  # ticks for which the noise of the wheels is drawn at once
 ON_THEIR_OWN: Array = np.zeros((0, 4))  # `led` of `kernel.advance` if robots drive themselves
+APART = 0.5  # radii between a robot that is added and the others, if there is room; our choice
 FLOOR, WHEELS, LASER = 0, 1, 2  # purposes of random generators
 
 
@@ -29,6 +33,7 @@ class World:
 
     Attributes:
         plan: the floor plan.
+        terrain: the refined plan, on which robots drive.
         step_rate: ticks per second [Hz].
         seed: seed of everything that is random.
         constants: array of the one record that the kernel reads (`constants.Constants`).
@@ -50,7 +55,9 @@ class World:
         self.step_rate = step_rate
         self.seed = seed
         self._config = config or RobotConfig()
-        self.constants = constants(self._config, plan, step_rate)
+        check_speed(self._config, step_rate)
+        self.terrain = plan.refined()
+        self.constants = constants(self._config, self.terrain, step_rate)
         self.start = self._checked_start()
         self.robots: Dict[str, Robot] = {}
         self._states: Array = np.zeros(0, kernel.ROBOT)
@@ -63,16 +70,16 @@ class World:
 
     def _begin(self) -> None:
         self.tick = 0
-        self.floor = Floor(self.plan, self._config, self.start, self._generator(FLOOR, 0))
+        self.floor = Floor(self.terrain, self._config, self.start, self._generator(FLOOR, 0))
 
     def _checked_start(self) -> Pose:
         """The start of the plan, else the dock, else the position with the largest clearance."""
         radius = float(self.constants[0]['reach'])
         for what, pose in (('dock', self.plan.dock), ('start', self.plan.start)):
             if pose is not None:
-                self.plan.check_pose(pose, radius, what)
-        start = self.plan.start or self.plan.dock or self.plan.most_open_pose()
-        self.plan.check_pose(start, radius, 'start')
+                self.terrain.check_pose(pose, radius, what)
+        start = self.plan.start or self.plan.dock or self.terrain.most_open_pose()
+        self.terrain.check_pose(start, radius, 'start')
         return start
 
     def _generator(self, purpose: int, number: int) -> np.random.Generator:
@@ -105,8 +112,9 @@ class World:
         if self.tick % NOISE_TICKS == 0:
             for row, generator in zip(self._noise, self._wheels):
                 generator.standard_normal(out=row)
-        fast.advance(self._states, self.constants, self.plan.clearance, self.floor.cells, self.floor.dirt,
-                     self.floor.tally, self._noise, led, self.tick, ticks)
+        swept = self.floor.sweep
+        fast.advance(self._states, self.constants, self.terrain.clearance, self.floor.cells, swept.samples,
+                     self.floor.dirt, swept.tally, self._noise, led, self.tick, ticks)
         self.tick += ticks
 
     def reset(self) -> None:
@@ -137,8 +145,11 @@ class World:
     def config(self, config: RobotConfig) -> None:
         if config.drive.radius != self._config.drive.radius:
             raise ConfigError(f'drive/radius is {config.drive.radius:g}: must stay {self._config.drive.radius:g} [m]')
-        self.constants = constants(config, self.plan, self.step_rate)
+        check_speed(config, self.step_rate)
+        self.constants = constants(config, self.terrain, self.step_rate)
         self._config = config
+        self._states['charge'] = np.minimum(self._states['charge'], config.battery.capacity)
+        self._take(self._states)  # robots that were far apart may meet sooner now
         self._fan = _fan(config.laser.beams)
         for member in self.robots.values():
             member.config = config
@@ -211,7 +222,7 @@ class World:
         if not all(map(math.isfinite, pose)):
             raise WorldError(f'pose ({pose.x}, {pose.y}, {pose.theta}): must be finite numbers')
         try:
-            self.plan.check_pose(pose, float(self.constants[0]['reach']), 'pose')
+            self.terrain.check_pose(pose, float(self.constants[0]['reach']), 'pose')
         except MapError as error:
             raise WorldError(str(error)) from None
         for other in self.robots.values():
@@ -233,19 +244,17 @@ class World:
         return list(self.robots).index(name)
 
     def _free_start(self) -> Pose:
-        """The start, or a free position near it, on a grid that is a little wider than a robot."""
-        step = 2.5 * self._config.drive.radius
-        bounds = self.plan.bounds
-        size = math.ceil(max(bounds.right - bounds.left, bounds.top - bounds.bottom) / step)
-        for ring in range(size + 1):
-            for row in range(-ring, ring + 1):
-                for column in range(-ring, ring + 1):
-                    if max(abs(row), abs(column)) == ring:
-                        try:
-                            return self.check(Pose(self.start.x + column * step, self.start.y + row * step,
-                                                   self.start.theta))
-                        except WorldError:
-                            continue
+        """The free position nearest to the start to which a robot could drive from there; a little apart from others."""
+        where = np.argwhere(stands(self.terrain, float(self.constants[0]['reach']), self.start.x, self.start.y))
+        points = np.array([self.start[:2], *(0.5 * self.terrain.resolution * where[:, ::-1] + self.terrain.origin)])
+        order = np.argsort(np.hypot(*(points - self.start[:2]).T), kind='stable')
+        others = [member.pose for member in self.robots.values()]
+        for gap in (APART, 0.0):
+            free = np.ones(len(points), np.bool_)
+            for pose in others:
+                free &= np.hypot(*(points - pose[:2]).T) >= (2.0 + gap) * self._config.drive.radius
+            for x, y in points[order[free[order]]][:1].tolist():
+                return self.check(Pose(x, y, self.start.theta))
         raise WorldError(f'{self.plan.name}: no room for another robot')
 
     # --- sensors --------------------------------------------------------------------------------------------------
@@ -260,7 +269,7 @@ class World:
         """
         index = self._index(name)
         ranges = np.empty(len(self._fan))
-        fast.scan(self._states, index, self.constants[0], self.plan.skips, self.floor.cells, self._fan,
+        fast.scan(self._states, index, self.constants[0], self.terrain.skips, self.floor.cells, self._fan,
                   self._lasers[index].standard_normal(len(self._fan)), ranges)
         return ranges
 
@@ -270,7 +279,7 @@ class World:
         Raises:
             WorldError: there is no robot of that name.
         """
-        return Infrared(*fast.infrared(self._states[self._index(name)], self.constants[0], self.plan.skips,
+        return Infrared(*fast.infrared(self._states[self._index(name)], self.constants[0], self.terrain.skips,
                                        self.floor.cells))
 
     def cliffs(self, name: str) -> List[bool]:
@@ -282,13 +291,54 @@ class World:
                                       pose.y + config.distance * math.sin(pose.theta + angle)) & kernel.CLIFF)
                 for angle in angles]
 
+    # --- state ----------------------------------------------------------------------------------------------------
+
+    def _arrays(self) -> Dict[str, Array]:
+        """All arrays that change, by name."""
+        robots = {f'robots/{name}': self._states[name] for name in self._states.dtype.names or ()}
+        return {**robots,  # field by field, since bytes between fields are undefined
+                'noise': self._noise, 'dirt': self.floor.dirt, 'samples': self.floor.sweep.samples,
+                'tally': self.floor.sweep.tally}
+
     def digest(self) -> str:
         """SHA-256 of everything that changes: tick, robots, noise, floor."""
         state = hashlib.sha256(f'{self.tick} {" ".join(self.robots)}'.encode())
-        fields = (self._states[name] for name in self._states.dtype.names or ())  # bytes between fields are undefined
-        for array in (*fields, self._noise, self.floor.cells, self.floor.dirt, self.floor.tally):
+        for array in self._arrays().values():
             state.update(np.ascontiguousarray(array).tobytes())
         return state.hexdigest()
+
+    def _origin(self) -> Dict[str, Any]:
+        return world_state.origin(self.plan, dataclasses.asdict(self._config), self.step_rate, self.seed)
+
+    def state(self) -> WorldState:
+        """A copy of everything that changes, from which `restored` goes on."""
+        members = [Member(member.name, member.start, wheels.bit_generator.state, laser.bit_generator.state)
+                   for member, wheels, laser in zip(self.robots.values(), self._wheels, self._lasers)]
+        arrays = {name: array.copy() for name, array in self._arrays().items()}
+        return WorldState(self._origin(), self.tick, self._spawned, members, arrays, self.digest())
+
+    @classmethod
+    def restored(cls, state: WorldState, plan: FloorPlan, config: Optional[RobotConfig] = None,
+                 step_rate: float = 50, seed: int = 0) -> 'World':
+        """A world that goes on from a state as the world would have from which the state was taken, bit for bit.
+
+        Raises:
+            WorldError: the state was taken from a world with another map, configuration, step rate or seed.
+            RumbaError: as for the constructor.
+        """
+        world = cls(plan, config, step_rate, seed)
+        world_state.check_origin(state.origin, world._origin())
+        world.tick, world._spawned = state.tick, state.spawned
+        world._states = np.zeros(len(state.members), kernel.ROBOT)
+        world._noise = np.zeros((len(state.members), NOISE_TICKS, 2))
+        for member, record in zip(state.members, world._states):
+            world.robots[member.name] = Robot(member.name, member.start, world._config, record)
+            world._wheels.append(world_state.generator(member.wheels))
+            world._lasers.append(world_state.generator(member.laser))
+        world_state.fill(world._arrays(), state.arrays)
+        if world.digest() != state.digest:
+            raise WorldError('is damaged: its digest is another one')
+        return world
 
 
 def _fan(beams: int) -> Array:

@@ -8,8 +8,22 @@ import yaml
 
 from rumba_sim.model import config
 from rumba_sim.model.errors import RumbaError
+from rumba_sim.model.regular_file import opened
 
 WIDTH = 118
+LARGEST = 100_000  # [bytes] of a file; parsing takes some seconds for as much
+
+
+class _Loader(yaml.SafeLoader):
+    """Reads YAML without aliases: some lines of them can stand for more data than any memory holds."""
+
+    def compose_node(self, parent: Any, index: Any) -> Any:
+        """Compose a node, unless it is an alias."""
+        if self.check_event(yaml.AliasEvent):
+            event = self.peek_event()
+            raise yaml.composer.ComposerError(None, None, f'the alias *{event.anchor} is not allowed: write the value',
+                                              event.start_mark)
+        return super().compose_node(parent, index)
 
 
 def read_mapping(path: str, error: Type[RumbaError]) -> Dict[Any, Any]:
@@ -22,23 +36,36 @@ def read_mapping(path: str, error: Type[RumbaError]) -> Dict[Any, Any]:
     Raises:
         error: the file cannot be read, or does not hold keys and values; the message begins with the path.
     """
-    try:
-        with open(path, encoding='utf-8') as file:
-            content = yaml.safe_load(file)
-    except UnicodeDecodeError as exc:
-        raise error(f'{path}: is not a text file: must be YAML') from exc
-    except OSError as exc:
-        raise error(f'{path}: {exc.strerror}') from exc
-    except (yaml.YAMLError, ValueError, RecursionError) as exc:
-        mark = getattr(exc, 'problem_mark', None)
-        where = f', line {mark.line + 1}' if mark else ''
-        problem = getattr(exc, 'problem', None) or str(exc).splitlines()[0]
-        raise error(f'{path}{where}: is not valid YAML: {problem}') from exc
+    content = _parsed(path, _text(path, error), error)
     if content is None:
         return {}
     if not isinstance(content, dict):
         raise error(f'{path}: must hold keys and values')
     return content
+
+
+def _text(path: str, error: Type[RumbaError]) -> str:
+    with opened(path, error) as file:
+        try:
+            data = file.read(LARGEST + 1)
+        except OSError as exc:
+            raise error(f'{path}: {exc.strerror}') from exc
+    if len(data) > LARGEST:
+        raise error(f'{path}: is larger than {LARGEST // 1000} kB: must be a YAML file of keys and values')
+    try:
+        return data.decode('utf-8')
+    except UnicodeDecodeError as exc:
+        raise error(f'{path}: is not a text file: must be YAML') from exc
+
+
+def _parsed(path: str, text: str, error: Type[RumbaError]) -> Any:
+    try:
+        return yaml.load(text, _Loader)
+    except Exception as exc:  # besides its own errors, PyYAML raises what Python's conversions do, or IndexError
+        mark = getattr(exc, 'problem_mark', None)
+        where = f', line {mark.line + 1}' if mark else ''
+        problem = getattr(exc, 'problem', None) or ' '.join(str(exc).split()) or type(exc).__name__
+        raise error(f'{path}{where}: is not valid YAML: {problem}') from exc
 
 
 def document(settings: Any) -> str:

@@ -1,0 +1,92 @@
+"""Where a robot can stand, and which part of a floor its brush can reach."""
+
+import weakref
+from typing import NamedTuple, Tuple
+
+import numpy as np
+from scipy import ndimage
+
+from rumba_sim.model import kernel
+from rumba_sim.model.compiled import fast
+from rumba_sim.model.constants import clearance_needed
+from rumba_sim.model.floor_plan import ROUNDING, FloorPlan
+from rumba_sim.model.geometry import Pose
+from rumba_sim.model.kernel import Array
+from rumba_sim.model.robot_config import RobotConfig
+
+
+class Reach(NamedTuple):
+    """What a robot can reach from where it is; the arrays are not to be changed."""
+
+    stands: Array  # bool (2 * rows + 1, 2 * columns + 1), see `stands`
+    samples: Array  # uint8 (n * rows, n * columns), the bits SWEEPABLE and REACHABLE of `kernel`
+    reachable: int  # number of reachable samples
+
+
+_last: 'weakref.WeakKeyDictionary[FloorPlan, Tuple[float, float, Reach]]' = weakref.WeakKeyDictionary()
+
+
+def reach(plan: FloorPlan, config: RobotConfig, x: float, y: float) -> Reach:
+    """What robots can reach from a start (x, y) [m], map frame.
+
+    The answer to the last question about a plan is remembered, since each robot on a floor asks the same.
+
+    Raises:
+        MapError: a robot does not fit at the start.
+    """
+    plan.check_pose(Pose(x, y, 0.0), config.drive.radius, 'start')
+    needed, half = clearance_needed(config.drive.radius, plan.resolution), 0.5 * config.brush.width
+    if plan in _last:
+        known_needed, known_half, known = _last[plan]
+        if (known_needed, known_half) == (needed, half) and known.stands[_nearest(plan, known.stands, x, y)]:
+            return known
+    where = stands(plan, needed, x, y)
+    samples = _sweepable(plan)
+    number = int(fast.mark_reachable(plan.safe_clearance, plan.resolution, where, needed, half, samples))
+    found = Reach(where, samples, number)
+    _last[plan] = needed, half, found
+    return found
+
+
+def stands(plan: FloorPlan, needed: float, x: float, y: float) -> Array:
+    """Where a robot can stand that starts at (x, y) [m] and drives along the axes of the map.
+
+    Args:
+        plan: the floor plan.
+        needed: the clearance that the robot needs [m]; it fits at the start.
+        x, y: the start, map frame [m].
+
+    Returns:
+        bool (2 * rows + 1, 2 * columns + 1), at points half a cell apart: element (i, j) is the point
+        `origin + 0.5 * resolution * (j, i)`.
+    """
+    clearance = plan.safe_clearance
+    fits = np.zeros((2 * plan.rows + 1, 2 * plan.columns + 1), np.bool_)
+    needed -= ROUNDING
+    fits[::2, ::2] = clearance >= needed
+    fits[::2, 1::2] = 0.5 * (clearance[:, :-1] + clearance[:, 1:]) >= needed
+    fits[1::2, ::2] = 0.5 * (clearance[:-1] + clearance[1:]) >= needed
+    fits[1::2, 1::2] = 0.25 * (clearance[:-1, :-1] + clearance[:-1, 1:] + clearance[1:, :-1] + clearance[1:, 1:]
+                               ) >= needed
+    start = _nearest(plan, fits, x, y)
+    fits[start] = True
+    labels, _ = ndimage.label(fits)
+    return np.asarray(labels == labels[start])
+
+
+def _nearest(plan: FloorPlan, fits: Array, x: float, y: float) -> Tuple[int, int]:
+    """The element of `fits`, as `stands` answers it, at which a robot at (x, y) [m] is; one that is true if possible.
+
+    A robot that fits at a point need not fit at the nearest of the points of `fits`.
+    """
+    u, v = 2.0 * (x - plan.origin[0]) / plan.resolution, 2.0 * (y - plan.origin[1]) / plan.resolution
+    around = [(i, j) for i in range(max(round(v) - 2, 0), min(round(v) + 3, fits.shape[0]))
+              for j in range(max(round(u) - 2, 0), min(round(u) + 3, fits.shape[1]))]
+    return min(around, key=lambda at: (not fits[at], (at[0] - v) ** 2 + (at[1] - u) ** 2))
+
+
+def _sweepable(plan: FloorPlan) -> Array:
+    """The samples of a plan, with the bit SWEEPABLE where there is floor."""
+    floor = plan.free if plan.cliff is None else plan.free & ~plan.cliff
+    squares = plan.sample_squares
+    return (floor * np.uint8(kernel.SWEEPABLE)).repeat(squares, 0).repeat(squares, 1)

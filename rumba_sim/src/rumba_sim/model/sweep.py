@@ -1,0 +1,109 @@
+"""Which part of a floor a brush has passed over: the one rule by which coverage is counted everywhere."""
+
+from typing import Tuple
+
+import numpy as np
+
+from rumba_sim.model import kernel
+from rumba_sim.model.compiled import fast
+from rumba_sim.model.constants import constants
+from rumba_sim.model.floor_plan import FloorPlan
+from rumba_sim.model.geometry import Pose
+from rumba_sim.model.kernel import Array
+from rumba_sim.model.reachability import reach
+from rumba_sim.model.robot_config import RobotConfig
+
+ANY_RATE = 50  # [Hz] `constants` asks for a rate, but the constants of a brush do not depend on it
+
+
+class Sweep:
+    """What brushes have swept of a floor.
+
+    Each cell of the plan is divided into n x n squares, with one sample point in each. A sample is swept once a brush
+    passed over it, so that a lane is as wide as the brush, whatever its heading and the resolution of the map.
+
+    Attributes:
+        samples: uint8 (n * rows, n * columns), as for `kernel`.
+        tally: array of one record (`kernel.TALLY`): number of swept reachable samples, and dirt left on those.
+    """
+
+    def __init__(self, plan: FloorPlan, config: RobotConfig) -> None:
+        """Know no sample that can be reached: call `begin` next.
+
+        Args:
+            plan: the floor plan; the refined one of a world.
+            config: of the robots.
+        """
+        self._plan = plan
+        self._config = config
+        self._constants = constants(config, plan, ANY_RATE)[0]
+        self._no_dirt = np.zeros((plan.rows, plan.columns), np.float32)
+        self.tally = np.zeros(1, kernel.TALLY)
+        size = plan.sample_squares
+        self.samples: Array = np.zeros((plan.rows * size, plan.columns * size), np.uint8)
+        self._reachable = 0
+
+    def begin(self, x: float, y: float) -> None:
+        """Forget what was swept, and find out what can be reached from (x, y) [m], map frame.
+
+        Raises:
+            MapError: a robot does not fit there.
+        """
+        found = reach(self._plan, self._config, x, y)
+        self.samples = found.samples.copy()
+        self._reachable = found.reachable
+        self.tally.fill(0)
+
+    def copy(self) -> 'Sweep':
+        """The same state of the floor, which stays as it is if this one changes."""
+        other = Sweep(self._plan, self._config)
+        other.samples, other.tally, other._reachable = self.samples.copy(), self.tally.copy(), self._reachable
+        return other
+
+    def pass_over(self, start: Pose, end: Pose) -> None:
+        """Let a brush pass from one pose to another that is near, map frame."""
+        fast.sweep(self._constants, self.samples, self._no_dirt, self.tally[0], tuple(start), tuple(end))
+
+    @property
+    def reachable_area(self) -> float:
+        """Area that a brush can reach [m^2]."""
+        return self._reachable * self._plan.sample_pitch ** 2
+
+    @property
+    def cleaned_area(self) -> float:
+        """Part of the reachable area that was swept at least once [m^2]."""
+        return int(self.tally[0]['swept']) * self._plan.sample_pitch ** 2
+
+    @property
+    def coverage(self) -> float:
+        """cleaned_area / reachable_area [0..1]; 1 if nothing is reachable."""
+        return int(self.tally[0]['swept']) / self._reachable if self._reachable else 1.0
+
+    def counts(self, squares: int) -> Tuple[Array, Array]:
+        """Numbers of samples that can be reached, and of these that were swept, in blocks of squares.
+
+        Args:
+            squares: along the side of a block, which must divide the rows and columns of the samples.
+
+        Returns:
+            Two arrays, uint16 (rows, columns) of the blocks.
+        """
+        is_reachable = self.samples & kernel.REACHABLE > 0
+        is_swept = is_reachable & (self.samples >= kernel.PASS)
+        return _sums(is_reachable, squares), _sums(is_swept, squares)
+
+    def missing_share(self) -> Array:
+        """Share of each cell's area that can be reached and was not swept [0..1]: float32 (rows, columns)."""
+        squares = self._plan.sample_squares
+        is_missing = self.samples & kernel.REACHABLE > 0
+        is_missing &= self.samples < kernel.PASS
+        return _sums(is_missing, squares) / np.float32(squares ** 2)
+
+
+def _sums(samples: Array, squares: int) -> Array:
+    """Number of true samples in each block of squares: uint16 (rows, columns) of the blocks."""
+    sums = np.zeros((samples.shape[0] // squares, samples.shape[1] // squares), np.uint16)
+    for row in range(squares):
+        for column in range(squares):
+            sums += samples[row::squares, column::squares]
+    return sums

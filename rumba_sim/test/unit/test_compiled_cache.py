@@ -1,0 +1,80 @@
+"""The kernel is compiled and works wherever its cache cannot be kept; one line says so."""
+
+import os
+import shutil
+import subprocess
+import sys
+
+import pytest
+
+from rumba_sim.model import kernel
+
+LINE = 'rumba_sim: the kernel is compiled anew, which takes some seconds: '
+ADVICE = '; NUMBA_CACHE_DIR can name a writable folder for its cache\n'
+TURN = 'from rumba_sim.model.compiled import fast; print(fast.wrap(7.0) == 7.0 - 6.283185307179586)'
+SMALL_FILES = 'import resource; resource.setrlimit(resource.RLIMIT_FSIZE, (0, 0)); '
+NOBODY = 'import os, pwd; os.access = lambda *_: False; pwd.getpwuid = {}.__getitem__; '
+
+
+@pytest.fixture
+def source(tmp_path):
+    """A copy of the model whose folder for compiled code cannot be made."""
+    folder = tmp_path / 'src' / 'rumba_sim'
+    folder.mkdir(parents=True)
+    (folder / '__init__.py').touch()
+    shutil.copytree(os.path.dirname(kernel.__file__), str(folder / 'model'),
+                    ignore=shutil.ignore_patterns('__pycache__'))
+    (folder / 'model' / '__pycache__').touch()  # where numba wants a folder; root can write into any
+    return tmp_path / 'src'
+
+
+def run(source, code=TURN, here='/', **changes):
+    """Result and error output of Python code that uses the copy."""
+    environment = {name: value for name, value in os.environ.items()
+                   if name not in ('NUMBA_CACHE_DIR', 'XDG_CACHE_HOME', 'HOME')}
+    done = subprocess.run([sys.executable, '-c', code], stdout=subprocess.PIPE, stderr=subprocess.PIPE, cwd=str(here),
+                          universal_newlines=True, env={**environment, 'PYTHONPATH': str(source), **changes})
+    return done.stdout, done.stderr
+
+
+def test_if_neither_the_install_nor_the_home_can_be_written_the_kernel_works_without_a_cache(source):
+    out, error = run(source, HOME='/dev/null/home')
+    assert out == 'True\n'
+    assert error.startswith(LINE + 'cannot cache function') and error.count('\n') == 1
+
+
+def test_if_there_is_a_place_for_the_cache_nothing_is_said_and_it_is_used(source, tmp_path):
+    for _ in range(2):
+        assert run(source, HOME=str(tmp_path / 'home')) == ('True\n', '')
+    assert list((tmp_path / 'home').rglob('*.nbc'))
+
+
+def test_the_advice_helps(source, tmp_path):
+    assert run(source, HOME='/dev/null/home', NUMBA_CACHE_DIR=str(tmp_path / 'cache')) == ('True\n', '')
+    assert run(source, NOBODY + TURN, NUMBA_CACHE_DIR=str(tmp_path / 'cache')) == ('True\n', '')
+
+
+def test_a_full_disk_does_no_harm(source, tmp_path):
+    out, error = run(source, SMALL_FILES + TURN, HOME=str(tmp_path / 'home'))
+    assert out == 'True\n'
+    assert error.startswith(LINE + str(tmp_path / 'home')) and error.endswith('File too large' + ADVICE)
+    assert error.count('\n') == 1
+
+
+@pytest.mark.parametrize('pattern, content', [('*.nbi', b''), ('*.nbi', b'damaged'), ('*.nbc', b'damaged')])
+def test_a_damaged_cache_is_made_anew(source, tmp_path, pattern, content):
+    home = {'HOME': str(tmp_path / 'home')}
+    assert run(source, **home) == ('True\n', '')
+    for path in (tmp_path / 'home').rglob(pattern):
+        path.write_bytes(content)
+    out, error = run(source, **home)
+    assert out == 'True\n' and error.startswith(LINE) and error.count('\n') == 1
+    assert run(source, **home) == ('True\n', '')
+
+
+def test_without_a_home_no_folder_named_like_one_is_made(source, tmp_path):
+    here = tmp_path / 'here'
+    here.mkdir()
+    out, error = run(source, NOBODY + TURN, here)
+    assert (out, error) == ('True\n', LINE + 'no home folder is known' + ADVICE)
+    assert not list(here.iterdir())

@@ -1,0 +1,109 @@
+"""Where a robot can stand and what its brush can reach, against closed forms and against a search point by point."""
+
+import math
+
+import numpy as np
+import pytest
+from pytest import approx
+from rooms import crooked, quiet, room, slanted
+
+from rumba_sim.model import kernel
+from rumba_sim.model.compiled import fast
+from rumba_sim.model.constants import clearance_needed
+from rumba_sim.model.errors import MapError
+from rumba_sim.model.floor_plan import FREE, OCCUPIED, FloorPlan
+from rumba_sim.model.reachability import reach, stands
+
+RESOLUTIONS = (0.005, 0.01, 0.02, 0.05, 0.1)
+RADIUS, BRUSH = 0.17425, 0.17  # [m]
+
+
+def area(plan, x=0.5, y=0.5):
+    """Area that can be reached from (x, y) [m^2]."""
+    terrain = plan.refined()
+    return reach(terrain, quiet(), x, y).reachable * terrain.sample_pitch ** 2
+
+
+@pytest.mark.parametrize('resolution', RESOLUTIONS)
+def test_of_an_empty_room_all_but_a_rim_and_the_corners_can_be_reached(resolution):
+    rim, half = RADIUS - 0.5 * BRUSH, 0.5 * BRUSH
+    whole = (4.0 - 2.0 * rim) * (3.0 - 2.0 * rim) - (4.0 - math.pi) * half ** 2
+    assert area(room(4.0, 3.0, resolution)) == approx(whole, rel=0.005)
+
+
+@pytest.mark.parametrize('resolution', RESOLUTIONS)
+@pytest.mark.parametrize('width', [0.4, 0.5, 0.8])
+def test_a_door_is_passable_at_any_resolution_and_position(width, resolution):
+    """Gaps of an even number of cells, and of an odd one, have their middle at a node, and at a centre."""
+    for bottom in (1.0, 1.1):
+        plan = room(4.0, 3.0, resolution, [(2.0, 0.0, 2.1, bottom), (2.0, bottom + width, 2.1, 3.0)])
+        assert area(plan) == approx(2.0 * area(room(1.95, 3.0, resolution)), rel=0.03)
+
+
+@pytest.mark.parametrize('resolution', [0.01, 0.02])
+def test_a_door_that_is_a_little_wider_than_the_robot_is_passable_and_a_narrower_one_is_not(resolution):
+    for width, is_passable in ((0.34, False), (0.36, True)):
+        plan = room(4.0, 3.0, resolution, [(2.0, 0.0, 2.1, 1.0), (2.0, 1.0 + width, 2.1, 3.0)])
+        assert (area(plan) > 0.6 * 12.0) == is_passable
+
+
+def test_the_same_floor_has_the_same_area_at_any_resolution():
+    areas = [area(crooked(resolution), 0.3, 0.3) for resolution in (0.01, 0.02, 0.05, 0.1)]
+    assert areas == approx([areas[0]] * 4, rel=0.005)
+
+
+def by_hand(plan, x, y):
+    """The definition: samples within half a brush of a position at which the robot fits, on a lattice of 2.5 mm."""
+    needed = clearance_needed(RADIUS, plan.resolution)
+    where = stands(plan, needed, x, y)
+    step, samples = 0.0025, []
+    rows, columns = (int(size * plan.resolution / step) for size in (plan.rows, plan.columns))
+    v, u = np.mgrid[:rows, :columns] * step / plan.resolution
+    fits = np.vectorize(lambda u, v: fast.interpolated(plan.safe_clearance, u, v)[0] >= needed)(u, v)
+    fits &= where[np.rint(2.0 * v).astype(int), np.rint(2.0 * u).astype(int)]
+    points = np.stack([u[fits], v[fits]], axis=1) * plan.resolution
+    squares = plan.sample_squares
+    rng = np.random.default_rng(0)
+    for row, column in rng.integers((0, 0), (plan.rows * squares, plan.columns * squares), (3000, 2)):
+        at = np.array(kernel.sample_point(int(row), int(column))) * plan.sample_pitch
+        samples.append((row, column, np.hypot(*(points - at).T).min()))
+    return samples
+
+
+@pytest.mark.parametrize('plan', [crooked(0.025), slanted(0.025)], ids=['crooked', 'slanted'])
+def test_samples_are_reachable_as_the_definition_says(plan):
+    found = reach(plan, quiet(), 0.5, 0.5).samples
+    for row, column, distance in by_hand(plan, 0.5, 0.5):
+        if found[row, column] & kernel.SWEEPABLE and abs(distance - 0.5 * BRUSH) > 0.003:
+            assert bool(found[row, column] & kernel.REACHABLE) == (distance < 0.5 * BRUSH), (row, column, distance)
+
+
+def test_no_sample_in_a_wall_or_over_a_cliff_can_be_swept():
+    plan = crooked(0.02, cliff=(3.4, 2.4, 4.0, 3.0))
+    samples = reach(plan, quiet(), 0.5, 0.5).samples
+    floor = (plan.free & ~plan.cliff).repeat(2, 0).repeat(2, 1)
+    assert ((samples & kernel.SWEEPABLE > 0) == floor).all()
+    assert not (samples & kernel.REACHABLE > 0)[~floor].any() and (samples & kernel.REACHABLE).any()
+
+
+def test_a_robot_keeps_away_from_a_cliff_as_from_a_wall():
+    with_cliff = crooked(0.02, cliff=(3.4, 2.4, 4.0, 3.0))
+    occupancy = with_cliff.occupancy.copy()
+    occupancy[with_cliff.cliff & (occupancy == FREE)] = OCCUPIED
+    with_wall = FloorPlan('wall', occupancy, 0.02, with_cliff.origin)
+    assert area(with_cliff) == area(with_wall)
+
+
+def test_every_start_in_the_same_region_reaches_the_same_and_the_answer_is_remembered():
+    plan = room(5.0, 2.4, 0.02, boxes=[(2.8, 0.0, 2.9, 2.4)])
+    left, again, right = (reach(plan, quiet(), x, 1.0) for x in (1.0, 2.2, 4.0))
+    assert again is left and right is not left
+    assert not (left.samples & right.samples & kernel.REACHABLE).any()
+    assert (reach(plan, quiet(), 0.4, 0.4).samples == left.samples).all()
+    narrow = reach(plan, quiet(brush={'width': 0.1}), 1.0, 1.0)
+    assert narrow.reachable < left.reachable
+
+
+def test_a_start_where_the_robot_does_not_fit_is_refused():
+    with pytest.raises(MapError, match=r'a robot of radius 0.174 m does not fit$'):
+        reach(crooked(0.02), quiet(), 1.2, 0.5)

@@ -1,0 +1,46 @@
+"""How a node reads its command line and its parameters, without a master."""
+
+import pytest
+
+from rumba_sim.model.errors import ConfigError
+from rumba_sim.ros.common import node
+from rumba_sim.ros.simulator.settings import Settings
+
+
+def given(monkeypatch, private):
+    """Let the parameter server hold a value as the private parameters of /simulator."""
+    monkeypatch.setattr(node.rospy, 'get_param', lambda *_: private)
+    monkeypatch.setattr(node.rospy, 'get_name', lambda: '/simulator')
+
+
+@pytest.mark.parametrize('value, message', [
+    (['a'], r"config is \['a'\]: must be text$"), (5, 'config is 5: must be text$'),
+    ({'a': 1}, 'config is .*: must be text$'), (True, 'config is True: must be text$')])
+def test_a_config_that_is_no_path_is_refused_and_not_opened(monkeypatch, value, message):
+    given(monkeypatch, {'config': value})
+    with pytest.raises(ConfigError, match='^parameter of /simulator: ' + message):
+        node._parameters(Settings, [])
+
+
+@pytest.mark.parametrize('value', ['text', 5, ['a'], 1.5, True])
+def test_parameters_that_are_no_mapping_are_refused(monkeypatch, value):
+    given(monkeypatch, value)
+    with pytest.raises(ConfigError, match='^parameter /simulator is .*: must be a mapping of '):
+        node._parameters(Settings, [])
+
+
+@pytest.mark.parametrize('argument', [
+    '_seed:=99999999999999999999999', '_seed:=2147483648', '_seed:=' + 5000 * '9', '_map:=null', '_map:={1: 2}',
+    '_map:=[', r'_map:="\x01"', '_map:=&a [*a]', '_battery/drain:=99999999999999999999999'])
+def test_a_value_that_the_parameter_server_cannot_take_is_refused(monkeypatch, argument):
+    monkeypatch.setattr(node.sys, 'argv', ['simulator', argument])
+    with pytest.raises(ConfigError, match='cannot be a parameter: ') as caught:
+        node._check_command_line([], ['map', 'seed'])
+    assert str(caught.value).startswith(argument.split(':=')[0] + ':=') and len(str(caught.value)) <= 300
+
+
+@pytest.mark.parametrize('argument', ['_seed:=2147483647', '_map:=studio', '_battery/drain:=1e3', '__name:=99999999999',
+                                      '_rates:={scan: 5}'])
+def test_other_values_are_fine(monkeypatch, argument):
+    monkeypatch.setattr(node.sys, 'argv', ['simulator', argument])
+    node._check_command_line([], ['map', 'seed'])
