@@ -2,14 +2,17 @@
 
 import abc
 import enum
+import math
 from typing import Any, NamedTuple, Sequence, Tuple, final
 
 from rumba_cleaning.outcome import Outcome
+from rumba_sim.model.errors import CommandError, quoted
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.kernel import NO_BEAM
 from rumba_sim.model.robot import Infrared
 
 NO_CLIFFS = (False, False, False, False)
+FALLEN = 'a wheel hangs over a cliff: the robot must be put elsewhere'
 FINAL = ('step', 'stand_by', 'stop', 'restart', 'succeed', 'fail')  # methods of Behaviour that no subclass overrides
 
 
@@ -23,6 +26,7 @@ class Observation(NamedTuple):
     state_of_charge: float = 1.0  # [0..1]
     is_docked: bool = False
     infrared: Infrared = Infrared(NO_BEAM, NO_BEAM, NO_BEAM)  # beams of the dock by receiver
+    has_fallen: bool = False  # a wheel hangs over a cliff: the robot cannot drive
 
     @property
     def contact(self) -> Tuple[bool, bool]:
@@ -89,13 +93,22 @@ class Behaviour(abc.ABC):
 
     @final
     def step(self, observation: Observation) -> Command:
-        """What to do now; STOP from the step on in which the behaviour ends."""
+        """What to do now; STOP from the step on in which the behaviour ends.
+
+        Raises:
+            CommandError: `update` returned something else than a Command of finite numbers.
+        """
+        if self.status is Status.RUNNING and observation.has_fallen:
+            self.fail(FALLEN, Outcome.FALLEN)
         if self.status is Status.RUNNING and not self._is_under_way:
             self.message = ''
             self.initialise()
             self._is_under_way = True
         command = self.update(observation) if self.status is Status.RUNNING else STOP
         if self.status is Status.RUNNING:
+            if not _is_command(command):
+                raise CommandError(f'{type(self).__name__}.update returned {quoted(command)}: must be a Command of '
+                                   'finite numbers')
             return command
         self.stop()
         return STOP
@@ -148,3 +161,12 @@ class Behaviour(abc.ABC):
 
     def take_note(self, observation: Observation) -> None:
         """Remember what is needed to go on after a person drove the robot; called in place of `update` meanwhile."""
+
+
+def _is_command(value: Any) -> bool:
+    """Whether a robot can follow what a behaviour returned: anybody may write one."""
+    try:
+        return (isinstance(value, Command) and math.isfinite(value.v) and math.isfinite(value.w)
+                and value.brushes_up in (True, False))
+    except (TypeError, OverflowError, ValueError):
+        return False

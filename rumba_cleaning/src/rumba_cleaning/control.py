@@ -15,7 +15,7 @@ def observe(world: World, name: str, dt: float) -> Observation:
     """What a robot of a world knows now, `dt` [s] after the observation before."""
     robot = world.robots[name]
     return Observation(dt, robot.pose, robot.bumper, world.cliffs(name), robot.battery.state_of_charge,
-                       robot.is_docked, world.infrared(name))
+                       robot.is_docked, world.infrared(name), robot.has_fallen)
 
 
 def act(behaviour: Behaviour, world: World, name: str, dt: float) -> Tuple[Observation, Command]:

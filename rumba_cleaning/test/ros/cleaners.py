@@ -28,14 +28,15 @@ def go_to(x, y, theta=float('nan'), time_limit=0.0):
 class Cleaner:
     """A cleaner for one test, and, once it is connected, the clients of its actions."""
 
-    def __init__(self, test, *arguments, name='/cleaner', robot='/rumba'):
+    def __init__(self, test, *arguments, name='/cleaner', robot='/rumba', stderr=None):
         self._test = test
         self._robot = robot
         if rospy.has_param(name):
             rospy.delete_param(name)
         # As in a launch file: simulator and cleaner start at the same time, both in simulated time.
         rospy.set_param('/use_sim_time', True)
-        self.process = subprocess.Popen(['rosrun', 'rumba_cleaning', 'cleaner', *arguments])
+        self.process = subprocess.Popen(['rosrun', 'rumba_cleaning', 'cleaner', *arguments], stderr=stderr,
+                                        universal_newlines=True)
         test.addCleanup(self.end)
 
     def connect(self):

@@ -44,10 +44,26 @@ class Breaks(Behaviour):
     def update(self, observation):
         self.updates += 1
         return Command(0.1, 0.0) if self.updates < 9 else 1 / 0
+def nonsense(command):
+    class Nonsense(Breaks):
+        def update(self, observation):
+            return command
+    return Nonsense
+strategy('text')(nonsense(Command('0.1', 0)))
+strategy('nan')(nonsense(Command(float('nan'), 0)))
+strategy('nothing')(nonsense(None))
+@strategy('leaves')
+class Leaves(Breaks):
+    def update(self, observation):
+        raise SystemExit(3)
 @strategy('never_begins')
 def never_begins(context):
     return context.no_such_thing
 """
+NO_COMMAND = 'Nonsense.update returned {}: must be a Command of finite numbers'
+NONSENSE = (('text', NO_COMMAND.format("Command(v='0.1', w=0, brushes_up=False)")),
+            ('nothing', NO_COMMAND.format('None')),
+            ('nan', NO_COMMAND.format('Command(v=nan, w=0, brushes_up=False)')), ('leaves', 'SystemExit: 3'))
 
 
 class CleanerPlacesTest(unittest.TestCase):
@@ -131,8 +147,11 @@ class CleanerPlacesTest(unittest.TestCase):
         self.assertAlmostEqual(truth.fresh().pose.pose.position.x, 1.5, delta=0.15)
         self.assertAlmostEqual(truth.fresh().pose.pose.position.y, 2.5, delta=0.15)
         outcome = cleaner.send('clean', CleanGoal()).ends(Outcome.ERROR).outcome
-        self.assertEqual(outcome.message, 'ZeroDivisionError: division by zero')
+        self.assertEqual(outcome.message, "strategy 'breaks': ZeroDivisionError: division by zero")
         truth.fresh(lambda message: message.twist.twist.linear.x == 0.0)
+        for strategy, message in NONSENSE:
+            outcome = cleaner.send('clean', CleanGoal(strategy=strategy)).ends(Outcome.ERROR).outcome
+            self.assertEqual(outcome.message, f"strategy '{strategy}': {message}")
         cleaner.refuses("^AttributeError: 'Context' object has no attribute 'no_such_thing'$", 'clean',
                         CleanGoal(strategy='never_begins'), Outcome.ERROR)
         cleaner.send('go_to', go_to(2.0, 2.5)).ends(Outcome.SUCCEEDED)

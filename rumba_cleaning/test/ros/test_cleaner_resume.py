@@ -8,7 +8,7 @@ import unittest
 import rospy
 import rostest
 from cleaners import Cleaner, go_to
-from simulators import Heard, Simulator, folder_of, shared
+from simulators import Heard, Simulator, folder_of, shared, wait
 
 from rumba_msg.msg import CleanGoal, MissionStatus, Outcome
 
@@ -57,8 +57,8 @@ class CleanerResumeTest(unittest.TestCase):
 
     def is_nothing_to_resume(self):
         """A goal to resume is refused."""
-        self.cleaner.refuses('^nothing to resume: no cleaning was preempted or cancelled; send a goal without resume$',
-                             'clean', CleanGoal(resume=True))
+        self.cleaner.refuses('^nothing to resume: no cleaning was preempted or cancelled since the simulator was '
+                             'started or reset; send a goal without resume$', 'clean', CleanGoal(resume=True))
 
     def test_1_there_is_nothing_to_resume_before_a_cleaning_was_interrupted(self):
         self.is_nothing_to_resume()
@@ -113,7 +113,33 @@ class CleanerResumeTest(unittest.TestCase):
         self.cleaner.send('clean', CleanGoal(resume=True, time_limit=-1.0)).ends(Outcome.REFUSED)
         self.cleaner.send('clean', CleanGoal(resume=True)).ends(Outcome.SUCCEEDED)
 
-    def test_7_goals_are_cancelled_and_preempted_during_planning(self):
+    def test_7_an_interrupted_cleaning_of_a_world_that_was_reset_is_forgotten(self):
+        goal = self.cleans(0.05)
+        goal.handle.cancel()
+        goal.ends(Outcome.CANCELLED)
+        self.simulator.does('reset')
+        self.figures.fresh(lambda message: message.coverage == 0.0)
+        self.is_nothing_to_resume()
+
+    def test_8_a_cleaning_of_a_world_that_is_reset_begins_again_and_tells_the_truth(self):
+        goal = self.cleans(0.5 * TARGET, target_coverage=TARGET)
+        self.cleaner.status.messages.clear()
+        self.simulator.does('reset')
+        answer = goal.ends(Outcome.SUCCEEDED)
+        self.assertIn(MissionStatus.UNDOCKING, self.cleaner.states())
+        self.assertAlmostEqual(answer.cleaning.coverage, TARGET, delta=0.03)
+        self.assertRegex(answer.outcome.message, r'^4\d\.\d % swept$')
+
+    def test_9_a_resumed_cleaning_of_a_world_that_is_reset_begins_again_too(self):
+        goal = self.cleans(0.5 * TARGET, target_coverage=TARGET)
+        goal.handle.cancel()
+        goal.ends(Outcome.CANCELLED)
+        goal = self.cleaner.send('clean', CleanGoal(resume=True))
+        wait(self, goal.handle.get_goal_status, 'the goal to be accepted')
+        self.simulator.does('reset')
+        self.assertAlmostEqual(goal.ends(Outcome.SUCCEEDED).cleaning.coverage, TARGET, delta=0.03)
+
+    def test_a_goals_are_cancelled_and_preempted_during_planning(self):
         self.slow.touch()
 
         def plans():
@@ -134,7 +160,7 @@ class CleanerResumeTest(unittest.TestCase):
         self.slow.unlink()
         self.cleaner.send('clean', CleanGoal(resume=True)).ends(Outcome.SUCCEEDED)
 
-    def test_8_the_node_ends_during_planning(self):
+    def test_b_the_node_ends_during_planning(self):
         self.slow.touch()
         self.cleaner.send('clean', CleanGoal())
         self.cleaner.status.fresh(lambda message: message.message.endswith('planning'))

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """The cleaner when something goes wrong: bad parameters, a robot that is gone, has fallen, or has no charge."""
 
+import os
 import signal
 import subprocess
 import time
@@ -11,7 +12,7 @@ import rostest
 from cleaners import Cleaner, go_to
 from dynamic_reconfigure.client import Client
 from geometry_msgs.msg import Pose2D
-from simulators import TIMEOUT, Heard, Simulator, shared
+from simulators import TIMEOUT, Heard, Simulator, folder_of, shared
 
 from rumba_msg.msg import CleanGoal, MissionStatus, Outcome, UndockGoal
 
@@ -20,11 +21,17 @@ BAD_STARTS = (
      '_strategy:=zigzag'),
     (r"^cleaner: strategies of 'no\.such': No module named 'no'; a module is named as in Python, ",
      '_strategies:=no.such'),
+    (r"^cleaner: strategies of 'misspelt': NameError: name 'spede' is not defined \(misspelt\.py:1\)\n$",
+     '_strategies:=misspelt'),
+    (r"^cleaner: strategies of 'leaves': SystemExit: 3 \(leaves\.py:2\)\n$", '_strategies:=leaves'),
+    (r'^cleaner: parameter of /bad_\d+: strategy is 5: must be text\n$', '_strategy:=5'),
+    (r"^cleaner: parameter of /bad_\d+: strategies is \['a', 'b'\]: must be text\n$", '_strategies:=[a, b]'),
     (r"^cleaner: there is no map 'moon': give the path of a map_server YAML file, or one of ", '_map:=moon'),
-    (r"^cleaner: parameter of /bad_\d: robot is 'a/b': must be letters, digits and _, beginning with a letter\n$",
+    (r"^cleaner: parameter of /bad_\d+: robot is 'a/b': must be letters, digits and _, beginning with a letter\n$",
      '_robot:=a/b'),
-    (r'^cleaner: parameter of /bad_\d: time_limit/dock is 0\.0: must be 1 to 10000000 \[s\]\n$', '_time_limit/dock:=0'),
-    (r"^cleaner: parameter of /bad_\d: sped is unknown: did you mean 'speed'\?\n$", '_sped:=2'))
+    (r'^cleaner: parameter of /bad_\d+: time_limit/dock is 0\.0: must be 1 to 10000000 \[s\]\n$',
+     '_time_limit/dock:=0'),
+    (r"^cleaner: parameter of /bad_\d+: sped is unknown: did you mean 'speed'\?\n$", '_sped:=2'))
 LONGER_THAN_A_ROBOT_IS_MISSED = 3.0  # [s]
 
 
@@ -37,9 +44,6 @@ class CleanerTroubleTest(unittest.TestCase):
         cls.cleaner = Cleaner(fixture)
         cls.simulator = Simulator(fixture, '_map:=studio', '_speed:=10')
         cls.cleaner.connect()
-        cls.bad = [subprocess.Popen(['rosrun', 'rumba_cleaning', 'cleaner', f'__name:=bad_{number}', argument],
-                                    stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True)
-                   for number, (_, argument) in enumerate(BAD_STARTS)]
 
     def test_1_a_robot_that_is_gone_is_given_up_and_one_that_comes_back_is_served(self):
         goal = self.cleaner.send('clean', CleanGoal())
@@ -85,7 +89,12 @@ class CleanerTroubleTest(unittest.TestCase):
         tuning.update_configuration({'battery_drain': 1.0})
 
     def test_5_bad_input_gets_one_line_and_exit_code_2_and_is_forgotten(self):
-        for number, ((message, argument), process) in enumerate(zip(BAD_STARTS, self.bad)):
+        folder = folder_of(self, {'misspelt.py': b'spede * 2.0', 'leaves.py': b'import sys\nsys.exit(3)'})
+        environment = {**os.environ, 'PYTHONPATH': f'{folder}:{os.environ["PYTHONPATH"]}'}
+        processes = [subprocess.Popen(['rosrun', 'rumba_cleaning', 'cleaner', f'__name:=bad_{number}', argument],
+                                      env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                                      universal_newlines=True) for number, (_, argument) in enumerate(BAD_STARTS)]
+        for number, ((message, argument), process) in enumerate(zip(BAD_STARTS, processes)):
             with self.subTest(argument):
                 out, error = process.communicate(timeout=TIMEOUT)
                 self.assertRegex(error, message)

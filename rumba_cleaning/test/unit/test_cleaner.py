@@ -11,14 +11,15 @@ import pytest
 import rospy
 from geometry_msgs.msg import Pose2D, Twist
 from rooms import crooked, quiet, room
+from std_msgs.msg import Header
 
 from rumba_cleaning.behaviour import Command, Observation
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.cleaning_config import CleaningConfig
 from rumba_cleaning.mission.mission import State
 from rumba_cleaning.ros.cleaner import activities, actuators, executor, teleop, workplace
-from rumba_cleaning.ros.cleaner.go_to_position import velocity_toward
-from rumba_cleaning.ros.cleaner.settings import Settings
+from rumba_cleaning.ros.cleaner.go_to_position import heading_toward, velocity_toward
+from rumba_cleaning.ros.cleaner.settings import GoToPositionSettings, Settings
 from rumba_msg.msg import CleanGoal, CleaningStatus, DockGoal, GoToGoal, MissionStatus, SimulatorState, UndockGoal
 from rumba_sim.model.errors import ConfigError, MapError
 from rumba_sim.model.geometry import Pose, compose
@@ -46,6 +47,11 @@ def test_an_invalid_name_of_a_robot_is_refused(robot):
         Settings(robot=robot)
 
 
+def test_an_unknown_answer_of_go_to_position_is_refused():
+    with pytest.raises(ConfigError, match="^go_to_position/answer is 'speed': must be velocity or heading$"):
+        GoToPositionSettings('speed')
+
+
 # --- map and robot --------------------------------------------------------------------------------------------------
 
 class Simulator:
@@ -67,9 +73,10 @@ class Simulator:
             raise found
         return found
 
-    def tells(self, map, node='/sim2'):
+    def tells(self, map, node='/sim2', run='', resets=0, seconds=0):
         """Publish a state."""
-        self.state = SimulatorState(node=node, map=map)
+        header = Header(stamp=rospy.Time(seconds))
+        self.state = SimulatorState(header=header, node=node, map=map, run=run, resets=resets)
         self._on_state(self.state)
 
     def wait(self):
@@ -93,7 +100,7 @@ def test_a_simulator_that_is_started_again_may_have_another_map_and_another_robo
     simulator.robots['/sim2'] = quiet(drive={'max_speed': 0.1})
     simulator.tells(map_path('studio'))
     assert place.look() == (plan, simulator.robots['/sim2'])
-    simulator.tells(map_path('field'), '/sim3')
+    simulator.tells(map_path('field'), '/sim3', run='second')
     assert (place.look()[0].name, place.look()[1]) == (map_path('field'), simulator.robots['/sim3'])
 
 
@@ -107,6 +114,31 @@ def test_settings_of_the_simulator_that_became_invalid_are_an_error_until_they_a
     simulator.robots['/sim2'] = valid
     simulator.tells(map_path('studio'))
     assert place.look()[1] == valid
+
+
+def test_a_map_is_read_again_for_a_simulator_that_was_started_again_since_the_file_may_have_changed(monkeypatch):
+    simulator = Simulator(monkeypatch, map_path('studio'))
+    place = workplace.Workplace('')
+    plan = place.look()[0]
+    simulator.tells(map_path('studio'), run='second')
+    assert place.look()[0] is not plan
+
+
+def test_each_new_world_is_told_once_with_the_stamp_that_it_began_at(monkeypatch):
+    simulator, told = Simulator(monkeypatch, map_path('studio')), []
+    place = workplace.Workplace('', lambda: told.append(place.world))
+    for run, resets, seconds in (('a', 0, 5), ('a', 0, 6), ('a', 1, 7), ('a', 1, 8), ('b', 1, 2)):
+        simulator.tells(map_path('studio'), run=run, resets=resets, seconds=seconds)
+    assert told == [('a', 0, rospy.Time(5)), ('a', 1, rospy.Time(7)), ('b', 1, rospy.Time(2))]
+
+
+def test_settings_are_kept_while_the_master_is_away(monkeypatch):
+    simulator = Simulator(monkeypatch, map_path('studio'))
+    place = workplace.Workplace('')
+    simulator.tells(map_path('studio'))
+    known, simulator.robots['/sim2'] = simulator.robots['/sim2'], ConnectionRefusedError(111, 'Connection refused')
+    simulator.tells(map_path('studio'))
+    assert place.look()[1] == known
 
 
 def test_a_map_that_is_named_goes_before_that_of_the_simulator_and_needs_none(monkeypatch):
@@ -185,7 +217,7 @@ def test_wheels_that_are_closed_have_stopped_and_get_no_command(monkeypatch):
 
 
 def test_brushes_are_asked_for_what_is_new_and_again_if_that_failed(monkeypatch):
-    asked, failures = queue.Queue(), [rospy.ServiceException('no')]
+    asked, failures = queue.Queue(), [rospy.ServiceException('no'), TypeError('no'), OSError('no')]
 
     def serve(are_up):
         asked.put(are_up)
@@ -198,6 +230,12 @@ def test_brushes_are_asked_for_what_is_new_and_again_if_that_failed(monkeypatch)
     for are_up in (False, False, True):
         brushes.want(are_up)
     assert [asked.get(timeout=5.0), asked.get(timeout=5.0)] == [False, True]
+    for _ in range(2):
+        end = time.monotonic() + 5.0
+        while asked.empty():
+            assert time.monotonic() < end
+            brushes.want(True)
+        assert asked.get(timeout=5.0) is True
     end = time.monotonic() + 5.0
     while asked.empty():
         assert time.monotonic() < end
@@ -288,6 +326,34 @@ def test_velocities_call_by_call_lead_to_the_target_around_what_is_in_the_way():
     assert abs(pose.theta - TARGET.theta) < 0.03
 
 
+def test_headings_call_by_call_lead_to_the_target_around_what_is_in_the_way():
+    mine, pose, driven = context(crooked()), Pose(0.4, 0.4, 1.0), 0.0
+    _, _, first = heading_toward(mine, pose, TARGET)
+    for _ in range(1000):
+        speed, heading, message = heading_toward(mine, pose, TARGET)
+        assert speed == -1.0 and -math.pi <= heading <= math.pi
+        if message in ('turning', 'there'):
+            break
+        pose = compose(Pose(pose.x, pose.y, heading), Pose(0.015, 0.0, 0.0))
+        driven += 0.015
+        assert mine.plan.safe_clearance_at(pose.x, pose.y) > mine.robot.drive.radius - 0.02
+    assert math.hypot(pose.x - TARGET.x, pose.y - TARGET.y) < 0.02
+    assert heading == TARGET.theta
+    way, *words = first.split()
+    assert float(way) == pytest.approx(driven, rel=0.05) and words == ['m', 'to', 'go']
+    assert heading_toward(mine, Pose(TARGET.x, TARGET.y, TARGET.theta + 2.0 * math.pi), TARGET) == (
+        -1.0, TARGET.theta, 'there')
+
+
+def test_a_heading_is_an_angle_of_the_map_whatever_the_robot_faces():
+    mine = context(room(4.0, 3.0))
+    for bearing in (3.0, 1.0, -1.0, -3.0):
+        for theta in (0.0, 2.5):
+            target = Pose(2.0 + math.cos(bearing), 1.5 + math.sin(bearing), 0.0)
+            answer = heading_toward(mine, Pose(2.0, 1.5, theta), target)
+            assert answer == (-1.0, pytest.approx(bearing, abs=0.02), '1.00 m to go')
+
+
 def test_the_side_to_turn_to_is_the_nearer_one():
     mine = context(room(4.0, 3.0))
     for bearing in (2.0, 1.0, -1.0, -2.0):
@@ -303,5 +369,6 @@ def test_the_side_to_turn_to_is_the_nearer_one():
     (Pose(3.5, 1.0, 0.0), r'^no path from \(0\.50, 0\.50\) to \(3\.50, 1\.00\) m$')])
 def test_a_target_that_cannot_be_reached_is_an_error(target, message):
     plan = room(4.0, 3.0, boxes=((1.2, 0.4, 1.5, 0.9), (2.0, -1.0, 2.1, 4.0)))
-    with pytest.raises(MapError, match=message):
-        velocity_toward(context(plan), Pose(0.5, 0.5, 0.0), target)
+    for toward in (velocity_toward, heading_toward):
+        with pytest.raises(MapError, match=message):
+            toward(context(plan), Pose(0.5, 0.5, 0.0), target)

@@ -1,7 +1,10 @@
 """A goal of the cleaner from its first reading to its result: commands, a person who drives, and how it ends."""
 
+import math
+import sys
 import types
 
+import numpy as np
 import pytest
 import rospy
 
@@ -241,9 +244,87 @@ def test_an_exception_ends_the_goal_with_a_line_that_says_which(monkeypatch):
     assert robot.reads() == ['rest']
     robot.reads(moved=0.0)
     robot.reads(moved=0.0)
-    assert robot.answer == ('aborted', Outcome.ERROR, 'ZeroDivisionError: division by zero')
+    assert robot.answer == ('aborted', Outcome.ERROR, "strategy 'zigzag': ZeroDivisionError: division by zero")
     assert robot.behaviour.ends == 1
     assert robot.status[0] is State.IDLE
+
+
+@pytest.mark.parametrize('command, shown', [
+    (Command('0.1', 0), "Command(v='0.1', w=0, brushes_up=False)"), (None, 'None'), ((0.1, 0.0), '(0.1, 0.0)'),
+    (Command(math.nan, 0.0), 'Command(v=nan, w=0.0, brushes_up=False)'), (math.pi, '3.141592653589793'),
+    (Command(0.1, -math.inf), 'Command(v=0.1, w=-inf, brushes_up=False)'),
+    (Command(0.1, None), 'Command(v=0.1, w=None, brushes_up=False)'),
+    (Command(0.1, 10 ** 400), 'Command(v=0.1, w=1000'), (Command(1j, 0.0), 'Command(v=1j, w=0.0, brushes_up=False)'),
+    (Command(0.1, 0.0, 'up'), "Command(v=0.1, w=0.0, brushes_up='up')")])
+def test_a_strategy_that_answers_nonsense_ends_the_goal_with_its_name_and_the_value(monkeypatch, command, shown):
+    robot = Robot(monkeypatch, ahead, lambda _: command)
+    robot.reads()
+    assert robot.reads() == ['rest']
+    robot.reads(moved=0.0)
+    robot.reads(moved=0.0)
+    how, code, message = robot.answer
+    assert (how, code) == ('aborted', Outcome.ERROR)
+    assert message.startswith(f"strategy 'zigzag': Scripted.update returned {shown}")
+    assert message.endswith(': must be a Command of finite numbers')
+
+
+def test_numbers_of_numpy_are_numbers(monkeypatch):
+    robot = Robot(monkeypatch, lambda _: Command(np.float32(0.25), np.int64(1), np.bool_(False)))
+    assert robot.reads() == [(0.25, 1), 'down', 'feedback']
+
+
+def leave(_):
+    """End the process."""
+    sys.exit('good bye')
+
+
+def mumble(behaviour):
+    """Say something that is no text."""
+    behaviour.message = 5
+    return AHEAD
+
+
+@pytest.mark.parametrize('decide, code, message', [
+    (leave, Outcome.ERROR, "strategy 'zigzag': SystemExit: good bye"),
+    (mumble, Outcome.ERROR, "strategy 'zigzag': TypeError: object of type 'int' has no len()"),
+    (lambda behaviour: behaviour.succeed(None), Outcome.SUCCEEDED, 'None'),
+    (lambda behaviour: behaviour.succeed('a\nb'), Outcome.SUCCEEDED, 'a\\nb'),
+    (lambda behaviour: behaviour.fail('x', 'bad'), Outcome.ERROR, "x (its outcome is 'bad': must be an Outcome)"),
+    (lambda behaviour: behaviour.succeed('x', Outcome.UNKNOWN), Outcome.ERROR,
+     'x (its outcome is <Outcome.UNKNOWN: 0>: must be an Outcome)')])
+def test_whatever_a_strategy_does_its_goal_ends(monkeypatch, decide, code, message):
+    robot = Robot(monkeypatch, ahead, decide)
+    for _ in range(5):
+        robot.reads(moved=0.0)
+        if robot.run.is_closed:
+            break
+    assert robot.answer[1] == code
+    assert robot.answer[2] == message
+
+
+def test_a_world_that_is_reset_has_the_goal_begin_again_even_after_its_end(monkeypatch):
+    robot = Robot(monkeypatch, ahead, arrive, ahead, arrive)
+    for _ in range(2):
+        robot.reads()
+    assert robot.behaviour.ends == 1
+    robot.told.clear()
+    robot.run.begin_again()
+    assert robot.told == ['forget', 'the simulator was reset: begins again']
+    assert not robot.run.is_closed
+    assert robot.reads()[:2] == [(0.2, 0.5), 'down']
+    assert robot.reads() == ['rest']
+    for _ in range(2):
+        robot.reads(moved=0.0)
+    assert robot.answer[0] == 'succeeded'
+    assert robot.behaviour.ends == 2
+
+
+def test_an_answer_is_given_although_it_cannot_be_announced(monkeypatch):
+    robot = Robot(monkeypatch, ahead)
+    robot.reads()
+    monkeypatch.setattr(robot.run.activity, 'report', lambda *_: 1 / 0)
+    robot.run.interrupt(Outcome.CANCELLED, 'cancelled')
+    assert robot.answer[0] == 'canceled'
 
 
 def test_a_robot_that_falls_gives_up_at_once_and_is_stranded(monkeypatch):

@@ -192,3 +192,35 @@ def test_commands_missions_and_outcomes_become_messages():
         name: getattr(status, name) for name in dir(status) if name.isupper()}
     outcome = conversions.outcome(Outcome.NO_PATH, 'no path')
     assert (outcome.code, outcome.message) == (outcome.NO_PATH, 'no path')
+
+
+# --- a world that is gone ---------------------------------------------------------------------------------------------
+
+def test_what_is_older_than_a_new_world_does_not_count(robot):
+    robot.reads(1.0)
+    robot.tells('cleaning_status', CleaningStatus(header=Header(stamp=rospy.Time(1)), coverage=0.9))
+    robot.senses.forget(rospy.Time(2), is_new_run=False)
+    assert robot.senses.look() is None and robot.senses.cleaning is None
+    assert robot.reads(2.0) == 0
+    robot.tells('battery_state', BatteryState(header=Header(stamp=rospy.Time(2)), percentage=0.1))
+    robot.tells('cleaning_status', CleaningStatus(header=Header(stamp=rospy.Time(2)), coverage=0.9))
+    assert robot.reads(2.1) == 1
+    assert robot.senses.look() is None and robot.senses.cleaning is None
+    robot.tells('battery_state', BatteryState(header=Header(stamp=rospy.Time(3)), percentage=0.7))
+    robot.tells('cleaning_status', CleaningStatus(header=Header(stamp=rospy.Time(3)), coverage=0.1))
+    assert robot.senses.look().state_of_charge == pytest.approx(0.7)
+    assert robot.senses.cleaning.coverage == 0.1
+
+
+def test_a_battery_that_gives_no_stamps_counts_in_each_world(robot):
+    robot.senses.forget(rospy.Time(2), is_new_run=False)
+    robot.tells('battery_state', BatteryState(percentage=0.4))
+    robot.reads(3.0)
+    assert robot.senses.look().state_of_charge == pytest.approx(0.4)
+
+
+def test_poses_of_a_time_that_is_over_are_forgotten_with_their_simulator(robot):
+    robot.senses.forget(rospy.Time(2), is_new_run=False)
+    assert robot.senses.pose() is not None
+    robot.senses.forget(rospy.Time(0), is_new_run=True)
+    assert robot.senses.pose() is None

@@ -63,6 +63,16 @@ def test_the_memory_is_for_one_run():
     assert percent_swept(behaviour) < 5.0
 
 
+def test_what_is_forgotten_is_not_resumed():
+    world, behaviour = mission(target=0.9)
+    until(behaviour, world, 0.4)
+    behaviour.stop()
+    behaviour.resume()
+    behaviour.forget()
+    run(behaviour, world, seconds=1.0)
+    assert percent_swept(behaviour) < 5.0
+
+
 def test_a_mission_that_never_began_or_is_under_way_may_be_resumed():
     world, behaviour = mission(target=0.2)
     behaviour.resume()

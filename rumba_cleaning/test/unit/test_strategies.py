@@ -68,11 +68,29 @@ def test_a_name_that_is_taken_is_refused(package):
         strategies.load('their_bounce')
 
 
-@pytest.mark.parametrize('module', ['nobody.has_this', '.relative', 'their_typo'])
-def test_a_module_that_cannot_be_imported_is_refused(package, module):
-    (package / 'their_typo.py').write_text('import nobody_has_this_either\n')
-    with pytest.raises(StrategyError, match=f"strategies of '{module}': .*a module is named as in Python"):
+@pytest.mark.parametrize('module', ['nobody.has_this', '.relative', 'a b'])
+def test_a_module_that_is_not_there_is_refused(module):
+    with pytest.raises(StrategyError, match=f"^strategies of '{module}': .*; a module is named as in Python, "):
         strategies.load(module)
+
+
+@pytest.mark.parametrize('code, error', [
+    ('import nobody_has_this\n', r"ModuleNotFoundError: No module named 'nobody_has_this' \(their_typo\.py:1\)"),
+    ('speed = 1\nspede * 2\n', r"NameError: name 'spede' is not defined \(their_typo\.py:2\)"),
+    ('import json\njson.loads("?")\n', r'JSONDecodeError: .* \(decoder\.py:\d+, from their_typo\.py:2\)'),
+    ('class Zigzag(:\n', r'SyntaxError: invalid syntax \(their_typo\.py:1\)'),
+    ('import sys\nsys.exit("good\\nbye")\n', r'SystemExit: good.*bye \(their_typo\.py:2\)'),
+    ('\0', '.*source code .*null bytes.*')])
+def test_a_module_that_cannot_be_executed_is_refused_with_the_line(package, code, error):
+    (package / 'their_typo.py').write_text(code)
+    with pytest.raises(StrategyError, match=f"^strategies of 'their_typo': {error}$"):
+        strategies.load('their_typo')
+
+
+def test_a_strategy_that_is_no_behaviour_is_refused(package):
+    strategies.strategy('nothing')(lambda context: None)
+    with pytest.raises(StrategyError, match="^strategy 'nothing' makes None: must be a Behaviour$"):
+        strategies.make('nothing', context_of(PLAN, World(PLAN)))
 
 
 def test_an_unknown_name_is_refused_with_those_that_are_known():

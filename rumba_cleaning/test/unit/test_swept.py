@@ -9,18 +9,17 @@ from pytest import approx
 from rooms import crooked, quiet, room
 
 from rumba_cleaning.belief.swept import Swept
-from rumba_sim.model import kernel
 from rumba_sim.model.errors import MapError
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.world import World
 
-BITS = kernel.BLOCKED | kernel.CLIFF | kernel.REACHABLE | kernel.SWEPT
 CLIFF = (3.8, 2.8, 4.0, 3.0)
+WIDTH = 0.17  # [m] of the brush
 
 
 def memory(plan, x=1.0, y=1.0):
     """The memory of a robot that begins at (x, y) [m]."""
-    swept = Swept(plan, quiet())
+    swept = Swept(plan.refined(), quiet())
     swept.begin(x, y)
     return swept
 
@@ -32,9 +31,14 @@ def followed(swept, *points, brushes_up=False):
     return swept
 
 
-def area(swept, plan):
+def area(swept):
     """Area that was swept [m^2]."""
-    return np.count_nonzero(swept.cells & kernel.SWEPT) * plan.resolution ** 2
+    return swept.coverage * swept.reachable_area
+
+
+def columns_of(swept):
+    """Columns in which anything was swept, counted from x = 0."""
+    return np.flatnonzero((swept.missing_share() < memory(room(4.0, 3.0)).missing_share()).any(axis=0)) - 2
 
 
 @pytest.mark.parametrize('resolution, seed', [(0.02, 1), (0.05, 2), (0.1, 3)])
@@ -52,31 +56,31 @@ def test_a_robot_that_knows_its_pose_in_each_tick_knows_what_it_swept(resolution
             robot.command(v, w, world.tick)
             world.step()
             swept.follow(robot.pose, robot.brushes_up)
-    assert robot.bumps > 0 and 0.05 < world.floor.coverage < 0.9 and not robot.has_fallen
-    assert (swept.cells == world.floor.cells & BITS).all()
-    assert swept.coverage == world.floor.coverage
-    assert swept.reachable_area == approx(world.floor.reachable_area)
-    reachable, passed = (world.floor.cells & bit > 0 for bit in (kernel.REACHABLE, kernel.SWEPT))
-    assert (swept.missed() == (reachable & ~passed)).all() and swept.missed().dtype == np.bool_
+    assert robot.bumps > 0 and 0.03 < world.floor.coverage < 0.9 and not robot.has_fallen
+    assert swept.coverage == approx(world.floor.coverage, abs=0.002)  # the world sweeps in longer strides
+    assert swept.reachable_area == world.floor.reachable_area
+    missing = world.floor.sweep.missing_share()
+    assert np.abs(swept.missing_share() - missing).mean() < 0.005
+    assert (swept.missed() == (swept.missing_share() >= 0.5)).all() and swept.missed().dtype == np.bool_
 
 
 def test_brushes_that_are_up_sweep_nothing_even_once_they_are_down_again():
     plan = room(4.0, 3.0)
     swept = followed(memory(plan), *((x, 1.0) for x in np.arange(1.0, 2.01, 0.1)), brushes_up=True)
-    assert area(swept, plan) == 0.0 and swept.coverage == 0.0
+    assert area(swept) == 0.0 and swept.coverage == 0.0
     followed(swept, (2.1, 1.0))
-    assert 0.0 < area(swept, plan) <= 0.15 * 0.25
-    assert (np.flatnonzero((swept.cells & kernel.SWEPT).any(axis=0)) * 0.05 >= 2.0).all()
+    assert area(swept) == approx(0.1 * WIDTH, rel=0.05)
+    assert (columns_of(swept) * 0.025 >= 1.99).all()
 
 
 def test_a_jump_sweeps_nothing_and_a_long_step_does():
     plan = room(4.0, 3.0)
     for step in ((1.0, 0.0), (0.0, -0.6), (0.4, 0.4)):
         swept = followed(memory(plan), (1.0, 1.0), (1.0 + step[0], 1.0 + step[1]))
-        assert area(swept, plan) == 0.0, step
+        assert area(swept) == 0.0, step
     followed(swept, (1.8, 1.4))  # it goes on from the pose after the jump
-    columns = np.flatnonzero((swept.cells & kernel.SWEPT).any(axis=0)) * 0.05 - 0.05
-    assert area(swept, plan) >= 0.4 * 0.17 and columns.min() == approx(1.4) and columns.max() == approx(1.8)
+    columns = columns_of(swept) * 0.025
+    assert area(swept) == approx(0.4 * WIDTH, rel=0.05) and columns.min() >= 1.37 and columns.max() <= 1.8
 
 
 def test_a_robot_that_turns_sweeps_a_disc():
@@ -84,7 +88,7 @@ def test_a_robot_that_turns_sweeps_a_disc():
     swept = memory(plan)
     for theta in np.arange(0.0, math.pi + 0.1, 0.1):
         swept.follow(Pose(2.0, 1.5, theta), False)
-    assert area(swept, plan) == approx(math.pi * (0.085 + 0.01) ** 2, rel=0.1)
+    assert area(swept) == approx(math.pi * (0.5 * WIDTH) ** 2, rel=0.05)
 
 
 def test_sweep_from_pose_to_pose_equals_follow():
@@ -93,7 +97,7 @@ def test_sweep_from_pose_to_pose_equals_follow():
     one.sweep(Pose(1.0, 1.0, 0.3), Pose(1.2, 1.1, 0.5))
     other.follow(Pose(1.0, 1.0, 0.3), False)
     other.follow(Pose(1.2, 1.1, 0.5), False)
-    assert (one.cells == other.cells).all() and one.coverage == other.coverage > 0.0
+    assert (one.missing_share() == other.missing_share()).all() and one.coverage == other.coverage > 0.0
 
 
 def test_begin_forgets_what_was_swept_and_where_the_robot_was():
@@ -101,11 +105,11 @@ def test_begin_forgets_what_was_swept_and_where_the_robot_was():
     swept = followed(memory(plan), (1.0, 1.0), (1.3, 1.0))
     assert swept.coverage > 0.0
     swept.begin(1.0, 1.0)
-    assert swept.coverage == 0.0 and area(swept, plan) == 0.0 and (swept.cells == memory(plan).cells).all()
+    assert swept.coverage == 0.0 and (swept.missing_share() == memory(plan).missing_share()).all()
     followed(swept, (1.2, 1.0))
-    assert area(swept, plan) == 0.0
+    assert area(swept) == 0.0
     followed(swept, (1.2, 1.0), (1.4, 1.0))
-    assert swept.coverage == approx(area(swept, plan) / swept.reachable_area)
+    assert area(swept) == approx(0.2 * WIDTH, rel=0.05)
 
 
 def test_begin_counts_what_can_be_reached_from_there():
@@ -114,8 +118,8 @@ def test_begin_counts_what_can_be_reached_from_there():
     left = swept.missed()
     swept.begin(4.0, 1.0)
     right = swept.missed()
-    assert left.any() and right.any() and not left[:, 57:].any() and not right[:, :58].any()
-    assert swept.reachable_area == approx(right.sum() * 0.05 ** 2)
+    assert left.any() and right.any() and not left[:, 115:].any() and not right[:, :116].any()
+    assert swept.reachable_area == approx(swept.missing_share().sum() * 0.025 ** 2)
     with pytest.raises(MapError, match='a robot of radius 0.174 m does not fit'):
         swept.begin(2.7, 1.0)
 
@@ -124,14 +128,14 @@ def test_a_copy_holds_the_same_and_changes_on_its_own():
     plan = two_rooms()
     swept = followed(memory(plan), (1.0, 1.0), (1.3, 1.0))
     copy = swept.copy()
-    assert (copy.cells == swept.cells).all() and copy.coverage == swept.coverage > 0.0
-    assert copy.reachable_area == swept.reachable_area and (copy.missed() == swept.missed()).all()
-    before, cells = swept.coverage, swept.cells.copy()
+    assert copy.coverage == swept.coverage > 0.0 and copy.reachable_area == swept.reachable_area
+    assert (copy.missing_share() == swept.missing_share()).all()
+    before, shares = swept.coverage, swept.missing_share()
     followed(copy, (2.0, 1.0), (2.3, 1.0))
-    assert copy.coverage == approx(2.0 * before, rel=0.2) and swept.coverage == before and (swept.cells == cells).all()
+    assert copy.coverage == approx(2.0 * before, rel=0.2)
+    assert swept.coverage == before and (swept.missing_share() == shares).all()
     followed(swept, (1.0, 1.5), (1.3, 1.5), (1.3, 1.8))
-    assert swept.coverage > before and not (copy.cells & kernel.SWEPT)[30:].any()
-    assert copy.coverage == approx(area(copy, plan) / copy.reachable_area)
+    assert swept.coverage > before and copy.missing_share()[60:].sum() == memory(plan).missing_share()[60:].sum()
 
 
 def test_coverage_is_complete_if_nothing_can_be_reached():
@@ -142,22 +146,13 @@ def test_coverage_is_complete_if_nothing_can_be_reached():
     assert swept.coverage == 1.0 and not swept.missed().any()
 
 
-def test_cliffs_are_never_reachable_nor_swept():
-    plan = crooked(cliff=CLIFF)
+def test_floor_beside_cliffs_and_walls_that_the_brush_cannot_reach_does_not_count():
+    plan = crooked(cliff=CLIFF).refined()
     swept = memory(plan)
     cliff = part_of(plan, CLIFF)
-    assert (swept.cells[cliff] == kernel.CLIFF).all() and not (swept.cells & kernel.CLIFF)[~cliff].any()
-    assert not swept.missed()[cliff].any() and swept.missed().any()
+    assert not swept.missed()[cliff | ~plan.free].any() and swept.missed().any()
+    before = swept.coverage
     followed(swept, (3.5, 2.9), (3.7, 2.9), (3.9, 2.9))
-    assert (swept.cells[cliff] == kernel.CLIFF).all() and (swept.cells & kernel.SWEPT).any()
-
-
-def test_walls_and_floor_that_the_brush_cannot_reach_do_not_count():
-    plan = crooked()
-    swept = memory(plan)
-    reachable = plan.reachable(1.0, 1.0, quiet().drive.radius, quiet().brush.width)
-    assert (swept.missed() == reachable).all() and swept.reachable_area == approx(reachable.sum() * 0.05 ** 2)
-    assert ((swept.cells & kernel.BLOCKED > 0) == ~plan.free).all()
+    assert before < swept.coverage < 0.01
     followed(swept, (0.3, 0.0), (0.6, 0.0), (0.9, 0.0))  # along the rim, which the brush cannot reach
-    assert not (swept.cells & kernel.SWEPT)[~plan.free].any() and area(swept, plan) > 0.0
-    assert swept.coverage == approx(np.count_nonzero(reachable & (swept.cells & kernel.SWEPT > 0)) / reachable.sum())
+    assert area(swept) < 0.2 * WIDTH

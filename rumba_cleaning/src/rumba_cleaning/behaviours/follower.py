@@ -112,6 +112,11 @@ class Follower:
         """Distance left to the end [m]."""
         return self._after + self._pieces[0].length - self._distance if self._pieces else 0.0
 
+    @property
+    def speed(self) -> float:
+        """Speed of the route where the robot is [m/s]; 0 at its end."""
+        return self._pieces[0].speeds[self._pieces[0].index(self._distance)] if self._pieces else 0.0
+
     def rest(self) -> Optional[Route]:
         """What is left of the route, from the next waypoint on; None if nothing is left."""
         if not self._pieces:

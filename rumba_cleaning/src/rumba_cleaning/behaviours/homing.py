@@ -69,6 +69,9 @@ class Homing(Behaviour):
         self._time += observation.dt
         if self._time > PATIENCE or self._retreats > RETREATS:
             return self.fail('something keeps the robot from the contacts', Outcome.BLOCKED)
+        if any(observation.cliffs) and self._phase is not _Phase.RETREAT:
+            self._retreats += 1
+            self._enter(_Phase.RETREAT, observation.pose)
         return {
             _Phase.SEEK: self._seek, _Phase.EDGE: self._edge, _Phase.FACE: self._face, _Phase.ASIDE: self._turn_aside,
             _Phase.CROSS: self._cross, _Phase.AHEAD: self._ahead, _Phase.RETREAT: self._retreat,

@@ -45,6 +45,7 @@ class Travel:
         self._context = context
         self._follower = Follower(route, context.robot.drive)
         self._back = 0.0  # [s] still to back off
+        self._leaves = False  # the route, after that
         self._nearest = math.inf  # [m] least distance that was left
         self._waited = 0.0  # [s] since then
         self._is_first = True  # command
@@ -64,17 +65,18 @@ class Travel:
         return self._follower.rest_from_here() if self.going is Going.LOST else self._follower.rest()
 
     def command(self, observation: Observation, brushes_up: bool) -> Command:
-        """What to do now."""
-        if self._is_first and _is_at_edge(self._context.ground, observation):
-            self._back = recoil.CLIFF / recoil.SPEED
+        """What to do now; where the route is faster than the cleaning speed, the brushes are up in any case."""
+        brushes_up = brushes_up or self._follower.speed > self._context.config.speed
+        if self._is_first and any(observation.cliffs):
+            self._back = recoil.time_back(observation)
         self._is_first = False
         if self._back > 0.0:
             self._back -= observation.dt
-            if self._back <= 0.0:
+            if self._back <= 0.0 and self._leaves:
                 self.going = Going.BLOCKED
             return Command(-recoil.SPEED, 0.0, brushes_up)
         if self._is_blocked(observation):
-            self._back = recoil.time_back(observation)
+            self._back, self._leaves = recoil.time_back(observation), True
             return Command(-recoil.SPEED, 0.0, brushes_up)
         v, w = self._follower.velocity(observation.pose, observation.dt)
         if self._follower.is_lost:
@@ -104,14 +106,6 @@ def mark(context: Context, pose: Pose, angle: float) -> None:
     away = context.robot.drive.radius + GAP + OBSTACLE
     context.ground.mark(pose.x + away * math.cos(pose.theta + angle), pose.y + away * math.sin(pose.theta + angle),
                         OBSTACLE)
-
-
-def _is_at_edge(ground: Ground, observation: Observation) -> bool:
-    """Whether a turn here might swing a wheel over a cliff, and backing off leads away from it."""
-    pose = observation.pose
-    behind = pose.x - recoil.CLIFF * math.cos(pose.theta), pose.y - recoil.CLIFF * math.sin(pose.theta)
-    here, there = ground.plan.safe_clearance_at(pose.x, pose.y), ground.plan.safe_clearance_at(*behind)
-    return here < ground.reach - KNOWN and there > here
 
 
 def _is_known(ground: Ground, pose: Pose) -> bool:

@@ -6,6 +6,7 @@ from typing import Any, Callable, Optional, TypeVar
 
 import numpy as np
 
+from rumba_cleaning.belief.footing import Footing
 from rumba_cleaning.belief.ground import Ground
 from rumba_cleaning.belief.swept import Swept
 from rumba_cleaning.cleaning_config import CleaningConfig
@@ -32,7 +33,7 @@ class Context:
     """One robot's knowledge, shared by all its behaviours.
 
     Attributes:
-        plan: the floor plan.
+        plan: the refined floor plan.
         robot: what the robot is like.
         config: speeds and thresholds for its work.
         target_coverage: share of the reachable floor to sweep [0..1].
@@ -40,6 +41,7 @@ class Context:
         executor: what runs long computations, as `submit` does.
         ground: where the robot can go, with the obstacles that it met.
         swept: what its brush passed over.
+        footing: where the floor ends.
     """
 
     def __init__(self, plan: FloorPlan, robot: RobotConfig, config: CleaningConfig, seed: int = 0,
@@ -48,14 +50,15 @@ class Context:
 
         Without an executor, what is submitted runs at once in the calling thread, so that a run can be repeated.
         """
-        self.plan = plan
+        self.plan = plan.refined()
         self.robot = robot
         self.config = config
         self.target_coverage = config.target_coverage
         self.generator = np.random.default_rng(seed)
         self.executor = executor if executor is not None else InPlace()
-        self.ground = Ground(plan, robot)
-        self.swept = Swept(plan, robot)
+        self.ground = Ground(self.plan, robot)
+        self.swept = Swept(self.plan, robot)
+        self.footing = Footing(self.plan, robot)
 
     def with_target(self, target_coverage: float) -> 'Context':
         """A context with another target that shares everything else, ground and swept included, with this one."""

@@ -8,12 +8,11 @@ import numpy as np
 from scipy import ndimage
 from skimage import graph
 
-from rumba_sim.model.constants import constants
+from rumba_cleaning.belief.search import cheapest
+from rumba_sim.model.constants import clearance_needed
 from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.model.kernel import Array
 from rumba_sim.model.robot_config import RobotConfig
-
-ANY_RATE = 50  # [Hz] `constants` asks for a rate, but how near a robot can come to a wall does not depend on it
 
 # All figures below are our choice; each comment says what speaks for a larger and for a smaller value.
 MARGIN = 0.003  # [m] that paths keep beyond the touching distance: more than rounding errors, but it closes few gaps
@@ -21,6 +20,7 @@ GROWTH = 0.02  # [m] added to the radius of an obstacle that is met again: large
 LARGEST = 0.25  # [m] radius of an obstacle, at most: small leaves gaps beside it open, large passes wide obstacles
 EXTRA_CLEARANCE = 0.04  # [m] beside straight parts of a path: large touches less, small makes paths shorter
 NEAR = 0.4  # [m] a goal this near is driven to directly, without the extra clearance: a path around it costs more
+SEARCH_SPACING = 0.05  # [m] between the nodes that are looked at first: large is fast, but misses narrow passages
 SEARCH_MARGIN = 2.0  # [m] around both ends is searched first: small is fast, but a longer path needs a second search
 INFLATION = 0.1  # [m] beyond the touching distance, within which a path costs more: large keeps to the open floor ...
 INFLATION_COST = 2.0  # ... up to this many times its length more: small lets a path follow a wall to be shorter
@@ -42,7 +42,7 @@ class Ground:
     def __init__(self, plan: FloorPlan, robot: RobotConfig) -> None:
         """Know what the plan shows."""
         self.plan = plan
-        self.reach = float(constants(robot, plan, ANY_RATE)[0]['reach'])
+        self.reach = clearance_needed(robot.drive.radius, plan.resolution)
         self.forget()
 
     def copy(self) -> 'Ground':
@@ -165,10 +165,13 @@ class Ground:
         if self.is_straight(start, end, 0.0 if is_near else EXTRA_CLEARANCE):
             return np.array([start, end])
         first, last = self.standing(self.nodes(np.array([start, end])))
-        found = self._search(first, last, int(SEARCH_MARGIN / self.plan.resolution))
-        if found is None:
-            found = self._search(first, last, max(self.clearance.shape))
-        if found is None:
+        near, all_of_it = int(SEARCH_MARGIN / self.plan.resolution), max(self.clearance.shape)
+        coarse = max(int(SEARCH_SPACING / self.plan.resolution + 0.5), 1)
+        for margin, spacing in ((near, coarse), (near, 1), (all_of_it, coarse), (all_of_it, 1)):
+            found = self._search(first, last, margin, spacing)
+            if found is not None:
+                break
+        else:
             return None
         inner = self._straightened(self.points(found))
         return np.concatenate([[start], inner[1:-1] if len(inner) > 2 else inner, [end]])
@@ -183,19 +186,28 @@ class Ground:
         costs, _ = search.find_costs([self.standing_at(x, y)])
         return np.asarray(costs * self.plan.resolution)
 
-    def _search(self, first: Array, last: Array, margin: int) -> Optional[Array]:
-        """The cheapest path between two nodes (2), or None: int (any, 2), nodes next to each other.
+    def _search(self, first: Array, last: Array, margin: int, spacing: int) -> Optional[Array]:
+        """The cheapest path between two nodes (2), or None: int (any, 2), nodes.
 
-        It stays in the rectangle around both nodes that is larger by `margin` nodes on each side.
+        It stays in the rectangle around both nodes that is larger by `margin` nodes on each side, and visits only each
+        node that is a multiple of `spacing` from the first; from the one nearest to the last it goes on to that.
         """
-        top, left = np.maximum(np.minimum(first, last) - margin, 0)
-        bottom, right = np.maximum(first, last) + margin + 1
-        clearance = self.clearance[top:bottom, left:right]
+        low = np.maximum(np.minimum(first, last) - margin, first % spacing)
+        low += (first - low) % spacing
+        high = np.maximum(first, last) + margin + 1
+        window = slice(low[0], high[0], spacing), slice(low[1], high[1], spacing)
+        clearance = self.clearance[window]
         inflation = INFLATION_COST * np.clip(1.0 - (clearance - self.reach) / INFLATION, 0.0, 1.0)
-        search = graph.MCP_Geometric(np.where(self.fits[top:bottom, left:right], 1.0 + inflation, -1.0))
-        end = tuple(last - (top, left))
-        costs, _ = search.find_costs([first - (top, left)], [end])
-        return np.array(search.traceback(end)) + (top, left) if np.isfinite(costs[end]) else None
+        costs = np.where(self.fits[window], 1.0 + inflation, np.inf)
+        begin, end = (first - low) // spacing, np.minimum((last - low + spacing // 2) // spacing,
+                                                          np.array(costs.shape) - 1)
+        if not np.isfinite(costs[end[0], end[1]]):
+            return None
+        found = cheapest(costs, (int(begin[0]), int(begin[1])), (int(end[0]), int(end[1])))
+        if len(found) == 0:
+            return None
+        path = found * spacing + low
+        return path if (path[-1] == last).all() else np.concatenate([path, [last]])
 
     def _straightened(self, path: Array) -> Array:
         """A path (any, 2) without the waypoints that it does not need.

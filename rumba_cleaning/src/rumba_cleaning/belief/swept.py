@@ -1,62 +1,42 @@
 """The floor that the brush of one robot has swept, computed from the poses that the robot knows."""
 
+import copy
 from typing import Optional
 
 import numpy as np
 
-from rumba_sim.model import kernel
-from rumba_sim.model.compiled import fast
-from rumba_sim.model.constants import constants
 from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.kernel import Array
 from rumba_sim.model.robot_config import RobotConfig
+from rumba_sim.model.sweep import Sweep
 
-ANY_RATE = 50  # [Hz] `constants` asks for a rate, but the constants of a brush do not depend on it
 # Our choice: ten times what a robot drives at the default transit speed, 0.45 m/s, from one observation to the next.
 JUMP = 0.5  # [m] |dx| + |dy| from pose to pose: the robot did not drive there, somebody moved it
+MOST = 0.5  # share of a cell's area, from which on the cell is missed: less is the rim of what was swept
 
 
 class Swept:
-    """A memory of the floor.
-
-    Attributes:
-        cells: uint8 (rows, columns) with the bits BLOCKED, CLIFF, REACHABLE and SWEPT of `kernel`.
-    """
+    """A memory of the floor; nothing is reachable in it until `begin`."""
 
     def __init__(self, plan: FloorPlan, config: RobotConfig) -> None:
-        """Know the walls, but no cell that is reachable or swept: call `begin` next."""
-        self._plan = plan
-        self._config = config
-        self._constants = constants(config, plan, ANY_RATE)[0]
-        self._dirt = np.zeros((plan.rows, plan.columns), np.float32)
-        self._tally = np.zeros(1, kernel.TALLY)[0]
-        self._brush = np.zeros(1, kernel.ROBOT)[0]
+        """Remember a floor by its refined plan."""
+        self._sweep = Sweep(plan, config)
         self._last: Optional[Pose] = None
-        self.cells = np.where(plan.free, 0, kernel.BLOCKED).astype(np.uint8)
-        if plan.cliff is not None:
-            self.cells[plan.cliff & plan.free] |= kernel.CLIFF
-        self._reachable = 0
 
     def begin(self, x: float, y: float) -> None:
-        """Forget what was swept, and find out which cells can be reached from (x, y) [m], map frame.
+        """Forget what was swept, and find out what can be reached from (x, y) [m], map frame.
 
         Raises:
             MapError: the robot does not fit there.
         """
-        reachable = self._plan.reachable(x, y, self._config.drive.radius, self._config.brush.width)
-        self.cells &= kernel.BLOCKED | kernel.CLIFF
-        self.cells[reachable] |= kernel.REACHABLE
-        self._reachable = int(np.count_nonzero(reachable))
-        self._tally['swept'] = 0
+        self._sweep.begin(x, y)
         self._last = None
 
     def copy(self) -> 'Swept':
-        """A memory with the same cells, which stays as it is if this one changes."""
-        other = Swept(self._plan, self._config)
-        other.cells[:] = self.cells
-        other._reachable = self._reachable
-        other._tally['swept'] = self._tally['swept']
+        """A memory of the same floor, which stays as it is if this one changes, and has no last pose."""
+        other = copy.copy(self)
+        other._sweep, other._last = self._sweep.copy(), None
         return other
 
     def follow(self, pose: Pose, brushes_up: bool) -> None:
@@ -72,19 +52,22 @@ class Swept:
 
     def sweep(self, start: Pose, end: Pose) -> None:
         """Sweep from one pose to another that is near, map frame."""
-        self._brush['x'], self._brush['y'], self._brush['theta'] = end
-        fast.sweep(self._brush, self._constants, self.cells, self._dirt, self._tally, *start)
+        self._sweep.pass_over(start, end)
 
     @property
     def coverage(self) -> float:
-        """Share of the reachable cells that was swept [0..1]; 1 if no cell can be reached."""
-        return int(self._tally['swept']) / self._reachable if self._reachable else 1.0
+        """Share of the reachable floor that was swept [0..1]; 1 if nothing can be reached."""
+        return self._sweep.coverage
 
     @property
     def reachable_area(self) -> float:
         """Area that the brush can reach [m^2]."""
-        return self._reachable * self._plan.resolution ** 2
+        return self._sweep.reachable_area
+
+    def missing_share(self) -> Array:
+        """Share of each cell's area that can be reached and was not swept [0..1]: float32 (rows, columns)."""
+        return self._sweep.missing_share()
 
     def missed(self) -> Array:
-        """Which cells can be reached and were not swept: bool (rows, columns)."""
-        return np.asarray(self.cells & (kernel.REACHABLE | kernel.SWEPT) == kernel.REACHABLE)
+        """Cells of which at least the share MOST can be reached and was not swept: bool (rows, columns)."""
+        return np.asarray(self.missing_share() >= MOST)

@@ -9,6 +9,7 @@ import numpy as np
 from rumba_cleaning import strategies
 from rumba_cleaning.behaviour import STOP, Behaviour, Command, Observation, Status
 from rumba_cleaning.behaviours.dock import Dock
+from rumba_cleaning.behaviours.guard import Guard
 from rumba_cleaning.behaviours.undock import Undock
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.mission.battery_watch import BatteryWatch
@@ -69,6 +70,7 @@ class Mission(Behaviour):
             raise ConfigError(f'target_coverage is {target_coverage}: must be 0 to 1')
         self._context = context.with_target(target_coverage)
         self._cleaning = strategies.make(strategy, self._context)
+        self._guard = Guard(self._context)
         self.strategy = strategy
 
     def resume(self) -> None:
@@ -80,6 +82,10 @@ class Mission(Behaviour):
         if self.status is not Status.RUNNING:
             raise CommandError(f'a mission that has ended cannot be resumed: {self.message}')
         self._resumes = self._has_memory and not self._is_under_way
+
+    def forget(self) -> None:
+        """Have the next run begin with a floor that is not swept, even if it was to go on with the last one."""
+        self._resumes = False
 
     def initialise(self) -> None:
         """Begin with a floor that is not swept, unless the mission is resumed."""
@@ -98,8 +104,10 @@ class Mission(Behaviour):
             self._gained = 0.0  # coverage at the last charge
             self._has_memory = False
             self._context.ground.forget()
+            self._context.footing.forget()
             self._watch = BatteryWatch(self._context)
         self._resumes = False
+        self._guard.rest()
 
     def update(self, observation: Observation) -> Command:
         """Do what the state asks for."""
@@ -109,15 +117,20 @@ class Mission(Behaviour):
         if not self._watch.is_ready:
             self.message = 'planning'
             return STOP
-        command = {
-            State.IDLE: self._begin, State.UNDOCKING: self._undock, State.CLEANING: self._clean,
-            State.RETURNING: self._return, State.DOCKING: self._return, State.CHARGING: self._charge,
-        }[self.state](observation)
+        command = self._guard.step(self._decide, observation)
         self._brushes_up = command.brushes_up
         return command
 
+    def _decide(self, observation: Observation) -> Command:
+        return {
+            State.IDLE: self._begin, State.UNDOCKING: self._undock, State.CLEANING: self._clean,
+            State.RETURNING: self._return, State.DOCKING: self._return, State.CHARGING: self._charge,
+        }[self.state](observation)
+
     def terminate(self) -> None:
         """Stop the part that is under way."""
+        if self.outcome is Outcome.FALLEN:
+            self.state = State.STRANDED
         if self._part is not None:
             self._part.stop()
 
@@ -125,6 +138,7 @@ class Mission(Behaviour):
         """Follow the robot; what it passes over does not count as swept, since the person may move the brushes."""
         self._brushes_up = True
         self._is_undisturbed = False
+        self._guard.stand_by(observation)
         self._track(observation)
         if self._part is not None:
             self._part.stand_by(observation)
@@ -191,8 +205,12 @@ class Mission(Behaviour):
         cleaning = self._cleaning
         command = cleaning.step(observation)
         self.message = '; '.join(filter(None, [f'{_percent(coverage)} swept', cleaning.message]))
-        if cleaning.status is not Status.RUNNING:
-            return self._close(cleaning.status, f'{_percent(coverage)} swept: {cleaning.message}', cleaning.outcome)
+        if cleaning.status is Status.FAILED:
+            return self._close(Status.FAILED, f'{_percent(coverage)} swept: {cleaning.message}', cleaning.outcome)
+        if cleaning.status is Status.SUCCEEDED:
+            target = _percent(self._context.target_coverage)
+            return self._close(Status.FAILED, f'{_percent(coverage)} swept, the target is {target}: '
+                                              f'{cleaning.message}', Outcome.INCOMPLETE)
         return command
 
     def _return(self, observation: Observation) -> Command:

@@ -1,97 +1,115 @@
-"""Plans how to clean what was missed: region by region, along the walls, in lanes between them, and then the crumbs."""
+"""Plans how to clean what was missed: region by region, in rings from the walls inward, and then the crumbs."""
 
-from typing import Dict, List, Optional
+from typing import Dict, List, Optional, Tuple
 
 import numpy as np
 
 from rumba_cleaning.behaviours.follower import Route
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.belief.ground import Ground
-from rumba_cleaning.planning.crumbs import crumbs, with_crumbs
-from rumba_cleaning.planning.lanes import blocks
-from rumba_cleaning.planning.links import block_variants
-from rumba_cleaning.planning.regions import regions
-from rumba_cleaning.planning.tour import Stretch, tour
-from rumba_cleaning.planning.turned_floor import main_direction
-from rumba_cleaning.planning.walls import Wall, walls
+from rumba_cleaning.planning import tour
+from rumba_cleaning.planning.crumbs import STRIP, crumbs
+from rumba_cleaning.planning.regions import Ways, doors, regions
+from rumba_cleaning.planning.rings import chains, rings, stretch
+from rumba_cleaning.planning.stretches import Stretch
+from rumba_cleaning.planning.tour import Tour
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.kernel import Array
 
-# Our choice: more entries into a closed path give shorter tours, and take more time to compare.
-ENTRIES = 16  # waypoints at which a closed path may begin, at most, ...
-APART = 10  # ... and at least every so many waypoints: 0.2 m apart
+# Our choice.
+SURPLUS = 0.002  # of coverage that is planned beyond the target, since no robot drives exactly as planned
+YIELD = 0.7  # share of a crumb that is swept in passing, about: small plans for more crumbs than the target needs
+CULLS = 4  # rounds in which crumbs are left out that cost much time for their area: more make better choices
+TRANSIT = 0.5  # [m] of a way between two stretches: a longer one is driven at the speed of transit
 
-Stretches = Dict[int, List[Stretch]]  # by the label of their region
+Regional = Dict[int, List[Stretch]]  # by the label of their region
 
 
 def plan(context: Context, pose: Pose) -> Optional[Route]:
     """A route that cleans what was missed; None if nothing was missed, or none of it can be reached.
 
-    It visits only as many crumbs as the target needs.
+    As long as rings clean much, crumbs that are no longer than a spot are left for the next route, which knows where
+    the robot really drove; then only as many crumbs are visited as the target needs.
 
     Args:
         context: with the floor that was swept before; it is not changed.
         pose: from which the route begins, map frame.
     """
     ground, brush = context.ground, context.robot.brush.width
-    start = np.array([pose.x, pose.y])
     labels = regions(ground)
-    missed = context.swept.missed() & ground.within(0.5 * brush)
-    found: Stretches = {}
-    for wall in walls(ground, missed, labels, brush):
-        found.setdefault(wall.region, []).append(Stretch(_wall_variants(wall)))
-    angle = main_direction(ground)
-    for region, part in _by_region(ground, missed, labels).items():
-        for block in blocks(ground, part, brush, context.config.speed, angle):
-            found.setdefault(region, []).append(Stretch(block_variants(ground, block.lanes)))
-    if found:
-        return with_crumbs(context, _route(context, start, found))
-    for crumb in crumbs(ground, context.swept.missed() & ground.within(0.5 * brush)):
-        region = int(labels[ground.node(*crumb.waypoints[0])])
-        found.setdefault(region, []).append(Stretch([crumb.waypoints]))
-    return _route(context, start, found)
-
-
-def _wall_variants(wall: Wall) -> List[Array]:
-    """The paths along a wall, in both directions: float64 (any, 2) [m] each; a closed one begins at many points."""
-    if not wall.is_closed:
-        return [wall.waypoints, wall.waypoints[::-1]]
-    step = max(APART, len(wall.waypoints) // ENTRIES)
-    rotated = [np.concatenate([wall.waypoints[index:-1], wall.waypoints[:index + 1]])
-               for index in range(0, len(wall.waypoints) - 1, step)]
-    return rotated + [path[::-1] for path in rotated]
-
-
-def _by_region(ground: Ground, missed: Array, labels: Array) -> Dict[int, Array]:
-    """The cells to clean in each region: bool (rows, columns) each."""
-    indices = np.argwhere(missed)
-    nodes = ground.standing(indices)
-    of_cells = np.zeros(missed.shape, labels.dtype)
-    of_cells[missed] = labels[nodes[:, 0], nodes[:, 1]]
-    return {int(label): missed & (of_cells == label) for label in np.unique(of_cells[missed])}
-
-
-def _route(context: Context, start: Array, found: Stretches) -> Optional[Route]:
-    """The route through all regions from a point (2) [m]; it leaves out what cannot be reached."""
+    paper = context.swept.copy()
+    found = [stretch(chain, brush) for chain in chains(rings(ground, paper, labels, brush))]
+    found += crumbs(ground, paper.missing_share(), labels, STRIP if found else 0.0)
     if not found:
         return None
+    by_region: Regional = {}
+    for part in found:
+        by_region.setdefault(part.region, []).append(part)
+    tours = _tours(context, pose, labels, by_region)
+    if all(part.is_crumb for part in found):
+        _cull(context, tours, by_region)
+    return _route(context, pose, tours, by_region)
+
+
+def _tours(context: Context, pose: Pose, labels: Array, by_region: Regional) -> List[Tuple[int, Tour]]:
+    """The regions in the order in which they are cleaned, with a tour in each from door to door."""
+    ground, speed = context.ground, context.config.transit_speed
+    start = np.array([pose.x, pose.y])
+    names = list(by_region)
+    places = np.array([*(_middle(by_region[name]) for name in names), start])
+    node = ground.standing_at(pose.x, pose.y)
+    ways = Ways(doors(ground, labels), places, [*names, int(labels[node])])
+    metres = np.concatenate([ways.metres[:-1, :-1], ways.metres[-1:, :-1]])
+    visits = tour.order(metres / speed)
+    tours, here, entry = [], len(names), start
+    for place, following in zip(visits, [*visits[1:], None]):
+        if here != len(names) or names[place] != int(labels[node]):
+            door = ways.doors(here, place)[1]
+            entry = places[here] if door is None else door
+        leave = None if following is None else ways.doors(place, following)[0]
+        tours.append((names[place], Tour(ground, entry, by_region[names[place]], leave, speed)))
+        here = place
+    return tours
+
+
+def _middle(stretches: List[Stretch]) -> Array:
+    """The first waypoint of a stretch that is nearest to the mean of all these: float64 (2) [m]."""
+    entries = np.array([part.variants[0].ends()[0] for part in stretches])
+    return np.asarray(entries[int(np.argmin(np.hypot(*(entries - entries.mean(axis=0)).T)))])
+
+
+def _cull(context: Context, tours: List[Tuple[int, Tour]], by_region: Regional) -> None:
+    """Leave out crumbs that cost most time for their area, as long as the target can be met without them."""
+    swept = context.swept
+    needed = (context.target_coverage + SURPLUS - swept.coverage) * swept.reachable_area / YIELD  # [m^2]
+    for last in range(CULLS, 0, -1):
+        rows = [(time / by_region[name][int(index)].area, by_region[name][int(index)].area, number, int(index))
+                for number, (name, route) in enumerate(tours) for time, index in route.saved()]
+        spare = (sum(row[1] for row in rows) - needed) / last
+        dropped: Dict[int, List[int]] = {}
+        for _, area, number, index in sorted(rows, key=lambda row: -row[0]):
+            spare -= area
+            if spare < 0.0:
+                break
+            dropped.setdefault(number, []).append(index)
+        for number, indices in dropped.items():
+            tours[number][1].leave_out(indices)
+
+
+def _route(context: Context, pose: Pose, tours: List[Tuple[int, Tour]], by_region: Regional) -> Optional[Route]:
+    """The route over all tours; it leaves out what cannot be reached."""
     config, ground = context.config, context.ground
-    waypoints, speeds = [start[np.newaxis]], []
-    entries = {region: _middle_entry(stretches) for region, stretches in found.items()}
-    order = [list(entries)[index]
-             for index, _ in tour(ground, start, [Stretch([entry]) for entry in entries.values()])]
-    for region, following in zip(order, [*order[1:], None]):
-        end = entries[following][0] if following is not None else None
-        for index, variant in tour(ground, waypoints[-1][-1], found[region], end):
-            stretch = found[region][index].variants[variant]
-            path = ground.path(waypoints[-1][-1], stretch[0])
-            if path is not None:
-                waypoints += [path[1:], stretch[1:]]
-                speeds += [np.full(len(path) - 1, config.transit_speed), np.full(len(stretch) - 1, config.speed)]
+    waypoints, speeds = [np.array([[pose.x, pose.y]])], []
+    for name, route in tours:
+        for number, leg in enumerate(route.legs()):
+            path = by_region[name][leg.stretch].variants[leg.variant].path()
+            way = leg.way if number else None
+            if way is None:
+                way = ground.path(waypoints[-1][-1], path[0])
+            if way is None:
+                continue
+            length = float(np.hypot(*np.diff(way, axis=0).T).sum())
+            waypoints += [way[1:], path[1:]]
+            speeds += [np.full(len(way) - 1, config.transit_speed if length > TRANSIT else config.speed),
+                       np.full(len(path) - 1, config.speed)]
     return Route(np.concatenate(waypoints), np.concatenate(speeds)) if speeds else None
-
-
-def _middle_entry(stretches: List[Stretch]) -> Array:
-    """The first point of a variant that is nearest to the mean of all these points: float64 (1, 2) [m]."""
-    entries = np.array([variant[0] for stretch in stretches for variant in stretch.variants])
-    return entries[[int(np.argmin(np.hypot(*(entries - entries.mean(axis=0)).T)))]]

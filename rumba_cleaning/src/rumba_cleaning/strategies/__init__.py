@@ -7,11 +7,13 @@ A decorator registers a strategy: that of a function, or a class, which makes it
 """
 
 import importlib
+import os
+import traceback
 from typing import Callable, Dict, List, TypeVar
 
 from rumba_cleaning.behaviour import Behaviour
 from rumba_cleaning.belief.context import Context
-from rumba_sim.model.errors import StrategyError
+from rumba_sim.model.errors import StrategyError, quoted
 
 Factory = Callable[[Context], Behaviour]
 Made = TypeVar('Made', bound=Factory)
@@ -43,9 +45,23 @@ def load(modules: str) -> None:
     for module in filter(None, (part.strip() for part in modules.split(','))):
         try:
             importlib.import_module(module)
-        except (ImportError, SyntaxError, TypeError) as error:  # TypeError: a relative name
-            raise StrategyError(f'strategies of {module!r}: {error}; a module is named as in Python, '
-                                'my_package.my_module, and must be on the Python path') from None
+        except StrategyError:
+            raise
+        except (Exception, SystemExit) as error:  # its code may do anything
+            raise StrategyError(f'strategies of {quoted(module)}: {_describe(error)}') from None
+
+
+def _describe(error: BaseException) -> str:
+    """What went wrong in an import, and in which line of which file; without one, how modules are named."""
+    frames = [frame for frame in traceback.extract_tb(error.__traceback__)
+              if frame.filename not in (__file__, importlib.__file__) and not frame.filename.startswith('<')]
+    if isinstance(error, SyntaxError):
+        what, lines = error.msg, [f'{os.path.basename(error.filename or "")}:{error.lineno}']
+    else:
+        what, lines = str(error), [f'{os.path.basename(frame.filename)}:{frame.lineno}' for frame in frames]
+    if not lines:
+        return f'{what}; a module is named as in Python, my_package.my_module, and must be on the Python path'
+    return f'{type(error).__name__}: {what} ({", from ".join(dict.fromkeys([lines[-1], lines[0]]))})'
 
 
 def known() -> List[str]:
@@ -62,14 +78,17 @@ def check(name: str) -> None:
         StrategyError: there is none of that name.
     """
     if name not in known():
-        raise StrategyError(f'unknown strategy {name!r}: known are {", ".join(known())}')
+        raise StrategyError(f'unknown strategy {quoted(name)}: known are {", ".join(known())}')
 
 
 def make(name: str, context: Context) -> Behaviour:
     """A new behaviour for a strategy.
 
     Raises:
-        StrategyError: there is none of that name.
+        StrategyError: there is none of that name, or it makes something else.
     """
     check(name)
-    return _factories[name](context)
+    behaviour = _factories[name](context)
+    if not isinstance(behaviour, Behaviour):
+        raise StrategyError(f'strategy {quoted(name)} makes {quoted(behaviour)}: must be a Behaviour')
+    return behaviour

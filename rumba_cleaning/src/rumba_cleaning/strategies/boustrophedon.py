@@ -8,7 +8,6 @@ from rumba_cleaning.behaviours.detour import detour
 from rumba_cleaning.behaviours.follower import Route
 from rumba_cleaning.behaviours.travel import Going, Travel
 from rumba_cleaning.belief.context import Context
-from rumba_cleaning.outcome import Outcome
 from rumba_cleaning.planning.planner import plan
 from rumba_cleaning.strategies import strategy
 from rumba_sim.model.geometry import Pose
@@ -49,7 +48,9 @@ class Boustrophedon(Behaviour):
                 self._plan_round(observation.pose)
             self._take_plan()
             if self._travel is None:
-                return self._wait() if self._planning is not None or not self._is_round else self._end()
+                if self._planning is not None or not self._is_round:
+                    return self._wait()
+                return self.succeed('nothing more can be reached')
         self._brushes_up = False
         command = self._travel.command(observation, self._brushes_up)
         self.message = f'{self._travel.remaining:.0f} m of the plan to go'
@@ -102,11 +103,6 @@ class Boustrophedon(Behaviour):
         if self._planning is not None:
             self.message = 'planning'
         return STOP._replace(brushes_up=self._brushes_up)
-
-    def _end(self) -> Command:
-        context = self._context
-        is_met = context.swept.coverage >= context.target_coverage
-        return self.succeed('what can be reached is swept', Outcome.SUCCEEDED if is_met else Outcome.INCOMPLETE)
 
 
 def _round(context: Context, pose: Pose, is_worth: bool, may_forget: bool) -> Planned:

@@ -8,6 +8,7 @@ from rumba_cleaning.behaviour import Behaviour
 from rumba_cleaning.behaviours.bounded import Bounded
 from rumba_cleaning.behaviours.dock import Dock
 from rumba_cleaning.behaviours.go_to import GoTo
+from rumba_cleaning.behaviours.guard import Guard
 from rumba_cleaning.behaviours.undock import Undock
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.mission.mission import Mission, State
@@ -35,18 +36,23 @@ class Activity(abc.ABC):
     strategy = ''
     needs_figures = False
 
-    def __init__(self, behaviour: Behaviour, time_limit: float, default_limit: float) -> None:
-        """Give a behaviour the time limit [s] of its goal, or the default if that is 0.
+    def __init__(self, behaviour: Behaviour, time_limit: float, default_limit: float,
+                 guard: Optional[Guard] = None) -> None:
+        """Give a behaviour the time limit [s] of its goal, or the default if that is 0, and a guard if it has none.
 
         Raises:
             ConfigError: the time limit is negative or not finite.
         """
         if not (math.isfinite(time_limit) and time_limit >= 0.0):
             raise ConfigError(f'time_limit is {time_limit}: must be a finite number, 0 or more [s]')
-        self.behaviour = Bounded(behaviour, time_limit or default_limit)
+        self.behaviour = Bounded(behaviour, time_limit or default_limit, guard)
 
     def begin(self) -> None:
         """Called once, after the activity before was terminated."""
+
+    def begin_again(self) -> None:
+        """Forget what was done, and do all of it in another world, with all the time of its limit."""
+        self.behaviour.restart()
 
     @property
     @abc.abstractmethod
@@ -110,6 +116,11 @@ class Cleaning(Activity):
         if self._is_resumed:
             self._mission.resume()
 
+    def begin_again(self) -> None:
+        """Clean a floor of which nothing is swept."""
+        self._mission.forget()
+        super().begin_again()
+
     @property
     def state(self) -> State:
         """The state of the mission."""
@@ -144,7 +155,7 @@ class Docking(Activity):
             ConfigError: the time limit is negative or not finite.
         """
         self._dock = Dock(context)
-        super().__init__(self._dock, goal.time_limit, context.config.time_limit.dock)
+        super().__init__(self._dock, goal.time_limit, context.config.time_limit.dock, Guard(context))
 
     @property
     def state(self) -> State:
@@ -172,7 +183,7 @@ class Undocking(Activity):
             ConfigError: the time limit is negative or not finite.
         """
         self._undock = Undock(context)
-        super().__init__(self._undock, goal.time_limit, context.config.time_limit.undock)
+        super().__init__(self._undock, goal.time_limit, context.config.time_limit.undock, Guard(context))
 
     @property
     def state(self) -> State:
@@ -202,7 +213,7 @@ class GoingTo(Activity):
         target = Pose(goal.target.x, goal.target.y, goal.target.theta)
         check_finite(target, may_face_anywhere=True)
         self._go_to = GoTo(context, target)
-        super().__init__(self._go_to, goal.time_limit, context.config.time_limit.go_to)
+        super().__init__(self._go_to, goal.time_limit, context.config.time_limit.go_to, Guard(context))
 
     @property
     def state(self) -> State:

@@ -65,6 +65,7 @@ class Brushes:
             are_up = self._wishes.get()
             try:
                 self._service(are_up)
-            except (rospy.ServiceException, rospy.ROSException) as error:
+            except Exception as error:  # whatever it is, the next wish must be served
                 self.forget()
-                rospy.logwarn_throttle(COMPLAINT_PERIOD, f'brushes not moved: {error}')
+                if not rospy.core.is_shutdown_requested():  # else the robot may end too
+                    rospy.logwarn_throttle(COMPLAINT_PERIOD, f'brushes not moved: {type(error).__name__}: {error}')

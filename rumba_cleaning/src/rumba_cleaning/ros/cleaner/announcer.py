@@ -1,5 +1,6 @@
 """Tells what a robot does: programs by mission_status, people by the log."""
 
+import itertools
 import sys
 from typing import Optional
 
@@ -8,12 +9,16 @@ import rospy
 from rumba_cleaning.mission.mission import State
 from rumba_cleaning.ros.cleaner import conversions
 from rumba_msg.msg import MissionStatus
+from rumba_sim.model.errors import WorldError
+from rumba_sim.ros.common import master_watch, peers
 from rumba_sim.ros.common.terminal import TO_LINE_START_AND_ERASE
 
 WORDS = {
     State.UNDOCKING: 'undocking', State.CLEANING: 'cleaning', State.RETURNING: 'going home', State.DOCKING: 'docking',
     State.CHARGING: 'charging', State.GOING_TO: 'on the way', State.STRANDED: 'stranded',
     State.YIELDING: 'yielding: a person drives'}
+
+TOPIC = 'mission_status'  # below the robot's name; only its cleaner publishes it
 
 
 class Announcer:
@@ -24,9 +29,15 @@ class Announcer:
     """
 
     def __init__(self, robot: str) -> None:
-        """Speak for a robot, by its name, which is idle."""
+        """Speak for a robot, by its name, which is idle.
+
+        Raises:
+            WorldError: another cleaner does so already.
+        """
         self._robot = robot
-        self._publisher = rospy.Publisher(f'{robot}/mission_status', MissionStatus, queue_size=10, latch=True)
+        self._publisher = rospy.Publisher(f'{robot}/{TOPIC}', MissionStatus, queue_size=10, latch=True)
+        refuse_second(robot)
+        master_watch.before_return(lambda: refuse_second(robot))
         self._publish(conversions.mission_status(State.IDLE, '', 'waits for a goal', rospy.Time.now()))
 
     def tell(self, state: State, strategy: str, message: str, stamp: Optional[rospy.Time], is_due: bool) -> None:
@@ -46,3 +57,18 @@ class Announcer:
     def _publish(self, status: MissionStatus) -> None:
         self.status = status
         self._publisher.publish(status)
+
+
+def refuse_second(robot: str) -> None:
+    """Refuse to work beside another cleaner of the same robot: both would drive it.
+
+    The master keeps publishers in the order in which they came: of two that start at once, the first one stays.
+
+    Raises:
+        WorldError: there is another one.
+    """
+    topic = rospy.resolve_name(f'{robot}/{TOPIC}')
+    for other in itertools.takewhile(lambda name: name != rospy.get_name(), peers.publishers(topic)):
+        if peers.is_alive(other):
+            raise WorldError(f'robot {robot!r} has a cleaner already: {other} publishes {topic}: end it first, or name '
+                             'another robot: _robot:=rumba2')

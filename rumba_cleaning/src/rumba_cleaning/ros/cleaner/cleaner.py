@@ -4,8 +4,10 @@ Below the robot's name it serves the actions
   clean    rumba_msg/Clean    undock   rumba_msg/Undock
   dock     rumba_msg/Dock     go_to    rumba_msg/GoTo
 of which one runs at a time: a new goal preempts the one before. A goal of clean with `resume` goes on with the last
-cleaning that was preempted or cancelled. It serves
-  go_to_position    rumba_msg/TargetPosition: which velocity now leads toward a target
+cleaning that was preempted or cancelled. After a reset of the simulator, the goal that is active begins again, and no
+cleaning can be resumed; a goal ends if the simulator is started again, or if this node ends. It serves
+  go_to_position    rumba_msg/TargetPosition: which velocity, or heading, now leads toward a target; a node that serves
+                    it already keeps it
 publishes
   mission_status    rumba_msg/MissionStatus: latched; at each change, and at 1 Hz while a goal is active
   cmd_vel           geometry_msgs/Twist: while a goal is active, as often as dock_status comes
@@ -23,35 +25,40 @@ The stamps of dock_status are its clock.
 Parameters, as in `rosrun rumba_cleaning cleaner _robot:=rumba2 _strategy:=bounce`:
 """
 
+import os
 import queue
+import threading
 from typing import Any, Callable, Optional
 
 import rospy
-from actionlib import ActionServer
 from actionlib_msgs.msg import GoalStatus
 
 from rumba_cleaning import strategies
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.outcome import Outcome
 from rumba_cleaning.ros.cleaner import conversions
+from rumba_cleaning.ros.cleaner.action_server import Server
 from rumba_cleaning.ros.cleaner.activities import ACTIONS, Activity, Cleaning
 from rumba_cleaning.ros.cleaner.executor import DaemonExecutor
 from rumba_cleaning.ros.cleaner.go_to_position import GoToPosition
 from rumba_cleaning.ros.cleaner.robot import Robot
 from rumba_cleaning.ros.cleaner.run import Run, describe
 from rumba_cleaning.ros.cleaner.settings import Settings
-from rumba_cleaning.ros.cleaner.workplace import Workplace
+from rumba_cleaning.ros.cleaner.workplace import Workplace, World
 from rumba_msg.msg import CleanActionGoal
 from rumba_sim.model.errors import RumbaError
 from rumba_sim.ros.common import node
 
 LOOK_PERIOD = 0.2  # [s] of the wall clock from one look after a silent robot to the next
 PLANNERS = 4  # threads: a plan that is not needed any more may occupy one for seconds, and the next goal needs another
+END = 'the cleaner ends'
+END_WITHIN = 8.0  # [s] of the wall clock for the loop to notice that; then its goal is answered without it ...
+FORCED_AFTER = 4.0  # ... and after this [s] the process ends without it: roslaunch kills it after 15 s
 
 
 def main() -> None:
     """Run the node."""
-    node.run('cleaner', Settings, lambda settings: Cleaner(settings).run())
+    node.run('cleaner', Settings, lambda settings: Cleaner(settings).run(), is_single=True)
 
 
 class NothingToResumeError(RumbaError):
@@ -65,28 +72,30 @@ class Cleaner:
         """Read the map and open all topics, services and actions.
 
         Raises:
-            RumbaError: a strategy is unknown, the map cannot be read, or there is no simulator that tells one.
+            RumbaError: a strategy is unknown, the map cannot be read, there is no simulator that tells one, or another
+                cleaner works for the robot.
         """
         strategies.load(settings.strategies)
         strategies.check(settings.strategy)
         self._settings = settings
-        self._workplace = Workplace(settings.map)
+        self._events: 'queue.Queue[Callable[[], None]]' = queue.Queue()
+        self._has_ended = threading.Event()
+        self._workplace = Workplace(settings.map, lambda: self._events.put(self._look_at_world))
+        self._world: Optional[World] = self._workplace.world  # that of the goal and of the cleaning below
         self._executor = DaemonExecutor(PLANNERS)
         self._run: Optional[Run] = None
         self._interrupted: Optional[Cleaning] = None  # what a goal of clean with `resume` goes on with
-        self._events: 'queue.Queue[Callable[[], None]]' = queue.Queue()
         self._is_reading_queued = False
         self._robot = Robot(settings.robot, self._on_reading)
-        GoToPosition(settings.robot, self._workplace, settings.cleaning, self._robot.senses)
+        GoToPosition(settings, self._workplace, self._robot.senses)
         self._servers = {name: self._serve(name) for name in ACTIONS}
-        rospy.on_shutdown(self._robot.wheels.close)
+        rospy.on_shutdown(self._end)
 
-    def _serve(self, name: str) -> ActionServer:
-        """An action server; not a SimpleActionServer, which knows nothing of other actions, and refuses goals with an
-        older stamp than the last one had, as all have once a simulator was started again."""
-        server = ActionServer(f'{self._settings.robot}/{name}', ACTIONS[name].type,
-                              lambda handle: self._events.put(lambda: self._accept(name, handle)),
-                              lambda handle: self._events.put(lambda: self._cancel(handle)), auto_start=False)
+    def _serve(self, name: str) -> Server:
+        """The server of an action."""
+        server = Server(f'{self._settings.robot}/{name}', ACTIONS[name].type,
+                        lambda handle: self._events.put(lambda: self._accept(name, handle)),
+                        lambda handle: self._events.put(lambda: self._cancel(handle)), auto_start=False)
         server.start()
         return server
 
@@ -94,12 +103,49 @@ class Cleaner:
         """Handle events until ROS shuts down."""
         if self._settings.autostart:
             self._servers['clean'].internal_goal_callback(CleanActionGoal())
-        while not rospy.is_shutdown():
+        while not self._has_ended.is_set():
             try:
                 event = self._events.get(timeout=LOOK_PERIOD)
             except queue.Empty:
                 event = self._look_after
-            event()
+            try:
+                event()
+            except (Exception, SystemExit) as error:  # a strategy may raise anything
+                self._close(Outcome.ERROR, describe(error))
+
+    def _end(self) -> None:
+        """Called in a thread of rospy while its topics are still open: have no goal and no wheel go on."""
+        self._events.put(self._finish)
+        if not self._has_ended.wait(END_WITHIN):
+            rospy.logerr(f'the strategy has not returned for {END_WITHIN:g} s: the cleaner ends without it')
+            self._run = None  # its goal is answered below
+            threading.Thread(target=self._force_end, daemon=True).start()
+        for name, server in self._servers.items():
+            server.close(self._result(name, Outcome.FAILED, END), END)
+        self._robot.wheels.close()
+
+    def _finish(self) -> None:
+        self._interrupt(Outcome.FAILED, END)
+        self._has_ended.set()
+
+    def _force_end(self) -> None:
+        if not self._has_ended.wait(FORCED_AFTER):
+            os._exit(node.OWN_ERROR)
+
+    # --- the simulator --------------------------------------------------------------------------------------------
+
+    def _look_at_world(self) -> None:
+        """Notice whether the simulator was started again, or reset, since the last look."""
+        before, self._world = self._world, self._workplace.world
+        if before is None or self._world is None or before == self._world:
+            return
+        is_new_run = before.run != self._world.run
+        self._interrupted = None
+        self._robot.senses.forget(self._world.since, is_new_run)
+        if is_new_run:
+            self._close(Outcome.NO_READINGS, 'the robot is gone: the simulator was started again')
+        elif self._run is not None:
+            self._run.begin_again()
 
     # --- readings -------------------------------------------------------------------------------------------------
 
@@ -133,12 +179,20 @@ class Cleaner:
             return
         handle.set_accepted()
         try:
-            activity = self._activity(name, handle.get_goal())
-        except Exception as error:
+            self._begin(name, handle)
+        except (Exception, SystemExit) as error:  # a strategy may raise anything
             code, message = Outcome.REFUSED if isinstance(error, RumbaError) else Outcome.ERROR, describe(error)
             self._robot.announcer.say(f'{name}: refused: {message}')
             handle.set_aborted(self._result(name, code, message), message)
-            return
+
+    def _begin(self, name: str, handle: Any) -> None:
+        """Begin with an accepted goal.
+
+        Raises:
+            RumbaError: the goal cannot be carried out.
+        """
+        self._look_at_world()
+        activity = self._activity(name, handle.get_goal())
         self._interrupt(Outcome.PREEMPTED, f'preempted by a goal of {name}')
         if isinstance(activity, Cleaning):
             self._interrupted = None
@@ -170,8 +224,8 @@ class Cleaner:
         if run is not None and isinstance(run.activity, Cleaning) and run.outcome is Outcome.UNKNOWN:
             interrupted = run.activity
         if interrupted is None:
-            raise NothingToResumeError('nothing to resume: no cleaning was preempted or cancelled; send a goal '
-                                       'without resume')
+            raise NothingToResumeError('nothing to resume: no cleaning was preempted or cancelled since the simulator '
+                                       'was started or reset; send a goal without resume')
         return interrupted.resumed(time_limit)
 
     def _cancel(self, handle: Any) -> None:
@@ -186,3 +240,9 @@ class Cleaner:
         if isinstance(run.activity, Cleaning) and run.outcome is Outcome.UNKNOWN:
             self._interrupted = run.activity
         run.interrupt(outcome, message)
+
+    def _close(self, outcome: Outcome, message: str) -> None:
+        """End the goal that is active, if there is one, for good."""
+        run, self._run = self._run, None
+        if run is not None and not run.is_closed:
+            run.close(outcome, message)

@@ -2,18 +2,18 @@
 
 import time
 import traceback
-from typing import Any, Optional
+from typing import Any, Callable, List, Optional
 
 import rospy
 
-from rumba_cleaning.behaviour import Command, Observation, Status
+from rumba_cleaning.behaviour import Observation, Status
 from rumba_cleaning.mission.mission import State
 from rumba_cleaning.outcome import Outcome
 from rumba_cleaning.ros.cleaner import conversions
 from rumba_cleaning.ros.cleaner.activities import Activity
 from rumba_cleaning.ros.cleaner.robot import Robot
 from rumba_cleaning.ros.cleaner.senses import SECOND
-from rumba_sim.model.errors import RumbaError
+from rumba_sim.model.errors import RumbaError, one_line, quoted
 from rumba_sim.model.geometry import Pose
 from rumba_sim.ros.common.node import PATIENCE
 
@@ -74,31 +74,31 @@ class Run:
             self._settle(observation.pose)
 
     def _act(self, observation: Observation) -> None:
-        behaviour = self.activity.behaviour
-        command = self._decide(observation)
+        behaviour, strategy = self.activity.behaviour, self.activity.strategy
+        try:
+            self._take_step(observation)
+        except (Exception, SystemExit) as error:  # a strategy may do anything
+            behaviour.fail(f'strategy {strategy!r}: {describe(error)}' if strategy else describe(error), Outcome.ERROR)
         if behaviour.status is not Status.RUNNING:
             self._end(behaviour.outcome, behaviour.message)
-        elif command is None:
+
+    def _take_step(self, observation: Observation) -> None:
+        """Have the behaviour decide, and do what it says; nothing while a person drives, and once it has ended."""
+        behaviour = self.activity.behaviour
+        if self._senses.has_fallen:
+            behaviour.fail('a wheel hangs over a cliff: the robot must be put elsewhere', Outcome.FALLEN)
+        elif self._robot.teleop.is_driving:
+            behaviour.stand_by(observation)
             self._robot.brushes.forget()  # the person may move them
             self._tell(State.YIELDING, 'a person drives')
         else:
+            command = behaviour.step(observation)
+            if behaviour.status is not Status.RUNNING:
+                return
             self._robot.wheels.drive(command)
-            self._robot.brushes.want(command.brushes_up)
+            self._robot.brushes.want(bool(command.brushes_up))
             if self.activity.state is not State.IDLE:  # else it still prepares to begin
-                self._tell(self.activity.state, behaviour.message)
-
-    def _decide(self, observation: Observation) -> Optional[Command]:
-        """The command of the behaviour; None while a person drives."""
-        behaviour = self.activity.behaviour
-        try:
-            if self._senses.has_fallen:
-                return behaviour.fail('a wheel hangs over a cliff: the robot must be put elsewhere', Outcome.FALLEN)
-            if self._robot.teleop.is_driving:
-                behaviour.stand_by(observation)
-                return None
-            return behaviour.step(observation)
-        except Exception as error:
-            return behaviour.fail(describe(error), Outcome.ERROR)
+                self._tell(self.activity.state, one_line(behaviour.message))
 
     def _tell(self, state: State, message: str) -> None:
         senses, announcer = self._senses, self._robot.announcer
@@ -122,12 +122,24 @@ class Run:
     def _had_time_to_connect(self) -> bool:
         return time.monotonic() - self._complete_wall > CONNECTED_AFTER
 
+    def begin_again(self) -> None:
+        """The world was reset: what was done, or had even ended, is to be done there."""
+        self.activity.begin_again()
+        self.outcome, self._message, self._ended, self._last_pose = Outcome.UNKNOWN, '', None, None
+        self._first_figures = None
+        self._complete, self._complete_wall = self._senses.passed, time.monotonic()
+        self._robot.brushes.forget()
+        self._senses.begin()
+        self._robot.announcer.say('the simulator was reset: begins again')
+
     # --- the end --------------------------------------------------------------------------------------------------
 
     def _end(self, outcome: Outcome, message: str) -> None:
         """The behaviour has ended: let the robot come to rest."""
         self._robot.rest()
-        self.outcome, self._message = outcome, message
+        if outcome is Outcome.UNKNOWN or outcome not in list(Outcome):
+            outcome, message = Outcome.ERROR, f'{message} (its outcome is {quoted(outcome)}: must be an Outcome)'
+        self.outcome, self._message = Outcome(outcome), one_line(str(message))
         self._ended, self._complete, self._since_wall = self._senses.stamp, self._senses.passed, time.monotonic()
 
     def _settle(self, pose: Pose) -> None:
@@ -150,11 +162,12 @@ class Run:
         """Stop and answer the client."""
         if self.outcome is Outcome.UNKNOWN:
             self._robot.rest()
-        try:
-            self.activity.behaviour.stop()
-        except Exception as error:
-            describe(error)
-        self._announce(outcome, message)
+        last_words: List[Callable[[], None]] = [self.activity.behaviour.stop, lambda: self._announce(outcome, message)]
+        for say in last_words:
+            try:
+                say()
+            except (Exception, SystemExit) as error:  # the client gets its answer in any case
+                describe(error)
         result = self.activity.result(self._senses, conversions.outcome(outcome, message))
         answer = {Outcome.SUCCEEDED: self.handle.set_succeeded, Outcome.INCOMPLETE: self.handle.set_succeeded,
                   Outcome.CANCELLED: self.handle.set_canceled, Outcome.PREEMPTED: self.handle.set_canceled,
@@ -172,9 +185,9 @@ class Run:
         announcer.tell(State.STRANDED if is_stranded else State.IDLE, '', message, senses.stamp, is_due=True)
 
 
-def describe(error: Exception) -> str:
+def describe(error: BaseException) -> str:
     """What went wrong, for a person; the log tells where in the code, unless it is an error of input."""
     if isinstance(error, RumbaError):
         return str(error)
     rospy.logerr(traceback.format_exc())
-    return f'{type(error).__name__}: {error}'
+    return one_line(f'{type(error).__name__}: {error}')

@@ -45,6 +45,7 @@ class Senses:
         self._lock = threading.Lock()
         self._newest: Dict[str, Any] = {}
         self._state_of_charge: Optional[float] = None
+        self._since: Optional[rospy.Time] = None  # stamp until which messages are of a world that is gone
         self._observed: Optional[int] = None  # `passed` at the last observation [ns]
         self.passed = 0
         self.stamp: Optional[rospy.Time] = None
@@ -60,16 +61,21 @@ class Senses:
             for topic, kind in READING.items()}
 
     def _on_battery(self, battery: BatteryState) -> None:
-        if math.isfinite(battery.percentage):
-            self._state_of_charge = battery.percentage
+        with self._lock:
+            if math.isfinite(battery.percentage) and not self._is_old(battery):
+                self._state_of_charge = battery.percentage
 
     def _on_cleaning(self, cleaning: CleaningStatus) -> None:
-        self.cleaning = cleaning
+        with self._lock:
+            if not self._is_old(cleaning):
+                self.cleaning = cleaning
 
     def _on_part(self, message: Any, topic: str) -> None:
         with self._lock:
-            self._newest[topic] = message
             self.heard = time.monotonic()
+            if self._is_old(message):
+                return
+            self._newest[topic] = message
             self.unread += topic == CLOCK
             if self._late() or self._newest[CLOCK].header.stamp == self.stamp:
                 return
@@ -86,11 +92,29 @@ class Senses:
         stamp = self._newest[CLOCK].header.stamp
         return [topic for topic in READING if topic not in self._newest or self._newest[topic].header.stamp < stamp]
 
+    def _is_old(self, message: Any) -> bool:
+        stamp = message.header.stamp
+        return self._since is not None and not stamp.is_zero() and bool(stamp <= self._since)
+
     # --- what is known ----------------------------------------------------------------------------------------------
 
     def begin(self) -> None:
         """Make the next observation the first one, with dt 0."""
         self._observed = None
+
+    def forget(self, since: rospy.Time, is_new_run: bool) -> None:
+        """Know nothing of a world that is gone; `since` is the last stamp that may be of it.
+
+        Args:
+            since: stamp until which messages do not count; those without a stamp count.
+            is_new_run: whether the simulator was started again: its time may begin anew.
+        """
+        with self._lock:
+            self._newest.clear()
+            self._state_of_charge = self.stamp = self.cleaning = None
+            self._since, self.unread = since, 0
+        if is_new_run:
+            self._buffer.clear()
 
     def observe(self) -> Optional[Observation]:
         """As `look`, with the time since the observation before."""
@@ -101,12 +125,12 @@ class Senses:
 
     def look(self) -> Optional[Observation]:
         """What the robot knows now, with dt 0; None if something is missing."""
+        with self._lock:
+            parts, charge = dict(self._newest), self._state_of_charge
         pose = self.pose()
-        if pose is None or self._state_of_charge is None or self.stamp is None:
+        if pose is None or charge is None or any(topic not in parts for topic in READING):
             return None
-        parts = self._newest
-        return conversions.observation(pose, parts['bumper'], parts['cliff'], parts['dock_status'],
-                                       self._state_of_charge)
+        return conversions.observation(pose, parts['bumper'], parts['cliff'], parts['dock_status'], charge)
 
     def pose(self) -> Optional[Pose]:
         """The pose of the robot in the map frame; None if tf does not have it.

@@ -3,8 +3,25 @@
 import dataclasses
 
 from rumba_cleaning.cleaning_config import CleaningConfig
-from rumba_sim.model.config import part, setting
+from rumba_sim.model.config import part, section, setting
+from rumba_sim.model.errors import ConfigError, quoted
 from rumba_sim.ros.common.names import check_names
+
+ANSWERS = 'velocity', 'heading'
+
+
+@dataclasses.dataclass(frozen=True)
+class GoToPositionSettings:
+    """What the service go_to_position answers."""
+
+    answer: str = setting('velocity', 'velocity: a speed in linear_x [m/s] and a turn rate in angular_z [rad/s], to be '
+                                      'commanded as they are; heading: a heading in angular_z [rad], as servers of the '
+                                      'lesson answer, and -1 in linear_x: the caller turns there and chooses the speed')
+
+    def __post_init__(self) -> None:
+        """Check that the answer is one of the two."""
+        if self.answer not in ANSWERS:
+            raise ConfigError(f'go_to_position/answer is {quoted(self.answer)}: must be {" or ".join(ANSWERS)}')
 
 
 @dataclasses.dataclass(frozen=True)
@@ -17,6 +34,7 @@ class Settings(CleaningConfig):
     seed: int = setting(1, 'of all that is random', '', 0, 2 ** 31 - 1)
     strategies: str = setting('', 'Python modules to import for further strategies, with commas between them')
     autostart: bool = setting(False, 'whether to begin with a goal of clean, without waiting for one')
+    go_to_position: GoToPositionSettings = section(GoToPositionSettings, 'what the service go_to_position answers')
 
     def __post_init__(self) -> None:
         """Check the robot's name, which is part of the names of topics."""

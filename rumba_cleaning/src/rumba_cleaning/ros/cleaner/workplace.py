@@ -1,6 +1,8 @@
 """Where the cleaner works, and with what robot: what the simulator tells, and the map that a parameter may name."""
 
-from typing import Optional, Tuple
+from typing import Callable, NamedTuple, Optional, Tuple
+
+import rospy
 
 from rumba_msg.msg import SimulatorState
 from rumba_sim.model import map_file
@@ -8,26 +10,45 @@ from rumba_sim.model.errors import ConfigError
 from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.model.robot_config import RobotConfig
 from rumba_sim.ros.common.maps import map_path
+from rumba_sim.ros.common.peers import NO_ANSWER
 from rumba_sim.ros.common.simulator_client import SimulatorClient, robot_config
 
 
-class Workplace:
-    """The floor plan and the robot, as they are now: a simulator may be started again with other ones."""
+class World(NamedTuple):
+    """A world of a simulator, until the next reset or the next start."""
 
-    def __init__(self, name: str) -> None:
+    run: str  # of the simulator's node
+    resets: int  # before it
+    since: rospy.Time  # stamp of the first state that told of it: what is older belongs to the world before
+
+
+class Workplace:
+    """The floor plan and the robot, as they are now: a simulator may be started again with other ones.
+
+    Attributes:
+        world: the newest one; None until a simulator tells its state.
+    """
+
+    def __init__(self, name: str, on_new_world: Callable[[], None] = lambda: None) -> None:
         """Take the map of this name or path, or, if `name` is empty, that of the simulator, and wait for it.
+
+        Args:
+            name: of the map, or empty.
+            on_new_world: called after each change of `world`, in a thread of rospy.
 
         Raises:
             MapError: the map cannot be read, or there is no simulator.
         """
+        self.world: Optional[World] = None
+        self._on_new_world = on_new_world
         self._named = map_path(name) if name else ''
-        self._loaded: Optional[Tuple[str, FloorPlan]] = None  # by its path
-        self._robot: Optional[Tuple[str, RobotConfig]] = None  # by the name of the simulator's node
-        self._simulator = SimulatorClient(self._read_robot)
+        self._loaded: Optional[Tuple[str, str, FloorPlan]] = None  # after its path, and the simulator's run
+        self._robot: Optional[Tuple[str, RobotConfig]] = None  # after the simulator's run
+        self._simulator = SimulatorClient(self._on_state)
         self.look()
 
     def look(self) -> Tuple[FloorPlan, RobotConfig]:
-        """The floor plan, the same object until the map is another one, and what the robot is like.
+        """The floor plan, the same object until map or simulator are other ones, and what the robot is like.
 
         Without a simulator, the robot is as the defaults say.
 
@@ -36,20 +57,30 @@ class Workplace:
             ConfigError: the settings of the simulator were changed to invalid ones.
         """
         path = self._named or self._simulator.wait().map
-        loaded = self._loaded
-        if loaded is None or loaded[0] != path:
-            loaded = self._loaded = path, map_file.load(path)
-        return loaded[1], self._newest_robot()
+        state = self._simulator.state
+        wanted = path, state.run if state is not None else ''
+        if self._loaded is None or self._loaded[:2] != wanted:
+            self._loaded = (*wanted, map_file.load(path))
+        return self._loaded[2], self._newest_robot()
 
     def _newest_robot(self) -> RobotConfig:
         state, known = self._simulator.state, self._robot
         if state is None:
             return RobotConfig()
-        return known[1] if known is not None and known[0] == state.node else robot_config(state.node)
+        return known[1] if known is not None and known[0] == state.run else robot_config(state.node)
+
+    def _on_state(self, state: SimulatorState) -> None:
+        """Called with each state, in a thread of rospy."""
+        if self.world is None or self.world[:2] != (state.run, state.resets):
+            self.world = World(state.run, state.resets, state.header.stamp)
+            self._on_new_world()
+        self._read_robot(state)
 
     def _read_robot(self, state: SimulatorState) -> None:
-        """Called with each state, in a thread of rospy: asking the master in `look` would delay go_to_position."""
+        """Read the settings of the robot ahead: asking the master in `look` would delay go_to_position."""
         try:
-            self._robot = state.node, robot_config(state.node)
+            self._robot = state.run, robot_config(state.node)
         except ConfigError:
             self._robot = None  # `look` raises the error
+        except NO_ANSWER:
+            pass  # the master is being restarted: what is known remains

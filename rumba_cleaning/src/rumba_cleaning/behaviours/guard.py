@@ -1,0 +1,190 @@
+"""Keeps the wheels on the floor, whatever a behaviour commands.
+
+Before a command is given, it is simulated: if the robot could not stop before the edge of a known cliff, and on floor
+that its sensors have seen, it drives more slowly, or not at all (D. Fox, W. Burgard, S. Thrun, The Dynamic Window
+Approach to Collision Avoidance, 1997: a velocity is admissible if the robot can stop before the obstacle).
+"""
+
+import math
+from typing import Callable, Optional, Tuple
+
+import numpy as np
+
+from rumba_cleaning.behaviour import Command, Observation
+from rumba_cleaning.belief.context import Context
+from rumba_sim.model.geometry import Pose
+from rumba_sim.model.kernel import Array
+
+SHARES = (0.6, 0.3)  # of a command that are tried, after the whole and a slow one, before the robot stops; our choice
+STEP = 0.02  # [s] of the simulation: one tick at 50 Hz
+HOLD_STEPS = 5  # for which a command holds: the control period
+LONGEST = 0.3  # [s] the same, at most, by the time since the last one: in a longer step the node was busy
+SPARE = 0.01  # [m] from a wheel to an edge: half a cell of a fine map
+SLIP = 0.02  # [m/s] sideways: the robot slides along a wall
+ROUNDING = 1e-6  # [m/s]
+AT_REST = 0.02  # [m/s] of both wheels
+CREEP = 1e-4  # [m] by which an edge may come nearer to the middle of a robot that is too near already: rounding
+
+# The sensors see an edge in time for wheels that are no faster (a corner of 90 degrees is seen 0.09 m before a wheel is
+# there, in which such a robot stops), and all of the floor before wheels in bends that are no tighter.
+SAFE_SPEED = 0.35  # [m/s]
+SAFE_CURVATURE = 1.5  # [1/m]
+TIGHT = 3.3  # [1/m] in tighter bends the sensors of one side look along the circle of the outer wheel
+
+Wheels = Tuple[float, float]  # left and right
+Sides = Tuple[bool, bool]  # left and right
+NONE = (False, False)
+
+
+class Guard:
+    """Watches what a robot sees and what it is commanded; a controller, for the behaviour that is in charge."""
+
+    def __init__(self, context: Context) -> None:
+        """Guard the robot of a context."""
+        self._ground, self._footing = context.ground, context.footing
+        self._drive = context.robot.drive
+        self._half = 0.5 * context.robot.drive.wheel_base
+        self._clear = self._half + SPARE  # [m] from the middle to an edge: the robot can turn on the spot
+        self.rest()
+
+    def rest(self) -> None:
+        """The robot stands still, or somebody else drives it."""
+        self._speeds: Wheels = (0.0, 0.0)  # [m/s] of the wheels, when the last command was given
+        self._command = Command(0.0, 0.0)  # the last one
+        self._last: Optional[Pose] = None
+        self._held = NONE  # the side on which an edge kept the robot from what it was to do
+
+    def see(self, observation: Observation) -> None:
+        """Remember what the cliff sensors see, and show it to the ground."""
+        footing = self._footing
+        before = len(footing.seen)
+        footing.note(observation.pose, observation.cliffs, observation.is_docked)
+        for x, y in footing.seen if before and not self._ground.has_marks else footing.seen[before:]:
+            self._ground.mark(x, y, SPARE)
+
+    def stand_by(self, observation: Observation) -> None:
+        """Watch while a person drives."""
+        self.rest()
+        self.see(observation)
+
+    def step(self, decide: Callable[[Observation], Command], observation: Observation) -> Command:
+        """The command that is decided on, or one that does not lead over an edge.
+
+        What decides gets the observation; if an edge stopped the robot, as if the cliff sensors saw it.
+        """
+        self.see(observation)
+        left, right = self._held
+        if left or right:
+            far_left, near_left, near_right, far_right = observation.cliffs
+            observation = observation._replace(cliffs=(far_left or left, near_left, near_right, far_right or right))
+        command = decide(observation)
+        change = self._drive.acceleration * min(observation.dt, LONGEST)
+        left_speed, right_speed = (min(max(goal, speed - change), speed + change)
+                                   for speed, goal in zip(self._speeds, self._wanted(self._command)))
+        self._speeds = left_speed, right_speed
+        self._command = self._admitted(observation, command)
+        self._last = observation.pose
+        return self._command
+
+    def _admitted(self, observation: Observation, command: Command) -> Command:
+        self._held = NONE
+        pose, wanted = observation.pose, self._wanted(command)
+        fastest = max(map(abs, self._speeds + wanted))
+        braking = fastest * LONGEST + 0.5 * fastest ** 2 / self._drive.acceleration
+        is_near = self._footing.clearance_at(pose.x, pose.y) <= self._clear + braking
+        must_know = not (self._sees_ahead(wanted) and self._sees_ahead(self._speeds))
+        if not (is_near or must_know) or fastest == 0.0:
+            return command
+        slip = self._slip(observation)
+        found = []
+        for share in (1.0, min(SAFE_SPEED / max(map(abs, wanted)), 1.0) if any(wanted) else 1.0, *SHARES):
+            slower = command._replace(v=share * command.v, w=share * command.w)
+            found.append(self._edge(pose, self._wanted(slower), slip, is_near, must_know))
+            if found[-1] == NONE:
+                return slower
+        if max(map(abs, self._speeds)) < AT_REST:
+            self._held = found[0]
+        return command._replace(v=0.0, w=0.0)
+
+    def _sees_ahead(self, speeds: Wheels) -> bool:
+        """Whether the cliff sensors see the floor under the wheels before it is too late, with no need to remember."""
+        left, right = speeds
+        return min(left, right) >= 0.0 and max(left, right) <= SAFE_SPEED and (
+            left + right == 0.0 or _curvature(speeds, self._half) <= SAFE_CURVATURE)
+
+    def _slip(self, observation: Observation) -> float:
+        """How fast the robot slides to its left [m/s]."""
+        pose, last = observation.pose, self._last
+        if last is None or not 0.0 < observation.dt < LONGEST:
+            return 0.0
+        along = last.theta + 0.5 * (pose.theta - last.theta)
+        slip = ((pose.y - last.y) * math.cos(along) - (pose.x - last.x) * math.sin(along)) / observation.dt
+        return slip if abs(slip) > SLIP else 0.0
+
+    # --- what a command leads to ----------------------------------------------------------------------------------
+
+    def _edge(self, pose: Pose, wanted: Wheels, slip: float, is_near: bool, must_know: bool) -> Sides:
+        """Whether an edge is too near on the left and on the right, before the robot can stop after a command.
+
+        Args:
+            pose: where the robot is.
+            wanted: the speeds of the wheels that are commanded [m/s].
+            slip: speed at which it slides to its left [m/s].
+            is_near: whether any cliff is near.
+            must_know: whether the wheels may only go where the robot knows that there is floor.
+        """
+        middle, left, right = self._path(pose, wanted, slip)
+        if is_near:
+            near = [self._footing.clearances(line) for line in (middle, left, right)]
+            least = [min(line[0], limit) for line, limit in zip(near, (self._clear, SPARE, SPARE))]
+            if (near[0] < least[0] - CREEP).any():
+                worst = int(np.argmin(near[0]))
+                return bool(near[1][worst] <= near[2][worst]), bool(near[2][worst] <= near[1][worst])
+            over = bool((near[1] < least[1]).any()), bool((near[2] < least[2]).any())
+            if any(over):
+                return over
+        if must_know:
+            is_fast = max(wanted) > SAFE_SPEED + ROUNDING and _curvature(wanted, self._half) < TIGHT
+            is_exact = is_fast or bool(self._footing.seen)
+            is_known = self._footing.are_known(np.concatenate([left[1:], right[1:]]), is_exact)
+            half = len(left) - 1
+            return not is_known[:half].all(), not is_known[half:].all()
+        return NONE
+
+    def _path(self, pose: Pose, wanted: Wheels, slip: float) -> Tuple[Array, Array, Array]:
+        """Where the robot and its wheels are after a command, from now until it has stopped: each float64 (any, 2)."""
+        held = [_ramp(speed, goal, self._drive.acceleration) for speed, goal in zip(self._speeds, wanted)]
+        steps = math.ceil(max(abs(speeds[-1]) for speeds in held) / (self._drive.acceleration * STEP)) + 1
+        left, right = (np.concatenate([speeds, _ramp(speeds[-1], 0.0, self._drive.acceleration, steps)])
+                       for speeds in held)
+        turns = (right - left) / (2.0 * self._half) * STEP
+        along = pose.theta + np.cumsum(turns) - 0.5 * turns
+        driven, fastest = 0.5 * (left + right) * STEP, max(map(abs, self._speeds + wanted))
+        slid = slip * STEP * np.maximum(abs(left), abs(right)) / fastest
+        steps_along = np.stack([driven * np.cos(along) - slid * np.sin(along),
+                                driven * np.sin(along) + slid * np.cos(along)], axis=1)
+        middle = np.concatenate([[[0.0, 0.0]], np.cumsum(steps_along, axis=0)]) + pose[:2]
+        theta = pose.theta + np.concatenate([[0.0], np.cumsum(turns)])
+        aside = self._half * np.stack([-np.sin(theta), np.cos(theta)], axis=1)
+        return middle, middle + aside, middle - aside
+
+    def _wanted(self, command: Command) -> Wheels:
+        """The speeds of the wheels that a command asks for, within the limits of the drive [m/s]."""
+        drive = self._drive
+        v = min(max(command.v, -drive.max_speed), drive.max_speed)
+        w = min(max(command.w, -drive.max_turn_rate), drive.max_turn_rate)
+        left, right = v - w * self._half, v + w * self._half
+        share = min(1.0, drive.max_speed / max(abs(left), abs(right), 1e-9))
+        return share * left, share * right
+
+
+def _curvature(speeds: Wheels, half: float) -> float:
+    """Curvature of the path of a robot whose wheels are so fast [m/s], and `half` [m] off its middle [1/m]."""
+    left, right = speeds
+    return abs(right - left) / (half * max(abs(left + right), ROUNDING))
+
+
+def _ramp(speed: float, goal: float, acceleration: float, steps: int = HOLD_STEPS) -> Array:
+    """Speeds of a wheel in each of the next steps, while it accelerates toward a goal: float64 (steps) [m/s]."""
+    change = acceleration * STEP * np.arange(1, steps + 1)
+    return np.clip(goal, speed - change, speed + change)

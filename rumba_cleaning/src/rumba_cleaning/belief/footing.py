@@ -1,0 +1,139 @@
+"""Where there is floor under the wheels: by the map, by what the cliff sensors saw, and by where the robot has been."""
+
+import math
+from typing import List, Optional, Sequence, Tuple
+
+import numpy as np
+from scipy import ndimage
+
+from rumba_sim.model.compiled import fast
+from rumba_sim.model.floor_plan import FloorPlan
+from rumba_sim.model.geometry import Pose, wrap_angle
+from rumba_sim.model.kernel import Array
+from rumba_sim.model.robot_config import RobotConfig
+
+FAR = 1.0  # [m] what is farther from a cliff than this is far enough for everything that a robot does
+SEEN = 0.015  # [m] radius that is assumed for a cliff that a sensor saw: half of what a robot drives between readings
+SAME = 0.02  # [m] from a known cliff, a sensor sees that one
+CELL = 0.02  # [m] side of the cells in which floor is remembered
+STEP = 0.015  # [m] between points that are remembered: less than a cell, so that no cell is left out
+BESIDE = np.array([(row, column) for row in (-1, 0, 1) for column in (-1, 0, 1)])  # cells
+JUMP = 0.5  # [m] from one pose to the next: somebody put the robot elsewhere; as in `Swept`
+BEHIND_DOCK = 0.45  # [m] of floor that a dock needs before it, as it is put up by a person: more than undocking takes
+
+
+class Footing:
+    """The floor and its edges as one robot knows them. It sees a cliff only if it is nearly there, so it remembers.
+
+    Attributes:
+        seen: points (x, y) [m], map frame, at which the sensors saw cliffs that the map does not show.
+    """
+
+    def __init__(self, plan: FloorPlan, robot: RobotConfig) -> None:
+        """Know the cliffs of a plan."""
+        self._plan = plan
+        half, radius, sensors = 0.5 * robot.drive.wheel_base, robot.drive.radius, robot.cliff
+        self._sensors = [(sensors.distance * math.cos(angle), sensors.distance * math.sin(angle)) for angle in (
+            sensors.outer_angle, sensors.inner_angle, -sensors.inner_angle, -sensors.outer_angle)]
+        self._axle = _line((0.0, half), (0.0, -half))
+        self._between = [_line(start, end) for start, end in zip(self._sensors, self._sensors[1:])]
+        self._everywhere = np.concatenate([self._axle, *self._between])
+        side = np.arange(-radius, radius + STEP, STEP)
+        square = np.stack(np.meshgrid(side, side), axis=-1).reshape(-1, 2)
+        self._body = square[np.hypot(*square.T) <= radius]
+        self._before_dock = np.concatenate([self._body - (back, 0.0) for back in np.arange(0.0, BEHIND_DOCK, STEP)])
+        self._mapped = None if plan.cliff is None else _distances_to(plan.cliff) * plan.resolution
+        self.forget()
+
+    def forget(self) -> None:
+        """Know no more than the plan."""
+        self.seen: List[Tuple[float, float]] = []
+        self._edges: Optional[Array] = None if self._mapped is None else self._mapped.copy()
+        left, bottom, right, top = self._plan.bounds
+        self._floor: Array = np.zeros((int((top - bottom) / CELL) + 1, int((right - left) / CELL) + 1), np.bool_)
+        self._last: Optional[Pose] = None
+
+    def note(self, pose: Pose, cliffs: Sequence[bool], is_docked: bool) -> None:
+        """Remember what the cliff sensors see at a pose, and that there is floor under the wheels."""
+        last, self._last = self._last, pose
+        if is_docked:
+            self._stamp(pose, self._before_dock)
+        if last is None or math.hypot(pose.x - last.x, pose.y - last.y) > JUMP:
+            self._stamp(pose, self._body)
+            last = pose
+        if not any(cliffs):
+            turn = wrap_angle(pose.theta - last.theta)
+            count = int((math.hypot(pose.x - last.x, pose.y - last.y) + 0.2 * abs(turn)) / STEP) + 1
+            for share in np.arange(1, count + 1) / count:
+                self._stamp(Pose(last.x + share * (pose.x - last.x), last.y + share * (pose.y - last.y),
+                                 last.theta + share * turn), self._everywhere)
+            return
+        self._stamp(pose, np.concatenate([self._axle, *(
+            line for line, over, next_over in zip(self._between, cliffs, cliffs[1:]) if not (over or next_over))]))
+        for (ahead, aside), is_over in zip(self._sensors, cliffs):
+            if is_over:
+                cos, sin = math.cos(pose.theta), math.sin(pose.theta)
+                self._see(pose.x + ahead * cos - aside * sin, pose.y + ahead * sin + aside * cos)
+
+    def _stamp(self, pose: Pose, points: Array) -> None:
+        """Remember floor at points (any, 2) [m] in the frame of a robot at a pose."""
+        cos, sin = math.cos(pose.theta), math.sin(pose.theta)
+        rows, columns = self._cells(points @ np.array([[cos, sin], [-sin, cos]]) + pose[:2])
+        self._floor[rows, columns] = True
+
+    def _cells(self, points: Array) -> Array:
+        """Rows and columns of the cells that hold points (any, 2) [m], or of cells at the edge: int (2, any)."""
+        cells = ((points - self._plan.origin) / CELL).astype(np.intp)[:, ::-1]
+        return np.clip(cells, 0, np.array(self._floor.shape) - 1).T
+
+    def _see(self, x: float, y: float) -> None:
+        """Remember a cliff, unless it is a known one."""
+        if self.clearance_at(x, y) < SAME:
+            return
+        self.seen.append((x, y))
+        rows, columns = self._plan.rows + 1, self._plan.columns + 1
+        if self._edges is None:
+            self._edges = np.full((rows, columns), FAR)
+        res, (left, bottom) = self._plan.resolution, self._plan.origin
+        column, row, size = int((x - left) / res), int((y - bottom) / res), int(FAR / res) + 1
+        top, first = max(row - size, 0), max(column - size, 0)
+        near_y, near_x = np.ogrid[top:min(row + size + 1, rows), first:min(column + size + 1, columns)]
+        distance = np.hypot(near_x * res + left - x, near_y * res + bottom - y) - SEEN
+        window = self._edges[top:row + size + 1, first:column + size + 1]
+        np.minimum(window, np.maximum(distance, 0.0), out=window)
+
+    def clearance_at(self, x: float, y: float) -> float:
+        """Distance from a point [m] to the nearest known cliff [m], interpolated; FAR or more if none is near."""
+        if self._edges is None:
+            return FAR
+        left, bottom = self._plan.origin
+        value: float = fast.interpolated(self._edges, (x - left) / self._plan.resolution,
+                                         (y - bottom) / self._plan.resolution)[0]
+        return value
+
+    def clearances(self, points: Array) -> Array:
+        """As `clearance_at`, for many points (any, 2) [m]: float64 (any)."""
+        return np.array([self.clearance_at(x, y) for x, y in points.tolist()])
+
+    def are_known(self, points: Array, is_exact: bool) -> Array:
+        """Whether wheels or sensors found floor at each point (any, 2) [m]: bool (any); or beside it, if not exact."""
+        rows, columns = self._cells(points)
+        if is_exact:
+            return np.asarray(self._floor[rows, columns])
+        height, width = self._floor.shape
+        return np.asarray(self._floor[np.clip(rows + BESIDE[:, :1], 0, height - 1),
+                                      np.clip(columns + BESIDE[:, 1:], 0, width - 1)].any(axis=0))
+
+
+def _line(start: Tuple[float, float], end: Tuple[float, float]) -> Array:
+    """Points on a line: float64 (any, 2) [m]."""
+    return np.linspace(start, end, int(math.hypot(end[0] - start[0], end[1] - start[1]) / STEP) + 2)
+
+
+def _distances_to(cliff: Array) -> Array:
+    """Distance [cells] of each node to the nearest cell that is a cliff, from node to node as in `FloorPlan`."""
+    padded = np.pad(~cliff, 1, mode='constant', constant_values=True)
+    away = padded[:-1, :-1] & padded[:-1, 1:] & padded[1:, :-1] & padded[1:, 1:]
+    if away.all():
+        return np.full(away.shape, math.inf)
+    return np.ascontiguousarray(ndimage.distance_transform_edt(away), dtype=np.float64)

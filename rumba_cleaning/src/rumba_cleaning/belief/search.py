@@ -1,0 +1,70 @@
+"""The search for a path on the grid of the ground, compiled by numba; NUMBA_DISABLE_JIT=1 gives the same paths."""
+
+import heapq
+import math
+from typing import Any, Tuple
+
+import numba
+import numpy as np
+
+Array = Any  # numpy.ndarray
+
+STEPS = ((-1, -1), (-1, 0), (-1, 1), (0, -1), (0, 1), (1, -1), (1, 0), (1, 1))  # rows, columns
+LESS = 1e-9  # [nodes] a shorter path: more than rounding errors
+
+
+@numba.njit(cache=True)
+def cheapest(costs: Array, first: Tuple[int, int], last: Tuple[int, int]) -> Array:
+    """The cheapest path between two nodes (A*, P. Hart and others, A Formal Basis for the Heuristic Determination of
+    Minimum Cost Paths, 1968).
+
+    Args:
+        costs: float64 (rows, columns), of a unit of length at each node: 1 or more; inf if a node is not free.
+        first, last: nodes, both free.
+
+    Returns:
+        int (any, 2), neighbouring nodes; (0, 2) if there is no path.
+    """
+    rows, columns = costs.shape
+    reached = np.full(costs.shape, np.inf)
+    before = np.zeros(costs.shape, np.int8)  # the step that led to a node
+    is_left = np.zeros(costs.shape, np.bool_)
+    reached[first] = 0.0
+    queue = [(0.0, first[0], first[1])]
+    while len(queue) > 0:
+        _, row, column = heapq.heappop(queue)
+        if row == last[0] and column == last[1]:
+            return walked_back(before, first, last)
+        if is_left[row, column]:
+            continue
+        is_left[row, column] = True
+        here = reached[row, column]
+        for step in range(8):
+            down, right = STEPS[step]
+            to_row, to_column = row + down, column + right
+            if 0 <= to_row < rows and 0 <= to_column < columns and costs[to_row, to_column] < np.inf:
+                length = math.sqrt(float(down * down + right * right))
+                cost = here + 0.5 * length * (costs[row, column] + costs[to_row, to_column])
+                if cost < reached[to_row, to_column] - LESS:
+                    reached[to_row, to_column] = cost
+                    before[to_row, to_column] = step
+                    ahead = math.hypot(float(last[0] - to_row), float(last[1] - to_column))
+                    heapq.heappush(queue, (cost + ahead, to_row, to_column))
+    return np.empty((0, 2), np.int64)
+
+
+@numba.njit(cache=True)
+def walked_back(before: Array, first: Tuple[int, int], last: Tuple[int, int]) -> Array:
+    """The path to `last`, if `before` holds for each node the step that led to it."""
+    count, row, column = 1, last[0], last[1]
+    while row != first[0] or column != first[1]:
+        down, right = STEPS[before[row, column]]
+        row, column, count = row - down, column - right, count + 1
+    path = np.empty((count, 2), np.int64)
+    row, column = last[0], last[1]
+    for index in range(count - 1, -1, -1):
+        path[index, 0], path[index, 1] = row, column
+        if index:
+            down, right = STEPS[before[row, column]]
+            row, column = row - down, column - right
+    return path

@@ -1,0 +1,127 @@
+"""Ways and paths, compiled by numba; without it (NUMBA_DISABLE_JIT=1) the functions give the same results."""
+
+import math
+from typing import Any, Tuple
+
+import numba
+import numpy as np
+
+Array = Any  # numpy.ndarray
+
+CLOSE = 0.02  # [m] points so near to each other have no direction between them
+SHARP = 1.6  # [rad] a little more than a right angle
+
+
+@numba.njit(cache=True)
+def sight(clearance: Array, least: float, x: float, y: float, to_x: float, to_y: float) -> bool:
+    """Whether each node along the line from (x, y) to (to_x, to_y) [nodes] has a clearance, at least [m]."""
+    steps = int(math.hypot(to_x - x, to_y - y)) + 1
+    for step in range(steps + 1):
+        share = step / steps
+        row, column = int(math.floor(y + share * (to_y - y) + 0.5)), int(math.floor(x + share * (to_x - x) + 0.5))
+        if clearance[row, column] < least:
+            return False
+    return True
+
+
+@numba.njit(cache=True)
+def lengths(clearance: Array, least: float, points: Array) -> Tuple[Array, Array]:
+    """Lengths [nodes] of the shortest paths from point to point over lines of sight, and the last stop on each of them.
+
+    Args:
+        clearance: float64 (rows + 1, columns + 1) [m].
+        least: clearance on the way [m].
+        points: float64 (n, 2), x and y [nodes].
+
+    Returns:
+        float64 (n, n), inf if there is no path; int (n, n), the point before the last one.
+    """
+    count = len(points)
+    found = np.full((count, count), np.inf)
+    before = np.empty((count, count), np.int32)
+    for one in range(count):
+        before[one, :] = one
+        found[one, one] = 0.0
+        for other in range(one):
+            distance = math.hypot(points[one, 0] - points[other, 0], points[one, 1] - points[other, 1])
+            if sight(clearance, least, points[one, 0], points[one, 1], points[other, 0], points[other, 1]):
+                found[one, other] = found[other, one] = distance
+    for middle in range(count):
+        for one in range(count):
+            here = found[one, middle]
+            if here == np.inf:
+                continue
+            for other in range(count):
+                if here + found[middle, other] < found[one, other]:
+                    found[one, other] = here + found[middle, other]
+                    before[one, other] = before[middle, other]
+    return found, before
+
+
+@numba.njit(cache=True)
+def wrapped(angle: float) -> float:
+    """The size of an angle, 0 to pi [rad]."""
+    return abs((angle + math.pi) % (2.0 * math.pi) - math.pi)
+
+
+@numba.njit(cache=True)
+def turning(angle: float, free: float, rate: float, stop: float) -> float:
+    """Time lost in a corner [s]: nothing below `free` [rad], and a stop beyond a right angle."""
+    return max(angle - free, 0.0) / rate + (stop if angle > SHARP else 0.0)
+
+
+@numba.njit(cache=True)
+def drive_times(metres: Array, points: Array, exits: Array, entries: Array, out: Array, into: Array, speed: float,
+                free: float, rate: float, stop: float) -> Array:
+    """Times [s] from each exit to each entry.
+
+    Args:
+        metres: float64 (n, n) [m] from point to point.
+        points: float64 (n, 2) [m].
+        exits, entries: int, indices of points.
+        out, into: headings at the exits and the entries [rad]; NaN: any.
+        speed: [m/s]
+        free, rate, stop: see `turning`.
+    """
+    found = np.empty((len(exits), len(entries)))
+    for one in range(len(exits)):
+        for other in range(len(entries)):
+            a, b = exits[one], entries[other]
+            time = metres[a, b] / speed
+            if metres[a, b] < CLOSE:
+                angle = wrapped(into[other] - out[one]) if out[one] == out[one] else 0.0
+                time += turning(angle, free, rate, stop)
+            else:
+                bearing = math.atan2(points[b, 1] - points[a, 1], points[b, 0] - points[a, 0])
+                if out[one] == out[one]:
+                    time += turning(wrapped(bearing - out[one]), free, rate, stop)
+                if into[other] == into[other]:
+                    time += turning(wrapped(into[other] - bearing), free, rate, stop)
+            found[one, other] = time
+    return found
+
+
+@numba.njit(cache=True)
+def kept(path: Array, off: float) -> Array:
+    """Which waypoints of a path (any, 2) are farther than `off` from the line between others: bool (any)."""
+    keep = np.zeros(len(path), np.bool_)
+    keep[0] = keep[-1] = True
+    spans = [(0, len(path) - 1)]
+    while len(spans) > 0:
+        first, last = spans.pop()
+        x, y = path[first, 0], path[first, 1]
+        along_x, along_y = path[last, 0] - x, path[last, 1] - y
+        square = along_x * along_x + along_y * along_y
+        most, middle = off, -1
+        for index in range(first + 1, last):
+            dx, dy = path[index, 0] - x, path[index, 1] - y
+            share = (dx * along_x + dy * along_y) / square if square > 0.0 else 0.0
+            share = min(max(share, 0.0), 1.0)
+            away = math.hypot(dx - share * along_x, dy - share * along_y)
+            if away > most:
+                most, middle = away, index
+        if middle >= 0:
+            keep[middle] = True
+            spans.append((first, middle))
+            spans.append((middle, last))
+    return keep

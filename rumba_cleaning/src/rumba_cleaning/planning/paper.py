@@ -1,0 +1,49 @@
+"""Driving on paper: what would be swept if a robot drove exactly along a path."""
+
+import numpy as np
+
+from rumba_cleaning.belief.swept import Swept
+from rumba_cleaning.planning import compiled_ways
+from rumba_sim.model.geometry import Pose, wrap_angle
+from rumba_sim.model.kernel import Array
+
+STRIDE = 0.5  # [m] that are swept at once on a straight line: large is fast, but looks at more floor on a slanted one
+OFF = 0.005  # [m] by which the path on paper may differ: large is fast, small is exact
+SAME = 0.2  # [rad] turns by less are not swept on their own: between their strips 1 cm is missed at most
+
+
+def drive(swept: Swept, path: Array) -> None:
+    """Sweep along a path (any, 2) [m], with turns on the spot at its corners."""
+    points = strides(simplified(path, OFF), STRIDE)
+    headings = np.arctan2(*np.diff(points, axis=0).T[::-1]).tolist()
+    last = headings[0] if headings else 0.0
+    for (x, y), (to_x, to_y), heading in zip(points[:-1].tolist(), points[1:].tolist(), headings):
+        if abs(wrap_angle(heading - last)) > SAME:
+            swept.sweep(Pose(x, y, last), Pose(x, y, heading))
+        swept.sweep(Pose(x, y, heading), Pose(to_x, to_y, heading))
+        last = heading
+
+
+def strides(path: Array, longest: float) -> Array:
+    """A path (any, 2) [m] with more waypoints on its legs, so that none is longer [m]."""
+    legs = np.diff(path, axis=0)
+    counts = np.maximum(np.ceil(np.hypot(*legs.T) / longest).astype(np.intp), 1)
+    indices = np.repeat(np.arange(len(legs)), counts)
+    shares = (np.arange(len(indices)) - np.repeat(np.cumsum(counts) - counts, counts) + 1) / counts[indices]
+    return np.concatenate([path[:1], path[indices] + shares[:, np.newaxis] * legs[indices]])
+
+
+def resampled(path: Array, spacing: float) -> Array:
+    """A path (any, 2) [m] with waypoints that are about a spacing [m] apart, all the way along."""
+    lengths = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(path, axis=0).T))])
+    along = np.linspace(0.0, lengths[-1], max(int(lengths[-1] / spacing), 1) + 1)
+    return np.stack([np.interp(along, lengths, path[:, axis]) for axis in (0, 1)], axis=1)
+
+
+def simplified(path: Array, off: float) -> Array:
+    """A path (any, 2) [m] without waypoints that are no farther than `off` [m] from the line between others.
+
+    (D. Douglas and T. Peucker, Algorithms for the reduction of the number of points required to represent a digitized
+    line or its caricature, 1973.)
+    """
+    return np.asarray(path[compiled_ways.kept(path, off)])

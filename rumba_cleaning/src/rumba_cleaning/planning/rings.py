@@ -1,0 +1,224 @@
+"""Rings: paths along the walls, and parallel to them farther inside: contours of the clearance, a pass apart.
+
+Machining knows them as contour-parallel paths (M. Held, On the Computational Geometry of Pocket Machining, 1991).
+A robot follows them at full speed, whatever the direction of the walls, and the outermost ones sweep along the walls.
+"""
+
+import math
+from typing import Dict, Iterator, List, NamedTuple
+
+import numpy as np
+from scipy import ndimage, spatial
+from skimage import measure
+
+from rumba_cleaning.belief.ground import Ground
+from rumba_cleaning.belief.swept import Swept
+from rumba_cleaning.planning.paper import drive, resampled
+from rumba_cleaning.planning.stretches import Stretch, Variant, pair
+from rumba_sim.model.kernel import Array
+
+# All figures are our choice; each comment says what speaks for a larger and for a smaller value.
+WALL_MARGIN = 0.001  # [m] between robot and wall: small sweeps more of the rim, large touches the wall less often
+# Of the brush's width from ring to ring: small leaves less where corners are cut, large drives less.
+PASS, WIDE_PASS = 0.89, 0.985
+WIDE = 1.0  # [m] mean depth of a region in which rings are so long that few of them have corners
+SPACING = 0.02  # [m] between the waypoints
+SMOOTH = 0.02  # [m] standard deviation of the filter along a ring: takes out the steps of the grid, and cuts corners
+SHORTEST = 0.25  # [m] of a ring, and of its parts; a shorter one is left to the crumbs
+NEEDED = 0.25  # share of the brush's width that was missed, for a waypoint to be needed: small drives over swept floor
+GAP = 0.3  # [m] of a ring that are not needed, but are driven: large saves turns, small saves distance
+WHOLE = 0.85  # share of a ring's waypoints that are needed, for all of it to be driven: saves turns, as GAP does
+SAMPLES = 9  # points across the brush: one for each 2 cm of a brush of 17 cm
+RIDGE = 0.03  # [m] inside a ring the floor must still get wider: where it does not, one pass in the middle is enough
+FORWARD = 0.3  # [m] along the next ring at which it is entered: large bends gently, small drives less twice
+ROTATIONS = 12  # points at which a ring is entered, at most: more give shorter tours, and take more time to compare
+APART = 0.3  # [m] between those points, at least
+
+
+class Ring(NamedTuple):
+    """A closed path, or a part of one."""
+
+    waypoints: Array  # float64 (any, 2) [m], SPACING apart; a closed one ends where it begins
+    region: int  # in which it lies
+    level: int  # 0 beside the walls, 1 next to that, ...
+    is_closed: bool
+
+
+def rings(ground: Ground, swept: Swept, labels: Array, brush: float) -> List[Ring]:
+    """Rings on which something was missed, from the walls inward.
+
+    Args:
+        ground: where the robot can stand.
+        swept: what was swept; the rings are driven on it, on paper.
+        labels: the region of each node, int (rows + 1, columns + 1).
+        brush: width of the brush [m].
+    """
+    found: List[Ring] = []
+    depth = _depth(ground)
+    passes = _passes(depth, labels, brush)
+    level = 0
+    while True:
+        contours = measure.find_contours(passes, level)
+        if not contours:
+            return found
+        pieces = [piece for contour in contours for piece in _by_region(contour, ground, labels, level)]
+        missing = swept.missing_share()
+        for piece in sorted(pieces, key=lambda ring: -len(ring.waypoints)):
+            for ring in _needed(piece, ground, missing, depth, brush):
+                found.append(ring)
+                drive(swept, ring.waypoints)
+        level += 1
+
+
+def _depth(ground: Ground) -> Array:
+    """How much farther each node is from the obstacles than the robot needs [m]; negative where it cannot stand."""
+    near = ndimage.binary_dilation(ground.fits, np.ones((3, 3)), iterations=2)
+    return np.where(near, ground.clearance - ground.reach, -ground.reach)
+
+
+def _passes(depth: Array, labels: Array, brush: float) -> Array:
+    """Of which level the ring through each node is, with fractions: 0 beside the walls."""
+    counts = np.maximum(np.bincount(labels.ravel()), 1)
+    is_wide = np.bincount(labels.ravel(), depth.ravel()) / counts > WIDE
+    return (depth - WALL_MARGIN) / (np.where(is_wide, WIDE_PASS, PASS) * brush)[labels]
+
+
+def _smooth(path: Array, is_closed: bool) -> Array:
+    size = SMOOTH / SPACING
+    if is_closed:
+        ring = ndimage.gaussian_filter1d(path[:-1], size, axis=0, mode='wrap')
+        return np.concatenate([ring, ring[:1]])
+    return path
+
+
+def _by_region(contour: Array, ground: Ground, labels: Array, level: int) -> Iterator[Ring]:
+    """The parts of a contour (any, 2) [nodes], region by region."""
+    is_closed = bool(np.allclose(contour[0], contour[-1]))
+    path = resampled(ground.points(contour), SPACING)
+    if len(path) * SPACING < SHORTEST:
+        return
+    path = _smooth(path, is_closed)
+    nodes = ground.standing(ground.nodes(path))
+    of_path = labels[nodes[:, 0], nodes[:, 1]]
+    cuts = np.flatnonzero(np.diff(of_path)) + 1
+    if len(cuts) == 0:
+        yield Ring(path, int(of_path[0]), level, is_closed)
+        return
+    if is_closed:
+        path, of_path = rotated(path, cuts[0]), rotated(of_path, cuts[0])
+        cuts = np.flatnonzero(np.diff(of_path)) + 1
+    for part in np.split(np.arange(len(of_path)), cuts):
+        if len(part) * SPACING >= SHORTEST:
+            yield Ring(path[part], int(of_path[part[0]]), level, False)
+
+
+def rotated(ring: Array, index: int) -> Array:
+    """A ring, whose last element equals its first, that begins at another element."""
+    return np.concatenate([ring[index:-1], ring[:index + 1]])
+
+
+def _needed(ring: Ring, ground: Ground, missing: Array, depth: Array, brush: float) -> Iterator[Ring]:
+    """The parts of a ring on which the brush sweeps what was missed."""
+    path = ring.waypoints
+    needed = (_finds(path, ground, missing, brush) >= NEEDED) & ~_is_ridge(path, ground, depth)
+    if needed.mean() > WHOLE:
+        yield ring
+        return
+    size = int(GAP / SPACING)
+    if ring.is_closed and needed.any():
+        index = int(np.argmin(needed))
+        path, needed = rotated(path, index), rotated(needed, index)
+    needed = ndimage.binary_closing(np.pad(needed, size), np.ones(size))[size:-size] | needed
+    parts, _ = ndimage.label(needed)
+    for (part,) in ndimage.find_objects(parts):
+        if (part.stop - part.start) * SPACING >= SHORTEST:
+            yield Ring(path[part], ring.region, ring.level, False)
+
+
+def _finds(path: Array, ground: Ground, missing: Array, brush: float) -> Array:
+    """The share of the brush's width that was missed at each waypoint of a path (any, 2) [m]: float64 (any)."""
+    along = np.gradient(path, axis=0)
+    across = np.stack([-along[:, 1], along[:, 0]], axis=1) / np.maximum(np.hypot(*along.T)[:, np.newaxis], 1e-9)
+    offsets = np.linspace(-0.5 * brush, 0.5 * brush, SAMPLES)
+    points = path[:, np.newaxis] + offsets[np.newaxis, :, np.newaxis] * across[:, np.newaxis]
+    cells = np.floor((points - ground.plan.origin) / ground.plan.resolution).astype(np.intp)
+    rows, columns = np.clip(cells[..., 1], 0, missing.shape[0] - 1), np.clip(cells[..., 0], 0, missing.shape[1] - 1)
+    return np.asarray(missing[rows, columns].mean(axis=1))
+
+
+def _is_ridge(path: Array, ground: Ground, depth: Array) -> Array:
+    """Where the two sides of a ring almost touch: a pass in the middle sweeps there what both would."""
+    def at(points: Array) -> Array:
+        nodes = ((points - ground.plan.origin) / ground.plan.resolution)[:, ::-1].T
+        return np.asarray(ndimage.map_coordinates(depth, nodes, order=1, mode='nearest'))
+
+    step = 0.5 * RIDGE
+    slope = np.stack([at(path + np.array(side)) - at(path - np.array(side))
+                      for side in ((step, 0.0), (0.0, step))], axis=1)
+    steep = np.hypot(*slope.T)
+    inward = slope / np.maximum(steep, 1e-9)[:, np.newaxis]
+    return at(path + RIDGE * inward) < at(path) + 0.7 * RIDGE
+
+
+# --- chains ---------------------------------------------------------------------------------------------------------
+
+def chains(found: List[Ring]) -> List[List[Ring]]:
+    """Closed rings one inside the other, each list from the walls inward; every other ring is a list of its own."""
+    by_level: Dict[int, List[int]] = {}
+    for index, ring in enumerate(found):
+        if ring.is_closed:
+            by_level.setdefault(ring.level, []).append(index)
+    following: Dict[int, int] = {}
+    for level, here in by_level.items():
+        if level + 1 in by_level:
+            following.update(_followers(found, here, by_level[level + 1]))
+    inner = set(following.values())
+    lists = []
+    for index in range(len(found)):
+        if index not in inner:
+            chain = [index]
+            while chain[-1] in following:
+                chain.append(following[chain[-1]])
+            lists.append([found[number] for number in chain])
+    return lists
+
+
+def _followers(found: List[Ring], outer: List[int], inner: List[int]) -> Dict[int, int]:
+    """The ring of `inner` that follows each of `outer`: the longest of those that are nearest to it."""
+    step = max(int(APART / SPACING), 1)
+    tree = spatial.cKDTree(np.concatenate([found[index].waypoints[::step] for index in outer]))
+    owners = np.repeat(outer, [len(found[index].waypoints[::step]) for index in outer])
+    followers: Dict[int, int] = {}
+    for index in sorted(inner, key=lambda number: len(found[number].waypoints)):
+        distances, nearest = tree.query(found[index].waypoints[::step])
+        counts = np.bincount(owners[nearest])
+        owner = int(np.argmax(counts))
+        if found[owner].region == found[index].region and np.median(distances) < 0.5:
+            followers[owner] = index  # the longest is the last
+    return followers
+
+
+def stretch(chain: List[Ring], brush: float) -> Stretch:
+    """The paths along a chain: in both directions, from outside and from inside, from several points."""
+    area = brush * SPACING * sum(len(ring.waypoints) for ring in chain)
+    if not chain[0].is_closed:
+        return Stretch(pair([chain[0].waypoints]), chain[0].region, area, False)
+    first = chain[0].waypoints
+    step = max(int(APART / SPACING), math.ceil((len(first) - 1) / ROTATIONS))
+    found: List[Variant] = []
+    for is_turned in (False, True)[:len(chain)]:
+        paths = [ring.waypoints[::-1] if is_turned else ring.waypoints for ring in chain]
+        for index in range(0, len(first) - 1, step):
+            found += pair(_spiral(paths, index))
+    return Stretch(found, chain[0].region, area, False)
+
+
+def _spiral(paths: List[Array], index: int) -> List[Array]:
+    """The path along rings, the first of which is entered at a waypoint."""
+    parts: List[Array] = []
+    for path in paths:
+        if parts:
+            index = int(np.argmin(np.hypot(*(path[:-1] - parts[-1][-1]).T)))
+            index = (index + int(FORWARD / SPACING)) % (len(path) - 1)
+        parts.append(rotated(path, index))
+    return parts
