@@ -11,6 +11,7 @@ import time
 import unittest
 import xml.etree.ElementTree
 
+import rosgraph
 import rospy
 import rostest
 from nav_msgs.msg import Odometry
@@ -19,13 +20,15 @@ from sensor_msgs.msg import BatteryState
 from simulators import TIMEOUT, wait
 from std_msgs.msg import Float64, Header
 
-from rumba_msg.msg import BatteryStatus, Bumper, CleaningStatus, DockStatus
+from rumba_msg.msg import BatteryStatus, Bumper, CleaningStatus, DockStatus, SimulatorState
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.robot import Twist
 from rumba_sim.ros.common import conversions
 
 TOPICS = {'cleaning_status': CleaningStatus, 'ground_truth': Odometry, 'dock_status': DockStatus, 'bumper': Bumper,
           'battery_state': BatteryState, 'battery_status': BatteryStatus, 'level': Float64}
+
+NAMELESS = 'simulator/state:=/nobody/state'  # as if no node told its name there
 
 
 class Run:
@@ -69,6 +72,8 @@ class MissionTestTest(unittest.TestCase):
         cls.seconds = 100.0
         cls.robots = 0
         cls.clock = rospy.Publisher('/clock', Clock, queue_size=10, latch=True)
+        cls.state = rospy.Publisher('simulator/state', SimulatorState, queue_size=10, latch=True)
+        cls.state.publish(SimulatorState(node=rospy.get_name()))
 
     def setUp(self):
         type(self).robots += 1
@@ -138,6 +143,48 @@ class MissionTestTest(unittest.TestCase):
                 (f'field_{self.robot}_level_data', r'level/data always within 0 to 5; measured 1 to 9')):
             self.assertRegex(cases[f'test_{name}'], words)
         self.assertEqual(errors, '')
+
+    def forges(self, topic, kind, message):
+        """A node publishes a message on a topic of the robot, and goes on publishing it."""
+        forger = subprocess.Popen(
+            ['rostopic', 'pub', '-r', '10', f'/{self.robot}/{topic}', kind, message, '__name:=forger'])
+        self.addCleanup(forger.wait)
+        self.addCleanup(forger.terminate)
+
+    def test_the_node_that_is_marked_cannot_publish_what_it_is_judged_by(self):
+        run = Run(self, '_coverage:=0.5', '_battery:=20', '_time_limit:=1000')
+        self.passes(0.0)
+        self.tell('battery_state', BatteryState(percentage=0.5))
+        self.tell('cleaning_status', CleaningStatus(coverage=0.1))
+        self.forges('cleaning_status', 'rumba_msg/CleaningStatus', '{coverage: 1.0}')
+        cases, _ = run.ends(1)
+        for words in cases.values():
+            self.assertIn(f': /{self.robot}/cleaning_status is published by /forger: {rospy.get_name()} alone may do '
+                          'that', words)
+
+    def test_a_silent_second_publisher_of_what_is_judged_makes_the_run_void(self):
+        run = Run(self, '_battery:=20', '_time_limit:=1000')
+        self.passes(0.0)
+        self.tell('battery_state', BatteryState(percentage=0.5))
+        master = rosgraph.Master('/forger')
+        master.registerPublisher(f'/{self.robot}/battery_status', 'rumba_msg/BatteryStatus', 'http://localhost:9/')
+        self.addCleanup(master.unregisterPublisher, f'/{self.robot}/battery_status', 'http://localhost:9/')
+        cases, _ = run.ends(1)
+        self.assertIn('battery_status is published by /forger', cases['test_battery'])
+
+    def test_a_run_of_a_robot_whose_node_does_not_tell_its_name_is_void(self):
+        run = Run(self, '_coverage:=0.5', '_patience:=3', NAMELESS)
+        self.passes(0.0)
+        self.tell('cleaning_status', CleaningStatus(coverage=1.0))
+        cases, _ = run.ends(1)
+        self.assertIn(f'/{self.robot}/cleaning_status is published by {rospy.get_name()}, but no node publishes '
+                      '/nobody/state', cases['test_coverage'])
+
+    def test_a_robot_whose_node_does_not_tell_its_name_is_judged_if_that_is_given(self):
+        run = Run(self, '_coverage:=0.5', f'_publisher:={rospy.get_name()}', NAMELESS)
+        self.passes(0.0)
+        self.tell('cleaning_status', CleaningStatus(coverage=1.0))
+        run.ends(0)
 
     def test_a_robot_without_messages_fails(self):
         cases, _ = Run(self, '_battery:=20', '_fields:=nobody/publishes/this 0 1', '_patience:=0.5',

@@ -1,6 +1,7 @@
 """Cleaning strategies for tests; each does one thing."""
 
 import os
+import sys
 
 from rumba_cleaning.behaviour import STOP, Behaviour, Command
 from rumba_cleaning.strategies import strategy
@@ -61,3 +62,19 @@ class Die(Simple):
 
     def update(self, observation):
         os._exit(1)
+
+
+@strategy('quit')
+class Quit(Simple):
+    """Ends the program, as a beginner may do it."""
+
+    def update(self, observation):
+        sys.exit(3)
+
+
+@strategy('unmakable')
+class Unmakable(Simple):
+    """Raises an exception when it is made."""
+
+    def __init__(self, context):
+        raise KeyError('nothing')

@@ -6,6 +6,7 @@ import os
 import re
 import subprocess
 import sys
+import time
 
 import numpy as np
 import pytest
@@ -69,7 +70,8 @@ def test_every_case_is_run_and_in_the_table(run, tmp_path):
         ('give_up', 'failed'), ('turn', 'timed_out')}
     assert [line.split()[-2:] for line in output.splitlines()[2:6]] == [
         ['2', 'timed_out'], ['2', 'timed_out'], ['2', 'failed'], ['2', 'timed_out']]  # one dock for two
-    assert sorted(path.name for path in (tmp_path / 'out').iterdir()) == ['coverage.csv', 'results.csv', 'table.txt']
+    assert sorted(path.name for path in (tmp_path / 'out').glob('[!.]*')) == [
+        'coverage.csv', 'results.csv', 'table.txt']
 
 
 def test_a_mission_cleans_the_room_and_is_drawn(run, tmp_path):
@@ -101,6 +103,40 @@ def test_an_interrupted_run_goes_on(run, tmp_path):
     assert (code, output, lines(tmp_path)) == (0, whole, before)
     assert errors == f'evaluate: 3 of 4 missions are in {path} already; to run them again, delete it or choose ' \
                      'another --output\n'
+
+
+@pytest.fixture
+def other(tmp_path):
+    """Another evaluate in the same folder, which waits for ever in its third mission."""
+    (tmp_path / 'held.py').write_text(
+        'import time\nfrom simple_strategies import Wait\nfrom rumba_cleaning.strategies import strategy\n\n'
+        '@strategy("hold")\nclass Hold(Wait):\n    def update(self, observation):\n        time.sleep(600.0)\n')
+    script = 'import sys; from rumba_evaluation.trials import evaluate; sys.exit(evaluate.main(sys.argv[1:], str))'
+    folder = tmp_path / 'out'
+    with subprocess.Popen(
+            [sys.executable, '-c', script, '--maps', small_map(tmp_path), '--strategies', 'turn', 'hold', '--import',
+             'held', '--seeds', '2', '--bound', '0.2', '--jobs', '1', '--no-plots', '--output', str(folder)],
+            env={**os.environ, 'PYTHONPATH': os.pathsep.join([str(tmp_path), *sys.path])}) as process:
+        end = time.monotonic() + 60.0
+        while not (folder / 'results.csv').exists() or len(lines(tmp_path)) < 3:
+            assert process.poll() is None and time.monotonic() < end
+            time.sleep(0.01)
+        yield process
+        process.kill()
+
+
+def test_a_second_evaluate_in_one_folder_is_refused_until_the_first_has_ended_or_was_killed(run, tmp_path, other):
+    folder, before = tmp_path / 'out', lines(tmp_path)
+    assert run() == (2, '', f'evaluate: {folder}: another evaluate writes its results there: wait until it has ended, '
+                            'or choose another --output\n')
+    assert lines(tmp_path) == before
+    other.kill()
+    other.wait()
+    with open(folder / 'results.csv', 'a') as file:
+        file.write('small,turn,2')  # killed in the middle of a row
+    assert run()[0] == 0
+    assert sorted((row['map'], row['seed']) for row in rows(tmp_path)) == sorted(
+        itertools.product(('small', small_map(tmp_path)), '12'))
 
 
 def test_results_of_other_cases_stay_in_the_file_and_out_of_the_table(run, tmp_path):
@@ -152,6 +188,34 @@ def test_an_exception_of_a_strategy_is_reported_and_the_others_go_on(run, tmp_pa
     assert re.fullmatch(r'evaluate: crash raised an exception on small, seed 1, robots 1: ZeroDivisionError: '
                         r'division by zero \(simple_strategies.py:\d+\)\n', errors)
     assert {row['strategy']: row['outcome'] for row in rows(tmp_path)} == {'crash': 'error', 'turn': 'timed_out'}
+
+
+def test_a_strategy_that_exits_is_reported_and_the_others_go_on(run, tmp_path):
+    code, _, errors = run('--strategies', 'quit', 'turn', '--seeds', '1')
+    assert code == 1
+    assert re.fullmatch(r'evaluate: quit raised an exception on small, .*: SystemExit: 3 '
+                        r'\(simple_strategies.py:\d+\)\n', errors)
+    assert {row['strategy']: row['outcome'] for row in rows(tmp_path)} == {'quit': 'error', 'turn': 'timed_out'}
+
+
+@pytest.mark.parametrize('code, message', [
+    ('nonsense\n', 'NameError: name .nonsense. is not defined'), ('import sys\nsys.exit(7)\n', 'SystemExit: 7'),
+    ('1 / 0\n', 'ZeroDivisionError: division by zero')])
+def test_a_module_that_cannot_be_imported_gives_one_line(run, tmp_path, monkeypatch, code, message):
+    (tmp_path / 'broken.py').write_text(code)
+    monkeypatch.syspath_prepend(str(tmp_path))
+    monkeypatch.delitem(sys.modules, 'broken', raising=False)
+    exit_code, output, errors = run('--import', 'broken')
+    assert (exit_code, output) == (2, '')
+    assert re.fullmatch(rf"evaluate: strategies of 'broken': {message} \(broken.py:\d\)\n", errors)
+
+
+@pytest.mark.parametrize('arguments', [('--strategies', 'unmakable'), ('--strategies', 'unmakable', 'turn')])
+def test_a_strategy_that_cannot_be_made_gives_one_line(run, arguments):
+    code, output, errors = run(*arguments)
+    assert (code, output) == (2, '')
+    assert re.fullmatch(r"evaluate: unmakable cannot be made on small: KeyError: 'nothing' "
+                        r'\(simple_strategies.py:\d+\)\n', errors)
 
 
 def test_strategies_of_other_packages_are_imported(run, tmp_path, monkeypatch):

@@ -132,3 +132,25 @@ def test_the_grid_has_every_case_once():
 def test_another_kind_of_start_is_refused():
     with pytest.raises(ConfigError, match="start is 'here': must be dock or anywhere"):
         Conditions(start='here')
+
+
+@pytest.mark.parametrize('column, values', [
+    ('ideal_time', ['0', '5e-324', '-1', 'inf', 'nan']), ('time', ['inf', 'nan', '-1', '1e999']),
+    ('charging_time', ['-1', '1e300', 'nan']), ('curve', ['1 nan', '1 inf', '-1', ' '.join(map(str, range(101)))])])
+def test_a_file_with_times_that_no_mission_has_is_refused(path, column, values):
+    written(path)
+    with open(path, newline='') as file:
+        rows = list(csv.reader(file))
+    for value in values:
+        changed = [list(row) for row in rows]
+        changed[2][rows[0].index(column)] = value
+        with open(path, 'w', newline='') as file:
+            csv.writer(file, lineterminator='\n').writerows(changed)
+        with pytest.raises(ConfigError, match='results.csv cannot be read in line 3: choose another --output, or'):
+            opened(path)
+
+
+def test_a_file_with_an_endless_column_is_refused(path):
+    path.write_bytes(written(path) + b'x' * 1_000_000 + b'\n')
+    with pytest.raises(ConfigError, match='results.csv is not a file of results of this version: choose another'):
+        opened(path)

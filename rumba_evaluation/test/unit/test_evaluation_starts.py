@@ -35,7 +35,7 @@ def test_robots_fit_where_they_are_put():
 def test_starts_cover_all_of_the_floor_and_all_headings():
     poses = [pose for seed in range(200) for pose in drawn(room(3.0, 1.0), seed=seed)]
     xs, thetas = np.array([pose.x for pose in poses]), np.array([pose.theta for pose in poses])
-    assert 0.2 <= xs.min() < 0.35 and 2.65 < xs.max() <= 2.8
+    assert RADIUS <= xs.min() < 0.35 and 2.65 < xs.max() <= 3.0 - RADIUS
     assert thetas.min() < -3.0 and thetas.max() > 3.0 and abs(thetas.mean()) < 0.4
     assert abs(np.mean(xs) - 1.5) < 0.2
 

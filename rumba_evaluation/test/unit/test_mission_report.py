@@ -19,6 +19,7 @@ from std_msgs.msg import String
 from rumba_evaluation.report.mission_events import contacts, events
 from rumba_evaluation.report.mission_record import summary
 from rumba_evaluation.ros.mission_report import mission_bag, mission_report
+from rumba_msg.msg import CleaningStatus
 
 SCRIPT = pathlib.Path(__file__).resolve().parents[2] / 'scripts' / 'mission_report'
 LEAST = ('ground_truth', 'battery_state')  # enough for a report
@@ -287,3 +288,16 @@ def test_help_names_every_option(capsys):
         mission_report.main(['--help'])
     told = capsys.readouterr().out
     assert end.value.code == 0 and all(word in told for word in ('FILE.bag', '--output', '--robot'))
+
+
+def test_topics_with_several_publishers_are_named(tmp_path):
+    path = write(tmp_path / 'a.bag', LEAST)
+    with rosbag.Bag(path, 'a') as bag:
+        for node in ('/simulator', '/student'):
+            message = CleaningStatus(coverage=float(node == '/student'))
+            bag.write('/rumba/cleaning_status', message, genpy.Time(110), connection_header={
+                'topic': '/rumba/cleaning_status', 'type': message._type, 'md5sum': message._md5sum,
+                'message_definition': message._full_text, 'callerid': node})
+            bag._topic_connections.clear()  # else it writes a connection for each topic, not for each publisher
+    assert mission_bag.read(path).remarks == [
+        '/rumba/cleaning_status was published by /simulator and /student: the figures mix what they told.']

@@ -1,9 +1,11 @@
 """Bags and commands that cannot be used end with exit code 2 and one line that gives the reason."""
 
+import itertools
 import os
 
 import genpy
 import mission_bags
+import odd_messages
 import pytest
 import rosbag
 from mission_bags import write
@@ -74,6 +76,26 @@ def test_a_robot_without_any_finite_position_or_charge_is_refused(tmp_path, refu
     path = write(tmp_path / 'a.bag', LEAST, until=1.0, change=spoil)
     what = 'position' if name == 'ground_truth' else 'charge'
     assert refusal(path) == f'{path}: robot rumba: no {what} is a finite number'
+
+
+@pytest.mark.filterwarnings('error')
+@pytest.mark.parametrize('name', mission_bags.ALL)
+@pytest.mark.parametrize('begin', [0.0, 5.0])
+def test_odd_messages_of_anybody_make_a_page_or_one_line(tmp_path, capsys, name, begin):
+    odd = itertools.cycle(odd_messages.all_of(mission_bags.TOPICS[name][1](3.0), seed=22))
+
+    def spoil(topic, message, t):
+        if topic == name and t >= begin:
+            instead = next(odd)
+            for field in message.__slots__:
+                setattr(message, field, getattr(instead, field))
+    path = write(tmp_path / 'a.bag', change=spoil)
+    try:
+        mission_report.main([path])
+    except SystemExit as end:
+        assert end.code == 2
+    printed = capsys.readouterr()
+    assert printed.err == '' or printed.err.startswith('mission_report: ') and printed.err.count('\n') == 1
 
 
 def test_of_several_robots_one_must_be_chosen(tmp_path, refusal):

@@ -190,6 +190,36 @@ def test_in_an_aborted_run_guards_fail_and_goals_that_are_met_stay_met():
     assert [is_met for is_met, _ in verdicts(judge).values()] == [True, False, False]
 
 
+def test_in_a_void_run_every_condition_fails_also_if_it_was_over():
+    coverage, battery = Coverage(0.5), Battery(20.0)
+    judge = judged(coverage, battery)
+    judge.update(battery, 50.0, 1.0)
+    judge.update(coverage, 0.6, 1.0)
+    assert judge.is_over and all(is_met for is_met, _ in verdicts(judge).values())
+    judge.annul('forged')
+    judge.annul('forged again')
+    assert [is_met for is_met, _ in verdicts(judge).values()] == [False, False]
+    assert verdicts(judge)['coverage'][1].endswith('measured 60.0 % after 0.0 s of 100 s: forged')
+
+
+def test_a_void_run_still_tells_why_it_ended():
+    judge = judged(Coverage(0.5))
+    judge.abort('the test was stopped')
+    judge.annul('forged')
+    assert verdicts(judge)['coverage'][1].endswith(': the test was stopped; forged')
+
+
+def test_a_run_whose_time_goes_back_is_void():
+    coverage = Coverage(0.5)
+    judge = judged(coverage)
+    judge.update(coverage, 0.2, 7.0)
+    judge.update(coverage, 0.3, 9.0)
+    judge.update(coverage, 0.9, 8.5)
+    assert verdicts(judge)['coverage'] == (
+        False, 'coverage: required at least 50.0 % of the floor swept; measured 30.0 % after 2.0 s of 100 s: '
+               'the time went back from 9.0 s to 8.5 s')
+
+
 # --- requirements -------------------------------------------------------------------------------------------------
 
 def test_settings_become_conditions():

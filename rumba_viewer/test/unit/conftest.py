@@ -15,3 +15,14 @@ def opened():
     opened = Opened(snapshot(robot()))
     yield opened
     opened.window.close()
+
+
+@pytest.fixture
+def topics(monkeypatch):
+    """All topics that are opened, by name; rospy opens fake ones."""
+    import rospy  # other tests work without ROS
+    from fake_topics import Topic
+    monkeypatch.setattr(Topic, 'opened', {})
+    for name in ('Subscriber', 'Publisher'):
+        monkeypatch.setattr(rospy, name, Topic)
+    return Topic.opened

@@ -7,15 +7,17 @@ import numpy as np
 import pytest
 import rospy
 from actionlib import CommState
+from dynamic_reconfigure.srv import ReconfigureResponse
+from fake_topics import Topic
 from hammering import hammer
-from nav_msgs.msg import OccupancyGrid, Odometry
+from nav_msgs.msg import MapMetaData, OccupancyGrid, Odometry
 from pytest import approx
 from sensor_msgs.msg import LaserScan
 from std_msgs.msg import Header
 from std_srvs.srv import TriggerResponse
 
-from rumba_msg.msg import (BatteryStatus, CleanActionResult, CleanResult, Cliff, GoToResult, MissionStatus, Outcome,
-                           SimulatorState)
+from rumba_msg.msg import (BatteryStatus, CleanActionResult, CleaningStatus, CleanResult, Cliff, GoToResult,
+                           MissionStatus, Outcome, SimulatorState)
 from rumba_sim.model.robot_config import RobotConfig
 from rumba_sim.ros.common.conversions import quaternion
 from rumba_viewer.ros import actor, listener, robot_client, robot_listener
@@ -26,46 +28,10 @@ STATE = SimulatorState(node='/sim2', speed=2.0, real_time_factor=1.9, is_time_si
 SERVICES = frozenset({'/sim2/reset', '/sim2/pause', '/sim2/tuning/set_parameters', '/rumba/teleport'})
 
 
-class Connections:
-    """What a topic of rospy has until it is unregistered."""
-
-    def __init__(self):
-        self.number = 1
-
-    def get_num_connections(self):
-        return self.number
-
-
-class Topic:
-    """A fake publisher or subscriber of rospy.
-
-    Attributes:
-        opened: all of them by the name of the topic.
-    """
-
-    opened = {}
-
-    def __init__(self, name, kind, callback=None, queue_size=None):
-        self.kind, self.callback, self.published, self.impl = kind, callback, [], Connections()
-        self.opened[name] = self
-
-    def publish(self, message):
-        self.published.append(message)
-
-    def get_num_connections(self):
-        return self.impl.get_num_connections()
-
-    def unregister(self):
-        self.impl = None
-
-
 @pytest.fixture(autouse=True)
-def opened(monkeypatch):
+def opened(topics):
     """All topics that are opened."""
-    monkeypatch.setattr(Topic, 'opened', {})
-    for name in ('Subscriber', 'Publisher'):
-        monkeypatch.setattr(rospy, name, Topic)
-    return Topic.opened
+    return topics
 
 
 # --- one robot -------------------------------------------------------------------------------------------------------
@@ -144,6 +110,45 @@ def test_the_beams_of_a_scan_begin_where_the_robot_was_at_its_time(heard, opened
     assert heard().beams == approx(np.array([(2.5, 0.0), (2.0, 4.0), (2.0, 0.0)]))
 
 
+SCAN = LaserScan(angle_increment=0.1, range_max=4.0, ranges=np.ones(9))
+
+
+def test_a_scan_that_comes_while_the_laser_is_switched_off_is_not_shown(heard, opened):
+    heard.listener.subscribe_large(['scan'])
+    late = opened['rumba/scan'].callback
+    late(SCAN)
+    assert heard().beams is not None
+    heard.listener.subscribe_large([])
+    late(SCAN)
+    assert heard().beams is None
+
+
+def test_messages_may_come_while_the_window_asks_and_the_laser_is_switched(heard, opened):
+    heard.listener.subscribe_large(['scan'])
+    hear = {topic: opened[f'rumba/{topic}'].callback for topic in (
+        'ground_truth', 'scan', 'cleaning_status', 'battery_status', 'clean/result')}
+
+    def drive():
+        for step in range(3000):
+            truth = Odometry(header=Header(stamp=rospy.Time(step % 100)))  # the simulation starts anew now and then
+            truth.pose.pose.position.x = truth.pose.pose.position.y = 0.1 * (step % 100)
+            hear['ground_truth'](truth)
+            hear['cleaning_status'](CleaningStatus(distance=float(step % 70)))
+            hear['battery_status'](BatteryStatus(brushes_up=step % 2 == 0, debug_message=str(step % 2 == 0)))
+
+    def ask():
+        known, shown = heard.listener.known, heard()
+        assert not known.recent or known.recent[-1].stamp == known.stamp
+        assert shown is None or shown.pose.x == approx(shown.pose.y) and shown.message in ('', str(shown.brushes_up))
+
+    def switch():
+        heard.listener.subscribe_large(['scan', 'coverage'])
+        hear['scan'](SCAN)
+        heard.listener.subscribe_large([])
+        heard.listener.forget()
+    hammer(drive, ask, switch, lambda: cleaning_ends(opened, Outcome.CANCELLED))
+
+
 # --- the simulation --------------------------------------------------------------------------------------------------
 
 @pytest.fixture
@@ -180,7 +185,7 @@ def test_each_state_is_news_and_so_is_the_silence_of_a_simulator(simulation):
     simulation.snapshot(now)
     assert not simulation.has_news(now)
     assert after(simulation).node == '/sim2'
-    simulation._on_state(STATE)
+    Topic.opened['simulator/state'].callback(STATE)
     assert simulation.has_news(now)
     simulation.snapshot(now)
     later = time.monotonic() + listener.SILENCE + 0.1
@@ -200,6 +205,14 @@ def test_without_a_robot_the_window_tells_how_to_spawn_one_in_this_simulator(sim
         'There is no robot\nTo add one:\nrosservice call /sim2/spawn "{}"')
 
 
+@pytest.mark.parametrize('is_paused, why', [
+    (True, 'Time is paused.'), (False, 'It comes ten times in a second of simulated time.')])
+def test_a_robot_that_has_not_told_its_pose_yet_is_waited_for(simulation, is_paused, why):
+    simulation._follow(RosGraph('a master', ('rumba',), SERVICES, True))
+    after(simulation, is_paused=is_paused, speed=0.004)
+    assert simulation.snapshot(time.monotonic()).missing == f'Waiting for a pose of rumba\n{why}'
+
+
 def test_robots_are_those_of_the_namespace_in_the_order_of_their_numbers():
     topics = [(f'{name}/ground_truth', 'nav_msgs/Odometry') for name in ('/rumba10', '/rumba2', '/house/rumba')]
     assert robots([*topics, ('/rumba3/ground_truth', 'std_msgs/String')], '/') == ('rumba2', 'rumba10')
@@ -207,14 +220,41 @@ def test_robots_are_those_of_the_namespace_in_the_order_of_their_numbers():
 
 
 def test_robots_may_come_and_go_while_a_map_comes_and_the_window_asks(simulation):
-    grid = OccupancyGrid(data=np.zeros(0, np.int8))
+    grid = OccupancyGrid(info=MapMetaData(resolution=0.1, width=2, height=3), data=np.zeros(6, np.int8))
     names = [('rumba',), ('rumba', 'rumba2', 'rumba3'), (), ('rumba4',)]
 
     def come_and_go():
         for step in range(3000):
             simulation._follow(RosGraph('a master', names[step % len(names)], SERVICES, True))
-    hammer(come_and_go, lambda: simulation._on_map(grid), lambda: simulation.snapshot(0.0),
+    hammer(come_and_go, lambda: Topic.opened['/map'].callback(grid), lambda: simulation.snapshot(0.0),
            lambda: simulation.has_news(0.0))
+
+
+def test_what_fails_at_a_new_master_is_tried_again(simulation, monkeypatch):
+    tried = []
+
+    def register():
+        tried.append(1)
+        if len(tried) == 1:
+            raise rospy.ROSException('the master is gone again')
+    monkeypatch.setattr(simulation, '_on_master', register)
+    with pytest.raises(rospy.ROSException):
+        simulation._follow(RosGraph('another master'))
+    simulation._follow(RosGraph('another master'))
+    simulation._follow(RosGraph('another master'))
+    assert len(tried) == 2
+
+
+def test_an_error_in_the_thread_is_told_and_the_thread_goes_on(simulation, monkeypatch):
+    told, graphs = [], [RosGraph('a master', ('rumba',)), RosGraph('a master', ('rumba2',))]
+    monkeypatch.setattr(rospy, 'logerr_throttle', lambda _, line: told.append(line))
+    monkeypatch.setattr(rospy, 'is_shutdown', lambda: not graphs)
+    monkeypatch.setattr(listener.ros_graph, 'look', lambda: graphs.pop(0))
+    monkeypatch.setattr(listener, 'LOOK_PERIOD', 0.0)
+    monkeypatch.setattr(simulation, '_read_map_files', lambda: len(graphs) and {}['odd'])
+    simulation._look_around()
+    assert told == ["cannot follow the simulation: KeyError: 'odd'"]
+    assert list(simulation._robots) == ['rumba2']
 
 
 # --- what is sent ----------------------------------------------------------------------------------------------------
@@ -313,3 +353,19 @@ def test_services_of_the_simulator_are_below_the_name_of_its_node(monkeypatch):
         act('/house/sim2')
         assert one.notices.get(timeout=10.0).endswith(': done')
         assert called.pop() == f'/house/sim2/{service}'
+
+
+def test_an_odd_answer_of_a_service_is_told(monkeypatch):
+    monkeypatch.setattr(rospy, 'ServiceProxy', lambda name, kind: lambda *request: ReconfigureResponse())
+    one = actor.Actor('rumba')
+    one.set_speed('/sim2', 2.0)
+    assert one.notices.get(timeout=10.0) == "speed: KeyError: 'speed'"
+
+
+def test_a_robot_that_is_selected_while_the_master_ends_is_told(monkeypatch):
+    def refuse(*_):
+        raise ConnectionRefusedError('no master')
+    monkeypatch.setattr(actor, 'RobotClient', refuse)
+    one = actor.Actor('rumba')
+    one.select('rumba2')
+    assert one.notices.get(timeout=10.0) == 'rumba2: not connected: ConnectionRefusedError: no master'

@@ -1,5 +1,6 @@
 """The window without a display: what it shows and saves, in several sizes and both styles."""
 
+import math
 import re
 
 import numpy as np
@@ -11,8 +12,9 @@ from pytest import approx
 from windows import MISSING, Opened, count, robot, simulation, snapshot
 
 from rumba_sim.model.geometry import Pose
+from rumba_viewer.painting import paint_status
 from rumba_viewer.scene.acts import ACTS, legend
-from rumba_viewer.scene.snapshot import YIELDING, Battery, Mission, Snapshot
+from rumba_viewer.scene.snapshot import YIELDING, Battery, Cleaning, Mission, Snapshot
 from rumba_viewer.scene.theme import DARK, LIGHT
 from rumba_viewer.window import notices
 from rumba_viewer.window.recorder import WIDTH
@@ -155,3 +157,34 @@ def test_a_record_is_a_gif_of_the_floor(tmp_path):
         frames.append(np.asarray(gif.convert('RGB')).astype(int))
     middles = [np.argwhere(abs(frame - (52, 59, 69)).max(axis=2) < 25)[:, 1].mean() for frame in frames]
     assert middles[0] < middles[1] < middles[2]
+
+
+# --- the text of the card --------------------------------------------------------------------------------------------
+
+@pytest.fixture
+def written(monkeypatch):
+    """A function that shows a snapshot, and returns the texts of the card."""
+    def write(shown):
+        texts = []
+        monkeypatch.setattr(paint_status._Card, '_text', lambda _, area, text, *rest: texts.append(text))
+        opened = Opened(shown)
+        texts.clear()
+        opened.window.panel.card.grab()
+        return texts
+    return write
+
+
+@pytest.mark.parametrize('speed, wanted, text', [
+    (1.94, 2.0, '1.9 of 2 \u00d7 real time'), (0.0, 0.004, '0.004 \u00d7 real time'),
+    (0.02, 0.004, '0.004 \u00d7 real time'), (0.0, 2.0, '0.0 of 2 \u00d7 real time'),
+    (140.2, 0.0, '140 (maximum) \u00d7 real time')])
+def test_the_speed_is_never_shown_as_zero_only_because_a_tick_takes_longer_than_a_second(written, speed, wanted, text):
+    assert text in written(snapshot(robot(), simulation=simulation(speed=speed, wanted=wanted)))
+
+
+def test_what_is_unknown_is_a_dash(written):
+    unknown = robot(battery=Battery(math.nan, math.nan, math.nan, ''),
+                    cleaning=Cleaning(math.nan, math.nan, math.nan, math.nan, math.nan))
+    texts = written(snapshot(unknown))
+    assert {'- V  ', '- of - m\u00b2', '- m, brushes down'} <= set(texts)
+    assert not [text for text in texts if 'nan' in text]

@@ -41,6 +41,7 @@ DOTS = 180  # per inch of such a picture
 MARGIN = 0.15  # [m] around the map
 MOST_CELLS = 800  # drawn in a row or column; finer grids are drawn with larger cells
 FEWEST_DOTS = 400  # in a row or column of a picture of cells; browsers blur pictures with fewer
+HALF = 50  # [%] of a cell that was swept, from which on it is drawn as swept
 OCCUPIED_PERCENT = 65  # [%] from this probability on a cell is a wall: occupied_thresh 0.65 of map_server's examples
 
 
@@ -69,7 +70,7 @@ def _path_over_map(record: MissionRecord) -> str:
     axes.xaxis.set_major_locator(step)
     axes.yaxis.set_major_locator(step)
     if record.swept is not None:
-        _show(axes, record.swept, (('missed', 170, 0), ('swept', 90, 100)))
+        _show(axes, record.swept, (('missed', 170, 0), ('swept', 90, HALF)))
     if record.floor is not None:
         _show(axes, record.floor, (('wall', 255, OCCUPIED_PERCENT),))
     points = np.insert(record.path.values, jumps(record.path), math.nan, axis=0)  # NaN makes a gap in the line

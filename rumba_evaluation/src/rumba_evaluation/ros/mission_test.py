@@ -16,7 +16,11 @@ at the same time, or when the time limit is reached. Guards must hold in every m
 (a bumper that stays pressed is one), fields. Without goals the run lasts until the time limit. A condition without any
 message has failed, and so has a guard if the run was aborted: no message came for `patience`, or the test was stopped.
 
-It subscribes to those topics of the robot that the conditions need:
+A run counts only if one node alone publishes the topics of the robot: the one that simulator/state names, so the
+simulator or turtlesim_body, or the one that the parameter `publisher` names. Otherwise all conditions have failed.
+Any nodes may publish topics of `fields`, unless that node publishes them too.
+
+It subscribes to simulator/state (rumba_msg/SimulatorState), and to those topics of the robot that the conditions need:
   cleaning_status  rumba_msg/CleaningStatus   ground_truth    nav_msgs/Odometry
   dock_status      rumba_msg/DockStatus       bumper          rumba_msg/Bumper
   battery_state    sensor_msgs/BatteryState   battery_status  rumba_msg/BatteryStatus
@@ -32,6 +36,7 @@ import time
 import unittest
 from typing import Any, Callable, Dict, List, Tuple, Type
 
+import rosgraph
 import rospy
 import rostopic
 import rosunit
@@ -41,14 +46,16 @@ from sensor_msgs.msg import BatteryState
 from rumba_evaluation.verdicts import mission_verdict
 from rumba_evaluation.verdicts.mission_requirements import Requirements
 from rumba_evaluation.verdicts.mission_verdict import Condition, Field, Judge, Verdict
-from rumba_msg.msg import BatteryStatus, Bumper, CleaningStatus, DockStatus
+from rumba_evaluation.verdicts.origins import Origins
+from rumba_msg.msg import BatteryStatus, Bumper, CleaningStatus, DockStatus, SimulatorState
 from rumba_sim.model.config import setting
 from rumba_sim.model.robot import FIRST
-from rumba_sim.ros.common import conversions, node
+from rumba_sim.ros.common import conversions, node, simulator_client
 from rumba_sim.ros.common.names import check_names
 
 PACKAGE, NAME = 'rumba_evaluation', 'mission_test'
 PERIOD = 0.05  # [s] of the wall clock
+LOOK_PERIOD = 0.5  # [s] of the wall clock from one look at the master to the next
 OUTPUT = '--gtest_output=xml:'  # rostest gives each test the file for its results ...
 TEXT = '--text'  # ... or tells it to print them
 FAILED = 1
@@ -72,6 +79,8 @@ class Settings(Requirements):
     robot: str = setting(FIRST, 'name of the robot: its topics are below it')
     patience: float = setting(20.0, 'time of the wall clock without any message after which the run is aborted', 's',
                               0.1, 1e6)
+    publisher: str = setting('', 'full name of the node that publishes the topics of the robot; empty: the one that '
+                                 'simulator/state names')
 
     def __post_init__(self) -> None:
         """The robot's name is a part of names of topics."""
@@ -108,39 +117,86 @@ class MissionMonitor:
         self._robot = settings.robot
         self._patience = settings.patience
         self._judge = Judge(settings.conditions(), settings.time_limit)
-        self._lock = threading.Lock()
-        self._last_message = time.monotonic()
+        self._lock = threading.Lock()  # held while judge or origins change
+        self._last_message = self._last_look = time.monotonic()
         self._unpublished = [condition for condition in self._judge.conditions if isinstance(condition, Field)]
-        for condition in self._judge.conditions:
-            for topic, kind, value in TOPICS.get(type(condition), []):
-                self._subscribe(condition, f'{self._robot}/{topic}', kind, value)
+        measured = [(condition, rospy.resolve_name(f'{self._robot}/{topic}'), kind, value)
+                    for condition in self._judge.conditions
+                    for topic, kind, value in TOPICS.get(type(condition), [])]
+        state = rospy.resolve_name(simulator_client.TOPIC)
+        self._origins = Origins([topic for _, topic, _, _ in measured], state, settings.publisher)
+        rospy.Subscriber(state, SimulatorState, self._on_state)
+        for one in measured:
+            self._subscribe(*one)
 
     def _subscribe(self, condition: Condition, topic: str, kind: Any, value: Value) -> None:
-        rospy.Subscriber(topic, kind, lambda message: self._update(condition, value(message)))
+        rospy.Subscriber(topic, kind, lambda message: self._update(condition, topic, message, value))
 
-    def _update(self, condition: Condition, value: Any) -> None:
+    def _on_state(self, message: SimulatorState) -> None:
+        with self._lock:
+            self._origins.publishes(rospy.resolve_name(simulator_client.TOPIC), _sender(message))
+            self._origins.names(message.node)
+
+    def _update(self, condition: Condition, topic: str, message: Any, value: Value) -> None:
         with self._lock:
             self._last_message = time.monotonic()
-            self._judge.update(condition, value, rospy.get_time())
+            self._origins.publishes(topic, _sender(message))
+            self._judge.update(condition, value(message), _now())
 
     def run(self) -> None:
         """Wait until the run is over."""
         while not self._judge.is_over:
             self._subscribe_to_fields()
+            self._look_at_publishers(LOOK_PERIOD)
             time.sleep(PERIOD)  # rospy.sleep would wait for the clock of a simulator, which may have ended
             with self._lock:
-                self._judge.check_time(rospy.get_time())
+                self._judge.check_time(_now())
                 if time.monotonic() - self._last_message > self._patience:
                     self._judge.abort(f'no message came for {self._patience:g} s of the wall clock')
                 if rospy.is_shutdown():
                     self._judge.abort('the test was stopped')
+        self._complete()
+
+    def _complete(self) -> None:
+        """Wait until it is known who must publish: the run may end before the state of the simulator comes."""
+        end = time.monotonic() + self._patience
+        self._look_at_publishers()
+        while not self._origins.is_complete and time.monotonic() < end and not rospy.is_shutdown():
+            time.sleep(PERIOD)
+        self._look_at_publishers()
+        with self._lock:
+            if not self._origins.is_complete:
+                self._judge.annul(self._origins.unknown())
+
+    def _look_at_publishers(self, period: float = 0.0) -> None:
+        """Ask the master who publishes, not more often than in a period [s]; the run is void if a wrong node does."""
+        if time.monotonic() - self._last_look >= period:
+            self._last_look = time.monotonic()
+            try:
+                publishers = rosgraph.Master(rospy.get_name()).getSystemState()[0]
+            except (rosgraph.MasterException, OSError):  # it ends, or is busy: messages tell their senders too
+                publishers = []
+            with self._lock:
+                for topic, nodes in publishers:
+                    for name in nodes:
+                        self._origins.publishes(topic, name)
+        with self._lock:
+            problem = self._origins.problem()
+            if problem:
+                self._judge.annul(problem)
 
     def _subscribe_to_fields(self) -> None:
         """Subscribe to the topics of those fields that have a publisher since the last call."""
         for field in self._unpublished[:]:
-            kind, topic, value = rostopic.get_topic_class(rospy.resolve_name(field.path))
+            try:
+                kind, topic, value = rostopic.get_topic_class(rospy.resolve_name(field.path))
+            except rostopic.ROSTopicException as error:  # no master, or a type that this workspace does not have
+                rospy.logwarn_throttle(self._patience, f'{field.path}: {error}')
+                continue
             if kind is not None:
                 self._unpublished.remove(field)
+                with self._lock:
+                    self._origins.watch(topic)
                 self._subscribe(field, topic, kind, value or (lambda message: message))
 
     def verdicts(self) -> List[Verdict]:
@@ -152,6 +208,16 @@ class MissionMonitor:
         topics = [condition.path] if isinstance(condition, Field) else [
             f'{self._robot}/{topic}' for topic, _, _ in TOPICS[type(condition)]]
         return ' or '.join(map(rospy.resolve_name, topics))
+
+
+def _now() -> float:
+    """Time of the robots [s]; in real time one that nobody can set."""
+    return time.monotonic() if rospy.rostime.is_wallclock() else float(rospy.get_time())
+
+
+def _sender(message: Any) -> str:
+    """Full name of the node that sent a message."""
+    return str(message._connection_header.get('callerid', 'a node without a name'))
 
 
 def report(verdicts: List[Verdict]) -> bool:

@@ -21,14 +21,15 @@ from rumba_cleaning import strategies
 from rumba_cleaning.outcome import Outcome
 from rumba_evaluation.trials.cases import Case, Conditions, Result
 from rumba_evaluation.trials.trial import Trial
-from rumba_sim.model import kernel, map_file
-from rumba_sim.model.errors import ConfigError
+from rumba_sim.model import map_file
+from rumba_sim.model.errors import ConfigError, RumbaError, StrategyError
 from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.model.kernel import Array
 
 SCHEDULER_TIMEOUT = 10.0  # [s]
 EXAMPLE = 'tcp://10.0.0.1:8786'
 PLANS = 8  # floor plans that a worker keeps
+MISSED = 50  # [%] of a cell that were swept: cells with less are shown as missed
 Done = TypeVar('Done')
 
 
@@ -67,7 +68,13 @@ def prepare(job: Job) -> Trial:
         RumbaError: the map, the strategy or the number of robots cannot be used.
     """
     strategies.load(job.modules)
-    return Trial(floor_plan(job.path), job.case.strategy, job.conditions, job.case.seed, job.case.robots)
+    plan = floor_plan(job.path)
+    try:
+        return Trial(plan, job.case.strategy, job.conditions, job.case.seed, job.case.robots)
+    except RumbaError:
+        raise
+    except (Exception, SystemExit) as error:  # in the code that makes a strategy
+        raise StrategyError(f'{job.case.strategy} cannot be made on {job.case.map}: {_described(error)}') from None
 
 
 def run(job: Job) -> Result:
@@ -87,7 +94,8 @@ def trace(job: Job) -> Trace:
                 path.append(robot.pose[:2])
 
     result = _finish(trial, record)
-    missed = trial.world.floor.cells & (kernel.REACHABLE | kernel.SWEPT) == kernel.REACHABLE
+    swept = trial.world.swept()
+    missed = (swept >= 0) & (swept < MISSED)
     return Trace(job, result, [np.array(path, np.float32) for path in paths], missed)
 
 
@@ -96,11 +104,15 @@ def _finish(trial: Trial, after_each_step: Callable[[], None]) -> Result:
         while not trial.is_over:
             trial.step()
             after_each_step()
-    except Exception as error:  # in a strategy: the other missions go on
-        frame = traceback.extract_tb(error.__traceback__)[-1]
-        message = f'{type(error).__name__}: {error} ({os.path.basename(frame.filename)}:{frame.lineno})'
-        return dataclasses.replace(trial.result(), outcome=Outcome.ERROR, message=message)
+    except (Exception, SystemExit) as error:  # in a strategy: the other missions go on
+        return dataclasses.replace(trial.result(), outcome=Outcome.ERROR, message=_described(error))
     return trial.result()
+
+
+def _described(error: BaseException) -> str:
+    """What was raised, and in which line of which file."""
+    frame = traceback.extract_tb(error.__traceback__)[-1]
+    return f'{type(error).__name__}: {error} ({os.path.basename(frame.filename)}:{frame.lineno})'
 
 
 # --- workers ------------------------------------------------------------------------------------------------------

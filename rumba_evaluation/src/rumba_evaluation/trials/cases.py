@@ -12,7 +12,7 @@ from rumba_sim.model.errors import ConfigError
 
 DOCK, ANYWHERE = 'dock', 'anywhere'
 LEVELS = (80, 90, 95, 98, 99)  # [%] of coverage; the time to each is reported
-SEVERITY = {Outcome.SUCCEEDED: 0, Outcome.INCOMPLETE: 1}
+SEVERITY = {Outcome.SUCCEEDED: 0, Outcome.INCOMPLETE: 1, Outcome.TIMED_OUT: 3, Outcome.FALLEN: 4}
 FAILURE = 2  # severity of all other outcomes
 Curve = Tuple[float, ...]
 
@@ -50,7 +50,7 @@ class Result:
     Working time is the time since the start without the time in which all robots that still have a mission charge.
     """
 
-    outcome: Outcome  # of several robots TIMED_OUT if any had not ended, else the worst
+    outcome: Outcome  # of several robots the worst: a fall, no end, another failure, a target that was missed
     message: str  # how each mission ended
     area: float  # [m^2] of floor that a brush can reach from the map's start
     ideal_time: float  # [s] T: for one brush to sweep that area at the cleaning speed, without any overlap
@@ -66,7 +66,7 @@ class Result:
     energy: float  # [Wh] the same
     energy_per_area: float  # [Wh/m^2] swept; NaN if nothing was swept
     docked: int  # robots on the dock at the end
-    penetrated: bool  # a robot was inside a wall by more than 1 mm, or fell over a cliff
+    penetrated: bool  # a robot was inside a wall by more than 1 mm
     x: float  # [m] start of the first robot, map frame
     y: float  # [m]
     theta: float  # [rad]
@@ -74,8 +74,8 @@ class Result:
 
     @property
     def has_failed(self) -> bool:
-        """Whether the mission failed, or that of any of several robots."""
-        return severity(self.outcome) == FAILURE
+        """Whether the mission missed its target, or that of any of several robots."""
+        return self.outcome is not Outcome.SUCCEEDED
 
     def time_to(self, percent: int) -> float:
         """Working time until a percentage was swept [s]; inf if it never was."""
@@ -87,7 +87,7 @@ class Result:
 
 
 def severity(outcome: Outcome) -> int:
-    """0 for success, 1 for a normal end without it, FAILURE for all others."""
+    """How bad an end is: 0 for success, 4 for a fall."""
     return SEVERITY.get(outcome, FAILURE)
 
 

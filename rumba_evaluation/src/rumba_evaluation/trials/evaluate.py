@@ -6,12 +6,14 @@ draws pictures, for which it needs matplotlib.
 """
 
 import argparse
+import contextlib
 import dataclasses
+import fcntl
 import os
 import re
 import sys
 from concurrent.futures import BrokenExecutor, Executor
-from typing import Callable, ContextManager, Dict, List, NoReturn, Sequence
+from typing import Callable, ContextManager, Dict, Iterator, List, NoReturn, Sequence
 
 from rumba_cleaning import strategies
 from rumba_cleaning.outcome import Outcome
@@ -26,6 +28,7 @@ NAME = 'evaluate'
 MAPS = ('apartment', 'studio', 'field')
 STRATEGIES = ('boustrophedon', 'bounce')
 ERROR, BAD_INPUT, INTERRUPTED = 1, 2, 130
+LOCK = '.evaluate.lock'  # in the folder for results; stays there, but is locked only while a process writes there
 MOST = 1_000_000  # seeds
 
 
@@ -108,7 +111,13 @@ def _evaluate(options: argparse.Namespace, map_path: Callable[[str], str]) -> in
         _check_matplotlib()
     cases = grid(options.maps, options.strategies, options.seeds, options.robots)
     jobs = _jobs(cases, conditions, {name: map_path(name) for name in options.maps}, options.modules)
-    results = Results(_in_folder(options.output, 'results.csv'), conditions)
+    with _locked(options.output):
+        results = Results(_in_folder(options.output, 'results.csv'), conditions)
+        return _evaluate_jobs(options, jobs, results)
+
+
+def _evaluate_jobs(options: argparse.Namespace, jobs: Sequence[Job], results: Results) -> int:
+    cases = [job.case for job in jobs]
     try:
         with _workers(options) as executor:
             _run_missing(executor, jobs, results)
@@ -155,6 +164,29 @@ def _jobs(cases: Sequence[Case], conditions: Conditions, paths: Dict[str, str], 
     for job in {job.case.map: job for job in jobs if job.case.robots == most}.values():
         batch.prepare(job)
     return jobs
+
+
+@contextlib.contextmanager
+def _locked(folder: str) -> Iterator[None]:
+    """Keep a folder for this process; the lock ends with the process, however that ends, and workers do not inherit it.
+
+    Raises:
+        ConfigError: another process writes there, or nobody can.
+    """
+    path = _in_folder(folder, LOCK)
+    try:
+        lock = open(path, 'w')
+    except OSError as error:
+        raise ConfigError(f'{path}: {error.strerror}: --output must be a writable folder') from None
+    with lock:
+        try:
+            fcntl.lockf(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            raise ConfigError(f'{folder}: another evaluate writes its results there: wait until it has ended, or '
+                              'choose another --output') from None
+        except OSError:  # a file system without locks
+            pass
+        yield
 
 
 def _in_folder(folder: str, name: str) -> str:

@@ -3,6 +3,7 @@
 import csv
 import dataclasses
 import io
+import math
 import os
 from typing import Any, Dict, List, Tuple
 
@@ -11,6 +12,7 @@ from rumba_evaluation.trials.cases import LEVELS, Case, Conditions, Curve, Resul
 from rumba_sim.model.errors import ConfigError
 
 DIGITS = 7  # of a number: enough for 0.1 s in ten days
+SHORTEST = 1e-6  # [s] ideal time of a mission
 PARTS: Tuple[Any, ...] = (Case, Conditions, Result)
 TRUTH = {'True': True, 'False': False}
 
@@ -40,6 +42,9 @@ class Results:
         whole, end, cut = self._file.read().rpartition(b'\n')
         try:
             self._read(list(csv.reader(io.StringIO((whole or cut).decode('utf-8', 'replace')))), is_whole=bool(end))
+        except csv.Error:
+            self._file.close()
+            raise self._refusal('is not a file of results of this version') from None
         except ConfigError:
             self._file.close()
             raise
@@ -55,6 +60,7 @@ class Results:
         for number, row in enumerate(rows[1:], 2):
             try:
                 case, conditions, result = _parts([_value(kind, text) for kind, text in zip(_kinds(), row)])
+                _check(result)
             except (LookupError, TypeError, ValueError, ConfigError):
                 raise self._refusal(f'cannot be read in line {number}') from None
             for field in dataclasses.fields(Conditions):
@@ -106,6 +112,13 @@ def _parts(values: List[Any]) -> Tuple[Case, Conditions, Result]:
         parts.append(part(*values[begin:end]))
         begin = end
     return parts[0], parts[1], parts[2]
+
+
+def _check(result: Result) -> None:
+    """Refuse times that no mission has, by ValueError: with them, no table can be made."""
+    if not (SHORTEST <= result.ideal_time < math.inf and 0.0 <= result.charging_time <= result.time < math.inf
+            and all(0.0 <= time < math.inf for time in result.curve) and len(result.curve) <= 100):
+        raise ValueError
 
 
 def _text(value: Any) -> str:

@@ -5,13 +5,11 @@ from typing import List
 
 import numpy as np
 
-from rumba_sim.model.constants import constants
 from rumba_sim.model.errors import WorldError
 from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.model.geometry import Pose
+from rumba_sim.model.reachability import reach
 from rumba_sim.model.robot_config import RobotConfig
-
-ANY_RATE = 50  # [Hz] a robot's least clearance does not depend on the step rate
 
 
 def anywhere(plan: FloorPlan, config: RobotConfig, origin: Pose, count: int,
@@ -25,17 +23,17 @@ def anywhere(plan: FloorPlan, config: RobotConfig, origin: Pose, count: int,
         MapError: no robot fits at the origin.
         WorldError: there is no space for so many robots.
     """
-    clearance, radius = plan.safe_clearance, config.drive.radius
-    at_centres = 0.25 * (clearance[:-1, :-1] + clearance[:-1, 1:] + clearance[1:, :-1] + clearance[1:, 1:])
-    stands = plan.reachable(origin.x, origin.y, radius, 0.0) & (
-        at_centres >= constants(config, plan, ANY_RATE)[0]['reach'])
+    terrain, radius = plan.refined(), config.drive.radius
+    free = reach(terrain, config, origin.x, origin.y).stands.copy()
+    spacing = 0.5 * terrain.resolution
     poses: List[Pose] = []
     while len(poses) < count:
-        cells = np.argwhere(stands)
-        if len(cells) == 0:
+        positions = np.argwhere(free)
+        if len(positions) == 0:
             raise WorldError(f'{plan.name}: no room for another robot beside {len(poses)}')
-        row, column = cells[generator.integers(len(cells))].tolist()
-        poses.append(Pose(*plan.centre(row, column), generator.uniform(-math.pi, math.pi)))
-        rows, columns = np.ogrid[:plan.rows, :plan.columns]
-        stands &= np.hypot(rows - row, columns - column) * plan.resolution > 2.0 * radius
+        row, column = positions[generator.integers(len(positions))].tolist()
+        poses.append(Pose(terrain.origin[0] + column * spacing, terrain.origin[1] + row * spacing,
+                          generator.uniform(-math.pi, math.pi)))
+        rows, columns = np.ogrid[:free.shape[0], :free.shape[1]]
+        free &= np.hypot(rows - row, columns - column) * spacing > 2.0 * radius
     return poses

@@ -119,10 +119,9 @@ class Trial:
             x=start.x, y=start.y, theta=start.theta, curve=tuple(self.curve))
 
     def _outcome(self) -> Outcome:
-        if self._running:
-            return Outcome.TIMED_OUT
-        return max((Outcome.FALLEN if robot.has_fallen else mission.outcome
-                    for robot, mission in zip(self.world.robots.values(), self.missions)), key=severity)
+        running = self._running
+        return max((Outcome.FALLEN if robot.has_fallen else Outcome.TIMED_OUT if name in running else mission.outcome
+                    for (name, robot), mission in zip(self.world.robots.items(), self.missions)), key=severity)
 
     def _message(self) -> str:
         messages = {name: f'fell over a cliff; {mission.message}' if robot.has_fallen else mission.message
@@ -139,7 +138,7 @@ class _Meter:
         turned: rotation [rad], left and right added up.
         charge: out of the battery [Ah], at a drain of 1.
         energy: the same [Wh].
-        penetrated: whether the robot was inside a wall, or fell over a cliff.
+        penetrated: whether the robot was inside a wall.
     """
 
     def __init__(self, plan: FloorPlan, robot: Robot) -> None:
@@ -161,5 +160,4 @@ class _Meter:
             charge = -battery.current * CONTROL_DT / HOUR
             self.charge += charge
             self.energy += battery.voltage * charge
-        self.penetrated |= self._robot.has_fallen or (
-            self._plan.clearance_at(pose.x, pose.y) < self._least_clearance)
+        self.penetrated |= self._plan.clearance_at(pose.x, pose.y) < self._least_clearance

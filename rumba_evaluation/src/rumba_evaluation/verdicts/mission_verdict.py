@@ -11,11 +11,12 @@ on nevertheless, so that the verdict covers every condition.
 
 A run begins with the first message. It ends as soon as all goals are met at the same time and each guard has a value,
 or when the time limit is reached; without any goal, only at the time limit. Later values are ignored. A condition
-without any value has failed, and so has a guard if the run was aborted.
+without any value has failed, and so has a guard if the run was aborted. If the run is void, all conditions have failed.
 """
 
 import abc
 import math
+import reprlib
 from typing import Any, Callable, List, NamedTuple, Optional, Sequence
 
 from rumba_sim.model.geometry import Pose, wrap_angle
@@ -148,8 +149,8 @@ class Battery(Condition):
         self._lowest = math.inf
 
     def update(self, value: float) -> None:
-        """Take a charge [%]; NaN (not measured) is ignored."""
-        if not math.isnan(value):
+        """Take a charge [%]; one that is not finite (not measured) is ignored."""
+        if math.isfinite(value):
             super().update(value)
 
     def _update(self, value: float) -> None:
@@ -204,7 +205,7 @@ class Field(Condition):
         if is_number:
             self._lowest, self._highest = min(self._lowest, value), max(self._highest, value)
         elif not self._problem:
-            self._problem = f'{value!r}, which is not a number'
+            self._problem = f'{reprlib.repr(value)}, which is not a number'
 
     def _is_met(self) -> bool:
         return not self._problem and self._low <= self._lowest and self._highest <= self._high
@@ -236,11 +237,11 @@ class Judge:
         self._time_limit = time_limit
         self._began: Optional[float] = None
         self._passed = 0.0
-        self._is_complete = False
+        self._is_complete = self._is_void = False
         self._reason = ''
 
     def update(self, condition: Condition, value: Any, now: float) -> None:
-        """Take a value of one of the conditions, measured at a time [s] that never goes backwards."""
+        """Take a value of one of the conditions, measured at a time [s]."""
         self.check_time(now)
         if self.is_over:
             return
@@ -252,8 +253,11 @@ class Judge:
             self._end('', is_complete=True)
 
     def check_time(self, now: float) -> None:
-        """End the run if the time [s] has reached the limit."""
+        """End the run if the time [s] has reached the limit, or has gone back."""
         if self.is_over or self._began is None:
+            return
+        if now < self._began + self._passed:
+            self.annul(f'the time went back from {self._began + self._passed:.1f} s to {now:.1f} s')
             return
         self._passed = now - self._began
         if self._passed >= self._time_limit:
@@ -265,6 +269,12 @@ class Judge:
         if not self.is_over:
             self._end(reason, is_complete=False)
 
+    def annul(self, reason: str) -> None:
+        """Make the run void, also one that is over, for a reason in words."""
+        if not self._is_void:
+            self._is_void = True
+            self._end('; '.join(filter(None, (self._reason, reason))), is_complete=False)
+
     def _end(self, reason: str, is_complete: bool) -> None:
         self.is_over, self._reason, self._is_complete = True, reason, is_complete
 
@@ -273,7 +283,7 @@ class Judge:
         return [self._verdict(condition, source) for condition in self.conditions]
 
     def _verdict(self, condition: Condition, source: Callable[[Condition], str]) -> Verdict:
-        is_met = condition.is_met and (self._is_complete or not condition.is_guard)
+        is_met = condition.is_met and (self._is_complete or not condition.is_guard) and not self._is_void
         topics = '' if condition.is_measured else f' on {source(condition)}'
         reason = f': {self._reason}' if self._reason else ''
         return Verdict(condition.name, is_met,

@@ -20,7 +20,7 @@ PATH_WIDTH = 1.4  # [pixels]
 PATH_ALPHA = 150
 MIN_SEGMENT = 4.0  # [pixels] from one corner of a path to the next
 STRIPES = 0.12  # [m] from one stripe of a cliff to the next, along an axis
-SWEPT, TO_SWEEP = 100, 0  # values of the coverage grid
+SHADES = 101  # of a cell, from 0 to 100 % swept
 
 
 class FloorPainter:
@@ -50,8 +50,8 @@ def floor_image(plan: Grid, coverage: Optional[Grid], features: MapFeatures, the
     colours[plan.cells == OCCUPIED] = _rgb(theme.wall)
     colours[free] = _rgb(theme.out_of_reach if coverage is not None else theme.swept)
     if coverage is not None and coverage.cells.shape == plan.cells.shape:
-        colours[free & (coverage.cells == TO_SWEEP)] = _rgb(theme.to_sweep)
-        colours[free & (coverage.cells == SWEPT)] = _rgb(theme.swept)
+        is_known = free & (coverage.cells >= 0) & (coverage.cells < SHADES)
+        colours[is_known] = _shades(QColor(theme.to_sweep), QColor(theme.swept))[coverage.cells[is_known]]
     if features.carpet is not None and features.carpet.shape == plan.cells.shape:
         _tint(colours, free & features.carpet, QColor(theme.carpet))
     if features.cliff is not None and features.cliff.shape == plan.cells.shape:
@@ -61,6 +61,14 @@ def floor_image(plan: Grid, coverage: Optional[Grid], features: MapFeatures, the
     height, width = colours.shape
     pixels: Any = np.ascontiguousarray(colours[::-1]).data
     return QImage(pixels, width, height, 4 * width, QImage.Format_RGB32).copy()  # which owns its pixels
+
+
+def _shades(none: QColor, full: QColor) -> Array:
+    """The colours from one to another in SHADES equal steps: uint32 (SHADES)."""
+    ends = np.array([[none.red(), none.green(), none.blue()], [full.red(), full.green(), full.blue()]], np.float64)
+    share = np.linspace(0.0, 1.0, SHADES)[:, np.newaxis]
+    red, green, blue = np.rint(ends[0] + share * (ends[1] - ends[0])).astype(np.uint32).T
+    return np.asarray(0xff000000 | red << 16 | green << 8 | blue, np.uint32)
 
 
 def _rgb(colour: str) -> int:

@@ -18,6 +18,7 @@ LINES = 9  # of small text
 LOW, CRITICAL = 0.25, 0.10  # charge, below which the bar is yellow, red
 STATES = {'cleaning': 'good', 'charging': 'good', YIELDING: 'warning', 'stranded': 'bad', FALLEN: 'bad'}
 UNKNOWN, MINUS = '-', '\u2212'
+SLOW = 0.1  # [times real time] a lower speed is too few ticks to be measured in a second
 
 
 def status_height(font: QFont) -> int:
@@ -159,15 +160,19 @@ def _battery_colour(battery: Optional[Battery], theme: Theme) -> str:
 def _battery_text(battery: Optional[Battery]) -> str:
     if battery is None:
         return ''
-    current = '' if math.isnan(battery.current) else f'  {battery.current:+.2f} A'
-    return f'{battery.voltage:.1f} V{current}  {battery.state}'.replace('-', MINUS)
+    current = '' if math.isnan(battery.current) else f'  {battery.current:+.2f} A'.replace('-', MINUS)
+    return f'{_known(battery.voltage)} V{current}  {battery.state}'
 
 
 def _cleaning_text(cleaning: Optional[Cleaning]) -> str:
     if cleaning is None:
         return ''
     dirt = '' if math.isnan(cleaning.dirt) else f', dirt left {100.0 * cleaning.dirt:.0f} %'
-    return f'{cleaning.cleaned_area:.1f} of {cleaning.reachable_area:.1f} m\u00b2{dirt}'
+    return f'{_known(cleaning.cleaned_area)} of {_known(cleaning.reachable_area)} m\u00b2{dirt}'
+
+
+def _known(value: float) -> str:
+    return UNKNOWN if math.isnan(value) else f'{value:.1f}'
 
 
 def _rows(robot: Optional[Robot], simulation: Simulation) -> List[Tuple[str, str]]:
@@ -182,7 +187,7 @@ def _pose_text(pose: Pose) -> str:
 
 
 def _driven_text(robot: Robot) -> str:
-    distance = UNKNOWN if robot.cleaning is None else f'{robot.cleaning.distance:.1f} m'
+    distance = UNKNOWN if robot.cleaning is None else f'{_known(robot.cleaning.distance)} m'
     brushes = {None: UNKNOWN, True: 'up', False: 'down'}[robot.brushes_up]
     return f'{distance}, brushes {brushes}'
 
@@ -205,5 +210,7 @@ def _speed_text(simulation: Simulation) -> str:
     wanted = ''
     if simulation.wanted is not None:
         wanted = f' of {simulation.wanted:g}' if simulation.wanted else ' (maximum)'
+    if simulation.wanted and simulation.wanted < SLOW:
+        return f'{simulation.wanted:g} \u00d7 real time'
     digits = 0 if simulation.speed >= 100.0 else 1
     return f'{simulation.speed:.{digits}f}{wanted} \u00d7 real time'

@@ -39,7 +39,7 @@ class Actor:
         """Act on another robot."""
         if robot != self._robot:
             self._robot = robot
-            threading.Thread(target=self.connect, daemon=True).start()
+            threading.Thread(target=self._reconnect, daemon=True).start()
 
     def connect(self) -> None:
         """Open the topics of the robot at the present master; blocks until that answers."""
@@ -48,6 +48,12 @@ class Actor:
             if old is not None:
                 old.close()
             self._client = RobotClient(self._robot, self.notices.put)
+
+    def _reconnect(self) -> None:
+        try:
+            self.connect()
+        except Exception as error:  # the master has ended: the next one brings another connection
+            self.notices.put(f'{self._robot}: not connected: {type(error).__name__}: {error}')
 
     def drive(self, v: float, w: float) -> None:
         """Command a velocity [m/s], [rad/s], at once."""
@@ -141,6 +147,8 @@ class Actor:
                 answer = act()
             except (rospy.ServiceException, rospy.ROSException, OSError) as error:
                 answer = str(error)
+            except Exception as error:  # whatever a server answered: a person must hear of it
+                answer = f'{type(error).__name__}: {error}'
             if answer:
                 self.notices.put(f'{what}: {answer}')
         before = self._calls.get(what)

@@ -1,12 +1,11 @@
 """Listens to a simulation, whichever of its nodes come and go, and makes snapshots of what there is to show."""
 
 import http.client
-import itertools
 import math
 import threading
 import time
 import xmlrpc.client
-from typing import Any, Callable, Dict, Optional, Tuple
+from typing import Any, Callable, Dict, NamedTuple, Optional, Tuple
 
 import rosgraph
 import rospy
@@ -15,11 +14,13 @@ from rospy.numpy_msg import numpy_msg
 
 from rumba_msg.msg import SimulatorState
 from rumba_sim.model import map_file
-from rumba_sim.model.errors import RumbaError
+from rumba_sim.model.errors import RumbaError, one_line
 from rumba_sim.model.robot_config import RobotConfig
-from rumba_sim.ros.common.simulator_client import SimulatorClient, robot_config
-from rumba_viewer.ros import ros_graph
+from rumba_sim.ros.common.simulator_client import TOPIC, robot_config
+from rumba_viewer.ros import readings, ros_graph
+from rumba_viewer.ros.readings import State
 from rumba_viewer.ros.robot_listener import RobotListener
+from rumba_viewer.ros.subscription import Subscription
 from rumba_viewer.scene.dock_field import dock
 from rumba_viewer.scene.snapshot import Grid, MapFeatures, Robot, Simulation, Size, Snapshot
 
@@ -27,7 +28,28 @@ from rumba_viewer.scene.snapshot import Grid, MapFeatures, Robot, Simulation, Si
 GONE = (rospy.ROSException, rosgraph.MasterException, xmlrpc.client.Error, http.client.HTTPException, OSError)
 LOOK_PERIOD = 1.0  # [s] from one look at the graph to the next
 SILENCE = 3.0  # [s] of the wall clock, after which a silent simulator or robot counts as gone
+ERROR_PERIOD = 10.0  # [s] of the wall clock between two lines about the same trouble
 COVERAGE_PERIOD = 0.2  # [s] of the wall clock, at least, from one picture of the coverage to the next
+
+
+class Heard(NamedTuple):
+    """The newest state of a simulator, and when it came, on the wall clock [s]."""
+
+    state: Optional[State] = None
+    came: float = -math.inf
+
+
+class MapFiles(NamedTuple):
+    """What the files of a map contain, and the properties of the robots on it.
+
+    Attributes:
+        features, config: defaults if they cannot be read.
+        of: node, map and grid to which they belong.
+    """
+
+    features: MapFeatures = MapFeatures()
+    config: RobotConfig = RobotConfig()
+    of: Tuple[Any, ...] = ()
 
 
 class Listener:
@@ -38,20 +60,15 @@ class Listener:
 
     def __init__(self, robot: str, shows_laser: bool) -> None:
         """Select a robot by its name, and show its laser or not, once it is started."""
-        self._selected, self._shows_laser = robot, shows_laser
+        self._wanted = robot, shows_laser
         self._on_master: Callable[[], object] = lambda: None
         self._graph = ros_graph.RosGraph()
         self._master = ''  # the one at which this node is registered
         self._robots: Dict[str, RobotListener] = {}
-        self._simulator: Optional[SimulatorClient] = None
-        self._map: Optional[rospy.Subscriber] = None
-        self._numbers = itertools.count()
+        self._subscriptions: Tuple[Subscription[Any], ...] = ()
         self._plan: Optional[Grid] = None
-        self._coverage: Tuple[Any, Optional[Grid], float] = (None, None, 0.0)
-        self._features, self._config = MapFeatures(), RobotConfig()
-        self._features_of: Tuple[Any, ...] = ()  # node, map and grid to which they belong
-        self._state: Optional[SimulatorState] = None
-        self._heard = -math.inf  # when that came, on the wall clock [s]
+        self._coverage: Tuple[Optional[Grid], float] = (None, 0.0)  # that is shown, and since when
+        self._files, self._heard = MapFiles(), Heard()
         self._before = -math.inf  # when the last snapshot was made
         self._is_news, self._wake = True, threading.Event()
 
@@ -62,7 +79,7 @@ class Listener:
 
     def select(self, robot: str, shows_laser: bool) -> None:
         """Select another robot, or show its laser or not."""
-        self._selected, self._shows_laser = robot, shows_laser
+        self._wanted = robot, shows_laser
         self._wake.set()
 
     def _tell(self) -> None:
@@ -76,9 +93,10 @@ class Listener:
                 self._follow(ros_graph.look())
             except GONE:
                 pass
-            except Exception:  # anything may fail while ROS shuts down
+            except Exception as error:  # whatever parameters and files of others contain, the next look may do better
                 if not rospy.is_shutdown():
-                    raise
+                    rospy.logerr_throttle(ERROR_PERIOD, 'cannot follow the simulation: ' + one_line(
+                        f'{type(error).__name__}: {error}'))
             self._wake.wait(LOOK_PERIOD)
             self._wake.clear()
 
@@ -92,63 +110,57 @@ class Listener:
         if graph.master != self._master:
             if not graph.robots and any(robot.is_connected for robot in self._robots.values()):
                 return  # a new master that knows no robot: the connections of the old one still work
-            self._master = graph.master
             self._start_anew()
-        before = self._robots
+            self._master = graph.master  # not before all of it has worked
+        before, (selected, shows_laser) = self._robots, self._wanted
         self._robots = {name: before.get(name) or RobotListener(name, self._tell) for name in graph.robots}
         for name in set(before) - set(graph.robots):
             before[name].close()
         for name, robot in self._robots.items():
-            large = {'coverage', *(['scan'] if self._shows_laser else [])} if name == self._selected else set()
+            large = {'coverage', *(['scan'] if shows_laser else [])} if name == selected else set()
             robot.subscribe_large(large)
         self._read_map_files()
 
     def _start_anew(self) -> None:
-        before, self._robots, self._state = self._robots, {}, None
+        before, self._robots, self._heard = self._robots, {}, Heard()
         for robot in before.values():
             robot.close()
-        if self._simulator is not None:
-            self._simulator.close()
-        if self._map is not None:
-            self._map.unregister()
-        self._map = rospy.Subscriber('/map', numpy_msg(OccupancyGrid), self._on_map, queue_size=1)
-        self._simulator = SimulatorClient(self._on_state)
+        for subscription in self._subscriptions:
+            subscription.close()
+        self._subscriptions = (
+            Subscription('/map', numpy_msg(OccupancyGrid), readings.grid, self._on_map),
+            Subscription(TOPIC, SimulatorState, readings.state, self._on_state, queue_size=10))
         self._on_master()
 
     def _read_map_files(self) -> None:
         """Read the files of the simulator's map, once for each map."""
-        state, plan = self._state, self._plan
-        if state is None or (state.node, state.map, plan) == self._features_of:
+        state, plan = self._heard.state, self._plan
+        if state is None or (state.node, state.map, plan) == self._files.of:
             return
+        config, features = self._files.config, MapFeatures()
         try:
-            self._config = robot_config(state.node)
+            config = robot_config(state.node)
             floor = map_file.load(state.map)
-            self._features = MapFeatures(dock(floor, self._config) if floor.dock else None, floor.carpet, floor.cliff,
-                                         True)
+            features = MapFeatures(dock(floor, config) if floor.dock else None, floor.carpet, floor.cliff, True)
         except RumbaError:  # the simulator runs on another machine
-            self._features = MapFeatures()
-        self._features_of = state.node, state.map, plan
+            pass
+        self._files = MapFiles(features, config, (state.node, state.map, plan))
         self._tell()
 
     # --- callbacks ----------------------------------------------------------------------------------------------------
 
-    def _on_map(self, message: Any) -> None:
-        self._plan = self._grid(message)
+    def _on_map(self, plan: Grid) -> None:
+        self._plan = plan
         for robot in self._robots.values():
             robot.forget()
         self._wake.set()
         self._tell()
 
-    def _on_state(self, state: SimulatorState) -> None:
-        before, self._state, self._heard = self._state, state, time.monotonic()
+    def _on_state(self, state: State) -> None:
+        before, self._heard = self._heard.state, Heard(state, time.monotonic())
         if before is None or (state.node, state.map) != (before.node, before.map):
             self._wake.set()
         self._tell()
-
-    def _grid(self, message: Any) -> Grid:
-        info = message.info
-        return Grid(message.data.reshape(info.height, info.width), info.resolution, info.origin.position.x,
-                    info.origin.position.y, next(self._numbers))
 
     # --- what the window asks -----------------------------------------------------------------------------------------
 
@@ -160,50 +172,54 @@ class Listener:
     def snapshot(self, now: float) -> Snapshot:
         """What there is to show at a time of the wall clock [s]."""
         self._is_news, self._before = False, now
-        listeners = self._robots
-        size = Size(self._config.drive.radius, self._config.brush.width)
+        listeners, (name, _) = self._robots, self._wanted
+        features, config, _ = self._files
+        size = Size(config.drive.radius, config.brush.width)
         there = (one.robot(now, size) for one in listeners.values() if self._is_there(one, now))
         robots = tuple(robot for robot in there if robot is not None)
-        selected = listeners.get(self._selected)
-        stamps = [one.stamp for one in listeners.values() if one.stamp is not None]
+        selected = listeners.get(name)
+        stamps = [stamp for stamp in (one.known.stamp for one in listeners.values()) if stamp is not None]
         simulation = self._simulation(now, max(stamps) if stamps else None)
-        coverage = self._coverage_grid(selected.coverage if selected else None, now)
-        return Snapshot(self._plan, coverage, self._features, robots, self._selected, simulation,
+        coverage = self._shown_coverage(selected.known.coverage if selected else None, now)
+        return Snapshot(self._plan, coverage, features, robots, name, simulation,
                         missing=self._missing(robots, simulation))
 
     def _simulation(self, now: float, stamp: Optional[float]) -> Simulation:
-        state, graph = self._state, self._graph
+        state, graph = self._heard.state, self._graph
         if state is None or not self._has_simulator(now):
             return Simulation(is_simulated=graph.has_clock, time=stamp)
         below = f'{state.node}/'
         services = frozenset(name[len(below):] for name in graph.services if name.startswith(below))
-        return Simulation(state.node, _known(state.real_time_factor), _known(state.speed), state.is_paused,
-                          state.is_time_simulated, stamp, services)
+        return Simulation(state.node, _known(state.reached), _known(state.wanted), state.is_paused, state.is_simulated,
+                          stamp, services)
 
     def _has_simulator(self, now: float) -> bool:
         """Whether a simulator was heard recently, and has not taken its services back."""
-        state = self._state
-        return state is not None and now - self._heard < SILENCE and f'{state.node}/reset' in self._graph.services
+        state, came = self._heard
+        return state is not None and now - came < SILENCE and f'{state.node}/reset' in self._graph.services
 
     def _is_there(self, robot: RobotListener, now: float) -> bool:
-        return robot.is_connected and (now - robot.came < SILENCE or now - self._heard < SILENCE)
+        return robot.is_connected and (now - robot.known.came < SILENCE or now - self._heard.came < SILENCE)
 
-    def _coverage_grid(self, message: Any, now: float) -> Optional[Grid]:
+    def _shown_coverage(self, newest: Optional[Grid], now: float) -> Optional[Grid]:
         """The newest coverage, but not more often than COVERAGE_PERIOD."""
-        known, grid, made = self._coverage
-        if message is not known:
-            if message is not None and grid is not None and now - made < COVERAGE_PERIOD:
-                self._is_news = True
-                return grid
-            grid = self._grid(message) if message is not None else None
-            self._coverage = message, grid, now
-        return grid
+        shown, since = self._coverage
+        if newest is not shown and newest is not None and shown is not None and now - since < COVERAGE_PERIOD:
+            self._is_news = True
+            return shown
+        if newest is not shown:
+            self._coverage = newest, now
+        return newest
 
     def _missing(self, robots: Tuple[Robot, ...], simulation: Simulation) -> str:
         if robots:
             return '' if self._plan is not None else 'Waiting for a map\nNo node publishes /map.'
         if not self._graph.master:
             return missing_master()
+        names = [name for name, robot in self._robots.items() if robot.is_connected]
+        if simulation.node and names:
+            why = 'Time is paused.' if simulation.is_paused else 'It comes ten times in a second of simulated time.'
+            return f'Waiting for a pose of {" and ".join(names)}\n{why}'
         if simulation.node:
             return f'There is no robot\nTo add one:\nrosservice call {simulation.node}/spawn "{{}}"'
         return 'Waiting for a simulator\nTo start one, in another terminal:\nroslaunch rumba_sim simulator.launch'

@@ -96,7 +96,7 @@ class Path:
 
 
 class Battery(NamedTuple):
-    """Charge 0..1, [V], [A] (negative while discharging; NaN: unknown), and `charging`, `full` or `on battery`."""
+    """Charge 0..1, [V], [A] (negative while discharging), and `charging`, `full` or `on battery`; NaN: unknown."""
 
     share: float
     voltage: float
@@ -105,7 +105,7 @@ class Battery(NamedTuple):
 
 
 class Cleaning(NamedTuple):
-    """How much of the floor is clean: shares 0..1, areas [m^2], and the distance driven [m]."""
+    """How much of the floor is clean: shares 0..1, areas [m^2], and the distance driven [m]; NaN: unknown."""
 
     coverage: float
     cleaned_area: float

@@ -3,6 +3,8 @@
 import time
 from typing import Callable, List, Tuple
 
+from rumba_sim.model.errors import one_line
+
 DURATION = 6.0  # [s] for which a line is shown
 MAX_LINES = 2  # that are shown at the same time
 
@@ -16,7 +18,8 @@ class Notices:
         self._lines: List[Tuple[str, float]] = []  # and until when they are shown
 
     def tell(self, line: str) -> None:
-        """Show a line for a while, below the last one."""
+        """Show a line for a while, below the last one; a long one is cut."""
+        line = one_line(line)
         others = [(text, until) for text, until in self._lines if text != line]
         self._replace([*others, (line, time.monotonic() + DURATION)][-MAX_LINES:])
 

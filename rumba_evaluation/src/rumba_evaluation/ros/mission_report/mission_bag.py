@@ -6,15 +6,20 @@ import rosbag
 
 from rumba_evaluation.report.mission_record import MissionRecord
 from rumba_evaluation.ros.mission_report.recorded_robot import GRID, TYPES, RecordedRobot, Topics
-from rumba_sim.model.errors import RumbaError
+from rumba_sim.model.errors import RumbaError, one_line
 from rumba_sim.model.robot import FIRST
 
 POSITION, BATTERY = ('ground_truth', 'battery_status'), ('battery_status', 'battery_state')  # one of each is needed
+LONGEST = 3000  # [characters] of an error
 SHOWN = 20  # topics that an error names
 
 
 class ReportError(RumbaError):
     """A bag cannot be read, lacks needed topics, or a report cannot be written."""
+
+    def __init__(self, message: str) -> None:
+        """Keep the message as one line, which may be long: it can end with the command to record all topics."""
+        Exception.__init__(self, one_line(message, LONGEST))
 
 
 def read(path: str, robot: str = '') -> MissionRecord:

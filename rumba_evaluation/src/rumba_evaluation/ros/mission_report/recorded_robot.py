@@ -1,7 +1,7 @@
 """Makes the record of a mission from the messages of one robot in a bag; times are those of the robot's clock."""
 
 import math
-from typing import Any, Callable, Dict, Iterator, List, NamedTuple, Optional, Sequence, Tuple
+from typing import Any, Callable, Dict, Iterator, List, NamedTuple, Optional, Sequence, Set, Tuple
 
 import numpy as np
 import rosbag
@@ -74,8 +74,13 @@ class RecordedRobot:
         self._topics = topics
         self._samples = {name: Samples([], [], []) for name in topics if name in ROWS}
         names = {topic: name for name in self._samples for topic in topics[name]}
-        for topic, message, time in bag.read_messages(
-                list(names), connection_filter=lambda topic, kind, *_: kind == TYPES[names[topic]]):
+        self._publishers: Dict[str, Set[str]] = {topic: set() for topic in names}
+
+        def is_read(topic: str, kind: str, _: str, __: str, header: Dict[str, bytes]) -> bool:
+            if kind == TYPES[names[topic]]:
+                self._publishers[topic].add(header.get('callerid', b'').decode(errors='replace'))
+            return kind == TYPES[names[topic]]
+        for topic, message, time in bag.read_messages(list(names), connection_filter=is_read):
             recorded, stamps, rows = self._samples[names[topic]]
             recorded.append(time.to_sec())
             stamps.append(message.header.stamp.to_sec() if hasattr(message, 'header') else 0.0)
@@ -144,6 +149,8 @@ class RecordedRobot:
     def record(self, source: str, name: str, map_topics: Sequence[str], remarks: Sequence[str]) -> MissionRecord:
         """The record of the mission with the last map of `map_topics`; path and charge can be empty."""
         remarks = list(remarks)
+        remarks += [f'{topic} was published by {" and ".join(sorted(nodes))}: the figures mix what they told.'
+                    for topic, nodes in self._publishers.items() if len(nodes) > 1]
         if self._was_set_back:
             remarks.append('The clock was set back during the recording: times are those of the recorder.')
         maps = [cells for _, cells in self._grids(map_topics, 1)]
@@ -167,7 +174,7 @@ class RecordedRobot:
             return Series(status.times, status.values[:, 0]), (swept, reachable), last
         if last is None:
             return NOTHING, None, None
-        counts = [(np.count_nonzero(cells.cells == 100), np.count_nonzero(cells.cells >= 0)) for _, cells in grids]
+        counts = [(0.01 * np.clip(cells.cells, 0, 100).sum(), np.count_nonzero(cells.cells >= 0)) for _, cells in grids]
         coverage = series([time for time, _ in grids], [part / max(whole, 1) for part, whole in counts])
         area = last.resolution ** 2
         return coverage, (counts[-1][0] * area, counts[-1][1] * area), last

@@ -1,0 +1,1 @@
+../../../rumba_viewer/test/unit/odd_messages.py

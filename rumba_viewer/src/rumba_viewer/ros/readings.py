@@ -1,0 +1,172 @@
+"""From messages to plain values; a message that makes no sense is refused, and a single value that is odd is unknown.
+
+Anybody can publish anything. What passes here is finite, of a sensible size, and fits together, so that no other module
+needs to doubt it.
+"""
+
+import itertools
+import math
+from typing import Any, NamedTuple
+
+import numpy as np
+import rosgraph
+from nav_msgs.msg import Odometry
+from sensor_msgs.msg import BatteryState
+
+from rumba_msg.msg import CleaningStatus, MissionStatus, SimulatorState
+from rumba_sim.model.errors import RumbaError, one_line, quoted
+from rumba_sim.model.geometry import Pose
+from rumba_sim.model.map_image import MAX_PIXELS
+from rumba_sim.ros.common.conversions import plane_pose
+from rumba_viewer.scene.snapshot import YIELDING, Array, Battery, Cleaning, Grid, Mission
+
+FAR = 1e7  # [m] larger coordinates are not valid
+FINEST = 1e-4  # [m] smallest side of a cell
+MOST = 1e9  # larger voltages, currents, areas, distances and speeds are not valid
+MOST_BEAMS = 3600  # of a scan that are shown
+MOST_TURNS = 1e3  # [rad] largest angle of a beam
+ROUNDING = 1e-6  # by which a share may exceed 1
+STATES = {**{getattr(MissionStatus, name): name.lower().replace('_', ' ') for name in (
+    'IDLE', 'UNDOCKING', 'CLEANING', 'RETURNING', 'DOCKING', 'CHARGING', 'GOING_TO', 'STRANDED')},
+    MissionStatus.YIELDING: YIELDING}
+SUPPLIES = {BatteryState.POWER_SUPPLY_STATUS_CHARGING: 'charging', BatteryState.POWER_SUPPLY_STATUS_FULL: 'full',
+            BatteryState.POWER_SUPPLY_STATUS_DISCHARGING: 'on battery'}
+WITHOUT_GOAL = (MissionStatus.IDLE, MissionStatus.STRANDED)
+
+_numbers = itertools.count()
+
+
+class OddMessage(RumbaError):
+    """A message makes no sense."""
+
+
+class Reading(NamedTuple):
+    """Where a robot was at a time [s] of its clock."""
+
+    stamp: float
+    pose: Pose
+
+
+class Scan(NamedTuple):
+    """What a laser measured at a time [s]: ranges (n,) [m] and angles (n,) [rad] from the heading of the robot."""
+
+    stamp: float
+    ranges: Array
+    angles: Array
+
+    def ends(self, pose: Pose) -> Array:
+        """Ends of the beams (n, 2) [m], seen from a pose."""
+        angles = pose.theta + self.angles
+        return np.stack([pose.x + self.ranges * np.cos(angles), pose.y + self.ranges * np.sin(angles)], axis=1)
+
+
+class State(NamedTuple):
+    """What a simulator says of itself.
+
+    Attributes:
+        node: full name of its node.
+        map: path of its map.
+        reached, wanted: speed [times real time]; NaN if unknown.
+        is_paused: whether time is stopped.
+        is_simulated: whether time is that of /clock.
+    """
+
+    node: str
+    map: str
+    reached: float
+    wanted: float
+    is_paused: bool
+    is_simulated: bool
+
+
+def reading(message: Odometry) -> Reading:
+    """Where a robot is.
+
+    Raises:
+        OddMessage: the pose is not finite, or is too far away.
+    """
+    pose = plane_pose(message.pose.pose)
+    if not (abs(pose.x) < FAR and abs(pose.y) < FAR and math.isfinite(pose.theta)):
+        raise OddMessage(f'the pose is {pose.x:g}, {pose.y:g} m, {pose.theta:g} rad: must be finite, within {FAR:g} m')
+    return Reading(message.header.stamp.to_sec(), pose)
+
+
+def battery(message: BatteryState) -> Battery:
+    """The battery of a robot."""
+    return Battery(_share(message.percentage), _value(message.voltage), _value(message.current),
+                   SUPPLIES.get(message.power_supply_status, ''))
+
+
+def cleaning(message: CleaningStatus) -> Cleaning:
+    """How much of the floor is clean."""
+    return Cleaning(_share(message.coverage), _amount(message.cleaned_area), _amount(message.reachable_area),
+                    _share(message.dirt), _amount(message.distance))
+
+
+def mission(message: MissionStatus) -> Mission:
+    """What the cleaner makes a robot do."""
+    return Mission(STATES.get(message.state, '?'), message.state not in WITHOUT_GOAL, one_line(message.strategy),
+                   one_line(message.message))
+
+
+def scan(message: Any) -> Scan:
+    """What a laser measured: 0 if something was too near or unknown, range_max if nothing was hit.
+
+    Raises:
+        OddMessage: range_max or an angle is not valid, or there is no range.
+    """
+    count = len(message.ranges)
+    last = message.angle_min + count * message.angle_increment
+    if not (count and 0.0 < message.range_max < FAR and abs(message.angle_min) < MOST_TURNS and abs(last) < MOST_TURNS):
+        raise OddMessage(f'{count} ranges up to {message.range_max:g} m, from {message.angle_min:g} rad with steps of '
+                         f'{message.angle_increment:g} rad: must be one or more, finite and positive')
+    shown = np.arange(0, count, -(-count // MOST_BEAMS))
+    ranges = np.nan_to_num(np.asarray(message.ranges, float)[shown], nan=0.0)
+    return Scan(message.header.stamp.to_sec(), np.clip(ranges, 0.0, message.range_max),
+                message.angle_min + shown * message.angle_increment)
+
+
+def grid(message: Any) -> Grid:
+    """The cells of a nav_msgs/OccupancyGrid.
+
+    Raises:
+        OddMessage: their number, size or position is not valid.
+    """
+    info, origin = message.info, message.info.origin.position
+    if not 0 < info.width * info.height == len(message.data) <= MAX_PIXELS:
+        raise OddMessage(f'{info.width} x {info.height} cells with {len(message.data)} values: must be one for each '
+                         f'cell, 1 to {MAX_PIXELS}')
+    if not (FINEST <= info.resolution and info.resolution * max(info.width, info.height) < FAR
+            and abs(origin.x) < FAR and abs(origin.y) < FAR):
+        raise OddMessage(f'cells of {info.resolution:g} m at {origin.x:g}, {origin.y:g} m: must be {FINEST:g} m or '
+                         f'more, within {FAR:g} m')
+    return Grid(message.data.reshape(info.height, info.width), info.resolution, origin.x, origin.y, next(_numbers))
+
+
+def state(message: SimulatorState) -> State:
+    """What a simulator says of itself.
+
+    Raises:
+        OddMessage: its node has no valid name, or its map no valid path.
+    """
+    if not (message.node.startswith('/') and rosgraph.names.is_legal_name(message.node)):
+        raise OddMessage(f'node is {quoted(message.node)}: must be the full name of a node')
+    if not message.map.isprintable():
+        raise OddMessage(f'map is {quoted(message.map)}: must be the path of a file')
+    return State(message.node, message.map, _amount(message.real_time_factor), _amount(message.speed),
+                 message.is_paused, message.is_time_simulated)
+
+
+def _value(value: float) -> float:
+    """A value; NaN if it is too large."""
+    return value if abs(value) < MOST else math.nan
+
+
+def _amount(value: float) -> float:
+    """A value; NaN if it is negative or too large."""
+    return value if 0.0 <= value < MOST else math.nan
+
+
+def _share(value: float) -> float:
+    """A share 0..1; NaN if it is none."""
+    return min(value, 1.0) if 0.0 <= value <= 1.0 + ROUNDING else math.nan
