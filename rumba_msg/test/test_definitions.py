@@ -30,14 +30,14 @@ MD5 = {
     'DockStatus.msg': ['c48de8dbe236629249e0a17b3210e4b8'],
     'MissionStatus.msg': ['b5dc28a8c8d879395d4353c7e03795b4'],
     'Outcome.msg': ['ccc8028bf7d81f58a9c828224cd41835'],
-    'SimulatorState.msg': ['e95c4ec34b0cd03c47135659605d19a8'],
+    'SimulatorState.msg': ['db7e9556eb1152c6d4fe3bc0d3e18019'],
     'Kill.srv': ['d82dc6474dd88dad5e1615ab1b2ca74c'],
     'Spawn.srv': ['b632bbf32aa077e9544add486db4fe8a'],
     'Step.srv': ['70fefd98c6c6d5e009e2a5b9432fedf7'],
     'TargetPosition.srv': ['dd76aff00a72b33e8d77950fa07ebddf'],
     'Teleport.srv': ['3bd059df70d5e80971945ad044457a3c'],
 }
-UNIT_OF_A_NUMBER = re.compile(r'\[(%|0\.\.1|m|m\^2|rad|s|m/s|rad/s|Hz|ticks|times real time)\]'
+UNIT_OF_A_NUMBER = re.compile(r'\[(%|0\.\.1|m|m\^2|rad|s|m/s|rad/s|Hz|ticks|resets|times real time)\]'
                               r'|constants? above|sum of the beams above|seed of')
 PARTS = [part for path in FILES for part in parts(path)]
 ROSIDL_PARSERS = {'.msg': 'parse_message_string', '.srv': 'parse_service_string', '.action': 'parse_action_string'}

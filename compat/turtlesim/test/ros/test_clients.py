@@ -30,7 +30,9 @@ class ClientsTest(unittest.TestCase):
         return node, ours, theirs, found
 
     def test_arrow_keys_drive_and_q_quits_and_restores_the_terminal(self):
-        node, keyboard, terminal, found = self.teleop('_scale_linear:=1.5')
+        rospy.set_param('/scale_linear', 1.5)
+        self.addCleanup(rospy.delete_param, '/scale_linear')
+        node, keyboard, terminal, found = self.teleop()
         heard = Heard(self, '/turtle1/cmd_vel')
         wait(self, lambda: not termios.tcgetattr(terminal)[3] & termios.ECHO, 'a terminal without echo')
         # Keys that are typed before the subscriber is connected are lost.
@@ -59,9 +61,11 @@ class ClientsTest(unittest.TestCase):
 
     def test_without_a_terminal_or_with_a_bad_scale_it_prints_one_line_and_exits_with_code_2(self):
         ours, theirs = pty.openpty()
-        for stdin, argument, pattern in ((subprocess.DEVNULL, '_scale_linear:=1', 'the standard input is not a term'),
-                                         (theirs, '_scale_angular:=-1', '.*scale_angular is -1: must be 0 to 1000')):
-            done = subprocess.run(['rosrun', 'turtlesim', 'turtle_teleop_key', argument], stdin=stdin,
+        rospy.set_param('/scale_angular', 'fast')
+        self.addCleanup(rospy.delete_param, '/scale_angular')
+        for stdin, pattern in ((subprocess.DEVNULL, 'the standard input is not a term'),
+                               (theirs, "parameter /scale_angular is 'fast': must be -1000 to 1000")):
+            done = subprocess.run(['rosrun', 'turtlesim', 'turtle_teleop_key'], stdin=stdin,
                                   stderr=subprocess.PIPE, universal_newlines=True, timeout=TIMEOUT, check=False)
             self.assertEqual(done.returncode, 2)
             self.assertRegex(done.stderr, rf'\Ateleop_turtle: {pattern}[^\n]*\n\Z')

@@ -1,7 +1,6 @@
 #!/usr/bin/env python3
 """turtlesim_node does what the documentation of turtlesim says."""
 
-import os
 import pathlib
 import signal
 import subprocess
@@ -11,7 +10,7 @@ import unittest
 import rosgraph
 import rospy
 import rostest
-from nodes import TIMEOUT, Heard, Turtlesim, commander, wait
+from nodes import TIMEOUT, Heard, Turtlesim, commander, wait, without_display
 
 README = (pathlib.Path(__file__).resolve().parents[2] / 'README.md').read_text()
 MIDDLE = 5.544444
@@ -73,6 +72,38 @@ class TurtlesimNodeTest(unittest.TestCase):
         end = pose.find(lambda pose: pose.theta > 1.0 and pose.angular_velocity == 0.0)
         self.assertAlmostEqual(end.theta, 1.5 * 63 * 0.016, 5)
 
+    def test_the_log_has_the_words_of_turtlesim(self):
+        log = Heard(self, '/rosout')
+        node = Turtlesim(self)
+        said = 'Spawning turtle [turtle1] at x=[5.544445], y=[5.544445], theta=[0.000000]'
+        wanted = ['Starting turtlesim with node name /turtlesim', said, 'Clearing turtlesim.', 'Resetting turtlesim.',
+                  said]
+        node.call('clear')
+        node.call('reset')
+
+        def lines():
+            return [line.msg for line in log.messages[:] if line.name == '/turtlesim' and line.level == line.INFO]
+        wait(self, lambda: len([line for line in lines() if line in wanted]) >= 3 and lines()[-1] == said, 'the log')
+        # The first lines are lost if this test hears the node too late.
+        self.assertEqual([line for line in lines() if line in wanted][-3:], wanted[-3:])
+
+    def test_names_with_slashes(self):
+        node = Turtlesim(self)
+        for index, (name, topic) in enumerate((('/abs', '/abs'), ('a/', '/a'), ('b//c', '/b/c'))):
+            self.assertEqual(node.call('spawn', 2.0 + index, 3.0, 1.0, name).name, name)
+            self.assertEqual(Heard(self, f'{topic}/pose').find().x, 2.0 + index)
+            node.call(f'{topic[1:]}/teleport_absolute', 2.0, 3.0, 1.0)
+            node.call('kill', name)
+        node.refuses(r'A turtled named \[/turtle1\] already exists', 'spawn', 1.0, 1.0, 0.0, '/turtle1')
+
+    def test_a_reset_frees_the_names_of_many_turtles(self):
+        node = Turtlesim(self)
+        for _ in range(2):
+            names = [node.call('spawn', 2.0, 3.0, 1.0, '').name for _ in range(10)]
+            self.assertEqual(names, [f'turtle{number}' for number in range(2, 12)])
+            node.call('turtle11/teleport_absolute', 4.0, 5.0, 0.0)
+            node.call('reset')
+
     def test_turtles_are_spawned_and_killed_and_bad_requests_fail(self):
         node = Turtlesim(self)
         log = Heard(self, '/rosout')
@@ -80,11 +111,13 @@ class TurtlesimNodeTest(unittest.TestCase):
         self.assertEqual(node.call('spawn', 4.0, 3.0, 1.0, 'bob').name, 'bob')
         pose = Heard(self, '/bob/pose').find()
         self.assertEqual((pose.x, pose.y, pose.theta), (4.0, 3.0, 1.0))
-        node.refuses(r'a turtle named \[bob\] exists already', 'spawn', 1.0, 1.0, 0.0, 'bob')
+        node.refuses(r'A turtled named \[bob\] already exists', 'spawn', 1.0, 1.0, 0.0, 'bob')
         node.refuses(r"'a b' is not a valid name", 'spawn', 1.0, 1.0, 0.0, 'a b')
         node.refuses(r'spawn new: theta is nan', 'spawn', 1.0, 1.0, float('nan'), 'new')
-        node.refuses(r'there is no turtle \[bib\]: the turtles are turtle1, turtle2, bob', 'kill', 'bib')
-        log.find(lambda line: line.level == line.ERROR and 'there is no turtle [bib]' in line.msg)
+        node.refuses(r'Tried to kill turtle \[bib\], which does not exist: the turtles are turtle1, turtle2, bob',
+                     'kill', 'bib')
+        log.find(lambda line: line.level == line.ERROR and line.msg.startswith(
+            'Tried to kill turtle [bib], which does not exist'))
         node.call('kill', 'bob')
         published = {topic for topic, _ in rospy.get_published_topics()}
         self.assertTrue({'/turtle1/pose', '/turtle2/pose'} <= published and '/bob/pose' not in published)
@@ -92,17 +125,16 @@ class TurtlesimNodeTest(unittest.TestCase):
         Heard(self, '/bob/pose').find(lambda pose: (pose.x, pose.y) == (7.0, 8.0))
 
     def test_a_turtle_draws_and_sees_the_colour_of_its_line(self):
-        with tempfile.TemporaryDirectory() as folder:
-            node = Turtlesim(self, f'_png_path:={folder}/field.png')
-            colour = Heard(self, '/turtle1/color_sensor')
-            self.assertEqual(rgb(colour.find()), BACKGROUND)
-            node.call('turtle1/set_pen', 200, 10, 20, 5, 0)
-            node.call('turtle1/teleport_absolute', 9.0, 2.0, 0.0)
-            self.assertEqual(rgb(colour.fresh()), (200, 10, 20))
-            node.call('turtle1/set_pen', 1, 2, 3, 5, 1)
-            node.call('turtle1/teleport_relative', 2.0, 3.0)
-            node.call('kill', 'turtle1')
-            picture = node.picture()
+        node = Turtlesim(self)
+        colour = Heard(self, '/turtle1/color_sensor')
+        self.assertEqual(rgb(colour.find()), BACKGROUND)
+        node.call('turtle1/set_pen', 200, 10, 20, 5, 0)
+        node.call('turtle1/teleport_absolute', 9.0, 2.0, 0.0)
+        self.assertEqual(rgb(colour.fresh()), (200, 10, 20))
+        node.call('turtle1/set_pen', 1, 2, 3, 5, 1)
+        node.call('turtle1/teleport_relative', 2.0, 3.0)
+        node.call('kill', 'turtle1')
+        picture = node.picture()
         self.assertEqual(picture.size, (500, 500))
         row = 499 - 2 * 45
         self.assertEqual([picture.getpixel((9 * 45, row)), picture.getpixel((9 * 45, 2 * 45))],
@@ -112,39 +144,52 @@ class TurtlesimNodeTest(unittest.TestCase):
         self.assertEqual(set(picture.getdata()), {BACKGROUND, (200, 10, 20)})
 
     def test_clear_and_reset_read_the_background_again(self):
-        with tempfile.TemporaryDirectory() as folder:
-            node = Turtlesim(self, '_background_r:=1', '_background_g:=2', f'_png_path:={folder}/field.png')
-            self.assertEqual(rospy.get_param('/turtlesim/background_r'), 1)
-            node.call('spawn', 1.0, 1.0, 0.0, 'bob')
-            node.call('turtle1/teleport_absolute', 9.0, 2.0, 0.0)
-            self.assertEqual(node.picture().getpixel((0, 0)), (1, 2, 255))
-            rospy.set_param('/turtlesim/background_r', 300)
-            for service in ('clear', 'reset'):
-                node.refuses('parameter /turtlesim/background_r is 300: must be 0 to 255', service)
-            self.assertEqual(node.picture().getpixel((0, 0)), (1, 2, 255))
-            rospy.set_param('/turtlesim/background_r', 30)
-            pose = Heard(self, '/turtle1/pose')
-            node.call('clear')
-            self.assertEqual(node.picture().getpixel((0, 0)), (30, 2, 255))
-            self.assertAlmostEqual(pose.fresh().x, 9.0)
-            rospy.set_param('/turtlesim/background_b', 5)
-            node.call('reset')
-            self.assertEqual(node.picture().getpixel((0, 0)), (30, 2, 5))
+        node = Turtlesim(self, '_background_r:=1', '_background_g:=2')
+        self.assertEqual(rospy.get_param('/turtlesim/background_r'), 1)
+        node.call('spawn', 1.0, 1.0, 0.0, 'bob')
+        node.call('turtle1/teleport_absolute', 9.0, 2.0, 0.0)
+        self.assertEqual(node.picture().getpixel((0, 0)), (1, 2, 255))
+        pose = Heard(self, '/turtle1/pose')
+        rospy.set_param('/turtlesim/background_r', 300)
+        rospy.set_param('/turtlesim/background_g', 'green')
+        node.call('clear')
+        self.assertEqual(node.picture().getpixel((0, 0)), (44, 86, 255))
+        self.assertAlmostEqual(pose.fresh().x, 9.0)
+        rospy.set_param('/turtlesim/background_b', -1.5)
+        node.call('reset')
+        self.assertEqual(node.picture().getpixel((0, 0)), (44, 86, 254))
         # The subscriber to turtle1 is still connected.
         self.assertAlmostEqual(pose.fresh().x, MIDDLE, 5)
-        self.assertNotIn('/bob/pose', {topic for topic, _ in rospy.get_published_topics()})
+        wait(self, lambda: '/bob/pose' not in {topic for topic, _ in rospy.get_published_topics()}, 'the end of bob')
         node.call('kill', 'turtle1')
         node.call('reset')
         Heard(self, '/turtle1/pose').find()
 
-    def test_save_png_says_why_it_cannot_write_a_picture(self):
-        node = Turtlesim(self, '_png_path:=/no/where/field.png')
-        answer = node.call('turtlesim/save_png')
-        self.assertFalse(answer.success)
-        self.assertRegex(answer.message, r"No such file or directory: '/no/where/field\.png'")
-        with tempfile.TemporaryDirectory() as folder:
-            rospy.set_param('/turtlesim/png_path', os.path.join(folder, 'other.png'))
+    def test_a_background_out_of_range_wraps_at_the_start_and_the_parameter_stays(self):
+        node = Turtlesim(self, '_background_r:=300', '_background_g:=red')
+        self.assertEqual(node.picture().getpixel((0, 0)), (44, 86, 255))
+        self.assertEqual(rospy.get_param('/turtlesim/background_r'), 300)
+
+    def test_no_parameter_leads_save_png_to_another_file(self):
+        with tempfile.TemporaryDirectory() as home:
+            precious = pathlib.Path(home, 'notes.png')
+            precious.write_text('precious')
+            node = Turtlesim(self, env=without_display(ROS_HOME=home))
             self.assertEqual(node.picture().size, (500, 500))
+            for name in (str(precious), '../notes.png'):
+                rospy.set_param('/turtlesim/png_name', name)
+                answer = node.call('turtlesim/save_png')
+                self.assertFalse(answer.success)
+                self.assertRegex(answer.message, '^parameter /turtlesim/png_name is .*: must be letters, digits')
+            pathlib.Path(home, 'turtlesim', 'notes.png').write_text('precious')
+            rospy.set_param('/turtlesim/png_name', 'notes.png')
+            answer = node.call('turtlesim/save_png')
+            self.assertRegex(answer.message, r'/turtlesim/notes\.png is not a picture')
+            rospy.set_param('/turtlesim/png_name', 'other.png')
+            self.assertEqual(node.picture().size, (500, 500))
+            self.assertEqual([path.name for path in sorted(pathlib.Path(home, 'turtlesim').iterdir())],
+                             ['notes.png', 'other.png', 'turtlesim.png'])
+            self.assertEqual(precious.read_text(), 'precious')
 
     def test_nan_and_infinity_are_refused_and_the_turtle_obeys_the_next_command(self):
         node = Turtlesim(self)
@@ -153,7 +198,7 @@ class TurtlesimNodeTest(unittest.TestCase):
         for command in ((float('nan'), 0.0, 0.0), (0.0, float('inf'), 0.0), (0.0, 0.0, float('-inf'))):
             drive(*command)
         log.find(lambda line: line.level == line.ERROR and line.msg == (
-            'turtle1/cmd_vel: linear.x is nan: must be a number from -1e+09 to 1e+09; ignored'))
+            'turtle1/cmd_vel: linear.x is nan: must be a finite number; ignored'))
         node.refuses('teleport turtle1: y is nan: ', 'turtle1/teleport_absolute', 1.0, float('nan'), 0.0)
         node.refuses('teleport turtle1: angular is inf: ', 'turtle1/teleport_relative', 1.0, float('inf'))
         self.assertEqual(pose.fresh(), before)
@@ -166,7 +211,7 @@ class TurtlesimNodeTest(unittest.TestCase):
         commander(self)(0.0, -10.0, 0.0)
         line = log.find(lambda line: 'hit the wall' in line.msg)
         self.assertEqual(line.level, line.WARN)
-        self.assertRegex(line.msg, r'^Oh no! I hit the wall! \(Clamping from \[x=5\.544444, y=-0\.\d{6}\]\)$')
+        self.assertRegex(line.msg, r'^Oh no! I hit the wall! \(Clamping from \[x=5\.544445, y=11\.\d{6}\]\)$')
         end = pose.find(lambda pose: pose.y == 0.0 and pose.linear_velocity == 0.0)
         self.assertAlmostEqual(end.x, MIDDLE, 5)
         # 29 steps end at the wall; the log gets a line once a second.

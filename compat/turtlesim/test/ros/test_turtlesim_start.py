@@ -29,7 +29,7 @@ class TurtlesimStartTest(unittest.TestCase):
         if rospy.has_param('/turtlesim'):
             rospy.delete_param('/turtlesim')
         for pattern, *arguments in (
-                ('parameter /turtlesim/background_r is 300: must be 0 to 255', '_background_r:=300'),
+                ("parameter /turtlesim/png_name is '/tmp/a.png': must be letters, digits", '_png_name:=/tmp/a.png'),
                 ('parameter /turtlesim/speed is -1: must be 0 to 1e', '_speed:=-1'),
                 ("parameter /turtlesim/gui is 'perhaps': must be true, false or auto", '_gui:=perhaps'),
                 ('gui is true, but there is no display', '_gui:=true'),
@@ -54,14 +54,15 @@ class TurtlesimStartTest(unittest.TestCase):
     def test_help_names_every_parameter(self):
         done = subprocess.run(['rosrun', 'turtlesim', 'turtlesim_node', '--help'], stdout=subprocess.PIPE, check=True,
                               universal_newlines=True, timeout=TIMEOUT)
-        for name in ('background_r', 'background_g', 'background_b', 'speed', 'gui', 'png_path'):
+        for name in ('background_r', 'background_g', 'background_b', 'speed', 'gui', 'png_name'):
             self.assertRegex(done.stdout, rf'\n  {name} +\w')
 
     def test_without_a_display_it_logs_one_line_and_works(self):
         node = Turtlesim(self, stdout=subprocess.PIPE, universal_newlines=True)
         Heard(self, '/turtle1/pose').find()
         node.end()
-        self.assertRegex(node.process.stdout.read(), r'\A\[INFO\] \S+: no window: there is no display\n')
+        self.assertRegex(node.process.stdout.read(), r'\A\[INFO\] \S+: no window: there is no display\n'
+                                                     r'\[INFO\] \S+: Starting turtlesim with node name /turtlesim\n')
 
     def test_a_window_opens_on_the_offscreen_platform_of_qt(self):
         node = Turtlesim(self, '_gui:=true', '-platform', 'offscreen', stdout=subprocess.PIPE, universal_newlines=True)

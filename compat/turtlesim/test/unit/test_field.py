@@ -2,12 +2,13 @@
 
 import math
 
+import numpy as np
 import pytest
 from PIL import ImageChops
 
 from turtlesim.model.canvas import Pen
 from turtlesim.model.errors import TurtlesimError
-from turtlesim.model.field import Field
+from turtlesim.model.field import Field, topics
 from turtlesim.model.turtles import EXTENT, METRE, PIXELS
 
 BACKGROUND = (69, 86, 255)
@@ -31,7 +32,7 @@ def bare(field):
 
 def at(picture, x, y):
     """Return the colour of a picture at a position [m]."""
-    return picture.getpixel((round(METRE * x), round(PIXELS - 1 - METRE * y)))
+    return picture.getpixel((math.floor(METRE * x + 1e-6), math.floor(PIXELS - 1 - METRE * y + 1e-6)))
 
 
 def drive(field, name, velocity, steps):
@@ -75,22 +76,43 @@ def test_names_are_numbered_and_numbers_are_not_used_twice(field):
 
 
 @pytest.mark.parametrize('name, x, message', [
-    ('turtle1', 1.0, r'a turtle named \[turtle1\] exists already'),
-    ('two words', 1.0, "'two words' is not a valid name: must be letters, digits, _ and /, and begin with a letter"),
-    ('7up', 1.0, "'7up' is not a valid name"), ('/abs', 1.0, "'/abs' is not a valid name"),
-    ('a//b', 1.0, "'a//b' is not a valid name"),
+    ('turtle1', 1.0, r'A turtled named \[turtle1\] already exists'),
+    ('turtle1/', 1.0, r'A turtled named \[turtle1/\] already exists'),
+    ('two words', 1.0, "'two words' is not a valid name: must be at most 200 letters, digits, _ and /, and begin with "
+                       'a letter or /'),
+    ('7up', 1.0, "'7up' is not a valid name"), ('~x', 1.0, "'~x' is not a valid name"),
+    (201 * 'x', 1.0, 'is not a valid name: must be at most 200'),
     ('schildkröte', 1.0, "'schildkröte' is not a valid name"),
-    ('new', math.nan, 'spawn new: x is nan: must be a number from ')])
+    ('new', math.nan, 'spawn new: x is nan: must be a finite number')])
 def test_a_bad_spawn_is_refused_and_changes_nothing(field, name, x, message):
     with pytest.raises(TurtlesimError, match=message):
         field.spawn(name, x, 1.0, 0.0)
     assert field.names == ['turtle1'] and field.spawn('', 1.0, 1.0, 0.0) == 'turtle2'
 
 
+@pytest.mark.parametrize('name, prefix', [
+    ('/abs', '/abs/'), ('a/', 'a/'), ('a//b', 'a/b/'), ('a/2', 'a/2/'), ('/', '/'), ('//a', '/a/')])
+def test_slashes_in_names_are_accepted_as_by_turtlesim(field, name, prefix):
+    assert field.spawn(name, 2.0, 3.0, 0.0) == name
+    assert field.pose(name) == [2.0, 3.0, 0.0]
+    assert topics(name) == prefix
+
+
+def test_turtles_do_not_share_topics():
+    field = Field(BACKGROUND, lambda name: name if name.startswith('/') else f'/{name}')
+    with pytest.raises(TurtlesimError, match=r'A turtled named \[/turtle1\] already exists'):
+        field.spawn('/turtle1', 1.0, 1.0, 0.0)
+    field.spawn('/turtle2/', 1.0, 1.0, 0.0)
+    assert field.spawn('', 1.0, 1.0, 0.0) == 'turtle3'
+
+
 def test_an_unknown_turtle_is_refused_and_the_message_lists_the_turtles(field):
     field.spawn('bob', 1.0, 1.0, 0.0)
+    with pytest.raises(TurtlesimError, match=(
+            r'^Tried to kill turtle \[bib\], which does not exist: the turtles are turtle1, bob$')):
+        field.kill('bib')
     message = r'^there is no turtle \[bib\]: the turtles are turtle1, bob$'
-    for act in (lambda: field.kill('bib'), lambda: field.teleport('bib', 1.0, 1.0, 0.0),
+    for act in (lambda: field.teleport('bib', 1.0, 1.0, 0.0),
                 lambda: field.set_pen('bib', UP), lambda: field.command('bib', (1.0, 0.0, 0.0))):
         with pytest.raises(TurtlesimError, match=message):
             act()
@@ -115,11 +137,41 @@ def test_a_drive_draws_a_line_of_the_width_and_colour_of_the_pen_without_gaps(fi
     field.set_pen('turtle1', RED)
     drive(field, 'turtle1', (1.0, 0.0, 0.0), 125)
     picture = bare(field)
-    start, end, row = 250, 250 + round(2.0 * METRE), round(PIXELS - 1 - METRE * EXTENT / 2.0)
+    start, end, row = 249, 249 + round(2.0 * METRE), 249
     for column in range(start, end + 1):
         assert [picture.getpixel((column, row + offset)) == RED.colour for offset in range(-3, 4)] == [
             False, True, True, True, True, True, False]
     assert picture.getpixel((start - 4, row)) == picture.getpixel((end + 4, row)) == BACKGROUND
+
+
+def drawn_by_qt(steps, width):
+    """Return where Qt draws lines as turtlesim has it do: array (PIXELS, PIXELS) of bool."""
+    QtGui, QtCore = pytest.importorskip('PyQt5.QtGui'), pytest.importorskip('PyQt5.QtCore')
+    image = QtGui.QImage(PIXELS, PIXELS, QtGui.QImage.Format_RGB32)
+    image.fill(QtGui.QColor(*BACKGROUND))
+    painter, pen = QtGui.QPainter(image), QtGui.QPen(QtGui.QColor(*PEN))
+    pen.setWidth(width)
+    painter.setPen(pen)
+    points = [QtCore.QPointF(METRE * x, METRE * (EXTENT - y)) for x, y in steps]
+    for start, end in zip(points, points[1:]):
+        painter.drawLine(start, end)
+    painter.end()
+    data = image.constBits()
+    data.setsize(image.byteCount())
+    return (np.frombuffer(data, np.uint8).reshape(PIXELS, PIXELS, 4)[:, :, 2::-1] != BACKGROUND).any(axis=2)
+
+
+@pytest.mark.parametrize('theta', [0.0, math.pi / 2, math.pi / 4, -math.pi / 4])
+@pytest.mark.parametrize('width', [1, 3])
+def test_a_line_is_where_turtlesim_draws_it(field, theta, width):
+    field.set_pen('turtle1', Pen(PEN, width))
+    field.teleport('turtle1', *field.pose('turtle1')[:2], theta)
+    steps = [field.pose('turtle1')[:2]]
+    for _ in range(63):
+        drive(field, 'turtle1', (2.0, 0.0, 0.0), 1)
+        steps.append(field.pose('turtle1')[:2])
+    ours = (np.array(bare(field)) != BACKGROUND).any(axis=2)
+    assert (ours ^ drawn_by_qt(steps, width)).sum() <= 8  # the ends differ
 
 
 def test_a_slow_turtle_draws_the_same_line_as_a_fast_one(field):
@@ -194,12 +246,12 @@ def test_a_teleport_with_a_bad_number_is_refused_and_changes_nothing(field, act,
 def test_a_drive_spawn_or_teleport_beyond_a_wall_ends_there_and_is_a_hit(field):
     field.spawn('out', -3.0, 5.0, 0.0)
     field.teleport('turtle1', 99.0, 1.0, 0.0)
-    assert field.hits == [('out', -3.0, 5.0), ('turtle1', 99.0, 1.0)]
+    assert field.hits == [('out', -3.0, EXTENT - 5.0), ('turtle1', 99.0, EXTENT - 1.0)]
     assert field.pose('out')[:2] == [0.0, 5.0] and field.pose('turtle1')[:2] == [EXTENT, 1.0]
     field.hits.clear()
     drive(field, 'turtle1', (0.0, -10.0, 0.0), 8)
     assert [hit.name for hit in field.hits] == ['turtle1'] * 2
-    assert field.hits[0].y == pytest.approx(1.0 - 7 * 0.16)
+    assert field.hits[0].y == pytest.approx(EXTENT - 1.0 + 7 * 0.16)  # from the top, as turtlesim has it
     assert at(bare(field), EXTENT, 0.0) == PEN
 
 
@@ -250,7 +302,7 @@ def test_a_turtle_sees_the_colour_under_it(field):
 
 
 def test_a_turtle_that_moves_sees_the_colour_before_its_own_line(field):
-    field.set_pen('turtle1', Pen(PEN, 1))
+    field.set_pen('turtle1', Pen(PEN, 2))
     field.command('turtle1', (10.0, 0.0, 0.0))
     field.move()
     assert field.colour('turtle1') == BACKGROUND
@@ -270,3 +322,17 @@ def test_changes_grow_only_if_the_picture_may_have_changed(field):
         field.move()
         field.draw()
     assert field.changes == seen
+
+
+# --- numbers ----------------------------------------------------------------------------------------------------------
+
+def test_finite_numbers_of_any_size_are_obeyed(field):
+    field.teleport('turtle1', 3e38, -3e38, 3e38)
+    assert field.pose('turtle1')[:2] == [EXTENT, 0.0]
+    assert abs(field.pose('turtle1')[2]) <= math.pi
+    for velocity in ((1e308, 1e308, 0.0), (-1e308, 1e308, 1e308), (1e300, 0.0, -1e300)):
+        drive(field, 'turtle1', velocity, 3)
+        readings = field.readings()
+        assert np.isfinite(readings).all()
+        assert (readings[:, :2] >= 0.0).all() and (readings[:, :2] <= np.float32(EXTENT)).all()
+    assert field.picture().size == (PIXELS, PIXELS)

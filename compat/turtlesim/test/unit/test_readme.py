@@ -15,8 +15,8 @@ def test_it_lists_every_parameter_with_its_default():
     expected = {name: f'{parameter.default:g}' if isinstance(parameter.default, float) else str(parameter.default)
                 for name, parameter in turtlesim_node.PARAMETERS.items() if name not in turtlesim_node.BACKGROUND}
     assert rows == {**expected, 'background_r': background}
-    for name, parameter in turtle_teleop_key.PARAMETERS.items():
-        assert f'_{name}:={parameter.default:g}' in README
+    for name, parameter in turtle_teleop_key.SCALES.items():
+        assert f'rosparam set {name} {parameter.default:g}' in README
 
 
 def test_it_lists_every_program_and_launch_file():

@@ -147,8 +147,8 @@ def test_an_empty_field_has_no_motion_and_no_hits():
     assert not empty.step() and empty.clamp() == []
 
 
-@pytest.mark.parametrize('bad', [math.nan, math.inf, -math.inf, 1.1e9])
+@pytest.mark.parametrize('bad', [math.nan, math.inf, -math.inf])
 def test_a_number_that_no_pose_can_have_is_refused(bad):
-    check_numbers('spawn', x=1.0, theta=-1e9)
-    with pytest.raises(TurtlesimError, match=rf'^spawn: theta is {bad}: must be a number from -1e\+09 to 1e\+09$'):
+    check_numbers('spawn', x=1.0, theta=-1e300)
+    with pytest.raises(TurtlesimError, match=rf'^spawn: theta is {bad}: must be a finite number$'):
         check_numbers('spawn', x=1.0, theta=bad)

@@ -1,5 +1,6 @@
 """The lines that pens draw, as an image; this module knows nothing about turtles."""
 
+import math
 from typing import Any, NamedTuple, Sequence, Tuple
 
 from PIL import Image, ImageDraw
@@ -8,6 +9,18 @@ from turtlesim.model.turtles import PIXELS
 
 Colour = Tuple[int, int, int]  # red, green, blue: 0..255
 Pixel = Sequence[int]  # column from the left, row from the top
+
+
+def colour_part(value: Any, default: int) -> int:
+    """Return red, green or blue of a parameter, as roscpp and Qt take it: rounded, its lowest byte.
+
+    Args:
+        value: what the parameter is.
+        default: the answer if that is not a number.
+    """
+    if type(value) is float and math.isfinite(value):
+        value = math.floor(value) if math.fmod(value, 1.0) < 0.5 else math.ceil(value)  # not symmetric, as in roscpp
+    return int(value) % 256 if type(value) is int else default
 
 
 class Pen(NamedTuple):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from typing import TYPE_CHECKING, Dict, List, NamedTuple, Sequence
+from typing import TYPE_CHECKING, Callable, Dict, List, NamedTuple, Sequence
 
 import numpy as np
 from PIL import Image
@@ -17,11 +17,14 @@ from turtlesim.model.turtles import EXTENT, METRE, PIXELS, Turtles, check_number
 if TYPE_CHECKING:  # NumPy 1.17 of Ubuntu 20.04 has no numpy.typing
     from numpy.typing import NDArray
 
-NAME = re.compile(r'[A-Za-z]\w*(/[A-Za-z]\w*)*', re.ASCII)
+NAME = re.compile(r'[A-Za-z/][\w/]{0,199}', re.ASCII)
+MIDDLE = float(np.float32(0.5 * EXTENT))  # [m] turtlesim counts in float32 here
+NEARLY = 1e-6  # [pixels] that a position may be short of a pixel because of rounding
+FLOAT32 = np.finfo(np.float32)
 
 
 class WallHit(NamedTuple):
-    """A turtle that a wall stopped, and the position that it would have reached [m]."""
+    """A turtle that a wall stopped, and the position that it would have reached [m]; y is counted from the top."""
 
     name: str
     x: float
@@ -36,9 +39,15 @@ class Field:
         hits: turtles that a wall stopped; the caller clears the list.
     """
 
-    def __init__(self, background: Colour) -> None:
-        """Start with turtle1 in the middle."""
+    def __init__(self, background: Colour, resolved: Callable[[str], str] = lambda name: name) -> None:
+        """Start with turtle1 in the middle.
+
+        Args:
+            background: the colour.
+            resolved: returns the full name of a topic; no two turtles share topics.
+        """
         self.changes = 0
+        self._resolved = resolved
         self.reset(background)
 
     def reset(self, background: Colour) -> None:
@@ -54,7 +63,7 @@ class Field:
         self._is_drawn = True
         self._at: NDArray[np.int64] = np.zeros((0, 2), np.int64)  # pixels at which the pens are
         self._canvas = Canvas(background)
-        self.spawn('', 0.5 * EXTENT, 0.5 * EXTENT, 0.0)
+        self.spawn('', MIDDLE, MIDDLE, 0.0)
 
     def clear(self, background: Colour) -> None:
         """Erase all lines."""
@@ -88,10 +97,10 @@ class Field:
         """
         check_numbers(f'spawn {name}'.strip(), x=x, y=y, theta=theta)
         if name and not NAME.fullmatch(name):
-            raise TurtlesimError(f'{name!r} is not a valid name: must be letters, digits, _ and /, '
-                                 'and begin with a letter')
-        if name in self._rows:
-            raise TurtlesimError(f'a turtle named [{name}] exists already')
+            raise TurtlesimError(f'{name[:80]!r} is not a valid name: must be at most 200 letters, digits, _ and /, '
+                                 'and begin with a letter or /')
+        if name and self._is_taken(name):
+            raise TurtlesimError(f'A turtled named [{name}] already exists')  # as turtlesim spells it
         name = name or self._next_name()
         self.changes += 1
         self._rows[name] = len(self._rows)
@@ -109,6 +118,8 @@ class Field:
         Raises:
             TurtlesimError: no turtle has that name.
         """
+        if name not in self._rows:
+            raise TurtlesimError(f'Tried to kill turtle [{name}], which does not exist: {self._known()}')
         row = self._row(name)
         self.changes += 1
         del self._rows[name], self._pens[row], self._numbers[row]
@@ -151,15 +162,20 @@ class Field:
         while True:
             self._named += 1
             name = f'turtle{self._named}'
-            if name not in self._rows:
+            if not self._is_taken(name):
                 return name
+
+    def _is_taken(self, name: str) -> bool:
+        return self._resolved(topics(name)) in [self._resolved(topics(other)) for other in self._rows]
 
     def _row(self, name: str) -> int:
         try:
             return self._rows[name]
         except KeyError:
-            turtles = ', '.join(self._rows) or 'none'
-            raise TurtlesimError(f'there is no turtle [{name}]: the turtles are {turtles}') from None
+            raise TurtlesimError(f'there is no turtle [{name}]: {self._known()}') from None
+
+    def _known(self) -> str:
+        return f'the turtles are {", ".join(self._rows) or "none"}'
 
     # --- time -----------------------------------------------------------------------------------------------------
 
@@ -184,11 +200,11 @@ class Field:
         hits = self._turtles.clamp()
         if hits:
             names = self.names
-            self.hits += [WallHit(names[row], x, y) for row, x, y in hits]
+            self.hits += [WallHit(names[row], x, EXTENT - y) for row, x, y in hits]
 
     def _pixels(self) -> NDArray[np.int64]:
-        pixels: NDArray[np.int64] = np.rint(
-            METRE * self._turtles.poses[:, :2] * (1, -1) + (0, PIXELS - 1)).astype(np.int64)
+        pixels: NDArray[np.int64] = np.floor(
+            METRE * self._turtles.poses[:, :2] * (1, -1) + (0, PIXELS - 1) + NEARLY).astype(np.int64)
         return pixels
 
     # --- readings and pictures ------------------------------------------------------------------------------------
@@ -200,13 +216,15 @@ class Field:
             Shape (n, 5): x, y [m], theta [rad], speed [m/s], turn rate [rad/s].
         """
         poses, velocities = self._turtles.poses, self._turtles.velocities
-        speeds = np.hypot(velocities[:, 0], velocities[:, 1])
-        return np.column_stack([poses, speeds, velocities[:, 2]]).astype(np.float32)
+        with np.errstate(over='ignore'):  # infinity is as good as the largest number
+            speeds = np.hypot(velocities[:, 0], velocities[:, 1])
+        readings = np.column_stack([poses, speeds, velocities[:, 2]])
+        return np.clip(readings, FLOAT32.min, FLOAT32.max).astype(np.float32)
 
     def colour(self, name: str) -> Colour:
         """Return the colour under a turtle."""
         x, y, _ = self.pose(name)
-        return self._canvas.colour((round(METRE * x), round(PIXELS - 1 - METRE * y)))
+        return self._canvas.colour((math.floor(METRE * x + 0.5), math.floor(PIXELS - 1 - METRE * y + 0.5)))
 
     def picture(self) -> Image.Image:
         """Return the field with its turtles, the latest on top, as an RGB image; y points up."""
@@ -215,3 +233,8 @@ class Field:
             turtle = portrait(number, theta)
             picture.paste(turtle, (column - METRE // 2, row - METRE // 2), turtle)
         return picture
+
+
+def topics(name: str) -> str:
+    """Return what the names of the topics of a turtle begin with."""
+    return re.sub('/+', '/', f'{name}/')

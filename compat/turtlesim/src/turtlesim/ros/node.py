@@ -7,6 +7,7 @@ of one that a distribution ships: it must build and run in a workspace without a
 import inspect
 import io
 import re
+import reprlib
 import signal
 import sys
 import threading
@@ -40,17 +41,17 @@ def number(default: float, low: float, high: float, meaning: str) -> Parameter:
                      f'{low:g} to {high:g}', meaning)
 
 
-def read(parameters: Parameters, *names: str) -> List[Any]:
-    """Return the present values of parameters.
+def read(parameters: Parameters, *names: str, prefix: str = '~') -> List[Any]:
+    """Return the present values of parameters, private ones unless the prefix is empty.
 
     Raises:
         TurtlesimError: a value is of the wrong type or out of range.
     """
     values = []
     for name in names:
-        value = rospy.get_param(f'~{name}', parameters[name].default)
+        value = rospy.get_param(f'{prefix}{name}', parameters[name].default)
         if not parameters[name].is_good(value):
-            raise TurtlesimError(f'parameter {rospy.resolve_name(f"~{name}")} is {value!r}: '
+            raise TurtlesimError(f'parameter {rospy.resolve_name(f"{prefix}{name}")} is {reprlib.repr(value)}: '
                                  f'must be {parameters[name].range}')
         values.append(value)
     return values

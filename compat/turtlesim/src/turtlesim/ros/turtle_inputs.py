@@ -7,7 +7,7 @@ from geometry_msgs.msg import Twist
 
 from turtlesim.model.canvas import Pen
 from turtlesim.model.errors import TurtlesimError
-from turtlesim.model.field import Field
+from turtlesim.model.field import Field, topics
 from turtlesim.model.turtles import check_numbers
 from turtlesim.ros.requests import Requests
 from turtlesim.srv import (SetPen, SetPenResponse, TeleportAbsolute, TeleportAbsoluteResponse, TeleportRelative,
@@ -33,11 +33,12 @@ class TurtleInputs:
         self._field = field
         self._requests = requests
         self._command = command
-        self._subscriber = rospy.Subscriber(f'{name}/cmd_vel', Twist, self._on_command, queue_size=1, tcp_nodelay=True)
+        prefix = topics(name)
+        self._subscriber = rospy.Subscriber(f'{prefix}cmd_vel', Twist, self._on_command, queue_size=1, tcp_nodelay=True)
         self._services = [
-            rospy.Service(f'{name}/set_pen', SetPen, self._on_pen),
-            rospy.Service(f'{name}/teleport_absolute', TeleportAbsolute, self._on_absolute),
-            rospy.Service(f'{name}/teleport_relative', TeleportRelative, self._on_relative)]
+            rospy.Service(f'{prefix}set_pen', SetPen, self._on_pen),
+            rospy.Service(f'{prefix}teleport_absolute', TeleportAbsolute, self._on_absolute),
+            rospy.Service(f'{prefix}teleport_relative', TeleportRelative, self._on_relative)]
 
     def close(self) -> None:
         """Close topic and services."""

@@ -4,7 +4,7 @@ from typing import Any, Callable, List, Mapping, Tuple
 
 import rospy
 
-from turtlesim.model.field import Field
+from turtlesim.model.field import Field, topics
 from turtlesim.msg import Color, Pose
 
 QUEUE = 100  # messages that wait for a slow subscriber before the oldest is dropped
@@ -28,8 +28,9 @@ class TurtleOutputs(rospy.SubscribeListener):
     def __init__(self, name: str, peers_changed: Callable[[], None]) -> None:
         """Open the topics; `peers_changed` is called, from any thread, when a subscriber comes or goes."""
         self._peers_changed = peers_changed
-        self.pose = rospy.Publisher(f'{name}/pose', Pose, self, queue_size=QUEUE)
-        self.colour = rospy.Publisher(f'{name}/color_sensor', Color, self, queue_size=QUEUE)
+        prefix = topics(name)
+        self.pose = rospy.Publisher(f'{prefix}pose', Pose, self, queue_size=QUEUE)
+        self.colour = rospy.Publisher(f'{prefix}color_sensor', Color, self, queue_size=QUEUE)
 
     def close(self) -> None:
         """Close the topics."""

@@ -5,7 +5,9 @@ A key moves the turtle for one second, or until the next key: hold a key to keep
 Publishes:
   turtle1/cmd_vel    geometry_msgs/Twist, one for each key
 
-Parameters, as in `rosrun turtlesim turtle_teleop_key _scale_linear:=1`:
+Parameters of the namespace of the node, as in `rosparam set scale_linear 1`:
+  scale_linear       speed of a key [m/s]; default 2
+  scale_angular      turn rate of a key [rad/s]; default 2
 """
 
 import contextlib
@@ -26,9 +28,9 @@ from turtlesim.ros import node
 HELP = """\
 Arrow keys drive {topic}: up forward, down backward, left and right turn.
 q quits."""
-PARAMETERS: node.Parameters = {
-    'scale_linear': node.number(2.0, 0.0, 1000.0, 'speed of a key [m/s]'),
-    'scale_angular': node.number(2.0, 0.0, 1000.0, 'turn rate of a key [rad/s]'),
+SCALES: node.Parameters = {  # not private, as in turtlesim
+    'scale_linear': node.number(2.0, -1000.0, 1000.0, 'speed of a key [m/s]'),
+    'scale_angular': node.number(2.0, -1000.0, 1000.0, 'turn rate of a key [rad/s]'),
 }
 # The last character that a terminal sends for an arrow key, in both of its modes: shares of speed and turn rate.
 MOVES = {'A': (1.0, 0.0), 'B': (-1.0, 0.0), 'C': (0.0, -1.0), 'D': (0.0, 1.0)}
@@ -39,7 +41,7 @@ POLL = 0.1  # [s] between two checks for a shutdown of ROS
 
 def main() -> None:
     """Run the node."""
-    node.run('teleop_turtle', PARAMETERS, drive)
+    node.run('teleop_turtle', {}, drive)
 
 
 def drive() -> None:
@@ -50,7 +52,7 @@ def drive() -> None:
     """
     if not sys.stdin.isatty():
         raise TurtlesimError('the standard input is not a terminal: start this node with rosrun')
-    speed, turn_rate = node.read(PARAMETERS, 'scale_linear', 'scale_angular')
+    speed, turn_rate = node.read(SCALES, *SCALES, prefix='')
     publisher = rospy.Publisher('turtle1/cmd_vel', Twist, queue_size=10)
     print(HELP.format(topic=publisher.resolved_name), flush=True)
     with single_keys():

@@ -13,18 +13,18 @@ save_png (std_srvs/Trigger), which writes a picture of the field. If the speed i
 Parameters, as in `rosrun turtlesim turtlesim_node _gui:=false _speed:=10`:
 """
 
-import os
+import contextlib
 import queue
 import sys
 import threading
 import time
-from typing import Any, Dict, List, Optional, Tuple
+from typing import Any, Dict, Iterable, Iterator, List, Optional, Tuple
 
 import rospy
 from std_srvs.srv import Empty, EmptyResponse, Trigger, TriggerResponse
 
-from turtlesim import window
-from turtlesim.model.canvas import Colour
+from turtlesim import pictures, window
+from turtlesim.model.canvas import Colour, colour_part
 from turtlesim.model.errors import TurtlesimError
 from turtlesim.model.field import Field
 from turtlesim.ros import node
@@ -36,14 +36,15 @@ from turtlesim.srv import Kill, KillResponse, Spawn, SpawnResponse
 
 BACKGROUND = ('background_r', 'background_g', 'background_b')
 PARAMETERS: node.Parameters = {
-    **{name: node.Parameter(default, lambda value: type(value) is int and 0 <= value <= 255, '0 to 255',
+    **{name: node.Parameter(default, lambda _: True, '0 to 255, other numbers wrap',
                             'colour of the field; clear and reset read it again')
        for name, default in zip(BACKGROUND, (69, 86, 255))},
     'speed': node.number(1.0, 0.0, 1e6, 'times real time, 0: as fast as possible; if it is not 1, time is simulated'),
     'gui': node.Parameter('auto', lambda value: value in (True, False, 'auto'), 'true, false or auto',
                           'whether to open a window; auto: if there is a display'),
-    'png_path': node.Parameter('turtlesim.png', lambda value: type(value) is str and value != '', 'a path',
-                               'file that save_png writes; read at each call'),
+    'png_name': node.Parameter('turtlesim.png', pictures.is_name,
+                               'letters, digits, _, . and -, and end with .png',
+                               f'name of the picture that save_png writes to {pictures.folder()}; read at each call'),
 }
 FRAME_PERIOD = 1.0 / 30.0  # [s] between two pictures in the window
 
@@ -72,14 +73,18 @@ class Turtlesim:
         self._requests = Requests()
         self._commands: 'queue.SimpleQueue[Tuple[str, List[float]]]' = queue.SimpleQueue()
         self._complained: Dict[str, float] = {}  # by turtle: when the next warning about a wall is due
-        self._field = Field(background)
+        self._field = Field(background, rospy.resolve_name)
         self._changing = threading.Lock()  # held while turtles come and go
+        self._closing = threading.Thread()
+        self._closing.start()
         self._inputs: Dict[str, TurtleInputs] = {}
         self._outputs: Dict[str, TurtleOutputs] = {}
         self._broadcaster = Broadcaster(self._field, self._outputs)
-        for name, value in zip(BACKGROUND, background):
-            rospy.set_param(f'~{name}', value)
+        for name in BACKGROUND:
+            if not rospy.has_param(f'~{name}'):
+                rospy.set_param(f'~{name}', PARAMETERS[name].default)
         self._pace.begin()
+        rospy.loginfo(f'Starting turtlesim with node name {rospy.get_name()}')
         self._open('turtle1')
         for service, kind, handler in (('clear', Empty, self._on_clear), ('reset', Empty, self._on_reset),
                                        ('spawn', Spawn, self._on_spawn), ('kill', Kill, self._on_kill),
@@ -137,15 +142,27 @@ class Turtlesim:
         self._outputs[name] = TurtleOutputs(name, self._broadcaster.changed)
         self._inputs[name] = TurtleInputs(name, self._field, self._requests, self._commands.put)
         self._broadcaster.changed()
+        self._tell_spawn(name)
+
+    def _tell_spawn(self, name: str) -> None:
         x, y, theta = self._requests.call(lambda: self._field.pose(name))
         rospy.loginfo(f'Spawning turtle [{name}] at x=[{x:f}], y=[{y:f}], theta=[{theta:f}]')
 
-    def _close(self, name: str) -> None:
-        self._outputs.pop(name).close()
-        self._inputs.pop(name).close()
+    def _close(self, names: Iterable[str]) -> None:
+        """Close topics and services in a thread: that takes six calls of the master for each turtle."""
+        closes = [close for name in names for close in (self._outputs.pop(name).close, self._inputs.pop(name).close)]
+        self._closing = threading.Thread(target=lambda: [close() for close in closes])
+        self._closing.start()
+
+    @contextlib.contextmanager
+    def _change(self) -> Iterator[None]:
+        """Let turtles come or go; the names of those that went before are free."""
+        with self._changing:
+            self._closing.join()
+            yield
 
     def _on_spawn(self, request: Any) -> SpawnResponse:
-        with self._changing:
+        with self._change():
             name = answered(self._requests.call,
                             lambda: self._field.spawn(request.name, request.x, request.y, request.theta))
             self._open(name)
@@ -156,9 +173,10 @@ class Turtlesim:
             self._field.kill(request.name)
             self._broadcaster.changed()
 
-        with self._changing:
+        with self._change():
             answered(self._requests.call, kill)
-            self._close(request.name)
+            self._close([request.name])
+            self._closing.join()
         return KillResponse()
 
     def _on_reset(self, _: Any) -> EmptyResponse:
@@ -167,20 +185,22 @@ class Turtlesim:
             self._field.reset(background)
             self._broadcaster.changed()
 
-        with self._changing:
-            background = answered(read_background)
+        with self._change():
+            background = read_background()
             rospy.loginfo('Resetting turtlesim.')
             self._requests.call(reset)
-            for name in set(self._outputs) - {'turtle1'}:
-                self._close(name)
-            if 'turtle1' not in self._outputs:
+            self._close(set(self._outputs) - {'turtle1'})
+            if 'turtle1' in self._outputs:
+                self._tell_spawn('turtle1')
+            else:
+                self._closing.join()
                 self._open('turtle1')
         return EmptyResponse()
 
     # --- the drawing ----------------------------------------------------------------------------------------------
 
     def _on_clear(self, _: Any) -> EmptyResponse:
-        background = answered(read_background)
+        background = read_background()
         rospy.loginfo('Clearing turtlesim.')
         self._requests.call(lambda: self._field.clear(background))
         return EmptyResponse()
@@ -188,21 +208,17 @@ class Turtlesim:
     def _on_save_png(self, _: Any) -> TriggerResponse:
         picture = self._requests.call(self._field.picture)
         try:
-            [path] = node.read(PARAMETERS, 'png_path')
-            path = os.path.abspath(os.path.expanduser(path))
-            picture.save(path, 'PNG')
+            [name] = node.read(PARAMETERS, 'png_name')
+            path = pictures.save(picture, name)
         except (OSError, TurtlesimError) as error:
             return TriggerResponse(False, str(error))
         return TriggerResponse(True, f'saved {path}')
 
 
 def read_background() -> Colour:
-    """Return the present background colour of the parameters.
-
-    Raises:
-        TurtlesimError: a parameter is bad.
-    """
-    red, green, blue = node.read(PARAMETERS, *BACKGROUND)
+    """Return the present background colour of the parameters."""
+    red, green, blue = (colour_part(value, PARAMETERS[name].default)
+                        for name, value in zip(BACKGROUND, node.read(PARAMETERS, *BACKGROUND)))
     return red, green, blue
 
 
