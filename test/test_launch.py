@@ -5,6 +5,7 @@ import time
 import xml.etree.ElementTree
 
 import pytest
+from sockets import wait_for
 from workspaces import OURS, ROOT, TIMEOUT, last_of, lines
 
 PACKAGE = ROOT / 'rumba_sim'
@@ -65,6 +66,13 @@ def test_the_demo_opens_the_window_if_it_can_and_goes_on_when_the_window_is_clos
             assert time.monotonic() < deadline, 'no viewer'
         here.run('rosnode kill /viewer')
         assert any(LINE.match(text) for text in lines(demo)), 'the demo ended'
+
+
+def test_what_the_demo_starts_cannot_be_reached_from_other_machines_unless_an_address_is_given(workspace):
+    for address, reachable in (('', 0), ('ROS_IP=127.0.0.1', 0), ('ROS_IP=0.0.0.0', 2)):
+        with workspace.space('devel').running(f'env -u ROS_HOSTNAME {address} {DEMO} gui:=false') as demo:
+            wait_for(demo, {'simulator': reachable, 'cleaner': reachable, 'battery_status_listener': reachable,
+                            'robot_state_publisher': max(1, reachable)})
 
 
 def test_the_configuration_file_is_what_the_simulator_prints(workspace):

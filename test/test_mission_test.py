@@ -38,3 +38,11 @@ def test_bad_homework_fails_only_in_the_condition_that_it_does_not_meet(mark):
     assert code != 0, output
     assert [name for name, word in re.findall(r'/test_(\w+)\]\[(\w+)\]', output) if word == 'FAILURE'] == ['coverage']
     assert re.search(r'```\n(coverage: .*)\n```', PAGE).group(1) in output
+
+
+def test_homework_that_publishes_what_it_is_marked_by_fails_in_every_condition(mark):
+    code, output = mark('forger')
+    assert code != 0, output
+    names = [name for name, word in re.findall(r'/test_(\w+)\]\[(\w+)\]', output) if word == 'FAILURE']
+    assert names == ['battery', 'collisions', 'coverage', 'field_rumba_odom_twist_twist_linear_x']
+    assert re.search(r'```\n(/rumba/cleaning_status is .*)\n```', PAGE).group(1) in output

@@ -6,7 +6,8 @@ import shutil
 import subprocess
 
 import pytest
-from workspaces import BUILD_TIMEOUT, ROOT, clean_environment
+from sockets import wait_for
+from workspaces import BUILD_TIMEOUT, ROOT, Space, clean_environment, last_of
 
 SAMPLE = {
     'package.xml': '''<package format="3"><name>sample</name><version>0.1.0</version><description>Sample.</description>
@@ -35,6 +36,12 @@ def test_fails():
         <param name="param_name_target" value="/here"/><param name="test_duration" value="0.1"/>
         <param name="wait_time" value="20.0"/></test></launch>''',
 }
+NODE = '''#!/usr/bin/env python3
+import rospy
+rospy.init_node('node')
+print('handles signals', flush=True)
+rospy.spin()
+'''
 APT_WITHOUT_NETWORK = '''#!/bin/sh
 [ "$1" = update ] || { echo 'E: Unable to locate package catkin'; exit 100; }
 '''
@@ -93,12 +100,12 @@ def test_help_names_every_command():
     code, out, _ = rumba(ROOT, 'help')
     assert code == 0
     assert [line.split()[0] for line in out.splitlines() if line.startswith('  ')] == [
-        'run', 'test', 'build', 'shell', 'lint', 'bench', 'help']
+        'run', 'test', 'build', 'shell', 'lint', 'bench', 'stress', 'help']
 
 
 def test_an_unknown_command_is_refused():
     assert rumba(ROOT, 'biuld') == (
-        2, '', "rumba: unknown command 'biuld': run, test, build, shell, lint, bench or help\n")
+        2, '', "rumba: unknown command 'biuld': run, test, build, shell, lint, bench, stress or help\n")
 
 
 @pytest.mark.parametrize('argument', ['drian:=5', 'drain', '--screen'])
@@ -176,6 +183,38 @@ def test_a_python_that_shadows_the_system_s_does_no_harm(checkout, tmp_path):
     python, sample = out.splitlines()
     assert (code, python) == (0, '/usr/bin/python3')
     assert sample.endswith('/src/sample')
+
+
+@pytest.mark.parametrize('given, found', [
+    ({}, 'localhost'), ({'ROS_MASTER_URI': 'http://127.0.0.1:11311/'}, 'localhost'),
+    ({'ROS_MASTER_URI': 'http://[::1]:11311'}, 'localhost'), ({'ROS_MASTER_URI': 'http://robot:11311'}, ''),
+    ({'ROS_MASTER_URI': 'http://localhost.lab:11311'}, ''), ({'ROS_IP': '10.0.0.1'}, ''),
+    ({'ROS_HOSTNAME': 'desk'}, 'desk')], ids=str)
+def test_ros_keeps_to_this_machine_unless_an_address_or_a_master_elsewhere_is_given(checkout, tmp_path, given, found):
+    environment = {'ROS_HOSTNAME': '', 'ROS_IP': '', 'ROS_MASTER_URI': '', 'XDG_CACHE_HOME': str(tmp_path / 'cache')}
+    code, out, error = rumba(checkout, 'shell', 'sh', '-c', 'echo "$ROS_HOSTNAME"', **{**environment, **given})
+    assert (code, out) == (0, found + '\n'), error
+
+
+def test_a_roscore_and_a_node_in_the_shell_cannot_be_reached_from_other_machines(checkout, tmp_path):
+    node = commands(tmp_path / 'bin', node=NODE) / 'node'
+    environment = {**clean_environment(), 'ROS_HOSTNAME': '', 'XDG_CACHE_HOME': str(tmp_path / 'cache')}
+    assert rumba(checkout, 'shell', 'true', **environment)[0] == 0  # which takes longer than all that follows
+    shell = Space(f'cd "{checkout}";', environment)
+    with shell.running(f'./rumba shell roscore -p {environment["ROS_MASTER_URI"].rpartition(":")[2]}') as core:
+        wait_for(core, {'rosmaster': 0, 'roscore': 0, 'rosout': 1})
+        with shell.running(f'./rumba shell {node}') as process:
+            last_of(process, 'handles signals')
+            wait_for(process, {'node': 0})
+
+
+@pytest.mark.parametrize('home', ['', None])
+def test_if_a_path_has_spaces_and_there_is_no_home_nothing_is_put_where_others_could_change_it(checkout, home):
+    environment = {name: value for name, value in clean_environment().items() if name not in ('HOME', 'XDG_CACHE_HOME')}
+    done = subprocess.run([str(checkout / 'rumba'), 'build'], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                          universal_newlines=True, env={**environment, **({} if home is None else {'HOME': home})})
+    assert (done.returncode, done.stdout) == (2, '')
+    assert done.stderr == f'rumba: {checkout} has spaces, so that the workspace belongs below HOME, which is not set\n'
 
 
 def test_a_package_of_compat_is_built_only_if_the_system_has_none(checkout, tmp_path):

@@ -29,15 +29,90 @@ def test_the_lessons_publisher_and_ours_are_heard_by_the_same_listener(workspace
     raise AssertionError(f'the listener ended, or not: {seen}')
 
 
-def test_the_lessons_service_leads_the_turtle_to_a_place(workspace):
+def test_without_its_turtle_the_mission_ends_and_says_why(workspace):
     here = workspace.space('devel')
-    with here.running(f'{LAUNCH} autostart:=false'):
-        deadline = time.monotonic() + TIMEOUT
-        while True:
-            answer = here.run('rosservice call --wait /go_to_position 8.5 5.5 0')
-            if 'feedback: True' in answer:
-                break
-            assert time.monotonic() < deadline, answer
-        assert float(re.search(r'linear_x: (\S+)', answer).group(1)) > 0.2
-        assert abs(float(re.search(r'angular_z: (\S+)', answer).group(1))) < 0.3
+    with here.running(f'{LAUNCH} speed:=5 2>&1') as launch:
+        last_of(launch, 'rumba: cleaning by boustrophedon')
+        here.run('rosservice call /kill turtle1')
+        last_of(launch, 'no turtle: nothing publishes /turtle1/pose', 'rumba has no body')
+        assert re.search(r'rumba: given up after .*: the robot is gone', last_of(launch, 'rumba: given up'))
+
+
+# --- /go_to_position --------------------------------------------------------------------------------------------
+
+STUDENT = """
+import rospy
+from rumba_msg.srv import TargetPosition
+rospy.init_node('student')
+rospy.Service('go_to_position', TargetPosition, lambda _: (-1.0, 0.25, True, 'mine'))
+rospy.spin()
+"""
+# As controllers of the lesson do: turn to the heading, drive on, stop near the target.
+CONTROLLER = """
+import math, rospy
+from geometry_msgs.msg import Twist
+from rumba_msg.srv import TargetPosition
+from turtlesim.msg import Pose
+rospy.init_node('controller')
+ask = rospy.ServiceProxy('go_to_position', TargetPosition)
+ask.wait_for_service()
+wheels = rospy.Publisher('rumba/cmd_vel', Twist, queue_size=1)
+twist = Twist()
+while True:
+    pose = rospy.wait_for_message('turtle1/pose', Pose)
+    if math.hypot(8.0 - pose.x, 7.0 - pose.y) < 0.1:
+        break
+    answer = ask(8.0, 7.0, 0.0)
+    if answer.feedback:
+        assert answer.linear_x == -1.0, answer
+        turn = math.remainder(answer.angular_z - pose.theta, 2.0 * math.pi)
+        twist.linear.x, twist.angular.z = (0.3 if abs(turn) < 0.3 else 0.0), turn
+        wheels.publish(twist)
+print('there')
+"""
+
+
+def script(folder, text):
+    """The command that runs a program."""
+    path = folder / 'program.py'
+    path.write_text(text)
+    return f'/usr/bin/python3 {path}'
+
+
+def answered(here, *target):
+    """What the service answers, once it does: a cleaner that has just started does not know the pose yet."""
+    deadline = time.monotonic() + TIMEOUT
+    while True:
+        answer = here.run(f'rosservice call --wait /go_to_position {" ".join(map(str, target))}')
+        if 'feedback: True' in answer:
+            return answer
+        assert time.monotonic() < deadline, answer
+
+
+def number(name, answer):
+    """A number of an answer."""
+    return float(re.search(rf'{name}: (\S+)', answer).group(1))
+
+
+def test_a_server_of_a_student_keeps_its_name(workspace, tmp_path):
+    here = workspace.space('devel')
+    with here.running(script(tmp_path, STUDENT)):
+        answered(here, 1, 1, 0)
+        with here.running(f'{LAUNCH} autostart:=false 2>&1') as launch:
+            last_of(launch, '/go_to_position is served by /student, which keeps it')
+            assert 'message: "mine"' in answered(here, 8.5, 5.5, 0)
+
+
+def test_a_controller_of_the_lesson_drives_by_the_headings(workspace, tmp_path):
+    here = workspace.space('devel')
+    with here.running(f'{LAUNCH} speed:=5 autostart:=false'):
+        assert here.run(script(tmp_path, CONTROLLER), 3 * TIMEOUT) == 'there\n'
+
+
+def test_the_service_answers_with_a_velocity_if_it_is_told_to(workspace):
+    here = workspace.space('devel')
+    with here.running(f'{LAUNCH} autostart:=false answer:=velocity'):
+        answer = answered(here, 8.5, 5.5, 0)
+        assert number('linear_x', answer) > 0.2
+        assert abs(number('angular_z', answer)) < 0.3
         assert re.search(r'message: "2\.9\d m to go"', answer), answer

@@ -34,12 +34,17 @@ def process(command, stdout=subprocess.DEVNULL):
             started.wait()
 
 
+def free_port():
+    """A port of the loopback at which nobody listens."""
+    with socket.socket() as free:
+        free.bind(('localhost', 0))
+        return free.getsockname()[1]
+
+
 @contextlib.contextmanager
 def master():
     """A roscore for this process, which becomes a node of it, and for those that it starts."""
-    with socket.socket() as free:
-        free.bind(('localhost', 0))
-        port = free.getsockname()[1]
+    port = free_port()
     os.environ.pop('ROS_IP', None)
     os.environ.update(ROS_MASTER_URI=f'http://localhost:{port}', ROS_HOSTNAME='localhost')
     with process(['roscore', '-p', str(port)]):
@@ -48,19 +53,19 @@ def master():
         yield
 
 
-def wait_until(condition):
-    """Wait until a function returns something true, and return that.
+def wait_until(condition, patience=PATIENCE):
+    """Wait until a function returns something true, for some seconds at most, and return that.
 
     Raises:
         TimeoutError: it never does.
     """
-    deadline = time.monotonic() + PATIENCE
+    deadline = time.monotonic() + patience
     while True:
         found = condition()
         if found:
             return found
         if time.monotonic() > deadline:
-            raise TimeoutError(f'waited {PATIENCE:g} s')
+            raise TimeoutError(f'waited {patience:g} s')
         time.sleep(0.002)
 
 

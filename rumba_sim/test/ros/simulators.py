@@ -206,6 +206,13 @@ class Simulator:
                 self.process.kill()
                 self.process.wait()
 
+    def kill(self):
+        """Kill it, and have the master forget its last service, so that waiting for the next simulator makes sense."""
+        self.process.kill()
+        self.process.wait(TIMEOUT)
+        service = f'{self._node}/tuning/set_parameters'
+        rosgraph.Master(self._node).unregisterService(service, lookup(service))
+
 
 class Commands:
     """A publisher of velocities to which a robot listens."""

@@ -13,8 +13,9 @@ import rostest
 from rumba_msg.msg import BatteryStatus
 
 TIMEOUT = 30.0
-MESSAGES = [BatteryStatus(97, 1.25, -2.0, 1.5707963, True, 'one'), BatteryStatus(5, 0.0, 0.0, 0.0, False, 'two')]
-LINES = ['battery  97 %   at (1.25, -2.00) m, 90 deg   brushes up   one',
+MESSAGES = [BatteryStatus(97, 1.25, -2.0, 1.5707963, True, '\x1b[2Jone\n'),
+            BatteryStatus(5, 0.0, 0.0, 0.0, False, 'two')]
+LINES = ['battery  97 %   at (1.25, -2.00) m, 90 deg   brushes up   \\x1b[2Jone\\n',
          'battery   5 %   at (0.00, 0.00) m, 0 deg   brushes down   two']
 
 

@@ -7,6 +7,7 @@ import unittest
 
 import rospy
 import rostest
+from rosgraph_msgs.msg import Clock
 
 from rumba_msg.msg import BatteryStatus
 
@@ -54,6 +55,25 @@ class BatteryStatusPublisherTest(unittest.TestCase):
             self.assertLess(rospy.get_time() - begin, TIMEOUT)
         self.assertEqual([self.percentage('emptied') for _ in range(3)], [0, 0, 0])
 
+    def test_a_clock_that_begins_at_any_time_does_not_empty_the_battery(self):
+        for running in ('/plain', '/set'):  # they must not take the time from /clock
+            rospy.wait_for_message(f'{running}/{TOPIC}', BatteryStatus, TIMEOUT)
+        rospy.set_param('/use_sim_time', True)
+        self.addCleanup(rospy.delete_param, '/use_sim_time')
+        self.start('begun', '_percentage:=90')
+        clock = rospy.Publisher('/clock', Clock, queue_size=10)
+        self.addCleanup(clock.unregister)
+        heard = []
+        subscriber = rospy.Subscriber(f'/begun/{TOPIC}', BatteryStatus, heard.append)
+        self.addCleanup(subscriber.unregister)
+        now, begin = 1.6e9, rospy.get_time()
+        while len(heard) < 10:
+            self.assertLess(rospy.get_time() - begin, TIMEOUT)
+            now += 0.05 if clock.get_num_connections() else 0.0
+            clock.publish(rospy.Time.from_sec(now))
+            rospy.sleep(0.01)
+        self.assertEqual({status.percentage_battery for status in heard}, {90})
+
     def test_messages_are_new_and_not_latched(self):
         arrived = []
         subscriber = rospy.Subscriber(TOPIC, BatteryStatus, arrived.append)
@@ -77,7 +97,7 @@ class BatteryStatusPublisherTest(unittest.TestCase):
                 ('_percentage:=-1', where + r'percentage is -1\.0: must be 0 to 100 \[%\]\n$'),
                 ('_brushes_up:=5', where + r'brushes_up is 5: must be true or false\n$'),
                 ('_drian:=2', where + r"drian is unknown: did you mean 'drain'\?\n$"),
-                ('_rate:=[', r'^battery_status_publisher: invalid command-line parameters: [^\n]*\n$'),
+                ('_rate:=[', r"^battery_status_publisher: _rate:='\[': cannot be a parameter: [^\n]*\n$"),
                 ('rate:=5', r'^battery_status_publisher: rate:= remaps a topic: for the parameter write _rate:=\n$'),
                 ('5', r"^battery_status_publisher: unknown argument '5': .*\n$")):
             process = self.start('refused', argument)

@@ -44,6 +44,11 @@ class SimulatorBadStartTest(unittest.TestCase):
                  '_rates/scan:=15'),
                 (rf"^simulator: {path}: battery/drian is unknown: did you mean 'drain'\?\n$", f'_config:={path}'),
                 (r'^simulator: /no/such\.yaml: No such file or directory\n$', '_config:=/no/such.yaml'),
+                (where + r"config is \['a'\]: must be text\n$", '_config:=[a]'),
+                (where + r'config is 5: must be text\n$', '_config:=5'),
+                (where + r'speed is 0\.0005: must be 0, or 0\.001 to 1000000\n$', '_speed:=0.0005'),
+                (r"^simulator: _seed:='9{23}': cannot be a parameter: int exceeds XML-RPC limits\n$",
+                 f'_seed:={23 * "9"}'),
                 (rf'^simulator: {room}: no room for another robot\n$', '_robots:=20', f'_map:={room}'),
                 (r"^simulator: unknown argument 'studio': ", 'studio'),
                 (r'^simulator: map:= remaps a topic: for the parameter write _map:=\n$', 'map:=studio')):
@@ -51,6 +56,29 @@ class SimulatorBadStartTest(unittest.TestCase):
                 self.assert_refused(message, *arguments)
                 self.assertFalse(any(value != {} for value in rospy.get_param('/simulator', {}).values()))
         self.assertFalse(rospy.has_param('/use_sim_time'))
+
+    def test_parameters_that_are_no_mapping_are_refused_and_stay(self):
+        rospy.set_param('/simulator', 'text')
+        self.addCleanup(rospy.delete_param, '/simulator')
+        self.assert_refused("^simulator: parameter /simulator is 'text': must be a mapping of drive, ")
+        self.assertEqual(rospy.get_param('/simulator'), 'text')
+
+    def test_a_log_folder_that_is_full_is_one_line_and_the_simulator_runs(self):
+        """A limit on the size of files has the same effect as a full disk."""
+        forget_parameters()
+        folder = folder_of(self, {})
+        process = subprocess.Popen(
+            ['sh', '-c', 'ulimit -f 0; exec rosrun rumba_sim simulator _map:=field _speed:=10'], stderr=subprocess.PIPE,
+            stdout=subprocess.DEVNULL, universal_newlines=True, env={**os.environ, 'ROS_LOG_DIR': str(folder)})
+        self.addCleanup(process.communicate)
+        self.addCleanup(process.kill)
+        odom = Heard(self, '/rumba/odom')
+        odom.find(lambda message: message.header.stamp.to_sec() > 5.0)
+        process.terminate()
+        told = process.communicate(timeout=TIMEOUT)[1]
+        self.assertRegex(told, rf'^simulator: cannot write the log {folder}/simulator.*\.log: .*File too large; the '
+                               r'node goes on without it\n$')
+        self.assertEqual(process.returncode, 0)
 
     def test_a_second_simulator_refuses_to_start_and_the_first_continues(self):
         simulator = Simulator(self, '_map:=field', '_speed:=0')

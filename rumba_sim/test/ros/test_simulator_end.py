@@ -5,11 +5,33 @@ import os
 import signal
 import socket
 import subprocess
+import sys
 import unittest
 
 import rospy
 import rostest
+from rosgraph_msgs.msg import Log
 from simulators import TIMEOUT, Heard, Simulator, wait
+
+BROKEN = """
+import dataclasses
+import time
+from rumba_sim.ros.common import node
+from rumba_sim.ros.common.requests import Requests
+
+@dataclasses.dataclass(frozen=True)
+class Settings:
+    pass
+
+def main(settings):
+    requests = Requests()
+    requests.post(lambda: {}['lost'])
+    while True:
+        time.sleep(2.0)
+        requests.serve(time.monotonic())
+
+node.run('broken', Settings, main)
+"""
 
 
 class SimulatorEndTest(unittest.TestCase):
@@ -25,6 +47,15 @@ class SimulatorEndTest(unittest.TestCase):
                     if speed and number == signal.SIGTERM:
                         simulator.does('pause')
                     simulator.end(number)
+
+    def test_an_error_in_what_was_posted_to_the_loop_is_logged_and_ends_the_node(self):
+        log = Heard(self, '/rosout', Log)
+        done = subprocess.run([sys.executable, '-c', BROKEN], stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                              universal_newlines=True, timeout=TIMEOUT, check=False)
+        self.assertEqual(done.returncode, 1, done.stdout)
+        self.assertEqual(done.stdout.count("KeyError: 'lost'"), 1, done.stdout)
+        told = log.find(lambda message: message.level == Log.FATAL)
+        self.assertRegex(told.msg, r"^broken ends because of an error of its own:\nTraceback [^$]*KeyError: 'lost'\n$")
 
     def test_rosnode_kill_ends_it(self):
         simulator = Simulator(self, '_map:=field', '_speed:=0')

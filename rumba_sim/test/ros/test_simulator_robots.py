@@ -49,9 +49,11 @@ class SimulatorRobotsTest(unittest.TestCase):
         simulator = Simulator(self, '_map:=field', '_speed:=10')
         here = Pose2D(3.0, 2.0, 0.0)
         simulator.refuses("^'rumba' is taken: robots are rumba$", 'spawn', 'rumba', here)
-        for name in ('a b', '/x', 'x/y', '1x', '_x', 'ä', 'xä', 'x\n', '~x', '{x}', '-'):
-            simulator.refuses('is not a valid name: must be letters, digits and _, beginning with a letter$',
+        for name in ('a b', '/x', 'x/y', '1x', '_x', 'ä', 'xä', 'x\n', '~x', '{x}', '-', 65 * 'x',
+                     5_000_000 * 'x'):
+            simulator.refuses('is not a valid name: must be 1 to 64 letters, digits and _, beginning with a letter$',
                               'spawn', name, here)
+        simulator.refuses(r"^there is no robot 'x+\.\.\.x+': robots are rumba$", 'kill', 5_000_000 * 'x')
         places = (
             (Pose2D(0.1, 2.0, 0.0), r'pose at \(0\.10, 2\.00\) m is 0\.100 m from the nearest wall: a robot of '),
             (Pose2D(-3.0, 2.0, 0.0), r'pose at \(-3\.00, 2\.00\) m lies outside the map \(x -'),

@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
 """The simulator's time: clock, pause, step and reset, exact to the tick."""
 
+import subprocess
 import threading
 import unittest
 
 import rospy
 import rostest
-from simulators import STEP_RATE, TICK, Heard, Simulator, wait
+from simulators import STEP_RATE, TICK, Heard, Simulator, forget_parameters, lookup, wait
 
 
 class SimulatorTimeTest(unittest.TestCase):
@@ -135,6 +136,52 @@ class SimulatorTimeTest(unittest.TestCase):
         Heard(self, '/clock').find(lambda message: message.clock.to_sec() > 0.5)
         simulator.end()
         self.assertTrue(rospy.get_param('/use_sim_time'))
+
+    def test_use_sim_time_is_afterwards_as_it_was_before_also_if_a_simulator_was_killed(self):
+        self.addCleanup(forget_parameters, '/use_sim_time')
+        for found in (True, False):
+            with self.subTest(found=found):
+                forget_parameters('/use_sim_time')
+                if found:
+                    rospy.set_param('/use_sim_time', True)
+                Simulator(self, '_map:=field', '_speed:=10').end()
+                self.assertEqual(rospy.get_param('/use_sim_time', False), found)
+                Simulator(self, '_map:=field', '_speed:=10').kill()
+                self.assertTrue(rospy.get_param('/use_sim_time'))
+                log = Heard(self, '/rosout')
+                again = Simulator(self, '_map:=field')
+                line = log.find(lambda message: message.msg.startswith('an earlier simulator was killed')).msg
+                self.assertIn(f'it is {str(found).lower()} again', line)
+                self.assertEqual(rospy.get_param('/use_sim_time', False), found)
+                again.end()
+
+    def test_simulator_launch_leaves_use_sim_time_as_it_was(self):
+        self.addCleanup(forget_parameters, '/use_sim_time')
+        for found, speed in ((True, 1), (True, 10), (False, 10), (False, 1)):
+            with self.subTest(found=found, speed=speed):
+                forget_parameters('/use_sim_time')
+                if found:
+                    rospy.set_param('/use_sim_time', True)
+                forget_parameters()
+                launch = subprocess.Popen(['roslaunch', 'rumba_sim', 'simulator.launch', 'map:=field',
+                                           f'speed:={speed}'], stdout=subprocess.DEVNULL)
+                self.addCleanup(launch.wait)
+                self.addCleanup(launch.terminate)
+                wait(self, lambda: lookup('/simulator/tuning/set_parameters'), 'the simulator')
+                self.assertEqual(rospy.get_param('/use_sim_time'), found or speed != 1)
+                launch.terminate()
+                launch.wait()
+                self.assertEqual(rospy.get_param('/use_sim_time', False), found)
+
+    def test_a_node_that_waits_for_a_clock_that_nobody_publishes_says_so(self):
+        rospy.set_param('/use_sim_time', True)
+        self.addCleanup(rospy.delete_param, '/use_sim_time')
+        node = subprocess.Popen(['rosrun', 'rumba_sim', 'battery_status_publisher'], stderr=subprocess.PIPE,
+                                universal_newlines=True)
+        self.addCleanup(node.communicate)
+        self.addCleanup(node.terminate)
+        self.assertIn('/use_sim_time is true, but nothing publishes /clock: for this node, time stands still. Start a '
+                      'simulator; or run `rosparam delete /use_sim_time`', node.stderr.readline())
 
 
 if __name__ == '__main__':

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Settings that change at run time, and the diagnostics of the simulator."""
 
+import time
 import unittest
 
 import rospy
@@ -66,6 +67,24 @@ class SimulatorTuningTest(unittest.TestCase):
         now = again.update_configuration({'speed': 3.0})
         self.assertEqual(now['speed'], 1.0)
         log.find(lambda message: message.msg.startswith('speed can change only if /clock is published'))
+
+    def test_a_new_speed_counts_at_once_and_one_that_is_too_low_is_refused(self):
+        Simulator(self, '_map:=field', '_speed:=0.001')
+        client, clock, log = self.client(), Heard(self, '/clock'), Heard(self, '/rosout')
+        for speed in (0.0005, 5e-324):
+            self.assertEqual(client.update_configuration({'speed': speed})['speed'], 0.001)
+            log.find(lambda message: message.msg == f'tuning: speed is {speed:g}: must be 0, or 0.001 to '  # noqa: B023
+                                                    '1000000')
+        client.update_configuration({'speed': 10.0})
+        begin = time.monotonic()
+        clock.find(lambda message: message.clock.to_sec() > 1.0)
+        self.assertLess(time.monotonic() - begin, 15.0)  # at speed 0.001 a tick takes 20 s
+
+    def test_diagnostics_have_the_time_of_the_simulation(self):
+        Simulator(self, '_map:=field', '_speed:=10')
+        stamp = Heard(self, '/diagnostics', DiagnosticArray).find().header.stamp.to_sec()
+        self.assertGreater(stamp, 0.0)
+        self.assertLess(stamp, 1e6)
 
     def test_diagnostics_describe_battery_and_speed(self):
         Simulator(self, '_map:=field', '_speed:=4', '_percentage:=5', '_battery/drain:=0')

@@ -63,8 +63,9 @@ class TurtlesimBodyTest(unittest.TestCase):
         first, last = states[0], states[-1]
         seconds = (last.header.stamp - first.header.stamp).to_sec()
         self.assertGreater(seconds, 4.0)
-        self.assertAlmostEqual(first.charge - last.charge, 1.69 * DRAIN * seconds / 3600.0,
-                               delta=0.002 * 1.69 * DRAIN * seconds / 3600.0)
+        drained = 1.69 * DRAIN * seconds / 3600.0
+        # In real time, the stamps are those of the wall clock, and turtlesim is not always on time.
+        self.assertAlmostEqual(first.charge - last.charge, drained, delta=(0.002 if SPEED != 1 else 0.2) * drained)
 
     def test_a_turn_keeps_its_sign_and_the_limit_of_the_robot(self):
         self.put(3.0, 3.0, 0.5)
@@ -135,7 +136,7 @@ class TurtlesimBodyTest(unittest.TestCase):
         state = heard.find(lambda message: abs(message.real_time_factor - SPEED) < 0.2 * SPEED)
         self.assertEqual((state.node, state.step_rate, state.seed), ('/turtlesim_body', 62.5, 1))
         self.assertTrue(math.isnan(state.speed))
-        self.assertEqual((state.is_paused, state.is_time_simulated), (False, True))
+        self.assertEqual((state.is_paused, state.is_time_simulated), (False, SPEED != 1))
         self.assertTrue(state.map.startswith('/') and state.map.endswith('/rumba_sim/maps/field.yaml'), state.map)
         heard.fresh(lambda message: message.tick > state.tick and message.header.stamp > state.header.stamp)
         self.assertEqual(robot_config(state.node).battery.drain, DRAIN)

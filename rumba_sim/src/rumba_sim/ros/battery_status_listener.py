@@ -15,6 +15,7 @@ import sys
 import rospy
 
 from rumba_msg.msg import BatteryStatus
+from rumba_sim.model.errors import one_line
 from rumba_sim.ros.common import node
 from rumba_sim.ros.common.terminal import TO_LINE_START_AND_ERASE, width
 
@@ -42,7 +43,7 @@ def describe(status: BatteryStatus) -> str:
     """One line for a person: battery [%], position [m], heading [deg], brushes, and the message of the robot."""
     return (f'battery {status.percentage_battery:3d} %   at ({status.location_x:.2f}, {status.location_y:.2f}) m, '
             f'{math.degrees(status.orientation_theta):.0f} deg   brushes {"up" if status.brushes_up else "down"}   '
-            f'{status.debug_message}')
+            f'{one_line(status.debug_message)}')
 
 
 def _show(line: str) -> None:

@@ -8,6 +8,7 @@ Parameters, as in `rosrun rumba_sim battery_status_publisher _rate:=10 _drain:=6
 """
 
 import dataclasses
+from typing import Optional
 
 import rospy
 
@@ -16,6 +17,8 @@ from rumba_sim.model.battery import Battery, BatteryConfig
 from rumba_sim.model.config import setting
 from rumba_sim.model.geometry import Pose, wrap_angle
 from rumba_sim.ros.common import conversions, node
+
+LEAP = 3600.0  # [s] from one message to the next: no time has passed, but the clock is another one
 
 
 @dataclasses.dataclass(frozen=True)
@@ -44,10 +47,21 @@ def publish(settings: Settings) -> None:
     pose = Pose(settings.location_x, settings.location_y, wrap_angle(settings.orientation_theta))
     publisher = rospy.Publisher('rumba/battery_status', BatteryStatus, queue_size=10)
     rate = rospy.Rate(settings.rate, reset=True)
-    before = rospy.get_time()
+    before = None
     while not rospy.is_shutdown():
         now = rospy.get_time()
-        battery.step(max(0.0, now - before), load)
+        battery.step(passed(before, now), load)
         before = now
         publisher.publish(conversions.battery_status(battery, pose, settings.brushes_up))
         rate.sleep()
+
+
+def passed(before: Optional[float], now: float) -> float:
+    """The time that has passed between two times of ROS [s]; 0 if that is not known.
+
+    Simulated time is 0 until the first message on /clock, which may begin anywhere. It begins again when a simulator or a
+    recording does.
+    """
+    if not before or not 0.0 <= now - before < LEAP:
+        return 0.0
+    return now - before

@@ -1,27 +1,31 @@
 """What all nodes have in common: help, parameters, one clear line and exit code 2 for bad input, a quiet end."""
 
-import http.client
+import contextlib
 import inspect
 import io
+import logging
 import re
 import signal
 import sys
 import threading
 import time
+import traceback
 import xmlrpc.client
-from typing import Any, Callable, List, Sequence, Type, TypeVar
+from typing import Any, Callable, List, Mapping, Sequence, Type, TypeVar
+from xml.parsers.expat import ExpatError
 
 import rosgraph
 import rospy
+import yaml
 
 from rumba_sim.model import config, yaml_file
-from rumba_sim.model.errors import ConfigError, RumbaError, WorldError
+from rumba_sim.model.errors import ConfigError, RumbaError, WorldError, one_line, quoted
+from rumba_sim.ros.common import master_watch, peers
 from rumba_sim.ros.common.paths import absolute
 
 Settings = TypeVar('Settings')
-BAD_INPUT = 2
+OWN_ERROR, BAD_INPUT = 1, 2  # exit codes
 PATIENCE = 10.0  # [s] of the wall clock to wait for another node that starts at the same time
-ANSWER_TIMEOUT = 2.0  # [s] to wait for the answer of a node that the master knows
 LOOK_PERIOD = 0.5  # [s] between two looks for a master
 
 
@@ -52,13 +56,9 @@ def run(name: str, settings_class: Type[Settings], main: Callable[[Settings], No
         return
     try:
         _check_command_line(arguments, config.names(settings_class))
-        if is_single:
-            _refuse_twin(name)
         before()
         _wait_for_master(f'{name}: no roscore answers at {rosgraph.get_master_uri()} yet: waiting for it')
-        rospy.init_node(name, disable_rostime=own_clock)
-        for number in (signal.SIGINT, signal.SIGTERM):
-            signal.signal(number, _shut_down)
+        _register(name, own_clock, is_single)
         try:
             main(_parameters(settings_class, own_parameters))
         except RumbaError:
@@ -73,7 +73,38 @@ def run(name: str, settings_class: Type[Settings], main: Callable[[Settings], No
             _refuse(name, error, on_refusal)
     except Exception:
         if not rospy.core.is_shutdown_requested():  # otherwise a topic was closed while the main thread published
-            raise
+            rospy.logfatal(f'{name} ends because of an error of its own:\n{traceback.format_exc()}')
+            sys.exit(OWN_ERROR)
+
+
+def _register(name: str, own_clock: bool, is_single: bool) -> None:
+    """Register the node; a single one only if no other of its name lives, or is about to register too."""
+    full_name = rosgraph.names.ns_join(rospy.get_namespace(), rospy.names.get_mappings().get('__name', name))
+    _log_trouble_once(name)
+    with contextlib.ExitStack() as until_registered:
+        if is_single:
+            reservation = peers.Reservation(full_name)
+            until_registered.callback(reservation.release)
+            if not reservation.take():
+                raise WorldError(f'another node {full_name} starts at the same moment: only one of them can')
+            peers.refuse_twin(full_name)
+        rospy.init_node(name, disable_rostime=own_clock)
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, _shut_down)
+    master_watch.start()
+
+
+def _log_trouble_once(name: str) -> None:
+    """Print one line if a log file cannot be written, instead of a traceback for each message."""
+    told: List[Any] = []
+
+    def tell(handler: Any, record: Any) -> None:
+        if not told:
+            told.append(record)
+            reason = one_line(str(sys.exc_info()[1]))
+            print(f'{name}: cannot write the log {getattr(handler, "baseFilename", "")}: {reason}; the node goes on '
+                  'without it', file=sys.stderr, flush=True)
+    setattr(logging.Handler, 'handleError', tell)
 
 
 def _wait_for_master(line: str) -> None:
@@ -104,7 +135,7 @@ def _shut_down(number: int, _: Any) -> None:
 
 
 def _refuse(name: str, error: Exception, on_refusal: Callable[[str], Any]) -> None:
-    message = ' '.join(str(error).split())
+    message = one_line(' '.join(str(error).split()))
     print(f'{name}: {message}', file=sys.stderr)
     on_refusal(message)
     sys.exit(BAD_INPUT)
@@ -116,6 +147,17 @@ def _check_command_line(arguments: List[str], parameters: List[str]) -> None:
     for name in rospy.names.load_mappings(sys.argv):
         if name in parameters:
             raise ConfigError(f'{name}:= remaps a topic: for the parameter write _{name}:=')
+    for argument in sys.argv[1:]:
+        if re.match(r'_(?!_).+:=', argument):
+            _check_value(*argument.split(':=', 1))
+
+
+def _check_value(name: str, text: str) -> None:
+    """Check that the parameter server can take a value, which rospy reads as YAML."""
+    try:
+        xmlrpc.client.loads(xmlrpc.client.dumps((yaml.safe_load(text),)))
+    except (yaml.YAMLError, ValueError, TypeError, OverflowError, RecursionError, ExpatError) as error:
+        raise ConfigError(f'{name}:={quoted(text)}: cannot be a parameter: {error}') from None
 
 
 def _parameters(settings_class: Type[Settings], own: Sequence[str]) -> Settings:
@@ -123,13 +165,18 @@ def _parameters(settings_class: Type[Settings], own: Sequence[str]) -> Settings:
     for name in own:
         if rospy.has_param(f'~{name}'):
             rospy.delete_param(f'~{name}')
+    where = f'parameter of {rospy.get_name()}'
     parameters = rospy.get_param('~', {})
+    if not isinstance(parameters, Mapping):
+        raise ConfigError(f'parameter {rospy.get_name()} is {quoted(parameters)}: must be a mapping of '
+                          + ', '.join(config.names(settings_class)))
     settings = settings_class()
-    path = parameters.get('config', '')
-    if 'config' in config.names(settings_class) and path:
-        path = absolute(path)
-        settings = config.updated(settings, yaml_file.read_mapping(path, ConfigError), path)
-    return config.updated(settings, parameters, f'parameter of {rospy.get_name()}')
+    if 'config' in config.names(settings_class) and 'config' in parameters:
+        path = getattr(config.updated(settings, {'config': parameters['config']}, where), 'config')
+        if path:
+            path = absolute(path)
+            settings = config.updated(settings, yaml_file.read_mapping(path, ConfigError), path)
+    return config.updated(settings, parameters, where)
 
 
 def _take_parameters_back() -> None:
@@ -137,33 +184,3 @@ def _take_parameters_back() -> None:
     for assignment in filter(None, (re.match(r'_([^_]\w*(?:/\w+)*):=', argument) for argument in sys.argv)):
         if rospy.has_param(f'~{assignment.group(1)}'):
             rospy.delete_param(f'~{assignment.group(1)}')
-
-
-# --- other nodes --------------------------------------------------------------------------------------------------
-
-class _Hasty(xmlrpc.client.Transport):
-    """Gives up if there is no answer."""
-
-    def make_connection(self, host: Any) -> http.client.HTTPConnection:
-        connection = super().make_connection(host)
-        connection.timeout = ANSWER_TIMEOUT
-        return connection
-
-
-def _refuse_twin(name: str) -> None:
-    name = rosgraph.names.ns_join(rospy.get_namespace(), rospy.names.get_mappings().get('__name', name))
-    try:
-        xmlrpc.client.ServerProxy(rosgraph.Master(name).lookupNode(name), _Hasty()).getPid(name)
-    except (rosgraph.MasterException, xmlrpc.client.Error, http.client.HTTPException, OSError):
-        return  # no such node, or one that was killed without telling the master, or no master yet
-    raise WorldError(f'a node {name} is already running: end it first')
-
-
-def is_served(service: str) -> bool:
-    """Whether a node serves a service, and answers: the master still knows the services of a node that was killed."""
-    try:
-        rosgraph.Master(rospy.get_name()).lookupService(rospy.resolve_name(service))
-        rospy.wait_for_service(service, ANSWER_TIMEOUT)
-    except (rosgraph.MasterException, rospy.ROSException):
-        return False
-    return True

@@ -8,6 +8,8 @@ from typing import Any, Callable, Optional, Tuple
 
 import rospy
 
+Answer = Optional['concurrent.futures.Future[Any]']  # None if nobody waits for it
+
 
 class Requests:
     """A queue of calls from any thread, made one by one in the thread that created this object."""
@@ -16,7 +18,7 @@ class Requests:
         """Make the current thread the owner."""
         self._owner = threading.current_thread()
         # Not a SimpleQueue: if the handler of a signal takes longer than the timeout, its get() waits forever.
-        self._queue: 'queue.Queue[Tuple[Callable[[], Any], concurrent.futures.Future[Any]]]' = queue.Queue()
+        self._queue: 'queue.Queue[Tuple[Callable[[], Any], Answer]]' = queue.Queue()
 
     def call(self, function: Callable[[], Any]) -> Any:
         """Have the owner call a function; returns its result, or raises its exception.
@@ -26,7 +28,8 @@ class Requests:
         """
         if threading.current_thread() is self._owner:
             return function()
-        answer = self.post(function)
+        answer: 'concurrent.futures.Future[Any]' = concurrent.futures.Future()
+        self._queue.put((function, answer))
         while not rospy.is_shutdown():
             try:
                 return answer.result(timeout=0.5)
@@ -34,26 +37,35 @@ class Requests:
                 continue
         raise rospy.ROSInterruptException('the node ends')
 
-    def post(self, function: Callable[[], Any]) -> 'concurrent.futures.Future[Any]':
-        """Have the owner call a function, without waiting for it."""
-        answer: 'concurrent.futures.Future[Any]' = concurrent.futures.Future()
-        self._queue.put((function, answer))
-        return answer
+    def post(self, function: Callable[[], Any]) -> None:
+        """Have the owner call a function, without waiting for it: `serve` raises its exception."""
+        self._queue.put((function, None))
 
     def serve(self, until: float) -> None:
-        """Make the calls that are in the queue, and those that arrive until a time of `time.monotonic`."""
+        """Make the calls that are in the queue, and those that arrive until a time of `time.monotonic`.
+
+        Raises:
+            Exception: a function raised it that was posted; the owner ends then, since nobody else would notice.
+        """
         while True:
             request = self._next(until - time.monotonic())
             if request is None:
                 return
             function, answer = request
-            try:
-                answer.set_result(function())
-            except Exception as error:  # passed on to the caller
-                answer.set_exception(error)
+            if answer is None:
+                function()
+            else:
+                _answer(answer, function)
 
-    def _next(self, seconds: float) -> Optional[Tuple[Callable[[], Any], 'concurrent.futures.Future[Any]']]:
+    def _next(self, seconds: float) -> Optional[Tuple[Callable[[], Any], Answer]]:
         try:
             return self._queue.get(timeout=seconds) if seconds > 0.0 else self._queue.get_nowait()
         except queue.Empty:
             return None
+
+
+def _answer(answer: 'concurrent.futures.Future[Any]', function: Callable[[], Any]) -> None:
+    try:
+        answer.set_result(function())
+    except Exception as error:  # passed on to the caller
+        answer.set_exception(error)

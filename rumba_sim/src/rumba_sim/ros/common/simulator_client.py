@@ -2,13 +2,13 @@
 
 import threading
 import time
-from typing import Callable, Optional
+from typing import Callable, Mapping, Optional
 
 import rospy
 
 from rumba_msg.msg import SimulatorState
 from rumba_sim.model.config import from_mapping, names
-from rumba_sim.model.errors import MapError
+from rumba_sim.model.errors import ConfigError, MapError, quoted
 from rumba_sim.model.robot_config import RobotConfig
 from rumba_sim.ros.common.node import PATIENCE
 
@@ -71,5 +71,7 @@ def robot_config(node: str) -> RobotConfig:
     """
     where = f'{node}/{SETTINGS}'
     parameters = rospy.get_param(where, {})
+    if not isinstance(parameters, Mapping):
+        raise ConfigError(f'parameter {where} is {quoted(parameters)}: must be the settings of a simulator')
     known = {name: parameters[name] for name in names(RobotConfig) if name in parameters}
     return from_mapping(RobotConfig, known, f'parameter {where}')

@@ -1,5 +1,6 @@
 """One robot as a part of the node that moves it: its topics, services and frames."""
 
+import contextlib
 import math
 import threading
 import time
@@ -18,7 +19,7 @@ from rumba_sim.model.errors import RumbaError, WorldError
 from rumba_sim.model.geometry import Pose, compose, inverse
 from rumba_sim.model.robot import Robot
 from rumba_sim.model.world import World
-from rumba_sim.ros.common import conversions, node, teleop
+from rumba_sim.ros.common import conversions, peers, teleop
 from rumba_sim.ros.common.frames import MAP, frames
 from rumba_sim.ros.common.requests import Requests
 from rumba_sim.ros.robot.rates import Due, Rates
@@ -40,7 +41,10 @@ class CoverageRequested(rospy.SubscribeListener):
 
     def peer_subscribe(self, topic_name: str, topic_publish: Any, peer_publish: Callable[[Any], None]) -> None:
         """There is a new subscriber."""
-        self._requests.post(lambda: peer_publish(self._message()))
+        def send() -> None:
+            with contextlib.suppress(rospy.ROSException):  # the robot was removed meanwhile, and its topics with it
+                peer_publish(self._message())
+        self._requests.post(send)
 
 
 class RobotNode:
@@ -193,7 +197,7 @@ class RobotNode:
         return conversions.static_transforms(self._frames, self._stamp, self._robot.config.drive.wheel_diameter)
 
     def _coverage_message(self) -> OccupancyGrid:
-        return conversions.grid(self._world.plan, self._world.floor.swept(), self._stamp)
+        return conversions.grid(self._world.plan, self._world.swept(), self._stamp)
 
 
 def refuse_twin(name: str) -> None:
@@ -203,5 +207,5 @@ def refuse_twin(name: str) -> None:
         WorldError: another node has a robot of that name.
     """
     service = rospy.resolve_name(f'{name}/teleport')
-    if node.is_served(service):
+    if peers.is_served(service):
         raise WorldError(f'there is already a robot {name!r} (another node serves {service}): end that node')

@@ -3,6 +3,7 @@
 import dataclasses
 import math
 import time
+import uuid
 from typing import Any
 
 import rospy
@@ -20,6 +21,7 @@ class StatePublisher:
     Attributes:
         due: when to publish again, as a time of `time.monotonic`, if nothing changes before.
         real_time_factor: [times real time] in the last second of the wall clock; 0 before the first is over.
+        resets: how often the world was reset since the node started.
     """
 
     def __init__(self, settings: Any, map_path: str, step_rate: float, is_time_simulated: bool) -> None:
@@ -37,10 +39,12 @@ class StatePublisher:
         self._seed = settings.seed
         self._step_rate = step_rate
         self._is_time_simulated = is_time_simulated
+        self._run = uuid.uuid4().hex
         self._ticks = 0
         self._begin = time.monotonic()
         self.due = self._begin + PERIOD
         self.real_time_factor = 0.0
+        self.resets = 0
 
     def publish(self, ticks: int, stamp: rospy.Time, is_paused: bool = False, speed: float = math.nan) -> None:
         """Publish the state.
@@ -56,8 +60,8 @@ class StatePublisher:
             self.real_time_factor = (ticks - self._ticks) / self._step_rate / (now - self._begin)
             self._ticks, self._begin, self.due = ticks, now, now + PERIOD
         self._publisher.publish(SimulatorState(
-            header=Header(stamp=stamp), node=rospy.get_name(), is_paused=is_paused, speed=speed,
-            real_time_factor=self.real_time_factor, is_time_simulated=self._is_time_simulated, tick=ticks,
+            header=Header(stamp=stamp), node=rospy.get_name(), run=self._run, resets=self.resets, is_paused=is_paused,
+            speed=speed, real_time_factor=self.real_time_factor, is_time_simulated=self._is_time_simulated, tick=ticks,
             step_rate=self._step_rate, map=self._map_path, seed=self._seed))
 
 

@@ -1,8 +1,9 @@
 """Diagnostics of the simulation and of each battery, for people."""
 
-from typing import Callable
+from typing import Callable, List
 
-from diagnostic_msgs.msg import DiagnosticStatus
+import rospy
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from diagnostic_updater import DiagnosticStatusWrapper, Updater
 
 from rumba_sim.model.robot import Robot
@@ -11,12 +12,33 @@ LOW, CRITICAL = 10, 3  # [%] (the Create 3 goes home below 10 % and warns below 
 SLOW = 0.9  # share of the wanted speed below which the simulation is too slow
 
 
+class StampedUpdater(Updater):
+    """An updater whose messages have the time of the simulation.
+
+    Attributes:
+        stamp: of the next message.
+    """
+
+    stamp = rospy.Time()
+
+    def publish(self, statuses: List[DiagnosticStatus]) -> None:
+        """Publish statuses as the base class does, but for the stamp."""
+        for status in statuses:
+            status.name = f'{rospy.get_name()[1:]}: {status.name}'
+        message = DiagnosticArray(status=statuses)
+        message.header.stamp = self.stamp
+        self.publisher.publish(message)
+
+    def addedTaskCallback(self, task: object) -> None:  # noqa: N802 (name of the base class)
+        """Publish nothing yet."""
+
+
 class Diagnostics:
     """Publishes how fast the simulation is, and the state of each battery."""
 
     def __init__(self, hardware: str) -> None:
         """Begin without batteries; `hardware` is the name of the map."""
-        self._updater = Updater()
+        self._updater = StampedUpdater()
         self._updater.setHardwareID(hardware)
         self._speed, self._wanted, self._late, self._late_before = 0.0, 1.0, 0, 0
         self._updater.add('simulation', self._simulation)
@@ -29,16 +51,18 @@ class Diagnostics:
         """Report the battery of a robot no longer."""
         self._updater.removeByName(f'battery of {robot}')
 
-    def update(self, speed: float, wanted: float, late: int) -> None:
+    def update(self, stamp: rospy.Time, speed: float, wanted: float, late: int) -> None:
         """Publish; to be called once a second of the wall clock (REP 107).
 
         Args:
+            stamp: time of the simulation.
             speed: reached since the last call [times real time].
             wanted: speed [times real time]; 0: as fast as possible.
             late: how often the simulator gave up to catch up.
         """
         self._speed, self._wanted = speed, wanted
         self._late, self._late_before = late, self._late
+        self._updater.stamp = stamp
         self._updater.force_update()
 
     def _simulation(self, status: DiagnosticStatusWrapper) -> DiagnosticStatusWrapper:

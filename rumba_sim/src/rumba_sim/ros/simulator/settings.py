@@ -3,8 +3,11 @@
 import dataclasses
 
 from rumba_sim.model.config import names, part, section, setting
+from rumba_sim.model.errors import ConfigError
 from rumba_sim.model.robot_config import RobotConfig
 from rumba_sim.ros.robot.rates import MAX_RATE, Rates
+
+LOWEST_SPEED = 0.001  # [times real time] with the default step rate, a tick takes 20 s
 
 
 @dataclasses.dataclass(frozen=True)
@@ -23,7 +26,8 @@ class Settings(RobotConfig):
     """
 
     map: str = setting('apartment', 'name of a map of this package, or path of a map_server YAML file')
-    speed: float = setting(1.0, 'multiple of real time; 0: as fast as possible', '', 0.0, 1e6)
+    speed: float = setting(1.0, f'multiple of real time, at least {LOWEST_SPEED}; 0: as fast as possible', '', 0.0,
+                           1e6)
     robots: int = setting(1, 'number of robots at the start: rumba, rumba2, rumba3, ...', '', 0, 1000)
     seed: int = setting(1, 'seed of the random generators', '', 0, 2 ** 31 - 1)
     step_rate: int = setting(50, 'ticks per second of simulated time', 'Hz', 1, MAX_RATE)
@@ -31,10 +35,14 @@ class Settings(RobotConfig):
     brushes_up: bool = setting(False, 'whether the brushes are lifted at the start')
     localisation: bool = setting(True, 'whether to publish map -> odom, the exact correction of odometry')
     config: str = setting('', 'path of a YAML file with any of these; parameters override it')
+    state: str = setting('', 'path of a file: the world is saved there every minute of simulated time and at the end, '
+                             'and goes on from there at the next start')
     rates: Rates = section(Rates, 'how often messages are published; each divides step_rate')
 
     def __post_init__(self) -> None:
-        """Check that the rates divide the step rate."""
+        """Check that time passes noticeably, and that the rates divide the step rate."""
+        if 0.0 < self.speed < LOWEST_SPEED:
+            raise ConfigError(f'speed is {self.speed:g}: must be 0, or {LOWEST_SPEED} to 1000000')
         self.rates.check(self.step_rate)
 
     @property

@@ -19,10 +19,13 @@ own name, pause, resume, reset (std_srvs/Trigger), step (rumba_msg/Step), spawn 
 Parameters, as in `rosrun rumba_sim simulator _map:=studio _speed:=10 _battery/drain:=60`:
 """
 
+import contextlib
+import gc
 import re
 import time
 from typing import Any, Callable, Dict, Tuple
 
+import rosgraph
 import rospy
 from std_srvs.srv import Trigger, TriggerResponse
 from tf2_msgs.msg import TFMessage
@@ -30,12 +33,13 @@ from tf2_msgs.msg import TFMessage
 from rumba_msg.srv import Kill, KillResponse, Spawn, SpawnResponse, Step, StepResponse
 from rumba_sim.model import map_file
 from rumba_sim.model.config import updated
-from rumba_sim.model.errors import ConfigError, RumbaError, WorldError
+from rumba_sim.model.errors import ConfigError, RumbaError, WorldError, quoted
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.robot import nth_name
 from rumba_sim.model.world import World
-from rumba_sim.ros.common import node
+from rumba_sim.ros.common import master_watch, node
 from rumba_sim.ros.common.maps import map_path, refuse_second, tell_map
+from rumba_sim.ros.common.peers import NO_ANSWER
 from rumba_sim.ros.common.requests import Requests
 from rumba_sim.ros.common.simulator_client import SETTINGS
 from rumba_sim.ros.robot.robot_node import RobotNode
@@ -44,9 +48,12 @@ from rumba_sim.ros.simulator import reconfigure
 from rumba_sim.ros.simulator.diagnostics import Diagnostics
 from rumba_sim.ros.simulator.pace import Pace, wake_on_time
 from rumba_sim.ros.simulator.settings import TUNABLE, Settings
+from rumba_sim.ros.simulator.simulated_time import SimulatedTime
+from rumba_sim.ros.simulator.state_file import StateFile
 
 TUNING = 'tuning'  # below the node's name: the parameters of dynamic_reconfigure
-NAME = re.compile(r'[A-Za-z]\w*', re.ASCII)
+LONGEST_NAME = 64  # [characters] of a robot
+NAME = re.compile(rf'[A-Za-z]\w{{0,{LONGEST_NAME - 1}}}', re.ASCII)
 MAX_STEP = 1_000_000  # [ticks] of one call
 
 
@@ -69,20 +76,26 @@ class Simulator:
         self._settings = settings
         self._requests = Requests()
         self._is_paused = False
-        self._ticks = 0
         path = map_path(settings.map)
-        self._world = World(map_file.load(path), settings.robot, settings.step_rate, settings.seed)
-        self._pace = Pace(settings.step_rate, settings.speed, is_time_simulated(settings.speed))
+        plan = map_file.load(path)
+        self._file = StateFile(settings)
+        saved, self._ticks = self._file.world(plan, settings)
+        self._world = saved or World(plan, settings.robot, settings.step_rate, settings.seed)
+        self._pace = Pace(settings.step_rate, settings.speed, is_time_simulated(settings.speed), self._ticks)
         self._diagnostics = Diagnostics(settings.map)
         self._tf = rospy.Publisher('/tf', TFMessage, queue_size=100)
         self._tf_static = rospy.Publisher('/tf_static', TFMessage, queue_size=10, latch=True)
         self._nodes: Dict[str, RobotNode] = {}
-        for _ in range(settings.robots):
+        for name in self._world.robots:
+            self._open(name)
+        for _ in range(0 if saved else settings.robots):
             self._spawn(self._free_name(), None)
+        self._file.begin(self._world, self._ticks)
         tell_map(self._world.plan, self._pace.stamp)
         self._state = StatePublisher(settings, path, settings.step_rate, self._pace.is_simulated)
         self._serve()
         self._publish_state()
+        master_watch.after_return(lambda: self._tuning.update_configuration({}))
 
     def _serve(self) -> None:
         for name, service, response, act in (
@@ -93,7 +106,7 @@ class Simulator:
                 ('spawn', Spawn, SpawnResponse, self._on_spawn),
                 ('kill', Kill, KillResponse, lambda request: self._kill(request.name))):
             rospy.Service(f'~{name}', service, self._handler(response, act))
-        reconfigure.serve(self._settings, TUNABLE, TUNING, self._on_tuning)
+        self._tuning = reconfigure.serve(self._settings, TUNABLE, TUNING, self._on_tuning)
 
     def _handler(self, response: Any, act: Callable[[Any], Tuple[Any, ...]]) -> Callable[[Any], Any]:
         """A service that has the loop act; an error becomes its answer."""
@@ -109,26 +122,29 @@ class Simulator:
     def run(self) -> None:
         """Simulate until ROS shuts down."""
         wake_on_time()
+        gc.freeze()  # what there is now remains: collections of garbage need not look at it, and take no time
         while not rospy.is_shutdown():
             if self._is_paused:
-                self._serve_requests(self._pace.hold())
+                self._pace.hold()
             else:
                 self._tick()
-                self._serve_requests(self._pace.next_tick())
+                self._pace.next_tick()
+            self._serve_requests()
+        self._file.save(self._world, self._ticks)
 
-    def _serve_requests(self, until: float) -> None:
-        """Carry out requests until a time of `time.monotonic`, and report when a report is due."""
+    def _serve_requests(self) -> None:
+        """Carry out requests until the next tick is due, and report when a report is due."""
         while not rospy.is_shutdown():
-            self._requests.serve(min(until, self._state.due))
+            self._requests.serve(min(self._pace.due, self._state.due))
             self._report()
-            if time.monotonic() >= until:
+            if time.monotonic() >= self._pace.due:
                 return
 
     def _report(self) -> None:
         """Publish state and diagnostics, if they are due."""
         if time.monotonic() >= self._state.due:
             self._publish_state()
-            self._diagnostics.update(self._state.real_time_factor, self._pace.speed, self._pace.late)
+            self._diagnostics.update(self._pace.stamp, self._state.real_time_factor, self._pace.speed, self._pace.late)
 
     def _publish_state(self) -> None:
         self._state.publish(self._ticks, self._pace.stamp, self._is_paused, self._pace.speed)
@@ -145,16 +161,20 @@ class Simulator:
             robot.publish(due, rates, self._pace.stamp)
         if due.odom and self._tf.get_num_connections():
             self._tf.publish([part for robot in self._nodes.values() for part in robot.transforms()])
+        self._file.save_if_due(self._world, self._ticks)
 
     # --- services -------------------------------------------------------------------------------------------------
 
     def _pause(self, is_paused: bool) -> Tuple[str]:
         self._is_paused = is_paused
+        self._pace.hurry()
         self._publish_state()
         return ('paused' if is_paused else 'running',)
 
     def _reset(self) -> Tuple[str]:
         self._world.reset()
+        self._state.resets += 1
+        self._publish_state()
         return ('everything is as it was at the start, except the time',)
 
     def _step(self, ticks: int) -> Tuple[str]:
@@ -173,24 +193,31 @@ class Simulator:
     def _on_spawn(self, request: Any) -> Tuple[str, str]:
         name = request.name or self._free_name()
         if not NAME.fullmatch(name):
-            raise WorldError(f'{name!r} is not a valid name: must be letters, digits and _, beginning with a letter')
+            raise WorldError(f'{quoted(name)} is not a valid name: must be 1 to {LONGEST_NAME} letters, digits and _, '
+                             'beginning with a letter')
+        if not rosgraph.is_master_online():  # otherwise its topics could not be registered, and time would stand still
+            raise WorldError('the master does not answer: a robot needs it for its topics')
         self._spawn(name, Pose(request.pose.x, request.pose.y, request.pose.theta))
         return name, ''
 
     def _spawn(self, name: str, pose: Any) -> None:
         self._world.spawn(name, pose, self._settings.percentage / 100.0, self._settings.brushes_up)
         try:
-            self._nodes[name] = RobotNode(self._world, name, self._requests, self._settings.localisation,
-                                          self._pace.stamp)
-        except WorldError:
+            self._open(name)
+        except Exception:
             self._world.kill(name)
             raise
+
+    def _open(self, name: str) -> None:
+        """Open the topics and services of a robot of the world."""
+        self._nodes[name] = RobotNode(self._world, name, self._requests, self._settings.localisation, self._pace.stamp)
         self._diagnostics.add(name, lambda: self._world.robots[name])
         self._tell_static()
 
     def _kill(self, name: str) -> Tuple[str]:
         self._world.kill(name)
         self._nodes.pop(name).close()
+        gc.collect()  # rospy leaves a file descriptor of each topic open until then
         self._diagnostics.remove(name)
         self._tell_static()
         return ('',)
@@ -226,19 +253,22 @@ class Simulator:
 
 def is_time_simulated(speed: float) -> bool:
     """Whether time is that of /clock; at a speed other than 1 this sets /use_sim_time until the node ends."""
-    was_simulated = bool(rospy.get_param('/use_sim_time', False))
+    parameter = SimulatedTime(rospy.get_name())
     if speed == 1.0:
-        return was_simulated
-    rospy.on_shutdown(forget_simulated_time)
-    if not was_simulated:
-        rospy.set_param('/use_sim_time', True)
+        mended = parameter.mend()
+        if mended:
+            rospy.logwarn(mended)
+        if parameter.found():
+            rospy.loginfo('/use_sim_time is true: this simulator publishes /clock')
+        return parameter.found()
+    rospy.on_shutdown(lambda: forget_simulated_time(parameter))
+    if not parameter.claim():
         rospy.loginfo('speed is not 1: /use_sim_time is now true; nodes that started before keep to the wall clock')
+    master_watch.after_return(parameter.claim)
     return True
 
 
-def forget_simulated_time() -> None:
-    """Delete /use_sim_time: without a publisher of /clock, time would not pass for nodes that start later."""
-    try:
-        rospy.delete_param('/use_sim_time')
-    except (KeyError, OSError):  # another node has deleted it, or the master has ended
-        pass
+def forget_simulated_time(parameter: SimulatedTime) -> None:
+    """Make /use_sim_time what it was."""
+    with contextlib.suppress(*NO_ANSWER):  # the master has ended
+        parameter.restore()

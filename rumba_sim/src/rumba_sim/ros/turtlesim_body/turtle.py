@@ -2,7 +2,7 @@
 
 import queue
 import threading
-from typing import Any, Callable, Optional, Tuple
+from typing import Any, Callable, List, Optional, Tuple
 
 import rospy
 from geometry_msgs.msg import Twist as TwistMessage
@@ -12,7 +12,7 @@ from std_srvs.srv import Empty
 from rumba_sim.model.errors import ConfigError, WorldError
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.robot import Twist
-from rumba_sim.ros.common.node import ANSWER_TIMEOUT
+from rumba_sim.ros.common.peers import ANSWER_TIMEOUT
 
 try:
     from turtlesim.msg import Pose as PoseMessage
@@ -22,6 +22,7 @@ except ImportError:  # an error only if a turtle is needed: --help works without
 
 REMINDER = 15  # [frames] after which an unchanged command is sent again: turtlesim stops the turtle after 1 s
 COMPLAINT_PERIOD = 10.0  # [s]
+POSE = '/pose'
 STILL = Twist(0.0, 0.0)
 Pen = Tuple[int, int, int, int, bool]  # red, green, blue [0..255], width [pixels], whether it is up
 
@@ -45,7 +46,18 @@ class Turtle(rospy.SubscribeListener):
         self._calls: 'queue.Queue[Callable[[], Any]]' = queue.Queue()
         threading.Thread(target=self._serve, daemon=True).start()
         self._publisher = rospy.Publisher(f'{name}/cmd_vel', TwistMessage, self, queue_size=1)
-        rospy.Subscriber(f'{name}/pose', PoseMessage, on_pose, tcp_nodelay=True)
+        self._poses = rospy.Subscriber(f'{name}{POSE}', PoseMessage, on_pose, tcp_nodelay=True)
+
+    @property
+    def pose_topic(self) -> str:
+        """The full name of the topic with its poses."""
+        name: str = self._poses.resolved_name
+        return name
+
+    @property
+    def is_heard(self) -> bool:
+        """Whether a node publishes its poses."""
+        return bool(self._poses.get_num_connections())
 
     def peer_subscribe(self, *_: Any) -> None:
         """There is a new subscriber of the commands: it may be a new turtle with another pen."""
@@ -97,6 +109,15 @@ class Turtle(rospy.SubscribeListener):
             except (rospy.ServiceException, rospy.ROSException) as error:
                 self.forget_pen()
                 rospy.logwarn_throttle(COMPLAINT_PERIOD, f'turtlesim does not answer: {error}')
+
+
+def turtles() -> List[str]:
+    """The names of all turtles that the master knows; none if it does not answer."""
+    try:
+        topics = rospy.get_published_topics()
+    except (rospy.ROSException, OSError):
+        return []
+    return sorted(topic[:-len(POSE)] for topic, kind in topics if kind == 'turtlesim/Pose' and topic.endswith(POSE))
 
 
 def _call(service: str, kind: Any, *arguments: Any) -> None:

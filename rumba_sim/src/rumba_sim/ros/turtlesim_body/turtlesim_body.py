@@ -16,7 +16,8 @@ It publishes simulator/state (rumba_msg/SimulatorState, latched), /map, /tf and 
 below its own name, reset (std_srvs/Trigger), which makes the floor dirty and charges the battery; the parameters
 NAME/settings are the settings in force. A turtle has no laser, so there is no scan.
 It uses TURTLE/pose (turtlesim/Pose), TURTLE/cmd_vel (geometry_msgs/Twist), TURTLE/set_pen, TURTLE/teleport_absolute and
-clear of turtlesim. Time passes with the poses, 16 ms with each: without poses it stands still.
+clear of turtlesim. Time passes with the poses, 16 ms with each: without poses it stands still. Without a turtle for
+10 s, the topics and services of the robot are closed until the turtle is there.
 
 Parameters, as in `rosrun rumba_sim turtlesim_body _turtle:=turtle2 _battery/drain:=10`:
 """
@@ -24,7 +25,7 @@ Parameters, as in `rosrun rumba_sim turtlesim_body _turtle:=turtle2 _battery/dra
 import dataclasses
 import math
 import time
-from typing import Any, Tuple
+from typing import Any, Optional, Tuple
 
 import rospy
 from std_srvs.srv import Trigger, TriggerResponse
@@ -32,6 +33,7 @@ from tf2_msgs.msg import TFMessage
 
 from rumba_sim.model import map_file
 from rumba_sim.model.config import part, section, setting
+from rumba_sim.model.errors import one_line
 from rumba_sim.model.geometry import Pose, wrap_angle
 from rumba_sim.model.guided_world import GuidedWorld
 from rumba_sim.model.robot_config import RobotConfig
@@ -45,7 +47,8 @@ from rumba_sim.ros.common.simulator_client import SETTINGS
 from rumba_sim.ros.robot.rates import Rates
 from rumba_sim.ros.robot.robot_node import RobotNode
 from rumba_sim.ros.robot.state_publisher import StatePublisher
-from rumba_sim.ros.turtlesim_body.turtle import Pen, Turtle
+from rumba_sim.ros.turtlesim_body.turtle import Pen, Turtle, turtles
+from rumba_sim.ros.turtlesim_body.watch import Watch
 
 RATES = Rates(scan=0)
 FRAME_NS = round(1e9 / FRAME_RATE)
@@ -104,18 +107,19 @@ class TurtlesimBody:
         plan = map_file.load(path)
         self._guided = GuidedWorld(plan, part(settings, RobotConfig), FRAME_RATE, settings.seed, settings.robot,
                                    settings.percentage / 100.0, settings.brushes_up)
-        self._colour = settings.pen
+        self._settings = settings
         self._requests = Requests()
         self._motion = TurtleMotion()
         self._ticks = 0
         self._landed = 0.0  # tick from which the pen may be down again; inf during a teleport
         self._stamp = self._clock = rospy.Time.now()
         self._turtle = Turtle(settings.turtle, lambda pose: self._requests.post(lambda: self._on_pose(pose)))
-        self._node = TurtleNode(self._guided.world, settings.robot, self._requests, settings.localisation, self._stamp,
-                                self._teleport)
+        self._watch = Watch(self._turtle.pose_topic, time.monotonic())
+        self._node: Optional[TurtleNode] = None  # None while there is no turtle
+        robot = self._open()
         self._tf = rospy.Publisher('/tf', TFMessage, queue_size=100)
         self._tf_static = rospy.Publisher('/tf_static', TFMessage, queue_size=1, latch=True)
-        self._tf_static.publish(self._node.static_transforms())
+        self._tf_static.publish(robot.static_transforms())
         tell_map(plan, self._stamp)
         rospy.Service('~reset', Trigger, lambda _: TriggerResponse(True, self._requests.call(self._reset)))
         self._state = StatePublisher(settings, path, FRAME_RATE, not rospy.rostime.is_wallclock())
@@ -125,7 +129,27 @@ class TurtlesimBody:
         """Follow the turtle until ROS shuts down."""
         while not rospy.is_shutdown():
             self._requests.serve(time.monotonic() + PERIOD)
+            self._look_for_turtle()
             self._report()
+
+    def _open(self) -> 'TurtleNode':
+        """The topics and services of the robot, which are opened if they are closed."""
+        if self._node is None:
+            self._node = TurtleNode(self._guided.world, self._settings.robot, self._requests,
+                                    self._settings.localisation, self._stamp, self._teleport)
+        return self._node
+
+    def _look_for_turtle(self) -> None:
+        """Say that the turtle is missing, and close the robot if it has been missing for long."""
+        now, is_heard = time.monotonic(), self._turtle.is_heard
+        line = self._watch.line(now, is_heard)
+        if line:
+            known = one_line(', '.join(turtles()) or 'none')
+            rospy.logwarn(f'{line}; turtles that there are: {known}. Start turtlesim, or set the parameter turtle')
+        if self._node is not None and self._watch.is_gone(now, is_heard):
+            rospy.logerr(f'{self._settings.robot} has no body: its topics are closed until there is a turtle')
+            self._node.close()
+            self._node = None
 
     def _report(self) -> None:
         """Publish the state, if it is due."""
@@ -135,6 +159,12 @@ class TurtlesimBody:
     # --- what the turtle does -----------------------------------------------------------------------------------------
 
     def _on_pose(self, message: Any) -> None:
+        if not all(map(math.isfinite, (message.x, message.y, message.theta, message.linear_velocity,
+                                       message.angular_velocity))):
+            self._watch.see_odd(time.monotonic())
+            return
+        if self._watch.see(time.monotonic()):
+            rospy.loginfo(f'there is a turtle on {self._turtle.pose_topic}')
         pose = Pose(message.x, message.y, wrap_angle(message.theta))
         driven = self._motion.driven(pose, message.linear_velocity, message.angular_velocity)
         for each in driven:
@@ -148,11 +178,11 @@ class TurtlesimBody:
     def _tick(self) -> None:
         self._ticks += 1
         self._stamp = self._next_stamp()
-        due = RATES.due(self._ticks, FRAME_RATE)
-        self._node.publish(due, RATES, self._stamp)
+        due, robot = RATES.due(self._ticks, FRAME_RATE), self._open()
+        robot.publish(due, RATES, self._stamp)
         if due.odom and self._tf.get_num_connections():
-            self._tf.publish(self._node.transforms())
-        self._node.apply_command()
+            self._tf.publish(robot.transforms())
+        robot.apply_command()
         self._turtle.drive(self._guided.wish())
         if self._ticks >= self._landed:
             self._turtle.hold_pen(self._pen())
@@ -175,7 +205,7 @@ class TurtlesimBody:
         return rospy.Time(*divmod(counted, 1_000_000_000))
 
     def _pen(self) -> Pen:
-        robot, colour = self._guided.robot, self._colour
+        robot, colour = self._guided.robot, self._settings.pen
         width = colour.width or max(round(robot.config.brush.width * PIXELS_PER_METRE), 1)
         return colour.red, colour.green, colour.blue, min(width, 255), robot.brushes_up or robot.battery.charge <= 0.0
 
@@ -201,6 +231,10 @@ class TurtlesimBody:
         self._guided.reset()
         self._guided.jump(pose)
         self._turtle.clear()
+        self._state.resets += 1
+        self._state.publish(self._ticks, self._stamp)
+        self._state.resets += 1
+        self._state.publish(self._ticks, self._stamp)
         return 'the floor is dirty, and the battery is charged as at the start; the turtle stays where it is'
 
 

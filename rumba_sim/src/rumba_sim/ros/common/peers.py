@@ -1,0 +1,111 @@
+"""Other nodes at the same master: who is alive, who serves what, and who was first if several want the same."""
+
+import http.client
+import os
+import threading
+import xmlrpc.client
+import xmlrpc.server
+from typing import Any, List, Optional, Tuple
+
+import rosgraph
+import rospy
+
+from rumba_sim.model.errors import WorldError
+
+ANSWER_TIMEOUT = 2.0  # [s] to wait for the answer of a node that the master knows
+NO_ANSWER = (rosgraph.MasterException, xmlrpc.client.Error, http.client.HTTPException, OSError)
+RELEASE_TIME = 0.02  # [s] between two looks of the server of a reservation whether it shall end
+
+
+class _Hasty(xmlrpc.client.Transport):
+    """Gives up if there is no answer."""
+
+    def make_connection(self, host: Any) -> http.client.HTTPConnection:
+        connection = super().make_connection(host)
+        connection.timeout = ANSWER_TIMEOUT
+        return connection
+
+
+def is_alive(name: str) -> bool:
+    """Whether a node answers, given by its full name: the master still knows nodes that were killed."""
+    try:
+        xmlrpc.client.ServerProxy(rosgraph.Master(name).lookupNode(name), _Hasty()).getPid(name)
+    except NO_ANSWER:
+        return False
+    return True
+
+
+def is_served(service: str) -> bool:
+    """Whether a node serves a service, and answers."""
+    try:
+        rosgraph.Master(rospy.get_name()).lookupService(rospy.resolve_name(service))
+        rospy.wait_for_service(service, ANSWER_TIMEOUT)
+    except (*NO_ANSWER, rospy.ROSException):
+        return False
+    return True
+
+
+def publishers(topic: str) -> List[str]:
+    """Full names of the nodes that the master knows as publishers of a topic, in the order in which they came.
+
+    Raises:
+        OSError: the master does not answer.
+    """
+    return dict(rosgraph.Master('/unnamed').getSystemState()[0]).get(topic, [])
+
+
+class Reservation:
+    """Something that only one node at a master may have, for the time until the others can see that it is taken.
+
+    If two nodes look for one another before either has registered what they look for, both go on. Therefore each first
+    registers as publisher of a topic of the reservation: the master keeps these in order, and the first one has it. For
+    this, a node needs no name of its own yet; a process that was killed does not answer, and does not count.
+    """
+
+    def __init__(self, what: str) -> None:
+        """Prepare to reserve `what`, the full name of a node or a service."""
+        self._topic = f'/reserved{what}'
+        self._held: Optional[Tuple[xmlrpc.server.SimpleXMLRPCServer, rosgraph.Master, str]] = None
+
+    def take(self) -> bool:
+        """Reserve it; returns whether it is now reserved for this process.
+
+        Raises:
+            OSError: the master does not answer.
+        """
+        server = xmlrpc.server.SimpleXMLRPCServer((rosgraph.network.get_bind_address(), 0), logRequests=False)
+        server.register_function(lambda _: (1, '', os.getpid()), 'getPid')
+        threading.Thread(target=server.serve_forever, args=[RELEASE_TIME], daemon=True).start()
+        name = rosgraph.names.anonymous_name('/reservation')
+        uri = rosgraph.network.create_local_xmlrpc_uri(server.server_address[1])
+        master = rosgraph.Master(name)
+        self._held = server, master, uri
+        master.registerPublisher(self._topic, 'std_msgs/Empty', uri)
+        before = publishers(self._topic)
+        if any(map(is_alive, before[:before.index(name)])):
+            self.release()
+            return False
+        return True
+
+    def release(self) -> None:
+        """Give it free, once others can see what was reserved."""
+        if self._held is None:
+            return
+        server, master, uri = self._held
+        self._held = None
+        try:
+            master.unregisterPublisher(self._topic, uri)
+        except NO_ANSWER:
+            pass  # the master has ended, and forgotten it
+        server.shutdown()
+        server.server_close()
+
+
+def refuse_twin(name: str) -> None:
+    """Refuse to start beside a living node of the same full name.
+
+    Raises:
+        WorldError: there is one.
+    """
+    if is_alive(name):
+        raise WorldError(f'a node {name} is already running: end it first')

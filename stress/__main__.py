@@ -1,0 +1,58 @@
+"""`./rumba stress`: arguments, and the exit code."""
+
+import argparse
+import math
+import random
+import sys
+
+from stress import report, run, wire
+
+FAILED, USAGE = 1, 2
+MINUTES = 10.0
+
+
+def main():
+    """Run and end with exit code 1 if something failed, 2 if the arguments are wrong."""
+    arguments = _arguments()
+    seed = random.SystemRandom().randrange(10 ** 6) if arguments.seed is None else arguments.seed
+    told = report.Report(seed, 60.0 * arguments.minutes)
+    told.say(f'seed {seed}')
+    trials = run.Run(seed, told, wire.Publishers())
+    try:
+        if arguments.only:
+            trials.only(arguments.only)
+        else:
+            trials.rounds()
+    except KeyboardInterrupt:
+        told.say('stopped')
+    told.summary()
+    sys.exit(FAILED if told.failures else 0)
+
+
+def _arguments():
+    parser = argparse.ArgumentParser('./rumba stress', description='Starts real nodes on a master of its own, strikes '
+                                     'blow after blow, and asks after each whether everything is well; docs/'
+                                     'reliability.md tells more.')
+    parser.add_argument('minutes', nargs='?', type=_minutes, default=MINUTES, metavar='MINUTES',
+                        help=f'how long; default {MINUTES:g}')
+    parser.add_argument('--seed', type=int, metavar='N', help='of all that is random; default: drawn, and printed')
+    parser.add_argument('--only', type=_numbers, metavar='N,N,...', help='strike these blows of the seed alone')
+    return parser.parse_args()
+
+
+def _minutes(text):
+    minutes = float(text)
+    if not (math.isfinite(minutes) and minutes > 0.0):
+        raise argparse.ArgumentTypeError(f'{text!r} is no number of minutes above 0')
+    return minutes
+
+
+def _numbers(text):
+    numbers = sorted({int(number) for number in text.split(',')})
+    if numbers[0] < 0:
+        raise argparse.ArgumentTypeError(f'{numbers[0]} is no number of a blow')
+    return numbers
+
+
+if __name__ == '__main__':
+    main()

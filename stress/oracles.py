@@ -1,0 +1,122 @@
+"""What is asked after each blow: do the nodes live, is the world sane, do goals end, does everything come back?"""
+
+import math
+import time
+
+import psutil
+from geometry_msgs.msg import Pose2D
+from std_srvs.srv import Trigger
+
+from rumba_msg.msg import BatteryStatus
+from stress import goals, printed, wire, world
+from stress.failure import Failure
+from stress.member import Usage
+
+ANSWERS_WITHIN = 20.0  # [s] ...
+SECONDS_PER_INPUT = 0.01  # ... and so much more, since what is in the queue comes first
+COMES_BACK_WITHIN = 25.0  # [s] until what a blow opened is closed again
+# Python closes some files of ROS, epolls of topics, only when its garbage collector runs.
+MORE = Usage(fds=90, sockets=8, threads=8, megabytes=120.0)
+
+
+def check(ground, inputs):
+    """Ask everything.
+
+    Args:
+        ground: the ground.
+        inputs: how many hostile inputs the blow was.
+
+    Raises:
+        Failure: an answer is wrong.
+    """
+    for member in ground.everybody:
+        alive(member)
+    for member in ground.everybody:
+        prints(member, inputs)
+    try:
+        answers(ground)
+        if ground.world is not None:
+            world.tidy(ground)
+            world.check(ground)
+        pulses(ground, ANSWERS_WITHIN + SECONDS_PER_INPUT * inputs)
+    except wire.WireError as error:
+        for member in ground.everybody:  # an end is the better explanation
+            alive(member)
+        raise Failure('silent', 'ground', str(error)) from error
+    ground.settle()
+    for member in ground.everybody:
+        comes_back(member)
+    for member in ground.everybody:
+        alive(member)
+        prints(member, inputs)
+
+
+def alive(member):
+    """It runs."""
+    if not member.is_alive:
+        code = member.process.returncode if member.process else None
+        raise Failure('ended', member.name, f'exit code {code}: {printed.tail(member.printed())}')
+
+
+def prints(member, inputs=0):
+    """What it printed is no traceback, no flood, and safe on a terminal."""
+    most = None if member.role.talks else printed.LINES + printed.LINES_PER_INPUT * inputs
+    printed.check(member.name, member.printed(), most)
+
+
+def answers(ground):
+    """Each node answers the questions of the master's clients, and is registered."""
+    for member in ground.everybody[1:]:
+        uri = ground.node_uri(member.name)
+        if wire.ask(uri, 'getPid', timeout=ANSWERS_WITHIN) != member.process.pid:
+            raise Failure('registered', member.name, f'the master knows another process as {member.name}')
+
+
+def comes_back(member):
+    """It holds no more than before."""
+    if member.baseline is None:
+        return
+    end = time.monotonic() + COMES_BACK_WITHIN
+    most = [before + more for before, more in zip(member.baseline, MORE)]
+    try:
+        while any(now > bound for now, bound in zip(member.usage(), most)):
+            if time.monotonic() > end:
+                raise Failure('leak', member.name, f'{member.usage()}; at first {member.baseline}')
+            time.sleep(0.1)
+    except psutil.Error:
+        alive(member)
+
+
+# --- the pulse of each kind of node -----------------------------------------------------------------------------------
+
+def pulses(ground, patience):
+    """Each node still does what it is for."""
+    for member in ground.members.values():
+        PULSES[member.role.pulse](ground, member, patience)
+
+
+def _goals(ground, _, patience):
+    """Its loop refuses a goal that makes no sense."""
+    with goals.client(ground, 'go_to') as client:
+        client.send(target=Pose2D(math.nan, math.nan, math.nan))
+        client.await_results(patience)
+    goals.keep_busy(ground)
+
+
+def _picture(ground, member, patience):
+    """Its window can be painted."""
+    answer = ground.call(f'{member.name}/save_png', Trigger, timeout=patience)
+    if not answer.success:
+        raise Failure('pulse', member.name, f'save_png: {answer.message}')
+    for picture in ground.folder.glob('*.png'):
+        picture.unlink()
+
+
+def _charge(ground, member, patience):
+    """Its battery has a charge."""
+    status = ground.read('/lesson/rumba/battery_status', BatteryStatus, member, patience)
+    if not 0 <= status.percentage_battery <= 100:
+        raise Failure('sane', member.name, f'percentage_battery is {status.percentage_battery}')
+
+
+PULSES = {'': lambda *_: None, 'goals': _goals, 'picture': _picture, 'charge': _charge}

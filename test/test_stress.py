@@ -1,0 +1,136 @@
+"""The trial ground finds planted faults and the blow that shows them; and its first seconds, with the real nodes."""
+
+import io
+import os
+import pathlib
+import random
+import re
+import subprocess
+import sys
+
+import pytest
+from workspaces import ROOT
+
+sys.path[:0] = [str(ROOT), str(ROOT / 'bench')]
+
+from stress import report, run, shrink, wire  # noqa: E402
+from stress.blows import KINDS, messages  # noqa: E402
+from stress.blows.blow import Blow, Kind  # noqa: E402
+from stress.member import Role  # noqa: E402
+from stress.scenarios import Scenario  # noqa: E402
+
+NODE = str(pathlib.Path(__file__).with_name('frail_node.py'))
+GUILTY, BLOWS = 2, 4  # the blow that shows a planted fault, and how many there are
+PATIENCE = 300.0  # [s] for a run of some seconds
+
+
+class Frail:
+    """A schedule of harmless blows with one among them that the frail node does not bear."""
+
+    def __init__(self, fault):
+        self._scenario = Scenario('frail', (Role('/frail', '', NODE, '/rumba/go_to/goal', (fault,), is_world=True,
+                                                 pulse='goals'),), ('rumba',))
+
+    def scenario(self, _):
+        """The frail node alone."""
+        return self._scenario
+
+    def blow(self, seed, number):
+        """Messages on cmd_vel if it is the guilty one, else nothing."""
+        kind = Kind('guilty', twists, ('frail',)) if number == GUILTY else Kind('harmless', nothing, ('frail',))
+        return Blow(number, kind, random.Random(f'{seed} {number}'))
+
+
+def nothing(_ground, _chance, blow):
+    """A blow that is none."""
+    blow.say('nothing')
+
+
+def twists(ground, _chance, blow):
+    """Odd messages on cmd_vel."""
+    blow.say('odd twists')
+    name, kind, subscribers, _ = next(entry for entry in ground.topics() if entry[0] == '/rumba/cmd_vel')
+    messages.send(ground, (name, kind, subscribers), random.Random(1), blow)
+
+
+@pytest.fixture(scope='module')
+def publishers():
+    """The side of the trial ground that sends."""
+    return wire.Publishers()
+
+
+def verdict(fault, publishers, monkeypatch):
+    """What a run over the frail node prints, and how many failures it counts."""
+    monkeypatch.setattr('stress.oracles.COMES_BACK_WITHIN', 2.0)
+    monkeypatch.setattr('stress.oracles.ANSWERS_WITHIN', 3.0)
+    monkeypatch.setattr('stress.world.MOVES_WITHIN', 3.0)
+    stream = io.StringIO()
+    told = report.Report(5, 600.0, stream)
+    run.Run(5, told, publishers, make=Frail(fault)).strike(range(BLOWS))
+    told.summary()
+    return stream.getvalue(), told.failures
+
+
+@pytest.mark.parametrize('fault, seen', [
+    ('dies', r'ended: /frail: exit code 0: it printed nothing'),
+    ('leaks', r'leak: /frail: \d+ files of which \d+ sockets'),
+    ('hangs', r'goal: /frail: no result of 1 goals of go_to'),
+    ('forgets', r'lost: world: charge of rumba jumped from 2.0 to 0.1'),
+    ('stops', r'time: world: stands still at tick'),
+    ('raises', r'traceback: /frail: .*ValueError: a planted fault'),
+])
+def test_a_planted_fault_is_found_and_the_blow_that_shows_it(fault, seen, publishers, monkeypatch):
+    text, failures = verdict(fault, publishers, monkeypatch)
+    assert failures == 1
+    assert re.search(f'FAILED, seed 5, blow {GUILTY}\n  asked: guilty: odd twists\n  seen:  {seen}', text), text
+    assert f'the shortest sequence that shows it:\n    {GUILTY}: guilty: odd twists\n' in text
+    assert f'./rumba stress --seed 5 --only {GUILTY}\n' in text
+
+
+def test_a_node_without_a_fault_passes(publishers, monkeypatch):
+    text, failures = verdict('none', publishers, monkeypatch)
+    assert failures == 0
+    assert text.endswith('0 failures\n') and re.search(rf'all +{BLOWS} +4,000 +0\n', text), text
+
+
+@pytest.mark.parametrize('needed', [[7], [3, 7], [0, 4, 7], [1, 2, 7]])
+def test_the_shortest_sequence_is_found(needed):
+    tried = []
+
+    def shows(numbers):
+        tried.append(numbers)
+        return set(needed) <= set(numbers)
+
+    assert shrink.shortest(list(range(8)), shows, 60.0) == (needed, True)
+    assert len(tried) < 40
+
+
+def test_what_does_not_show_again_is_kept_whole():
+    assert shrink.shortest([1, 2, 3], lambda _: False, 60.0) == ([1, 2, 3], False)
+
+
+def stress(*arguments):
+    """Exit code, output and error output of `./rumba stress` in the workspace of these tests."""
+    path = os.pathsep.join([str(ROOT), str(ROOT / 'bench'), os.environ.get('PYTHONPATH', '')])
+    done = subprocess.run([sys.executable, '-m', 'stress', *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                          universal_newlines=True, timeout=PATIENCE, env={**os.environ, 'PYTHONPATH': path})
+    return done.returncode, done.stdout, done.stderr
+
+
+@pytest.mark.parametrize('arguments', [['0'], ['-1'], ['nan'], ['soon'], ['--seed', 'x'], ['--only', 'a'],
+                                       ['--only', '']], ids=' '.join)
+def test_wrong_arguments_are_refused(arguments):
+    code, out, error = stress(*arguments)
+    assert (code, out) == (2, '')
+    assert error.startswith('usage: ./rumba stress') and 'Traceback' not in error
+
+
+def test_the_real_nodes_bear_the_first_ten_seconds():
+    code, out, error = stress('0.17', '--seed', '1')
+    assert code == 0, out + error
+    assert out.startswith('seed 1\n') and out.endswith('\n0 failures\n')
+
+
+def test_the_page_names_every_kind_of_blow():
+    table = (ROOT / 'docs' / 'reliability.md').read_text().partition('| blow |')[2].partition('\n\n')[0]
+    assert re.findall(r'^\| `([^`]+)` \|', table, re.MULTILINE) == [kind.name for kind in KINDS]
