@@ -3,6 +3,7 @@
 import argparse
 import math
 import random
+import re
 import sys
 
 from stress import report, run, wire
@@ -41,17 +42,19 @@ def _arguments():
 
 
 def _minutes(text):
-    minutes = float(text)
+    try:
+        minutes = float(text)
+    except ValueError:
+        minutes = math.nan
     if not (math.isfinite(minutes) and minutes > 0.0):
-        raise argparse.ArgumentTypeError(f'{text!r} is no number of minutes above 0')
+        raise argparse.ArgumentTypeError(f'{text!r}: must be a number of minutes above 0')
     return minutes
 
 
 def _numbers(text):
-    numbers = sorted({int(number) for number in text.split(',')})
-    if numbers[0] < 0:
-        raise argparse.ArgumentTypeError(f'{numbers[0]} is no number of a blow')
-    return numbers
+    if not re.fullmatch(r'\d{1,9}(,\d{1,9})*', text, re.ASCII):
+        raise argparse.ArgumentTypeError(f'{text!r}: must be numbers of blows with commas between them, as in 12,17,18')
+    return sorted({int(number) for number in text.split(',')})
 
 
 if __name__ == '__main__':

@@ -54,6 +54,7 @@ class Member:
         process: of psutil; None before the first start.
         baseline: what it held once it had settled; None until then.
         starts: how often it was started.
+        last: the last lines that it printed.
     """
 
     def __init__(self, role, environment, folder):
@@ -65,6 +66,7 @@ class Member:
         self._environment, self._folder = environment, folder
         self._lines = collections.deque(maxlen=KEPT)
         self._reader = None
+        self.last = collections.deque(maxlen=3)
 
     @property
     def command(self):
@@ -103,7 +105,9 @@ class Member:
     def _read(self, stream):
         with stream:
             for line in stream:
-                self._lines.append(line[:LINE].decode(errors='replace').rstrip('\n'))
+                text = line[:LINE].decode(errors='replace').rstrip('\n')
+                self._lines.append(text)
+                self.last.append(text)
 
     def printed(self):
         """The newest lines that it printed since the last look."""

@@ -14,6 +14,7 @@ from stress.member import Usage
 
 ANSWERS_WITHIN = 20.0  # [s] ...
 SECONDS_PER_INPUT = 0.01  # ... and so much more, since what is in the queue comes first
+ENDS_WITHIN = 2.0  # [s] after it does not answer any more
 COMES_BACK_WITHIN = 25.0  # [s] until what a blow opened is closed again
 # Python closes some files of ROS, epolls of topics, only when its garbage collector runs.
 MORE = Usage(fds=90, sockets=8, threads=8, megabytes=120.0)
@@ -40,15 +41,21 @@ def check(ground, inputs):
             world.check(ground)
         pulses(ground, ANSWERS_WITHIN + SECONDS_PER_INPUT * inputs)
     except wire.WireError as error:
-        for member in ground.everybody:  # an end is the better explanation
-            alive(member)
-        raise Failure('silent', 'ground', str(error)) from error
+        explain(ground, error)
     ground.settle()
     for member in ground.everybody:
         comes_back(member)
     for member in ground.everybody:
         alive(member)
         prints(member, inputs)
+
+
+def explain(ground, error):
+    """Raise a failure because nobody answers; that a node has ended, or is about to, explains it better."""
+    time.sleep(ENDS_WITHIN)
+    for member in ground.everybody:
+        alive(member)
+    raise Failure('silent', 'ground', str(error)) from error
 
 
 def alive(member):

@@ -11,8 +11,8 @@ SHOWN = 12  # lines, for a person
 ESCAPES = re.compile(r'\x1b(?!\[K|\[\d*m)')  # colours, and clearing the rest of a line, are all right
 TRACEBACK = 'Traceback (most recent call last)'
 FRAME = re.compile(r'^ *File "([^"]+)", line')
-# Python's own and ROS's; what these print of a broken connection is none of the project's.
-FOREIGN = ('/usr/lib/python3', '/opt/ros', '<')
+# Python's own, ROS's, and what ROS generates; what these print of a broken connection is none of the project's.
+FOREIGN = re.compile(r'/usr/lib/python3|/opt/ros/|<|.*/(msg|srv)/_\w+\.py$')
 THREAD = '_bootstrap_inner'  # in a traceback: it ended a thread ...
 CONNECTION = '/rospy/impl/tcpros'  # ... that was there for one connection
 # ROS repeats in these what a client sent, whatever that is.
@@ -57,7 +57,7 @@ def _is_ours(lines):
     has_ended_thread = False
     for line in lines:
         frame = FRAME.match(line)
-        if frame and not frame.group(1).startswith(FOREIGN):
+        if frame and not FOREIGN.match(frame.group(1)):
             return True
         if frame and CONNECTION in line:
             return False

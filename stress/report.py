@@ -45,14 +45,17 @@ class Report:
         for counter, number in ((self._blows, 1), (self._inputs, blow.inputs), (self._faults, blow.faults)):
             counter[blow.kind.name] += number
 
-    def failed(self, failure, blow):
-        """Print a failure at once; `blow` is None if it came before the first one."""
+    def failed(self, failure, blow, ground):
+        """Print a failure at once; blow and ground are None if it came before the first one."""
         self.failures += 1
         number = 'at the start' if blow is None else f'blow {blow.number}'
         self.say(f'FAILED, seed {self._seed}, {number}')
         if blow is not None:
             self.say(f'  asked: {blow}')
         self.say(f'  seen:  {failure}')
+        for member in ground.everybody if ground else ():
+            for line in () if member.role.talks else member.last:
+                self.say(f'  {member.name} printed last: {line[:200]!r}')
 
     def known(self, failure):
         """Say that a failure is of a sort that was shortened before."""

@@ -34,7 +34,7 @@ class Run:
 
     def strike(self, numbers, is_last=False):
         """Strike blows on a fresh ground until one fails or the time is over; returns the numbers of those struck."""
-        struck, blow = [], None
+        struck, blow, here = [], None, None
         try:
             with self._ground(self._make.scenario(numbers[0]), self._publishers) as here:
                 for number in numbers:
@@ -48,7 +48,7 @@ class Run:
                     finally:
                         self._report.count(blow)
         except Failure as failure:
-            self._report.failed(failure, blow)
+            self._report.failed(failure, blow, here)
             if struck and not is_last:
                 self._shorten(failure, struck)
         return struck or numbers

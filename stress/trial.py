@@ -5,7 +5,6 @@ import pathlib
 import tempfile
 
 from stress import oracles, wire
-from stress.failure import Failure
 from stress.ground import Ground
 
 
@@ -29,7 +28,5 @@ def strike(here, blow):
     try:
         blow.kind.strike(here, blow.chance, blow)
     except wire.WireError as error:
-        for member in here.everybody:
-            oracles.alive(member)
-        raise Failure('silent', 'ground', str(error)) from error
+        oracles.explain(here, error)
     oracles.check(here, blow.inputs)

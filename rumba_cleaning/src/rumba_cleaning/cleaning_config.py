@@ -11,7 +11,8 @@ DAY = 86400.0  # [s]
 class TimeLimits:
     """When an action that has not ended is given up; a goal may name its own limit."""
 
-    clean: float = setting(DAY, 'for clean, with all its charging', 's', 1.0, 1e7)
+    clean: float = setting(DAY, 'for clean, with all its charging; longer on a floor that takes longer', 's', 1.0,
+                           1e7)
     dock: float = setting(600.0, 'for dock', 's', 1.0, 1e7)
     undock: float = setting(60.0, 'for undock', 's', 1.0, 1e7)
     go_to: float = setting(600.0, 'for go_to', 's', 1.0, 1e7)

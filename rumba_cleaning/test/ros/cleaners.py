@@ -16,8 +16,8 @@ from rumba_msg.msg import CleanAction, DockAction, GoToAction, GoToGoal, Mission
 KEY_PERIOD = 0.1  # [s] from one command of a person to the next, as of teleop_key
 ACTIONS = {'clean': CleanAction, 'dock': DockAction, 'undock': UndockAction, 'go_to': GoToAction}
 # Statuses of actionlib by the code of the outcome; goals with any other code are aborted.
-STATUSES = {Outcome.SUCCEEDED: GoalStatus.SUCCEEDED, Outcome.INCOMPLETE: GoalStatus.SUCCEEDED,
-            Outcome.CANCELLED: GoalStatus.PREEMPTED, Outcome.PREEMPTED: GoalStatus.PREEMPTED}
+STATUSES = {Outcome.SUCCEEDED: GoalStatus.SUCCEEDED, Outcome.CANCELLED: GoalStatus.PREEMPTED,
+            Outcome.PREEMPTED: GoalStatus.PREEMPTED}
 
 
 def go_to(x, y, theta=float('nan'), time_limit=0.0):

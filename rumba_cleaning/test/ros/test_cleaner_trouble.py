@@ -91,14 +91,13 @@ class CleanerTroubleTest(unittest.TestCase):
     def test_5_bad_input_gets_one_line_and_exit_code_2_and_is_forgotten(self):
         folder = folder_of(self, {'misspelt.py': b'spede * 2.0', 'leaves.py': b'import sys\nsys.exit(3)'})
         environment = {**os.environ, 'PYTHONPATH': f'{folder}:{os.environ["PYTHONPATH"]}'}
-        processes = [subprocess.Popen(['rosrun', 'rumba_cleaning', 'cleaner', f'__name:=bad_{number}', argument],
-                                      env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                                      universal_newlines=True) for number, (_, argument) in enumerate(BAD_STARTS)]
-        for number, ((message, argument), process) in enumerate(zip(BAD_STARTS, processes)):
+        for number, (message, argument) in enumerate(BAD_STARTS):
             with self.subTest(argument):
-                out, error = process.communicate(timeout=TIMEOUT)
-                self.assertRegex(error, message)
-                self.assertEqual((process.returncode, out, error.count('\n')), (2, '', 1))
+                done = subprocess.run(['rosrun', 'rumba_cleaning', 'cleaner', f'__name:=bad_{number}', argument],
+                                      env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=TIMEOUT,
+                                      universal_newlines=True, check=False)
+                self.assertRegex(done.stderr, message)
+                self.assertEqual((done.returncode, done.stdout, done.stderr.count('\n')), (2, '', 1))
                 self.assertFalse(any(value != {} for value in rospy.get_param(f'/bad_{number}', {}).values()))
 
     def test_6_a_simulator_that_was_killed_is_no_robot_any_more(self):

@@ -8,6 +8,7 @@ from missions import DOCK, PLAN, mission
 from rooms import room
 
 from rumba_cleaning.behaviour import Observation
+from rumba_cleaning.behaviours.dock import approach
 from rumba_cleaning.mission.battery_watch import BatteryWatch
 from rumba_sim.model.geometry import Pose
 
@@ -35,3 +36,22 @@ def test_without_a_path_to_the_dock_no_charge_is_enough():
     plan = room(4.0, 3.0, boxes=[(2.4, 0.0, 2.6, 3.0)], dock=DOCK, start=Pose(1.0, 1.0, 0.0))
     world, _ = mission(plan)
     assert BatteryWatch(context_of(plan, world)).needed(Pose(1.0, 1.0, 0.0)) == math.inf
+
+
+@pytest.mark.parametrize('first', [0.9001, 0.905, 0.91])
+def test_a_battery_that_reports_whole_percents_is_not_taken_for_an_empty_one(first):
+    watch = BatteryWatch(context_of(PLAN, mission()[0]))
+    before = watch.needed(DOCK) - 0.05
+    rate = (0.19 + 1.0 + 0.5) / 9720.0
+    for tick in range(8000):
+        charge = math.ceil(100.0 * (first - 0.5 * rate * tick)) / 100.0
+        watch.measure(Observation(0.5, DOCK, state_of_charge=charge))
+        assert watch.needed(DOCK) - 0.05 <= 1.3 * before
+    assert watch.needed(DOCK) - 0.05 == pytest.approx(before, rel=0.02)
+
+
+def test_the_way_to_the_dock_is_taken_to_be_longer_than_its_length_by_turns_and_detours():
+    watch = BatteryWatch(context_of(PLAN, mission()[0]))
+    rate, home = (0.19 + 1.0 + 0.5) / 9720.0, approach(watch._context)
+    far = watch.needed(Pose(home.x - 2.0, home.y, 0.0)) - watch.needed(home)
+    assert far == pytest.approx(1.6 * 2.0 / 0.45 * rate, rel=0.03)

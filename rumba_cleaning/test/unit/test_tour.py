@@ -100,12 +100,25 @@ def test_ways_lead_around_walls_and_end_at_the_stretches():
 def test_walls_do_not_vanish_from_ways():
     floor = ground(room(4.0, 3.0, 0.05, [(1.95, 0.0, 2.0, 2.2)]))
     near = np.array([[1.7, 0.5], [2.3, 0.5]])
-    metres, _ = compiled_ways.lengths(floor.clearance, floor.reach, (near - floor.plan.origin) / floor.plan.resolution)
+    metres, _ = compiled_ways.lengths(floor.clearance, floor.reach, floor.reach, 0.0,
+                                      (near - floor.plan.origin) / floor.plan.resolution)
     assert metres[0, 1] == np.inf and metres[0, 0] == 0.0
 
 
+def test_a_way_keeps_off_walls_except_at_its_ends():
+    """A robot that presses against a corner is stuck."""
+    floor = ground(room(4.0, 3.0, 0.02, [(1.5, 0.0, 2.5, 1.0)]))
+    corner = floor.reach + 1.0
+    for above, is_seen in ((0.02, True), (0.002, False)):
+        points = np.array([[1.0, corner + above], [3.0, corner + above]])
+        stretches = [over_path(point, point + [0.05, 0.0]) for point in points]
+        way = Tour(floor, points[0] - [0.3, 0.0], stretches, None, SPEED).legs()[1].way
+        assert (way is not None) == is_seen and (way is None or length(way) == approx(1.95))
+
+
 def test_stretches_that_are_left_out_shorten_the_tour_by_what_was_promised():
-    stretches = [over_path((1.0, 1.0), (2.0, 1.0)), over_path((4.0, 5.0), (4.1, 5.0)), over_path((3.0, 1.0), (4.0, 1.0))]
+    stretches = [over_path((1.0, 1.0), (2.0, 1.0)), over_path((4.0, 5.0), (4.1, 5.0)),
+                 over_path((3.0, 1.0), (4.0, 1.0))]
     made = Tour(HALL, np.array([0.5, 1.0]), stretches, None, SPEED)
     before, saved = made.time, {int(index): time for time, index in made.saved()}
     assert sorted(saved) == [0, 1, 2] and max(saved, key=saved.get) == 1
@@ -134,7 +147,7 @@ def test_places_are_visited_once_each_by_a_short_way():
 
 def uncompiled(module, **names):
     """A module of the planner as plain Python, with other values for some of its names."""
-    source = pathlib.Path(module.__file__).read_text().replace('@numba.njit(cache=True)', '')
+    source = pathlib.Path(module.__file__).read_text().replace('@compiled', '')
     space = {}
     exec(compile(source, module.__file__, 'exec'), space)
     space.update(names)
@@ -150,8 +163,8 @@ def test_compiled_and_uncompiled_tours_and_ways_are_equal():
             module.shaken(made._costs, made._last, made._of, made._begins, found[name], 20, 5)
         assert (found['compiled'] == found['plain']).all()
         nodes = (made._points - HALL.plan.origin) / HALL.plan.resolution
-        metres, _ = compiled_ways.lengths(HALL.clearance, HALL.reach, nodes)
-        assert uncompiled(compiled_ways).lengths(HALL.clearance, HALL.reach, nodes)[0] == approx(metres)
+        metres, _ = compiled_ways.lengths(HALL.clearance, HALL.reach, HALL.reach, 1.0, nodes)
+        assert uncompiled(compiled_ways).lengths(HALL.clearance, HALL.reach, HALL.reach, 1.0, nodes)[0] == approx(metres)
 
 
 def test_segments_of_several_stretches_are_moved_too():

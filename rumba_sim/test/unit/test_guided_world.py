@@ -177,3 +177,14 @@ def test_time_passes_in_no_other_way_than_by_follow_and_jump():
     guided.jump(BEGIN)
     assert guided.world.tick == 2
     assert not isinstance(guided, World) and not hasattr(guided, 'step')
+
+
+@pytest.mark.parametrize('reset', [lambda guided: guided.reset(), lambda guided: guided.world.reset()])
+def test_after_a_reset_the_wheels_begin_at_rest(reset):
+    guided = guided_world()
+    for _ in range(100):
+        guided.robot.command(0.5, 0.0, guided.world.tick)
+        guided.wish()
+    reset(guided)
+    guided.robot.command(0.5, 0.0, guided.world.tick)
+    assert guided.wish().v == pytest.approx(0.9 / RATE)

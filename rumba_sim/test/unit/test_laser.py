@@ -154,6 +154,14 @@ def cells_of(plan):
     return np.where(plan.free, 0, kernel.BLOCKED).astype(np.uint8)
 
 
+def test_a_range_with_noise_is_within_its_limits_or_infinite():
+    far = World(room(9.0, 9.0, start=Pose(1.002, 4.5, 0.0)), seed=4)  # 7.998 m from the wall ahead
+    far.spawn('rumba')
+    ranges = np.concatenate([far.scan('rumba') for _ in range(300)])
+    near = ranges[np.isfinite(ranges)]
+    assert 7.99 < near.max() < 8.0 and near.min() >= 0.12 and np.isposinf(ranges).sum() > 300
+
+
 @pytest.mark.parametrize('resolution', [0.02, 0.0625, 0.05])
 def test_beams_along_the_borders_of_cells_are_exact_and_take_no_more_steps_than_there_are_cells(
         resolution, monkeypatch):

@@ -7,6 +7,7 @@ import pytest
 from pytest import approx
 from rooms import RADIUS, alone, crooked, drive, drove, quiet, room
 
+from rumba_sim.model.config import updated
 from rumba_sim.model.constants import constants
 from rumba_sim.model.errors import ConfigError, MapError, WorldError
 from rumba_sim.model.geometry import Pose
@@ -271,3 +272,29 @@ def test_a_reset_restores_the_first_charge_and_brushes():
     world.step(1000)
     world.reset()
     assert world.robots['rumba'].brushes_up and world.robots['rumba'].battery.percentage == 40
+
+
+def test_a_further_robot_begins_at_the_nearest_place_to_which_it_could_drive():
+    world = World(room(3.0, 2.0, 0.05, [(0.0, 1.0, 3.0, 1.05)], start=Pose(1.0, 1.24, 0.0)))  # no door to below
+    poses = [world.spawn(name).pose for name in ('rumba', 'rumba2', 'rumba3', 'rumba4')]
+    assert poses[0][:2] == (1.0, 1.24) and all(pose.y > 1.05 for pose in poses)
+    assert math.hypot(poses[1].x - 1.0, poses[1].y - 1.24) == approx(2.5 * RADIUS, abs=0.02)
+
+
+def test_a_battery_of_less_capacity_is_full_at_once():
+    world, robot = alone()
+    world.config = updated(world.config, {'battery': {'capacity': 1.0}}, 'test')
+    assert robot.battery.state_of_charge == 1.0 and robot.battery.percentage == 100
+
+
+def test_robots_do_not_overlap_if_they_become_faster_while_they_drive():
+    world = World(room(20.0, 2.0, 0.1), quiet(drive={'max_speed': 0.1, 'acceleration': 1000.0}))
+    left, right = world.spawn('rumba', Pose(2.0, 1.0, 0.0)), world.spawn('rumba2', Pose(12.0, 1.0, math.pi))
+    world.step(10)
+    world.config = updated(world.config, {'drive': {'max_speed': 5.0}}, 'test')
+    for _ in range(100):
+        left.command(5.0, 0.0, world.tick)
+        right.command(5.0, 0.0, world.tick)
+        world.step()
+        assert math.hypot(left.pose.x - right.pose.x, left.pose.y - right.pose.y) >= 2.0 * RADIUS
+    assert left.bumper == (True, True)

@@ -82,8 +82,8 @@ def test_an_hour_that_is_saved_and_restored_each_minute_ends_as_an_uninterrupted
     worlds = []
     for is_interrupted in (False, True):
         world = World(PLAN, CONFIG, seed=3)
-        for name in ('a', 'b', 'c'):
-            world.spawn(name)
+        for name, x, y in (('a', 0.4, 1.4), ('b', 2.0, 2.5), ('c', 2.2, 0.6)):
+            world.spawn(name, Pose(x, y, 0.0))
         rng = np.random.default_rng(4)
         for minute in range(60):
             if is_interrupted:
@@ -100,7 +100,7 @@ def test_an_hour_that_is_saved_and_restored_each_minute_ends_as_an_uninterrupted
         worlds.append(world)
     assert worlds[0].digest() == worlds[1].digest()
     assert worlds[0].state().members == worlds[1].state().members
-    assert worlds[0].floor.coverage > 0.2
+    assert worlds[0].floor.coverage > 0.1
 
 
 def test_a_state_is_a_copy():

@@ -1,11 +1,12 @@
-"""The search for a path on the grid of the ground, compiled by numba; NUMBA_DISABLE_JIT=1 gives the same paths."""
+"""The search for a path on the grid of the ground, compiled by numba."""
 
 import heapq
 import math
 from typing import Any, Tuple
 
-import numba
 import numpy as np
+
+from rumba_cleaning.belief.compiled import compiled
 
 Array = Any  # numpy.ndarray
 
@@ -13,7 +14,7 @@ STEPS = ((-1, -1), (-1, 0), (-1, 1), (0, -1), (0, 1), (1, -1), (1, 0), (1, 1))  
 LESS = 1e-9  # [nodes] a shorter path: more than rounding errors
 
 
-@numba.njit(cache=True)
+@compiled
 def cheapest(costs: Array, first: Tuple[int, int], last: Tuple[int, int]) -> Array:
     """The cheapest path between two nodes (A*, P. Hart and others, A Formal Basis for the Heuristic Determination of
     Minimum Cost Paths, 1968).
@@ -53,7 +54,7 @@ def cheapest(costs: Array, first: Tuple[int, int], last: Tuple[int, int]) -> Arr
     return np.empty((0, 2), np.int64)
 
 
-@numba.njit(cache=True)
+@compiled
 def walked_back(before: Array, first: Tuple[int, int], last: Tuple[int, int]) -> Array:
     """The path to `last`, if `before` holds for each node the step that led to it."""
     count, row, column = 1, last[0], last[1]

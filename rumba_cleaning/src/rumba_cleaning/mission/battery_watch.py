@@ -13,7 +13,7 @@ from rumba_sim.model.kernel import Array
 
 DOCKING = 40.0  # [s] from before the dock onto its contacts; the median of bench/docking.py is 31 s
 SLOWNESS = 1.6  # times longer than its length at full speed the drive to the dock takes at most, with turns and detours
-SHORTEST = 2.0  # [s] over which a fall of the charge is a measurement
+FALL = 0.05  # of the charge: a smaller fall is no measurement, since a battery may report whole percents
 SECONDS = 3600.0  # in an hour
 
 
@@ -29,7 +29,8 @@ class BatteryWatch:
         self._context = context
         battery = context.robot.battery
         load = battery.idle_current + battery.wheel_current + battery.brush_current
-        self._rate = load * battery.drain / (battery.capacity * SECONDS)  # [1/s] of the state of charge
+        self._usual = load * battery.drain / (battery.capacity * SECONDS)  # [1/s] of the state of charge
+        self._rate = self._usual
         self._since: Optional[float] = None  # state of charge when it began to fall
         self._time = 0.0  # [s] since then
         self._lengths: 'Optional[Future[Array]]' = None
@@ -47,13 +48,13 @@ class BatteryWatch:
         return self._lengths is None or self._lengths.done()
 
     def measure(self, observation: Observation) -> None:
-        """Measure the charge."""
+        """Measure the rate from the charge and the time since it began to fall."""
         if observation.is_docked or self._since is None or observation.state_of_charge > self._since:
             self._since, self._time = observation.state_of_charge, 0.0
             return
         self._time += observation.dt
-        if self._time > SHORTEST:
-            self._rate = max(self._rate, (self._since - observation.state_of_charge) / self._time)
+        if self._since - observation.state_of_charge >= FALL:
+            self._rate = max(self._usual, (self._since - observation.state_of_charge) / self._time)
 
     def needed(self, pose: Pose) -> float:
         """State of charge that is enough to reach the dock from a pose, with the reserve; inf if no path leads there.

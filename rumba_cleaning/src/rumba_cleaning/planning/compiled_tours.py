@@ -1,19 +1,20 @@
-"""The search for short tours, compiled by numba; without it (NUMBA_DISABLE_JIT=1) it gives the same results.
+"""The search for short tours, compiled by numba.
 
 Arguments that many functions share:
     costs: float64 (variants + 1, variants) [s], from the exit of a variant to the entry of another one; the last row
         belongs to the start of the tour.
     last: float64 (variants + 1) [s], from the exit of a variant to the end of the tour.
-    of: int (variants), the stretch to which each variant belongs; those of a stretch follow one another, in pairs: a path
-        and the same path backward. A stretch that has only one variant is a point.
+    of: int (variants), the stretch to which each variant belongs; those of a stretch follow one another, in pairs: a
+        path and the same path backward. A stretch that has only one variant is a point.
     begins: int (stretches + 1), the first variant of each stretch, and the number of variants.
     found: int (stretches), a tour: one variant of each stretch, in the order in which they are driven.
 """
 
 from typing import Any, Tuple
 
-import numba
 import numpy as np
+
+from rumba_cleaning.belief.compiled import compiled
 
 Array = Any  # numpy.ndarray
 
@@ -21,17 +22,17 @@ BETTER = 1e-6  # [s] an improvement: more than rounding errors, or the search wo
 SEGMENTS = (1, 2, 3, 5)  # stretches that are moved together; our choice: longer segments take more time to try
 
 
-@numba.njit(cache=True)
+@compiled
 def length(costs: Array, last: Array, found: Array) -> float:
     """Time between the stretches of a tour [s]."""
     time, here = 0.0, costs.shape[0] - 1
     for index in range(len(found)):
         time += costs[here, found[index]]
         here = found[index]
-    return time + last[here]
+    return float(time + last[here])
 
 
-@numba.njit(cache=True)
+@compiled
 def cheapest_slot(costs: Array, last: Array, found: Array, count: int, first: int, final: int) -> Tuple[float, int]:
     """Where a segment, from variant `first` to `final`, costs least in a tour of `count` stretches: time [s], slot."""
     best, slot, here = np.inf, 0, costs.shape[0] - 1
@@ -47,7 +48,7 @@ def cheapest_slot(costs: Array, last: Array, found: Array, count: int, first: in
     return best, slot
 
 
-@numba.njit(cache=True)
+@compiled
 def insertion(costs: Array, last: Array, found: Array, count: int, low: int, high: int) -> Tuple[float, int, int]:
     """The variant from `low` to `high`, and the slot, that cost least: time [s], slot, variant."""
     best, slot, variant = np.inf, 0, low
@@ -58,7 +59,7 @@ def insertion(costs: Array, last: Array, found: Array, count: int, low: int, hig
     return best, slot, variant
 
 
-@numba.njit(cache=True)
+@compiled
 def built(costs: Array, last: Array, begins: Array) -> Array:
     """A tour by cheapest insertion."""
     stretches = len(begins) - 1
@@ -81,7 +82,7 @@ def built(costs: Array, last: Array, begins: Array) -> Array:
     return found
 
 
-@numba.njit(cache=True)
+@compiled
 def rechosen(costs: Array, last: Array, of: Array, begins: Array, found: Array) -> None:
     """Choose the best variant of each stretch of a tour without changing their order (dynamic programming)."""
     count, most = len(found), 0
@@ -110,14 +111,14 @@ def rechosen(costs: Array, last: Array, of: Array, begins: Array, found: Array) 
         best = came[index, best - low]
 
 
-@numba.njit(cache=True)
+@compiled
 def back(of: Array, begins: Array, variant: int) -> int:
     """The same path as a variant in the other direction; a point has none."""
     low = begins[of[variant]]
-    return variant if begins[of[variant] + 1] - low == 1 else low + ((variant - low) ^ 1)
+    return int(variant if begins[of[variant] + 1] - low == 1 else low + ((variant - low) ^ 1))
 
 
-@numba.njit(cache=True)
+@compiled
 def turn_round(of: Array, begins: Array, part: Array) -> None:
     """Drive a part of a tour from its end to its beginning."""
     part[:] = part[::-1].copy()
@@ -125,7 +126,7 @@ def turn_round(of: Array, begins: Array, part: Array) -> None:
         part[index] = back(of, begins, part[index])
 
 
-@numba.njit(cache=True)
+@compiled
 def moved(costs: Array, last: Array, of: Array, begins: Array, found: Array, size: int) -> bool:
     """Move each segment of `size` stretches, also turned round, to where it costs less (or-opt); whether any was."""
     count = len(found)
@@ -147,7 +148,8 @@ def moved(costs: Array, last: Array, of: Array, begins: Array, found: Array, siz
                                              begins[of[part[0]] + 1])
         else:
             added, slot = cheapest_slot(costs, last, rest, count - size, part[0], part[size - 1])
-            turned, where = cheapest_slot(costs, last, rest, count - size, back(of, begins, part[size - 1]), back(of, begins, part[0]))
+            turned, where = cheapest_slot(costs, last, rest, count - size, back(of, begins, part[size - 1]),
+                                          back(of, begins, part[0]))
             if turned < added:
                 added, slot = turned, where
                 turn_round(of, begins, part)
@@ -159,7 +161,7 @@ def moved(costs: Array, last: Array, of: Array, begins: Array, found: Array, siz
     return any_moved
 
 
-@numba.njit(cache=True)
+@compiled
 def untangled(costs: Array, last: Array, of: Array, begins: Array, found: Array) -> bool:
     """Turn segments round where that saves time (2-opt); whether any was."""
     count = len(found)
@@ -179,7 +181,7 @@ def untangled(costs: Array, last: Array, of: Array, begins: Array, found: Array)
     return any_turned
 
 
-@numba.njit(cache=True)
+@compiled
 def improved(costs: Array, last: Array, of: Array, begins: Array, found: Array, rounds: int) -> None:
     """Improve a tour in rounds, as long as that helps."""
     for _ in range(rounds):
@@ -192,7 +194,7 @@ def improved(costs: Array, last: Array, of: Array, begins: Array, found: Array, 
             return
 
 
-@numba.njit(cache=True)
+@compiled
 def savings(costs: Array, last: Array, found: Array) -> Array:
     """What leaving out each stretch of a tour would save: float64 (stretches) [s]."""
     times = np.empty(len(found))
@@ -207,7 +209,7 @@ def savings(costs: Array, last: Array, found: Array) -> Array:
     return times
 
 
-@numba.njit(cache=True)
+@compiled
 def shaken(costs: Array, last: Array, of: Array, begins: Array, found: Array, rounds: int, kicks: int) -> None:
     """Improve a tour, then swap segments of it at random and improve again, `kicks` times; the best tour is kept.
 

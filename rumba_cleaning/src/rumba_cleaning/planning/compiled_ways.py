@@ -1,10 +1,11 @@
-"""Ways and paths, compiled by numba; without it (NUMBA_DISABLE_JIT=1) the functions give the same results."""
+"""Ways and paths, compiled by numba."""
 
 import math
 from typing import Any, Tuple
 
-import numba
 import numpy as np
+
+from rumba_cleaning.belief.compiled import compiled
 
 Array = Any  # numpy.ndarray
 
@@ -12,25 +13,31 @@ CLOSE = 0.02  # [m] points so near to each other have no direction between them
 SHARP = 1.6  # [rad] a little more than a right angle
 
 
-@numba.njit(cache=True)
-def sight(clearance: Array, least: float, x: float, y: float, to_x: float, to_y: float) -> bool:
-    """Whether each node along the line from (x, y) to (to_x, to_y) [nodes] has a clearance, at least [m]."""
-    steps = int(math.hypot(to_x - x, to_y - y)) + 1
+@compiled
+def sight(clearance: Array, least: float, touching: float, near: float, x: float, y: float, to_x: float,
+          to_y: float) -> bool:
+    """Whether a robot can drive along the line from (x, y) to (to_x, to_y) [nodes].
+
+    Each node along the line needs a clearance `least` [m]; within `near` [nodes] of either end `touching` [m] is enough.
+    """
+    size = math.hypot(to_x - x, to_y - y)
+    steps = int(size) + 1
     for step in range(steps + 1):
         share = step / steps
         row, column = int(math.floor(y + share * (to_y - y) + 0.5)), int(math.floor(x + share * (to_x - x) + 0.5))
-        if clearance[row, column] < least:
+        is_near = min(share, 1.0 - share) * size <= near
+        if clearance[row, column] < (touching if is_near else least):
             return False
     return True
 
 
-@numba.njit(cache=True)
-def lengths(clearance: Array, least: float, points: Array) -> Tuple[Array, Array]:
+@compiled
+def lengths(clearance: Array, least: float, touching: float, near: float, points: Array) -> Tuple[Array, Array]:
     """Lengths [nodes] of the shortest paths from point to point over lines of sight, and the last stop on each of them.
 
     Args:
         clearance: float64 (rows + 1, columns + 1) [m].
-        least: clearance on the way [m].
+        least, touching, near: see `sight`.
         points: float64 (n, 2), x and y [nodes].
 
     Returns:
@@ -44,7 +51,8 @@ def lengths(clearance: Array, least: float, points: Array) -> Tuple[Array, Array
         found[one, one] = 0.0
         for other in range(one):
             distance = math.hypot(points[one, 0] - points[other, 0], points[one, 1] - points[other, 1])
-            if sight(clearance, least, points[one, 0], points[one, 1], points[other, 0], points[other, 1]):
+            if sight(clearance, least, touching, near, points[one, 0], points[one, 1], points[other, 0],
+                     points[other, 1]):
                 found[one, other] = found[other, one] = distance
     for middle in range(count):
         for one in range(count):
@@ -58,19 +66,19 @@ def lengths(clearance: Array, least: float, points: Array) -> Tuple[Array, Array
     return found, before
 
 
-@numba.njit(cache=True)
+@compiled
 def wrapped(angle: float) -> float:
     """The size of an angle, 0 to pi [rad]."""
     return abs((angle + math.pi) % (2.0 * math.pi) - math.pi)
 
 
-@numba.njit(cache=True)
+@compiled
 def turning(angle: float, free: float, rate: float, stop: float) -> float:
     """Time lost in a corner [s]: nothing below `free` [rad], and a stop beyond a right angle."""
     return max(angle - free, 0.0) / rate + (stop if angle > SHARP else 0.0)
 
 
-@numba.njit(cache=True)
+@compiled
 def drive_times(metres: Array, points: Array, exits: Array, entries: Array, out: Array, into: Array, speed: float,
                 free: float, rate: float, stop: float) -> Array:
     """Times [s] from each exit to each entry.
@@ -101,7 +109,7 @@ def drive_times(metres: Array, points: Array, exits: Array, entries: Array, out:
     return found
 
 
-@numba.njit(cache=True)
+@compiled
 def kept(path: Array, off: float) -> Array:
     """Which waypoints of a path (any, 2) are farther than `off` from the line between others: bool (any)."""
     keep = np.zeros(len(path), np.bool_)

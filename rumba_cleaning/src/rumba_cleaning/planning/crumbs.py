@@ -1,4 +1,4 @@
-"""Paths past crumbs: what neither rings nor lanes clean. A long one is driven along its middle, a spot is passed over."""
+"""Paths past crumbs, which rings do not clean. A long one is driven along its middle, a spot is passed over."""
 
 import math
 from typing import Dict, List, Set, Tuple
@@ -18,8 +18,11 @@ LEAST = 0.0008  # [m^2] of a crumb: large makes fewer detours, small meets high 
 STRIP = 0.3  # [m] length of a crumb that is driven along its middle; a shorter one is passed over in any direction
 TWIG = 0.12  # [m] length of a side branch of the middle that is driven too
 HEADINGS = 8  # in which a spot may be passed over; more take more time to compare
-OVER = 0.02  # [m] before and after the middle of a spot
+OVER = 0.02  # [m] before and behind a spot: large passes over all of it, small takes less time
 AVERAGED = 5  # [cells] along the middle of a strip, which goes from cell to cell in steps
+RIM = 0.045  # [m] from where the robot can stand to the middle of a spot: beyond that it turns to reach it
+INTO = 0.06  # [m] that the robot drives straight toward a spot at the rim
+TURN = 2.5  # [s] that a turn by 180 degrees takes, with stopping and starting
 STRAIGHT = 0.012  # [m] by which the path along a strip may leave its middle
 NEIGHBOURS = tuple((row, column) for row in (-1, 0, 1) for column in (-1, 0, 1) if row or column)
 
@@ -80,13 +83,20 @@ def _standing(ground: Ground, points: Array) -> Array:
 
 
 def _spot(ground: Ground, cells: Array, corner: Array, region: int, area: float) -> Stretch:
-    """Over the middle of a spot, in any direction."""
+    """Over the middle of a spot, in any direction; if it is at the rim, into it, and back after a turn on the spot."""
     middle = ground.points(np.argwhere(cells).mean(axis=0)[np.newaxis] + corner + 0.5)
     point = _standing(ground, middle)[0]
+    away = point - middle[0]
+    distance = float(np.hypot(*away))
+    if distance > RIM:
+        outside = point + INTO / distance * away
+        outside = outside if ground.are_free(outside[np.newaxis])[0] else point
+        return Stretch(pair([np.array([outside, point, outside])]), region, area, True, TURN)
+    half = 0.5 * max(cells.shape) * ground.plan.resolution + OVER
     variants: List[Variant] = []
     for number in range(HEADINGS // 2):
         angle = math.pi * number / (HEADINGS // 2)
-        step = OVER * np.array([math.cos(angle), math.sin(angle)])
+        step = half * np.array([math.cos(angle), math.sin(angle)])
         line = np.array([point - step, point + step])
         line = np.where(ground.are_free(line)[:, np.newaxis], line, point)
         variants += pair([line])
@@ -94,7 +104,7 @@ def _spot(ground: Ground, cells: Array, corner: Array, region: int, area: float)
 
 
 def middle_lines(cells: Array, twig: int) -> List[Array]:
-    """Lines of cells in the middle of bool (rows, columns), with side branches of `twig` cells or more: int (any, 2)."""
+    """Lines of cells, int (any, 2), in the middle of bool (rows, columns); side branches have `twig` cells or more."""
     lines: List[Array] = []
     skeleton = morphology.skeletonize(np.pad(cells, 1))[1:-1, 1:-1]
     left: Set[Pixel] = {(row, column) for row, column in np.argwhere(skeleton).tolist()}

@@ -6,7 +6,6 @@ import numpy as np
 
 from rumba_cleaning.behaviours.follower import Route
 from rumba_cleaning.belief.context import Context
-from rumba_cleaning.belief.ground import Ground
 from rumba_cleaning.planning import tour
 from rumba_cleaning.planning.crumbs import STRIP, crumbs
 from rumba_cleaning.planning.regions import Ways, doors, regions
@@ -18,9 +17,11 @@ from rumba_sim.model.kernel import Array
 
 # Our choice.
 SURPLUS = 0.002  # of coverage that is planned beyond the target, since no robot drives exactly as planned
+MOST = 0.5  # share of what was missed that rings must clean, for them to be driven
 YIELD = 0.7  # share of a crumb that is swept in passing, about: small plans for more crumbs than the target needs
 CULLS = 4  # rounds in which crumbs are left out that cost much time for their area: more make better choices
-TRANSIT = 0.5  # [m] of a way between two stretches: a longer one is driven at the speed of transit
+TRANSIT = 0.5  # [m] of a way between two stretches: a longer one is driven at the speed of transit, ...
+SLOW = 0.15  # [m] ... except for its end: the robot has slowed down and lowered the brushes before its path begins
 
 Regional = Dict[int, List[Stretch]]  # by the label of their region
 
@@ -28,8 +29,8 @@ Regional = Dict[int, List[Stretch]]  # by the label of their region
 def plan(context: Context, pose: Pose) -> Optional[Route]:
     """A route that cleans what was missed; None if nothing was missed, or none of it can be reached.
 
-    As long as rings clean much, crumbs that are no longer than a spot are left for the next route, which knows where
-    the robot really drove; then only as many crumbs are visited as the target needs.
+    As long as rings clean most of it, small crumbs are left for the next route, which knows where the robot really
+    drove. The routes after that visit only as many crumbs as the target needs.
 
     Args:
         context: with the floor that was swept before; it is not changed.
@@ -38,8 +39,11 @@ def plan(context: Context, pose: Pose) -> Optional[Route]:
     ground, brush = context.ground, context.robot.brush.width
     labels = regions(ground)
     paper = context.swept.copy()
-    found = [stretch(chain, brush) for chain in chains(rings(ground, paper, labels, brush))]
-    found += crumbs(ground, paper.missing_share(), labels, STRIP if found else 0.0)
+    chained = chains(rings(ground, paper, labels, brush))
+    if paper.coverage - context.swept.coverage > MOST * (1.0 - context.swept.coverage):
+        found = [stretch(chain, brush) for chain in chained] + crumbs(ground, paper.missing_share(), labels, STRIP)
+    else:
+        found = crumbs(ground, context.swept.missing_share(), labels)
     if not found:
         return None
     by_region: Regional = {}
@@ -83,8 +87,11 @@ def _cull(context: Context, tours: List[Tuple[int, Tour]], by_region: Regional) 
     swept = context.swept
     needed = (context.target_coverage + SURPLUS - swept.coverage) * swept.reachable_area / YIELD  # [m^2]
     for last in range(CULLS, 0, -1):
-        rows = [(time / by_region[name][int(index)].area, by_region[name][int(index)].area, number, int(index))
-                for number, (name, route) in enumerate(tours) for time, index in route.saved()]
+        rows: List[Tuple[float, float, int, int]] = []
+        for number, (name, route) in enumerate(tours):
+            for saved, index in route.saved():
+                part = by_region[name][int(index)]
+                rows.append((float(saved + part.delay) / part.area, part.area, number, int(index)))
         spare = (sum(row[1] for row in rows) - needed) / last
         dropped: Dict[int, List[int]] = {}
         for _, area, number, index in sorted(rows, key=lambda row: -row[0]):
@@ -108,8 +115,19 @@ def _route(context: Context, pose: Pose, tours: List[Tuple[int, Tour]], by_regio
                 way = ground.path(waypoints[-1][-1], path[0])
             if way is None:
                 continue
-            length = float(np.hypot(*np.diff(way, axis=0).T).sum())
+            way, way_speeds = _way(way, config.speed, config.transit_speed)
             waypoints += [way[1:], path[1:]]
-            speeds += [np.full(len(way) - 1, config.transit_speed if length > TRANSIT else config.speed),
-                       np.full(len(path) - 1, config.speed)]
+            speeds += [way_speeds, np.full(len(path) - 1, config.speed)]
     return Route(np.concatenate(waypoints), np.concatenate(speeds)) if speeds else None
+
+
+def _way(way: Array, speed: float, transit_speed: float) -> Tuple[Array, Array]:
+    """A way (any, 2) [m] between two stretches, with the end of a long one apart, and the speeds on it [m/s]."""
+    legs = np.hypot(*np.diff(way, axis=0).T)
+    if legs.sum() <= TRANSIT:
+        return way, np.full(len(legs), speed)
+    fast = np.full(len(legs), transit_speed)
+    if legs[-1] <= SLOW:
+        return way, np.append(fast[:-1], speed)
+    slow = way[-1] - SLOW / legs[-1] * (way[-1] - way[-2])
+    return np.concatenate([way[:-1], [slow], way[-1:]]), np.append(fast, speed)

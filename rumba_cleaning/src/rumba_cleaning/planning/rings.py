@@ -20,7 +20,7 @@ from rumba_sim.model.kernel import Array
 # All figures are our choice; each comment says what speaks for a larger and for a smaller value.
 WALL_MARGIN = 0.001  # [m] between robot and wall: small sweeps more of the rim, large touches the wall less often
 # Of the brush's width from ring to ring: small leaves less where corners are cut, large drives less.
-PASS, WIDE_PASS = 0.89, 0.985
+PASS, WIDE_PASS = 0.93, 0.985
 WIDE = 1.0  # [m] mean depth of a region in which rings are so long that few of them have corners
 SPACING = 0.02  # [m] between the waypoints
 SMOOTH = 0.02  # [m] standard deviation of the filter along a ring: takes out the steps of the grid, and cuts corners
@@ -30,6 +30,10 @@ GAP = 0.3  # [m] of a ring that are not needed, but are driven: large saves turn
 WHOLE = 0.85  # share of a ring's waypoints that are needed, for all of it to be driven: saves turns, as GAP does
 SAMPLES = 9  # points across the brush: one for each 2 cm of a brush of 17 cm
 RIDGE = 0.03  # [m] inside a ring the floor must still get wider: where it does not, one pass in the middle is enough
+# [m] from a ring to the next one in its chain, anywhere, at most: large makes fewer stretches, but beyond two radii of
+# the robot there may be a wall in between.
+BESIDE = 0.32
+LOOK = 5  # waypoints from one to the next at which that is looked at
 FORWARD = 0.3  # [m] along the next ring at which it is entered: large bends gently, small drives less twice
 ROTATIONS = 12  # points at which a ring is entered, at most: more give shorter tours, and take more time to compare
 APART = 0.3  # [m] between those points, at least
@@ -184,17 +188,16 @@ def chains(found: List[Ring]) -> List[List[Ring]]:
 
 
 def _followers(found: List[Ring], outer: List[int], inner: List[int]) -> Dict[int, int]:
-    """The ring of `inner` that follows each of `outer`: the longest of those that are nearest to it."""
-    step = max(int(APART / SPACING), 1)
-    tree = spatial.cKDTree(np.concatenate([found[index].waypoints[::step] for index in outer]))
-    owners = np.repeat(outer, [len(found[index].waypoints[::step]) for index in outer])
+    """The ring of `inner` that lies beside each of `outer` all the way around; many of these have none."""
+    trees = {index: spatial.cKDTree(found[index].waypoints) for index in inner}
     followers: Dict[int, int] = {}
-    for index in sorted(inner, key=lambda number: len(found[number].waypoints)):
-        distances, nearest = tree.query(found[index].waypoints[::step])
-        counts = np.bincount(owners[nearest])
-        owner = int(np.argmax(counts))
-        if found[owner].region == found[index].region and np.median(distances) < 0.5:
-            followers[owner] = index  # the longest is the last
+    for index in outer:
+        points = found[index].waypoints[::LOOK]
+        beside = [number for number in inner if found[number].region == found[index].region
+                  and trees[number].query(points[0])[0] < BESIDE
+                  and trees[number].query(points)[0].max() < BESIDE]
+        if beside:
+            followers[index] = beside[0]
     return followers
 
 

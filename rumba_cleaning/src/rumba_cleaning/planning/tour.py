@@ -13,7 +13,9 @@ from rumba_sim.model.kernel import Array
 ROUNDS = 20  # of improvement, at most: most tours stop improving earlier
 KICKS = 50  # random changes of a tour, after each of which it is improved again, at most; ...
 STEPS = 40_000  # ... and at most so many divided by stretches * variants: more make shorter tours, and take more time
-TOUCHING = 0.004  # [m] by which a line of sight may come too near to a wall, along which the robot then slides
+BESIDE = 0.008  # [m] beyond the touching distance on a way: a robot that presses against a corner is stuck; ...
+NEAR = 0.1  # [m] ... except so near to its ends, since stretches lie beside walls: there a way may be ...
+TOUCHING = 0.004  # [m] ... too near by so much, and the robot slides along the wall
 UNSEEN = 3.0  # [m] that are added to twice the distance of points between which no line of sight leads: a guess
 BENT = 0.5  # [rad] a corner by less costs no time, since the robot goes round it at full speed
 STOP = 0.5  # [s] to slow down and to start again at a corner by more than a right angle
@@ -67,7 +69,8 @@ class Tour:
         self._entries, self._exits = numbers[:count], numbers[count:-1]  # the last exit is the start of the tour
         nodes = np.clip((self._points - ground.plan.origin) / ground.plan.resolution, 0.0,
                         np.array(ground.clearance.shape[::-1]) - 1.0)
-        metres, self._before = compiled_ways.lengths(ground.clearance, ground.reach - TOUCHING, nodes)
+        metres, self._before = compiled_ways.lengths(
+            ground.clearance, ground.reach + BESIDE, ground.reach - TOUCHING, NEAR / ground.plan.resolution, nodes)
         self._is_known = np.isfinite(metres)
         apart = np.hypot(*(self._points[:, np.newaxis] - self._points).transpose(2, 0, 1))
         metres = np.where(self._is_known, metres * ground.plan.resolution, 2.0 * apart + UNSEEN)
@@ -77,8 +80,9 @@ class Tour:
         self._costs = compiled_ways.drive_times(metres, self._points, self._exits, self._entries, out, into, *rates)
         self._last = np.zeros(count + 1)
         if end is not None:
-            self._last = compiled_ways.drive_times(metres, self._points, self._exits, numbers[-1:], out, np.array([np.nan]),
-                                           *rates)[:, 0]
+            anywhere = np.array([np.nan])
+            self._last = compiled_ways.drive_times(metres, self._points, self._exits, numbers[-1:], out, anywhere,
+                                                   *rates)[:, 0]
 
     def _improve(self) -> None:
         if len(self._found):
@@ -104,7 +108,8 @@ class Tour:
         """The stretches in order."""
         legs, here = [], self._exits[-1]
         for number in self._found:
-            legs.append(Leg(*self._variants[number], self._way(here, self._entries[number])))
+            stretch, variant = self._variants[number]
+            legs.append(Leg(stretch, variant, self._way(here, self._entries[number])))
             here = self._exits[number]
         return legs
 

@@ -14,6 +14,7 @@ from rumba_cleaning.behaviour import Status
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.cleaning_config import CleaningConfig
 from rumba_cleaning.control import CONTROL_DT, CONTROL_TICKS, STEP_RATE, act
+from rumba_cleaning.mission.duration import longest
 from rumba_cleaning.mission.mission import Mission, State
 from rumba_cleaning.outcome import Outcome
 from rumba_evaluation.trials import starts
@@ -50,7 +51,6 @@ class Trial:
         config = updated(RobotConfig(), {'battery': {'drain': conditions.drain}}, 'conditions')
         cleaning = CleaningConfig()
         self._conditions = conditions
-        self._time_limit = cleaning.time_limit.clean
         self.world = World(plan, config, STEP_RATE, seed)
         poses: Sequence[Optional[Pose]] = [None] * robots
         if conditions.start == ANYWHERE:
@@ -59,6 +59,7 @@ class Trial:
             self.world.spawn(nth_name(number), pose, brushes_up=True)
         self.contexts = [Context(plan, config, cleaning, int(own))
                          for own in np.random.SeedSequence(seed).generate_state(robots)]
+        self._time_limit = longest(self.contexts[0])
         self.missions = [Mission(context, strategy, conditions.target) for context in self.contexts]
         self.ideal_time = self.world.floor.reachable_area / (config.brush.width * cleaning.speed)
         self.curve: List[float] = []

@@ -22,7 +22,7 @@ from rumba_sim.model.world_state import Member, WorldState
 
 NOISE_TICKS = 256  # ticks for which the noise of the wheels is drawn at once
 ON_THEIR_OWN: Array = np.zeros((0, 4))  # `led` of `kernel.advance` if robots drive themselves
-APART = 0.5  # radii between a robot that is added and the others, if there is room; our choice
+APART, TOUCHING = 0.5, 0.0  # radii between a robot that is added and the others, if there is room, and if not
 FLOOR, WHEELS, LASER = 0, 1, 2  # purposes of random generators
 
 
@@ -245,17 +245,24 @@ class World:
 
     def _free_start(self) -> Pose:
         """The free position nearest to the start to which a robot could drive from there; a little apart from others."""
-        where = np.argwhere(stands(self.terrain, float(self.constants[0]['reach']), self.start.x, self.start.y))
-        points = np.array([self.start[:2], *(0.5 * self.terrain.resolution * where[:, ::-1] + self.terrain.origin)])
-        order = np.argsort(np.hypot(*(points - self.start[:2]).T), kind='stable')
         others = [member.pose for member in self.robots.values()]
-        for gap in (APART, 0.0):
+        radius = self._config.drive.radius
+        if all(math.hypot(pose.x - self.start.x, pose.y - self.start.y) >= 2.0 * radius for pose in others):
+            return self.check(self.start)
+        where = np.argwhere(stands(self.terrain, float(self.constants[0]['reach']), self.start.x, self.start.y))
+        points = 0.5 * self.terrain.resolution * where[:, ::-1] + self.terrain.origin
+        points = points[np.argsort(np.hypot(*(points - self.start[:2]).T), kind='stable')]
+        for gap in (APART, TOUCHING):
             free = np.ones(len(points), np.bool_)
             for pose in others:
-                free &= np.hypot(*(points - pose[:2]).T) >= (2.0 + gap) * self._config.drive.radius
-            for x, y in points[order[free[order]]][:1].tolist():
+                free &= np.hypot(*(points - pose[:2]).T) >= (2.0 + gap) * radius
+            for x, y in points[free][:1].tolist():
                 return self.check(Pose(x, y, self.start.theta))
         raise WorldError(f'{self.plan.name}: no room for another robot')
+
+    def swept(self) -> Array:
+        """How much of each cell of the plan is swept: int8 (rows, columns), as `Floor.swept`."""
+        return self.floor.swept(len(self.floor.sweep.samples) // self.plan.rows)
 
     # --- sensors --------------------------------------------------------------------------------------------------
 

@@ -59,8 +59,8 @@ def publish(settings: Settings) -> None:
 def passed(before: Optional[float], now: float) -> float:
     """The time that has passed between two times of ROS [s]; 0 if that is not known.
 
-    Simulated time is 0 until the first message on /clock, which may begin anywhere. It begins again when a simulator or a
-    recording does.
+    Simulated time is 0 until the first message on /clock, which may begin anywhere. It begins again when a simulator or
+    a recording does.
     """
     if not before or not 0.0 <= now - before < LEAP:
         return 0.0

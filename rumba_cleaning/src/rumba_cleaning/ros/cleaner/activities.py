@@ -11,6 +11,7 @@ from rumba_cleaning.behaviours.go_to import GoTo
 from rumba_cleaning.behaviours.guard import Guard
 from rumba_cleaning.behaviours.undock import Undock
 from rumba_cleaning.belief.context import Context
+from rumba_cleaning.mission.duration import longest
 from rumba_cleaning.mission.mission import Mission, State
 from rumba_cleaning.ros.cleaner import conversions
 from rumba_cleaning.ros.cleaner.go_to_position import check_finite
@@ -101,7 +102,7 @@ class Cleaning(Activity):
         config = context.config
         target = config.target_coverage if goal.target_coverage == 0.0 else goal.target_coverage
         return cls(Mission(context, goal.strategy or config.strategy, target), goal.time_limit,
-                   config.time_limit.clean)
+                   longest(context))
 
     def resumed(self, time_limit: float) -> 'Cleaning':
         """The rest of this mission, under a time limit of its own.

@@ -25,7 +25,7 @@ CONNECTED_AFTER = 2.0  # ... but only after this [s] of the wall clock: at a hig
 REST_WITHIN = 2 * SECOND  # [ns] of the robot's time from the end to the result, at most ...
 REST_WITHIN_WALL = 5.0  # ... and at most this [s] of the wall clock, if time stands still
 REST = 0.001  # [m], [rad] that a robot at rest moves at most from one reading to the next
-WORDS = {Outcome.SUCCEEDED: 'done', Outcome.INCOMPLETE: 'done', Outcome.CANCELLED: 'ended',
+WORDS = {Outcome.SUCCEEDED: 'done', Outcome.CANCELLED: 'ended',
          Outcome.PREEMPTED: 'ended'}  # else: given up
 
 
@@ -169,9 +169,8 @@ class Run:
             except (Exception, SystemExit) as error:  # the client gets its answer in any case
                 describe(error)
         result = self.activity.result(self._senses, conversions.outcome(outcome, message))
-        answer = {Outcome.SUCCEEDED: self.handle.set_succeeded, Outcome.INCOMPLETE: self.handle.set_succeeded,
-                  Outcome.CANCELLED: self.handle.set_canceled, Outcome.PREEMPTED: self.handle.set_canceled,
-                  }.get(outcome, self.handle.set_aborted)
+        answer = {Outcome.SUCCEEDED: self.handle.set_succeeded, Outcome.CANCELLED: self.handle.set_canceled,
+                  Outcome.PREEMPTED: self.handle.set_canceled}.get(outcome, self.handle.set_aborted)
         answer(result, message)
         self.is_closed = True
 
