@@ -1,11 +1,15 @@
-"""The CPU time that the coverage planner takes, and the length of its routes."""
+"""The CPU time that the coverage planner takes, the length of its routes, and how both grow with the floor.
 
+    python3 bench/planning.py --plot planning_time.png
+"""
+
+import argparse
+import math
 import pathlib
 import time
 
 import numpy as np
-from common import figures
-from common.office import office
+from common import figures, hard_floors
 
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.cleaning_config import CleaningConfig
@@ -15,20 +19,32 @@ from rumba_sim.model.robot_config import RobotConfig
 from rumba_sim.model.world import World
 
 MAPS = pathlib.Path(__file__).resolve().parents[1] / 'rumba_sim' / 'maps'
-LIMIT = 10.0  # [s] for 1000 x 700 cells, at most; our choice: a person waits that long for a robot to start
+BOUNDS = ((1000.0, 3.0), (3600.0, 10.0))  # [m2, CPU s]; our choice: a person waits so long for a robot to start
+AREAS = (100.0, 250.0, 500.0, 1200.0, 2400.0)  # [m2] of furnished plans, walls and furniture included
+RESOLUTION = 0.05  # [m]
 
 
 def main():
-    """Plan on the maps of the package, and on offices of 1000 x 700 cells."""
+    """Plan, print, and draw."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument('--plot', metavar='FILE', help='draw CPU time over area')
+    arguments = parser.parse_args()
     figures.heading('Planning a whole floor, brush 0.17 m; CPU time of one core')
-    for name in ('studio', 'apartment', 'field'):
+    for name in ('studio', 'apartment', 'field'):  # the first also loads the compiled code
         measure(name, map_file.load(MAPS / f'{name}.yaml'))
-    measure('office of 20 m x 14 m, cells of 2 cm', office(700, 1000, 0.02, 25, 2))
-    measure('office of 50 m x 35 m, cells of 5 cm', office(700, 1000, 0.05, 250, 1))
+    points = []
+    for area in AREAS:
+        drawing = hard_floors.furnished(np.random.default_rng(1), area)
+        points.append(measure(f'furnished, {area:g} m2 in all', hard_floors.drawn('furnished', drawing, RESOLUTION)))
+    points.append(measure('office of 60 m x 60 m', hard_floors.floor('office', 1, RESOLUTION)))
+    (small, fast), (large, slow) = points[1], points[-1]
+    figures.row('growth: exponent of CPU time over area', math.log(slow / fast) / math.log(large / small), below=1.2)
+    if arguments.plot:
+        draw(points, arguments.plot)
 
 
 def measure(name, floor):
-    """Plan once."""
+    """Plan once; the area in reach [m2] and the CPU time [s]."""
     start = World(floor).start
     context = Context(floor, RobotConfig(), CleaningConfig())
     context.swept.begin(start.x, start.y)
@@ -37,8 +53,22 @@ def measure(name, floor):
     seconds = time.process_time() - begin
     length = float(np.hypot(*np.diff(route.waypoints, axis=0).T).sum())
     area = context.swept.reachable_area
-    figures.row(f'{name}, {area:.0f} m2 in reach: planned in [CPU s]', seconds, below=LIMIT)
+    limit = next((bound for most, bound in BOUNDS if area <= most), None)
+    figures.row(f'{name}, {area:.0f} m2 in reach: planned in [CPU s]', seconds, below=limit)
     figures.row('    length of the route * width of the brush / area', length * context.robot.brush.width / area)
+    return area, seconds
+
+
+def draw(points, path):
+    """A picture of CPU times over areas."""
+    from matplotlib import pyplot
+
+    figure, axes = pyplot.subplots(figsize=(6.0, 4.0))
+    axes.plot(*zip(*points), 'o-', label='furnished plans, cells of 5 cm')
+    axes.plot(*zip((0.0, 0.0), *BOUNDS), '--', label='bound')
+    axes.set(xlabel='floor in reach [m$^2$]', ylabel='CPU time [s]', xlim=(0.0, None), ylim=(0.0, None))
+    axes.legend()
+    figure.savefig(path, bbox_inches='tight')
 
 
 if __name__ == '__main__':

@@ -9,6 +9,7 @@ LINES_PER_INPUT = 3
 LONGEST = 2000  # [characters] of a line
 SHOWN = 12  # lines, for a person
 ESCAPES = re.compile(r'\x1b(?!\[K|\[\d*m)')  # colours, and clearing the rest of a line, are all right
+LOGGED = re.compile(r'^(\x1b\[\d*m)*\[ ?(DEBUG|INFO|WARN|ERROR|FATAL)\]')  # the first line of a message
 TRACEBACK = 'Traceback (most recent call last)'
 FRAME = re.compile(r'^ *File "([^"]+)", line')
 # Python's own, ROS's, and what ROS generates; what these print of a broken connection is none of the project's.
@@ -39,10 +40,13 @@ def check(who, lines, most=None):
     Raises:
         Failure: a traceback of the project's code or of a thread that ended, a flood, or what confuses a terminal.
     """
+    is_echo = False
     for number, line in enumerate(lines):
         if TRACEBACK in line and _is_ours(lines[number + 1:]):
             raise Failure('traceback', who, _joined(lines[max(number - 1, 0):number + 40]))
-        if any(echo in line[:100] for echo in ECHOES):
+        if LOGGED.match(line):
+            is_echo = any(echo in line[:100] for echo in ECHOES)
+        if is_echo:
             continue
         if len(line) > LONGEST:
             raise Failure('long line', who, f'{len(line)} characters: {line[:200]}...')

@@ -13,9 +13,10 @@ from workspaces import ROOT
 
 sys.path[:0] = [str(ROOT), str(ROOT / 'bench')]
 
-from stress import report, run, shrink, wire  # noqa: E402
+from stress import printed, report, run, shrink, wire  # noqa: E402
 from stress.blows import KINDS, messages  # noqa: E402
 from stress.blows.blow import Blow, Kind  # noqa: E402
+from stress.failure import Failure  # noqa: E402
 from stress.member import Role  # noqa: E402
 from stress.scenarios import Scenario  # noqa: E402
 
@@ -107,6 +108,32 @@ def test_the_shortest_sequence_is_found(needed):
 
 def test_what_does_not_show_again_is_kept_whole():
     assert shrink.shortest([1, 2, 3], lambda _: False, 60.0) == ([1, 2, 3], False)
+
+
+OURS = '/ws/src/rumba_sim/src/rumba_sim/ros/x.py'
+ROSPY = '/usr/lib/python3/dist-packages/rospy'
+
+
+@pytest.mark.parametrize('lines, oracle', [
+    (['[INFO] [1.0]: ready', '\x1b[33m[WARN] [1.0]: slow\x1b[0m', 'battery 9 %\x1b[K'], None),
+    (['[WARN] [1.0]: Inbound TCP/IP connection failed: \x1b[2J', 'y' * 5000], None),
+    (['[WARN] [1.0]: Inbound TCP/IP connection failed: x', '[WARN] [1.0]: ' + 'y' * 5000], 'long line'),
+    (['[ERROR] [1.0]: no map \x1b[2J'], 'escape'),
+    (['[ERROR] [1.0]: no'] * 201, 'flood'),
+    (['Traceback (most recent call last):', f'  File "{ROSPY}/topics.py", line 1, in x', 'IOError'], None),
+    (['Traceback (most recent call last):', f'  File "{ROSPY}/topics.py", line 1, in x',
+      f'  File "{OURS}", line 1, in x', 'IOError'], 'traceback'),
+    (['Traceback (most recent call last):', '  File "/usr/lib/python3.11/threading.py", line 1, in _bootstrap_inner',
+      f'  File "{ROSPY}/timer.py", line 1, in run', 'IOError'], 'traceback'),
+    (['Traceback (most recent call last):', '  File "/usr/lib/python3.11/threading.py", line 1, in _bootstrap_inner',
+      f'  File "{ROSPY}/impl/tcpros_service.py", line 1, in handle', 'IOError'], None),
+])
+def test_what_a_node_prints_is_judged(lines, oracle):
+    if oracle is None:
+        printed.check('/node', lines, 200)
+    else:
+        with pytest.raises(Failure, match=f'^{oracle}: /node: '):
+            printed.check('/node', lines, 200)
 
 
 def stress(*arguments):

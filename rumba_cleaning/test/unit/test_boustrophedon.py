@@ -22,8 +22,8 @@ def test_a_closed_door_does_not_keep_it_busy_for_ever():
     world.spawn('rumba')
     mission = Mission(context_of(plan, world), 'boustrophedon', 0.99)
     assert max(observation.state_of_charge for observation, _ in steps(mission, world, seconds=3000.0)) == 1.0
-    assert (mission.status, mission.outcome) == (Status.SUCCEEDED, Outcome.INCOMPLETE)
-    assert mission.message.endswith('% swept: what can be reached is swept')
+    assert (mission.status, mission.outcome) == (Status.FAILED, Outcome.INCOMPLETE)
+    assert mission.message.endswith('% swept, the target is 99.0 %: nothing more can be reached')
     assert world.floor.coverage >= 0.99
 
 
@@ -43,7 +43,7 @@ def test_driven_elsewhere_by_a_person_it_returns_to_its_route_and_goes_on_where_
     assert before - 0.5 - 1.0 <= left(behaviour) <= before + 2.0 * off + 1.0
     for _ in steps(behaviour, world):
         context.swept.follow(robot.pose, robot.brushes_up)
-    assert behaviour.message == 'what can be reached is swept'
+    assert behaviour.message == 'nothing more can be reached'
     assert world.floor.coverage > 0.98
 
 

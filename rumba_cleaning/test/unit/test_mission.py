@@ -147,7 +147,8 @@ def test_what_the_map_does_not_show_is_cleaned_around():
     truth = with_box(PLAN, (1.8, 1.2, 2.2, 1.6))
     world, behaviour = mission(truth=truth)
     run(behaviour, world, seconds=3000.0)
-    assert behaviour.status is Status.SUCCEEDED
+    assert (behaviour.status, behaviour.outcome) == (Status.FAILED, Outcome.INCOMPLETE)  # of its map it misses a box
+    assert re.fullmatch(r'9\d\.\d % swept, the target is 98\.0 %: nothing more can be reached', behaviour.message)
     assert world.robots['rumba'].is_docked
     assert world.floor.coverage >= 0.98  # of what can be reached in truth
 
@@ -191,12 +192,22 @@ def test_it_stops_its_part_when_it_is_stopped():
     assert ends == ['cleaning']
 
 
-def test_a_strategy_that_has_done_its_job_ends_the_mission_well():
+def test_a_mission_whose_strategy_has_done_its_job_below_the_target_comes_home_and_is_no_success():
     world, behaviour = mission(start=Pose(0.6, 0.6, 0.0), strategy='spiral')
     run(behaviour, world)
     assert world.robots['rumba'].is_docked
-    assert (behaviour.status, behaviour.outcome) == (Status.SUCCEEDED, Outcome.SUCCEEDED)
-    assert re.fullmatch(r'\d+\.\d % swept: (a spot|something) .*', behaviour.message)
+    assert (behaviour.status, behaviour.outcome) == (Status.FAILED, Outcome.INCOMPLETE)
+    assert re.fullmatch(r'\d+\.\d % swept, the target is 98\.0 %: (a spot|something) .*', behaviour.message)
+
+
+def test_a_fall_ends_a_mission_and_is_a_failure():
+    world, behaviour = mission(plan=crooked(), start=Pose(0.6, 0.6, 0.0))
+    run(behaviour, world, seconds=5.0)
+    world.robots['rumba'].state['fallen'] = 1
+    run(behaviour, world, seconds=5.0)
+    assert (behaviour.status, behaviour.outcome, behaviour.state) == (
+        Status.FAILED, Outcome.FALLEN, State.STRANDED)
+    assert behaviour.message == 'a wheel hangs over a cliff: the robot must be put elsewhere'
 
 
 def test_the_context_that_it_is_made_with_keeps_its_target():

@@ -12,7 +12,7 @@ from rumba_cleaning.planning.planner import plan
 from rumba_cleaning.strategies import strategy
 from rumba_sim.model.geometry import Pose
 
-WORTH = 0.002  # of coverage: a round that gains less is the last; on the maps of rumba_sim 0.0005 and 0.01 do as well
+WORTH = 0.0005  # of coverage: a round that gains less is the last: a round for the last spots gains little more
 ROUNDS = 20  # at most, each with what was missed before: far more than the maps of rumba_sim need
 
 Planned = Tuple[Optional[Route], bool]  # a route, and whether obstacles that were met had to be forgotten for it

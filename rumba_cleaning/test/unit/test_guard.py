@@ -1,0 +1,119 @@
+"""Robots do not fall: over stairs that the map shows, and over those that it does not, whatever is commanded."""
+
+import math
+
+import numpy as np
+import pytest
+from drivers import context_of, run
+from rooms import RADIUS, inside, quiet, room
+
+from rumba_cleaning.behaviour import Behaviour, Command
+from rumba_cleaning.behaviours.bounded import Bounded
+from rumba_cleaning.behaviours.follower import Route
+from rumba_cleaning.behaviours.guard import Guard
+from rumba_cleaning.behaviours.travel import Travel
+from rumba_cleaning.control import CONTROL_DT, CONTROL_TICKS, observe, steps
+from rumba_cleaning.mission.mission import Mission
+from rumba_sim.model.floor_plan import FloorPlan
+from rumba_sim.model.geometry import Pose
+from rumba_sim.model.world import World
+
+STAIRS = (2.0, 0.0, 3.0, 2.0)
+ISLANDS = ((0.8, 0.7, 1.1, 1.0), (1.9, 0.6, 2.4, 0.9), (1.3, 1.6, 1.6, 2.1))
+
+
+def with_cliffs(plan, *boxes):
+    """The plan with cliffs in boxes [m]."""
+    cliff = np.any([inside(box, plan.rows, plan.columns, plan.resolution) for box in boxes], axis=0)
+    return FloorPlan(plan.name, plan.occupancy, plan.resolution, plan.origin, cliff=cliff, dock=plan.dock)
+
+
+class Always(Behaviour):
+    """Gives one command."""
+
+    def __init__(self, v, w):
+        self.command = Command(v, w)
+
+    def update(self, observation):
+        return self.command
+
+
+def commanded(v, w, pose, is_shown, seconds=20.0):
+    """The robot after one command was given all the time, in a room with stairs."""
+    plan = room(3.0, 2.0, 0.02, start=Pose(0.5, 0.5, 0.0))
+    truth = with_cliffs(plan, STAIRS)
+    world = World(truth, quiet())
+    robot = world.spawn('rumba', pose)
+    run(Bounded(Always(v, w), 1000.0, Guard(context_of(truth if is_shown else plan, world))), world, seconds=seconds)
+    return robot
+
+
+@pytest.mark.parametrize('is_shown', [True, False])
+@pytest.mark.parametrize('heading', [0.0, 0.4, -0.9, 1.3])
+@pytest.mark.parametrize('v, w', [(0.3, 0.0), (0.45, 0.0), (0.5, 0.3), (0.3, -0.5)])
+def test_a_robot_that_is_driven_at_stairs_stops_before_them(v, w, heading, is_shown):
+    assert not commanded(v, w, Pose(1.0, 1.0, heading), is_shown).has_fallen
+
+
+@pytest.mark.parametrize('heading', [math.pi, 2.7, -2.5])
+def test_a_robot_does_not_back_over_an_edge_that_it_knows(heading):
+    robot = commanded(-0.2, 0.0, Pose(1.5, 1.0, heading), True)
+    assert not robot.has_fallen and robot.distance > 0.1
+
+
+def test_far_from_edges_commands_are_not_changed():
+    plan = with_cliffs(room(6.0, 2.0, 0.02, start=Pose(0.5, 1.0, 0.0)), (5.0, 0.0, 6.0, 2.0))
+    world = World(plan, quiet())
+    world.spawn('rumba')
+    behaviour = Bounded(Always(0.3, 0.05), 1000.0, Guard(context_of(plan, world)))
+    assert all(command == Command(0.3, 0.05) for _, command in steps(behaviour, world, seconds=5.0))
+
+
+def test_it_is_faster_than_the_sensors_allow_only_over_floor_that_it_has_seen():
+    plan = room(6.0, 2.0, 0.02, start=Pose(1.0, 1.0, 0.0))
+    world = World(plan, quiet())
+    robot = world.spawn('rumba')
+    guard = Guard(context_of(plan, world))
+    there = [command.v for _, command in steps(Bounded(Always(0.45, 0.0), 1e3, guard), world, seconds=6.0)]
+    world.teleport('rumba', Pose(robot.pose.x - 1.5, robot.pose.y, 0.0))
+    again = [command.v for _, command in steps(Bounded(Always(0.45, 0.0), 1e3, guard), world, seconds=1.5)]
+    assert max(there[5:]) < 0.36 and max(again) == 0.45
+
+
+def test_a_behaviour_that_an_edge_stops_sees_it_as_a_cliff():
+    plan = with_cliffs(room(3.0, 2.0, 0.02, start=Pose(1.0, 1.0, 0.0)), STAIRS)
+    world = World(plan, quiet())
+    world.spawn('rumba')
+    guard, seen = Guard(context_of(plan, world)), []
+
+    def decide(observation):
+        seen.append(any(observation.cliffs))
+        return Command(0.3, 0.0)
+
+    for _ in range(100):
+        command = guard.step(decide, observe(world, 'rumba', CONTROL_DT))
+        world.robots['rumba'].command(command.v, command.w, world.tick)
+        world.step(CONTROL_TICKS)
+    assert seen[-1] and not seen[0]
+
+
+@pytest.mark.parametrize('strategy', ['boustrophedon', 'bounce', 'spiral', 'wall_follow'])
+@pytest.mark.parametrize('shown', [0, 1, 3])
+def test_no_mission_among_islands_of_cliffs_falls(strategy, shown):
+    plan = room(3.0, 2.6, 0.02, dock=Pose(3.0 - RADIUS - 0.01, 2.2, 0.0))
+    truth = with_cliffs(plan, *ISLANDS)
+    known = with_cliffs(plan, *ISLANDS[:shown]) if shown else plan
+    for start in (None, Pose(0.4, 2.2, -1.0)):
+        world = World(truth, quiet(), seed=shown)
+        robot = world.spawn('rumba', start, brushes_up=True)
+        run(Mission(context_of(known, world), strategy, 0.99), world, seconds=250.0)
+        assert not robot.has_fallen
+
+
+@pytest.mark.parametrize('speed, brushes_up', [(0.3, False), (0.45, True)])
+def test_the_brushes_are_up_where_a_route_is_faster_than_the_cleaning_speed(speed, brushes_up):
+    plan = room(4.0, 2.0, start=Pose(0.5, 1.0, 0.0))
+    world = World(plan, quiet())
+    world.spawn('rumba')
+    travel = Travel(context_of(plan, world), Route(np.array([[0.5, 1.0], [3.0, 1.0]]), np.array([speed])))
+    assert travel.command(observe(world, 'rumba', 0.0), brushes_up=False).brushes_up == brushes_up
