@@ -6,7 +6,7 @@ import random
 import re
 import sys
 
-from stress import report, run, wire
+from stress import publishers, report, run
 
 FAILED, USAGE = 1, 2
 MINUTES = 10.0
@@ -18,7 +18,7 @@ def main():
     seed = random.SystemRandom().randrange(10 ** 6) if arguments.seed is None else arguments.seed
     told = report.Report(seed, 60.0 * arguments.minutes)
     told.say(f'seed {seed}')
-    trials = run.Run(seed, told, wire.Publishers())
+    trials = run.Run(seed, told, publishers.Publishers())
     try:
         if arguments.only:
             trials.only(arguments.only)

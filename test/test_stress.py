@@ -13,11 +13,12 @@ from workspaces import ROOT
 
 sys.path[:0] = [str(ROOT), str(ROOT / 'bench')]
 
-from stress import printed, report, run, shrink, wire  # noqa: E402
+from stress import printed, report, run, shrink  # noqa: E402
 from stress.blows import KINDS, messages  # noqa: E402
 from stress.blows.blow import Blow, Kind  # noqa: E402
 from stress.failure import Failure  # noqa: E402
 from stress.member import Role  # noqa: E402
+from stress.publishers import Publishers  # noqa: E402
 from stress.scenarios import Scenario  # noqa: E402
 
 NODE = str(pathlib.Path(__file__).with_name('frail_node.py'))
@@ -57,7 +58,7 @@ def twists(ground, _chance, blow):
 @pytest.fixture(scope='module')
 def publishers():
     """The side of the trial ground that sends."""
-    return wire.Publishers()
+    return Publishers()
 
 
 def verdict(fault, publishers, monkeypatch):

@@ -91,8 +91,12 @@ def test_rings_inside_one_another_are_one_chain_from_outside_inward():
     assert [ring.level for ring in chain] == list(range(len(found)))
 
 
-def test_each_ring_is_in_one_chain():
-    _, _, found = planned(crooked())
+TWO_LEGS = room(3.0, 3.0, 0.02, [(x, 1.48, x + 0.04, 1.52) for x in (1.28, 1.7)])  # one ring around both rings
+
+
+@pytest.mark.parametrize('plan', [crooked(), TWO_LEGS])
+def test_each_ring_is_in_one_chain(plan):
+    _, _, found = planned(plan)
     numbers = [id(ring) for chain in chains(found) for ring in chain]
     assert sorted(numbers) == sorted(id(ring) for ring in found)
 

@@ -89,7 +89,7 @@ class Guard:
     def _admitted(self, observation: Observation, command: Command) -> Command:
         self._held = NONE
         pose, wanted = observation.pose, self._wanted(command)
-        fastest = max(map(abs, self._speeds + wanted))
+        fastest = max(abs(speed) for speed in self._speeds + wanted)
         braking = fastest * LONGEST + 0.5 * fastest ** 2 / self._drive.acceleration
         is_near = self._footing.clearance_at(pose.x, pose.y) <= self._clear + braking
         must_know = not (self._sees_ahead(wanted) and self._sees_ahead(self._speeds))
@@ -97,12 +97,12 @@ class Guard:
             return command
         slip = self._slip(observation)
         found = []
-        for share in (1.0, min(SAFE_SPEED / max(map(abs, wanted)), 1.0) if any(wanted) else 1.0, *SHARES):
+        for share in (1.0, min(SAFE_SPEED / max(abs(speed) for speed in wanted), 1.0) if any(wanted) else 1.0, *SHARES):
             slower = command._replace(v=share * command.v, w=share * command.w)
             found.append(self._edge(pose, self._wanted(slower), slip, is_near, must_know))
             if found[-1] == NONE:
                 return slower
-        if max(map(abs, self._speeds)) < AT_REST:
+        if max(abs(speed) for speed in self._speeds) < AT_REST:
             self._held = found[0]
         return command._replace(v=0.0, w=0.0)
 
@@ -159,7 +159,7 @@ class Guard:
                        for speeds in held)
         turns = (right - left) / (2.0 * self._half) * STEP
         along = pose.theta + np.cumsum(turns) - 0.5 * turns
-        driven, fastest = 0.5 * (left + right) * STEP, max(map(abs, self._speeds + wanted))
+        driven, fastest = 0.5 * (left + right) * STEP, max(abs(speed) for speed in self._speeds + wanted)
         slid = slip * STEP * np.maximum(abs(left), abs(right)) / fastest
         steps_along = np.stack([driven * np.cos(along) - slid * np.sin(along),
                                 driven * np.sin(along) + slid * np.cos(along)], axis=1)

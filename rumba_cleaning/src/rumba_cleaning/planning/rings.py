@@ -188,13 +188,13 @@ def chains(found: List[Ring]) -> List[List[Ring]]:
 
 
 def _followers(found: List[Ring], outer: List[int], inner: List[int]) -> Dict[int, int]:
-    """The ring of `inner` that lies beside each of `outer` all the way around; many of these have none."""
+    """The ring of `inner` that lies beside each of `outer` all the way around; many have none, none has two."""
     trees = {index: spatial.cKDTree(found[index].waypoints) for index in inner}
     followers: Dict[int, int] = {}
     for index in outer:
         points = found[index].waypoints[::LOOK]
         beside = [number for number in inner if found[number].region == found[index].region
-                  and trees[number].query(points[0])[0] < BESIDE
+                  and number not in followers.values() and trees[number].query(points[0])[0] < BESIDE
                   and trees[number].query(points)[0].max() < BESIDE]
         if beside:
             followers[index] = beside[0]

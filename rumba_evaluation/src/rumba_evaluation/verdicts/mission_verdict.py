@@ -256,7 +256,7 @@ class Judge:
         """End the run if the time [s] has reached the limit, or has gone back."""
         if self.is_over or self._began is None:
             return
-        if now < self._began + self._passed:
+        if now - self._began < self._passed:  # as it is computed below: a sum would differ by rounding
             self.annul(f'the time went back from {self._began + self._passed:.1f} s to {now:.1f} s')
             return
         self._passed = now - self._began

@@ -244,7 +244,7 @@ class World:
         return list(self.robots).index(name)
 
     def _free_start(self) -> Pose:
-        """The free position nearest to the start to which a robot could drive from there; a little apart from others."""
+        """The free position nearest to the start that a robot can drive to from there; a little apart from others."""
         others = [member.pose for member in self.robots.values()]
         radius = self._config.drive.radius
         if all(math.hypot(pose.x - self.start.x, pose.y - self.start.y) >= 2.0 * radius for pose in others):

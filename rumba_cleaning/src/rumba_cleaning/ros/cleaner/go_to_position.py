@@ -118,7 +118,7 @@ def _other_server(service: str) -> str:
     """Full name of another node that serves a service, and answers; empty if there is none."""
     _, _, (_, _, services) = rospy.get_master().getSystemState()
     others: List[str] = [node for node in dict(services).get(service, []) if node != rospy.get_name()]
-    return others[0] if others and peers.is_served(service) else ''
+    return others[0] if others and peers.is_alive(others[0]) else ''
 
 
 def check_finite(target: Pose, may_face_anywhere: bool = False) -> None:
