@@ -24,7 +24,7 @@ def test_a_closed_door_does_not_keep_it_busy_for_ever():
     assert max(observation.state_of_charge for observation, _ in steps(mission, world, seconds=3000.0)) == 1.0
     assert (mission.status, mission.outcome) == (Status.FAILED, Outcome.INCOMPLETE)
     assert mission.message.endswith('% swept, the target is 99.0 %: nothing more can be reached')
-    assert world.floor.coverage >= 0.99
+    assert world.floor.coverage >= 0.98
 
 
 @pytest.mark.parametrize('v, seconds', [(0.2, 1.0), (0.3, 6.0)])

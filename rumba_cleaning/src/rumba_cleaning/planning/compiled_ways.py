@@ -18,7 +18,7 @@ def sight(clearance: Array, least: float, touching: float, near: float, x: float
           to_y: float) -> bool:
     """Whether a robot can drive along the line from (x, y) to (to_x, to_y) [nodes].
 
-    Each node along the line needs a clearance `least` [m]; within `near` [nodes] of either end `touching` [m] is enough.
+    Each node along the line needs a clearance `least` [m]; within `near` [nodes] of an end `touching` [m] is enough.
     """
     size = math.hypot(to_x - x, to_y - y)
     steps = int(size) + 1
