@@ -22,7 +22,7 @@ def knowing(executor=None):
 
 def test_without_an_executor_work_is_done_at_once():
     future = knowing().submit(lambda context, *numbers: (context.plan, sum(numbers)), 2, 3)
-    assert future.done() and future.result() == (PLAN, 5)
+    assert future.done() and future.result() == (PLAN.refined(), 5)
 
 
 def test_an_exception_comes_with_the_result():
@@ -43,7 +43,7 @@ def test_work_does_not_see_what_the_robot_meets_and_sweeps_later():
     other = context.submit(lambda copy: copy).result()
     context.ground.mark(2.0, 1.5, 0.1)
     context.swept.sweep(Pose(1.0, 1.0, 0.0), Pose(1.4, 1.0, 0.0))
-    assert (other.ground.clearance == PLAN.safe_clearance).all() and not other.ground.has_marks
+    assert (other.ground.clearance == PLAN.refined().safe_clearance).all() and not other.ground.has_marks
     assert other.swept.coverage == 0.0 < context.swept.coverage
 
 

@@ -63,7 +63,7 @@ class Trial:
         self.missions = [Mission(context, strategy, conditions.target) for context in self.contexts]
         self.ideal_time = self.world.floor.reachable_area / (config.brush.width * cleaning.speed)
         self.curve: List[float] = []
-        self._meters = [_Meter(plan, robot) for robot in self.world.robots.values()]
+        self._meters = [_Meter(self.world.terrain, robot) for robot in self.world.robots.values()]
         self._dt = 0.0  # [s] since the last observations
         self._steps = 0
         self._charging_steps = 0
