@@ -152,22 +152,26 @@ CLIFF = (2.0, 0.0, 4.0, 1.0)
 
 
 def test_a_fall_ends_the_trial():
-    trial = ran(hall(cliff=CLIFF), 'ahead')
+    trial = ran(hall(cliff=CLIFF), 'ahead', 2.0)
+    trial.world.robots['rumba'].state['x'] = 2.5  # pushed: by itself it stops at the edge
+    while not trial.is_over:
+        trial.step()
     result = trial.result()
-    assert result.outcome is Outcome.FALLEN and result.penetrated and result.distance < 2.0
+    assert result.outcome is Outcome.FALLEN and not result.penetrated and result.distance < 2.0
     assert result.message.startswith('fell over a cliff; ') and result.message.endswith(' % swept; working')
     assert result.time < 10.0 and trial.is_over
 
 
 def test_a_robot_that_has_not_fallen_goes_on_when_another_has():
     trial = Trial(hall(cliff=CLIFF), 'ahead', Conditions(bound=1.0), robots=2)
+    trial.world.robots['rumba'].state['x'] = 2.5  # pushed over the edge
     trial.world.robots['rumba2'].state['x'] = 5.0  # beyond the cliff
     while not trial.is_over:
         trial.step()
     first, second = trial.world.robots.values()
     assert first.has_fallen and not second.has_fallen
     result = trial.result()
-    assert result.outcome is Outcome.TIMED_OUT
+    assert result.outcome is Outcome.FALLEN
     assert trial.working_time == pytest.approx(result.ideal_time, abs=0.1)
     assert result.message.startswith('rumba: fell over a cliff; ') and '; rumba2: 1' in result.message
     seen = [len(mission._cleaning.seen) for mission in trial.missions]
