@@ -30,13 +30,11 @@ def test_a_spot_is_swept_without_a_gap():
     world, behaviour = spiral(Pose(2.0, 2.0, 0.0))
     assert behaviour.status is Status.SUCCEEDED
     assert behaviour.message == 'a spot of 1.2 m is swept'
-    swept = (world.floor.cells & kernel.SWEPT) > 0
-    rows, columns = np.nonzero(swept)
-    middle = PLAN.centre(int(round(rows.mean())), int(round(columns.mean())))
-    y, x = np.mgrid[0:PLAN.rows, 0:PLAN.columns] * PLAN.resolution - PLAN.resolution / 2.0
-    disc = np.hypot(x - middle[0], y - middle[1]) < SIZE - 0.15
+    swept = world.floor.sweep.samples >= kernel.PASS
+    y, x = np.indices(swept.shape) * PLAN.sample_pitch
+    disc = np.hypot(x - x[swept].mean(), y - y[swept].mean()) < SIZE - 0.15
     assert np.count_nonzero(disc & ~swept) < 0.01 * np.count_nonzero(disc)
-    assert np.count_nonzero(swept) * PLAN.resolution ** 2 == pytest.approx(math.pi * SIZE ** 2, rel=0.35)
+    assert world.floor.cleaned_area == pytest.approx(math.pi * SIZE ** 2, rel=0.35)
 
 
 def test_it_ends_if_something_is_in_the_way():

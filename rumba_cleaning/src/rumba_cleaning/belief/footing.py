@@ -15,9 +15,8 @@ from rumba_sim.model.robot_config import RobotConfig
 FAR = 1.0  # [m] what is farther from a cliff than this is far enough for everything that a robot does
 SEEN = 0.015  # [m] radius that is assumed for a cliff that a sensor saw: half of what a robot drives between readings
 SAME = 0.02  # [m] from a known cliff, a sensor sees that one
-CELL = 0.02  # [m] side of the cells in which floor is remembered
-STEP = 0.015  # [m] between points that are remembered: less than a cell, so that no cell is left out
-BESIDE = np.array([(row, column) for row in (-1, 0, 1) for column in (-1, 0, 1)])  # cells
+CELL = 0.015  # [m] side of the cells in which floor is remembered
+STEP = 0.012  # [m] between points that are remembered: less than a cell, so that no cell is left out
 JUMP = 0.5  # [m] from one pose to the next: somebody put the robot elsewhere; as in `Swept`
 BEHIND_DOCK = 0.45  # [m] of floor that a dock needs before it, as it is put up by a person: more than undocking takes
 
@@ -32,6 +31,7 @@ class Footing:
     def __init__(self, plan: FloorPlan, robot: RobotConfig) -> None:
         """Know the cliffs of a plan."""
         self._plan = plan
+        self._far = robot.cliff.distance
         half, radius, sensors = 0.5 * robot.drive.wheel_base, robot.drive.radius, robot.cliff
         self._sensors = [(sensors.distance * math.cos(angle), sensors.distance * math.sin(angle)) for angle in (
             sensors.outer_angle, sensors.inner_angle, -sensors.inner_angle, -sensors.outer_angle)]
@@ -57,28 +57,32 @@ class Footing:
         """Remember what the cliff sensors see at a pose, and that there is floor under the wheels."""
         last, self._last = self._last, pose
         if is_docked:
-            self._stamp(pose, self._before_dock)
+            self._stamp([pose], self._before_dock)
         if last is None or math.hypot(pose.x - last.x, pose.y - last.y) > JUMP:
-            self._stamp(pose, self._body)
+            self._stamp([pose], self._body)
             last = pose
+        turn = wrap_angle(pose.theta - last.theta)
+        count = int((math.hypot(pose.x - last.x, pose.y - last.y) + self._far * abs(turn)) / STEP) + 1
+        between = [Pose(last.x + share * (pose.x - last.x), last.y + share * (pose.y - last.y),
+                        last.theta + share * turn) for share in np.arange(1, count + 1) / count]
         if not any(cliffs):
-            turn = wrap_angle(pose.theta - last.theta)
-            count = int((math.hypot(pose.x - last.x, pose.y - last.y) + 0.2 * abs(turn)) / STEP) + 1
-            for share in np.arange(1, count + 1) / count:
-                self._stamp(Pose(last.x + share * (pose.x - last.x), last.y + share * (pose.y - last.y),
-                                 last.theta + share * turn), self._everywhere)
+            self._stamp(between, self._everywhere)
             return
-        self._stamp(pose, np.concatenate([self._axle, *(
-            line for line, over, next_over in zip(self._between, cliffs, cliffs[1:]) if not (over or next_over))]))
+        self._stamp(between, self._axle)
+        for line, is_over, is_next_over in zip(self._between, cliffs, cliffs[1:]):
+            if not (is_over or is_next_over):
+                self._stamp([pose], line)
         for (ahead, aside), is_over in zip(self._sensors, cliffs):
             if is_over:
                 cos, sin = math.cos(pose.theta), math.sin(pose.theta)
                 self._see(pose.x + ahead * cos - aside * sin, pose.y + ahead * sin + aside * cos)
 
-    def _stamp(self, pose: Pose, points: Array) -> None:
-        """Remember floor at points (any, 2) [m] in the frame of a robot at a pose."""
-        cos, sin = math.cos(pose.theta), math.sin(pose.theta)
-        rows, columns = self._cells(points @ np.array([[cos, sin], [-sin, cos]]) + pose[:2])
+    def _stamp(self, poses: Sequence[Pose], points: Array) -> None:
+        """Remember floor at points (any, 2) [m] in the frame of a robot at each of the poses."""
+        at = np.array(poses)
+        cos, sin, ahead, aside = np.cos(at[:, 2:]), np.sin(at[:, 2:]), points[:, 0], points[:, 1]
+        x, y = at[:, :1] + ahead * cos - aside * sin, at[:, 1:2] + ahead * sin + aside * cos
+        rows, columns = self._cells(np.stack([x.ravel(), y.ravel()], axis=1))
         self._floor[rows, columns] = True
 
     def _cells(self, points: Array) -> Array:
@@ -115,14 +119,14 @@ class Footing:
         """As `clearance_at`, for many points (any, 2) [m]: float64 (any)."""
         return np.array([self.clearance_at(x, y) for x, y in points.tolist()])
 
-    def are_known(self, points: Array, is_exact: bool) -> Array:
-        """Whether wheels or sensors found floor at each point (any, 2) [m]: bool (any); or beside it, if not exact."""
+    def are_known(self, points: Array, cells: int) -> Array:
+        """Whether wheels or sensors found floor at each point (any, 2) [m], or so many cells beside it: bool (any)."""
         rows, columns = self._cells(points)
-        if is_exact:
-            return np.asarray(self._floor[rows, columns])
+        beside = np.arange(-cells, cells + 1)
         height, width = self._floor.shape
-        return np.asarray(self._floor[np.clip(rows + BESIDE[:, :1], 0, height - 1),
-                                      np.clip(columns + BESIDE[:, 1:], 0, width - 1)].any(axis=0))
+        near = self._floor[np.clip(rows + beside[:, np.newaxis, np.newaxis], 0, height - 1),
+                           np.clip(columns + beside[:, np.newaxis], 0, width - 1)]
+        return np.asarray(near.any(axis=(0, 1)))
 
 
 def _line(start: Tuple[float, float], end: Tuple[float, float]) -> Array:

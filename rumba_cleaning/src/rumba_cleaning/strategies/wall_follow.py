@@ -95,5 +95,6 @@ class WallFollow(Behaviour):
             self._phase = _Phase.AHEAD
         is_lost = self._leaning > LOST
         curvature = 1.0 / CLOSE if is_lost else LEAN
-        v = min(self._speed, CAREFUL if is_lost else math.inf, self._drive.max_turn_rate / curvature)
+        outer = 1.0 + 0.5 * self._drive.wheel_base * curvature  # times faster than the middle the outer wheel is
+        v = min(self._speed / outer, CAREFUL if is_lost else math.inf, self._drive.max_turn_rate / curvature)
         return Command(v, -v * curvature)
