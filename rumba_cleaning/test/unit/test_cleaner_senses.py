@@ -5,14 +5,15 @@ import types
 
 import pytest
 import rospy
-from geometry_msgs.msg import Quaternion, Transform, Vector3
+from geometry_msgs.msg import Quaternion, Transform, TransformStamped, Vector3
 from sensor_msgs.msg import BatteryState
 from std_msgs.msg import Header
+from tf2_msgs.msg import TFMessage
 
 from rumba_cleaning.behaviour import Command
 from rumba_cleaning.mission.mission import State
 from rumba_cleaning.outcome import Outcome
-from rumba_cleaning.ros.cleaner import conversions, senses
+from rumba_cleaning.ros.cleaner import conversions, location, senses
 from rumba_msg.msg import Bumper, CleaningStatus, Cliff, DockStatus
 from rumba_sim.model.geometry import Pose
 from rumba_sim.ros.common.conversions import transform
@@ -27,7 +28,8 @@ class Robot:
         self.connections = 1
         self.readings = 0
         monkeypatch.setattr(senses.rospy, 'Subscriber', self._subscribe)
-        monkeypatch.setattr(senses.tf2_ros, 'TransformListener', lambda *_, **__: None)
+        self.warnings = []
+        monkeypatch.setattr(location.rospy, 'logwarn_throttle', lambda _, line: self.warnings.append(line))
         self.senses = senses.Senses(name, self._count)
 
     def _subscribe(self, topic, _, callback, *arguments, **__):
@@ -50,13 +52,16 @@ class Robot:
             self.tells(topic, kinds[topic](header=Header(stamp=rospy.Time.from_sec(seconds)), **mine))
         return self.readings - before
 
-    def stands(self, odom=Pose(0.0, 0.0, 0.0), base=Pose(0.0, 0.0, 0.0), seconds=1.0):
+    def stands(self, odom=Pose(0.0, 0.0, 0.0), base=Pose(0.0, 0.0, 0.0), topic='/tf'):
         """Tell tf the pose of the odom frame, and that of the robot in it, 10 s later."""
         prefix = '' if self._name == 'rumba' else f'{self._name}/'
-        for frame, child, pose, age in (('map', f'{prefix}odom', odom, 10.0),
-                                        (f'{prefix}odom', f'{prefix}base_footprint', base, 0.0)):
-            stamp = rospy.Time.from_sec(seconds + 10.0 - age)
-            self.senses._buffer.set_transform(transform(frame, child, pose, stamp), 'test')
+        for frame, child, pose, seconds in (('map', f'{prefix}odom', odom, 1),
+                                            (f'{prefix}odom', f'{prefix}base_footprint', base, 11)):
+            self.transforms(transform(frame, child, pose, rospy.Time(seconds)), topic=topic)
+
+    def transforms(self, *transforms, topic='/tf'):
+        """Publish transforms in one message."""
+        self._callbacks[topic](TFMessage(list(transforms)))
 
 
 @pytest.fixture
@@ -120,6 +125,38 @@ def test_the_pose_is_the_newest_odometry_with_a_correction_that_may_be_older(mon
     robot = Robot(monkeypatch, name)
     robot.stands(odom=Pose(1.0, 2.0, 0.5 * math.pi), base=Pose(0.5, 0.25, 0.75 * math.pi))
     assert robot.senses.pose() == pytest.approx((0.75, 2.5, -0.75 * math.pi))
+
+
+def odometry(x=1.0, y=2.0, z=0.0, rotation=(0.0, 0.0, 0.0, 1.0), stamp=rospy.Time(5), frame='odom',
+             child='base_footprint'):
+    """A transform with any numbers and names."""
+    return TransformStamped(Header(0, stamp, frame), child, Transform(Vector3(x, y, z), Quaternion(*rotation)))
+
+
+@pytest.mark.parametrize('odd', [
+    odometry(x=math.nan), odometry(y=math.inf), odometry(z=-math.inf), odometry(x=1e308), odometry(y=-1e7),
+    odometry(rotation=(0.0, 0.0, 0.0, 0.0)), odometry(rotation=(0.0, 0.0, 1.0, 1.0)),
+    odometry(rotation=(math.nan, 0.0, 0.0, 1.0)), odometry(rotation=(1e200, 0.0, 0.0, 1e200))], ids=str)
+def test_a_transform_that_is_no_pose_is_ignored_and_said_in_one_line(robot, odd):
+    robot.transforms(odd, odometry(x=3.0, frame='map', child='odom'))
+    assert robot.senses.pose() == (3.0, 2.0, 0.0)
+    assert robot.warnings == ['tf has odom -> base_footprint with numbers that make no pose: ignored']
+
+
+@pytest.mark.parametrize('other', [
+    odometry(frame='', child=''), odometry(frame='odom', child='odom'), odometry(frame='base_footprint', child='map'),
+    odometry(frame='x' * 100_000), odometry(child='\x1b[2J'), odometry(x=math.nan, child='laser')], ids=lambda _: '')
+def test_transforms_of_other_frames_do_not_count(robot, other):
+    robot.transforms(other)
+    assert robot.senses.pose() == (0.0, 0.0, 0.0) and not robot.warnings
+
+
+@pytest.mark.parametrize('stamp', [rospy.Time(), rospy.Time(2 ** 32 - 1, 999_999_999)])
+def test_the_transform_that_came_last_counts_whatever_its_stamp(robot, stamp):
+    robot.transforms(odometry(x=4.0, stamp=stamp))
+    assert robot.senses.pose() == (4.0, 2.0, 0.0)
+    robot.transforms(odometry(frame='/odom', child='/base_footprint'))
+    assert robot.senses.pose() == (1.0, 2.0, 0.0)
 
 
 def test_what_is_missing_is_named(monkeypatch):
@@ -224,3 +261,12 @@ def test_poses_of_a_time_that_is_over_are_forgotten_with_their_simulator(robot):
     assert robot.senses.pose() is not None
     robot.senses.forget(rospy.Time(0), is_new_run=True)
     assert robot.senses.pose() is None
+
+
+def test_a_localisation_that_is_static_outlives_a_simulator(robot):
+    robot.stands(odom=Pose(1.0, 0.0, 0.0), topic='/tf_static')
+    robot.transforms(odometry(x=0.5, y=0.0))
+    robot.senses.forget(rospy.Time(0), is_new_run=True)
+    assert robot.senses.pose() is None
+    robot.transforms(odometry(x=0.25, y=0.0))
+    assert robot.senses.pose() == (1.25, 0.0, 0.0)

@@ -6,18 +6,16 @@ import time
 from typing import Any, Callable, Dict, List, Optional
 
 import rospy
-import tf2_ros
 from sensor_msgs.msg import BatteryState
 
 from rumba_cleaning.behaviour import Observation
 from rumba_cleaning.ros.cleaner import conversions
+from rumba_cleaning.ros.cleaner.location import QUEUE, Location
 from rumba_msg.msg import Bumper, CleaningStatus, Cliff, DockStatus
-from rumba_sim.model.geometry import Pose, compose
-from rumba_sim.ros.common.frames import MAP, frames
+from rumba_sim.model.geometry import Pose
 
 SECOND = 1_000_000_000  # [ns]
 PAUSE = SECOND  # [ns] between two stamps; more is not counted as time: a pause in real time, or another simulator
-QUEUE = 100  # messages of a topic that may wait to be read
 CLOCK = 'dock_status'  # the simulator publishes it last
 READING = {'bumper': Bumper, 'cliff': Cliff, 'dock_status': DockStatus}
 
@@ -41,7 +39,6 @@ class Senses:
         """Listen to a robot, by its name; `on_reading` is called in a thread of rospy."""
         self._robot = robot
         self._on_reading = on_reading
-        self._frames = frames(robot)
         self._lock = threading.Lock()
         self._newest: Dict[str, Any] = {}
         self._state_of_charge: Optional[float] = None
@@ -52,8 +49,7 @@ class Senses:
         self.heard = -math.inf
         self.unread = 0
         self.cleaning: Optional[CleaningStatus] = None
-        self._buffer = tf2_ros.Buffer(debug=False)
-        self._listener = tf2_ros.TransformListener(self._buffer, queue_size=QUEUE)
+        self._location = Location(robot)
         rospy.Subscriber(f'{robot}/battery_state', BatteryState, self._on_battery, queue_size=QUEUE)
         rospy.Subscriber(f'{robot}/cleaning_status', CleaningStatus, self._on_cleaning, queue_size=QUEUE)
         self._subscribers = {
@@ -114,7 +110,7 @@ class Senses:
             self._state_of_charge = self.stamp = self.cleaning = None
             self._since, self.unread = since, 0
         if is_new_run:
-            self._buffer.clear()
+            self._location.forget()
 
     def observe(self) -> Optional[Observation]:
         """As `look`, with the time since the observation before."""
@@ -133,23 +129,15 @@ class Senses:
         return conversions.observation(pose, parts['bumper'], parts['cliff'], parts['dock_status'], charge)
 
     def pose(self) -> Optional[Pose]:
-        """The pose of the robot in the map frame; None if tf does not have it.
-
-        It is the newest odometry with the newest correction, since a localisation publishes later and less often.
-        """
-        try:
-            correction = self._buffer.lookup_transform(MAP, self._frames.odom, rospy.Time())
-            odometry = self._buffer.lookup_transform(self._frames.odom, self._frames.base_footprint, rospy.Time())
-        except tf2_ros.TransformException:
-            return None
-        return compose(conversions.transform_pose(correction.transform), conversions.transform_pose(odometry.transform))
+        """The pose of the robot in the map frame; None if tf does not have it."""
+        return self._location.pose()
 
     def missing(self) -> str:
         """What is missing for an observation, for a person."""
         if self._state_of_charge is None:
             return f'no charge: {self._robot}/battery_state tells no percentage'
         if self.pose() is None:
-            return f'no pose: tf has no {MAP} -> {self._frames.odom} -> {self._frames.base_footprint}'
+            return f'no pose: tf has no {self._location}'
         return f'no reading: nothing new on {" and ".join(f"{self._robot}/{topic}" for topic in self._late())}'
 
     @property

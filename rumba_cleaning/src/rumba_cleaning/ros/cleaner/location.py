@@ -1,0 +1,68 @@
+"""Where a robot is, by the transforms of tf."""
+
+from typing import Dict, Optional, Tuple
+
+import rospy
+from geometry_msgs.msg import TransformStamped
+from tf2_msgs.msg import TFMessage
+
+from rumba_cleaning.ros.cleaner import conversions
+from rumba_sim.model.geometry import Pose, compose
+from rumba_sim.ros.common.frames import MAP, frames
+
+QUEUE = 100  # messages that may wait to be read
+FARTHEST = 1e6  # [m] of a coordinate, at most
+NORM = 0.01  # by which the square of the norm of a rotation may differ from 1
+COMPLAINT_PERIOD = 10.0  # [s]
+
+STATIC = '/tf_static'
+Link = Tuple[str, str]  # frame and child
+Known = Tuple[Pose, bool]  # of the child in the frame, and whether it is static
+
+
+class Location:
+    """The newest map -> odom and the newest odom -> base_footprint of a robot.
+
+    A localisation publishes later and less often than the odometry, and their stamps differ; so what came last counts,
+    whatever its stamp is. A buffer of tf2 would hold on to the newest stamp, even to one of the far future, and keep
+    the frames of everybody; some stamps and frames make it end the process.
+    """
+
+    def __init__(self, robot: str) -> None:
+        """Listen to the transforms of a robot, by its name."""
+        self._frames = frames(robot)
+        self._links = (MAP, self._frames.odom), (self._frames.odom, self._frames.base_footprint)
+        self._newest: Dict[Link, Known] = {}
+        for topic in ('/tf', STATIC):
+            rospy.Subscriber(topic, TFMessage, self._on_transforms, topic == STATIC, queue_size=QUEUE)
+
+    def _on_transforms(self, message: TFMessage, is_static: bool) -> None:
+        for each in message.transforms:
+            link = each.header.frame_id.lstrip('/'), each.child_frame_id.lstrip('/')
+            if link not in self._links:
+                continue
+            if is_valid(each):
+                self._newest[link] = conversions.transform_pose(each.transform), is_static
+            else:
+                rospy.logwarn_throttle(COMPLAINT_PERIOD, f'tf has {" -> ".join(link)} with numbers that make no '
+                                                         'pose: ignored')
+
+    def forget(self) -> None:
+        """Know nothing of what was told of a time that is over; what is static was told once and for all."""
+        self._newest = {link: known for link, known in self._newest.items() if known[1]}
+
+    def pose(self) -> Optional[Pose]:
+        """The pose of the robot in the map frame; None if tf does not have it."""
+        correction, odometry = map(self._newest.get, self._links)
+        return compose(correction[0], odometry[0]) if correction is not None and odometry is not None else None
+
+    def __str__(self) -> str:
+        return f'{MAP} -> {self._frames.odom} -> {self._frames.base_footprint}'
+
+
+def is_valid(transform: TransformStamped) -> bool:
+    """Whether the numbers of a transform are a pose: a position that is not too far, a rotation of norm 1."""
+    position, rotation = transform.transform.translation, transform.transform.rotation
+    norm = sum(part * part for part in (rotation.x, rotation.y, rotation.z, rotation.w))
+    return (all(abs(part) <= FARTHEST for part in (position.x, position.y, position.z))  # NaN is not
+            and abs(norm - 1.0) <= NORM)
