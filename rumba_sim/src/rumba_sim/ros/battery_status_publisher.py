@@ -53,7 +53,15 @@ def publish(settings: Settings) -> None:
         battery.step(passed(before, now), load)
         before = now
         publisher.publish(conversions.battery_status(battery, pose, settings.brushes_up))
+        pause(rate)
+
+
+def pause(rate: rospy.Rate) -> None:
+    """Sleep until the next message is due."""
+    try:
         rate.sleep()
+    except TypeError:
+        pass  # rospy has computed a time before 0: /clock went back while it did
 
 
 def passed(before: Optional[float], now: float) -> float:

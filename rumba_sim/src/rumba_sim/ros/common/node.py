@@ -20,7 +20,7 @@ import yaml
 
 from rumba_sim.model import config, yaml_file
 from rumba_sim.model.errors import ConfigError, RumbaError, WorldError, one_line, quoted
-from rumba_sim.ros.common import master_watch, peers
+from rumba_sim.ros.common import clock, master_watch, peers
 from rumba_sim.ros.common.paths import absolute
 
 Settings = TypeVar('Settings')
@@ -88,6 +88,7 @@ def _register(name: str, own_clock: bool, is_single: bool) -> None:
             if not reservation.take():
                 raise WorldError(f'another node {full_name} starts at the same moment: only one of them can')
             peers.refuse_twin(full_name)
+        clock.guard()
         rospy.init_node(name, disable_rostime=own_clock)
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, _shut_down)
