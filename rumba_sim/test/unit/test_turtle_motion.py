@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from rumba_sim.model.geometry import Pose, wrap_angle
-from rumba_sim.model.turtle_motion import FRAME, MOST_LOST, TurtleMotion
+from rumba_sim.model.turtle_motion import FASTEST, FRAME, MOST_LOST, TurtleMotion
 
 
 def rounded(pose):
@@ -75,3 +75,14 @@ def test_a_turtle_that_stood_still_was_put_at_its_new_pose(pose):
 @pytest.mark.parametrize('pose', [Pose(3.0, 7.5, 3.0), Pose(2.9952, 7.0, 2.5)])
 def test_a_turtle_that_drove_was_put_at_a_pose_that_it_could_not_reach(pose):
     assert begun(BEGIN, 0.3).driven(rounded(pose), 0.3, 0.0) == []
+
+
+@pytest.mark.parametrize('speed, turn_rate', [(3e38, 0.0), (-1e9, 3e38), (1e4, -1e9)])
+@pytest.mark.parametrize('pose', [Pose(4.0, 7.0, 3.0), Pose(-1e9, 3e38, 3.0)])
+def test_a_turtle_was_put_where_none_could_drive_whatever_speed_it_tells(speed, turn_rate, pose):
+    assert begun(BEGIN, speed, turn_rate).driven(rounded(pose), speed, turn_rate) == []
+
+
+def test_a_turtle_that_is_faster_than_any_drives_for_longer():
+    path = begun(BEGIN, 3.0 * FASTEST).driven(Pose(BEGIN.x - 3.0 * FASTEST * FRAME, BEGIN.y, BEGIN.theta), 6.0, 0.0)
+    assert [BEGIN.x - pose.x for pose in path] == pytest.approx([FASTEST * FRAME * frame for frame in (1, 2, 3)])

@@ -14,6 +14,8 @@ FRAME_RATE = 62.5  # [Hz] rate of poses (turtlesim: a timer of 16 ms)
 FRAME = 1.0 / FRAME_RATE  # [s]
 PIXELS_PER_METRE = 45.0  # turtlesim: the height of the image of a turtle is one metre
 MOST_LOST = 25  # poses in a row that may get lost, 0.4 s
+FASTEST = 2.0  # [m/s] as turtle_teleop_key drives ...
+FASTEST_TURN = 10.0  # [rad/s]; ... what a pose tells beyond these is not believed
 ROUNDING = 1e-4  # [m], [rad] errors of float32 on a field of 11 m
 
 
@@ -36,12 +38,13 @@ class TurtleMotion:
         Returns:
             Poses that end with `pose`; empty if the turtle cannot have driven there, but was put there.
         """
+        speed, turn_rate = min(abs(speed), FASTEST), min(max(turn_rate, -FASTEST_TURN), FASTEST_TURN)
         before, self._pose = self._pose, pose
-        fastest, self._speed = max(abs(speed), self._speed), abs(speed)
+        fastest, self._speed = max(speed, self._speed), speed
         turning, self._turn_rate = max(abs(turn_rate), self._turn_rate), abs(turn_rate)
         dx, dy, turn = pose.x - before.x, pose.y - before.y, wrap_angle(pose.theta - before.theta)
         distance = math.hypot(dx, dy)
-        if distance <= abs(speed) * FRAME + ROUNDING and abs(wrap_angle(turn - turn_rate * FRAME)) <= ROUNDING:
+        if distance <= speed * FRAME + ROUNDING and abs(wrap_angle(turn - turn_rate * FRAME)) <= ROUNDING:
             return [pose]  # the usual case: no pose got lost
         for frames in range(1, MOST_LOST + 2):
             if distance <= frames * fastest * FRAME + ROUNDING and abs(turn) <= frames * turning * FRAME + ROUNDING:
