@@ -1,13 +1,21 @@
 """The servers of the cleaner's actions, without a master: goals of a time that is over, and those still open."""
 
+import time
 import types
 
 import pytest
 import rospy
 from actionlib_msgs.msg import GoalID, GoalStatus
 
-from rumba_cleaning.ros.cleaner import action_server
+from rumba_cleaning.outcome import Outcome
+from rumba_cleaning.ros.cleaner import action_server, conversions
+from rumba_cleaning.ros.cleaner.action_server import LONGEST_ID, MOST
 from rumba_msg.msg import GoToAction, GoToActionGoal, GoToResult
+
+
+def result(outcome, text):
+    """The result of a goal."""
+    return GoToResult(outcome=conversions.outcome(outcome, text))
 
 
 class Topics:
@@ -17,31 +25,33 @@ class Topics:
         now: [s].
         accepted: handles of the goals that were passed on.
         results: status and text of each result, by the id of the goal.
-        timers: periods and arguments of the timers.
+        statuses: ids of the goals in each status.
     """
 
     def __init__(self, monkeypatch):
         self.now = 100.0
-        self.accepted, self.timers = [], []
+        self.accepted, self.statuses = [], []
         self.results = {}
         for name, stand_in in (
                 ('Publisher', self._publisher), ('Subscriber', lambda *_, **__: None), ('is_shutdown', lambda: False),
-                ('Timer', self._timer), ('Time', rospy.Time)):
+                ('Time', rospy.Time)):
             monkeypatch.setattr(action_server.rospy, name, stand_in)
         monkeypatch.setattr(rospy.Time, 'now', lambda: rospy.Time.from_sec(self.now))
-        self.server = action_server.Server('rumba/go_to', GoToAction, self.accepted.append, auto_start=False)
-        self.server.start()
+        self.server = action_server.Server('rumba/go_to', GoToAction, self.accepted.append, lambda _: None, result)
 
     def _publisher(self, name, *_, **__):
-        return types.SimpleNamespace(publish=self._keep if name.endswith('/result') else lambda _: None)
+        return types.SimpleNamespace(publish=getattr(self, f'_on_{name.rpartition("/")[2]}'))
 
-    def _keep(self, message):
+    def _on_result(self, message):
         status = message.status
+        assert message.result.outcome.message == status.text
         self.results[status.goal_id.id] = status.status, status.text
 
-    def _timer(self, *_, **arguments):
-        self.timers.append(arguments)
-        return types.SimpleNamespace(shutdown=lambda: None)
+    def _on_status(self, message):
+        self.statuses.append([status.goal_id.id for status in message.status_list])
+
+    def _on_feedback(self, _):
+        """Nobody listens."""
 
     def goal(self, name, stamp=None):
         """Send a goal; returns its handle, or None if it was not passed on."""
@@ -50,15 +60,17 @@ class Topics:
         self.server.internal_goal_callback(GoToActionGoal(goal_id=GoalID(stamp, name)))
         return self.accepted[0] if self.accepted else None
 
-    def cancel(self, stamp):
-        """Cancel all goals up to a stamp [s]."""
-        self.server.internal_cancel_callback(GoalID(rospy.Time.from_sec(stamp), ''))
+    def cancel(self, stamp, name=''):
+        """Cancel all goals up to a stamp [s], and the one of an id."""
+        self.server.internal_cancel_callback(GoalID(rospy.Time.from_sec(stamp), name))
 
 
 @pytest.fixture
 def topics(monkeypatch):
     """The topics of a server that is started."""
-    return Topics(monkeypatch)
+    topics = Topics(monkeypatch)
+    yield topics
+    topics.server.close('')
 
 
 def test_a_cancel_counts_for_goals_that_are_older(topics):
@@ -88,18 +100,79 @@ def test_a_goal_with_the_id_of_one_of_a_time_that_is_over_is_a_new_one(topics):
 
 
 def test_the_status_goes_on_after_time_went_back(topics):
-    assert [timer['reset'] for timer in topics.timers] == [True]
+    topics.goal('mine').set_accepted()
+    topics.now = 2.0
+    before = len(topics.statuses)
+    end = time.monotonic() + 30.0
+    while len(topics.statuses) < before + 2 and time.monotonic() < end:
+        time.sleep(0.01)
+    assert topics.statuses[before:before + 2] == [['mine'], ['mine']]
 
 
 def test_at_the_end_all_open_goals_are_answered_and_no_more_are_taken(topics):
     topics.goal('done').set_accepted()
-    topics.accepted[0].set_succeeded(text='there')
+    topics.accepted[0].set_succeeded(result(Outcome.SUCCEEDED, 'there'), 'there')
     topics.goal('active').set_accepted()
     topics.goal('pending')
     cancelled = topics.goal('cancelled')
     cancelled.set_cancel_requested()
-    topics.server.internal_cancel_callback(GoalID(rospy.Time(), 'unknown'))
-    topics.server.close(GoToResult(), 'the end')
+    topics.cancel(0.0, 'unknown')
+    topics.server.close('the end')
     assert topics.results == {'done': (GoalStatus.SUCCEEDED, 'there'), 'active': (GoalStatus.ABORTED, 'the end'),
                               'pending': (GoalStatus.ABORTED, 'the end'), 'cancelled': (GoalStatus.ABORTED, 'the end')}
     assert topics.goal('late') is None
+
+
+# --- floods -----------------------------------------------------------------------------------------------------------
+
+def test_a_cancel_that_overtakes_its_goal_counts_for_a_while(topics):
+    topics.cancel(0.0, 'early')
+    assert topics.goal('early') is None
+    assert topics.results['early'] == (GoalStatus.RECALLED, 'cancelled')
+    topics.now += action_server.REMEMBERED + 1.0
+    assert topics.goal('early') is not None
+
+
+def test_cancels_of_unknown_goals_print_nothing_and_are_forgotten(topics, caplog):
+    for number in range(4000):
+        topics.cancel(0.0, f'unknown{number}')
+    topics.cancel(0.0, 'x' * 100_000)
+    assert not caplog.records
+    assert topics.goal('unknown0') is not None and topics.goal('x' * LONGEST_ID) is not None
+    assert topics.goal('unknown3999') is None
+
+
+def test_of_many_goals_at_once_each_is_answered_and_the_status_stays_short(topics):
+    for number in range(4000):
+        topics.goal(f'waits{number}')
+    refused = {name: text for name, (status, text) in topics.results.items() if status == GoalStatus.REJECTED}
+    assert list(refused) == [f'waits{number}' for number in range(MOST, 4000)]
+    assert set(refused.values()) == {f'{MOST} goals wait already: send it again later'}
+    topics.server.close('the end')
+    assert len(topics.results) == 4000
+    assert max(map(len, topics.statuses)) <= MOST
+
+
+def test_of_many_goals_one_after_another_only_the_newest_are_in_the_status(topics):
+    for number in range(1000):
+        topics.goal(f'mine{number}').set_accepted()
+        topics.accepted[0].set_aborted(result(Outcome.NO_PATH, ''))
+    assert max(map(len, topics.statuses)) <= MOST + 1
+    assert topics.statuses[-1][-1] == 'mine999'
+    assert len(topics.results) == 1000
+
+
+def test_a_goal_that_is_sent_again_among_many_keeps_its_state(topics):
+    handle = topics.goal('mine')
+    for number in range(MOST):
+        topics.goal(f'other{number}')
+    assert topics.goal('mine') is None and 'mine' not in topics.results
+    handle.set_accepted()
+    handle.set_succeeded(result(Outcome.SUCCEEDED, 'there'), 'there')
+    assert topics.results['mine'] == (GoalStatus.SUCCEEDED, 'there')
+
+
+def test_an_id_that_every_status_would_carry_is_refused_if_it_is_long(topics):
+    name = 'x' * (LONGEST_ID + 1)
+    assert topics.goal(name) is None
+    assert topics.results[name] == (GoalStatus.REJECTED, f'the id has {LONGEST_ID + 1} characters: must be at most 300')

@@ -93,11 +93,10 @@ class Cleaner:
 
     def _serve(self, name: str) -> Server:
         """The server of an action."""
-        server = Server(f'{self._settings.robot}/{name}', ACTIONS[name].type,
-                        lambda handle: self._events.put(lambda: self._accept(name, handle)),
-                        lambda handle: self._events.put(lambda: self._cancel(handle)), auto_start=False)
-        server.start()
-        return server
+        return Server(f'{self._settings.robot}/{name}', ACTIONS[name].type,
+                      lambda handle: self._events.put(lambda: self._accept(name, handle)),
+                      lambda handle: self._events.put(lambda: self._cancel(handle)),
+                      lambda code, message: self._result(name, code, message))
 
     def run(self) -> None:
         """Handle events until ROS shuts down."""
@@ -120,8 +119,8 @@ class Cleaner:
             rospy.logerr(f'the strategy has not returned for {END_WITHIN:g} s: the cleaner ends without it')
             self._run = None  # its goal is answered below
             threading.Thread(target=self._force_end, daemon=True).start()
-        for name, server in self._servers.items():
-            server.close(self._result(name, Outcome.FAILED, END), END)
+        for server in self._servers.values():
+            server.close(END)
         self._robot.wheels.close()
 
     def _finish(self) -> None:
