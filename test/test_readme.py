@@ -32,9 +32,10 @@ COMMANDS = {
     'turtlesim': 'rosrun turtlesim turtlesim_node _gui:=false',
     'viewer': 'env QT_QPA_PLATFORM=offscreen rosrun rumba_viewer viewer _laser:=true',
 }
-# Two simulators need two masters; beside each run the nodes that publish what it subscribes to.
-BODY = ['turtlesim_body', 'turtlesim', 'teleop_key', 'cleaner']
-BESIDE = [[node for node in NODES if node not in BODY[:1]], BODY]
+# Two simulators need two masters; beside each run the nodes that publish what it subscribes to. mission_test ends if
+# another node publishes what the simulator does.
+INTRUDERS = ['turtlesim_body', 'battery_status_publisher']
+BESIDE = [[node for node in NODES if node not in INTRUDERS], INTRUDERS + ['turtlesim', 'teleop_key', 'cleaner']]
 
 
 @pytest.fixture(scope='module')

@@ -12,7 +12,7 @@ from rooms import crooked, quiet
 
 from rumba_sim.model import kernel
 from rumba_sim.model.config import describe, from_mapping, leaves, updated
-from rumba_sim.model.constants import Constants, constants
+from rumba_sim.model.constants import Constants, check_speed, constants
 from rumba_sim.model.errors import ConfigError, MapError
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.robot_config import DockConfig, RobotConfig
@@ -145,10 +145,14 @@ def test_the_reach_is_larger_than_the_radius_by_no_more_than_the_error_of_interp
     assert 0.0 < k.reach - 0.17425 < resolution ** 2
 
 
-def test_the_limits_of_speed_and_cell_size_are_still_allowed():
+def test_the_limit_of_speed_is_still_allowed():
     config = quiet(drive={'radius': 0.1, 'max_speed': 1.0})
-    assert constants(config, crooked(0.1), 10)[0].max_speed == 1.0
+    check_speed(config, 10)
     with pytest.raises(ConfigError, match=r'^drive/max_speed is 1: at 9 ticks a second must be at most 0\.9 \[m/s\]'):
-        constants(config, crooked(0.1), 9)
+        check_speed(config, 9)
+
+
+def test_the_limit_of_cell_size_is_still_allowed():
+    assert constants(quiet(drive={'radius': 0.1}), crooked(0.1), 50)[0].radius == 0.1
     with pytest.raises(MapError, match=r'^room: cells of 0\.1 m are too coarse for a robot of radius 0\.09 m$'):
         constants(quiet(drive={'radius': 0.09}), crooked(0.1), 50)
