@@ -1,5 +1,7 @@
 """Why no window can be opened: found out before Qt would end the process."""
 
+import tempfile
+
 import pytest
 
 from rumba_viewer.window import display
@@ -11,6 +13,7 @@ from rumba_viewer.window import display
     ('import sys; sys.exit("qt.qpa.xcb: could not connect to display")', 20.0, 'the display :7 cannot be opened'),
     ('import time; time.sleep(60.0)', 0.3, 'the display :7 has not answered for 0.3 s')])
 def test_another_process_tries_whether_a_display_can_be_opened(attempt, patience, reason, monkeypatch):
+    monkeypatch.setattr(tempfile, 'tempdir', '/dev/null/nowhere')  # as if no file could be made
     monkeypatch.delenv('QT_QPA_PLATFORM', raising=False)
     monkeypatch.setenv('DISPLAY', ':7')
     monkeypatch.setattr(display, 'TRY', attempt)

@@ -5,7 +5,6 @@ import os
 import select
 import subprocess
 import sys
-import tempfile
 from typing import Iterator
 
 WITHOUT_DISPLAY = ('offscreen', 'minimal', 'vnc', 'linuxfb', 'eglfs')  # platforms of Qt that need no display
@@ -29,22 +28,21 @@ def reached() -> Iterator[str]:
     if platform not in WITHOUT_DISPLAY and not name:
         yield 'there is no display: neither DISPLAY nor WAYLAND_DISPLAY is set'
         return
-    with tempfile.TemporaryFile('w+') as errors, subprocess.Popen(
-            [sys.executable, '-c', TRY], stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=errors) as attempt:
+    with subprocess.Popen([sys.executable, '-c', TRY], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+                          stderr=subprocess.PIPE) as attempt:
         try:
-            assert attempt.stdout is not None
+            assert attempt.stdout is not None and attempt.stderr is not None
             if not select.select([attempt.stdout], [], [], PATIENCE)[0]:
                 yield f'the display {name} has not answered for {PATIENCE:g} s'
             elif attempt.stdout.readline():
                 yield ''
             else:
-                errors.seek(0)
-                yield _why(errors.read(), platform or name or '')
+                yield _why(attempt.stderr.read(), platform or name or '')
         finally:
             attempt.kill()
 
 
-def _why(errors: str, display: str) -> str:
-    if 'ModuleNotFoundError' in errors or 'ImportError' in errors:
+def _why(errors: bytes, display: str) -> str:
+    if b'ModuleNotFoundError' in errors or b'ImportError' in errors:
         return 'PyQt5 is not installed: apt-get install python3-pyqt5'
     return f'the display {display} cannot be opened'
