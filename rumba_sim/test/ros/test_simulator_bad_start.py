@@ -51,6 +51,7 @@ class SimulatorBadStartTest(unittest.TestCase):
                  f'_seed:={23 * "9"}'),
                 (rf'^simulator: {room}: no room for another robot\n$', '_robots:=20', f'_map:={room}'),
                 (r"^simulator: unknown argument 'studio': ", 'studio'),
+                (r"^simulator: cannot start: \[Errno 20\] Not a directory: '/dev/null/x'\n$", '__log:=/dev/null/x'),
                 (r'^simulator: map:= remaps a topic: for the parameter write _map:=\n$', 'map:=studio')):
             with self.subTest(arguments):
                 self.assert_refused(message, *arguments)

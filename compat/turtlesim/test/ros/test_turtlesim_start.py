@@ -35,6 +35,7 @@ class TurtlesimStartTest(unittest.TestCase):
                 ('gui is true, but there is no display', '_gui:=true'),
                 ('unknown parameter _spede: known are _background_r:=, ', '_spede:=2'),
                 ("unknown argument 'fast': known are ", 'fast'),
+                (r"cannot start: \[Errno 20\] Not a directory: '/dev/null/x'$", '__log:=/dev/null/x'),
                 ('speed:= remaps a topic: for the parameter write _speed:=', 'speed:=2')):
             with self.subTest(arguments):
                 self.assert_refused(pattern, *arguments)

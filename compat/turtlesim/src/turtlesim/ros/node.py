@@ -75,7 +75,7 @@ def run(name: str, parameters: Parameters, main: Callable[[], None], own_clock: 
     try:
         _check_command_line(arguments, parameters)
         _wait_for_master(name)
-        rospy.init_node(name, disable_rostime=own_clock)
+        _register(name, own_clock)
         for ending in (signal.SIGINT, signal.SIGTERM):
             signal.signal(ending, _shut_down)
         try:
@@ -102,6 +102,13 @@ def _wait_for_master(name: str) -> None:
     print(f'{name}: no roscore answers at {rosgraph.get_master_uri()} yet: waiting for it', file=sys.stderr, flush=True)
     while not rosgraph.is_master_online():
         time.sleep(LOOK_PERIOD)
+
+
+def _register(name: str, own_clock: bool) -> None:
+    try:
+        rospy.init_node(name, disable_rostime=own_clock)
+    except OSError as error:  # of the log file that the argument __log names
+        raise TurtlesimError(f'cannot start: {error}') from None
 
 
 def _describe(item: Any) -> str:
