@@ -3,13 +3,14 @@
 import math
 import threading
 import time
-from typing import Callable, List
+from typing import Callable, Iterable, List, Optional
 
 import rosgraph
 import rospy
 from rospy.impl.registration import Registration, get_registration_listeners, get_service_manager, get_topic_manager
 
 from rumba_sim.model.errors import RumbaError
+from rumba_sim.ros.common import peers
 from rumba_sim.ros.common.peers import NO_ANSWER
 
 PERIOD = 1.0  # [s] between two looks at the master
@@ -38,8 +39,10 @@ class MasterWatch:
     """Looks at the master again and again."""
 
     def __init__(self) -> None:
-        """The master answers now."""
+        """This node is registered at the master."""
         self._name = rospy.get_name()
+        self._master = peers.hasty_master(self._name)
+        self._pid: Optional[int] = None  # of the master at which all of this node is registered; None: unknown
         self._uri = rospy.core.get_node_uri()
         self._is_gone = False
         self._clock_by = time.monotonic() + CLOCK_PATIENCE  # when it should have heard the time
@@ -54,19 +57,28 @@ class MasterWatch:
     def look(self) -> None:
         """Look once, and do what is necessary."""
         try:
-            uri = rosgraph.Master(self._name).lookupNode(self._name)
-        except rosgraph.MasterException:
-            uri = ''  # the master answers, and does not know this node
+            pid, uri = self._master.getPid(), self._known_uri()
         except NO_ANSWER:
             self._miss()
             return
         if rospy.core.is_shutdown_requested():
             return  # which takes the node from the master
         self._is_gone = False
+        self._pid = self._pid or pid
         if not uri:
-            self._return()
+            self._return(pid, _before_return)
         elif uri != self._uri:
             _end(f'another node has taken the name {self._name}')
+        elif pid != self._pid:  # it knows only what was registered since it was restarted
+            self._return(pid, [])
+
+    def _known_uri(self) -> str:
+        """Where the master says that this node is; empty if it does not know this node."""
+        try:
+            uri: str = self._master.lookupNode(self._name)
+        except rosgraph.MasterException:
+            return ''
+        return uri
 
     def _miss(self) -> None:
         if not self._is_gone and not rospy.core.is_shutdown_requested():
@@ -74,11 +86,12 @@ class MasterWatch:
                           'registers again when there is a master')
         self._is_gone = True
 
-    def _return(self) -> None:
+    def _return(self, pid: int, checks: Iterable[Callable[[], object]]) -> None:
         try:
-            for check in _before_return:
+            for check in checks:
                 check()
             _register_again()
+            self._pid = pid
             for repair in _after_return:
                 repair()
         except RumbaError as error:

@@ -26,6 +26,13 @@ class _Hasty(xmlrpc.client.Transport):
         return connection
 
 
+def hasty_master(name: str) -> rosgraph.Master:
+    """The master for a node, by its full name; a call of it that takes long is an OSError."""
+    master = rosgraph.Master(name)
+    master.handle = xmlrpc.client.ServerProxy(master.master_uri, _Hasty())
+    return master
+
+
 def is_alive(name: str) -> bool:
     """Whether a node answers, given by its full name: the master still knows nodes that were killed."""
     try:
