@@ -1,6 +1,7 @@
 """Turtles go without a delay for others, and their names are free when they are needed again."""
 
 import threading
+import weakref
 
 import pytest
 
@@ -13,13 +14,14 @@ class Topics:
     """The topics of a turtle, which cannot be closed before `may_close` is set."""
 
     def __init__(self, may_close, closed):
+        self._itself = self  # as in rospy: only a collection of garbage frees them
         self._may_close = may_close
         self._closed = closed
 
     def close(self):
         """Wait, then note it."""
         assert self._may_close.wait(TIMEOUT)
-        self._closed.append(self)
+        self._closed.append(weakref.ref(self))
 
 
 class Requests:
@@ -60,3 +62,10 @@ def test_the_next_change_waits_until_they_are(node):
     threading.Timer(0.1, node.may_close.set).start()
     with node._change():
         assert len(node.closed) == 80
+
+
+def test_nothing_is_left_of_topics_that_are_closed(node):
+    node._on_reset(None)
+    node.may_close.set()
+    node._closing.join(TIMEOUT)
+    assert [each() for each in node.closed] == [None] * 80

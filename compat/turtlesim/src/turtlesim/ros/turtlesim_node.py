@@ -14,6 +14,7 @@ Parameters, as in `rosrun turtlesim turtlesim_node _gui:=false _speed:=10`:
 """
 
 import contextlib
+import gc
 import queue
 import sys
 import threading
@@ -150,8 +151,8 @@ class Turtlesim:
 
     def _close(self, names: Iterable[str]) -> None:
         """Close topics and services in a thread: that takes six calls of the master for each turtle."""
-        closes = [close for name in names for close in (self._outputs.pop(name).close, self._inputs.pop(name).close)]
-        self._closing = threading.Thread(target=lambda: [close() for close in closes])
+        gone = [each.pop(name) for name in names for each in (self._outputs, self._inputs)]
+        self._closing = threading.Thread(target=close_all, args=[gone])
         self._closing.start()
 
     @contextlib.contextmanager
@@ -213,6 +214,13 @@ class Turtlesim:
         except (OSError, TurtlesimError) as error:
             return TriggerResponse(False, str(error))
         return TriggerResponse(True, f'saved {path}')
+
+
+def close_all(gone: List[Any]) -> None:
+    """Close topics and services, and take them from the list."""
+    while gone:
+        gone.pop().close()
+    gc.collect()  # rospy leaves a file descriptor of each topic open until then
 
 
 def read_background() -> Colour:
