@@ -136,7 +136,7 @@ def test_poses_that_are_not_finite_do_not_count():
     watch.see(101.0)
     watch.see_odd(102.0)
     assert watch.line(103.5, True) == (
-        '/a/pose has numbers that are not finite: turtlesim may miss its pictures; ignored')
+        '/a/pose has numbers that are not finite, or too large: turtlesim may miss its pictures; ignored')
     assert not watch.is_gone(101.0 + GONE_AFTER, True)
     assert watch.is_gone(101.1 + GONE_AFTER, True)
 
@@ -166,9 +166,10 @@ def test_an_error_at_a_pose_ends_the_node(monkeypatch):
         body.run()
 
 
-@pytest.mark.parametrize('field', POSE)
-@pytest.mark.parametrize('value', [math.nan, math.inf, -math.inf])
-def test_a_pose_that_is_not_finite_is_not_passed_on(monkeypatch, field, value):
+@pytest.mark.parametrize('field, value', [
+    *((field, value) for field in POSE for value in (math.nan, math.inf, -math.inf)),
+    *((field, value) for field in ('x', 'y', 'theta') for value in (3e38, -1001.0))])
+def test_a_pose_that_no_turtle_can_have_is_not_passed_on(monkeypatch, field, value):
     body = idle_body(monkeypatch)
     body._on_pose(types.SimpleNamespace(**{**POSE, field: value}))
     assert body._watch.is_gone(GONE_AFTER + 0.1, True)

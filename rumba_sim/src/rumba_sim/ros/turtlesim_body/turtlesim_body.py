@@ -53,6 +53,7 @@ from rumba_sim.ros.turtlesim_body.watch import Watch
 RATES = Rates(scan=0)
 FRAME_NS = round(1e9 / FRAME_RATE)
 MAX_LAG = 10_000_000_000  # [ns] by which counted time may be behind /clock
+LARGEST = 1000.0  # [m], [rad] in a pose: the field is 11 m wide
 PERIOD = 0.1  # [s] of the wall clock between two looks whether ROS shuts down
 LANDING = 10  # [frames] after a teleport in which the pen stays up: turtlesim may draw the line late
 
@@ -159,8 +160,8 @@ class TurtlesimBody:
     # --- what the turtle does -----------------------------------------------------------------------------------------
 
     def _on_pose(self, message: Any) -> None:
-        if not all(map(math.isfinite, (message.x, message.y, message.theta, message.linear_velocity,
-                                       message.angular_velocity))):
+        if not (all(abs(number) <= LARGEST for number in (message.x, message.y, message.theta))  # NaN is not
+                and math.isfinite(message.linear_velocity) and math.isfinite(message.angular_velocity)):
             self._watch.see_odd(time.monotonic())
             return
         if self._watch.see(time.monotonic()):

@@ -17,7 +17,7 @@ class Watch:
         """Start to wait for the first pose."""
         self._topic = topic
         self._seen = now  # the newest pose
-        self._odd = -math.inf  # the newest pose that is not finite
+        self._odd = -math.inf  # the newest pose that no turtle can have
         self._due = -math.inf  # when the next line is due
         self._is_missed = False
 
@@ -28,7 +28,7 @@ class Watch:
         return was_missed
 
     def see_odd(self, now: float) -> None:
-        """Note a pose with a number that is not finite."""
+        """Note a pose that no turtle can have."""
         self._odd = now
 
     def line(self, now: float, is_heard: bool) -> Optional[str]:
@@ -45,7 +45,8 @@ class Watch:
         if not is_heard:
             return f'no turtle: nothing publishes {self._topic}'
         if self._is_odd:
-            return f'{self._topic} has numbers that are not finite: turtlesim may miss its pictures; ignored'
+            return (f'{self._topic} has numbers that are not finite, or too large: turtlesim may miss its pictures; '
+                    'ignored')
         return f'no pose on {self._topic} for {missed:.0f} s: turtlesim hangs, or its time stands still'
 
     def is_gone(self, now: float, is_heard: bool) -> bool:
