@@ -8,7 +8,7 @@ from dynamic_reconfigure.msg import Config, DoubleParameter
 from dynamic_reconfigure.srv import Reconfigure
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import BatteryState
-from std_srvs.srv import Trigger
+from std_srvs.srv import Empty, Trigger
 
 from rumba_msg.msg import CleaningStatus, SimulatorState
 from rumba_msg.srv import Kill
@@ -16,6 +16,7 @@ from stress.failure import Failure
 from stress.scenarios import SPEED
 
 STATE = '/simulator/state'
+TURTLE_POSE = '/turtle1/pose'  # of the body of the robot
 LARGEST = 1e3  # [m] coordinates in a map, at most
 CURRENT = 6.0  # [A] more than all loads together, and more than the charger gives
 ROUNDING = 1e-3  # [Ah]
@@ -145,8 +146,9 @@ def tune(ground, **values):
 
 
 def tidy(ground):
-    """Let the world go on as at first if a blow made it stand still, or put robots into it."""
+    """Let the world go on as at first if a blow made it stand still, or put robots or turtles into it."""
     if not has_services(ground):
+        _remove_turtles(ground)
         return
     state = ground.read(STATE, SimulatorState)
     if state.speed != SPEED:
@@ -157,3 +159,10 @@ def tidy(ground):
         answer = ground.call(f'{ground.world.name}/kill', Kill, name)
         if not answer.success:
             raise Failure('kill', 'world', f'the robot {name} cannot be removed: {answer.message}')
+
+
+def _remove_turtles(ground):
+    """Reset turtlesim if there are turtles that are no robots: it moves, and publishes, each of them."""
+    poses = {topic for topic, kind, _, publishers in ground.topics() if kind._type == 'turtlesim/Pose' and publishers}
+    if poses - {TURTLE_POSE}:
+        ground.call('/reset', Empty)
