@@ -151,7 +151,9 @@ class Turtlesim:
 
     def _close(self, names: Iterable[str]) -> None:
         """Close topics and services in a thread: that takes six calls of the master for each turtle."""
-        gone = [each.pop(name) for name in names for each in (self._outputs, self._inputs)]
+        gone: List[Any] = []
+        for name in names:
+            gone += self._outputs.pop(name), self._inputs.pop(name)
         self._closing = threading.Thread(target=close_all, args=[gone])
         self._closing.start()
 
