@@ -128,7 +128,7 @@ class SimulatorTopicsTest(unittest.TestCase):
         bumper, status = Heard(self, '/rumba/bumper'), Heard(self, '/rumba/battery_status')
         # The robot looks along x, slightly toward the wall at y = 0: the wall is on its right.
         for heading, left, right in ((-0.6, False, True), (-HALF, True, True), (math.pi + 0.6, True, False)):
-            simulator.teleport(4.0, 0.1763, heading)
+            simulator.teleport(4.0, 0.175, heading)
             pressed = bumper.fresh(lambda message: message.is_left_pressed or message.is_right_pressed)
             pressed = bumper.fresh(lambda message: message.is_left_pressed or message.is_right_pressed)
             self.assertEqual((pressed.is_left_pressed, pressed.is_right_pressed), (left, right), heading)

@@ -103,6 +103,18 @@ def test_an_hour_that_is_saved_and_restored_each_minute_ends_as_an_uninterrupted
     assert worlds[0].floor.coverage > 0.1
 
 
+def test_when_a_configuration_is_set_once_more_does_not_matter():
+    worlds = [World(PLAN, CONFIG, seed=3) for _ in range(2)]
+    for world in worlds:
+        world.spawn('a', Pose(0.4, 1.4, 0.0)).command(0.1, 0.0, 0)
+        world.spawn('b', Pose(2.2, 0.6, 0.0))
+        world.step(7)
+    worlds[1].config = CONFIG
+    for world in worlds:
+        world.step(20)
+    assert worlds[0].digest() == worlds[1].digest()
+
+
 def test_a_state_is_a_copy():
     world = World(PLAN, CONFIG)
     world.spawn('rumba').command(0.3, 0.0, 0)

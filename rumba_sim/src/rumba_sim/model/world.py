@@ -301,8 +301,11 @@ class World:
     # --- state ----------------------------------------------------------------------------------------------------
 
     def _arrays(self) -> Dict[str, Array]:
-        """All arrays that change, by name."""
-        robots = {f'robots/{name}': self._states[name] for name in self._states.dtype.names or ()}
+        """All arrays that change, by name.
+
+        `alone_until` is none of them: it only saves time, and 0 is as good as what was computed.
+        """
+        robots = {f'robots/{name}': self._states[name] for name in kernel.ROBOT.names if name != 'alone_until'}
         return {**robots,  # field by field, since bytes between fields are undefined
                 'noise': self._noise, 'dirt': self.floor.dirt, 'samples': self.floor.sweep.samples,
                 'tally': self.floor.sweep.tally}
