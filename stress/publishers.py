@@ -1,6 +1,7 @@
 """The server side of the wire: what nodes that subscribe connect to."""
 
 import contextlib
+import itertools
 import queue
 import socket
 import socketserver
@@ -9,6 +10,10 @@ import time
 import xmlrpc.server
 
 from stress import wire
+
+
+class _Handler(xmlrpc.server.SimpleXMLRPCRequestHandler):
+    rpc_paths = ()  # any
 
 
 class _ThreadingServer(socketserver.ThreadingMixIn, xmlrpc.server.SimpleXMLRPCServer):
@@ -21,18 +26,19 @@ class _ThreadingServer(socketserver.ThreadingMixIn, xmlrpc.server.SimpleXMLRPCSe
 class Publishers:
     """The server side of `/stress`: nodes that subscribe to its topics connect to it, and get what it is told to send.
 
-    One for the whole process; it publishes one topic at a time, for as long as a block.
+    One for the whole process; it publishes one topic at a time, for as long as a block. Each time it is another
+    publisher: a node that has not yet noticed the end of its last connection would not connect to the same one again.
     """
 
     def __init__(self):
         """Open both servers."""
         self._came = {}  # queues of connections, by topic
         self._listener = socket.create_server((wire.HOST, 0), backlog=64)
-        self._api = _ThreadingServer((wire.HOST, 0), logRequests=False, allow_none=True)
+        self._api = _ThreadingServer((wire.HOST, 0), _Handler, logRequests=False, allow_none=True)
         self._api.register_function(self._request_topic, 'requestTopic')
         for name in ('publisherUpdate', 'paramUpdate', 'getPid', 'getBusInfo', 'shutdown'):
             self._api.register_function(lambda *_: (1, '', 0), name)
-        self.uri = f'http://{wire.HOST}:{self._api.server_address[1]}/'
+        self._uris = (f'http://{wire.HOST}:{self._api.server_address[1]}/{number}/' for number in itertools.count())
         for work in (self._api.serve_forever, self._accept):
             threading.Thread(target=work, daemon=True).start()
 
@@ -67,9 +73,9 @@ class Publishers:
             patience: how long [s]; fewer may have come then.
         """
         came = self._came[topic] = queue.Queue()
-        connections = []
+        connections, uri = [], next(self._uris)
         try:
-            wire.ask(master_uri, 'registerPublisher', topic, kind._type, self.uri)
+            wire.ask(master_uri, 'registerPublisher', topic, kind._type, uri)
             end = time.monotonic() + patience
             while len(connections) < at_least:
                 try:
@@ -79,7 +85,7 @@ class Publishers:
             yield connections
         finally:
             with contextlib.suppress(wire.WireError):
-                wire.ask(master_uri, 'unregisterPublisher', topic, self.uri)
+                wire.ask(master_uri, 'unregisterPublisher', topic, uri)
             del self._came[topic]
             while not came.empty():
                 connections.append(came.get())

@@ -12,7 +12,6 @@ from stress.values import hostile, mutated
 
 POOL = 150  # messages that are made, and as many mutations of them
 MESSAGES = 6000
-FEWER = 1000  # if each makes the list of goals longer, which is sent at each change
 CALLS = 300
 GOALS = 25
 BATCH = 50  # messages in one packet
@@ -39,7 +38,7 @@ def send(ground, entry, chance, blow):
             connection.settimeout(wire.PATIENCE)
             with contextlib.suppress(OSError):
                 connection.sendall(wire.greeting(kind))
-        for _ in range((FEWER if name.endswith(('/goal', '/cancel')) else MESSAGES) // BATCH):
+        for _ in range(MESSAGES // BATCH):
             data = b''.join(chance.choice(pool) for _ in range(BATCH))
             for _, connection in connections:
                 with contextlib.suppress(OSError):
