@@ -65,6 +65,7 @@ def verdict(fault, publishers, monkeypatch):
     """What a run over the frail node prints, and how many failures it counts."""
     monkeypatch.setattr('stress.oracles.COMES_BACK_WITHIN', 2.0)
     monkeypatch.setattr('stress.oracles.ANSWERS_WITHIN', 3.0)
+    monkeypatch.setattr('stress.oracles.SECONDS_PER_INPUT', 0.001)
     monkeypatch.setattr('stress.world.MOVES_WITHIN', 3.0)
     stream = io.StringIO()
     told = report.Report(5, 600.0, stream)
