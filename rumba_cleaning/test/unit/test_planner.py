@@ -61,7 +61,7 @@ def test_plans_reach_the_target_by_short_routes_that_keep_off_walls(name):
     for route in routes:
         assert min(distances(floor_plan, route.waypoints)) >= context.robot.drive.radius - 0.01
         assert set(route.speeds) <= {context.config.speed, context.config.transit_speed}
-    assert length(routes[0].waypoints) < 1.45 * context.swept.reachable_area / BRUSH
+    assert length(routes[0].waypoints) < 1.5 * context.swept.reachable_area / BRUSH
     assert sum(length(route.waypoints) for route in routes) < 1.9 * context.swept.reachable_area / BRUSH
     assert context.swept.coverage == 0.0  # to plan sweeps nothing
 
@@ -135,7 +135,7 @@ def test_a_plan_leads_around_obstacles_that_were_met():
 def test_a_plan_for_the_last_spots_visits_only_as_many_as_the_target_needs():
     boxes = [(0.8, 0.8, 0.95, 0.9), (3.0, 0.8, 3.1, 0.9), (2.0, 2.2, 2.15, 2.3), (0.8, 2.2, 0.9, 2.3)]
     counts = []
-    for target in (0.9999, 0.996, 0.9945, 0.99):
+    for target in (0.9999, 0.997, 0.9955, 0.99):
         context = wiped_but(knowing(room(4.0, 3.0, 0.02), START, target_coverage=target), *boxes)
         route = plan(context, START)
         near = along(route.waypoints) if route is not None else np.zeros((0, 2))

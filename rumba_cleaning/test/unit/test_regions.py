@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from rooms import NAMES, PLANS, room
 from scipy import ndimage
 
-from rumba_cleaning.planning.regions import regions
+from rumba_cleaning.planning.regions import regions, shapes
 
 RESOLUTIONS = pytest.mark.parametrize('resolution', [0.02, 0.05, 0.1])
 
@@ -61,6 +61,15 @@ def test_an_alcove_with_a_wide_part_that_is_too_small_belongs_to_the_room_beside
 def test_a_narrow_corridor_without_a_wide_part_is_a_region_of_its_own(resolution):
     floor = ground(room(4.0, 0.6, resolution))
     assert len(labels(floor)) == 1 and (regions(floor)[floor.fits] > 0).all()
+
+
+@pytest.mark.parametrize('width, height, is_open, has_lanes', [(10.0, 10.0, True, False), (5.0, 3.0, False, True),
+                                                               (8.0, 0.8, False, False)])
+@RESOLUTIONS
+def test_lanes_suit_rooms_but_neither_halls_nor_corridors(width, height, is_open, has_lanes, resolution):
+    floor = ground(room(width, height, resolution))
+    found, label = shapes(floor, regions(floor)), at(floor, 0.5 * width, 0.5 * height)
+    assert (found.is_open[label], found.has_lanes[label]) == (is_open, has_lanes)
 
 
 def test_narrow_corridors_that_nothing_joins_are_separate_regions():

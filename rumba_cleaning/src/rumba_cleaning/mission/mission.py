@@ -19,6 +19,7 @@ from rumba_sim.model.geometry import Pose
 
 JUMP = 0.5  # [m] from one observation to the next: the robot did not drive there, somebody moved it; as in `Swept`
 OFF = 1.0  # [s] off the contacts while charging: the robot was moved; contacts that bounce are closed again sooner
+EXACT = 0.0002  # of coverage beyond the target: by so much the account of a robot may differ from the truth
 GAIN = 0.002  # of coverage: a charge that brings less brings nothing; as boustrophedon judges its rounds
 VAIN = 3  # charges, one after the other, that brought nothing: the mission is given up; our choice
 HOMES = 2  # attempts to return to the dock, each with the tries of `Dock`; our choice
@@ -193,7 +194,8 @@ class Mission(Behaviour):
 
     def _clean(self, observation: Observation) -> Command:
         coverage = self._context.swept.coverage
-        if coverage >= self._context.target_coverage:
+        target = self._context.target_coverage
+        if coverage >= min(target + EXACT, 1.0):
             return self._close(Status.SUCCEEDED, f'{_percent(coverage)} swept', Outcome.SUCCEEDED)
         needed = self._watch.needed(observation.pose)
         if observation.state_of_charge < needed:
@@ -208,8 +210,9 @@ class Mission(Behaviour):
         if cleaning.status is Status.FAILED:
             return self._close(Status.FAILED, f'{_percent(coverage)} swept: {cleaning.message}', cleaning.outcome)
         if cleaning.status is Status.SUCCEEDED:
-            target = _percent(self._context.target_coverage)
-            return self._close(Status.FAILED, f'{_percent(coverage)} swept, the target is {target}: '
+            if coverage >= target:
+                return self._close(Status.SUCCEEDED, f'{_percent(coverage)} swept', Outcome.SUCCEEDED)
+            return self._close(Status.FAILED, f'{_percent(coverage)} swept, the target is {_percent(target)}: '
                                               f'{cleaning.message}', Outcome.INCOMPLETE)
         return command
 

@@ -29,14 +29,13 @@ NEIGHBOURS = tuple((row, column) for row in (-1, 0, 1) for column in (-1, 0, 1) 
 Pixel = Tuple[int, int]
 
 
-def crumbs(ground: Ground, share: Array, regions: Array, least: float = 0.0) -> List[Stretch]:
-    """The crumbs of at least a length [m].
+def crumbs(ground: Ground, share: Array, regions: Array) -> List[Stretch]:
+    """The crumbs: strips and spots.
 
     Args:
         ground: where the robot can stand.
         share: of each cell that was missed, float32 (rows, columns).
         regions: the region of each node, int (rows + 1, columns + 1).
-        least: 0: spots too.
     """
     res = ground.plan.resolution
     labels, _ = ndimage.label(share >= MISSED, np.ones((3, 3)))
@@ -49,8 +48,8 @@ def crumbs(ground: Ground, share: Array, regions: Array, least: float = 0.0) -> 
         corner = np.array([window[0].start, window[1].start])
         region = _region(ground, cells, corner, regions)
         if max(cells.shape) * res >= STRIP:
-            found += _strips(ground, cells, corner, region, areas[number], least)
-        elif not least:
+            found += _strips(ground, cells, corner, region, areas[number])
+        else:
             found.append(_spot(ground, cells, corner, region, areas[number]))
     return found
 
@@ -61,7 +60,7 @@ def _region(ground: Ground, cells: Array, corner: Array, regions: Array) -> int:
     return int(regions[node[0], node[1]])
 
 
-def _strips(ground: Ground, cells: Array, corner: Array, region: int, area: float, least: float) -> List[Stretch]:
+def _strips(ground: Ground, cells: Array, corner: Array, region: int, area: float) -> List[Stretch]:
     """Paths along the middle of a crumb and of its branches."""
     paths = []
     for pixels in middle_lines(cells, int(TWIG / ground.plan.resolution)):
@@ -71,8 +70,8 @@ def _strips(ground: Ground, cells: Array, corner: Array, region: int, area: floa
         paths.append(_standing(ground, points))
     lengths = [float(np.hypot(*np.diff(path, axis=0).T).sum()) for path in paths]
     found = [Stretch(pair([simplified(path, STRAIGHT)]), region, area * length / sum(lengths), True)
-             for path, length in zip(paths, lengths) if length >= max(least, 2.0 * OVER)]
-    return found or ([] if least else [_spot(ground, cells, corner, region, area)])
+             for path, length in zip(paths, lengths) if length >= 2.0 * OVER]
+    return found or [_spot(ground, cells, corner, region, area)]
 
 
 def _standing(ground: Ground, points: Array) -> Array:

@@ -1,4 +1,4 @@
-"""Plans how to clean what was missed: region by region, in rings from the walls inward, and then the crumbs."""
+"""Plans how to clean what was missed: region by region, along the walls, in lanes or in rings, and then the crumbs."""
 
 from typing import Dict, List, Optional, Tuple
 
@@ -6,19 +6,27 @@ import numpy as np
 
 from rumba_cleaning.behaviours.follower import Route
 from rumba_cleaning.belief.context import Context
+from rumba_cleaning.belief.ground import Ground
+from rumba_cleaning.belief.swept import Swept
 from rumba_cleaning.planning import tour
-from rumba_cleaning.planning.crumbs import STRIP, crumbs
-from rumba_cleaning.planning.regions import Ways, doors, regions
+from rumba_cleaning.planning.crumbs import crumbs
+from rumba_cleaning.planning.detours import with_crumbs
+from rumba_cleaning.planning.lanes import blocks
+from rumba_cleaning.planning.links import block_variants
+from rumba_cleaning.planning.paper import drive
+from rumba_cleaning.planning.regions import Ways, doors, regions, shapes
 from rumba_cleaning.planning.rings import chains, rings, stretch
 from rumba_cleaning.planning.stretches import Stretch
 from rumba_cleaning.planning.tour import Tour
+from rumba_cleaning.planning.turned_floor import main_direction
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.kernel import Array
 
 # Our choice.
-SURPLUS = 0.002  # of coverage that is planned beyond the target, since no robot drives exactly as planned
-MOST = 0.5  # share of what was missed that rings must clean, for them to be driven
+MOST = 0.5  # share of what was missed that lanes and rings must clean, for them to be driven
+MISSED = 0.3  # share of a cell, for a lane to clean it: small drives over swept floor
 YIELD = 0.7  # share of a crumb that is swept in passing, about: small plans for more crumbs than the target needs
+SPARE = 0.0005  # of coverage that is planned beyond the target, once the robot is past the lanes and rings
 CULLS = 4  # rounds in which crumbs are left out that cost much time for their area: more make better choices
 TRANSIT = 0.5  # [m] of a way between two stretches: a longer one is driven at the speed of transit, ...
 SLOW = 0.15  # [m] ... except for its end: the robot has slowed down and lowered the brushes before its path begins
@@ -29,20 +37,19 @@ Regional = Dict[int, List[Stretch]]  # by the label of their region
 def plan(context: Context, pose: Pose) -> Optional[Route]:
     """A route that cleans what was missed; None if nothing was missed, or none of it can be reached.
 
-    As long as rings clean most of it, small crumbs are left for the next route, which knows where the robot really
-    drove. The routes after that visit only as many crumbs as the target needs.
+    As long as lanes and rings clean most of it, crumbs are cleaned on detours from these. The routes after that know
+    where the robot really drove, and visit crumb after crumb. All visit only as many crumbs as the target needs.
 
     Args:
         context: with the floor that was swept before; it is not changed.
         pose: from which the route begins, map frame.
     """
-    ground, brush = context.ground, context.robot.brush.width
+    ground = context.ground
     labels = regions(ground)
     paper = context.swept.copy()
-    chained = chains(rings(ground, paper, labels, brush))
-    if paper.coverage - context.swept.coverage > MOST * (1.0 - context.swept.coverage):
-        found = [stretch(chain, brush) for chain in chained] + crumbs(ground, paper.missing_share(), labels, STRIP)
-    else:
+    found = _stretches(context, paper, labels)
+    is_first = paper.coverage - context.swept.coverage > MOST * (1.0 - context.swept.coverage)
+    if not is_first:
         found = crumbs(ground, context.swept.missing_share(), labels)
     if not found:
         return None
@@ -50,9 +57,35 @@ def plan(context: Context, pose: Pose) -> Optional[Route]:
     for part in found:
         by_region.setdefault(part.region, []).append(part)
     tours = _tours(context, pose, labels, by_region)
-    if all(part.is_crumb for part in found):
+    if not is_first:
         _cull(context, tours, by_region)
-    return _route(context, pose, tours, by_region)
+    route = _route(context, pose, tours, by_region)
+    return route if route is None or not is_first else with_crumbs(context, route, paper, labels)
+
+
+def _stretches(context: Context, paper: Swept, labels: Array) -> List[Stretch]:
+    """Rings, and lanes where those are better, that clean what was missed, but for crumbs; they are driven on paper."""
+    ground, brush = context.ground, context.robot.brush.width
+    shape = shapes(ground, labels)
+    found = [stretch(chain, brush) for chain in chains(rings(ground, paper, labels, shape, brush))]
+    missed = paper.missing_share() > MISSED
+    angle = main_direction(ground)
+    for region, part in _by_region(ground, missed, labels).items():
+        if shape.has_lanes[region]:
+            for block in blocks(ground, part, brush, context.config.speed, angle):
+                variants = block_variants(ground, block.lanes)
+                drive(paper, variants[0].path())
+                found.append(Stretch(variants, region, block.area, False))
+    return found
+
+
+def _by_region(ground: Ground, missed: Array, labels: Array) -> Dict[int, Array]:
+    """The cells to clean in each region: bool (rows, columns) each."""
+    cells = np.argwhere(missed)
+    nodes = ground.standing(cells)
+    of_cells = np.zeros(missed.shape, labels.dtype)
+    of_cells[missed] = labels[nodes[:, 0], nodes[:, 1]]
+    return {int(label): missed & (of_cells == label) for label in np.unique(of_cells[missed])}
 
 
 def _tours(context: Context, pose: Pose, labels: Array, by_region: Regional) -> List[Tuple[int, Tour]]:
@@ -85,7 +118,7 @@ def _middle(stretches: List[Stretch]) -> Array:
 def _cull(context: Context, tours: List[Tuple[int, Tour]], by_region: Regional) -> None:
     """Leave out crumbs that cost most time for their area, as long as the target can be met without them."""
     swept = context.swept
-    needed = (context.target_coverage + SURPLUS - swept.coverage) * swept.reachable_area / YIELD  # [m^2]
+    needed = (context.target_coverage + SPARE - swept.coverage) * swept.reachable_area / YIELD  # [m^2]
     for last in range(CULLS, 0, -1):
         rows: List[Tuple[float, float, int, int]] = []
         for number, (name, route) in enumerate(tours):
@@ -108,11 +141,13 @@ def _route(context: Context, pose: Pose, tours: List[Tuple[int, Tour]], by_regio
     config, ground = context.config, context.ground
     waypoints, speeds = [np.array([[pose.x, pose.y]])], []
     for name, route in tours:
-        for number, leg in enumerate(route.legs()):
+        is_there = False  # where the stretch before ends
+        for leg in route.legs():
             path = by_region[name][leg.stretch].variants[leg.variant].path()
-            way = leg.way if number else None
+            way = leg.way if is_there else None
             if way is None:
                 way = ground.path(waypoints[-1][-1], path[0])
+            is_there = way is not None
             if way is None:
                 continue
             way, way_speeds = _way(way, config.speed, config.transit_speed)

@@ -17,6 +17,8 @@ from rumba_sim.model.kernel import Array
 # Our choice: 2 * WIDE is wider than the doors of dwellings (0.7 to 0.9 m), and narrower than a room.
 WIDE = 0.5  # [m] clearance that no point in a door has
 NODES = 0.05  # [m] between the nodes that are looked at: large is fast, small is exact
+# [m] by which the mean clearance of an open region, and of one that is no corridor, is larger than the robot needs.
+OPEN, NARROW = 1.0, 0.15
 LEAST = 0.6  # [m^2] with such clearance make a region of their own; less belongs to the region beside it
 
 
@@ -41,6 +43,20 @@ def regions(ground: Ground) -> Array:
     rows, columns = ((np.arange(size) + step // 2) // step for size in ground.fits.shape)
     rows, columns = np.minimum(rows, len(coarse) - 1), np.minimum(columns, len(coarse[0]) - 1)
     return np.where(ground.fits, filled[rows[:, np.newaxis], columns], 0)
+
+
+class Shapes(NamedTuple):
+    """What suits each region, by its label."""
+
+    is_open: Array  # bool (labels): it is so wide that the rings in it are long and have few corners
+    has_lanes: Array  # bool (labels): lanes suit it better than rings, except along its walls
+
+
+def shapes(ground: Ground, labels: Array) -> Shapes:
+    """How wide the regions are: in open ones and in corridors rings are best, in rooms with furniture lanes."""
+    counts = np.maximum(np.bincount(labels.ravel()), 1)
+    room = np.bincount(labels.ravel(), ground.clearance.ravel()) / counts - ground.reach
+    return Shapes(room > OPEN, (room > NARROW) & (room <= OPEN))
 
 
 class Doors(NamedTuple):

@@ -14,16 +14,18 @@ from skimage import measure
 from rumba_cleaning.belief.ground import Ground
 from rumba_cleaning.belief.swept import Swept
 from rumba_cleaning.planning.paper import drive, resampled
+from rumba_cleaning.planning.regions import Shapes
 from rumba_cleaning.planning.stretches import Stretch, Variant, pair
 from rumba_sim.model.kernel import Array
 
 # All figures are our choice; each comment says what speaks for a larger and for a smaller value.
 WALL_MARGIN = 0.001  # [m] between robot and wall: small sweeps more of the rim, large touches the wall less often
 # Of the brush's width from ring to ring: small leaves less where corners are cut, large drives less.
-PASS, WIDE_PASS = 0.93, 0.985
-WIDE = 1.0  # [m] mean depth of a region in which rings are so long that few of them have corners
+PASS, OPEN_PASS = 0.93, 0.985  # the second in open regions, where few rings have corners
 SPACING = 0.02  # [m] between the waypoints
 SMOOTH = 0.02  # [m] standard deviation of the filter along a ring: takes out the steps of the grid, and cuts corners
+# The corners of a ring reach farther out by what such a filter [m] would cut off, as a robot does that goes round them.
+BLUR = 0.06
 SHORTEST = 0.25  # [m] of a ring, and of its parts; a shorter one is left to the crumbs
 NEEDED = 0.25  # share of the brush's width that was missed, for a waypoint to be needed: small drives over swept floor
 GAP = 0.3  # [m] of a ring that are not needed, but are driven: large saves turns, small saves distance
@@ -48,30 +50,33 @@ class Ring(NamedTuple):
     is_closed: bool
 
 
-def rings(ground: Ground, swept: Swept, labels: Array, brush: float) -> List[Ring]:
-    """Rings on which something was missed, from the walls inward.
+def rings(ground: Ground, swept: Swept, labels: Array, shape: Shapes, brush: float) -> List[Ring]:
+    """Rings on which something was missed, from the walls inward; only along the walls, where lanes suit a region.
 
     Args:
         ground: where the robot can stand.
         swept: what was swept; the rings are driven on it, on paper.
         labels: the region of each node, int (rows + 1, columns + 1).
+        shape: of the regions.
         brush: width of the brush [m].
     """
     found: List[Ring] = []
     depth = _depth(ground)
-    passes = _passes(depth, labels, brush)
+    passes = _passes(depth, labels, shape.is_open, brush)
     level = 0
     while True:
         contours = measure.find_contours(passes, level)
         if not contours:
             return found
-        pieces = [piece for contour in contours for piece in _by_region(contour, ground, labels, level)]
+        pieces = [_shaped(piece, shape.is_open[piece.region]) for contour in contours
+                  for piece in _by_region(contour, ground, labels, level)]
         missing = swept.missing_share()
         for piece in sorted(pieces, key=lambda ring: -len(ring.waypoints)):
             for ring in _needed(piece, ground, missing, depth, brush):
                 found.append(ring)
                 drive(swept, ring.waypoints)
         level += 1
+        passes = np.where(shape.has_lanes[labels], -1.0, passes)
 
 
 def _depth(ground: Ground) -> Array:
@@ -80,19 +85,19 @@ def _depth(ground: Ground) -> Array:
     return np.where(near, ground.clearance - ground.reach, -ground.reach)
 
 
-def _passes(depth: Array, labels: Array, brush: float) -> Array:
+def _passes(depth: Array, labels: Array, is_open: Array, brush: float) -> Array:
     """Of which level the ring through each node is, with fractions: 0 beside the walls."""
-    counts = np.maximum(np.bincount(labels.ravel()), 1)
-    is_wide = np.bincount(labels.ravel(), depth.ravel()) / counts > WIDE
-    return (depth - WALL_MARGIN) / (np.where(is_wide, WIDE_PASS, PASS) * brush)[labels]
+    return np.asarray((depth - WALL_MARGIN) / (np.where(is_open, OPEN_PASS, PASS) * brush)[labels])
 
 
-def _smooth(path: Array, is_closed: bool) -> Array:
-    size = SMOOTH / SPACING
-    if is_closed:
-        ring = ndimage.gaussian_filter1d(path[:-1], size, axis=0, mode='wrap')
-        return np.concatenate([ring, ring[:1]])
-    return path
+def _shaped(ring: Ring, is_open: bool) -> Ring:
+    """A ring with round corners in an open region; elsewhere with sharp ones, except along the walls."""
+    if not ring.is_closed or not (is_open or ring.level):
+        return ring
+    path = ring.waypoints[:-1]
+    smooth = ndimage.gaussian_filter1d(path, (SMOOTH if is_open else BLUR) / SPACING, axis=0, mode='wrap')
+    path = smooth if is_open else 2.0 * path - smooth
+    return ring._replace(waypoints=np.concatenate([path, path[:1]]))
 
 
 def _by_region(contour: Array, ground: Ground, labels: Array, level: int) -> Iterator[Ring]:
@@ -101,7 +106,6 @@ def _by_region(contour: Array, ground: Ground, labels: Array, level: int) -> Ite
     path = resampled(ground.points(contour), SPACING)
     if len(path) * SPACING < SHORTEST:
         return
-    path = _smooth(path, is_closed)
     nodes = ground.standing(ground.nodes(path))
     of_path = labels[nodes[:, 0], nodes[:, 1]]
     cuts = np.flatnonzero(np.diff(of_path)) + 1

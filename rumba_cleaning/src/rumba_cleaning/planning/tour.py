@@ -3,9 +3,11 @@
 from typing import List, NamedTuple, Optional, Sequence
 
 import numpy as np
+from skimage import measure
 
 from rumba_cleaning.belief.ground import Ground
 from rumba_cleaning.planning import compiled_tours, compiled_ways
+from rumba_cleaning.planning.paper import simplified
 from rumba_cleaning.planning.stretches import Stretch
 from rumba_sim.model.kernel import Array
 
@@ -20,6 +22,9 @@ UNSEEN = 3.0  # [m] that are added to twice the distance of points between which
 BENT = 0.5  # [rad] a corner by less costs no time, since the robot goes round it at full speed
 STOP = 0.5  # [s] to slow down and to start again at a corner by more than a right angle
 TURN_RATE = 1.9  # [rad/s] of the robot, about: corners are compared with ways
+AROUND = 1.0  # [m] about all stretches, in which obstacles are looked at that a way may lead around
+OUTSIDE = 0.05  # [m] beyond BESIDE that ways lead around corners: large sees past them, small is short
+CORNER = 0.04  # [m] by which a way around a corner may cut it, so that it needs few points: less than OUTSIDE
 FAR = 1e4  # [s] stands for infinity: finite, so that sums can be compared
 SAME = 4  # decimals of [m]: points that are equal so far are one point
 
@@ -63,9 +68,10 @@ class Tour:
         """Find the ways from all ends (variants, 4, 2) [m] to all others, and the times that they take."""
         count = len(ends)
         last = start if end is None else end
-        points = np.round(np.concatenate([ends[:, 0], ends[:, 3], [start, last]]), SAME)
+        points = np.concatenate([ends[:, 0], ends[:, 3], [start, last]])
+        points = np.round(np.concatenate([points, _corners(ground, points)]), SAME)
         self._points, numbers = np.unique(points, axis=0, return_inverse=True)
-        numbers = numbers.reshape(-1)
+        numbers = numbers.reshape(-1)[:2 * count + 2]
         self._entries, self._exits = numbers[:count], numbers[count:-1]  # the last exit is the start of the tour
         nodes = np.clip((self._points - ground.plan.origin) / ground.plan.resolution, 0.0,
                         np.array(ground.clearance.shape[::-1]) - 1.0)
@@ -121,6 +127,18 @@ class Tour:
         while way[-1] != start:
             way.append(self._before[start, way[-1]])
         return np.asarray(self._points[way[::-1]])
+
+
+def _corners(ground: Ground, points: Array) -> Array:
+    """Points on a way around what stands between points (any, 2) [m]: float64 (any, 2) [m]."""
+    nodes = (points - ground.plan.origin)[:, ::-1] / ground.plan.resolution
+    margin = AROUND / ground.plan.resolution
+    low = np.maximum(nodes.min(axis=0) - margin, 0).astype(np.intp)
+    high = (nodes.max(axis=0) + margin).astype(np.intp) + 1
+    window = ground.clearance[low[0]:high[0], low[1]:high[1]]
+    contours = measure.find_contours(window, ground.reach + BESIDE + OUTSIDE) if min(window.shape) > 1 else []
+    corners = [simplified(ground.points(contour + low), CORNER) for contour in contours]
+    return np.concatenate([np.zeros((0, 2)), *corners])
 
 
 def _headings(points: Array, ahead: Array) -> Array:

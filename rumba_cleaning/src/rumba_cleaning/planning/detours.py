@@ -1,0 +1,103 @@
+"""Detours from a route past the crumbs beside it."""
+
+from typing import Dict, Iterator, List, NamedTuple, Optional
+
+import numpy as np
+from scipy import spatial
+
+from rumba_cleaning.behaviours.follower import Route
+from rumba_cleaning.belief.context import Context
+from rumba_cleaning.belief.ground import Ground
+from rumba_cleaning.belief.swept import Swept
+from rumba_cleaning.planning.crumbs import crumbs
+from rumba_cleaning.planning.paper import strides
+from rumba_cleaning.planning.stretches import Stretch
+from rumba_sim.model.kernel import Array
+
+# All figures are our choice; each comment says what speaks for a larger and for a smaller value.
+SURPLUS = 0.005  # of coverage that is planned beyond the target, since no robot drives exactly as planned
+APART = 0.1  # [m] between the waypoints at which a detour may begin, at most: small makes detours shorter
+FARTHEST = 0.6  # [m] from the route to a crumb: large meets high targets, small leaves more to the next route
+TRIES = 20  # waypoints from which a straight line to a crumb is looked for, at most: saves time
+CORNER = 0.1  # [m] that each rad of a corner counts: 0.3 s at the cleaning speed
+
+
+class Detour(NamedTuple):
+    """A path past a crumb."""
+
+    index: int  # of the waypoint of the route from which it begins; it ends at the next one
+    path: Array  # float64 (any, 2) [m]
+    length: float  # [m] that it makes the route longer, corners included
+    area: float  # [m^2] that it cleans
+
+
+def with_crumbs(context: Context, route: Route, paper: Swept, labels: Array) -> Route:
+    """A route with detours to crumbs that it would leave, as many as the target needs, those first that cost least.
+
+    Args:
+        context: where the robot can stand, and the target.
+        route: without detours.
+        paper: what is swept after it.
+        labels: the region of each node, int (rows + 1, columns + 1).
+    """
+    missing = (context.target_coverage + SURPLUS - paper.coverage) * paper.reachable_area  # [m^2]
+    route = _dense(route)
+    found = _detours(context, route, crumbs(context.ground, paper.missing_share(), labels))
+    chosen: Dict[int, Detour] = {}
+    for detour in sorted(found, key=lambda detour: detour.length / detour.area):
+        if missing <= 0.0:
+            break
+        if detour.index not in chosen:
+            chosen[detour.index] = detour
+            missing -= detour.area
+    waypoints: List[Array] = []
+    speeds: List[Array] = []
+    last = 0
+    for index in sorted(chosen):
+        path = chosen[index].path
+        waypoints += [route.waypoints[last:index + 1], path]
+        speeds += [route.speeds[last:index], np.full(len(path) + 1, context.config.speed)]
+        last = index + 1
+    return Route(np.concatenate([*waypoints, route.waypoints[last:]]), np.concatenate([*speeds, route.speeds[last:]]))
+
+
+def _dense(route: Route) -> Route:
+    """A route with waypoints that are not far apart."""
+    counts = np.maximum(np.ceil(np.hypot(*np.diff(route.waypoints, axis=0).T) / APART).astype(np.intp), 1)
+    return Route(strides(route.waypoints, APART), np.repeat(route.speeds, counts))
+
+
+def _detours(context: Context, route: Route, found: List[Stretch]) -> Iterator[Detour]:
+    """The shortest detour past each crumb that is near to a part of the route on which the robot cleans."""
+    begins = np.flatnonzero(route.speeds <= context.config.speed)
+    if len(begins) == 0:
+        return
+    tree = spatial.cKDTree(route.waypoints[begins])
+    for crumb in found:
+        distances, near = tree.query(crumb.variants[0].path()[0], TRIES, distance_upper_bound=FARTHEST)
+        options = [option for number in near[np.isfinite(distances)]
+                   for option in [_detour(context.ground, route, int(begins[number]), crumb)] if option is not None]
+        if options:
+            yield min(options, key=lambda option: option.length)
+
+
+def _detour(ground: Ground, route: Route, index: int, crumb: Stretch) -> Optional[Detour]:
+    """The shortest detour past a crumb from a waypoint of a route, or None."""
+    before, after = route.waypoints[max(index - 1, 0):index + 1], route.waypoints[index + 1:index + 3]
+    without = _length(np.concatenate([before, after]))
+    best: Optional[Detour] = None
+    for variant in crumb.variants:
+        path = variant.path()
+        length = _length(np.concatenate([before, path, after])) - without
+        if (best is None or length < best.length) and ground.is_straight(before[-1], path[0]) and (
+                ground.is_straight(path[-1], after[0])):
+            best = Detour(index, path, length, crumb.area)
+    return best
+
+
+def _length(path: Array) -> float:
+    """Length of a path (any, 2) [m], to which its corners add."""
+    legs = np.diff(path, axis=0)
+    legs = legs[np.hypot(*legs.T) > 0.0]
+    turns = np.diff(np.arctan2(legs[:, 1], legs[:, 0]))
+    return float(np.hypot(*legs.T).sum() + CORNER * np.abs((turns + np.pi) % (2.0 * np.pi) - np.pi).sum())

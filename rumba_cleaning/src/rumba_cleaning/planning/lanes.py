@@ -1,0 +1,229 @@
+"""Cuts a floor into blocks of parallel lanes; the lanes of a block run in the direction that suits it better.
+
+The boustrophedon decomposition (H. Choset, Coverage of Known Spaces: The Boustrophedon Cellular Decomposition,
+Autonomous Robots 9, 2000), lane by lane: a block grows while the next lane lies beside the last one and is about as
+long. What Choset calls a cell is called a block here, since a cell is a square of the grid.
+"""
+
+import math
+from typing import List, NamedTuple, Optional, Tuple
+
+import numpy as np
+from scipy import ndimage
+
+from rumba_cleaning.belief.ground import MARGIN, Ground
+from rumba_cleaning.planning.turned_floor import TurnedFloor
+from rumba_sim.model.kernel import Array
+
+# All figures are our choice; each comment says what speaks for a larger and for a smaller value.
+GAP = 0.5  # [m] of swept floor within a lane: large saves turns, small saves distance
+LEAST = 0.08  # [m] length of a lane, half a brush: a shorter one is left to the crumbs
+ALIKE = 1.5  # ratio of the lengths of two neighbouring lanes, at most: large makes fewer blocks, with more clean floor
+TURN, BLOCK = 2.2, 3.0  # [s] estimates of the time from lane to lane, and from block to block: large wants long lanes
+# A block is worth area - USUAL * brush * speed * time: large prefers blocks that waste little time, small large ones.
+USUAL = 0.3
+POOR = 0.12  # share of brush * speed: a block that cleans less is left to the crumbs
+NEEDED = 0.12  # share of the brush's width that was missed, for a lane to be needed: small drives over swept floor
+OVERLAP = 0.05  # share of the brush's width by which two lanes overlap: small drives less, large leaves nothing between
+JOIN = 2  # [cells] that were swept, between cells that one lane shall still clean: noise, not a gap
+Run = Tuple[int, int]  # columns: the first, and the one after the last
+
+
+class Block(NamedTuple):
+    """Lanes side by side."""
+
+    lanes: List[Array]  # float64 (2, 2) [m] each: both ends, map frame; all lanes in the same direction
+    area: float  # [m^2] that they clean
+    time: float  # [s] that this takes, about
+
+
+class _Lane(NamedTuple):
+    """In nodes of the grid: the columns of its ends, and the row (with fractions) of the robot's centre."""
+
+    first: int
+    last: int
+    across: float
+
+
+def blocks(ground: Ground, missed: Array, brush: float, speed: float, angle: float = 0.0) -> List[Block]:
+    """Blocks whose lanes clean what was missed, except for crumbs.
+
+    Args:
+        ground: where the robot can stand.
+        missed: the cells to clean, bool (rows, columns).
+        brush: width of the brush [m].
+        speed: along the lanes [m/s].
+        angle: between the lanes and the map's axes [rad].
+    """
+    found: List[Block] = []
+    floor = TurnedFloor(ground, missed, angle)
+    remaining = floor.missed.copy()
+    rate = brush * speed
+    while remaining.any():  # in each round the best block, and each other that has no better one near it
+        grids = [_Grid(floor, remaining, ground.reach + MARGIN, brush, along_x) for along_x in (True, False)]
+        choices = [(block.area - USUAL * rate * block.time, block, grid, lanes)
+                   for grid in grids for block, lanes in grid.blocks(speed) if block.area > POOR * rate * block.time]
+        if not choices:
+            break
+        claimed = np.zeros_like(remaining)
+        for _, block, grid, lanes in sorted(choices, key=lambda choice: -choice[0]):
+            window = grid.window(lanes)
+            if not claimed[window].any():
+                grid.take(lanes, remaining)
+                found.append(block)
+            claimed[window] = True
+    return found
+
+
+class _Grid:
+    """The part of a floor that holds all cells to clean, transposed if the lanes run along y: they run along a row.
+
+    Rows and columns are counted from the corner of this part; lengths are in cells.
+    """
+
+    def __init__(self, floor: TurnedFloor, missed: Array, clearance: float, brush: float, along_x: bool) -> None:
+        """Take the part of a floor.
+
+        Args:
+            floor: with the clearance at its nodes.
+            missed: the cells to clean, bool (rows, columns) of the floor.
+            clearance: that the robot needs at its centre [m].
+            brush: width of the brush [m].
+            along_x: whether the lanes run along x of the floor, or along y.
+        """
+        margin = math.ceil(brush / floor.resolution)
+        self._window = tuple(slice(max(part.start - margin, 0), part.stop + margin)
+                             for part in ndimage.find_objects(missed.astype(np.int8))[0])
+        rows, columns = self._window
+        nodes = floor.clearance[rows.start:rows.stop + 1, columns.start:columns.stop + 1]  # one more than cells
+        self._clearance = nodes if along_x else nodes.T
+        self._along_x = along_x
+        self._missed = self._view(missed)
+        self._floor = floor
+        self._resolution = floor.resolution
+        self._half = 0.5 * (1.0 - OVERLAP) * brush / self._resolution  # [cells] half the width that a lane cleans
+        self._needed_clearance = clearance
+        self._gap = int(GAP / self._resolution)
+        self._least = max(int(LEAST / self._resolution), 1)
+        self._remaining = self._missed
+
+    def _view(self, missed: Array) -> Array:
+        """The part of bool (rows, columns) of the floor that this grid holds, as a view."""
+        return missed[self._window] if self._along_x else missed[self._window].T
+
+    def window(self, lanes: List[_Lane]) -> Tuple[slice, slice]:
+        """Rows and columns of the floor around lanes, with the margin in which these lanes change other blocks."""
+        margin = math.ceil(self._half)
+        across = [lane.across for lane in lanes]
+        rows = slice(int(min(across)) - 2 * margin, int(max(across)) + 2 * margin + 1)
+        columns = slice(min(lane.first for lane in lanes) - margin, max(lane.last for lane in lanes) + margin)
+        rows, columns = (rows, columns) if self._along_x else (columns, rows)
+        top, left = self._window[0].start, self._window[1].start
+        return (slice(max(rows.start + top, 0), rows.stop + top),
+                slice(max(columns.start + left, 0), columns.stop + left))
+
+    def take(self, lanes: List[_Lane], missed: Array) -> None:
+        """Set to False what lanes clean, in bool (rows, columns) of the floor."""
+        view = self._view(missed)
+        for lane in lanes:
+            view[self._band(lane.across), lane.first:lane.last] = False
+
+    def blocks(self, speed: float) -> List[Tuple[Block, List[_Lane]]]:
+        """All blocks, from the lowest row upward, as if no lanes ran in the other direction."""
+        self._remaining = self._missed.copy()
+        found: List[Tuple[Block, List[_Lane]]] = []
+        while True:
+            lowest = self._lowest(0, len(self._remaining), (0, self._remaining.shape[1]))
+            if lowest is None:
+                return found
+            lanes, count = self._grow(*lowest)
+            if lanes:
+                area = count * self._resolution ** 2
+                time = BLOCK + sum((lane.last - lane.first) * self._resolution / speed + TURN for lane in lanes)
+                found.append((Block([self._metres(lane) for lane in lanes], area, time), lanes))
+
+    def _grow(self, row: int, run: Run) -> Tuple[List[_Lane], int]:
+        """The lanes of one block, from its lowest row upward, and the number of cells they clean.
+
+        These cells remain no longer.
+        """
+        lanes: List[_Lane] = []
+        count = 0
+        while True:
+            lane = self._lane(row, run, lanes[-1].across if lanes else None)
+            if lane is None:
+                self._remaining[row, run[0]:run[1]] = False
+                return lanes, count
+            if lanes and not 1.0 / ALIKE < (lane.last - lane.first) / (lanes[-1].last - lanes[-1].first) < ALIKE:
+                return lanes, count
+            band = self._band(lane.across)
+            count += np.count_nonzero(self._remaining[band, lane.first:lane.last])
+            self._remaining[band, lane.first:lane.last] = False
+            self._remaining[row, max(run[0], lane.first):min(run[1], lane.last)] = False
+            lanes.append(lane)
+            above = self._lowest(band.stop - 1, min(int(lane.across + 3.0 * self._half), len(self._remaining)),
+                                 (lane.first, lane.last))
+            if above is None:
+                return lanes, count
+            row, run = above
+
+    def _lowest(self, bottom: int, top: int, columns: Run) -> Optional[Tuple[int, Run]]:
+        """The lowest row from bottom to top that has a long run within columns, and its longest run there."""
+        for row in bottom + np.flatnonzero(self._remaining[bottom:top, slice(*columns)].any(axis=1)):
+            inside = [run for run in _runs(self._remaining[row], JOIN) if run[0] < columns[1] and run[1] > columns[0]]
+            longest = max(inside, key=lambda run: run[1] - run[0])
+            if longest[1] - longest[0] >= self._least:
+                return int(row), longest
+            if columns == (0, self._remaining.shape[1]):
+                self._remaining[row] = False  # nothing but crumbs
+        return None
+
+    def _lane(self, row: int, run: Run, below: Optional[float]) -> Optional[_Lane]:
+        """The lane that cleans a run of a row and as much as possible above it.
+
+        Args:
+            row, run: the lowest cells that it has to clean.
+            below: position (row, with fractions) of the lane before; None if this is the first of its block.
+        """
+        beside = below is not None and row <= below + self._half + 0.6  # no whole row lies between the two lanes
+        highest = below + 2.0 * self._half if below is not None and beside else row + self._half
+        for across in np.arange(highest, highest - 2.0 * self._half - 0.51, -0.5):  # down by half cells, a brush width
+            for first, after in _runs(self._fits_at(across), 0):
+                low, high = max(first, run[0]), min(after - 1, run[1])
+                if high - low < min(self._least, run[1] - run[0]):
+                    continue
+                band = self._remaining[self._band(across), first:after - 1]
+                if len(band):
+                    for start, end in _runs(band.mean(axis=0) > NEEDED, self._gap):
+                        if start + first < high and end + first > low:
+                            return _Lane(start + first, end + first, float(across))
+        return None
+
+    def _fits_at(self, across: float) -> Array:
+        """At which columns of a row, with fractions, the robot can stand: bool (columns + 1)."""
+        row = min(max(int(across), 0), len(self._clearance) - 2)
+        share = across - row
+        clearance = self._clearance[row] * (1.0 - share) + self._clearance[row + 1] * share
+        return np.asarray(clearance >= self._needed_clearance)
+
+    def _band(self, across: float) -> slice:
+        """The rows whose centres the brush passes over."""
+        return slice(max(math.floor(across - self._half + 0.5), 0), max(math.floor(across + self._half + 0.5), 0))
+
+    def _metres(self, lane: _Lane) -> Array:
+        """Both ends of a lane: float64 (2, 2) [m], map frame."""
+        ends = np.array([[lane.first, lane.across], [lane.last, lane.across]])
+        rows, columns = self._window
+        return self._floor.points((ends if self._along_x else ends[:, ::-1]) + (columns.start, rows.start))
+
+
+def _runs(flags: Array, gap: int) -> List[Run]:
+    """Runs of True in bool (any); two runs with at most `gap` elements between them are joined."""
+    steps = np.diff(np.concatenate([[0], flags.astype(np.int8), [0]]))
+    joined: List[Run] = []
+    for first, after in zip(np.flatnonzero(steps == 1).tolist(), np.flatnonzero(steps == -1).tolist()):
+        if joined and first - joined[-1][1] <= gap:
+            joined[-1] = (joined[-1][0], after)
+        else:
+            joined.append((first, after))
+    return joined

@@ -1,0 +1,68 @@
+"""Detours lead past the crumbs beside a route, those first that cost least, as many as the target needs."""
+
+import numpy as np
+import pytest
+from floors import knowing, length, wiped_but
+from rooms import room
+
+from rumba_cleaning.behaviours.follower import Route
+from rumba_cleaning.planning.detours import APART, FARTHEST, SURPLUS, with_crumbs
+from rumba_cleaning.planning.paper import drive
+from rumba_cleaning.planning.regions import regions
+from rumba_sim.model.geometry import Pose
+
+START = Pose(0.5, 1.5, 0.0)
+ACROSS = Route(np.array([[0.5, 1.5], [3.5, 1.5]]), np.array([0.3]))
+NEAR, FAR, BEYOND = (1.0, 1.7, 1.1, 1.8), (2.5, 1.9, 2.6, 2.0), (2.0, 2.5, 2.1, 2.6)  # crumbs: left, bottom, right, top
+
+
+def detoured(*boxes, target=1.0, route=ACROSS, plan=None):
+    """A route with detours on a floor that was swept except for crumbs, and the floor after it, on paper."""
+    context = wiped_but(knowing(plan or room(4.0, 3.0, 0.02), START, target_coverage=target), *boxes)
+    floor = context.swept.copy()
+    found = with_crumbs(context, route, floor, regions(context.ground))
+    drive(floor, found.waypoints)
+    return found, floor
+
+
+def passes(route, box):
+    """Whether a route leads over the middle of a box."""
+    middle = 0.5 * (np.array(box[:2]) + box[2:])
+    return np.hypot(*(route.waypoints - middle).T).min() < 0.15
+
+
+def test_a_detour_leads_past_a_crumb_and_back_onto_the_route():
+    found, floor = detoured(NEAR)
+    assert passes(found, NEAR) and floor.coverage > 0.999
+    assert (found.waypoints[[0, -1]] == ACROSS.waypoints).all() and len(found.speeds) == len(found.waypoints) - 1
+    assert (found.speeds == 0.3).all() and length(found.waypoints) < 3.0 + 1.2
+
+
+def test_without_crumbs_a_route_only_has_more_waypoints():
+    found, _ = detoured()
+    assert length(found.waypoints) == pytest.approx(3.0) and (found.waypoints[:, 1] == 1.5).all()
+    assert np.hypot(*np.diff(found.waypoints, axis=0).T).max() <= APART + 1e-9
+
+
+def test_crumbs_that_cost_less_come_first_and_no_more_than_the_target_needs():
+    both, _ = detoured(NEAR, FAR)
+    assert passes(both, NEAR) and passes(both, FAR)
+    share = 0.01 / knowing(room(4.0, 3.0, 0.02), START).swept.reachable_area
+    one, _ = detoured(NEAR, FAR, target=1.0 - SURPLUS - 1.5 * share)
+    assert passes(one, NEAR) and not passes(one, FAR)
+    none, _ = detoured(NEAR, FAR, target=1.0 - SURPLUS - 2.5 * share)
+    assert not passes(none, NEAR) and not passes(none, FAR)
+
+
+def test_crumbs_that_are_far_or_behind_a_wall_are_left():
+    found, _ = detoured(BEYOND)
+    assert BEYOND[1] - 1.5 > FARTHEST and (found.waypoints[:, 1] == 1.5).all()
+    wall = room(4.0, 3.0, 0.02, [(0.4, 1.72, 4.0, 1.74)])
+    found, _ = detoured((1.0, 1.98, 1.1, 2.06), plan=wall)
+    assert (found.waypoints[:, 1] == 1.5).all()
+
+
+def test_there_are_no_detours_from_where_the_robot_drives_fast_with_its_brushes_up():
+    fast = Route(np.array([[0.5, 1.5], [2.0, 1.5], [3.5, 1.5]]), np.array([0.45, 0.3]))
+    found, _ = detoured((0.7, 1.7, 0.8, 1.8), (3.0, 1.7, 3.1, 1.8), route=fast)
+    assert not passes(found, (0.7, 1.7, 0.8, 1.8)) and passes(found, (3.0, 1.7, 3.1, 1.8))

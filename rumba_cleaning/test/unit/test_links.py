@@ -1,0 +1,110 @@
+"""From lane to lane: half circles if they fit, other paths if they do not, and all lanes in each variant."""
+
+import math
+
+import numpy as np
+import pytest
+from floors import along, ground, length
+from pytest import approx
+from rooms import distances, room
+
+from rumba_cleaning.planning.links import BENDS, CORNERS, OFFSET, block_variants
+
+PLAN = room(4.0, 3.0)
+FLOOR = ground(PLAN)
+LANE = 0.17  # [m] from lane to lane
+
+
+def lanes(*ends, step=LANE, bottom=1.0):
+    """Lanes along x, one above the other, each from the first to the second of its ends [m]."""
+    return [np.array([[left, bottom + step * index], [right, bottom + step * index]])
+            for index, (left, right) in enumerate(ends)]
+
+
+def between(floor, one, other):
+    """Waypoints between two lanes, in the variant that begins at the first end of the first lane."""
+    path = block_variants(floor, [one, other])[0].path()
+    assert (path[:2] == one).all() and (path[-2:] == other[::-1]).all()
+    return path[2:-2]
+
+
+def turned(points, angle, about=(2.0, 1.5)):
+    """Points (any, 2) turned by an angle [rad] about one point."""
+    cos, sin = math.cos(angle), math.sin(angle)
+    return (np.asarray(points) - about) @ np.array([[cos, sin], [-sin, cos]]) + about
+
+
+@pytest.mark.parametrize('angle', [0.0, 0.6, math.pi / 2.0, math.pi])
+@pytest.mark.parametrize('step', [0.17, -0.17, 0.1, 0.3])
+def test_two_lanes_side_by_side_are_joined_by_a_half_circle_beyond_their_ends(step, angle):
+    one, other = (turned(lane, angle) for lane in lanes((1.2, 2.8), (1.2, 2.8), step=step, bottom=1.5))
+    bend = between(FLOOR, one, other)
+    middle, ahead = 0.5 * (one[1] + other[1]), (one[1] - one[0]) / 1.6
+    assert len(bend) == CORNERS and bend[0] == approx(one[1]) and bend[-1] == approx(other[1])
+    assert np.hypot(*(bend - middle).T) == approx(0.5 * abs(step))
+    assert (((bend - middle) @ ahead)[1:-1] > 0.01).all()
+    assert length(np.concatenate([one, bend])) == approx(1.6 + 0.5 * math.pi * abs(step), rel=0.01)
+
+
+@pytest.mark.parametrize('first, second', [(2.4, 2.7), (2.7, 2.4)])
+def test_a_half_circle_lies_beyond_the_end_that_is_farther_out(first, second):
+    bend = between(FLOOR, *lanes((1.0, first), (1.0, second)))
+    assert len(bend) == CORNERS and np.hypot(*(bend - (2.7, 1.0 + 0.5 * LANE)).T) == approx(0.5 * LANE)
+    assert (bend[1:-1, 0] > 2.7).all() and bend[0] == approx([2.7, 1.0]) and bend[-1] == approx([2.7, 1.0 + LANE])
+
+
+@pytest.mark.parametrize('ends', [((1.0, 3.78), (1.0, 3.78)), ((1.0, 3.6), (1.0, 3.8))])
+def test_if_a_half_circle_would_touch_a_wall_there_is_another_path(ends):
+    one, other = lanes(*ends)
+    path = np.concatenate([one[1:], between(FLOOR, one, other), other[1:]])
+    assert min(distances(PLAN, along(path))) >= FLOOR.reach and length(path) < 0.35
+    assert path[:, 0].max() <= 3.8 + 1e-9
+
+
+def test_if_an_obstacle_was_met_at_the_half_circle_there_is_another_path():
+    floor = ground(PLAN)
+    one, other = lanes((1.0, 2.5), (1.0, 2.5))
+    assert len(between(floor, one, other)) == CORNERS
+    floor.mark(2.79, 1.085, 0.05)
+    assert len(between(floor, one, other)) < CORNERS
+
+
+def test_lanes_that_are_not_side_by_side_are_joined_by_a_straight_line():
+    for one, other in (lanes((1.0, 2.5), (1.0, 2.5), step=BENDS[1] + 0.05), lanes((1.0, 2.0), (1.0, 2.1 + OFFSET)),
+                       lanes((1.0, 2.5), (1.0, 2.5), step=0.03)):
+        assert len(between(FLOOR, one, other)) == 0
+
+
+def test_a_path_from_lane_to_lane_leads_around_an_obstacle_between_them():
+    plan = room(4.0, 3.0, boxes=[(1.0, 1.3, 3.0, 1.5)])
+    floor = ground(plan)
+    one, other = np.array([[0.7, 1.0], [2.5, 1.0]]), np.array([[0.7, 1.8], [2.5, 1.8]])
+    path = np.concatenate([one[1:], between(floor, one, other), other[1:]])
+    assert len(path) >= 4 and min(distances(plan, along(path))) >= floor.reach
+    assert 1.6 < length(path) < 2.2
+
+
+def test_lanes_that_no_path_joins_still_follow_each_other():
+    floor = ground(room(4.0, 2.0, boxes=[(1.9, 0.0, 2.1, 2.0)]))
+    one, other = np.array([[0.5, 0.5], [0.5, 1.5]]), np.array([[3.0, 0.5], [3.0, 1.5]])
+    assert len(between(floor, one, other)) == 0
+
+
+ENDS = ((1.0, 2.5), (1.1, 2.6), (1.0, 2.4), (0.9, 2.5))
+
+
+@pytest.mark.parametrize('count', [1, 2, 3, 4])
+def test_each_of_four_variants_drives_all_lanes_to_and_fro_from_another_corner(count):
+    block = lanes(*ENDS[:count])
+    variants = [variant.path() for variant in block_variants(FLOOR, block)]
+    assert len(variants) == 4
+    for variant, (order, first) in zip(variants, [(block, 0), (block, 1), (block[::-1], 0), (block[::-1], 1)]):
+        assert (variant[0] == order[0][first]).all()
+        assert (variant[-1] == order[-1][(first + count) % 2]).all()
+        steps = [np.concatenate(step).tolist() for step in zip(variant[:-1], variant[1:])]
+        driven = [steps.index((lane if (index + first) % 2 == 0 else lane[::-1]).ravel().tolist())
+                  for index, lane in enumerate(order)]
+        assert driven == sorted(driven) and driven[0] == 0 and driven[-1] == len(steps) - 1
+    corners = {tuple(variant[0]) for variant in variants}
+    assert len(corners) == (4 if count > 1 else 2)
+    assert min(distances(PLAN, along(variants[0]))) >= FLOOR.reach

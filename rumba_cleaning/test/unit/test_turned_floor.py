@@ -1,0 +1,54 @@
+"""The direction of the walls, and the floor on a grid that is turned to it."""
+
+import math
+
+import numpy as np
+import pytest
+from floors import ground, tilted
+from pytest import approx
+from rooms import crooked, room
+
+from rumba_cleaning.planning.turned_floor import TurnedFloor, main_direction
+
+FINE = pytest.mark.parametrize('resolution', [0.02, 0.05])
+
+
+@pytest.mark.parametrize('degrees', [0, 20, -20, 45, 65, -70])
+@FINE
+def test_the_main_direction_is_that_of_the_walls(resolution, degrees):
+    found = math.degrees(main_direction(ground(tilted(4.0, 2.5, math.radians(degrees), resolution))))
+    assert -45.0 <= found <= 45.0 and abs((found - degrees + 45.0) % 90.0 - 45.0) <= 1.5
+
+
+@pytest.mark.parametrize('degrees', [1.0, -2.0])
+def test_a_floor_that_is_turned_by_two_degrees_or_less_is_not_turned(degrees):
+    assert main_direction(ground(tilted(4.0, 2.5, math.radians(degrees), 0.02))) == 0.0
+
+
+def test_the_main_direction_is_that_of_the_longer_walls():
+    slanting = [(0.8 + x, 1.5 + 0.58 * x, 0.85 + x, 1.55 + 0.58 * x) for x in np.arange(0.0, 1.5, 0.01)]
+    assert main_direction(ground(room(4.0, 4.0, 0.02, slanting))) == 0.0
+
+
+@pytest.mark.parametrize('angle', [0.0, 0.35, -0.7])
+def test_a_turned_floor_equals_the_floor_cell_by_cell(angle):
+    plan = crooked(0.1)
+    floor = ground(plan)
+    missed = plan.free & (np.random.default_rng(9).random(plan.occupancy.shape) < 0.5)
+    turned = TurnedFloor(floor, missed, angle)
+    rows, columns = turned.missed.shape
+    assert turned.clearance.shape == (rows + 1, columns + 1) and turned.resolution == 0.1
+    seen = np.zeros_like(missed)
+    for row, column in np.ndindex(rows, columns):
+        (x, y), = turned.points(np.array([[column + 0.5, row + 0.5]]))
+        cell = plan.cell(x, y)
+        inside = 0 <= cell[0] < plan.rows and 0 <= cell[1] < plan.columns
+        assert turned.missed[row, column] == (inside and missed[cell])
+        if inside:
+            seen[cell] = True
+    assert seen.mean() > 0.75  # a turned grid leaves out some cells, and holds others twice
+    for row, column in np.ndindex(rows + 1, columns + 1):
+        (x, y), = turned.points(np.array([[column, row]]))
+        if turned.clearance[row, column] > 0.1:
+            assert turned.clearance[row, column] == approx(floor.plan.safe_clearance_at(x, y), abs=1e-9)
+    assert (turned.clearance > 0.1).sum() > 0.5 * (plan.safe_clearance > 0.1).sum()
