@@ -41,6 +41,13 @@ def is_served(service):
         return False
 
 
+def forget_parameters(*names):
+    """Delete parameters that are there."""
+    for name in names:
+        if rospy.has_param(name):
+            rospy.delete_param(name)
+
+
 def without_display(**more):
     """Return the environment of this process without a display."""
     kept = {name: value for name, value in os.environ.items()
@@ -75,9 +82,7 @@ class Turtlesim(Node):
     """A turtlesim_node; when it is created, all its services are available."""
 
     def __init__(self, test, *arguments, name='/turtlesim', **options):
-        for left in ('/turtlesim', '/use_sim_time'):
-            if rospy.has_param(left):
-                rospy.delete_param(left)
+        forget_parameters('/turtlesim')
         super().__init__(test, 'rosrun', 'turtlesim', 'turtlesim_node', *arguments, **options)
         wait(test, lambda: self.process.poll() is not None or is_served(f'{name}/save_png'), 'turtlesim_node')
         test.assertIsNone(self.process.poll(), 'turtlesim_node ended')

@@ -8,7 +8,7 @@ import unittest
 
 import rospy
 import rostest
-from nodes import TIMEOUT, Heard, Turtlesim, commander, wait, without_display
+from nodes import TIMEOUT, Heard, Turtlesim, commander, forget_parameters, wait, without_display
 
 MIDDLE = 5.544444
 STEP = 16_000_000  # [ns]
@@ -26,8 +26,7 @@ class TurtlesimStartTest(unittest.TestCase):
         self.assertRegex(done.stderr, rf'\Aturtlesim: {pattern}[^\n]*\n\Z')
 
     def test_bad_input_gets_one_line_and_exit_code_2_and_leaves_no_parameter(self):
-        if rospy.has_param('/turtlesim'):
-            rospy.delete_param('/turtlesim')
+        forget_parameters('/turtlesim')
         for pattern, *arguments in (
                 ("parameter /turtlesim/png_name is '/tmp/a.png': must be letters, digits", '_png_name:=/tmp/a.png'),
                 ('parameter /turtlesim/speed is -1: must be 0 to 1e', '_speed:=-1'),
@@ -117,8 +116,19 @@ class TurtlesimStartTest(unittest.TestCase):
         killed.process.kill()
         killed.process.wait(TIMEOUT)
         self.assertIn('/clock', dict(rospy.get_published_topics()))
-        Turtlesim(self, '_speed:=2')
+        node = Turtlesim(self, '_speed:=2')
         Heard(self, '/turtle1/pose').find()
+        node.end()
+        self.assertFalse(rospy.has_param('/use_sim_time'))
+
+    def test_afterwards_use_sim_time_is_true_if_it_was_true_before(self):
+        self.addCleanup(forget_parameters, '/use_sim_time')
+        rospy.set_param('/use_sim_time', True)
+        node = Turtlesim(self, '_speed:=2')
+        Heard(self, '/clock').find()
+        node.end()
+        self.assertTrue(rospy.get_param('/use_sim_time'))
+        self.assertFalse(rospy.has_param('/use_sim_time_before_simulator'))
 
 
 if __name__ == '__main__':

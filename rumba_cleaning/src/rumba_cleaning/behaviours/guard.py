@@ -152,7 +152,7 @@ class Guard:
         if must_know:
             is_fast = max(wanted) > SAFE_SPEED + ROUNDING and _curvature(wanted, self._half) < TIGHT
             is_wary = bool(self._footing.seen) and not -ROUNDING <= sum(wanted) <= 2.0 * SLOW
-            cells = 0 if is_fast else 1 if is_wary else 2
+            cells = 0 if is_fast or is_wary else 2
             is_known = self._footing.are_known(np.concatenate([left[1:], right[1:]]), cells)
             half = len(left) - 1
             return not is_known[:half].all(), not is_known[half:].all()

@@ -11,6 +11,7 @@ from rosgraph_msgs.msg import Clock
 
 from turtlesim.model.errors import TurtlesimError
 from turtlesim.model.turtles import STEP
+from turtlesim.ros import simulated_time
 
 STEP_NS = round(STEP * 1e9)
 LATE = 0.1  # [s] a node that is later than this does not catch up
@@ -38,8 +39,8 @@ class Pace:
     def begin(self) -> None:
         """Start the time."""
         if self._speed != 1.0:
-            rospy.on_shutdown(_forget_simulated_time)
-            rospy.set_param('/use_sim_time', True)
+            rospy.on_shutdown(simulated_time.restore)
+            simulated_time.claim()
             rospy.loginfo('speed is not 1: /use_sim_time is now true, for nodes that start from now on')
             self._clock = rospy.Publisher('/clock', Clock, queue_size=QUEUE)
         self._due = time.monotonic()
@@ -88,9 +89,3 @@ def _answers(master: rosgraph.Master, node: str) -> bool:
     except (rosgraph.MasterException, OSError):
         return False
     return True
-
-
-def _forget_simulated_time() -> None:
-    """Delete /use_sim_time: without a /clock, the time of the nodes that start next would stay 0."""
-    with contextlib.suppress(KeyError, OSError):  # deleted already, or the master has gone
-        rospy.delete_param('/use_sim_time')
