@@ -13,7 +13,7 @@ Working time to coverage in multiples of T, median and worst of the runs; T: roo
 map   strategy  robots  runs         80 %         90 %         95 %         98 %         99 %  failed  outcomes
 room  bounce         1     3   1.60  2.40   1.80  2.70   1.90  2.85   1.96  2.94   1.98     -       1  2 succeeded, \
 1 fallen
-room  bounce         2     1      -     -      -     -      -     -      -     -      -     -       0  1 incomplete
+room  bounce         2     1      -     -      -     -      -     -      -     -      -     -       1  1 incomplete
 
 Least coverage, medians of the runs, and runs in which a robot was in a wall
 map   strategy  robots  least %  dirt %  distance m  turns  collisions  charges  Wh/m2  total s  in walls
