@@ -6,6 +6,7 @@ of one that a distribution ships: it must build and run in a workspace without a
 
 import inspect
 import io
+import logging
 import re
 import reprlib
 import signal
@@ -105,10 +106,23 @@ def _wait_for_master(name: str) -> None:
 
 
 def _register(name: str, own_clock: bool) -> None:
+    _log_trouble_once(name)
     try:
         rospy.init_node(name, disable_rostime=own_clock)
     except OSError as error:  # of the log file that the argument __log names
         raise TurtlesimError(f'cannot start: {error}') from None
+
+
+def _log_trouble_once(name: str) -> None:
+    """Print one line if a log file cannot be written, instead of a traceback for each message."""
+    told: List[Any] = []
+
+    def tell(handler: Any, record: Any) -> None:
+        if not told:
+            told.append(record)
+            error = TurtlesimError(f'cannot write the log: {sys.exc_info()[1]}')
+            print(f'{name}: {error}; the node goes on without it', file=sys.stderr, flush=True)
+    setattr(logging.Handler, 'handleError', tell)
 
 
 def _describe(item: Any) -> str:
