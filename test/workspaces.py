@@ -1,12 +1,12 @@
 """Scratch catkin workspaces and a roscore of their own, untouched by the workspace that runs the tests."""
 
 import contextlib
-import itertools
 import os
 import pathlib
 import signal
 import socket
 import subprocess
+import threading
 import time
 from typing import Dict, Iterator, Optional
 
@@ -78,9 +78,14 @@ class Workspace:
 
 
 def lines(process: subprocess.Popen) -> Iterator[str]:
-    """What a process prints, which must be something all the time, until it ends, or for some minutes."""
-    until = time.monotonic() + 3.0 * TIMEOUT
-    return itertools.takewhile(lambda _: time.monotonic() < until, process.stdout)
+    """What a process prints until it ends; it is killed after some minutes."""
+    watch = threading.Timer(3.0 * TIMEOUT, process.kill)
+    watch.start()
+    try:
+        for line in process.stdout:  # not `yield from`, which would close the file
+            yield line
+    finally:
+        watch.cancel()
 
 
 def last_of(process: subprocess.Popen, *wanted: str) -> str:
