@@ -17,7 +17,8 @@ MAPS = pathlib.Path(__file__).resolve().parents[3] / 'rumba_sim' / 'maps'
 
 
 @pytest.mark.parametrize('seed', [1, 2])
-@pytest.mark.parametrize('name, most, longest', [('apartment', 1.75, 2.3), ('studio', 1.7, 2.15), ('field', 1.04, 1.06)])
+@pytest.mark.parametrize('name, most, longest', [
+    ('apartment', 1.75, 2.3), ('studio', 1.7, 2.15), ('field', 1.04, 1.06)])
 def test_it_keeps_to_the_bounds_from_anywhere_on_the_maps_of_the_package(name, most, longest, seed):
     trial = Trial(map_file.load(MAPS / f'{name}.yaml'), 'boustrophedon', Conditions(start=ANYWHERE), seed)
     while not trial.is_over:

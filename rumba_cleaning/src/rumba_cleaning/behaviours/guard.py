@@ -91,8 +91,9 @@ class Guard:
     def _admitted(self, observation: Observation, command: Command) -> Command:
         self._held = NONE
         pose, wanted = observation.pose, self._wanted(command)
-        if self._footing.seen and max(map(abs, wanted)) > WARY_SPEED:
-            share = WARY_SPEED / max(map(abs, wanted))
+        fastest = max(abs(speed) for speed in wanted)
+        if self._footing.seen and fastest > WARY_SPEED:
+            share = WARY_SPEED / fastest
             command = command._replace(v=share * command.v, w=share * command.w)
             wanted = self._wanted(command)
         fastest = max(abs(speed) for speed in self._speeds + wanted)

@@ -12,10 +12,11 @@ from rumba_cleaning.belief.search import cheapest
 from rumba_sim.model.constants import clearance_needed
 from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.model.kernel import Array
+from rumba_sim.model.reachability import SLACK
 from rumba_sim.model.robot_config import RobotConfig
 
 # All figures below are our choice; each comment says what speaks for a larger and for a smaller value.
-MARGIN = 0.003  # [m] that paths keep beyond the touching distance: more than rounding errors, but it closes few gaps
+MARGIN = SLACK  # [m] that paths keep beyond the touching distance, as in what counts as reachable
 GROWTH = 0.02  # [m] added to the radius of an obstacle that is met again: large passes it after fewer touches
 LARGEST = 0.25  # [m] radius of an obstacle, at most: small leaves gaps beside it open, large passes wide obstacles
 EXTRA_CLEARANCE = 0.04  # [m] beside straight parts of a path: large touches less, small makes paths shorter

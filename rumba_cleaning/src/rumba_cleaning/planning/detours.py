@@ -25,7 +25,7 @@ CORNER = 0.1  # [m] that each rad of a corner counts: 0.3 s at the cleaning spee
 class Detour(NamedTuple):
     """A path past a crumb."""
 
-    index: int  # of the waypoint of the route from which it begins; it ends at the next one
+    waypoint: int  # index of the one of the route from which it begins; it ends at the next one
     path: Array  # float64 (any, 2) [m]
     length: float  # [m] that it makes the route longer, corners included
     area: float  # [m^2] that it cleans
@@ -47,8 +47,8 @@ def with_crumbs(context: Context, route: Route, paper: Swept, labels: Array) -> 
     for detour in sorted(found, key=lambda detour: detour.length / detour.area):
         if missing <= 0.0:
             break
-        if detour.index not in chosen:
-            chosen[detour.index] = detour
+        if detour.waypoint not in chosen:
+            chosen[detour.waypoint] = detour
             missing -= detour.area
     waypoints: List[Array] = []
     speeds: List[Array] = []

@@ -44,23 +44,26 @@ def plan(context: Context, pose: Pose) -> Optional[Route]:
         context: with the floor that was swept before; it is not changed.
         pose: from which the route begins, map frame.
     """
-    ground = context.ground
+    ground, swept = context.ground, context.swept
     labels = regions(ground)
-    paper = context.swept.copy()
+    paper = swept.copy()
     found = _stretches(context, paper, labels)
-    is_first = paper.coverage - context.swept.coverage > MOST * (1.0 - context.swept.coverage)
-    if not is_first:
-        found = crumbs(ground, context.swept.missing_share(), labels)
-    if not found:
-        return None
+    if paper.coverage - swept.coverage > MOST * (1.0 - swept.coverage):
+        route = _through(context, pose, labels, found)
+        if route is not None:
+            return with_crumbs(context, route, paper, labels)
+    return _through(context, pose, labels, crumbs(ground, swept.missing_share(), labels))
+
+
+def _through(context: Context, pose: Pose, labels: Array, found: List[Stretch]) -> Optional[Route]:
+    """A route over stretches from a pose; of crumbs, only over as many as the target needs."""
     by_region: Regional = {}
     for part in found:
         by_region.setdefault(part.region, []).append(part)
     tours = _tours(context, pose, labels, by_region)
-    if not is_first:
+    if all(part.is_crumb for part in found):
         _cull(context, tours, by_region)
-    route = _route(context, pose, tours, by_region)
-    return route if route is None or not is_first else with_crumbs(context, route, paper, labels)
+    return _route(context, pose, tours, by_region)
 
 
 def _stretches(context: Context, paper: Swept, labels: Array) -> List[Stretch]:

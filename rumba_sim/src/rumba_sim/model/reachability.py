@@ -14,6 +14,9 @@ from rumba_sim.model.geometry import Pose
 from rumba_sim.model.kernel import Array
 from rumba_sim.model.robot_config import RobotConfig
 
+SLACK = 0.003  # [m] on each side of a robot in a passage, at least: no robot drives through a narrower one; our choice
+RIM = 2  # [half cells] beyond where it has this slack, a robot can stand too: so near it comes to walls
+
 
 class Reach(NamedTuple):
     """What a robot can reach from where it is; the arrays are not to be changed."""
@@ -49,7 +52,7 @@ def reach(plan: FloorPlan, config: RobotConfig, x: float, y: float) -> Reach:
 
 
 def stands(plan: FloorPlan, needed: float, x: float, y: float) -> Array:
-    """Where a robot can stand that starts at (x, y) [m] and drives along the axes of the map.
+    """Where a robot can stand that starts at (x, y) [m] and drives along the axes of the map, with some slack.
 
     Args:
         plan: the floor plan.
@@ -60,6 +63,18 @@ def stands(plan: FloorPlan, needed: float, x: float, y: float) -> Array:
         bool (2 * rows + 1, 2 * columns + 1), at points half a cell apart: element (i, j) is the point
         `origin + 0.5 * resolution * (j, i)`.
     """
+    fits = _fits(plan, needed)
+    start = _nearest(plan, fits, x, y)
+    fits[start] = True
+    is_wide = _fits(plan, needed + SLACK)
+    is_wide[start] = True
+    labels, _ = ndimage.label(is_wide)
+    start = _nearest(plan, is_wide, x, y)
+    return np.asarray(ndimage.binary_dilation(labels == labels[start], iterations=RIM, mask=fits))
+
+
+def _fits(plan: FloorPlan, needed: float) -> Array:
+    """The points, as `stands` answers them, at which there is the needed clearance [m]."""
     clearance = plan.safe_clearance
     fits = np.zeros((2 * plan.rows + 1, 2 * plan.columns + 1), np.bool_)
     needed -= ROUNDING
@@ -68,10 +83,7 @@ def stands(plan: FloorPlan, needed: float, x: float, y: float) -> Array:
     fits[1::2, ::2] = 0.5 * (clearance[:-1] + clearance[1:]) >= needed
     fits[1::2, 1::2] = 0.25 * (clearance[:-1, :-1] + clearance[:-1, 1:] + clearance[1:, :-1] + clearance[1:, 1:]
                                ) >= needed
-    start = _nearest(plan, fits, x, y)
-    fits[start] = True
-    labels, _ = ndimage.label(fits)
-    return np.asarray(labels == labels[start])
+    return fits
 
 
 def _nearest(plan: FloorPlan, fits: Array, x: float, y: float) -> Tuple[int, int]:
