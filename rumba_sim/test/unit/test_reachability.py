@@ -12,7 +12,7 @@ from rumba_sim.model.compiled import fast
 from rumba_sim.model.constants import clearance_needed
 from rumba_sim.model.errors import MapError
 from rumba_sim.model.floor_plan import FREE, OCCUPIED, FloorPlan
-from rumba_sim.model.reachability import reach, stands
+from rumba_sim.model.reachability import SLACK, reach, stands
 
 RESOLUTIONS = (0.005, 0.01, 0.02, 0.05, 0.1)
 RADIUS, BRUSH = 0.17425, 0.17  # [m]
@@ -45,6 +45,12 @@ def test_a_door_that_is_a_little_wider_than_the_robot_is_passable_and_a_narrower
     for width, is_passable in ((0.34, False), (0.36, True)):
         plan = room(4.0, 3.0, resolution, [(2.0, 0.0, 2.1, 1.0), (2.0, 1.0 + width, 2.1, 3.0)])
         assert (area(plan) > 0.6 * 12.0) == is_passable
+
+
+@pytest.mark.parametrize('width, is_passable', [(0.36, True), (0.35, False)])
+def test_a_passage_with_less_than_three_millimetres_to_spare_on_each_side_is_none(width, is_passable):
+    plan = room(4.0, 3.0, 0.01, [(2.0, 0.0, 2.1, 1.0), (2.0, 1.0 + width, 2.1, 3.0)])
+    assert 2.0 * (RADIUS + SLACK) == approx(0.3545) and (area(plan) > 6.0) == is_passable
 
 
 def test_the_same_floor_has_the_same_area_at_any_resolution():
