@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from pytest import approx
 from rooms import crooked, quiet, room, slanted
+from scipy import ndimage, spatial
 
 from rumba_sim.model import kernel
-from rumba_sim.model.compiled import fast
 from rumba_sim.model.constants import clearance_needed
 from rumba_sim.model.errors import MapError
 from rumba_sim.model.floor_plan import FREE, OCCUPIED, FloorPlan
@@ -62,18 +62,17 @@ def by_hand(plan, x, y):
     """The definition: samples within half a brush of a position at which the robot fits, on a lattice of 2.5 mm."""
     needed = clearance_needed(RADIUS, plan.resolution)
     where = stands(plan, needed, x, y)
-    step, samples = 0.0025, []
+    step = 0.0025
     rows, columns = (int(size * plan.resolution / step) for size in (plan.rows, plan.columns))
     v, u = np.mgrid[:rows, :columns] * step / plan.resolution
-    fits = np.vectorize(lambda u, v: fast.interpolated(plan.safe_clearance, u, v)[0] >= needed)(u, v)
+    fits = ndimage.map_coordinates(plan.safe_clearance, [v, u], order=1) >= needed
     fits &= where[np.rint(2.0 * v).astype(int), np.rint(2.0 * u).astype(int)]
-    points = np.stack([u[fits], v[fits]], axis=1) * plan.resolution
+    standing = spatial.cKDTree(np.stack([u[fits], v[fits]], axis=1) * plan.resolution)
     squares = plan.sample_squares
     rng = np.random.default_rng(0)
-    for row, column in rng.integers((0, 0), (plan.rows * squares, plan.columns * squares), (3000, 2)):
-        at = np.array(kernel.sample_point(int(row), int(column))) * plan.sample_pitch
-        samples.append((row, column, np.hypot(*(points - at).T).min()))
-    return samples
+    samples = rng.integers((0, 0), (plan.rows * squares, plan.columns * squares), (3000, 2)).tolist()
+    points = np.array([kernel.sample_point(row, column) for row, column in samples]) * plan.sample_pitch
+    return [(row, column, distance) for (row, column), distance in zip(samples, standing.query(points)[0])]
 
 
 @pytest.mark.parametrize('plan', [crooked(0.025), slanted(0.025)], ids=['crooked', 'slanted'])
