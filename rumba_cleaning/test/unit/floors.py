@@ -116,9 +116,10 @@ def along(path, step=STEP):
 
 
 def off(points, start, end):
-    """Distance of each point (any, 2) from the straight line from start to end: float64 (any) [m]."""
+    """Distance of each point (any, 2) from the straight line from start to end, or from start if they are the same."""
     start, end = np.asarray(start, float), np.asarray(end, float)
-    share = np.clip((points - start) @ (end - start) / np.sum((end - start) ** 2), 0.0, 1.0)
+    square = max(float(np.sum((end - start) ** 2)), np.finfo(float).tiny)
+    share = np.clip((points - start) @ (end - start) / square, 0.0, 1.0)
     return np.hypot(*(points - start - share[:, np.newaxis] * (end - start)).T)
 
 

@@ -55,8 +55,7 @@ def test_what_is_left_of_a_simplified_path_is_near_all_of_it(path, away):
     simple = simplified(path, away)
     assert (simple[[0, -1]] == path[[0, -1]]).all()
     for point in path:
-        assert min(float(off(point[np.newaxis], *ends)[0]) if (ends[0] != ends[1]).any() else math.hypot(
-            *(point - ends[0])) for ends in zip(simple[:-1], simple[1:])) <= away + 1e-9
+        assert min(float(off(point[np.newaxis], *ends)[0]) for ends in zip(simple[:-1], simple[1:])) <= away + 1e-9
 
 
 def test_a_closed_path_is_simplified_to_corners():

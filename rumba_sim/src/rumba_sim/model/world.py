@@ -305,7 +305,8 @@ class World:
 
         `alone_until` is none of them: it only saves time, and 0 is as good as what was computed.
         """
-        robots = {f'robots/{name}': self._states[name] for name in kernel.ROBOT.names if name != 'alone_until'}
+        names = [name for name in kernel.ROBOT.names or () if name != 'alone_until']
+        robots = {f'robots/{name}': self._states[name] for name in names}
         return {**robots,  # field by field, since bytes between fields are undefined
                 'noise': self._noise, 'dirt': self.floor.dirt, 'samples': self.floor.sweep.samples,
                 'tally': self.floor.sweep.tally}
