@@ -12,7 +12,7 @@ from rumba_cleaning.behaviour import Status
 from rumba_cleaning.behaviours.dock import Dock
 from rumba_cleaning.behaviours.homing import BUOYS, Homing
 from rumba_cleaning.behaviours.undock import Undock
-from rumba_cleaning.control import steps
+from rumba_cleaning.control import observe, steps
 from rumba_cleaning.outcome import Outcome
 from rumba_sim.model.errors import MapError
 from rumba_sim.model.geometry import Pose, wrap_angle
@@ -189,6 +189,17 @@ def test_something_right_behind_keeps_it_on_the_dock():
     assert (behaviour.status, behaviour.message) == (
         Status.FAILED, 'something behind the robot keeps it on the dock')
     assert behaviour.outcome is Outcome.BLOCKED
+
+
+def test_a_long_step_before_it_moves_is_no_obstacle():
+    """The node was busy, with planning for example."""
+    world, context = at(DOCK)
+    world.step()
+    behaviour = Undock(context)
+    behaviour.restart()
+    for dt in (0.0, 9.0, 9.0, 0.1):
+        command = behaviour.step(observe(world, 'rumba', dt))
+    assert behaviour.status is Status.RUNNING and command.v < 0.0
 
 
 def test_brought_back_to_the_dock_by_a_person_it_backs_off_again():

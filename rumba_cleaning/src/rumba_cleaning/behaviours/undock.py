@@ -5,6 +5,7 @@ from typing import Optional
 
 from rumba_cleaning.behaviour import Behaviour, Command, Observation
 from rumba_cleaning.behaviours.follower import Turn
+from rumba_cleaning.behaviours.travel import LONGEST
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.outcome import Outcome
 from rumba_sim.model.geometry import Pose, wrap_angle
@@ -48,7 +49,7 @@ class Undock(Behaviour):
                 return self.succeed('was not docked')
             self._start = pose
         driven = math.hypot(pose.x - self._start.x, pose.y - self._start.y)
-        self._waited = 0.0 if driven > self._driven + PROGRESS else self._waited + observation.dt
+        self._waited = 0.0 if driven > self._driven + PROGRESS else self._waited + min(observation.dt, LONGEST)
         self._driven = max(driven, self._driven)
         is_blocked = self._waited > PATIENCE
         if is_blocked and observation.is_docked:

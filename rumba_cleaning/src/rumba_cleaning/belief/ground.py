@@ -90,6 +90,7 @@ class Ground:
         self.fits = self.clearance >= self.reach + MARGIN
         self._marked = ~self.fits & (self.clearance < self.plan.safe_clearance)
         self._nearest: Optional[Array] = None
+        self._connected: Optional[Array] = None
 
     # --- points and nodes -----------------------------------------------------------------------------------------
 
@@ -166,6 +167,8 @@ class Ground:
         if self.is_straight(start, end, 0.0 if is_near else EXTRA_CLEARANCE):
             return np.array([start, end])
         first, last = self.standing(self.nodes(np.array([start, end])))
+        if not self._are_connected(first, last):
+            return None
         near, all_of_it = int(SEARCH_MARGIN / self.plan.resolution), max(self.clearance.shape)
         coarse = max(int(SEARCH_SPACING / self.plan.resolution + 0.5), 1)
         for margin, spacing in ((near, coarse), (near, 1), (all_of_it, coarse), (all_of_it, 1)):
@@ -176,6 +179,12 @@ class Ground:
             return None
         inner = self._straightened(self.points(found))
         return np.concatenate([[start], inner[1:-1] if len(inner) > 2 else inner, [end]])
+
+    def _are_connected(self, first: Array, last: Array) -> bool:
+        """Whether any path leads from one node (2) to another."""
+        if self._connected is None:
+            self._connected, _ = ndimage.label(self.fits, np.ones((3, 3)))
+        return bool(self._connected[tuple(first)] == self._connected[tuple(last)])
 
     def path_lengths_to(self, x: float, y: float) -> Array:
         """Length of the shortest path from each node to a point [m].

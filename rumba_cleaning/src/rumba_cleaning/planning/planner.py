@@ -56,7 +56,9 @@ def plan(context: Context, pose: Pose) -> Optional[Route]:
 
 
 def _through(context: Context, pose: Pose, labels: Array, found: List[Stretch]) -> Optional[Route]:
-    """A route over stretches from a pose; of crumbs, only over as many as the target needs."""
+    """A route over stretches from a pose; of crumbs, only over as many as the target needs. None: there is none."""
+    if not found:
+        return None
     by_region: Regional = {}
     for part in found:
         by_region.setdefault(part.region, []).append(part)

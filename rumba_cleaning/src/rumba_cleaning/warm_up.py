@@ -1,0 +1,29 @@
+"""Compiles the planner before its first use; the build runs `python3 -m rumba_cleaning.warm_up`."""
+
+import numpy as np
+
+from rumba_cleaning.belief.context import Context
+from rumba_cleaning.cleaning_config import CleaningConfig
+from rumba_cleaning.planning.planner import plan
+from rumba_sim.model.floor_plan import FREE, OCCUPIED, FloorPlan
+from rumba_sim.model.geometry import Pose
+from rumba_sim.model.robot_config import RobotConfig
+
+
+def main() -> None:
+    """Plan for two rooms with a corner between them, and again for what a wall with a door leaves."""
+    occupancy = np.full((60, 60), FREE, np.int8)
+    occupancy[25:35, :40] = OCCUPIED
+    context = Context(FloorPlan('two rooms', occupancy, 0.1, (0.0, 0.0)), RobotConfig(), CleaningConfig())
+    pose = Pose(1.0, 1.0, 0.0)
+    context.swept.begin(pose.x, pose.y)
+    route = plan(context, pose)
+    assert route is not None
+    for (x, y), (to_x, to_y) in zip(route.waypoints[:-1].tolist(), route.waypoints[1:].tolist()):
+        context.swept.sweep(Pose(x, y, 0.0), Pose(to_x, to_y, 0.0))
+    plan(context, pose)
+    context.ground.path(np.array([1.0, 1.0]), np.array([1.0, 5.0]))
+
+
+if __name__ == '__main__':
+    main()
