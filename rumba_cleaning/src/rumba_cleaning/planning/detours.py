@@ -18,7 +18,7 @@ from rumba_sim.model.kernel import Array
 SURPLUS = 0.005  # of coverage that is planned beyond the target, since no robot drives exactly as planned
 APART = 0.1  # [m] between the waypoints at which a detour may begin, at most: small makes detours shorter
 FARTHEST = 0.6  # [m] from the route to a crumb: large meets high targets, small leaves more to the next route
-TRIES = 20  # waypoints from which a straight line to a crumb is looked for, at most: saves time
+TRIES = 10  # waypoints from which a straight line to a crumb is looked for, at most: saves time
 CORNER = 0.1  # [m] that each rad of a corner counts: 0.3 s at the cleaning speed
 
 

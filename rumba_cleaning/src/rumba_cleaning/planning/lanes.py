@@ -26,6 +26,7 @@ POOR = 0.12  # share of brush * speed: a block that cleans less is left to the c
 NEEDED = 0.12  # share of the brush's width that was missed, for a lane to be needed: small drives over swept floor
 OVERLAP = 0.05  # share of the brush's width by which two lanes overlap: small drives less, large leaves nothing between
 JOIN = 2  # [cells] that were swept, between cells that one lane shall still clean: noise, not a gap
+Window = Tuple[slice, slice]  # rows and columns
 Run = Tuple[int, int]  # columns: the first, and the one after the last
 
 
@@ -59,8 +60,9 @@ def blocks(ground: Ground, missed: Array, brush: float, speed: float, angle: flo
     floor = TurnedFloor(ground, missed, angle)
     remaining = floor.missed.copy()
     rate = brush * speed
+    whole = _window(remaining, math.ceil(brush / floor.resolution))
     while remaining.any():  # in each round the best block, and each other that has no better one near it
-        grids = [_Grid(floor, remaining, ground.reach + MARGIN, brush, along_x) for along_x in (True, False)]
+        grids = [_Grid(floor, remaining, whole, ground.reach + MARGIN, brush, along_x) for along_x in (True, False)]
         choices = [(block.area - USUAL * rate * block.time, block, grid, lanes)
                    for grid in grids for block, lanes in grid.blocks(speed) if block.area > POOR * rate * block.time]
         if not choices:
@@ -81,19 +83,19 @@ class _Grid:
     Rows and columns are counted from the corner of this part; lengths are in cells.
     """
 
-    def __init__(self, floor: TurnedFloor, missed: Array, clearance: float, brush: float, along_x: bool) -> None:
+    def __init__(self, floor: TurnedFloor, missed: Array, window: Window, clearance: float, brush: float,
+                 along_x: bool) -> None:
         """Take the part of a floor.
 
         Args:
             floor: with the clearance at its nodes.
             missed: the cells to clean, bool (rows, columns) of the floor.
+            window: rows and columns of the floor that hold them.
             clearance: that the robot needs at its centre [m].
             brush: width of the brush [m].
             along_x: whether the lanes run along x of the floor, or along y.
         """
-        margin = math.ceil(brush / floor.resolution)
-        self._window = tuple(slice(max(part.start - margin, 0), part.stop + margin)
-                             for part in ndimage.find_objects(missed.astype(np.int8))[0])
+        self._window = window
         rows, columns = self._window
         nodes = floor.clearance[rows.start:rows.stop + 1, columns.start:columns.stop + 1]  # one more than cells
         self._clearance = nodes if along_x else nodes.T
@@ -215,6 +217,15 @@ class _Grid:
         ends = np.array([[lane.first, lane.across], [lane.last, lane.across]])
         rows, columns = self._window
         return self._floor.points((ends if self._along_x else ends[:, ::-1]) + (columns.start, rows.start))
+
+
+def _window(missed: Array, margin: int) -> Window:
+    """The part of bool (rows, columns) that is not False, and a margin [cells] around it."""
+    if not missed.any():
+        return slice(0, 0), slice(0, 0)
+    rows, columns = (slice(max(part.start - margin, 0), part.stop + margin)
+                     for part in ndimage.find_objects(missed.astype(np.int8))[0])
+    return rows, columns
 
 
 def _runs(flags: Array, gap: int) -> List[Run]:

@@ -22,9 +22,11 @@ UNSEEN = 3.0  # [m] that are added to twice the distance of points between which
 BENT = 0.5  # [rad] a corner by less costs no time, since the robot goes round it at full speed
 STOP = 0.5  # [s] to slow down and to start again at a corner by more than a right angle
 TURN_RATE = 1.9  # [rad/s] of the robot, about: corners are compared with ways
-AROUND = 1.0  # [m] about all stretches, in which obstacles are looked at that a way may lead around
+AROUND = 0.3  # [m] about all stretches, in which obstacles are looked at that a way may lead around
 OUTSIDE = 0.05  # [m] beyond BESIDE that ways lead around corners: large sees past them, small is short
 CORNER = 0.04  # [m] by which a way around a corner may cut it, so that it needs few points: less than OUTSIDE
+THIN = 0.3  # [m] side of the squares in each of which one such corner is enough, ...
+CORNERS = 300  # ... unless there are more; then the squares are larger: small is fast, large makes shorter ways
 FAR = 1e4  # [s] stands for infinity: finite, so that sums can be compared
 SAME = 4  # decimals of [m]: points that are equal so far are one point
 
@@ -137,8 +139,14 @@ def _corners(ground: Ground, points: Array) -> Array:
     high = (nodes.max(axis=0) + margin).astype(np.intp) + 1
     window = ground.clearance[low[0]:high[0], low[1]:high[1]]
     contours = measure.find_contours(window, ground.reach + BESIDE + OUTSIDE) if min(window.shape) > 1 else []
-    corners = [simplified(ground.points(contour + low), CORNER) for contour in contours]
-    return np.concatenate([np.zeros((0, 2)), *corners])
+    corners = np.concatenate([np.zeros((0, 2)), *(simplified(ground.points(contour + low), CORNER)
+                                                  for contour in contours)])
+    thin = THIN
+    while True:
+        _, first = np.unique(np.floor(corners / thin), axis=0, return_index=True)
+        if len(first) <= CORNERS:
+            return np.asarray(corners[np.sort(first)])
+        thin *= 2.0
 
 
 def _headings(points: Array, ahead: Array) -> Array:
