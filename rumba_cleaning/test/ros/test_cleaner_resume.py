@@ -8,6 +8,7 @@ import unittest
 import rospy
 import rostest
 from cleaners import Cleaner, go_to
+from geometry_msgs.msg import Twist
 from simulators import Heard, Simulator, folder_of, shared, wait
 
 from rumba_msg.msg import CleanGoal, MissionStatus, Outcome
@@ -62,7 +63,10 @@ class CleanerResumeTest(unittest.TestCase):
 
     def test_1_there_is_nothing_to_resume_before_a_cleaning_was_interrupted(self):
         self.is_nothing_to_resume()
-        self.cleaner.send('go_to', go_to(2.4, 2.4)).is_active().handle.cancel()
+        goal = self.cleaner.send('go_to', go_to(2.4, 2.4)).is_active()
+        goal.handle.cancel()
+        goal.ends(Outcome.CANCELLED)
+        wait(self, lambda: self.cleaner.commands.messages[-1:] == [Twist()], 'a stop')
         self.is_nothing_to_resume()
 
     def test_2_a_preempted_cleaning_is_resumed_and_sweeps_little_again(self):
