@@ -1,4 +1,4 @@
-"""Compiles the planner before its first use; the build runs `python3 -m rumba_cleaning.warm_up`."""
+"""Compiles the planner before its first use; the build runs `python3 -m rumba_cleaning.planning.warm_up`."""
 
 import numpy as np
 
