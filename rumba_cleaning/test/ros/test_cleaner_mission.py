@@ -48,7 +48,8 @@ class CleanerMissionTest(unittest.TestCase):
         answer = goal.ends(Outcome.SUCCEEDED)
         self.assertGreaterEqual(answer.cleaning.coverage, 0.98)
         self.assertAlmostEqual(answer.cleaning.coverage, coverage, delta=0.02)
-        self.assertAlmostEqual(len(goal.feedback), seconds, delta=0.25 * seconds)
+        # Through ROS, time passes while the cleaner plans, and all the more on a busy machine.
+        self.assertAlmostEqual(len(goal.feedback), seconds, delta=0.5 * seconds)
 
 
 if __name__ == '__main__':

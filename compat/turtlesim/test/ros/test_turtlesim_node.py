@@ -72,6 +72,13 @@ class TurtlesimNodeTest(unittest.TestCase):
         end = pose.find(lambda pose: pose.theta > 1.0 and pose.angular_velocity == 0.0)
         self.assertAlmostEqual(end.theta, 1.5 * 63 * 0.016, 5)
 
+    def hear(self, node, log):
+        """Wait until this test is connected to the log of a node: lines are lost until then."""
+        def hears():
+            node.call('clear')
+            return any(line.msg == 'Clearing turtlesim.' for line in log.messages[:])
+        wait(self, hears, 'a line of the log')
+
     def test_the_log_has_the_words_of_turtlesim(self):
         log = Heard(self, '/rosout')
         node = Turtlesim(self)
@@ -79,10 +86,7 @@ class TurtlesimNodeTest(unittest.TestCase):
         def lines():
             return [line.msg for line in log.messages[:] if line.name == '/turtlesim' and line.level == line.INFO]
 
-        def hears():
-            node.call('clear')
-            return 'Clearing turtlesim.' in lines()
-        wait(self, hears, 'a line of the log')  # the first ones are lost, until this test is connected
+        self.hear(node, log)
         node.call('reset')
         wanted = ['Clearing turtlesim.', 'Resetting turtlesim.',
                   'Spawning turtle [turtle1] at x=[5.544445], y=[5.544445], theta=[0.000000]']
@@ -196,6 +200,7 @@ class TurtlesimNodeTest(unittest.TestCase):
     def test_nan_and_infinity_are_refused_and_the_turtle_obeys_the_next_command(self):
         node = Turtlesim(self)
         pose, log, drive = Heard(self, '/turtle1/pose'), Heard(self, '/rosout'), commander(self)
+        self.hear(node, log)
         before = pose.fresh()
         for command in ((float('nan'), 0.0, 0.0), (0.0, float('inf'), 0.0), (0.0, 0.0, float('-inf'))):
             drive(*command)

@@ -13,8 +13,8 @@ from rumba_cleaning.planning.stretches import Stretch, Variant, pair
 from rumba_sim.model.kernel import Array
 
 # All figures are our choice; each comment says what speaks for a larger and for a smaller value.
-MISSED = 0.5  # share of a cell, for it to belong to a crumb
-LEAST = 0.0008  # [m^2] of a crumb: large makes fewer detours, small meets high targets
+MISSED = 0.3  # share of a cell, for it to belong to a crumb
+LEAST = 0.0004  # [m^2] of a crumb: large makes fewer detours, small meets high targets
 STRIP = 0.3  # [m] length of a crumb that is driven along its middle; a shorter one is passed over in any direction
 TWIG = 0.12  # [m] length of a side branch of the middle that is driven too
 HEADINGS = 8  # in which a spot may be passed over; more take more time to compare
