@@ -9,3 +9,20 @@ function(rumba_add_unit_tests)
     COMMAND "'${PYTHON_EXECUTABLE}' -m pytest '--junitxml=${results}' test/unit"
     WORKING_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR})
 endfunction()
+
+# Compiles what numba compiles, by running a module of this package, when the package is built or installed: otherwise
+# the first start of a node takes some seconds longer. The other arguments are the source files that are compiled.
+function(rumba_warm_up module)
+  safe_execute_process(COMMAND ${GENERATE_ENVIRONMENT_CACHE_COMMAND})  # as above
+  set(done ${CMAKE_CURRENT_BINARY_DIR}/warm_up.done)
+  add_custom_command(
+    OUTPUT ${done}
+    COMMAND ${CATKIN_ENV} ${PYTHON_EXECUTABLE} -m ${module}
+    COMMAND ${CMAKE_COMMAND} -E touch ${done}
+    DEPENDS ${ARGN}
+    COMMENT "Compiling the Python functions of ${PROJECT_NAME}")
+  add_custom_target(${PROJECT_NAME}_warm_up ALL DEPENDS ${done})
+  configure_file(${CMAKE_CURRENT_FUNCTION_LIST_DIR}/warm_up_installed.cmake.in
+                 ${CMAKE_CURRENT_BINARY_DIR}/warm_up_installed.cmake @ONLY)
+  install(SCRIPT ${CMAKE_CURRENT_BINARY_DIR}/warm_up_installed.cmake)
+endfunction()

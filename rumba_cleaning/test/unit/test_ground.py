@@ -10,7 +10,8 @@ from hypothesis import strategies as st
 from pytest import approx
 from rooms import NAMES, PLANS, RADIUS, crooked, distances, room
 
-from rumba_cleaning.belief.ground import EXTRA_CLEARANCE, MARGIN
+from rumba_cleaning.belief.ground import EXTRA_CLEARANCE
+from rumba_sim.model.reachability import SLACK
 
 GROUNDS = {name: ground(plan) for name, plan in PLANS.items()}
 INDEX = st.integers(0, 10 ** 6)
@@ -40,7 +41,7 @@ def test_the_robot_can_stand_at_nodes_with_enough_exact_distance_to_walls(resolu
     nodes = np.random.default_rng(3).integers((0, 0), (rows, columns), (300, 2))
     exact = distances(plan, floor.points(nodes))
     beyond = np.maximum(np.array([3.4, 2.4]) - floor.points(nodes), 0.0)  # of the cliff, whose corner this is
-    fits = np.minimum(exact, np.hypot(*beyond.T)) >= floor.reach + MARGIN
+    fits = np.minimum(exact, np.hypot(*beyond.T)) >= floor.reach + SLACK
     assert (floor.fits[nodes[:, 0], nodes[:, 1]] == fits).all() and 50 < fits.sum() < 250
     assert (floor.are_free(floor.points(nodes)) == fits).all()
 
@@ -104,7 +105,7 @@ def test_a_path_joins_its_points_and_never_comes_nearer_to_a_wall_than_a_robot_c
 @given(st.tuples(st.floats(0.2, 3.8), st.floats(0.2, 2.8)), st.tuples(st.floats(0.2, 3.8), st.floats(0.2, 2.8)))
 def test_a_path_between_points_that_are_no_nodes_keeps_off_walls_as_well(start, end):
     floor = GROUNDS['crooked', 0.02]
-    if min(distances(floor.plan, [start, end])) >= floor.reach + MARGIN:
+    if min(distances(floor.plan, [start, end])) >= floor.reach + SLACK:
         path = floor.path(np.array(start), np.array(end))
         assert tuple(path[0]) == start and tuple(path[-1]) == end
         assert min(distances(floor.plan, along(path))) >= floor.reach
@@ -179,8 +180,8 @@ def test_a_line_is_straight_if_the_exact_distance_to_walls_along_it_says_so(name
     ends = np.array([points[first % len(points)], points[second % len(points)]])
     least = min(distances(floor.plan, along(ends))) - floor.reach
     off_node = 0.75 * floor.plan.resolution  # distance of a point from the nearest node, at most
-    if abs(least - MARGIN) > off_node:
-        assert floor.is_straight(*ends) == (least > MARGIN)
+    if abs(least - SLACK) > off_node:
+        assert floor.is_straight(*ends) == (least > SLACK)
 
 
 # --- lengths -------------------------------------------------------------------------------------------------------

@@ -10,7 +10,8 @@ from hypothesis import strategies as st
 from pytest import approx
 from rooms import PLANS, crooked, room
 
-from rumba_cleaning.belief.ground import GROWTH, INFLATION, LARGEST, MARGIN
+from rumba_cleaning.belief.ground import GROWTH, INFLATION, LARGEST
+from rumba_sim.model.reachability import SLACK
 
 
 def exact_clearance(floor, marks):
@@ -34,7 +35,7 @@ def test_near_obstacles_that_were_met_the_clearance_is_the_distance_to_them(reso
     limit = floor.reach + INFLATION
     assert np.minimum(floor.clearance, limit) == approx(np.minimum(exact, limit))
     assert (floor.clearance <= floor.plan.safe_clearance).all()
-    assert (floor.fits == (floor.clearance >= floor.reach + MARGIN)).all()
+    assert (floor.fits == (floor.clearance >= floor.reach + SLACK)).all()
 
 
 def test_a_path_leads_around_an_obstacle_that_was_met_until_it_is_forgotten():

@@ -5,7 +5,7 @@ import pathlib
 
 import numpy as np
 import pytest
-from floors import BRUSH, along, knowing, length, tilted, wiped, wiped_but
+from floors import BRUSH, along, knowing, length, tilted, two_rooms, wiped, wiped_but
 from pytest import approx
 from rooms import crooked, distances, quiet, room
 
@@ -174,6 +174,15 @@ def test_floor_that_cannot_be_reached_is_left_out():
     assert plan(context, START) is None  # all cells to clean lie beyond the wall
     route = plan(context, Pose(4.0, 1.0, 0.0))
     assert route.waypoints[:, 0].min() > 2.9 and driven(context, route).coverage >= 0.96
+
+
+def test_a_crumb_is_visited_although_most_of_what_was_missed_cannot_be_reached():
+    context = knowing(two_rooms(0.02), START, target_coverage=1.0)
+    wiped(wiped(wiped(wiped(context, (0.0, 0.0, 2.8, 1.1)), (0.0, 1.3, 2.8, 2.4)), (0.0, 1.1, 1.4, 1.3)),
+          (1.6, 1.1, 2.8, 1.3))
+    context.ground.mark(2.85, 0.65, 0.25)  # somebody has closed the door
+    route = plan(context, START)
+    assert np.hypot(*(along(route.waypoints) - (1.5, 1.2)).T).min() < 0.05 and route.waypoints[:, 0].max() < 2.8
 
 
 def test_there_is_no_plan_if_nothing_was_missed():

@@ -18,13 +18,14 @@ def test_the_kernel_is_compiled_where_it_was_installed(tmp_path, destdir, folder
     python.chmod(0o755)
     text = TEMPLATE.read_text()
     for name, value in (('CMAKE_COMMAND', shutil.which('cmake')), ('PYTHON_EXECUTABLE', str(python)),
-                        ('CATKIN_GLOBAL_PYTHON_DESTINATION', 'lib/python'), ('PROJECT_NAME', 'rumba_sim')):
+                        ('CATKIN_GLOBAL_PYTHON_DESTINATION', 'lib/python'), ('module', 'rumba_sim.model.warm_up')):
         text = text.replace(f'@{name}@', value)
     script = tmp_path / 'script.cmake'
     script.write_text(text)
     environment = {name: value for name, value in os.environ.items() if name != 'DESTDIR'}
+    environment['PYTHONPATH'] = '/of/others'
     if destdir:
         environment['DESTDIR'] = destdir
     done = subprocess.run(['cmake', '-DCMAKE_INSTALL_PREFIX=/opt/my ros', '-P', str(script)], env=environment,
                           stdout=subprocess.PIPE, universal_newlines=True, check=True)
-    assert done.stdout == f'{folder}: -m rumba_sim.model.warm_up\n'
+    assert done.stdout == f'{folder}:/of/others: -m rumba_sim.model.warm_up\n'

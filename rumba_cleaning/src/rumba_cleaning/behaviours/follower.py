@@ -18,7 +18,8 @@ from rumba_sim.model.geometry import Pose, wrap_angle
 from rumba_sim.model.kernel import Array
 from rumba_sim.model.robot_config import DriveConfig
 
-# "Time" below is what boustrophedon takes to 99 % of the maps studio and apartment in rumba_evaluation.
+# "Time" below is what boustrophedon took to 99 % of the maps studio and apartment in rumba_evaluation, before it slowed
+# down for bends. Where nothing is said of time, a figure is our choice.
 HAIRPIN = 2.6  # [rad] a corner as sharp as this is driven to its end, and turned in; 1.5 costs 5 % more time
 AHEAD = 0.45  # [s] how far ahead the pursued point is, at the speed of the route: small swerves, since the wheels take
 #               time to follow, large cuts corners
@@ -34,10 +35,10 @@ STOPPING = 0.7  # share of the acceleration that is counted on for stopping, the
 #                 makes no difference to the time, 1.0 costs up to 8 %
 SHORTEST = 1e-3  # [m] of a leg of a route; a shorter one has no direction
 SAMPLE = 0.02  # [m] along a route between the points for which a speed is found: as far as the waypoints of a ring
-BEND = 0.1  # [m] before and behind a point, that show how sharp a bend is; 0.07 costs up to 5 % more time
+BEND = 0.1  # [m] before and behind a point, that show how sharp a bend is: small sees corners, large sees bends
 BENDING = 1.3  # times the largest turn rate that a bend would take at its speed, if it were driven exactly; small cuts
 #                fewer corners, large loses less time
-SLOWEST_BEND = 0.08  # [m/s] in a bend, however sharp it is: slower ones would take longer than a turn on the spot
+SLOWEST_BEND = 0.08  # [m/s] in a bend, however sharp it is: small cuts fewer corners, large loses less time
 SLOWING = 0.6  # share of the acceleration that is counted on for slowing down before a bend
 LEAST_DT = 0.02  # [s]: one tick of a simulator at 50 Hz
 HEADING = 0.02  # [rad] so near its heading a turn is done ...

@@ -16,7 +16,6 @@ from rumba_sim.model.reachability import SLACK
 from rumba_sim.model.robot_config import RobotConfig
 
 # All figures below are our choice; each comment says what speaks for a larger and for a smaller value.
-MARGIN = SLACK  # [m] that paths keep beyond the touching distance, as in what counts as reachable
 GROWTH = 0.02  # [m] added to the radius of an obstacle that is met again: large passes it after fewer touches
 LARGEST = 0.25  # [m] radius of an obstacle, at most: small leaves gaps beside it open, large passes wide obstacles
 EXTRA_CLEARANCE = 0.04  # [m] beside straight parts of a path: large touches less, small makes paths shorter
@@ -87,7 +86,7 @@ class Ground:
 
     def _update(self) -> None:
         """Derive from `clearance` what depends on it."""
-        self.fits = self.clearance >= self.reach + MARGIN
+        self.fits = self.clearance >= self.reach + SLACK
         self._marked = ~self.fits & (self.clearance < self.plan.safe_clearance)
         self._nearest: Optional[Array] = None
         self._connected: Optional[Array] = None
@@ -140,10 +139,10 @@ class Ground:
 
         Args:
             start, end: [m], map frame.
-            margin: clearance that it needs on the whole line, beyond the touching distance [m]; MARGIN at least.
+            margin: clearance that it needs on the whole line, beyond the touching distance [m]; SLACK at least.
         """
         nodes = self._line(start, end)
-        return bool((self.clearance[nodes[:, 0], nodes[:, 1]] >= self.reach + max(margin, MARGIN)).all())
+        return bool((self.clearance[nodes[:, 0], nodes[:, 1]] >= self.reach + max(margin, SLACK)).all())
 
     def is_marked(self, start: Array, end: Array) -> bool:
         """Whether an obstacle that the robot has met lies on the straight line from one point (2) to another [m]."""

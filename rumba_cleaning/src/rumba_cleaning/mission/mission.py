@@ -20,7 +20,7 @@ from rumba_sim.model.geometry import Pose
 JUMP = 0.5  # [m] from one observation to the next: the robot did not drive there, somebody moved it; as in `Swept`
 OFF = 1.0  # [s] off the contacts while charging: the robot was moved; contacts that bounce are closed again sooner
 EXACT = 0.0002  # of coverage beyond the target: by so much the account of a robot may differ from the truth
-ROUNDING = 1e-6
+ROUNDING = 1e-6  # tenths of percent
 GAIN = 0.002  # of coverage: a charge that brings less brings nothing; as boustrophedon judges its rounds
 VAIN = 3  # charges, one after the other, that brought nothing: the mission is given up; our choice
 HOMES = 2  # attempts to return to the dock, each with the tries of `Dock`; our choice

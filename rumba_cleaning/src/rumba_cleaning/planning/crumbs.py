@@ -13,7 +13,7 @@ from rumba_cleaning.planning.stretches import Stretch, Variant, pair
 from rumba_sim.model.kernel import Array
 
 # All figures are our choice; each comment says what speaks for a larger and for a smaller value.
-MISSED = 0.3  # share of a cell, for it to belong to a crumb
+MISSED = 0.3  # share of a cell, for it to belong to a crumb: large makes fewer detours, small meets high targets
 LEAST = 0.0004  # [m^2] of a crumb: large makes fewer detours, small meets high targets
 STRIP = 0.3  # [m] length of a crumb that is driven along its middle; a shorter one is passed over in any direction
 TWIG = 0.12  # [m] length of a side branch of the middle that is driven too

@@ -10,7 +10,7 @@ from rumba_cleaning.belief.context import Context
 from rumba_cleaning.belief.ground import Ground
 from rumba_cleaning.belief.swept import Swept
 from rumba_cleaning.planning.crumbs import crumbs
-from rumba_cleaning.planning.paper import strides
+from rumba_cleaning.planning.paper import stride_counts, strides
 from rumba_cleaning.planning.stretches import Stretch
 from rumba_sim.model.kernel import Array
 
@@ -63,8 +63,7 @@ def with_crumbs(context: Context, route: Route, paper: Swept, labels: Array) -> 
 
 def _dense(route: Route) -> Route:
     """A route with waypoints that are not far apart."""
-    counts = np.maximum(np.ceil(np.hypot(*np.diff(route.waypoints, axis=0).T) / APART).astype(np.intp), 1)
-    return Route(strides(route.waypoints, APART), np.repeat(route.speeds, counts))
+    return Route(strides(route.waypoints, APART), np.repeat(route.speeds, stride_counts(route.waypoints, APART)))
 
 
 def _detours(context: Context, route: Route, found: List[Stretch]) -> Iterator[Detour]:
@@ -75,10 +74,9 @@ def _detours(context: Context, route: Route, found: List[Stretch]) -> Iterator[D
     tree = spatial.cKDTree(route.waypoints[begins])
     for crumb in found:
         distances, near = tree.query(crumb.variants[0].path()[0], TRIES, distance_upper_bound=FARTHEST)
-        options = [option for number in near[np.isfinite(distances)]
-                   for option in [_detour(context.ground, route, int(begins[number]), crumb)] if option is not None]
-        if options:
-            yield min(options, key=lambda option: option.length)
+        options = [_detour(context.ground, route, int(begins[number]), crumb)
+                   for number in near[np.isfinite(distances)]]
+        yield from sorted(filter(None, options), key=lambda option: option.length)[:1]
 
 
 def _detour(ground: Ground, route: Route, index: int, crumb: Stretch) -> Optional[Detour]:

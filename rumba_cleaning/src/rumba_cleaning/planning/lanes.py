@@ -11,9 +11,10 @@ from typing import List, NamedTuple, Optional, Tuple
 import numpy as np
 from scipy import ndimage
 
-from rumba_cleaning.belief.ground import MARGIN, Ground
+from rumba_cleaning.belief.ground import Ground
 from rumba_cleaning.planning.turned_floor import TurnedFloor
 from rumba_sim.model.kernel import Array
+from rumba_sim.model.reachability import SLACK
 
 # All figures are our choice; each comment says what speaks for a larger and for a smaller value.
 GAP = 0.5  # [m] of swept floor within a lane: large saves turns, small saves distance
@@ -62,7 +63,7 @@ def blocks(ground: Ground, missed: Array, brush: float, speed: float, angle: flo
     rate = brush * speed
     whole = _window(remaining, math.ceil(brush / floor.resolution))
     while remaining.any():  # in each round the best block, and each other that has no better one near it
-        grids = [_Grid(floor, remaining, whole, ground.reach + MARGIN, brush, along_x) for along_x in (True, False)]
+        grids = [_Grid(floor, remaining, whole, ground.reach + SLACK, brush, along_x) for along_x in (True, False)]
         choices = [(block.area - USUAL * rate * block.time, block, grid, lanes)
                    for grid in grids for block, lanes in grid.blocks(speed) if block.area > POOR * rate * block.time]
         if not choices:

@@ -27,10 +27,15 @@ def drive(swept: Swept, path: Array) -> None:
 def strides(path: Array, longest: float) -> Array:
     """A path (any, 2) [m] with more waypoints on its legs, so that none is longer [m]."""
     legs = np.diff(path, axis=0)
-    counts = np.maximum(np.ceil(np.hypot(*legs.T) / longest).astype(np.intp), 1)
+    counts = stride_counts(path, longest)
     indices = np.repeat(np.arange(len(legs)), counts)
     shares = (np.arange(len(indices)) - np.repeat(np.cumsum(counts) - counts, counts) + 1) / counts[indices]
     return np.concatenate([path[:1], path[indices] + shares[:, np.newaxis] * legs[indices]])
+
+
+def stride_counts(path: Array, longest: float) -> Array:
+    """Into how many strides, none of them longer [m], each leg of a path (any, 2) [m] is divided: int (any - 1)."""
+    return np.maximum(np.ceil(np.hypot(*np.diff(path, axis=0).T) / longest).astype(np.intp), 1)
 
 
 def resampled(path: Array, spacing: float) -> Array:

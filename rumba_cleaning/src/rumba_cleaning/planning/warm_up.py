@@ -4,6 +4,7 @@ import numpy as np
 
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.cleaning_config import CleaningConfig
+from rumba_cleaning.planning.paper import drive
 from rumba_cleaning.planning.planner import plan
 from rumba_sim.model.floor_plan import FREE, OCCUPIED, FloorPlan
 from rumba_sim.model.geometry import Pose
@@ -11,16 +12,16 @@ from rumba_sim.model.robot_config import RobotConfig
 
 
 def main() -> None:
-    """Plan for two rooms with a corner between them, and again for what a wall with a door leaves."""
+    """Plan for two rooms, for what a drive on paper leaves of them, and for a way around the wall between them."""
     occupancy = np.full((60, 60), FREE, np.int8)
     occupancy[25:35, :40] = OCCUPIED
-    context = Context(FloorPlan('two rooms', occupancy, 0.1, (0.0, 0.0)), RobotConfig(), CleaningConfig())
+    floor = FloorPlan('two rooms', occupancy, 0.1, (0.0, 0.0))
+    context = Context(floor, RobotConfig(), CleaningConfig(target_coverage=1.0))
     pose = Pose(1.0, 1.0, 0.0)
     context.swept.begin(pose.x, pose.y)
     route = plan(context, pose)
     assert route is not None
-    for (x, y), (to_x, to_y) in zip(route.waypoints[:-1].tolist(), route.waypoints[1:].tolist()):
-        context.swept.sweep(Pose(x, y, 0.0), Pose(to_x, to_y, 0.0))
+    drive(context.swept, route.waypoints)
     plan(context, pose)
     context.ground.path(np.array([1.0, 1.0]), np.array([1.0, 5.0]))
 

@@ -7,6 +7,7 @@ Publishes:
 Parameters, as in `rosrun rumba_sim battery_status_publisher _rate:=10 _drain:=60`:
 """
 
+import contextlib
 import dataclasses
 from typing import Optional
 
@@ -58,10 +59,8 @@ def publish(settings: Settings) -> None:
 
 def pause(rate: rospy.Rate) -> None:
     """Sleep until the next message is due."""
-    try:
+    with contextlib.suppress(TypeError):  # rospy has computed a time before 0: /clock went back while it did
         rate.sleep()
-    except TypeError:
-        pass  # rospy has computed a time before 0: /clock went back while it did
 
 
 def passed(before: Optional[float], now: float) -> float:
