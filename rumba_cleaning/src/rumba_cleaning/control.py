@@ -2,7 +2,10 @@
 
 from typing import Iterator, Tuple
 
+import numpy as np
+
 from rumba_cleaning.behaviour import Behaviour, Command, Observation, Status
+from rumba_sim.model.geometry import as_told, compose, inverse
 from rumba_sim.model.robot import FIRST
 from rumba_sim.model.world import World
 
@@ -12,9 +15,15 @@ CONTROL_DT = CONTROL_TICKS / STEP_RATE  # [s]
 
 
 def observe(world: World, name: str, dt: float) -> Observation:
-    """What a robot of a world knows now, `dt` [s] after the observation before."""
+    """What a robot of a world knows now, `dt` [s] after the observation before.
+
+    Pose and charge are those that the messages of the simulator tell, bit for bit: the pose by way of two transforms,
+    the charge as a float32.
+    """
     robot = world.robots[name]
-    return Observation(dt, robot.pose, robot.bumper, world.cliffs(name), robot.battery.state_of_charge,
+    odometry = robot.odometry
+    pose = compose(as_told(compose(robot.pose, inverse(odometry))), as_told(odometry))
+    return Observation(dt, pose, robot.bumper, world.cliffs(name), float(np.float32(robot.battery.state_of_charge)),
                        robot.is_docked, world.infrared(name), robot.has_fallen)
 
 

@@ -65,8 +65,13 @@ class Cleaner:
         self._test.assertNotIn('\n', message)
         self._test.assertFalse([twist for twist in self.commands.messages if twist.linear.x or twist.angular.z])
 
+    def settles(self):
+        """Wait until it says that it is idle or stranded, which may come after the result; returns that status."""
+        return self.status.last(lambda status: status.state in (MissionStatus.IDLE, MissionStatus.STRANDED))
+
     def states(self):
-        """What mission_status said so far, without repetitions."""
+        """What mission_status said until it settled, without repetitions."""
+        self.settles()
         said = [message.state for message in self.status.messages]
         return [state for index, state in enumerate(said) if index == 0 or said[index - 1] != state]
 

@@ -127,7 +127,7 @@ class CleanerActionsTest(unittest.TestCase):
                 self.assertEqual(goal.ends(Outcome.CANCELLED).outcome.message, 'cancelled')
                 self.assert_at_rest()
                 self.assertGreater(math.hypot(self.pose()[0] - 0.8, self.pose()[1] - 2.4), 0.5)
-        self.assertEqual(self.cleaner.status.messages[-1].state, MissionStatus.IDLE)
+        self.assertEqual(self.cleaner.settles().state, MissionStatus.IDLE)
 
     def test_a_new_goal_preempts_the_one_before_on_any_action(self):
         first = self.cleaner.send('clean', CleanGoal())

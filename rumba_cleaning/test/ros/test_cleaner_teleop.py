@@ -73,7 +73,7 @@ class CleanerTeleopTest(unittest.TestCase):
         goal.handle.cancel()
         goal.ends(Outcome.CANCELLED)
         self.truth.fresh(lambda message: message.twist.twist.angular.z > 0.5)
-        self.assertEqual(self.cleaner.status.messages[-1].state, MissionStatus.IDLE)
+        self.assertEqual(self.cleaner.settles().state, MissionStatus.IDLE)
 
     def test_a_person_who_drives_without_a_goal_changes_nothing(self):
         self.person.press(-0.1, 0.0)

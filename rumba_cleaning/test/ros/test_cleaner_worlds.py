@@ -47,11 +47,15 @@ class CleanerWorldsTest(unittest.TestCase):
     def start_again(self):
         """Kill the simulator and start another one; returns once the cleaner serves its robot."""
         run = Heard(self, '/simulator/state').find().run
-        self.simulator.process.send_signal(signal.SIGKILL)
-        self.simulator.process.wait(TIMEOUT)
+        self.kill()
         self.start()
         Heard(self, '/simulator/state').find(lambda state: state.run != run)
         wait(self, self.is_served, 'the cleaner to notice')
+
+    def kill(self):
+        """Kill the simulator."""
+        self.simulator.process.send_signal(signal.SIGKILL)
+        self.simulator.process.wait(TIMEOUT)
 
     def is_served(self):
         """Whether the cleaner drives the robot, and not that of a simulator that is gone."""
@@ -88,9 +92,11 @@ class CleanerWorldsTest(unittest.TestCase):
     def test_3_a_map_file_that_changed_is_read_when_the_simulator_is_started_again(self):
         self.cleaner.send('go_to', go_to(3.0, 1.0)).ends(Outcome.SUCCEEDED)
         goal = self.cleaner.send('clean', CleanGoal()).is_active()
-        (self.folder / 'floor.pgm').write_bytes(picture(WALL))
-        self.start_again()
+        self.kill()
         self.assertRegex(goal.ends(Outcome.NO_READINGS).outcome.message, '^the robot is gone')
+        (self.folder / 'floor.pgm').write_bytes(picture(WALL))
+        self.start()
+        wait(self, self.is_served, 'the cleaner to notice')
         self.cleaner.refuses(r'^no path from \(1\.\d\d, 1\.00\) to \(3\.00, 1\.00\) m$', 'go_to', go_to(3.0, 1.0),
                              Outcome.NO_PATH)
 

@@ -119,6 +119,10 @@ class Heard:
         self.messages.clear()
         return self.find(condition)
 
+    def last(self, condition):
+        """Wait until the newest message meets a condition; returns it."""
+        return wait(self._test, lambda: next(filter(condition, self.messages[-1:]), None), f'the end on {self._topic}')
+
     def at(self, ticks):
         """The message of a tick of simulated time."""
         return self.find(lambda message: message.header.stamp.to_nsec() == ticks * TICK)

@@ -2,7 +2,7 @@
 
 import copy
 from concurrent.futures import Executor, Future
-from typing import Any, Callable, Optional, TypeVar
+from typing import Any, Callable, List, Optional, Sequence, TypeVar, Union
 
 import numpy as np
 
@@ -14,6 +14,7 @@ from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.model.robot_config import RobotConfig
 
 Result = TypeVar('Result')
+Seed = Union[int, Sequence[int]]
 
 
 class InPlace(Executor):
@@ -27,6 +28,11 @@ class InPlace(Executor):
         except Exception as error:
             future.set_exception(error)
         return future
+
+
+def own_seed(seed: int, robot: str) -> List[int]:
+    """The seed of a robot, by its name, in a run with a seed: robots draw different random numbers."""
+    return [seed, *robot.encode()]
 
 
 class Context:
@@ -44,7 +50,7 @@ class Context:
         footing: where the floor ends.
     """
 
-    def __init__(self, plan: FloorPlan, robot: RobotConfig, config: CleaningConfig, seed: int = 0,
+    def __init__(self, plan: FloorPlan, robot: RobotConfig, config: CleaningConfig, seed: Seed = 0,
                  executor: Optional[Executor] = None) -> None:
         """Know a floor plan, with nothing met or swept yet.
 

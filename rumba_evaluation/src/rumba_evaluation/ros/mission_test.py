@@ -50,7 +50,7 @@ from rumba_evaluation.verdicts.origins import Origins
 from rumba_msg.msg import BatteryStatus, Bumper, CleaningStatus, DockStatus, SimulatorState
 from rumba_sim.model.config import setting
 from rumba_sim.model.robot import FIRST
-from rumba_sim.ros.common import conversions, node, simulator_client
+from rumba_sim.ros.common import conversions, node, peers, simulator_client
 from rumba_sim.ros.common.names import check_names
 
 PACKAGE, NAME = 'rumba_evaluation', 'mission_test'
@@ -134,13 +134,13 @@ class MissionMonitor:
 
     def _on_state(self, message: SimulatorState) -> None:
         with self._lock:
-            self._origins.publishes(rospy.resolve_name(simulator_client.TOPIC), _sender(message))
+            self._origins.publishes(rospy.resolve_name(simulator_client.TOPIC), peers.caller(message))
             self._origins.names(message.node)
 
     def _update(self, condition: Condition, topic: str, message: Any, value: Value) -> None:
         with self._lock:
             self._last_message = time.monotonic()
-            self._origins.publishes(topic, _sender(message))
+            self._origins.publishes(topic, peers.caller(message))
             self._judge.update(condition, value(message), _now())
 
     def run(self) -> None:
@@ -213,11 +213,6 @@ class MissionMonitor:
 def _now() -> float:
     """Time of the robots [s]; in real time one that nobody can set."""
     return time.monotonic() if rospy.rostime.is_wallclock() else float(rospy.get_time())
-
-
-def _sender(message: Any) -> str:
-    """Full name of the node that sent a message."""
-    return str(message._connection_header.get('callerid', 'a node without a name'))
 
 
 def report(verdicts: List[Verdict]) -> bool:

@@ -3,7 +3,7 @@
 import dataclasses
 import difflib
 import math
-from typing import Any, Iterator, List, Mapping, Optional, Tuple, Type, TypeVar
+from typing import Any, Iterator, List, Mapping, Optional, Sequence, Tuple, Type, TypeVar
 
 from rumba_sim.model.errors import ConfigError, quoted
 
@@ -13,7 +13,8 @@ LARGEST = 1e300  # a larger number is out of range: an integer of YAML may be to
 Field = Any  # of dataclasses.Field: Python 3.8 cannot subscript it at run time
 
 
-def setting(default: Any, doc: str, unit: str = '', low: Optional[float] = None, high: Optional[float] = None) -> Any:
+def setting(default: Any, doc: str, unit: str = '', low: Optional[float] = None, high: Optional[float] = None,
+            choices: Sequence[str] = ()) -> Any:
     """A dataclass field that a user may set.
 
     Args:
@@ -22,8 +23,10 @@ def setting(default: Any, doc: str, unit: str = '', low: Optional[float] = None,
         unit: unit of a number, for example `m/s`.
         low: smallest allowed number; None for any finite number.
         high: largest allowed number; None for any finite number.
+        choices: the texts that are allowed; empty for any. The Booleans of YAML count as 'true' and 'false' here.
     """
-    return dataclasses.field(default=default, metadata={'doc': doc, 'unit': unit, 'low': low, 'high': high})
+    return dataclasses.field(default=default, metadata={'doc': doc, 'unit': unit, 'low': low, 'high': high,
+                                                        'choices': choices})
 
 
 def section(cls: type, doc: str) -> Any:
@@ -121,6 +124,8 @@ def _checked(field: Field, value: Any, path: str) -> Any:
     wanted = type(field.default)
     if wanted is float and type(value) is int:
         value = float(value) if abs(value) < LARGEST else math.inf
+    if field.metadata['choices'] and type(value) is bool:
+        value = str(value).lower()
     if type(value) is not wanted or not _in_range(field, value):
         raise ConfigError(f'{path}{field.name} is {quoted(value)}: must be {_range(field)} {_unit(field)}'.rstrip())
     return value
@@ -128,7 +133,9 @@ def _checked(field: Field, value: Any, path: str) -> Any:
 
 def _in_range(field: Field, value: Any) -> bool:
     low, high = field.metadata['low'], field.metadata['high']
-    if isinstance(value, (bool, str)):
+    if isinstance(value, str):
+        return value in (field.metadata['choices'] or [value])
+    if isinstance(value, bool):
         return True
     return abs(value) < LARGEST and (low is None or value >= low) and (high is None or value <= high)
 
@@ -137,6 +144,8 @@ def _range(field: Field) -> str:
     wanted, low, high = type(field.default), field.metadata['low'], field.metadata['high']
     if wanted is bool:
         return 'true or false'
+    if field.metadata['choices']:
+        return ' or '.join(field.metadata['choices'])
     if low is None or high is None:
         return {int: 'a whole number', float: 'a finite number', str: 'text'}[wanted]
     return f'{low:.10g} to {high:.10g}'

@@ -1,7 +1,7 @@
 """Poses in the plane by the conventions of REP 103: x forward, y left, angles counter-clockwise."""
 
 import math
-from typing import NamedTuple
+from typing import NamedTuple, Tuple
 
 from rumba_sim.model import kernel
 
@@ -35,3 +35,18 @@ def inverse(frame: Pose) -> Pose:
     """The pose of the parent in a frame, from the pose of the frame in its parent."""
     cos, sin = math.cos(frame.theta), math.sin(frame.theta)
     return Pose(-cos * frame.x - sin * frame.y, sin * frame.x - cos * frame.y, wrap_angle(-frame.theta))
+
+
+def half_angle(theta: float) -> Tuple[float, float]:
+    """z and w of the quaternion of a rotation about z [rad]; its x and y are 0."""
+    return math.sin(0.5 * theta), math.cos(0.5 * theta)
+
+
+def yaw(x: float, y: float, z: float, w: float) -> float:
+    """The angle about z [rad] of the rotation of a quaternion."""
+    return math.atan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))
+
+
+def as_told(pose: Pose) -> Pose:
+    """A pose as a transform tells it: by a quaternion, from which a heading comes back with other last bits."""
+    return Pose(pose.x, pose.y, yaw(0.0, 0.0, *half_angle(pose.theta)))

@@ -10,6 +10,7 @@ from std_srvs.srv import SetBool
 
 from rumba_cleaning.behaviour import STOP, Command
 from rumba_cleaning.ros.cleaner import conversions
+from rumba_sim.ros.common.lockstep import Resent
 
 COMPLAINT_PERIOD = 10.0  # [s]
 
@@ -19,7 +20,8 @@ class Wheels:
 
     def __init__(self, robot: str) -> None:
         """Drive a robot, by its name."""
-        self._publisher = rospy.Publisher(f'{robot}/cmd_vel', Twist, queue_size=1)
+        self._last = Resent()
+        self._publisher = rospy.Publisher(f'{robot}/cmd_vel', Twist, self._last, queue_size=1)
         self._lock = threading.Lock()
         self._is_closed = False
 
@@ -27,7 +29,16 @@ class Wheels:
         """Command a velocity."""
         with self._lock:
             if not self._is_closed:
-                self._publisher.publish(conversions.velocity(command))
+                self._last.message = conversions.velocity(command)
+                self._publisher.publish(self._last.message)
+
+    def forget(self) -> None:
+        """Begin a new reading: send what was commanded before to no new subscriber."""
+        self._last.message = None
+
+    def commanded(self) -> str:
+        """The name of the topic if a velocity was commanded since `forget`, else an empty text."""
+        return self._publisher.resolved_name if self._last.message is not None else ''
 
     def stop(self) -> None:
         """Command to stand still."""
@@ -56,6 +67,10 @@ class Brushes:
             self._wanted = are_up
             self._wishes.put(are_up)
 
+    def settle(self) -> None:
+        """Return when the robot has answered every wish, or does not answer."""
+        self._wishes.join()
+
     def forget(self) -> None:
         """Somebody else may have moved them: ask the robot at the next call of `want` in any case."""
         self._wanted = None
@@ -69,3 +84,5 @@ class Brushes:
                 self.forget()
                 if not rospy.core.is_shutdown_requested():  # else the robot may end too
                     rospy.logwarn_throttle(COMPLAINT_PERIOD, f'brushes not moved: {type(error).__name__}: {error}')
+            finally:
+                self._wishes.task_done()

@@ -16,7 +16,8 @@ subscribes to
   dock_status       rumba_msg/DockStatus    battery_state     sensor_msgs/BatteryState
   cleaning_status   rumba_msg/CleaningStatus
   teleop/cmd_vel    geometry_msgs/Twist: while a person drives, and for 0.5 s after, the cleaner commands nothing
-and to /tf and /tf_static for map -> odom -> base_footprint, and uses the service
+and to /tf and /tf_static for map -> odom -> base_footprint. It takes part in a lockstep by simulator/lockstep and
+simulator/lockstep_answers (rumba_msg/Lockstep, LockstepAnswer), and uses the service
   set_brushes_up    std_srvs/SetBool
 The map and the shape of the robot are those of the simulator in the same namespace, from
   simulator/state   rumba_msg/SimulatorState
@@ -34,12 +35,12 @@ import rospy
 from actionlib_msgs.msg import GoalStatus
 
 from rumba_cleaning import strategies
-from rumba_cleaning.belief.context import Context
+from rumba_cleaning.belief.context import Context, own_seed
 from rumba_cleaning.outcome import Outcome
 from rumba_cleaning.ros.cleaner import conversions
 from rumba_cleaning.ros.cleaner.action_server import Server
 from rumba_cleaning.ros.cleaner.activities import ACTIONS, Activity, Cleaning
-from rumba_cleaning.ros.cleaner.executor import DaemonExecutor
+from rumba_cleaning.ros.cleaner.executor import DaemonExecutor, Planners
 from rumba_cleaning.ros.cleaner.go_to_position import GoToPosition
 from rumba_cleaning.ros.cleaner.robot import Robot
 from rumba_cleaning.ros.cleaner.run import Run, describe
@@ -82,11 +83,12 @@ class Cleaner:
         self._has_ended = threading.Event()
         self._workplace = Workplace(settings.map, lambda: self._events.put(self._look_at_world))
         self._world: Optional[World] = self._workplace.world  # that of the goal and of the cleaning below
-        self._executor = DaemonExecutor(PLANNERS)
         self._run: Optional[Run] = None
         self._interrupted: Optional[Cleaning] = None  # what a goal of clean with `resume` goes on with
-        self._is_reading_queued = False
-        self._robot = Robot(settings.robot, self._on_reading)
+        self._is_reading_queued = True  # by `run`, after the goal of autostart
+        self._robot = Robot(settings.robot, self._on_reading, lambda: self._workplace.lockstep_resets)
+        self._executor = Planners(DaemonExecutor(PLANNERS), self._robot.lockstep,
+                                  lambda: self._workplace.lockstep_resets is not None)
         GoToPosition(settings, self._workplace, self._robot.senses)
         self._servers = {name: self._serve(name) for name in ACTIONS}
         rospy.on_shutdown(self._end)
@@ -102,6 +104,7 @@ class Cleaner:
         """Handle events until ROS shuts down."""
         if self._settings.autostart:
             self._servers['clean'].internal_goal_callback(CleanActionGoal())
+        self._events.put(self._read)
         while not self._has_ended.is_set():
             try:
                 event = self._events.get(timeout=LOOK_PERIOD)
@@ -122,6 +125,7 @@ class Cleaner:
         for server in self._servers.values():
             server.close(END)
         self._robot.wheels.close()
+        self._robot.lockstep.leave()
 
     def _finish(self) -> None:
         self._interrupt(Outcome.FAILED, END)
@@ -156,9 +160,13 @@ class Cleaner:
 
     def _read(self) -> None:
         self._is_reading_queued = False
-        if self._run is not None:
-            self._run.read()
-            self._forget_closed()
+        self._robot.wheels.forget()
+        try:
+            if self._run is not None:
+                self._run.read()
+                self._forget_closed()
+        finally:
+            self._robot.answer()
 
     def _look_after(self) -> None:
         if self._run is not None:
@@ -209,7 +217,8 @@ class Cleaner:
         if name == 'clean' and goal.resume:
             return self._rest_of_cleaning(goal.time_limit)
         plan, robot = self._workplace.look()
-        context = Context(plan, robot, self._settings.cleaning, self._settings.seed, self._executor)
+        seed = own_seed(self._settings.seed, self._settings.robot)
+        context = Context(plan, robot, self._settings.cleaning, seed, self._executor)
         return ACTIONS[name].activity(context, goal)
 
     def _rest_of_cleaning(self, time_limit: float) -> Cleaning:

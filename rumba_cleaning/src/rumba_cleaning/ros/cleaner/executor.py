@@ -5,6 +5,9 @@ import queue
 import threading
 from typing import Any, Callable, Tuple, TypeVar
 
+from rumba_cleaning.belief.context import InPlace
+from rumba_sim.ros.common.lockstep import Participant
+
 Result = TypeVar('Result')
 Task = Tuple['concurrent.futures.Future[Any]', Callable[[], Any]]
 
@@ -33,6 +36,24 @@ class DaemonExecutor(concurrent.futures.Executor):
             if future.set_running_or_notify_cancel():
                 _run(future, call)
             del future, call  # else their memory is kept until the next task
+
+
+class Planners(concurrent.futures.Executor):
+    """Runs functions beside the loop, but in lockstep at once: the world waits, and the run can be repeated."""
+
+    def __init__(self, beside: concurrent.futures.Executor, lockstep: Participant,
+                 is_lockstep: Callable[[], bool]) -> None:
+        """Use an executor, or say that this node is busy."""
+        self._beside = beside
+        self._lockstep = lockstep
+        self._is_lockstep = is_lockstep
+
+    def submit(self, fn: Callable[..., Result], /, *args: Any, **kwargs: Any) -> 'concurrent.futures.Future[Result]':
+        """Run a function; returns its future."""
+        if not self._is_lockstep():
+            return self._beside.submit(fn, *args, **kwargs)
+        with self._lockstep.busy():
+            return InPlace().submit(fn, *args, **kwargs)
 
 
 def _run(future: 'concurrent.futures.Future[Any]', call: Callable[[], Any]) -> None:

@@ -1,6 +1,6 @@
 """Where a robot is, by the transforms of tf."""
 
-from typing import Dict, Optional, Tuple
+from typing import Callable, Dict, Optional, Tuple
 
 import rospy
 from geometry_msgs.msg import TransformStamped
@@ -26,10 +26,15 @@ class Location:
     A localisation publishes later and less often than the odometry, and their stamps differ; so what came last counts,
     whatever its stamp is. A buffer of tf2 would hold on to the newest stamp, even to one of the far future, and keep
     the frames of everybody; some stamps and frames make it end the process.
+
+    Attributes:
+        stamp: of the newest odom -> base_footprint; 0 before the first.
     """
 
-    def __init__(self, robot: str) -> None:
-        """Listen to the transforms of a robot, by its name."""
+    def __init__(self, robot: str, on_odometry: Callable[[], None]) -> None:
+        """Listen to the transforms of a robot, by its name; `on_odometry` is called in a thread of rospy."""
+        self.stamp = rospy.Time()
+        self._on_odometry = on_odometry
         self._frames = frames(robot)
         self._links = (MAP, self._frames.odom), (self._frames.odom, self._frames.base_footprint)
         self._newest: Dict[Link, Known] = {}
@@ -37,19 +42,25 @@ class Location:
             rospy.Subscriber(topic, TFMessage, self._on_transforms, topic == STATIC, queue_size=QUEUE)
 
     def _on_transforms(self, message: TFMessage, is_static: bool) -> None:
+        stamp = self.stamp
         for each in message.transforms:
             link = each.header.frame_id.lstrip('/'), each.child_frame_id.lstrip('/')
             if link not in self._links:
                 continue
             if is_valid(each):
                 self._newest[link] = conversions.transform_pose(each.transform), is_static
+                stamp = each.header.stamp if link == self._links[1] else stamp
             else:
                 rospy.logwarn_throttle(COMPLAINT_PERIOD, f'tf has {" -> ".join(link)} with numbers that make no '
                                                          'pose: ignored')
+        if stamp != self.stamp:
+            self.stamp = stamp
+            self._on_odometry()
 
     def forget(self) -> None:
         """Know nothing of what was told of a time that is over; what is static was told once and for all."""
         self._newest = {link: known for link, known in self._newest.items() if known[1]}
+        self.stamp = rospy.Time()
 
     def pose(self) -> Optional[Pose]:
         """The pose of the robot in the map frame; None if tf does not have it."""

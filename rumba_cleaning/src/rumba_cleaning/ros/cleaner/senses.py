@@ -11,7 +11,7 @@ from sensor_msgs.msg import BatteryState
 from rumba_cleaning.behaviour import Observation
 from rumba_cleaning.ros.cleaner import conversions
 from rumba_cleaning.ros.cleaner.location import QUEUE, Location
-from rumba_msg.msg import Bumper, CleaningStatus, Cliff, DockStatus
+from rumba_msg.msg import Bumper, CleaningStatus, Cliff, DockStatus, Lockstep
 from rumba_sim.model.geometry import Pose
 
 SECOND = 1_000_000_000  # [ns]
@@ -25,7 +25,8 @@ class Senses:
 
     The simulator publishes bumper, cliff and dock_status with one stamp, but each topic comes in a thread of its own,
     and in any order: a reading is complete if there are a dock_status, and a bumper and a cliff that are not older.
-    (Equal stamps might never be found: if messages come in bursts, one topic is always ahead of the others.)
+    (Equal stamps might never be found: if messages come in bursts, one topic is always ahead of the others.) A world in
+    lockstep waits, so there a reading is complete if everything has come that was published up to its tick.
 
     Attributes:
         passed: [ns] of the robot's time by the stamps of readings, without pauses.
@@ -35,13 +36,22 @@ class Senses:
         cleaning: the newest CleaningStatus; None before the first.
     """
 
-    def __init__(self, robot: str, on_reading: Callable[[], None]) -> None:
-        """Listen to a robot, by its name; `on_reading` is called in a thread of rospy."""
+    def __init__(self, robot: str, on_reading: Callable[[], None],
+                 resets: Callable[[], Optional[int]] = lambda: None) -> None:
+        """Listen to a robot.
+
+        Args:
+            robot: its name.
+            on_reading: called after each complete reading, in a thread of rospy.
+            resets: how often the world that is known was reset, if it is in lockstep; else None.
+        """
         self._robot = robot
         self._on_reading = on_reading
+        self._resets = resets
         self._lock = threading.Lock()
         self._newest: Dict[str, Any] = {}
-        self._state_of_charge: Optional[float] = None
+        self._battery: Optional[BatteryState] = None
+        self._tick: Optional[Lockstep] = None
         self._since: Optional[rospy.Time] = None  # stamp until which messages are of a world that is gone
         self._observed: Optional[int] = None  # `passed` at the last observation [ns]
         self.passed = 0
@@ -49,7 +59,7 @@ class Senses:
         self.heard = -math.inf
         self.unread = 0
         self.cleaning: Optional[CleaningStatus] = None
-        self._location = Location(robot)
+        self._location = Location(robot, self._check_in_lockstep)
         rospy.Subscriber(f'{robot}/battery_state', BatteryState, self._on_battery, queue_size=QUEUE)
         rospy.Subscriber(f'{robot}/cleaning_status', CleaningStatus, self._on_cleaning, queue_size=QUEUE)
         self._subscribers = {
@@ -59,12 +69,14 @@ class Senses:
     def _on_battery(self, battery: BatteryState) -> None:
         with self._lock:
             if math.isfinite(battery.percentage) and not self._is_old(battery):
-                self._state_of_charge = battery.percentage
+                self._battery = battery
+        self._check_in_lockstep()
 
     def _on_cleaning(self, cleaning: CleaningStatus) -> None:
         with self._lock:
             if not self._is_old(cleaning):
                 self.cleaning = cleaning
+        self._check_in_lockstep()
 
     def _on_part(self, message: Any, topic: str) -> None:
         with self._lock:
@@ -73,13 +85,43 @@ class Senses:
                 return
             self._newest[topic] = message
             self.unread += topic == CLOCK
-            if self._late() or self._newest[CLOCK].header.stamp == self.stamp:
+        self.check()
+
+    def on_tick(self, tick: Lockstep) -> None:
+        """A control tick of a world in lockstep was published; may be called from any thread."""
+        with self._lock:
+            self._tick = tick
+        self.check()
+
+    def _check_in_lockstep(self) -> None:
+        if self._resets() is not None:
+            self.check()
+
+    def check(self) -> None:
+        """Look whether a reading has become complete; may be called from any thread."""
+        with self._lock:
+            stamp = self._complete()
+            if stamp is None or stamp == self.stamp:
                 return
-            stamp = self._newest[CLOCK].header.stamp
             gap = (stamp - self.stamp).to_nsec() if self.stamp is not None else 0
             self.passed += gap if 0 < gap <= PAUSE else 0
             self.stamp, self.unread = stamp, 0
         self._on_reading()
+
+    def _complete(self) -> Optional[rospy.Time]:
+        """The stamp of the newest reading if it is complete, else None."""
+        resets, tick = self._resets(), self._tick
+        if resets is None:
+            return None if self._late() else self._newest[CLOCK].header.stamp
+        return tick.header.stamp if tick is not None and tick.resets == resets and self._has_all(tick) else None
+
+    def _has_all(self, tick: Lockstep) -> bool:
+        """Whether everything has come that was published up to a control tick; a stamp of 0: it is not published."""
+        stamp = tick.header.stamp
+        parts = [(self._newest.get(topic), stamp) for topic in READING]
+        return self._location.stamp >= tick.odom and all(
+            wanted.is_zero() or message is not None and message.header.stamp >= wanted
+            for message, wanted in (*parts, (self._battery, stamp), (self.cleaning, tick.cleaning)))
 
     def _late(self) -> List[str]:
         """The topics that are missing for a complete reading."""
@@ -106,11 +148,16 @@ class Senses:
             is_new_run: whether the simulator was started again: its time may begin anew.
         """
         with self._lock:
-            self._newest.clear()
-            self._state_of_charge = self.stamp = self.cleaning = None
             self._since, self.unread = since, 0
+            self._newest = {} if is_new_run else {
+                topic: message for topic, message in self._newest.items() if not self._is_old(message)}
+            self._battery, self.cleaning = (
+                None if is_new_run or message is None or self._is_old(message) else message
+                for message in (self._battery, self.cleaning))
+            self.stamp = None
         if is_new_run:
             self._location.forget()
+        self.check()
 
     def observe(self) -> Optional[Observation]:
         """As `look`, with the time since the observation before."""
@@ -122,11 +169,11 @@ class Senses:
     def look(self) -> Optional[Observation]:
         """What the robot knows now, with dt 0; None if something is missing."""
         with self._lock:
-            parts, charge = dict(self._newest), self._state_of_charge
+            parts, battery = dict(self._newest), self._battery
         pose = self.pose()
-        if pose is None or charge is None or any(topic not in parts for topic in READING):
+        if pose is None or battery is None or any(topic not in parts for topic in READING):
             return None
-        return conversions.observation(pose, parts['bumper'], parts['cliff'], parts['dock_status'], charge)
+        return conversions.observation(pose, parts['bumper'], parts['cliff'], parts['dock_status'], battery.percentage)
 
     def pose(self) -> Optional[Pose]:
         """The pose of the robot in the map frame; None if tf does not have it."""
@@ -134,7 +181,7 @@ class Senses:
 
     def missing(self) -> str:
         """What is missing for an observation, for a person."""
-        if self._state_of_charge is None:
+        if self._battery is None:
             return f'no charge: {self._robot}/battery_state tells no percentage'
         if self.pose() is None:
             return f'no pose: tf has no {self._location}'

@@ -4,10 +4,7 @@ import dataclasses
 
 from rumba_cleaning.cleaning_config import CleaningConfig
 from rumba_sim.model.config import part, section, setting
-from rumba_sim.model.errors import ConfigError, quoted
 from rumba_sim.ros.common.names import check_names
-
-ANSWERS = 'velocity', 'heading'
 
 
 @dataclasses.dataclass(frozen=True)
@@ -16,12 +13,8 @@ class GoToPositionSettings:
 
     answer: str = setting('velocity', 'velocity: a speed in linear_x [m/s] and a turn rate in angular_z [rad/s], to be '
                                       'commanded as they are; heading: a heading in angular_z [rad], as servers of the '
-                                      'lesson answer, and -1 in linear_x: the caller turns there and chooses the speed')
-
-    def __post_init__(self) -> None:
-        """Check that the answer is one of the two."""
-        if self.answer not in ANSWERS:
-            raise ConfigError(f'go_to_position/answer is {quoted(self.answer)}: must be {" or ".join(ANSWERS)}')
+                                      'lesson answer, and -1 in linear_x: the caller turns there and chooses the speed',
+                          choices=('velocity', 'heading'))
 
 
 @dataclasses.dataclass(frozen=True)

@@ -63,6 +63,12 @@ class Workplace:
             self._loaded = (*wanted, map_file.load(path))
         return self._loaded[2], self._newest_robot()
 
+    @property
+    def lockstep_resets(self) -> Optional[int]:
+        """How often the newest world was reset, if it is in lockstep; else None."""
+        state = self._simulator.state
+        return self.world.resets if self.world is not None and state is not None and state.is_lockstep else None
+
     def _newest_robot(self) -> RobotConfig:
         state, known = self._simulator.state, self._robot
         if state is None:

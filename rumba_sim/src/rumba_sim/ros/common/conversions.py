@@ -14,7 +14,7 @@ from rumba_msg.msg import BatteryStatus, Bumper, CleaningStatus, Cliff, DockStat
 from rumba_sim.model.battery import CELLS, Battery
 from rumba_sim.model.floor import Floor
 from rumba_sim.model.floor_plan import FloorPlan
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.geometry import Pose, half_angle, yaw
 from rumba_sim.model.kernel import Array
 from rumba_sim.model.robot import Infrared, Robot, Twist
 from rumba_sim.model.robot_config import TURN, LaserConfig, OdometryConfig
@@ -72,13 +72,12 @@ def battery_state(battery: Battery, is_docked: bool, header: Header) -> BatteryS
 
 def quaternion(theta: float) -> Quaternion:
     """A heading [rad] as a rotation about z."""
-    return Quaternion(0.0, 0.0, math.sin(0.5 * theta), math.cos(0.5 * theta))
+    return Quaternion(0.0, 0.0, *half_angle(theta))
 
 
 def heading(rotation: Quaternion) -> float:
     """The angle about z [rad] of a rotation."""
-    return math.atan2(2.0 * (rotation.w * rotation.z + rotation.x * rotation.y),
-                      1.0 - 2.0 * (rotation.y * rotation.y + rotation.z * rotation.z))
+    return yaw(rotation.x, rotation.y, rotation.z, rotation.w)
 
 
 def plane_pose(pose: PoseMessage) -> Pose:

@@ -116,3 +116,8 @@ def refuse_twin(name: str) -> None:
     """
     if is_alive(name):
         raise WorldError(f'a node {name} is already running: end it first')
+
+
+def caller(message: Any) -> str:
+    """Full name of the node that sent a message or a request."""
+    return str(message._connection_header.get('callerid', 'a node without a name'))

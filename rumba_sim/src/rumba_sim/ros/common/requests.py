@@ -41,8 +41,12 @@ class Requests:
         """Have the owner call a function, without waiting for it: `serve` raises its exception."""
         self._queue.put((function, None))
 
-    def serve(self, until: float) -> None:
+    def serve(self, until: float, is_enough: Callable[[], bool] = lambda: False) -> None:
         """Make the calls that are in the queue, and those that arrive until a time of `time.monotonic`.
+
+        Args:
+            until: that time.
+            is_enough: asked after each call; if true, the next ones wait for the next time.
 
         Raises:
             Exception: a function raised it that was posted; the owner ends then, since nobody else would notice.
@@ -56,6 +60,8 @@ class Requests:
                 function()
             else:
                 _answer(answer, function)
+            if is_enough():
+                return
 
     def _next(self, seconds: float) -> Optional[Tuple[Callable[[], Any], Answer]]:
         try:

@@ -27,13 +27,13 @@ class Rates:
     odom: int = setting(50, 'odom, and the transforms of odom and map', 'Hz', 0, MAX_RATE)
     ground_truth: int = setting(10, 'ground_truth', 'Hz', 0, MAX_RATE)
     scan: int = setting(10, 'scan', 'Hz', 0, MAX_RATE)
-    sensors: int = setting(10, 'bumper, cliff and dock_status', 'Hz', 0, MAX_RATE)
-    battery: int = setting(5, 'battery_status and battery_state', 'Hz', 0, MAX_RATE)
+    sensors: int = setting(10, 'bumper, cliff, dock_status and battery_state', 'Hz', 0, MAX_RATE)
+    battery: int = setting(5, 'battery_status', 'Hz', 0, MAX_RATE)
     cleaning: int = setting(1, 'cleaning_status and coverage', 'Hz', 0, MAX_RATE)
 
     def due(self, ticks: int, step_rate: float) -> Due:
-        """What is due at a tick: the first after each period, if a period is no whole number of ticks."""
-        return Due(*(ticks * rate // step_rate > (ticks - 1) * rate // step_rate for rate in self._all()))
+        """What is due at a tick, 1 or more: everything at the first, then the first tick after each period."""
+        return Due(*((ticks - 1) * rate // step_rate > (ticks - 2) * rate // step_rate for rate in self._all()))
 
     def check(self, step_rate: int) -> None:
         """Refuse rates whose period is no whole number of ticks.

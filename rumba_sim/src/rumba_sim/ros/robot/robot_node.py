@@ -1,10 +1,10 @@
 """One robot as a part of the node that moves it: its topics, services and frames."""
 
-import contextlib
+import functools
 import math
 import threading
 import time
-from typing import Any, Callable, List, Optional, Tuple
+from typing import Any, Callable, Dict, List, Optional, Tuple
 
 import rospy
 from geometry_msgs.msg import TransformStamped, Twist
@@ -22,6 +22,7 @@ from rumba_sim.model.world import World
 from rumba_sim.ros.common import conversions, peers, teleop
 from rumba_sim.ros.common.frames import MAP, frames
 from rumba_sim.ros.common.requests import Requests
+from rumba_sim.ros.robot.latecomers import Latecomers
 from rumba_sim.ros.robot.rates import Due, Rates
 from rumba_sim.ros.robot.velocity_mux import Input, VelocityMux
 
@@ -31,28 +32,23 @@ QUEUE = 100  # messages that a subscriber may be behind, at speed 0 too, before 
 INPUTS = (Input(teleop.TOPIC, 100, teleop.TIMEOUT), Input('cmd_vel', 10, 0.5))
 
 
-class CoverageRequested(rospy.SubscribeListener):
-    """Sends the grid to each new subscriber, as a latched topic does, but as the grid is at that time."""
-
-    def __init__(self, requests: Requests, message: Callable[[], OccupancyGrid]) -> None:
-        """Have the owner of `requests` make each `message`."""
-        self._requests = requests
-        self._message = message
-
-    def peer_subscribe(self, topic_name: str, topic_publish: Any, peer_publish: Callable[[Any], None]) -> None:
-        """There is a new subscriber."""
-        def send() -> None:
-            with contextlib.suppress(rospy.ROSException):  # the robot was removed meanwhile, and its topics with it
-                peer_publish(self._message())
-        self._requests.post(send)
-
-
 class RobotNode:
     """Publishers, subscribers and services of one robot; only `publish` and `apply_command` touch the world."""
 
     def __init__(self, world: World, name: str, requests: Requests, has_localisation: bool,
-                 stamp: rospy.Time, has_laser: bool = True) -> None:
-        """Open the robot's topics and services below its name; `stamp` is the present time.
+                 stamp: rospy.Time, has_laser: bool = True, is_held: Callable[[], bool] = lambda: False,
+                 on_command: Callable[[str], None] = lambda _: None) -> None:
+        """Open the robot's topics and services below its name.
+
+        Args:
+            world: where the robot is.
+            name: of the robot.
+            requests: to the owner of the world.
+            has_localisation: whether `transforms` has the correction of odometry.
+            stamp: the present time.
+            has_laser: whether there is a scan.
+            is_held: whether the world waits for those who come late: they are sent what they have missed.
+            on_command: called after each command, with the full name of its topic, in a thread of rospy.
 
         Raises:
             WorldError: another node has a robot of that name.
@@ -65,17 +61,19 @@ class RobotNode:
         self._mux, self._mux_lock = VelocityMux(INPUTS), threading.Lock()
         self._stamp = stamp
         self._requests = requests
+        self._is_held = is_held
+        self._report_command = on_command
+        self._newest: Dict[str, Callable[[], Any]] = {'coverage': self._coverage_message}  # makes a message of a topic
         refuse_twin(name)
-        coverage = CoverageRequested(requests, self._coverage_message)
         self._publishers = {
-            topic: rospy.Publisher(f'{name}/{topic}', message, queue_size=2 if message is OccupancyGrid else QUEUE,
-                                   subscriber_listener=listener)
-            for topic, message, listener in (
-                ('battery_status', BatteryStatus, None), ('battery_state', BatteryState, None),
-                ('odom', Odometry, None), ('ground_truth', Odometry, None),
-                *([('scan', LaserScan, None)] if has_laser else []),
-                ('bumper', Bumper, None), ('cliff', Cliff, None), ('dock_status', DockStatus, None),
-                ('cleaning_status', CleaningStatus, None), ('coverage', OccupancyGrid, coverage))}
+            topic: rospy.Publisher(f'{name}/{topic}', message,
+                                   Latecomers(requests, functools.partial(self._missed, topic)),
+                                   queue_size=2 if message is OccupancyGrid else QUEUE)
+            for topic, message in (
+                ('battery_status', BatteryStatus), ('battery_state', BatteryState), ('odom', Odometry),
+                ('ground_truth', Odometry), *([('scan', LaserScan)] if has_laser else []), ('bumper', Bumper),
+                ('cliff', Cliff), ('dock_status', DockStatus), ('cleaning_status', CleaningStatus),
+                ('coverage', OccupancyGrid))}
         self._subscribers = [
             rospy.Subscriber(f'{name}/{each.name}', Twist, self._on_command, each.name, queue_size=1)
             for each in INPUTS]
@@ -105,12 +103,21 @@ class RobotNode:
         with self._mux_lock:  # each input has a thread of its own
             if self._mux.passes(topic, time.monotonic()):
                 self._command = v, w
+        self._report_command(rospy.resolve_name(f'{self._name}/{topic}'))
+
+    def is_commanded(self, topic: str) -> bool:
+        """Whether a topic, given by its full name, is one of this robot's commands, and has a publisher."""
+        return any(each.resolved_name == topic and each.get_num_connections() > 0 for each in self._subscribers)
 
     def apply_command(self) -> None:
         """Give the robot the newest command that counts, if one came since the last tick."""
         command, self._command = self._command, None
         if command is not None:
             self._robot.command(*command, self._world.tick)
+
+    def forget_command(self) -> None:
+        """Do not give the robot what came since the last tick."""
+        self._command = None
 
     def _on_brushes(self, request: Any) -> SetBoolResponse:
         def set_brushes() -> None:
@@ -149,8 +156,6 @@ class RobotNode:
         if due.battery:
             self._tell('battery_status', lambda: conversions.battery_status(
                 robot.battery, robot.pose, robot.brushes_up, conversions.trouble(robot)))
-            self._tell('battery_state', lambda: conversions.battery_state(
-                robot.battery, robot.is_docked, self._header(self._frames.base_link)))
         if due.cleaning:
             self._tell('cleaning_status', lambda: conversions.cleaning_status(
                 robot, self._world.floor, self._header(MAP)))
@@ -158,6 +163,8 @@ class RobotNode:
 
     def _publish_sensors(self) -> None:
         base = self._frames.base_link
+        self._tell('battery_state', lambda: conversions.battery_state(
+            self._robot.battery, self._robot.is_docked, self._header(base)))
         self._tell('bumper', lambda: conversions.bumper(self._robot, self._header(base)))
         self._tell('cliff', lambda: conversions.cliff(self._robot, self._world.cliffs(self._name), self._header(base)))
         self._tell('dock_status', lambda: conversions.dock_status(
@@ -165,9 +172,14 @@ class RobotNode:
 
     def _tell(self, topic: str, message: Callable[[], Any]) -> None:
         """Make and publish a message if there is a subscriber: most of the cost is in making it."""
+        self._newest[topic] = message
         publisher = self._publishers[topic]
         if publisher.get_num_connections():
             publisher.publish(message())
+
+    def _missed(self, topic: str) -> Any:
+        """What a new subscriber of a topic is sent: the coverage in any case."""
+        return self._newest[topic]() if topic == 'coverage' or topic in self._newest and self._is_held() else None
 
     def _header(self, frame: str) -> Header:
         return Header(stamp=self._stamp, frame_id=frame)

@@ -24,7 +24,8 @@ class StatePublisher:
         resets: how often the world was reset since the node started.
     """
 
-    def __init__(self, settings: Any, map_path: str, step_rate: float, is_time_simulated: bool) -> None:
+    def __init__(self, settings: Any, map_path: str, step_rate: float, is_time_simulated: bool,
+                 is_lockstep: bool = False) -> None:
         """Set the parameters, and start to measure; services that others use must exist before the first `publish`.
 
         Args:
@@ -32,6 +33,7 @@ class StatePublisher:
             map_path: absolute path of the map.
             step_rate: [Hz] of ticks.
             is_time_simulated: whether time is that of /clock.
+            is_lockstep: whether the world waits for those who take part.
         """
         tell_settings(settings)
         self._publisher = rospy.Publisher(TOPIC, SimulatorState, queue_size=10, latch=True)
@@ -39,6 +41,7 @@ class StatePublisher:
         self._seed = settings.seed
         self._step_rate = step_rate
         self._is_time_simulated = is_time_simulated
+        self._is_lockstep = is_lockstep
         self._run = uuid.uuid4().hex
         self._ticks = 0
         self._begin = time.monotonic()
@@ -61,8 +64,8 @@ class StatePublisher:
             self._ticks, self._begin, self.due = ticks, now, now + PERIOD
         self._publisher.publish(SimulatorState(
             header=Header(stamp=stamp), node=rospy.get_name(), run=self._run, resets=self.resets, is_paused=is_paused,
-            speed=speed, real_time_factor=self.real_time_factor, is_time_simulated=self._is_time_simulated, tick=ticks,
-            step_rate=self._step_rate, map=self._map_path, seed=self._seed))
+            speed=speed, real_time_factor=self.real_time_factor, is_time_simulated=self._is_time_simulated,
+            is_lockstep=self._is_lockstep, tick=ticks, step_rate=self._step_rate, map=self._map_path, seed=self._seed))
 
 
 def tell_settings(settings: Any) -> None:

@@ -100,6 +100,10 @@ class Pace:
     def hold(self) -> None:
         """Publish the clock again while paused; this is due again after a while."""
         self.due = time.monotonic() + HOLD_PERIOD
+        self.tell_again()
+
+    def tell_again(self) -> None:
+        """Publish the clock again."""
         if self._clock is not None:
             self._clock.publish(self.stamp)
 

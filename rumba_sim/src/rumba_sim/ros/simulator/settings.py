@@ -2,8 +2,10 @@
 
 import dataclasses
 
+import rosgraph
+
 from rumba_sim.model.config import names, part, section, setting
-from rumba_sim.model.errors import ConfigError
+from rumba_sim.model.errors import ConfigError, quoted
 from rumba_sim.model.robot_config import RobotConfig
 from rumba_sim.ros.robot.rates import MAX_RATE, Rates
 
@@ -37,12 +39,22 @@ class Settings(RobotConfig):
     config: str = setting('', 'path of a YAML file with any of these; parameters override it')
     state: str = setting('', 'path of a file: the world is saved there every minute of simulated time and at the end, '
                              'and goes on from there at the next start')
+    lockstep: str = setting('auto', 'whether the world waits after each control tick for those who take part: true '
+                                    '(/clock is published at any speed), false, or auto: if time is simulated',
+                            choices=('auto', 'true', 'false'))
+    lockstep_patience: float = setting(10.0, 'of the wall clock without a sign of a participant, after which the world '
+                                             'goes on without it', 's', 0.1, 1e6)
+    wait_for: str = setting('', 'who takes part from the first tick on, with spaces between: names of nodes that answer, '
+                                'and topics of commands of others, for example `cleaner` or `rumba/cmd_vel`')
     rates: Rates = section(Rates, 'how often messages are published; each divides step_rate')
 
     def __post_init__(self) -> None:
         """Check that time passes noticeably, and that the rates divide the step rate."""
         if 0.0 < self.speed < LOWEST_SPEED:
             raise ConfigError(f'speed is {self.speed:g}: must be 0, or {LOWEST_SPEED} to 1000000')
+        for name in self.wait_for.split():
+            if not rosgraph.names.is_legal_name(name):
+                raise ConfigError(f'wait_for has {quoted(name)}: must be names of nodes and topics, with spaces between')
         self.rates.check(self.step_rate)
 
     @property

@@ -13,8 +13,9 @@ and serves
   set_brushes_up   std_srvs/SetBool           teleport        rumba_msg/Teleport
 It publishes simulator/state (rumba_msg/SimulatorState, latched), /map, /tf, /tf_static and /diagnostics, and also
 /clock if time is simulated: at any speed except 1, or if /use_sim_time is true. It serves /static_map and, below its
-own name, pause, resume, reset (std_srvs/Trigger), step (rumba_msg/Step), spawn (rumba_msg/Spawn) and kill
-(rumba_msg/Kill). rqt_reconfigure shows it as NAME/tuning; the parameters NAME/settings are the settings in force.
+own name, pause, resume, reset, digest (std_srvs/Trigger), step (rumba_msg/Step), spawn (rumba_msg/Spawn) and kill
+(rumba_msg/Kill). In lockstep it publishes simulator/lockstep (rumba_msg/Lockstep), and waits for answers on
+simulator/lockstep_answers (rumba_msg/LockstepAnswer). rqt_reconfigure shows it as NAME/tuning; the parameters NAME/settings are the settings in force.
 
 Parameters, as in `rosrun rumba_sim simulator _map:=studio _speed:=10 _battery/drain:=60`:
 """
@@ -23,7 +24,7 @@ import contextlib
 import gc
 import re
 import time
-from typing import Any, Callable, Dict, Tuple
+from typing import Any, Callable, Dict, Optional, Tuple
 
 import rosgraph
 import rospy
@@ -37,15 +38,17 @@ from rumba_sim.model.errors import ConfigError, RumbaError, WorldError, quoted
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.robot import nth_name
 from rumba_sim.model.world import World
-from rumba_sim.ros.common import master_watch, node
+from rumba_sim.ros.common import master_watch, node, peers
 from rumba_sim.ros.common.maps import map_path, refuse_second, tell_map
 from rumba_sim.ros.common.peers import NO_ANSWER
 from rumba_sim.ros.common.requests import Requests
 from rumba_sim.ros.common.simulator_client import SETTINGS
+from rumba_sim.ros.robot.latecomers import Latecomers
 from rumba_sim.ros.robot.robot_node import RobotNode
 from rumba_sim.ros.robot.state_publisher import StatePublisher, tell_settings
 from rumba_sim.ros.simulator import reconfigure
 from rumba_sim.ros.simulator.diagnostics import Diagnostics
+from rumba_sim.ros.simulator.lockstep import Lockstep
 from rumba_sim.ros.simulator.pace import Pace, wake_on_time
 from rumba_sim.ros.simulator.settings import TUNABLE, Settings
 from rumba_sim.ros.simulator.simulated_time import SimulatedTime
@@ -81,9 +84,10 @@ class Simulator:
         self._file = StateFile(settings)
         saved, self._ticks = self._file.world(plan, settings)
         self._world = saved or World(plan, settings.robot, settings.step_rate, settings.seed)
-        self._pace = Pace(settings.step_rate, settings.speed, is_time_simulated(settings.speed), self._ticks)
+        self._pace = Pace(settings.step_rate, settings.speed, is_time_simulated(settings), self._ticks)
+        self._lockstep = self._lockstep_of(settings)
         self._diagnostics = Diagnostics(settings.map)
-        self._tf = rospy.Publisher('/tf', TFMessage, queue_size=100)
+        self._tf = rospy.Publisher('/tf', TFMessage, Latecomers(self._requests, self._missed_transforms), queue_size=100)
         self._tf_static = rospy.Publisher('/tf_static', TFMessage, queue_size=10, latch=True)
         self._nodes: Dict[str, RobotNode] = {}
         for name in self._world.robots:
@@ -92,7 +96,8 @@ class Simulator:
             self._spawn(self._free_name(), None)
         self._file.begin(self._world, self._ticks)
         tell_map(self._world.plan, self._pace.stamp)
-        self._state = StatePublisher(settings, path, settings.step_rate, self._pace.is_simulated)
+        self._state = StatePublisher(settings, path, settings.step_rate, self._pace.is_simulated,
+                                     self._lockstep is not None)
         self._serve()
         self._publish_state()
         master_watch.after_return(lambda: self._tuning.update_configuration({}))
@@ -101,7 +106,8 @@ class Simulator:
         for name, service, response, act in (
                 ('pause', Trigger, TriggerResponse, lambda _: self._pause(True)),
                 ('resume', Trigger, TriggerResponse, lambda _: self._pause(False)),
-                ('reset', Trigger, TriggerResponse, lambda _: self._reset()),
+                ('reset', Trigger, TriggerResponse, self._reset),
+                ('digest', Trigger, TriggerResponse, lambda _: (f'{self._world.digest()} {self._world.tick}',)),
                 ('step', Step, StepResponse, lambda request: self._step(request.ticks)),
                 ('spawn', Spawn, SpawnResponse, self._on_spawn),
                 ('kill', Kill, KillResponse, lambda request: self._kill(request.name))):
@@ -130,6 +136,7 @@ class Simulator:
                 self._tick()
                 self._pace.next_tick()
             self._serve_requests()
+            self._wait_for_answers()
         self._file.save(self._world, self._ticks)
 
     def _serve_requests(self) -> None:
@@ -139,6 +146,15 @@ class Simulator:
             self._report()
             if time.monotonic() >= self._pace.due:
                 return
+
+    def _wait_for_answers(self, but: str = '') -> None:
+        """In lockstep, carry out requests until everybody has answered, other than the node `but`."""
+        if self._lockstep is not None:
+            self._lockstep.wait(self._report_and_hold, but)
+
+    def _report_and_hold(self) -> None:
+        self._report()
+        self._pace.tell_again()
 
     def _report(self) -> None:
         """Publish state and diagnostics, if they are due."""
@@ -160,8 +176,31 @@ class Simulator:
         for robot in self._nodes.values():
             robot.publish(due, rates, self._pace.stamp)
         if due.odom and self._tf.get_num_connections():
-            self._tf.publish([part for robot in self._nodes.values() for part in robot.transforms()])
+            self._tf.publish(self._transforms())
+        if self._lockstep is not None:
+            self._lockstep.publish(due, self._pace.stamp, self._state.resets)
         self._file.save_if_due(self._world, self._ticks)
+
+    def _transforms(self) -> TFMessage:
+        return TFMessage([part for robot in self._nodes.values() for part in robot.transforms()])
+
+    # --- lockstep -------------------------------------------------------------------------------------------------
+
+    def _lockstep_of(self, settings: Settings) -> Optional[Lockstep]:
+        """The lockstep that the settings ask for, or None."""
+        if settings.lockstep == 'false' or settings.lockstep == 'auto' and not self._pace.is_simulated:
+            return None
+        return Lockstep(self._requests, settings.wait_for, settings.lockstep_patience, self._is_commanded)
+
+    def _is_commanded(self, topic: str) -> bool:
+        """Whether a topic, given by its full name, is one of the commands of a robot, and has a publisher."""
+        return any(robot.is_commanded(topic) for robot in self._nodes.values())
+
+    def _is_held(self) -> bool:
+        return self._lockstep is not None and self._lockstep.is_waiting
+
+    def _missed_transforms(self) -> Optional[TFMessage]:
+        return self._transforms() if self._is_held() else None
 
     # --- services -------------------------------------------------------------------------------------------------
 
@@ -171,7 +210,10 @@ class Simulator:
         self._publish_state()
         return ('paused' if is_paused else 'running',)
 
-    def _reset(self) -> Tuple[str]:
+    def _reset(self, request: Any) -> Tuple[str]:
+        self._wait_for_answers(but=peers.caller(request))  # no command for this world shall come to the next one
+        for robot in self._nodes.values():
+            robot.forget_command()
         self._world.reset()
         self._state.resets += 1
         self._publish_state()
@@ -186,6 +228,7 @@ class Simulator:
             if rospy.is_shutdown():
                 raise WorldError('the simulator ends')
             self._tick()
+            self._wait_for_answers()
             self._report()
         self._publish_state()
         return (f'{ticks} ticks have passed',)
@@ -210,7 +253,9 @@ class Simulator:
 
     def _open(self, name: str) -> None:
         """Open the topics and services of a robot of the world."""
-        self._nodes[name] = RobotNode(self._world, name, self._requests, self._settings.localisation, self._pace.stamp)
+        on_command = {'on_command': self._lockstep.on_command} if self._lockstep is not None else {}
+        self._nodes[name] = RobotNode(self._world, name, self._requests, self._settings.localisation, self._pace.stamp,
+                                      is_held=self._is_held, **on_command)
         self._diagnostics.add(name, lambda: self._world.robots[name])
         self._tell_static()
 
@@ -251,10 +296,10 @@ class Simulator:
         return self._settings
 
 
-def is_time_simulated(speed: float) -> bool:
-    """Whether time is that of /clock; at a speed other than 1 this sets /use_sim_time until the node ends."""
+def is_time_simulated(settings: Settings) -> bool:
+    """Whether time is that of /clock; if the settings ask for it, this sets /use_sim_time until the node ends."""
     parameter = SimulatedTime(rospy.get_name())
-    if speed == 1.0:
+    if settings.speed == 1.0 and settings.lockstep != 'true':
         mended = parameter.mend()
         if mended:
             rospy.logwarn(mended)
@@ -263,7 +308,7 @@ def is_time_simulated(speed: float) -> bool:
         return parameter.found()
     rospy.on_shutdown(lambda: forget_simulated_time(parameter))
     if not parameter.claim():
-        rospy.loginfo('speed is not 1: /use_sim_time is now true; nodes that started before keep to the wall clock')
+        rospy.loginfo('time is simulated: /use_sim_time is now true; nodes that started before keep to the wall clock')
     master_watch.after_return(parameter.claim)
     return True
 

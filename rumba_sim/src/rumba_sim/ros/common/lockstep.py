@@ -1,0 +1,77 @@
+"""Takes part in the lockstep of a simulator: the world waits until this node has answered for a control tick."""
+
+import contextlib
+import threading
+import time
+from typing import Any, Callable, Iterator, Optional
+
+import rospy
+from std_msgs.msg import Header
+
+from rumba_msg.msg import Lockstep, LockstepAnswer
+
+TOPIC = 'simulator/lockstep'  # in the namespace of the simulator, as `simulator/state`
+ANSWERS = 'simulator/lockstep_answers'
+QUEUE = 10  # answers that may be on their way
+SIGN_PERIOD = 1.0  # [s] of the wall clock between two signs of life of a node that is busy
+
+
+class Resent(rospy.SubscribeListener):
+    """Sends to each new subscriber of a topic what the world waits for, in case it was sent just before."""
+
+    def __init__(self) -> None:
+        """Send nothing yet."""
+        self.message: Optional[Any] = None
+
+    def peer_subscribe(self, topic_name: str, topic_publish: Any, peer_publish: Callable[[Any], None]) -> None:
+        """There is a new subscriber."""
+        message = self.message
+        if message is not None:
+            peer_publish(message)
+
+
+class Participant:
+    """This node's part in a lockstep. A node takes part from its first answer on."""
+
+    def __init__(self, on_tick: Callable[[Lockstep], None]) -> None:
+        """Listen; `on_tick` is called with each control tick, in a thread of rospy."""
+        self._last = Resent()
+        self._busy = threading.Event()
+        self._publisher = rospy.Publisher(ANSWERS, LockstepAnswer, self._last, queue_size=QUEUE)
+        rospy.Subscriber(TOPIC, Lockstep, on_tick, queue_size=QUEUE)
+        threading.Thread(target=self._give_signs, daemon=True).start()
+
+    def answer(self, stamp: rospy.Time, command: str = '') -> None:
+        """Say that everything is done for a control tick.
+
+        Args:
+            stamp: of the tick.
+            command: name of the topic on which this node has sent a velocity for it; empty if it has not.
+        """
+        self._last.message = self._message(stamp, LockstepAnswer.DONE, rospy.resolve_name(command) if command else '')
+        self._publisher.publish(self._last.message)
+
+    @contextlib.contextmanager
+    def busy(self) -> Iterator[None]:
+        """Give signs of life while something takes long."""
+        self._busy.set()
+        try:
+            yield
+        finally:
+            self._busy.clear()
+
+    def leave(self) -> None:
+        """Take part no longer."""
+        if self._last.message is not None:
+            self._publisher.publish(self._message(self._last.message.header.stamp, LockstepAnswer.LEAVES))
+            self._last.message = None
+
+    @staticmethod
+    def _message(stamp: rospy.Time, state: int, command: str = '') -> LockstepAnswer:
+        return LockstepAnswer(Header(stamp=stamp), rospy.get_name(), state, command)
+
+    def _give_signs(self) -> None:
+        while self._busy.wait():
+            time.sleep(SIGN_PERIOD)
+            if self._busy.is_set():
+                self._publisher.publish(self._message(rospy.Time(), LockstepAnswer.BUSY))

@@ -1,0 +1,26 @@
+"""What a new subscriber of a topic is sent at once."""
+
+import contextlib
+from typing import Any, Callable
+
+import rospy
+
+from rumba_sim.ros.common.requests import Requests
+
+
+class Latecomers(rospy.SubscribeListener):
+    """Sends a message to each new subscriber, as a latched topic does, but as it is at that time."""
+
+    def __init__(self, requests: Requests, message: Callable[[], Any]) -> None:
+        """Have the owner of `requests` make each message; None: nothing is sent."""
+        self._requests = requests
+        self._message = message
+
+    def peer_subscribe(self, topic_name: str, topic_publish: Any, peer_publish: Callable[[Any], None]) -> None:
+        """There is a new subscriber."""
+        def send() -> None:
+            message = self._message()
+            if message is not None:
+                with contextlib.suppress(rospy.ROSException):  # the topic was closed meanwhile
+                    peer_publish(message)
+        self._requests.post(send)

@@ -1,0 +1,85 @@
+"""The lockstep of a simulator: what it publishes after each control tick, and the answers."""
+
+import time
+from typing import Callable, Optional
+
+import rospy
+from std_msgs.msg import Header
+
+from rumba_msg.msg import Lockstep as LockstepMessage
+from rumba_msg.msg import LockstepAnswer
+from rumba_sim.ros.common.lockstep import ANSWERS, QUEUE, TOPIC
+from rumba_sim.ros.common.requests import Requests
+from rumba_sim.ros.robot.latecomers import Latecomers
+from rumba_sim.ros.robot.rates import Due
+from rumba_sim.ros.simulator.participants import Participants
+
+LOOK_PERIOD = 0.1  # [s] of the wall clock between two looks at those who do not answer
+
+
+class Lockstep:
+    """Has a world wait after each control tick until everybody who takes part has answered."""
+
+    def __init__(self, requests: Requests, awaited: str, patience: float,
+                 has_publisher: Callable[[str], bool]) -> None:
+        """Open the topics.
+
+        Args:
+            requests: to the owner of the world, who calls everything here.
+            awaited: names of nodes and of topics of commands to wait for from the first tick on, with spaces between.
+            patience: how long to wait for someone [s] of the wall clock.
+            has_publisher: whether a topic has a publisher now, given by its full name.
+        """
+        self._requests = requests
+        self._has_publisher = has_publisher
+        self._participants = Participants([rospy.resolve_name(name) for name in awaited.split()], patience)
+        self._tick = LockstepMessage()
+        self._publisher = rospy.Publisher(TOPIC, LockstepMessage, Latecomers(requests, self._held), queue_size=QUEUE)
+        self._subscriber = rospy.Subscriber(ANSWERS, LockstepAnswer, self._on_answer, queue_size=QUEUE)
+
+    def publish(self, due: Due, stamp: rospy.Time, resets: int) -> None:
+        """Publish a tick, if it is a control tick, after everything else of that tick; the world must wait then.
+
+        Args:
+            due: what else was published.
+            stamp: of the tick.
+            resets: of the world.
+        """
+        for name in ('odom', 'scan', 'cleaning'):
+            if getattr(due, name):
+                setattr(self._tick, name, stamp)
+        if due.sensors:
+            self._tick.header, self._tick.resets = Header(stamp=stamp), resets
+            self._participants.begin(stamp)
+            self._publisher.publish(self._tick)
+
+    def wait(self, meanwhile: Callable[[], None], but: str = '') -> None:
+        """Serve requests until no answer is missing.
+
+        Args:
+            meanwhile: called from time to time.
+            but: name of a node for which not to wait.
+        """
+        while self._participants.missing(but) and not rospy.is_shutdown():
+            self._requests.serve(time.monotonic() + LOOK_PERIOD, lambda: not self._participants.missing(but))
+            for name in self._participants.give_up(self._has_publisher):
+                rospy.logwarn(f'lockstep: nothing was heard of {name} for a while: the world goes on without it until '
+                              'it answers again')
+            if self._participants.missing(but):
+                meanwhile()
+
+    def on_command(self, topic: str) -> None:
+        """A command came on a topic, given by its full name; may be called from any thread."""
+        self._requests.post(lambda: self._participants.commanded(topic))
+
+    def _on_answer(self, answer: LockstepAnswer) -> None:
+        self._requests.post(lambda: self._participants.take(answer))
+
+    @property
+    def is_waiting(self) -> bool:
+        """Whether an answer is missing."""
+        return bool(self._participants.missing())
+
+    def _held(self) -> Optional[LockstepMessage]:
+        """What those who come late have missed."""
+        return self._tick if self.is_waiting else None

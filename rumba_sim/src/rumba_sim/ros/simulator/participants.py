@@ -1,0 +1,113 @@
+"""For whom a world in lockstep waits after a control tick, and how long."""
+
+import time
+from typing import Callable, List, Set
+
+import rospy
+
+from rumba_msg.msg import LockstepAnswer
+
+COMMANDS = '/cmd_vel'  # a name that ends so is that of a topic, every other one that of a node
+BEGIN_PATIENCE = 60.0  # [s] of the wall clock for a participant that was never heard: it may still be starting
+FIRST_COMMAND = 1.0  # [s] of the wall clock from the first publisher of a topic to its first command, which may be lost
+
+
+class Member:
+    """Someone for whom the world waits: a node that answers, or whoever commands on a topic.
+
+    Attributes:
+        patience: how long the world waits for a sign of it [s] of the wall clock.
+        heard: when it gave the last sign, as a time of `time.monotonic`.
+        command: the topic whose command it has announced, and that has not come yet; empty if there is none.
+    """
+
+    def __init__(self, patience: float) -> None:
+        """Nothing was heard of it, until now."""
+        self.patience = patience
+        self.heard = time.monotonic()
+        self.command = ''
+
+
+class Participants:
+    """The members of a lockstep, and whose answer to the newest control tick is missing.
+
+    Not thread-safe: all calls are made by the owner of the world.
+    """
+
+    def __init__(self, awaited: List[str], patience: float) -> None:
+        """Wait for these from the first tick on.
+
+        Args:
+            awaited: full names of nodes, and of topics of commands.
+            patience: how long to wait for someone who was heard before [s] of the wall clock.
+        """
+        self._patience = patience
+        self._topics = [name for name in awaited if name.endswith(COMMANDS)]
+        self._members = {name: Member(BEGIN_PATIENCE) for name in awaited}
+        self._missing: Set[str] = set()
+        self._commanded: Set[str] = set()  # topics on which a command came since the tick
+        self._stamp = rospy.Time()
+
+    def begin(self, stamp: rospy.Time) -> None:
+        """A control tick was published."""
+        self._stamp = stamp
+        self._missing = set(self._members)
+        self._commanded.clear()
+        now = time.monotonic()
+        for member in self._members.values():
+            member.heard, member.command = now, ''
+
+    def missing(self, but: str = '') -> Set[str]:
+        """Whose answer is missing; `but` is the name of someone who does not count."""
+        return self._missing - {but}
+
+    def commanded(self, topic: str) -> None:
+        """A command came on a topic, given by its full name."""
+        self._commanded.add(topic)
+        if topic in self._topics:
+            self._hear(topic)
+        for name in [name for name in self._missing if topic in (name, self._members[name].command)]:
+            self._missing.discard(name)
+
+    def take(self, answer: LockstepAnswer) -> None:
+        """Someone has answered."""
+        if answer.state == LockstepAnswer.LEAVES:
+            self._members.pop(answer.node, None)
+            self._missing.discard(answer.node)
+            return
+        member = self._hear(answer.node)
+        if answer.state == LockstepAnswer.DONE and answer.header.stamp == self._stamp:
+            member.command = answer.command
+            if not answer.command or answer.command in self._commanded:
+                self._missing.discard(answer.node)
+
+    def _hear(self, name: str) -> Member:
+        """Note a sign of someone, who is a member from the next tick on."""
+        member = self._members.setdefault(name, Member(self._patience))
+        member.heard, member.patience = time.monotonic(), self._patience
+        return member
+
+    def give_up(self, has_publisher: Callable[[str], bool]) -> List[str]:
+        """Wait no longer for those of whom nothing was heard for too long, until they answer again; their names.
+
+        Whoever commands at a rate of its own may have lost its first command, and sends the next one only when time
+        has passed: the world does not wait long for the first one.
+
+        Args:
+            has_publisher: whether a topic has a publisher now, given by its full name.
+        """
+        now = time.monotonic()
+        late = []
+        for name in sorted(self._missing):
+            member = self._members[name]
+            if member.patience == BEGIN_PATIENCE and name in self._topics and has_publisher(name):
+                member.heard, member.patience = now, FIRST_COMMAND
+            if now - member.heard <= member.patience:
+                continue
+            self._missing.discard(name)
+            if member.patience == FIRST_COMMAND:
+                member.patience = self._patience
+            else:
+                del self._members[name]
+                late.append(name)
+        return late
