@@ -1,4 +1,4 @@
-"""Whether a mission through ROS, in lockstep, is that in process, bit for bit, at any speed and load; and how fast it is.
+"""Whether a mission through ROS, in lockstep, is that in process, bit for bit, at any speed and load; and its speed.
 
     ./rumba shell python3 bench/lockstep.py --maps studio --seeds 1 2 --speeds 0 10 --busy 0 6 --robots 1
 

@@ -19,8 +19,9 @@ from rumba_cleaning.cleaning_config import CleaningConfig
 from rumba_cleaning.mission.mission import State
 from rumba_cleaning.ros.cleaner import activities, actuators, executor, teleop, workplace
 from rumba_cleaning.ros.cleaner.go_to_position import heading_toward, velocity_toward
-from rumba_cleaning.ros.cleaner.settings import GoToPositionSettings, Settings
+from rumba_cleaning.ros.cleaner.settings import Settings
 from rumba_msg.msg import CleanGoal, CleaningStatus, DockGoal, GoToGoal, MissionStatus, SimulatorState, UndockGoal
+from rumba_sim.model.config import from_mapping
 from rumba_sim.model.errors import ConfigError, MapError
 from rumba_sim.model.geometry import Pose, compose
 from rumba_sim.model.robot_config import RobotConfig
@@ -48,8 +49,8 @@ def test_an_invalid_name_of_a_robot_is_refused(robot):
 
 
 def test_an_unknown_answer_of_go_to_position_is_refused():
-    with pytest.raises(ConfigError, match="^go_to_position/answer is 'speed': must be velocity or heading$"):
-        GoToPositionSettings('speed')
+    with pytest.raises(ConfigError, match="^it: go_to_position/answer is 'speed': must be velocity or heading$"):
+        from_mapping(Settings, {'go_to_position': {'answer': 'speed'}}, 'it')
 
 
 # --- map and robot --------------------------------------------------------------------------------------------------

@@ -14,7 +14,7 @@ from rumba_cleaning.behaviour import Command
 from rumba_cleaning.mission.mission import State
 from rumba_cleaning.outcome import Outcome
 from rumba_cleaning.ros.cleaner import conversions, location, senses
-from rumba_msg.msg import Bumper, CleaningStatus, Cliff, DockStatus
+from rumba_msg.msg import Bumper, CleaningStatus, Cliff, DockStatus, Lockstep
 from rumba_sim.model.geometry import Pose
 from rumba_sim.ros.common.conversions import transform
 
@@ -22,15 +22,16 @@ from rumba_sim.ros.common.conversions import transform
 class Robot:
     """A robot's topics without ROS: what it publishes goes straight to the subscribers."""
 
-    def __init__(self, monkeypatch, name='rumba'):
+    def __init__(self, monkeypatch, name='rumba', lockstep=None):
         self._name = name
+        self.lockstep = lockstep
         self._callbacks = {}
         self.connections = 1
         self.readings = 0
         monkeypatch.setattr(senses.rospy, 'Subscriber', self._subscribe)
         self.warnings = []
         monkeypatch.setattr(location.rospy, 'logwarn_throttle', lambda _, line: self.warnings.append(line))
-        self.senses = senses.Senses(name, self._count)
+        self.senses = senses.Senses(name, self._count, lambda: self.lockstep)
 
     def _subscribe(self, topic, _, callback, *arguments, **__):
         self._callbacks[topic] = lambda message: callback(message, *arguments)
@@ -270,3 +271,54 @@ def test_a_localisation_that_is_static_outlives_a_simulator(robot):
     assert robot.senses.pose() is None
     robot.transforms(odometry(x=0.25, y=0.0))
     assert robot.senses.pose() == (1.25, 0.0, 0.0)
+
+
+# --- lockstep ---------------------------------------------------------------------------------------------------------
+
+WORLD = 'run', 0
+
+
+def parts_of(stamp):
+    """What a world in lockstep publishes up to a control tick: a function for each message."""
+    header = Header(stamp=stamp)
+    return {
+        'bumper': lambda robot: robot.tells('bumper', Bumper(header=header)),
+        'cliff': lambda robot: robot.tells('cliff', Cliff(header=header)),
+        'dock_status': lambda robot: robot.tells('dock_status', DockStatus(header=header)),
+        'battery_state': lambda robot: robot.tells('battery_state', BatteryState(header=header, percentage=0.5)),
+        'cleaning_status': lambda robot: robot.tells('cleaning_status', CleaningStatus(header=header)),
+        'tf': lambda robot: robot.transforms(odometry(stamp=stamp), odometry(stamp=stamp, frame='map', child='odom')),
+        'tick': lambda robot: robot.senses.on_tick(Lockstep(header, *WORLD, stamp, rospy.Time(), stamp))}
+
+
+@pytest.mark.parametrize('last', sorted(parts_of(rospy.Time(1))))
+def test_in_lockstep_a_reading_is_complete_once_everything_of_its_tick_has_come(monkeypatch, last):
+    robot = Robot(monkeypatch, lockstep=WORLD)
+    for stamp in rospy.Time(1), rospy.Time(2):
+        parts = parts_of(stamp)
+        before = robot.readings
+        for topic in [topic for topic in parts if topic != last]:
+            parts[topic](robot)
+        assert robot.readings == before
+        parts[last](robot)
+        assert (robot.readings, robot.senses.stamp) == (before + 1, stamp)
+
+
+def test_in_lockstep_a_topic_that_is_never_published_is_not_waited_for(monkeypatch):
+    robot = Robot(monkeypatch, lockstep=WORLD)
+    parts = parts_of(rospy.Time(1))
+    for topic in 'bumper', 'cliff', 'dock_status', 'battery_state':
+        parts[topic](robot)
+    robot.senses.on_tick(Lockstep(header=Header(stamp=rospy.Time(1)), run=WORLD[0]))
+    assert robot.readings == 1
+
+
+def test_in_lockstep_a_reading_of_another_world_counts_once_that_is_known(monkeypatch):
+    robot = Robot(monkeypatch, lockstep=('run', 1))
+    for part in parts_of(rospy.Time(5)).values():
+        part(robot)
+    assert robot.readings == 0
+    robot.lockstep = WORLD
+    robot.senses.forget(rospy.Time(4), is_new_run=False)
+    assert (robot.readings, robot.senses.stamp) == (1, rospy.Time(5))
+    assert robot.senses.look() is not None

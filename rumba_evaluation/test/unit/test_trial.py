@@ -3,6 +3,7 @@
 import dataclasses
 import math
 
+import numpy as np
 import pytest
 from evaluations import register_simple_strategies
 from rooms import room
@@ -91,7 +92,7 @@ def test_an_observation_has_the_values_of_the_sensors():
     trial = ran(hall(), 'ahead', 30.0)
     seen, robot = observe(trial.world, 'rumba', 0.1), trial.world.robots['rumba']
     assert seen.pose == robot.pose and seen.bumper == (True, True) and not seen.is_docked
-    assert list(seen.cliffs) == [False] * 4 and seen.state_of_charge == robot.battery.state_of_charge < 1.0
+    assert list(seen.cliffs) == [False] * 4 and seen.state_of_charge == np.float32(robot.battery.state_of_charge) < 1.0
     assert trial.result().collisions == 1
 
 

@@ -191,8 +191,8 @@ class Simulator:
         """
         commands = Commands(self._test)
         while True:
-            commands.send(v, w)
             self.does('reset')
+            commands.send(v, w)
             self.step()
             twist = truth.at(self.ticks).twist.twist
             if twist.linear.x or twist.angular.z:

@@ -103,7 +103,7 @@ class SimulatorTimeTest(unittest.TestCase):
 
     def test_reset_restores_everything_except_the_time(self):
         simulator, truth = self.stepped('_brushes_up:=true', '_percentage:=50', '_battery/drain:=100',
-                                        '_rates/battery:=50')
+                                        '_rates/sensors:=50')
         state, status = Heard(self, '/rumba/battery_state'), Heard(self, '/rumba/battery_status')
         simulator.drive(0.3, 0.5, truth)
         simulator.step(100)

@@ -21,7 +21,7 @@ class SimulatorTuningTest(unittest.TestCase):
         return client
 
     def test_drain_noise_rates_timeout_and_speed_change_at_run_time(self):
-        simulator = Simulator(self, '_map:=field', '_speed:=10', '_rates/battery:=50', '_rates/ground_truth:=50')
+        simulator = Simulator(self, '_map:=field', '_speed:=10', '_rates/sensors:=50', '_rates/ground_truth:=50')
         client = self.client()
         before = client.get_configuration()
         self.assertEqual((before['battery_drain'], before['rates_scan'], before['speed']), (1.0, 10, 10.0))

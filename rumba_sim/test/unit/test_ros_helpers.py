@@ -14,7 +14,7 @@ from rumba_sim.model.battery import Battery, BatteryConfig
 from rumba_sim.model.errors import ConfigError, MapError, WorldError
 from rumba_sim.ros.common import maps, node, paths
 from rumba_sim.ros.common.requests import Requests
-from rumba_sim.ros.robot.robot_node import CoverageRequested
+from rumba_sim.ros.robot.latecomers import Latecomers
 from rumba_sim.ros.simulator import diagnostics, reconfigure, simulator
 from rumba_sim.ros.simulator.settings import TUNABLE, Rates, Settings
 
@@ -61,8 +61,27 @@ def test_a_robot_that_is_removed_before_its_grid_is_sent_ends_nothing():
 
     def closed(_):
         raise rospy.ROSException('publish() to a closed topic')
-    CoverageRequested(requests, lambda: None).peer_subscribe('coverage', None, closed)
+    Latecomers(requests, lambda: 'a message').peer_subscribe('coverage', None, closed)
     requests.serve(time.monotonic())
+
+
+def test_latecomers_are_sent_what_there_is_at_that_time_if_there_is_anything():
+    requests, sent, message = Requests(), [], None
+    latecomers = Latecomers(requests, lambda: message)
+    latecomers.peer_subscribe('scan', None, sent.append)
+    requests.serve(time.monotonic())
+    latecomers.peer_subscribe('scan', None, sent.append)
+    message = 'newest'
+    requests.serve(time.monotonic())
+    assert sent == ['newest']
+
+
+def test_serving_ends_after_the_call_that_was_enough():
+    requests, called = Requests(), []
+    for number in range(3):
+        requests.post(lambda number=number: called.append(number))
+    requests.serve(time.monotonic() + 60.0, lambda: len(called) == 2)
+    assert called == [0, 1]
 
 
 def test_serving_ends_in_time_even_if_the_handler_of_a_signal_takes_longer():
@@ -92,15 +111,15 @@ def test_a_signal_ends_ros_in_another_thread_since_the_main_thread_may_hold_a_lo
     assert thread is not threading.main_thread()
 
 
-def test_a_rate_is_due_at_each_full_period():
+def test_a_rate_is_due_at_the_first_tick_and_after_each_full_period():
     due = [tick for tick in range(1, 101) if Rates(scan=5).due(tick, 50).scan]
-    assert due == list(range(10, 101, 10))
+    assert due == list(range(1, 101, 10))
     assert not any(Rates(scan=0).due(tick, 50).scan for tick in range(1, 101))
 
 
 def test_a_rate_whose_period_is_no_whole_number_of_ticks_is_met_on_average():
     due = [tick for tick in range(1, 626) if Rates(battery=5).due(tick, 62.5).battery]
-    assert due[:4] == [13, 25, 38, 50]
+    assert due[:4] == [1, 14, 26, 39]
     assert len(due) == 50
 
 

@@ -31,7 +31,7 @@ def clock(monkeypatch):
 
 
 def answer(node, seconds, state=LockstepAnswer.DONE, command=''):
-    return LockstepAnswer(Header(stamp=rospy.Time(seconds)), node, state, command)
+    return LockstepAnswer(Header(stamp=rospy.Time(seconds)), '', node, state, command)
 
 
 def begun(members, *awaited):

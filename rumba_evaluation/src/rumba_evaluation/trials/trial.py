@@ -11,7 +11,7 @@ from typing import Dict, List, Optional, Sequence
 import numpy as np
 
 from rumba_cleaning.behaviour import Status
-from rumba_cleaning.belief.context import Context, own_seed
+from rumba_cleaning.belief.context import BeforeNextStep, Context, own_seed
 from rumba_cleaning.cleaning_config import CleaningConfig
 from rumba_cleaning.control import CONTROL_DT, CONTROL_TICKS, STEP_RATE, act
 from rumba_cleaning.mission.duration import longest
@@ -57,7 +57,9 @@ class Trial:
             poses = starts.anywhere(plan, config, self.world.start, robots, np.random.default_rng(seed))
         for number, pose in enumerate(poses, 1):
             self.world.spawn(nth_name(number), pose, brushes_up=True)
-        self.contexts = [Context(plan, config, cleaning, own_seed(seed, name)) for name in self.world.robots]
+        self._planners = BeforeNextStep()
+        self.contexts = [Context(plan, config, cleaning, own_seed(seed, name), self._planners)
+                         for name in self.world.robots]
         self._time_limit = longest(self.contexts[0])
         self.missions = [Mission(context, strategy, conditions.target) for context in self.contexts]
         self.ideal_time = self.world.floor.reachable_area / (config.brush.width * cleaning.speed)
@@ -87,6 +89,7 @@ class Trial:
 
     def step(self) -> None:
         """Each robot observes and gets a command; then time passes until the next observation."""
+        self._planners.work()
         for name, mission in self._running.items():
             act(mission, self.world, name, self._dt)
         self._dt = CONTROL_DT

@@ -38,7 +38,7 @@ class Wheels:
 
     def commanded(self) -> str:
         """The name of the topic if a velocity was commanded since `forget`, else an empty text."""
-        return self._publisher.resolved_name if self._last.message is not None else ''
+        return str(self._publisher.resolved_name) if self._last.message is not None else ''
 
     def stop(self) -> None:
         """Command to stand still."""

@@ -86,9 +86,10 @@ class Cleaner:
         self._run: Optional[Run] = None
         self._interrupted: Optional[Cleaning] = None  # what a goal of clean with `resume` goes on with
         self._is_reading_queued = True  # by `run`, after the goal of autostart
-        self._robot = Robot(settings.robot, self._on_reading, lambda: self._workplace.lockstep_resets)
-        self._executor = Planners(DaemonExecutor(PLANNERS), self._robot.lockstep,
-                                  lambda: self._workplace.lockstep_resets is not None)
+        self._planners = Planners(DaemonExecutor(PLANNERS), lambda: self._workplace.lockstep is not None,
+                                  lambda: self._events.put(self._read))
+        self._robot = Robot(settings.robot, self._on_reading, lambda: self._workplace.lockstep,
+                            lambda: self._planners.are_at_work)
         GoToPosition(settings, self._workplace, self._robot.senses)
         self._servers = {name: self._serve(name) for name in ACTIONS}
         rospy.on_shutdown(self._end)
@@ -125,7 +126,7 @@ class Cleaner:
         for server in self._servers.values():
             server.close(END)
         self._robot.wheels.close()
-        self._robot.lockstep.leave()
+        self._robot.participant.leave()
 
     def _finish(self) -> None:
         self._interrupt(Outcome.FAILED, END)
@@ -144,6 +145,7 @@ class Cleaner:
             return
         is_new_run = before.run != self._world.run
         self._interrupted = None
+        self._forget_plans()
         self._robot.senses.forget(self._world.since, is_new_run)
         if is_new_run:
             self._close(Outcome.NO_READINGS, 'the robot is gone: the simulator was started again')
@@ -160,6 +162,8 @@ class Cleaner:
 
     def _read(self) -> None:
         self._is_reading_queued = False
+        if self._planners.are_at_work:
+            return  # and read once they are not
         self._robot.wheels.forget()
         try:
             if self._run is not None:
@@ -169,6 +173,7 @@ class Cleaner:
             self._robot.answer()
 
     def _look_after(self) -> None:
+        self._robot.look_after()
         if self._run is not None:
             self._run.look_after()
             self._forget_closed()
@@ -218,7 +223,7 @@ class Cleaner:
             return self._rest_of_cleaning(goal.time_limit)
         plan, robot = self._workplace.look()
         seed = own_seed(self._settings.seed, self._settings.robot)
-        context = Context(plan, robot, self._settings.cleaning, seed, self._executor)
+        context = Context(plan, robot, self._settings.cleaning, seed, self._planners)
         return ACTIONS[name].activity(context, goal)
 
     def _rest_of_cleaning(self, time_limit: float) -> Cleaning:
@@ -245,6 +250,7 @@ class Cleaner:
         run, self._run = self._run, None
         if run is None:
             return
+        self._forget_plans()
         if isinstance(run.activity, Cleaning) and run.outcome is Outcome.UNKNOWN:
             self._interrupted = run.activity
         run.interrupt(outcome, message)
@@ -252,5 +258,10 @@ class Cleaner:
     def _close(self, outcome: Outcome, message: str) -> None:
         """End the goal that is active, if there is one, for good."""
         run, self._run = self._run, None
+        self._forget_plans()
         if run is not None and not run.is_closed:
             run.close(outcome, message)
+
+    def _forget_plans(self) -> None:
+        if self._planners.forget():
+            self._events.put(self._read)  # the world waits for an answer to this reading

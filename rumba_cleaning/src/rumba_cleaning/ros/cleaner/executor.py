@@ -3,12 +3,11 @@
 import concurrent.futures
 import queue
 import threading
-from typing import Any, Callable, Tuple, TypeVar
-
-from rumba_cleaning.belief.context import InPlace
-from rumba_sim.ros.common.lockstep import Participant
+import time
+from typing import Any, Callable, List, Tuple, TypeVar
 
 Result = TypeVar('Result')
+LONGEST = 600.0  # [s] of the wall clock for which a world in lockstep waits for a plan
 Task = Tuple['concurrent.futures.Future[Any]', Callable[[], Any]]
 
 
@@ -39,21 +38,34 @@ class DaemonExecutor(concurrent.futures.Executor):
 
 
 class Planners(concurrent.futures.Executor):
-    """Runs functions beside the loop, but in lockstep at once: the world waits, and the run can be repeated."""
+    """Runs functions beside the loop, which has the world wait for them in lockstep; all calls are made by the loop."""
 
-    def __init__(self, beside: concurrent.futures.Executor, lockstep: Participant,
-                 is_lockstep: Callable[[], bool]) -> None:
-        """Use an executor, or say that this node is busy."""
+    def __init__(self, beside: concurrent.futures.Executor, is_lockstep: Callable[[], bool],
+                 on_done: Callable[[], None]) -> None:
+        """Use an executor; `on_done` is called in its threads when a function that is waited for has returned."""
         self._beside = beside
-        self._lockstep = lockstep
         self._is_lockstep = is_lockstep
+        self._on_done = on_done
+        self._awaited: 'List[Tuple[concurrent.futures.Future[Any], float]]' = []  # until a time of `time.monotonic`
 
     def submit(self, fn: Callable[..., Result], /, *args: Any, **kwargs: Any) -> 'concurrent.futures.Future[Result]':
         """Run a function; returns its future."""
-        if not self._is_lockstep():
-            return self._beside.submit(fn, *args, **kwargs)
-        with self._lockstep.busy():
-            return InPlace().submit(fn, *args, **kwargs)
+        future = self._beside.submit(fn, *args, **kwargs)
+        if self._is_lockstep():
+            self._awaited.append((future, time.monotonic() + LONGEST))
+            future.add_done_callback(lambda _: self._on_done())
+        return future
+
+    @property
+    def are_at_work(self) -> bool:
+        """Whether the world waits for a function; may be asked in any thread."""
+        now = time.monotonic()
+        return any(not future.done() and now < end for future, end in self._awaited)
+
+    def forget(self) -> bool:
+        """Wait for nothing that was submitted before; returns whether it was waited for."""
+        were_at_work, self._awaited = self.are_at_work, []
+        return were_at_work
 
 
 def _run(future: 'concurrent.futures.Future[Any]', call: Callable[[], Any]) -> None:

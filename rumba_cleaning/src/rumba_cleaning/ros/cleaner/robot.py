@@ -1,6 +1,6 @@
 """One robot, as the cleaner senses, moves and announces it."""
 
-from typing import Callable, Optional
+from typing import Callable, Optional, Tuple
 
 from rumba_cleaning.ros.cleaner.actuators import Brushes, Wheels
 from rumba_cleaning.ros.cleaner.announcer import Announcer
@@ -18,31 +18,38 @@ class Robot:
         wheels: drive it.
         brushes: its brushes.
         senses: what it senses.
-        lockstep: the part that this node takes in that of the simulator, if there is one.
+        participant: the part that this node takes in that of the simulator, if there is one.
     """
 
     def __init__(self, name: str, on_reading: Callable[[], None],
-                 resets: Callable[[], Optional[int]] = lambda: None) -> None:
+                 lockstep: Callable[[], Optional[Tuple[str, int]]] = lambda: None,
+                 is_busy: Callable[[], bool] = lambda: False) -> None:
         """Connect to a robot.
 
         Args:
             name: its name.
             on_reading: called after each complete reading, in a thread of rospy.
-            resets: as for `Senses`.
+            lockstep: as for `Senses`.
+            is_busy: as for `Participant`.
         """
         self.announcer = Announcer(name)
         self.teleop = Teleop(name)
         self.wheels = Wheels(name)
         self.brushes = Brushes(name)
-        self.senses = Senses(name, on_reading, resets)
-        self.lockstep = Participant(self.senses.on_tick)
-        self._resets = resets
+        self.senses = Senses(name, on_reading, lockstep)
+        self.participant = Participant(self.senses.on_tick, is_busy)
+        self._lockstep = lockstep
 
     def answer(self) -> None:
         """In lockstep, tell that everything is done for the newest reading."""
-        if self._resets() is not None and self.senses.stamp is not None:
+        if self._lockstep() is not None and self.senses.stamp is not None:
             self.brushes.settle()
-            self.lockstep.answer(self.senses.stamp, self.wheels.commanded())
+            self.participant.answer(self.senses.stamp, self.wheels.commanded())
+
+    def look_after(self) -> None:
+        """Have no world wait if nothing can be sensed: the robot was removed, or its simulator has ended."""
+        if self.senses.is_alone:
+            self.participant.leave()
 
     def rest(self) -> None:
         """Stop, with the brushes up."""

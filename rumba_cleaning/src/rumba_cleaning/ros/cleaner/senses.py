@@ -3,7 +3,7 @@
 import math
 import threading
 import time
-from typing import Any, Callable, Dict, List, Optional
+from typing import Any, Callable, Dict, List, Optional, Tuple
 
 import rospy
 from sensor_msgs.msg import BatteryState
@@ -13,6 +13,7 @@ from rumba_cleaning.ros.cleaner import conversions
 from rumba_cleaning.ros.cleaner.location import QUEUE, Location
 from rumba_msg.msg import Bumper, CleaningStatus, Cliff, DockStatus, Lockstep
 from rumba_sim.model.geometry import Pose
+from rumba_sim.ros.common.clock import LATEST
 
 SECOND = 1_000_000_000  # [ns]
 PAUSE = SECOND  # [ns] between two stamps; more is not counted as time: a pause in real time, or another simulator
@@ -37,17 +38,17 @@ class Senses:
     """
 
     def __init__(self, robot: str, on_reading: Callable[[], None],
-                 resets: Callable[[], Optional[int]] = lambda: None) -> None:
+                 lockstep: Callable[[], Optional[Tuple[str, int]]] = lambda: None) -> None:
         """Listen to a robot.
 
         Args:
             robot: its name.
             on_reading: called after each complete reading, in a thread of rospy.
-            resets: how often the world that is known was reset, if it is in lockstep; else None.
+            lockstep: run and resets of the world that is known, if it is in lockstep; else None.
         """
         self._robot = robot
         self._on_reading = on_reading
-        self._resets = resets
+        self._lockstep = lockstep
         self._lock = threading.Lock()
         self._newest: Dict[str, Any] = {}
         self._battery: Optional[BatteryState] = None
@@ -94,7 +95,7 @@ class Senses:
         self.check()
 
     def _check_in_lockstep(self) -> None:
-        if self._resets() is not None:
+        if self._lockstep() is not None:
             self.check()
 
     def check(self) -> None:
@@ -110,10 +111,12 @@ class Senses:
 
     def _complete(self) -> Optional[rospy.Time]:
         """The stamp of the newest reading if it is complete, else None."""
-        resets, tick = self._resets(), self._tick
-        if resets is None:
+        world, tick = self._lockstep(), self._tick
+        if world is None:
             return None if self._late() else self._newest[CLOCK].header.stamp
-        return tick.header.stamp if tick is not None and tick.resets == resets and self._has_all(tick) else None
+        if tick is None or (tick.run, tick.resets) != world or not self._has_all(tick):
+            return None
+        return tick.header.stamp
 
     def _has_all(self, tick: Lockstep) -> bool:
         """Whether everything has come that was published up to a control tick; a stamp of 0: it is not published."""
@@ -145,15 +148,15 @@ class Senses:
 
         Args:
             since: stamp until which messages do not count; those without a stamp count.
-            is_new_run: whether the simulator was started again: its time may begin anew.
+            is_new_run: whether the simulator was started again: its time may begin anew. If not, messages of the new
+                world may have come before the news of it, and count.
         """
         with self._lock:
             self._since, self.unread = since, 0
-            self._newest = {} if is_new_run else {
-                topic: message for topic, message in self._newest.items() if not self._is_old(message)}
-            self._battery, self.cleaning = (
-                None if is_new_run or message is None or self._is_old(message) else message
-                for message in (self._battery, self.cleaning))
+            earliest = rospy.Time(LATEST) if is_new_run else since
+            self._newest = {topic: part for topic, part in self._newest.items() if part.header.stamp > earliest}
+            self._battery, self.cleaning = (message if message is not None and message.header.stamp > earliest else None
+                                            for message in (self._battery, self.cleaning))
             self.stamp = None
         if is_new_run:
             self._location.forget()

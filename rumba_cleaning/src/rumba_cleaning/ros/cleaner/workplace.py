@@ -64,10 +64,10 @@ class Workplace:
         return self._loaded[2], self._newest_robot()
 
     @property
-    def lockstep_resets(self) -> Optional[int]:
-        """How often the newest world was reset, if it is in lockstep; else None."""
+    def lockstep(self) -> Optional[Tuple[str, int]]:
+        """Run and resets of the newest world, if it is in lockstep; else None."""
         state = self._simulator.state
-        return self.world.resets if self.world is not None and state is not None and state.is_lockstep else None
+        return self.world[:2] if self.world is not None and state is not None and state.is_lockstep else None
 
     def _newest_robot(self) -> RobotConfig:
         state, known = self._simulator.state, self._robot

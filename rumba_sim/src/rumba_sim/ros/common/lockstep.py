@@ -1,9 +1,8 @@
 """Takes part in the lockstep of a simulator: the world waits until this node has answered for a control tick."""
 
-import contextlib
 import threading
 import time
-from typing import Any, Callable, Iterator, Optional
+from typing import Any, Callable, Optional
 
 import rospy
 from std_msgs.msg import Header
@@ -33,13 +32,24 @@ class Resent(rospy.SubscribeListener):
 class Participant:
     """This node's part in a lockstep. A node takes part from its first answer on."""
 
-    def __init__(self, on_tick: Callable[[Lockstep], None]) -> None:
-        """Listen; `on_tick` is called with each control tick, in a thread of rospy."""
+    def __init__(self, on_tick: Callable[[Lockstep], None], is_busy: Callable[[], bool] = lambda: False) -> None:
+        """Listen.
+
+        Args:
+            on_tick: called with each control tick, in a thread of rospy.
+            is_busy: whether something takes long, so that this node tells that it is alive; asked in another thread.
+        """
         self._last = Resent()
-        self._busy = threading.Event()
+        self._run = ''
+        self._on_tick = on_tick
+        self._is_busy = is_busy
         self._publisher = rospy.Publisher(ANSWERS, LockstepAnswer, self._last, queue_size=QUEUE)
-        rospy.Subscriber(TOPIC, Lockstep, on_tick, queue_size=QUEUE)
+        rospy.Subscriber(TOPIC, Lockstep, self._take, queue_size=QUEUE)
         threading.Thread(target=self._give_signs, daemon=True).start()
+
+    def _take(self, tick: Lockstep) -> None:
+        self._run = tick.run
+        self._on_tick(tick)
 
     def answer(self, stamp: rospy.Time, command: str = '') -> None:
         """Say that everything is done for a control tick.
@@ -51,27 +61,17 @@ class Participant:
         self._last.message = self._message(stamp, LockstepAnswer.DONE, rospy.resolve_name(command) if command else '')
         self._publisher.publish(self._last.message)
 
-    @contextlib.contextmanager
-    def busy(self) -> Iterator[None]:
-        """Give signs of life while something takes long."""
-        self._busy.set()
-        try:
-            yield
-        finally:
-            self._busy.clear()
-
     def leave(self) -> None:
         """Take part no longer."""
         if self._last.message is not None:
             self._publisher.publish(self._message(self._last.message.header.stamp, LockstepAnswer.LEAVES))
             self._last.message = None
 
-    @staticmethod
-    def _message(stamp: rospy.Time, state: int, command: str = '') -> LockstepAnswer:
-        return LockstepAnswer(Header(stamp=stamp), rospy.get_name(), state, command)
+    def _message(self, stamp: rospy.Time, state: int, command: str = '') -> LockstepAnswer:
+        return LockstepAnswer(Header(stamp=stamp), self._run, rospy.get_name(), state, command)
 
     def _give_signs(self) -> None:
-        while self._busy.wait():
+        while not rospy.is_shutdown():
             time.sleep(SIGN_PERIOD)
-            if self._busy.is_set():
+            if self._is_busy():
                 self._publisher.publish(self._message(rospy.Time(), LockstepAnswer.BUSY))

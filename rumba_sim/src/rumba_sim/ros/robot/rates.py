@@ -20,6 +20,9 @@ class Due(NamedTuple):
     cleaning: bool
 
 
+EVERYTHING = Due(*[True] * len(Due._fields))
+
+
 @dataclasses.dataclass(frozen=True)
 class Rates:
     """How often messages are published, in simulated time; each divides the step rate. 0: never."""

@@ -25,7 +25,7 @@ class StatePublisher:
     """
 
     def __init__(self, settings: Any, map_path: str, step_rate: float, is_time_simulated: bool,
-                 is_lockstep: bool = False) -> None:
+                 run: str = '', is_lockstep: bool = False) -> None:
         """Set the parameters, and start to measure; services that others use must exist before the first `publish`.
 
         Args:
@@ -33,6 +33,7 @@ class StatePublisher:
             map_path: absolute path of the map.
             step_rate: [Hz] of ticks.
             is_time_simulated: whether time is that of /clock.
+            run: identifies this run of the node; empty for a new text.
             is_lockstep: whether the world waits for those who take part.
         """
         tell_settings(settings)
@@ -42,7 +43,7 @@ class StatePublisher:
         self._step_rate = step_rate
         self._is_time_simulated = is_time_simulated
         self._is_lockstep = is_lockstep
-        self._run = uuid.uuid4().hex
+        self._run = run or uuid.uuid4().hex
         self._ticks = 0
         self._begin = time.monotonic()
         self.due = self._begin + PERIOD

@@ -15,17 +15,19 @@ from rumba_sim.ros.robot.rates import Due
 from rumba_sim.ros.simulator.participants import Participants
 
 LOOK_PERIOD = 0.1  # [s] of the wall clock between two looks at those who do not answer
+OTHERS = 'odom', 'scan', 'cleaning'  # what is published at ticks of its own
 
 
 class Lockstep:
     """Has a world wait after each control tick until everybody who takes part has answered."""
 
-    def __init__(self, requests: Requests, awaited: str, patience: float,
+    def __init__(self, requests: Requests, run: str, awaited: str, patience: float,
                  has_publisher: Callable[[str], bool]) -> None:
         """Open the topics.
 
         Args:
             requests: to the owner of the world, who calls everything here.
+            run: identifies this run of the node.
             awaited: names of nodes and of topics of commands to wait for from the first tick on, with spaces between.
             patience: how long to wait for someone [s] of the wall clock.
             has_publisher: whether a topic has a publisher now, given by its full name.
@@ -33,7 +35,7 @@ class Lockstep:
         self._requests = requests
         self._has_publisher = has_publisher
         self._participants = Participants([rospy.resolve_name(name) for name in awaited.split()], patience)
-        self._tick = LockstepMessage()
+        self._tick = LockstepMessage(run=run)
         self._publisher = rospy.Publisher(TOPIC, LockstepMessage, Latecomers(requests, self._held), queue_size=QUEUE)
         self._subscriber = rospy.Subscriber(ANSWERS, LockstepAnswer, self._on_answer, queue_size=QUEUE)
 
@@ -45,13 +47,18 @@ class Lockstep:
             stamp: of the tick.
             resets: of the world.
         """
-        for name in ('odom', 'scan', 'cleaning'):
+        for name in OTHERS:
             if getattr(due, name):
                 setattr(self._tick, name, stamp)
         if due.sensors:
             self._tick.header, self._tick.resets = Header(stamp=stamp), resets
             self._participants.begin(stamp)
             self._publisher.publish(self._tick)
+
+    def reset(self) -> None:
+        """The world was reset: what was published before belongs to another one."""
+        for name in OTHERS:
+            setattr(self._tick, name, rospy.Time())
 
     def wait(self, meanwhile: Callable[[], None], but: str = '') -> None:
         """Serve requests until no answer is missing.
@@ -73,7 +80,8 @@ class Lockstep:
         self._requests.post(lambda: self._participants.commanded(topic))
 
     def _on_answer(self, answer: LockstepAnswer) -> None:
-        self._requests.post(lambda: self._participants.take(answer))
+        if answer.run == self._tick.run:
+            self._requests.post(lambda: self._participants.take(answer))
 
     @property
     def is_waiting(self) -> bool:

@@ -44,8 +44,8 @@ class Settings(RobotConfig):
                             choices=('auto', 'true', 'false'))
     lockstep_patience: float = setting(10.0, 'of the wall clock without a sign of a participant, after which the world '
                                              'goes on without it', 's', 0.1, 1e6)
-    wait_for: str = setting('', 'who takes part from the first tick on, with spaces between: names of nodes that answer, '
-                                'and topics of commands of others, for example `cleaner` or `rumba/cmd_vel`')
+    wait_for: str = setting('', 'who takes part from the first tick on, with spaces between: names of nodes that '
+                                'answer, and topics of commands of others, for example `cleaner` or `rumba/cmd_vel`')
     rates: Rates = section(Rates, 'how often messages are published; each divides step_rate')
 
     def __post_init__(self) -> None:
@@ -54,7 +54,8 @@ class Settings(RobotConfig):
             raise ConfigError(f'speed is {self.speed:g}: must be 0, or {LOWEST_SPEED} to 1000000')
         for name in self.wait_for.split():
             if not rosgraph.names.is_legal_name(name):
-                raise ConfigError(f'wait_for has {quoted(name)}: must be names of nodes and topics, with spaces between')
+                raise ConfigError(f'wait_for has {quoted(name)}: must be names of nodes and topics, with spaces '
+                                  'between')
         self.rates.check(self.step_rate)
 
     @property

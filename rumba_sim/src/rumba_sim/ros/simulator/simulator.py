@@ -14,8 +14,9 @@ and serves
 It publishes simulator/state (rumba_msg/SimulatorState, latched), /map, /tf, /tf_static and /diagnostics, and also
 /clock if time is simulated: at any speed except 1, or if /use_sim_time is true. It serves /static_map and, below its
 own name, pause, resume, reset, digest (std_srvs/Trigger), step (rumba_msg/Step), spawn (rumba_msg/Spawn) and kill
-(rumba_msg/Kill). In lockstep it publishes simulator/lockstep (rumba_msg/Lockstep), and waits for answers on
-simulator/lockstep_answers (rumba_msg/LockstepAnswer). rqt_reconfigure shows it as NAME/tuning; the parameters NAME/settings are the settings in force.
+(rumba_msg/Kill). In lockstep it publishes simulator/lockstep (rumba_msg/Lockstep), and waits for those who answer on
+simulator/lockstep_answers (rumba_msg/LockstepAnswer). rqt_reconfigure shows it as NAME/tuning; the parameters
+NAME/settings are the settings in force.
 
 Parameters, as in `rosrun rumba_sim simulator _map:=studio _speed:=10 _battery/drain:=60`:
 """
@@ -24,6 +25,7 @@ import contextlib
 import gc
 import re
 import time
+import uuid
 from typing import Any, Callable, Dict, Optional, Tuple
 
 import rosgraph
@@ -44,6 +46,7 @@ from rumba_sim.ros.common.peers import NO_ANSWER
 from rumba_sim.ros.common.requests import Requests
 from rumba_sim.ros.common.simulator_client import SETTINGS
 from rumba_sim.ros.robot.latecomers import Latecomers
+from rumba_sim.ros.robot.rates import EVERYTHING
 from rumba_sim.ros.robot.robot_node import RobotNode
 from rumba_sim.ros.robot.state_publisher import StatePublisher, tell_settings
 from rumba_sim.ros.simulator import reconfigure
@@ -85,9 +88,11 @@ class Simulator:
         saved, self._ticks = self._file.world(plan, settings)
         self._world = saved or World(plan, settings.robot, settings.step_rate, settings.seed)
         self._pace = Pace(settings.step_rate, settings.speed, is_time_simulated(settings), self._ticks)
+        self._run = uuid.uuid4().hex
         self._lockstep = self._lockstep_of(settings)
         self._diagnostics = Diagnostics(settings.map)
-        self._tf = rospy.Publisher('/tf', TFMessage, Latecomers(self._requests, self._missed_transforms), queue_size=100)
+        self._tf = rospy.Publisher('/tf', TFMessage, Latecomers(self._requests, self._missed_transforms),
+                                   queue_size=100)
         self._tf_static = rospy.Publisher('/tf_static', TFMessage, queue_size=10, latch=True)
         self._nodes: Dict[str, RobotNode] = {}
         for name in self._world.robots:
@@ -96,7 +101,7 @@ class Simulator:
             self._spawn(self._free_name(), None)
         self._file.begin(self._world, self._ticks)
         tell_map(self._world.plan, self._pace.stamp)
-        self._state = StatePublisher(settings, path, settings.step_rate, self._pace.is_simulated,
+        self._state = StatePublisher(settings, path, settings.step_rate, self._pace.is_simulated, self._run,
                                      self._lockstep is not None)
         self._serve()
         self._publish_state()
@@ -110,7 +115,7 @@ class Simulator:
                 ('digest', Trigger, TriggerResponse, lambda _: (f'{self._world.digest()} {self._world.tick}',)),
                 ('step', Step, StepResponse, lambda request: self._step(request.ticks)),
                 ('spawn', Spawn, SpawnResponse, self._on_spawn),
-                ('kill', Kill, KillResponse, lambda request: self._kill(request.name))):
+                ('kill', Kill, KillResponse, self._kill)):
             rospy.Service(f'~{name}', service, self._handler(response, act))
         self._tuning = reconfigure.serve(self._settings, TUNABLE, TUNING, self._on_tuning)
 
@@ -121,6 +126,10 @@ class Simulator:
                 return response(True, *self._requests.call(lambda: act(request)))
             except RumbaError as error:
                 return response(success=False, message=str(error))
+            except rospy.ROSException:
+                if not rospy.is_shutdown():
+                    raise
+                return response(success=False, message='the simulator ends')
         return handle
 
     # --- the loop -------------------------------------------------------------------------------------------------
@@ -190,11 +199,16 @@ class Simulator:
         """The lockstep that the settings ask for, or None."""
         if settings.lockstep == 'false' or settings.lockstep == 'auto' and not self._pace.is_simulated:
             return None
-        return Lockstep(self._requests, settings.wait_for, settings.lockstep_patience, self._is_commanded)
+        return Lockstep(self._requests, self._run, settings.wait_for, settings.lockstep_patience, self._is_commanded)
 
     def _is_commanded(self, topic: str) -> bool:
         """Whether a topic, given by its full name, is one of the commands of a robot, and has a publisher."""
         return any(robot.is_commanded(topic) for robot in self._nodes.values())
+
+    def _on_command(self, topic: str) -> None:
+        """Called in threads of rospy."""
+        if self._lockstep is not None:
+            self._lockstep.on_command(topic)
 
     def _is_held(self) -> bool:
         return self._lockstep is not None and self._lockstep.is_waiting
@@ -214,6 +228,8 @@ class Simulator:
         self._wait_for_answers(but=peers.caller(request))  # no command for this world shall come to the next one
         for robot in self._nodes.values():
             robot.forget_command()
+        if self._lockstep is not None:
+            self._lockstep.reset()
         self._world.reset()
         self._state.resets += 1
         self._publish_state()
@@ -250,16 +266,20 @@ class Simulator:
         except Exception:
             self._world.kill(name)
             raise
+        if self._is_held():  # whoever works for the robot shall be able to answer
+            self._nodes[name].publish(EVERYTHING, self._settings.rates, self._pace.stamp)
+            self._tf.publish(self._transforms())
 
     def _open(self, name: str) -> None:
         """Open the topics and services of a robot of the world."""
-        on_command = {'on_command': self._lockstep.on_command} if self._lockstep is not None else {}
         self._nodes[name] = RobotNode(self._world, name, self._requests, self._settings.localisation, self._pace.stamp,
-                                      is_held=self._is_held, **on_command)
+                                      is_held=self._is_held, on_command=self._on_command)
         self._diagnostics.add(name, lambda: self._world.robots[name])
         self._tell_static()
 
-    def _kill(self, name: str) -> Tuple[str]:
+    def _kill(self, request: Any) -> Tuple[str]:
+        self._wait_for_answers(but=peers.caller(request))  # afterwards, nobody could
+        name = request.name
         self._world.kill(name)
         self._nodes.pop(name).close()
         gc.collect()  # rospy leaves a file descriptor of each topic open until then
