@@ -8,7 +8,7 @@ from rumba_msg.msg import LockstepAnswer
 from rumba_sim.ros.simulator import participants
 from rumba_sim.ros.simulator.participants import BEGIN_PATIENCE, FIRST_COMMAND, Participants
 
-PATIENCE = 10.0
+PATIENCE = FIRST_COMMAND  # on purpose: they are different things
 TOPIC = '/rumba/cmd_vel'
 
 

@@ -85,9 +85,11 @@ class Cleaner:
         self._world: Optional[World] = self._workplace.world  # that of the goal and of the cleaning below
         self._run: Optional[Run] = None
         self._interrupted: Optional[Cleaning] = None  # what a goal of clean with `resume` goes on with
+        self._read_stamp: Optional[rospy.Time] = None  # of the newest reading that was acted upon
+        self._is_reading_postponed = False
         self._is_reading_queued = True  # by `run`, after the goal of autostart
         self._planners = Planners(DaemonExecutor(PLANNERS), lambda: self._workplace.lockstep is not None,
-                                  lambda: self._events.put(self._read))
+                                  lambda: self._events.put(self._read_postponed))
         self._robot = Robot(settings.robot, self._on_reading, lambda: self._workplace.lockstep,
                             lambda: self._planners.are_at_work)
         GoToPosition(settings, self._workplace, self._robot.senses)
@@ -146,6 +148,7 @@ class Cleaner:
         is_new_run = before.run != self._world.run
         self._interrupted = None
         self._forget_plans()
+        self._read_stamp = None
         self._robot.senses.forget(self._world.since, is_new_run)
         if is_new_run:
             self._close(Outcome.NO_READINGS, 'the robot is gone: the simulator was started again')
@@ -162,8 +165,14 @@ class Cleaner:
 
     def _read(self) -> None:
         self._is_reading_queued = False
-        if self._planners.are_at_work:
-            return  # and read once they are not
+        stamp = self._robot.senses.stamp
+        if stamp is None or stamp == self._read_stamp:
+            return
+        self._is_reading_postponed = self._planners.are_at_work
+        if self._is_reading_postponed:
+            return
+        self._read_stamp = stamp
+        self._planners.deliver()
         self._robot.wheels.forget()
         try:
             if self._run is not None:
@@ -171,6 +180,11 @@ class Cleaner:
                 self._forget_closed()
         finally:
             self._robot.answer()
+
+    def _read_postponed(self) -> None:
+        """The planners may have done what the world waits for."""
+        if self._is_reading_postponed:
+            self._read()
 
     def _look_after(self) -> None:
         self._robot.look_after()
@@ -264,4 +278,4 @@ class Cleaner:
 
     def _forget_plans(self) -> None:
         if self._planners.forget():
-            self._events.put(self._read)  # the world waits for an answer to this reading
+            self._events.put(self._read_postponed)

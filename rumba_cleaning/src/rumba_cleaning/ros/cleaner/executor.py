@@ -4,7 +4,7 @@ import concurrent.futures
 import queue
 import threading
 import time
-from typing import Any, Callable, List, Tuple, TypeVar
+from typing import Any, Callable, List, NamedTuple, Tuple, TypeVar
 
 Result = TypeVar('Result')
 LONGEST = 600.0  # [s] of the wall clock for which a world in lockstep waits for a plan
@@ -37,8 +37,21 @@ class DaemonExecutor(concurrent.futures.Executor):
             del future, call  # else their memory is kept until the next task
 
 
+class Awaited(NamedTuple):
+    """A function for which a world in lockstep waits."""
+
+    inner: 'concurrent.futures.Future[Any]'  # done as soon as it has returned
+    outer: 'concurrent.futures.Future[Any]'  # what the behaviour has got: done before its next step, never during one
+    end: float  # time of `time.monotonic` until which the world waits
+
+    @property
+    def is_at_work(self) -> bool:
+        """Whether the world waits for it now."""
+        return not self.inner.done() and not self.outer.cancelled() and time.monotonic() < self.end
+
+
 class Planners(concurrent.futures.Executor):
-    """Runs functions beside the loop, which has the world wait for them in lockstep; all calls are made by the loop."""
+    """Runs functions beside the loop. In lockstep the world waits for them, so that a plan always takes one step."""
 
     def __init__(self, beside: concurrent.futures.Executor, is_lockstep: Callable[[], bool],
                  on_done: Callable[[], None]) -> None:
@@ -46,21 +59,30 @@ class Planners(concurrent.futures.Executor):
         self._beside = beside
         self._is_lockstep = is_lockstep
         self._on_done = on_done
-        self._awaited: 'List[Tuple[concurrent.futures.Future[Any], float]]' = []  # until a time of `time.monotonic`
+        self._awaited: List[Awaited] = []
 
     def submit(self, fn: Callable[..., Result], /, *args: Any, **kwargs: Any) -> 'concurrent.futures.Future[Result]':
         """Run a function; returns its future."""
-        future = self._beside.submit(fn, *args, **kwargs)
-        if self._is_lockstep():
-            self._awaited.append((future, time.monotonic() + LONGEST))
-            future.add_done_callback(lambda _: self._on_done())
-        return future
+        inner = self._beside.submit(fn, *args, **kwargs)
+        if not self._is_lockstep():
+            return inner
+        outer: 'concurrent.futures.Future[Result]' = concurrent.futures.Future()
+        self._awaited.append(Awaited(inner, outer, time.monotonic() + LONGEST))
+        inner.add_done_callback(lambda _: self._on_done())
+        return outer
 
     @property
     def are_at_work(self) -> bool:
         """Whether the world waits for a function; may be asked in any thread."""
-        now = time.monotonic()
-        return any(not future.done() and now < end for future, end in self._awaited)
+        return any(each.is_at_work for each in self._awaited)
+
+    def deliver(self) -> None:
+        """Before a step: give the behaviours what has returned."""
+        done = [each for each in self._awaited if each.inner.done() or each.outer.cancelled()]
+        self._awaited = [each for each in self._awaited if each not in done]
+        for each in done:
+            if each.outer.set_running_or_notify_cancel():
+                _run(each.outer, each.inner.result)
 
     def forget(self) -> bool:
         """Wait for nothing that was submitted before; returns whether it was waited for."""

@@ -1,7 +1,7 @@
 """For whom a world in lockstep waits after a control tick, and how long."""
 
 import time
-from typing import Callable, List, Set
+from typing import Callable, List, Optional, Set
 
 import rospy
 
@@ -19,6 +19,7 @@ class Member:
         patience: how long the world waits for a sign of it [s] of the wall clock.
         heard: when it gave the last sign, as a time of `time.monotonic`.
         command: the topic whose command it has announced, and that has not come yet; empty if there is none.
+        first_until: time of `time.monotonic` until which the world waits for a first command that may be lost.
     """
 
     def __init__(self, patience: float) -> None:
@@ -26,12 +27,16 @@ class Member:
         self.patience = patience
         self.heard = time.monotonic()
         self.command = ''
+        self.first_until: Optional[float] = None
 
 
 class Participants:
     """The members of a lockstep, and whose answer to the newest control tick is missing.
 
     Not thread-safe: all calls are made by the owner of the world.
+
+    Attributes:
+        patience: how long to wait for someone who was heard before [s] of the wall clock.
     """
 
     def __init__(self, awaited: List[str], patience: float) -> None:
@@ -41,7 +46,7 @@ class Participants:
             awaited: full names of nodes, and of topics of commands.
             patience: how long to wait for someone who was heard before [s] of the wall clock.
         """
-        self._patience = patience
+        self.patience = patience
         self._topics = [name for name in awaited if name.endswith(COMMANDS)]
         self._members = {name: Member(BEGIN_PATIENCE) for name in awaited}
         self._missing: Set[str] = set()
@@ -83,8 +88,8 @@ class Participants:
 
     def _hear(self, name: str) -> Member:
         """Note a sign of someone, who is a member from the next tick on."""
-        member = self._members.setdefault(name, Member(self._patience))
-        member.heard, member.patience = time.monotonic(), self._patience
+        member = self._members.setdefault(name, Member(self.patience))
+        member.heard, member.patience, member.first_until = time.monotonic(), self.patience, None
         return member
 
     def give_up(self, has_publisher: Callable[[str], bool]) -> List[str]:
@@ -96,18 +101,17 @@ class Participants:
         Args:
             has_publisher: whether a topic has a publisher now, given by its full name.
         """
-        now = time.monotonic()
         late = []
         for name in sorted(self._missing):
             member = self._members[name]
             if member.patience == BEGIN_PATIENCE and name in self._topics and has_publisher(name):
-                member.heard, member.patience = now, FIRST_COMMAND
-            if now - member.heard <= member.patience:
-                continue
-            self._missing.discard(name)
-            if member.patience == FIRST_COMMAND:
-                member.patience = self._patience
-            else:
+                member.patience, member.first_until = self.patience, time.monotonic() + FIRST_COMMAND
+            if member.first_until is not None:
+                if time.monotonic() > member.first_until:
+                    self._missing.discard(name)
+                    member.first_until = None
+            elif time.monotonic() - member.heard > member.patience:
+                self._missing.discard(name)
                 del self._members[name]
                 late.append(name)
         return late

@@ -1,0 +1,117 @@
+#!/usr/bin/env python3
+"""In lockstep, a mission through ROS is the same as in process, bit for bit, whatever happens to the processes."""
+
+import signal
+import subprocess
+import sys
+import time
+import unittest
+
+import rospy
+import rostest
+from actionlib_msgs.msg import GoalStatus
+from cleaners import Cleaner, go_to
+from simulators import Heard, Simulator, wait
+from std_srvs.srv import Trigger
+
+from rumba_cleaning.behaviour import Status
+from rumba_cleaning.belief.context import BeforeNextStep, Context, own_seed
+from rumba_cleaning.cleaning_config import CleaningConfig
+from rumba_cleaning.control import CONTROL_TICKS, STEP_RATE, steps
+from rumba_cleaning.mission.mission import Mission
+from rumba_msg.msg import CleanGoal, MissionStatus, Outcome
+from rumba_sim.model import map_file
+from rumba_sim.model.robot import FIRST
+from rumba_sim.model.robot_config import RobotConfig
+from rumba_sim.model.world import World
+from rumba_sim.ros.common.maps import map_path
+
+SEED = 3
+TARGET = 0.3
+BUSY = 4  # loops beside the nodes
+STOPPED = 1.5  # [s] of the wall clock
+PATIENCE = 1  # [s] of the wall clock
+SIMULATOR = '_map:=studio', f'_seed:={SEED}', '_speed:=0', '_brushes_up:=true'
+CLEANER = f'_seed:={SEED}', f'_target_coverage:={TARGET}'
+
+
+def digest_in_process(ticks, begin=1):
+    """The digest of the world so many ticks after the start of a mission that begins at a tick."""
+    plan = map_file.load(map_path('studio'))
+    world, planners = World(plan, RobotConfig(), STEP_RATE, SEED), BeforeNextStep()
+    world.spawn(FIRST, brushes_up=True)
+    world.step(begin)
+    mission = Mission(Context(plan, RobotConfig(), CleaningConfig(), own_seed(SEED, FIRST), planners), 'boustrophedon',
+                      TARGET)
+    for _ in steps(mission, world, FIRST, 3600.0):
+        planners.work()
+    assert mission.status is Status.SUCCEEDED, mission.message
+    world.step(ticks - world.tick)
+    return world.digest()
+
+
+class CleanerLockstepTest(unittest.TestCase):
+    """Each test has its own nodes."""
+
+    def digest(self):
+        """The digest of the world and its tick."""
+        digest, tick = rospy.ServiceProxy('/simulator/digest', Trigger)().message.split()
+        return digest, int(tick)
+
+    def autostarted(self):
+        """A simulator that waits for its cleaner from the first tick on, and that cleaner."""
+        simulator = Simulator(self, *SIMULATOR, '_wait_for:=cleaner')
+        return simulator, Cleaner(self, *CLEANER, '_autostart:=true').connect()
+
+    def ends_as_in_process(self, cleaner, begin=1):
+        """Wait until the mission has ended at its target, and compare the world."""
+        ended = cleaner.status.find(lambda status: status.state == MissionStatus.IDLE and 'swept' in status.message)
+        self.assertRegex(ended.message, r'^30\.\d % swept$')
+        digest, tick = self.digest()
+        self.assertEqual(digest, digest_in_process(tick, begin))
+
+    def test_a_mission_is_the_same_beside_busy_loops(self):
+        for _ in range(BUSY):
+            busy = subprocess.Popen([sys.executable, '-c', 'while True: pass'])
+            self.addCleanup(busy.wait)
+            self.addCleanup(busy.kill)
+        self.ends_as_in_process(self.autostarted()[1])
+
+    def test_a_mission_is_the_same_although_its_processes_are_stopped_for_a_while(self):
+        simulator, cleaner = self.autostarted()
+        for process in (cleaner.process, simulator.process):
+            cleaner.status.fresh(lambda status: status.state == MissionStatus.CLEANING)
+            process.send_signal(signal.SIGSTOP)
+            time.sleep(STOPPED)
+            process.send_signal(signal.SIGCONT)
+        self.ends_as_in_process(cleaner)
+
+    def test_a_mission_is_the_same_after_a_reset(self):
+        simulator = Simulator(self, *SIMULATOR)
+        cleaner = Cleaner(self, *CLEANER).connect()
+        cleaner.send('go_to', go_to(2.5, 2.0)).ends(Outcome.SUCCEEDED)
+        simulator.pause()
+        simulator.does('reset')
+        cleaner.status.messages.clear()
+        goal = cleaner.send('clean', CleanGoal())
+        wait(self, lambda: goal.handle.get_goal_status() == GoalStatus.ACTIVE, 'the goal to be accepted')
+        simulator.does('resume')
+        self.ends_as_in_process(cleaner, begin=CONTROL_TICKS - (simulator.ticks - 1) % CONTROL_TICKS)
+
+    def test_the_world_goes_on_without_a_cleaner_that_was_killed_and_takes_in_the_next_one(self):
+        simulator = Simulator(self, *SIMULATOR, f'_lockstep_patience:={PATIENCE}')
+        cleaner, log = Cleaner(self).connect(), Heard(self, '/rosout')
+        cleaner.send('go_to', go_to(2.5, 2.0)).is_active()
+        cleaner.process.kill()
+        cleaner.process.wait()
+        lines = [f'lockstep: nothing was heard of /cleaner for {PATIENCE} s: the world goes on without it until it '
+                 'answers again']
+        self.assertEqual([log.find(lambda message: 'lockstep: nothing' in message.msg).msg], lines)
+        Cleaner(self).connect().send('go_to', go_to(2.0, 2.0)).ends(Outcome.SUCCEEDED)
+        self.assertEqual([message.msg for message in log.messages if 'lockstep: nothing' in message.msg], lines)
+        simulator.end()
+
+
+if __name__ == '__main__':
+    rospy.init_node('test_cleaner_lockstep')
+    rostest.rosrun('rumba_cleaning', 'cleaner_lockstep', CleanerLockstepTest)
