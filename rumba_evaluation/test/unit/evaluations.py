@@ -30,7 +30,8 @@ def result(curve=(), **changes):
     values = dict(
         outcome=Outcome.SUCCEEDED, message='99.0 % swept', area=5.1, ideal_time=100.0, coverage=0.99, dirt_left=0.1,
         time=150.0, charging_time=0.0, charges=0, distance=40.0, turns=12.0, collisions=3, charge_used=0.1,
-        energy=1.5, energy_per_area=0.3, docked=1, penetrated=False, x=1.0, y=2.0, theta=0.5, curve=tuple(curve))
+        energy=1.5, energy_per_area=0.3, docked=1, penetrated=False, x=1.0, y=2.0, theta=0.5, ticks=7500,
+        digest='5f1c', curve=tuple(curve))
     return Result(**{**values, **changes})
 
 

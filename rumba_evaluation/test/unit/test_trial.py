@@ -236,3 +236,9 @@ def test_an_unknown_strategy_and_too_many_robots_are_refused():
         Trial(hall(), 'tidy')
     with pytest.raises(WorldError, match='no room for another robot'):
         Trial(room(1.0, 0.5), 'wait', robots=4)
+
+
+def test_a_result_has_the_digest_of_its_last_tick():
+    first, second, other = (ran(hall(), 'ahead', 5.0, seed=seed) for seed in (1, 1, 2))
+    assert first.result().digest == second.result().digest == first.world.digest() != other.result().digest
+    assert first.result().ticks == first.world.tick

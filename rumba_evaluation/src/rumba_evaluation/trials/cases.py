@@ -70,6 +70,8 @@ class Result:
     x: float  # [m] start of the first robot, map frame
     y: float  # [m]
     theta: float  # [rad]
+    ticks: int  # of the world at the end ...
+    digest: str  # ... and its digest: a mission through ROS in lockstep has the same
     curve: Curve  # [s] working time until 1 %, 2 %, ... were swept, up to the last percent that was reached
 
     @property

@@ -119,7 +119,8 @@ class Trial:
             collisions=sum(robot.bumps for robot in robots), charge_used=sum(meter.charge for meter in meters),
             energy=energy, energy_per_area=energy / floor.cleaned_area if floor.cleaned_area > 0.0 else np.nan,
             docked=sum(robot.is_docked for robot in robots), penetrated=any(meter.penetrated for meter in meters),
-            x=start.x, y=start.y, theta=start.theta, curve=tuple(self.curve))
+            x=start.x, y=start.y, theta=start.theta, ticks=self.world.tick, digest=self.world.digest(),
+            curve=tuple(self.curve))
 
     def _outcome(self) -> Outcome:
         running = self._running

@@ -36,11 +36,11 @@ class Participant:
         """Listen.
 
         Args:
-            on_tick: called with each control tick, in a thread of rospy.
+            on_tick: called once for each control tick, in a thread of rospy.
             is_busy: whether something takes long, so that this node tells that it is alive; asked in another thread.
         """
         self._last = Resent()
-        self._run = ''
+        self._newest: Optional[Lockstep] = None
         self._on_tick = on_tick
         self._is_busy = is_busy
         self._publisher = rospy.Publisher(ANSWERS, LockstepAnswer, self._last, queue_size=QUEUE)
@@ -48,8 +48,10 @@ class Participant:
         threading.Thread(target=self._give_signs, daemon=True).start()
 
     def _take(self, tick: Lockstep) -> None:
-        self._run = tick.run
-        self._on_tick(tick)
+        before, self._newest = self._newest, tick
+        is_repeated = before is not None and (before.run, before.header.stamp) == (tick.run, tick.header.stamp)
+        if not is_repeated:
+            self._on_tick(tick)
 
     def answer(self, stamp: rospy.Time, command: str = '') -> None:
         """Say that everything is done for a control tick.
@@ -68,7 +70,8 @@ class Participant:
             self._last.message = None
 
     def _message(self, stamp: rospy.Time, state: int, command: str = '') -> LockstepAnswer:
-        return LockstepAnswer(Header(stamp=stamp), self._run, rospy.get_name(), state, command)
+        run = self._newest.run if self._newest is not None else ''
+        return LockstepAnswer(Header(stamp=stamp), run, rospy.get_name(), state, command)
 
     def _give_signs(self) -> None:
         while not rospy.is_shutdown():

@@ -1,0 +1,116 @@
+#!/usr/bin/env python3
+"""A world in lockstep waits for those who take part, and for nobody longer than its patience."""
+
+import threading
+import unittest
+
+import rospy
+import rostest
+from simulators import TICK, Commands, Heard, Simulator, wait
+from std_srvs.srv import Trigger
+
+from rumba_msg.msg import Bumper, Lockstep
+from rumba_sim.model import map_file
+from rumba_sim.model.robot import FIRST
+from rumba_sim.model.world import World
+from rumba_sim.ros.common.lockstep import Participant
+from rumba_sim.ros.common.maps import map_path
+
+CONTROL_TICKS = 5
+COUNT = 40  # control ticks of a test
+PATIENCE = 1  # [s] of the wall clock
+SLOW = 0.3  # [s] of the wall clock
+
+
+def command(number):
+    """The velocity [m/s], [rad/s] for a control tick."""
+    return 0.02 * (number % 10), 0.5 - 0.1 * (number % 7)
+
+
+def digest_of(commands, ticks):
+    """The digest of a world in which one robot gets these commands, from the first tick on, after so many ticks."""
+    world = World(map_file.load(map_path('field')), seed=1)
+    robot = world.spawn(FIRST)
+    world.step()
+    for number in range(commands):
+        robot.command(*command(number), world.tick)
+        world.step(CONTROL_TICKS)
+    world.step(ticks - world.tick)
+    return world.digest()
+
+
+class SimulatorLockstepTest(unittest.TestCase):
+    """Each test has a simulator of its own, as fast as possible."""
+
+    def digest(self):
+        """The digest of the world and its tick."""
+        digest, tick = rospy.ServiceProxy('/simulator/digest', Trigger)().message.split()
+        return digest, int(tick)
+
+    def start(self, *arguments):
+        """A simulator with little patience."""
+        return Simulator(self, '_map:=field', '_speed:=0', f'_lockstep_patience:={PATIENCE}', *arguments)
+
+    def test_a_node_that_knows_nothing_of_lockstep_repeats_if_its_commands_are_waited_for(self):
+        self.start('_wait_for:=rumba/cmd_vel')
+        commands, done, numbers = Commands(self), threading.Event(), iter(range(COUNT))
+
+        def on_bumper(_):
+            number = next(numbers, None)
+            if number is None:
+                done.set()
+            else:
+                commands.send(*command(number))
+        subscriber = rospy.Subscriber('/rumba/bumper', Bumper, on_bumper)
+        self.addCleanup(subscriber.unregister)
+        self.assertTrue(done.wait(30.0))
+        digest, tick = self.digest()
+        self.assertEqual(digest, digest_of(COUNT, tick))
+
+    def test_the_world_stands_still_until_a_participant_has_answered(self):
+        ticks, answers = [], threading.Semaphore(0)
+
+        def take(tick):
+            ticks.append(tick.header.stamp)
+            answers.acquire()
+            participant.answer(tick.header.stamp)
+        participant = Participant(take, lambda: True)
+        self.addCleanup(lambda: [answers.release() for _ in range(1000)])
+        self.addCleanup(participant.leave)
+        self.start(f'_wait_for:={rospy.get_name()}')
+        for number in range(5):
+            wait(self, lambda number=number: len(ticks) > number, 'a control tick')
+            rospy.rostime.wallsleep(SLOW)
+            self.assertEqual([stamp.to_nsec() for stamp in ticks],
+                             [(1 + CONTROL_TICKS * count) * TICK for count in range(number + 1)])
+            self.assertEqual(self.digest()[1], 1 + CONTROL_TICKS * number)
+            answers.release()
+
+    def test_a_topic_without_commands_is_named_in_one_line_and_waited_for_again_after_its_next_one(self):
+        log = Heard(self, '/rosout')
+        simulator = self.start('_wait_for:=rumba/cmd_vel')
+        commands, ticks = Commands(self), Heard(self, '/simulator/lockstep', Lockstep)
+        line = (f'lockstep: nothing was heard of /rumba/cmd_vel for {PATIENCE} s: the world goes on without it until '
+                'it answers again')
+        self.assertEqual(log.find(lambda message: message.msg.startswith('lockstep')).msg, line)
+        commands.send(0.1, 0.0)
+        wait(self, lambda: sum(message.msg == line for message in log.messages) == 2, 'the second line')
+        count = len(ticks.messages)
+        wait(self, lambda: len(ticks.messages) > count + 10, 'the world to go on')
+        simulator.end()
+
+    def test_without_lockstep_nobody_is_waited_for(self):
+        self.start('_wait_for:=rumba/cmd_vel', '_lockstep:=false')
+        clock = Heard(self, '/clock')
+        wait(self, lambda: len(clock.messages) > 100, 'the world to go on')
+        self.assertNotIn('/simulator/lockstep', dict(rospy.get_published_topics()))
+
+    def test_in_real_time_lockstep_has_simulated_time(self):
+        self.start('_speed:=1', '_lockstep:=true')
+        self.assertTrue(Heard(self, '/simulator/state').find().is_lockstep)
+        self.assertLess(Heard(self, '/clock').find().clock.to_sec(), 1000.0)
+
+
+if __name__ == '__main__':
+    rospy.init_node('test_simulator_lockstep', disable_rostime=True)
+    rostest.rosrun('rumba_sim', 'simulator_lockstep', SimulatorLockstepTest)
