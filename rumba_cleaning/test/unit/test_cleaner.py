@@ -9,6 +9,7 @@ import types
 import numpy as np
 import pytest
 import rospy
+from drivers import Later
 from geometry_msgs.msg import Pose2D, Twist
 from rooms import crooked, quiet, room
 from std_msgs.msg import Header
@@ -373,3 +374,65 @@ def test_a_target_that_cannot_be_reached_is_an_error(target, message):
     for toward in (velocity_toward, heading_toward):
         with pytest.raises(MapError, match=message):
             toward(context(plan), Pose(0.5, 0.5, 0.0), target)
+
+
+# --- planners ---------------------------------------------------------------------------------------------------------
+
+class Planning:
+    """Planners whose functions return when a test says so."""
+
+    def __init__(self, is_lockstep=True):
+        self.later = Later()
+        self.done = 0
+        self.planners = executor.Planners(self.later, lambda: is_lockstep, self._count)
+
+    def _count(self):
+        self.done += 1
+
+
+def test_in_lockstep_a_plan_is_there_before_the_next_step_and_never_during_one():
+    planning = Planning()
+    future = planning.planners.submit(lambda: 'route')
+    assert planning.planners.are_at_work
+    planning.later.work()
+    assert not planning.planners.are_at_work and planning.done == 1 and not future.done()
+    planning.planners.deliver()
+    assert future.result(0) == 'route'
+
+
+def test_without_lockstep_a_plan_is_there_as_soon_as_it_is_made():
+    planning = Planning(is_lockstep=False)
+    future = planning.planners.submit(lambda: 'route')
+    assert not planning.planners.are_at_work
+    planning.later.work()
+    assert future.result(0) == 'route' and planning.done == 0
+
+
+def test_an_error_of_a_plan_goes_to_the_behaviour():
+    planners = executor.Planners(executor.DaemonExecutor(1), lambda: True, lambda: None)
+    future = planners.submit(lambda: 1 // 0)
+    while planners.are_at_work:
+        time.sleep(0.001)
+    planners.deliver()
+    with pytest.raises(ZeroDivisionError):
+        future.result(0)
+
+
+@pytest.mark.parametrize('drop', [lambda planners, future: future.cancel(), lambda planners, _: planners.forget()])
+def test_nobody_waits_for_a_plan_that_is_not_needed_any_more(drop):
+    planning = Planning()
+    future = planning.planners.submit(lambda: 'route')
+    assert drop(planning.planners, future)
+    assert not planning.planners.are_at_work
+    planning.later.work()
+    planning.planners.deliver()
+    assert future.cancelled() or not future.done()
+    assert not planning.planners.forget()
+
+
+def test_a_world_does_not_wait_for_ever_for_a_plan(monkeypatch):
+    planning = Planning()
+    planning.planners.submit(lambda: 'route')
+    begin = time.monotonic()
+    monkeypatch.setattr(executor.time, 'monotonic', lambda: begin + executor.LONGEST + 1.0)
+    assert not planning.planners.are_at_work

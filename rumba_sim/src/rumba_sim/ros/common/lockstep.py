@@ -1,5 +1,6 @@
 """Takes part in the lockstep of a simulator: the world waits until this node has answered for a control tick."""
 
+import contextlib
 import threading
 import time
 from typing import Any, Callable, Optional
@@ -77,4 +78,5 @@ class Participant:
         while not rospy.is_shutdown():
             time.sleep(SIGN_PERIOD)
             if self._is_busy():
-                self._publisher.publish(self._message(rospy.Time(), LockstepAnswer.BUSY))
+                with contextlib.suppress(rospy.ROSException):  # the node ends
+                    self._publisher.publish(self._message(rospy.Time(), LockstepAnswer.BUSY))

@@ -96,13 +96,13 @@ class RobotNode:
 
     def _on_command(self, twist: Twist, topic: str) -> None:
         v, w = twist.linear.x, twist.angular.z
-        if not (math.isfinite(v) and math.isfinite(w)):
+        if math.isfinite(v) and math.isfinite(w):
+            with self._mux_lock:  # each input has a thread of its own
+                if self._mux.passes(topic, time.monotonic()):
+                    self._command = v, w
+        else:
             rospy.logerr_throttle(COMPLAINT_PERIOD, f'{self._name}/{topic}: linear.x {v} m/s, angular.z {w} rad/s: '
                                                     'must be finite numbers; ignored')
-            return
-        with self._mux_lock:  # each input has a thread of its own
-            if self._mux.passes(topic, time.monotonic()):
-                self._command = v, w
         self._report_command(rospy.resolve_name(f'{self._name}/{topic}'))
 
     def is_commanded(self, topic: str) -> bool:
