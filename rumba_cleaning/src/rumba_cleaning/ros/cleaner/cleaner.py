@@ -94,7 +94,10 @@ class Cleaner:
                             lambda: self._planners.are_at_work)
         GoToPosition(settings, self._workplace, self._robot.senses)
         self._servers = {name: self._serve(name) for name in ACTIONS}
-        rospy.on_shutdown(self._end)
+        if not rospy.core.is_shutdown_requested():
+            rospy.on_shutdown(self._end)
+        if rospy.core.is_shutdown_requested():  # rospy may not call `_end` any more
+            self._has_ended.set()
 
     def _serve(self, name: str) -> Server:
         """The server of an action."""
