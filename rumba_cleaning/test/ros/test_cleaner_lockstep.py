@@ -12,7 +12,6 @@ import rostest
 from actionlib_msgs.msg import GoalStatus
 from cleaners import Cleaner, go_to
 from simulators import Heard, Simulator, wait
-from std_srvs.srv import Trigger
 
 from rumba_cleaning.behaviour import Status
 from rumba_cleaning.belief.context import BeforeNextStep, Context, own_seed
@@ -53,21 +52,16 @@ def digest_in_process(ticks, begin=1):
 class CleanerLockstepTest(unittest.TestCase):
     """Each test has its own nodes."""
 
-    def digest(self):
-        """The digest of the world and its tick."""
-        digest, tick = rospy.ServiceProxy('/simulator/digest', Trigger)().message.split()
-        return digest, int(tick)
-
     def autostarted(self):
         """A simulator that waits for its cleaner from the first tick on, and that cleaner."""
         simulator = Simulator(self, *SIMULATOR, '_wait_for:=cleaner')
         return simulator, Cleaner(self, *CLEANER, '_autostart:=true').connect()
 
-    def ends_as_in_process(self, cleaner, begin=1):
+    def ends_as_in_process(self, simulator, cleaner, begin=1):
         """Wait until the mission has ended at its target, and compare the world."""
         ended = cleaner.status.find(lambda status: status.state == MissionStatus.IDLE and 'swept' in status.message)
         self.assertRegex(ended.message, r'^30\.\d % swept$')
-        digest, tick = self.digest()
+        digest, tick = simulator.digest()
         self.assertEqual(digest, digest_in_process(tick, begin))
 
     def test_a_mission_is_the_same_beside_busy_loops(self):
@@ -75,7 +69,7 @@ class CleanerLockstepTest(unittest.TestCase):
             busy = subprocess.Popen([sys.executable, '-c', 'while True: pass'])
             self.addCleanup(busy.wait)
             self.addCleanup(busy.kill)
-        self.ends_as_in_process(self.autostarted()[1])
+        self.ends_as_in_process(*self.autostarted())
 
     def test_a_mission_is_the_same_although_its_processes_are_stopped_for_a_while(self):
         simulator, cleaner = self.autostarted()
@@ -84,7 +78,7 @@ class CleanerLockstepTest(unittest.TestCase):
             process.send_signal(signal.SIGSTOP)
             time.sleep(STOPPED)
             process.send_signal(signal.SIGCONT)
-        self.ends_as_in_process(cleaner)
+        self.ends_as_in_process(simulator, cleaner)
 
     def test_a_mission_is_the_same_after_a_reset(self):
         simulator = Simulator(self, *SIMULATOR)
@@ -96,7 +90,7 @@ class CleanerLockstepTest(unittest.TestCase):
         goal = cleaner.send('clean', CleanGoal())
         wait(self, lambda: goal.handle.get_goal_status() == GoalStatus.ACTIVE, 'the goal to be accepted')
         simulator.does('resume')
-        self.ends_as_in_process(cleaner, begin=CONTROL_TICKS - (simulator.ticks - 1) % CONTROL_TICKS)
+        self.ends_as_in_process(simulator, cleaner, CONTROL_TICKS - (simulator.ticks - 1) % CONTROL_TICKS)
 
     def test_the_world_goes_on_without_a_cleaner_that_was_killed_and_takes_in_the_next_one(self):
         simulator = Simulator(self, *SIMULATOR, f'_lockstep_patience:={PATIENCE}')

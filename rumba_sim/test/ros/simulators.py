@@ -33,8 +33,8 @@ TOPICS = {
     'scan': LaserScan, 'bumper': Bumper, 'cliff': Cliff, 'dock_status': DockStatus, 'cleaning_status': CleaningStatus,
     'coverage': OccupancyGrid, 'clock': Clock, 'map': OccupancyGrid, 'rosout': Log, 'state': SimulatorState}
 SERVICES = {
-    'pause': Trigger, 'resume': Trigger, 'reset': Trigger, 'step': Step, 'spawn': Spawn, 'kill': Kill,
-    'set_brushes_up': SetBool, 'teleport': Teleport, 'static_map': GetMap}
+    'pause': Trigger, 'resume': Trigger, 'reset': Trigger, 'digest': Trigger, 'step': Step, 'spawn': Spawn,
+    'kill': Kill, 'set_brushes_up': SetBool, 'teleport': Teleport, 'static_map': GetMap}
 
 
 def wait(test, condition, what='it'):
@@ -166,6 +166,11 @@ class Simulator:
         answer = self.call(service, *arguments)
         self._test.assertFalse(answer.success)
         self._test.assertRegex(answer.message, pattern)
+
+    def digest(self):
+        """The digest of the world and its tick."""
+        digest, tick = self.does('digest').message.split()
+        return digest, int(tick)
 
     def teleport(self, x, y, theta, robot='rumba'):
         """Teleport a robot."""

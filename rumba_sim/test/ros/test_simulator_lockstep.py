@@ -7,7 +7,6 @@ import unittest
 import rospy
 import rostest
 from simulators import TICK, Commands, Heard, Simulator, wait
-from std_srvs.srv import Trigger
 
 from rumba_msg.msg import Bumper, Lockstep
 from rumba_sim.model import map_file
@@ -42,17 +41,12 @@ def digest_of(commands, ticks):
 class SimulatorLockstepTest(unittest.TestCase):
     """Each test has a simulator of its own, as fast as possible."""
 
-    def digest(self):
-        """The digest of the world and its tick."""
-        digest, tick = rospy.ServiceProxy('/simulator/digest', Trigger)().message.split()
-        return digest, int(tick)
-
     def start(self, *arguments):
         """A simulator with little patience."""
         return Simulator(self, '_map:=field', '_speed:=0', f'_lockstep_patience:={PATIENCE}', *arguments)
 
     def test_a_node_that_knows_nothing_of_lockstep_repeats_if_its_commands_are_waited_for(self):
-        self.start('_wait_for:=rumba/cmd_vel')
+        simulator = self.start('_wait_for:=rumba/cmd_vel')
         commands, done, numbers = Commands(self), threading.Event(), iter(range(COUNT))
 
         def on_bumper(_):
@@ -64,7 +58,7 @@ class SimulatorLockstepTest(unittest.TestCase):
         subscriber = rospy.Subscriber('/rumba/bumper', Bumper, on_bumper)
         self.addCleanup(subscriber.unregister)
         self.assertTrue(done.wait(30.0))
-        digest, tick = self.digest()
+        digest, tick = simulator.digest()
         self.assertEqual(digest, digest_of(COUNT, tick))
 
     def test_the_world_stands_still_until_a_participant_has_answered(self):
@@ -77,13 +71,13 @@ class SimulatorLockstepTest(unittest.TestCase):
         participant = Participant(take, lambda: True)
         self.addCleanup(lambda: [answers.release() for _ in range(1000)])
         self.addCleanup(participant.leave)
-        self.start(f'_wait_for:={rospy.get_name()}')
+        simulator = self.start(f'_wait_for:={rospy.get_name()}')
         for number in range(5):
             wait(self, lambda number=number: len(ticks) > number, 'a control tick')
             rospy.rostime.wallsleep(SLOW)
             self.assertEqual([stamp.to_nsec() for stamp in ticks],
                              [(1 + CONTROL_TICKS * count) * TICK for count in range(number + 1)])
-            self.assertEqual(self.digest()[1], 1 + CONTROL_TICKS * number)
+            self.assertEqual(simulator.digest()[1], 1 + CONTROL_TICKS * number)
             answers.release()
 
     def test_a_topic_without_commands_is_named_in_one_line_and_waited_for_again_after_its_next_one(self):

@@ -23,34 +23,28 @@ Parameters, as in `rosrun rumba_sim simulator _map:=studio _speed:=10 _battery/d
 
 import contextlib
 import gc
-import re
 import time
 import uuid
 from typing import Any, Callable, Dict, Optional, Tuple
 
-import rosgraph
 import rospy
 from std_srvs.srv import Trigger, TriggerResponse
-from tf2_msgs.msg import TFMessage
 
 from rumba_msg.srv import Kill, KillResponse, Spawn, SpawnResponse, Step, StepResponse
 from rumba_sim.model import map_file
 from rumba_sim.model.config import updated
-from rumba_sim.model.errors import ConfigError, RumbaError, WorldError, quoted
+from rumba_sim.model.errors import ConfigError, RumbaError, WorldError
 from rumba_sim.model.geometry import Pose
-from rumba_sim.model.robot import nth_name
 from rumba_sim.model.world import World
 from rumba_sim.ros.common import master_watch, node, peers
 from rumba_sim.ros.common.maps import map_path, refuse_second, tell_map
 from rumba_sim.ros.common.peers import NO_ANSWER
 from rumba_sim.ros.common.requests import Requests
 from rumba_sim.ros.common.simulator_client import SETTINGS
-from rumba_sim.ros.robot.latecomers import Latecomers
-from rumba_sim.ros.robot.rates import EVERYTHING
-from rumba_sim.ros.robot.robot_node import RobotNode
 from rumba_sim.ros.robot.state_publisher import StatePublisher, tell_settings
 from rumba_sim.ros.simulator import reconfigure
 from rumba_sim.ros.simulator.diagnostics import Diagnostics
+from rumba_sim.ros.simulator.fleet import Fleet
 from rumba_sim.ros.simulator.lockstep import Lockstep
 from rumba_sim.ros.simulator.pace import Pace, wake_on_time
 from rumba_sim.ros.simulator.settings import TUNABLE, Settings
@@ -58,8 +52,6 @@ from rumba_sim.ros.simulator.simulated_time import SimulatedTime
 from rumba_sim.ros.simulator.state_file import StateFile
 
 TUNING = 'tuning'  # below the node's name: the parameters of dynamic_reconfigure
-LONGEST_NAME = 64  # [characters] of a robot
-NAME = re.compile(rf'[A-Za-z]\w{{0,{LONGEST_NAME - 1}}}', re.ASCII)
 MAX_STEP = 1_000_000  # [ticks] of one call
 
 
@@ -91,14 +83,10 @@ class Simulator:
         self._run = uuid.uuid4().hex
         self._lockstep = self._lockstep_of(settings)
         self._diagnostics = Diagnostics(settings.map)
-        self._tf = rospy.Publisher('/tf', TFMessage, Latecomers(self._requests, self._missed_transforms),
-                                   queue_size=100)
-        self._tf_static = rospy.Publisher('/tf_static', TFMessage, queue_size=10, latch=True)
-        self._nodes: Dict[str, RobotNode] = {}
-        for name in self._world.robots:
-            self._open(name)
+        self._fleet = Fleet(self._world, settings, self._requests, self._diagnostics, lambda: self._pace.stamp,
+                            self._is_held, self._on_command)
         for _ in range(0 if saved else settings.robots):
-            self._spawn(self._free_name(), None)
+            self._fleet.spawn()
         self._file.begin(self._world, self._ticks)
         tell_map(self._world.plan, self._pace.stamp)
         self._state = StatePublisher(settings, path, settings.step_rate, self._pace.is_simulated, self._run,
@@ -114,7 +102,7 @@ class Simulator:
                 ('reset', Trigger, TriggerResponse, self._reset),
                 ('digest', Trigger, TriggerResponse, lambda _: (f'{self._world.digest()} {self._world.tick}',)),
                 ('step', Step, StepResponse, lambda request: self._step(request.ticks)),
-                ('spawn', Spawn, SpawnResponse, self._on_spawn),
+                ('spawn', Spawn, SpawnResponse, self._spawn),
                 ('kill', Kill, KillResponse, self._kill)):
             rospy.Service(f'~{name}', service, self._handler(response, act))
         self._tuning = reconfigure.serve(self._settings, TUNABLE, TUNING, self._on_tuning)
@@ -175,23 +163,15 @@ class Simulator:
         self._state.publish(self._ticks, self._pace.stamp, self._is_paused, self._pace.speed)
 
     def _tick(self) -> None:
-        for robot in self._nodes.values():
-            robot.apply_command()
+        self._fleet.apply_commands()
         self._world.step()
         self._ticks += 1
         self._pace.tick()
-        rates = self._settings.rates
-        due = rates.due(self._ticks, self._settings.step_rate)
-        for robot in self._nodes.values():
-            robot.publish(due, rates, self._pace.stamp)
-        if due.odom and self._tf.get_num_connections():
-            self._tf.publish(self._transforms())
+        due = self._settings.rates.due(self._ticks, self._settings.step_rate)
+        self._fleet.publish(due)
         if self._lockstep is not None:
             self._lockstep.publish(due, self._pace.stamp, self._state.resets)
         self._file.save_if_due(self._world, self._ticks)
-
-    def _transforms(self) -> TFMessage:
-        return TFMessage([part for robot in self._nodes.values() for part in robot.transforms()])
 
     # --- lockstep -------------------------------------------------------------------------------------------------
 
@@ -199,11 +179,8 @@ class Simulator:
         """The lockstep that the settings ask for, or None."""
         if settings.lockstep == 'false' or settings.lockstep == 'auto' and not self._pace.is_simulated:
             return None
-        return Lockstep(self._requests, self._run, settings.wait_for, settings.lockstep_patience, self._is_commanded)
-
-    def _is_commanded(self, topic: str) -> bool:
-        """Whether a topic, given by its full name, is one of the commands of a robot, and has a publisher."""
-        return any(robot.is_commanded(topic) for robot in self._nodes.values())
+        return Lockstep(self._requests, self._run, settings.wait_for, settings.lockstep_patience,
+                        lambda topic: self._fleet.is_commanded(topic))
 
     def _on_command(self, topic: str) -> None:
         """Called in threads of rospy."""
@@ -212,9 +189,6 @@ class Simulator:
 
     def _is_held(self) -> bool:
         return self._lockstep is not None and self._lockstep.is_waiting
-
-    def _missed_transforms(self) -> Optional[TFMessage]:
-        return self._transforms() if self._is_held() else None
 
     # --- services -------------------------------------------------------------------------------------------------
 
@@ -226,8 +200,7 @@ class Simulator:
 
     def _reset(self, request: Any) -> Tuple[str]:
         self._wait_for_answers(but=peers.caller(request))  # no command for this world shall come to the next one
-        for robot in self._nodes.values():
-            robot.forget_command()
+        self._fleet.forget_commands()
         if self._lockstep is not None:
             self._lockstep.reset()
         self._world.reset()
@@ -249,51 +222,13 @@ class Simulator:
         self._publish_state()
         return (f'{ticks} ticks have passed',)
 
-    def _on_spawn(self, request: Any) -> Tuple[str, str]:
-        name = request.name or self._free_name()
-        if not NAME.fullmatch(name):
-            raise WorldError(f'{quoted(name)} is not a valid name: must be 1 to {LONGEST_NAME} letters, digits and _, '
-                             'beginning with a letter')
-        if not rosgraph.is_master_online():  # otherwise its topics could not be registered, and time would stand still
-            raise WorldError('the master does not answer: a robot needs it for its topics')
-        self._spawn(name, Pose(request.pose.x, request.pose.y, request.pose.theta))
-        return name, ''
-
-    def _spawn(self, name: str, pose: Any) -> None:
-        self._world.spawn(name, pose, self._settings.percentage / 100.0, self._settings.brushes_up)
-        try:
-            self._open(name)
-        except Exception:
-            self._world.kill(name)
-            raise
-        if self._is_held():  # whoever works for the robot shall be able to answer
-            self._nodes[name].publish(EVERYTHING, self._settings.rates, self._pace.stamp)
-            self._tf.publish(self._transforms())
-
-    def _open(self, name: str) -> None:
-        """Open the topics and services of a robot of the world."""
-        self._nodes[name] = RobotNode(self._world, name, self._requests, self._settings.localisation, self._pace.stamp,
-                                      is_held=self._is_held, on_command=self._on_command)
-        self._diagnostics.add(name, lambda: self._world.robots[name])
-        self._tell_static()
+    def _spawn(self, request: Any) -> Tuple[str, str]:
+        return self._fleet.spawn(request.name, Pose(request.pose.x, request.pose.y, request.pose.theta)), ''
 
     def _kill(self, request: Any) -> Tuple[str]:
         self._wait_for_answers(but=peers.caller(request))  # afterwards, nobody could
-        name = request.name
-        self._world.kill(name)
-        self._nodes.pop(name).close()
-        gc.collect()  # rospy leaves a file descriptor of each topic open until then
-        self._diagnostics.remove(name)
-        self._tell_static()
+        self._fleet.kill(request.name)
         return ('',)
-
-    def _free_name(self) -> str:
-        """The first of rumba, rumba2, rumba3, ... that is free."""
-        names = map(nth_name, range(1, len(self._nodes) + 2))
-        return next(name for name in names if name not in self._nodes)
-
-    def _tell_static(self) -> None:
-        self._tf_static.publish([part for robot in self._nodes.values() for part in robot.static_transforms()])
 
     def _on_tuning(self, values: Dict[str, Any]) -> Settings:
         settings: Settings = self._requests.call(lambda: self._tune(values))
@@ -309,7 +244,7 @@ class Simulator:
                 raise ConfigError('speed can change only if /clock is published: start with a speed other than 1, or '
                                   'with /use_sim_time true')
             self._world.config = settings.robot
-            self._settings = settings
+            self._settings = self._fleet.settings = settings
             self._pace.speed = settings.speed
         except ConfigError as error:
             rospy.logerr(str(error))

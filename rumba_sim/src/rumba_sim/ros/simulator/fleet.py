@@ -1,0 +1,144 @@
+"""The robots of a simulator: their topics, services and frames, and how they come and go."""
+
+import gc
+import re
+from typing import Callable, Dict, Optional
+
+import rosgraph
+import rospy
+from tf2_msgs.msg import TFMessage
+
+from rumba_sim.model.errors import WorldError, quoted
+from rumba_sim.model.geometry import Pose
+from rumba_sim.model.robot import nth_name
+from rumba_sim.model.world import World
+from rumba_sim.ros.common.requests import Requests
+from rumba_sim.ros.robot.latecomers import Latecomers
+from rumba_sim.ros.robot.rates import EVERYTHING, Due
+from rumba_sim.ros.robot.robot_node import RobotNode
+from rumba_sim.ros.simulator.diagnostics import Diagnostics
+from rumba_sim.ros.simulator.settings import Settings
+
+LONGEST_NAME = 64  # [characters] of a robot
+NAME = re.compile(rf'[A-Za-z]\w{{0,{LONGEST_NAME - 1}}}', re.ASCII)
+
+
+class Fleet:
+    """All robots of a world, as those who listen to them see them; only the owner of the world calls it.
+
+    Attributes:
+        settings: those in force.
+    """
+
+    def __init__(self, world: World, settings: Settings, requests: Requests, diagnostics: Diagnostics,
+                 stamp: Callable[[], rospy.Time], is_held: Callable[[], bool],
+                 on_command: Callable[[str], None]) -> None:
+        """Open the topics of the robots that the world has.
+
+        Args:
+            world: where the robots are.
+            settings: those in force.
+            requests: to the owner of the world.
+            diagnostics: where the batteries are reported.
+            stamp: gives the present time.
+            is_held: whether the world waits for those who come late: they are sent what they have missed.
+            on_command: called after each velocity, with the full name of its topic, in a thread of rospy.
+
+        Raises:
+            WorldError: another node has a robot of that name.
+        """
+        self.settings = settings
+        self._world = world
+        self._requests = requests
+        self._diagnostics = diagnostics
+        self._stamp = stamp
+        self._is_held = is_held
+        self._on_command = on_command
+        self._robots: Dict[str, RobotNode] = {}
+        self._tf = rospy.Publisher('/tf', TFMessage, Latecomers(requests, self._missed_transforms), queue_size=100)
+        self._tf_static = rospy.Publisher('/tf_static', TFMessage, queue_size=10, latch=True)
+        for name in world.robots:
+            self._open(name)
+
+    # --- in each tick ---------------------------------------------------------------------------------------------
+
+    def apply_commands(self) -> None:
+        """Give each robot the newest velocity that counts, if one came since the last tick."""
+        for robot in self._robots.values():
+            robot.apply_command()
+
+    def forget_commands(self) -> None:
+        """Do not give the robots what came since the last tick."""
+        for robot in self._robots.values():
+            robot.forget_command()
+
+    def publish(self, due: Due) -> None:
+        """Publish what is due."""
+        for robot in self._robots.values():
+            robot.publish(due, self.settings.rates, self._stamp())
+        if due.odom and self._tf.get_num_connections():
+            self._tf.publish(self._transforms())
+
+    def is_commanded(self, topic: str) -> bool:
+        """Whether a topic, given by its full name, is one of the velocities of a robot, and has a publisher."""
+        return any(robot.is_commanded(topic) for robot in self._robots.values())
+
+    def _transforms(self) -> TFMessage:
+        return TFMessage([part for robot in self._robots.values() for part in robot.transforms()])
+
+    def _missed_transforms(self) -> Optional[TFMessage]:
+        return self._transforms() if self._is_held() else None
+
+    # --- robots come and go ---------------------------------------------------------------------------------------
+
+    def spawn(self, name: str = '', pose: Optional[Pose] = None) -> str:
+        """Put a robot into the world; returns its name.
+
+        Args:
+            name: of the robot; empty: the first of rumba, rumba2, rumba3, ... that is free.
+            pose: of the robot; None: as near to the start of the map as possible.
+
+        Raises:
+            WorldError: the name or the pose is wrong or taken, or the master does not answer.
+        """
+        name = name or self._free_name()
+        if not NAME.fullmatch(name):
+            raise WorldError(f'{quoted(name)} is not a valid name: must be 1 to {LONGEST_NAME} letters, digits and _, '
+                             'beginning with a letter')
+        if not rosgraph.is_master_online():  # otherwise its topics could not be registered, and time would stand still
+            raise WorldError('the master does not answer: a robot needs it for its topics')
+        self._world.spawn(name, pose, self.settings.percentage / 100.0, self.settings.brushes_up)
+        try:
+            self._open(name)
+        except Exception:
+            self._world.kill(name)
+            raise
+        if self._is_held():  # whoever works for the robot shall be able to answer
+            self._robots[name].publish(EVERYTHING, self.settings.rates, self._stamp())
+            self._tf.publish(self._transforms())
+        return name
+
+    def kill(self, name: str) -> None:
+        """Take a robot out of the world.
+
+        Raises:
+            WorldError: there is no robot of that name.
+        """
+        self._world.kill(name)
+        self._robots.pop(name).close()
+        gc.collect()  # rospy leaves a file descriptor of each topic open until then
+        self._diagnostics.remove(name)
+        self._tell_static()
+
+    def _free_name(self) -> str:
+        names = map(nth_name, range(1, len(self._robots) + 2))
+        return next(name for name in names if name not in self._robots)
+
+    def _open(self, name: str) -> None:
+        self._robots[name] = RobotNode(self._world, name, self._requests, self.settings.localisation, self._stamp(),
+                                       is_held=self._is_held, on_command=self._on_command)
+        self._diagnostics.add(name, lambda: self._world.robots[name])
+        self._tell_static()
+
+    def _tell_static(self) -> None:
+        self._tf_static.publish([part for robot in self._robots.values() for part in robot.static_transforms()])
