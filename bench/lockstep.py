@@ -61,17 +61,19 @@ def main():
     parser.add_argument('--seeds', nargs='+', type=int, default=[1])
     parser.add_argument('--speeds', nargs='+', type=float, default=[FASTEST], help='times real time; 0: no limit')
     parser.add_argument('--busy', nargs='+', type=int, default=[0], help='busy loops beside the nodes')
+    parser.add_argument('--heard', action='store_true', help='with one subscriber to each topic, in another process')
     parser.add_argument('--target', type=float, default=0.99, help='share of the floor to clean [0..1]')
     options = parser.parse_args()
     cases = [Case(*each, options.target) for each in itertools.product(options.maps, options.robots, options.seeds)]
     conditions = list(itertools.product(options.speeds, options.busy))
-    figures.heading(f'Missions to {100.0 * options.target:g} % through ROS, in lockstep')
+    figures.heading(f'Missions to {100.0 * options.target:g} % through ROS, in lockstep'
+                    f'{", one subscriber to each topic" if options.heard else ""}')
     count = equal = 0
     with ros_session.master(), tqdm(total=len(cases) * len(conditions), unit=' missions', disable=None) as bar:
         for case in cases:
             trial = in_process(case)
             for speed, busy in conditions:
-                ending = through_ros(case, speed, busy)
+                ending = through_ros(case, speed, busy, options.heard)
                 is_equal = ending.digest == digest_at(trial, ending.tick)
                 count, equal = count + 1, equal + is_equal
                 figures.row(f'{case}, speed {speed:g}, {busy} busy loops: {"equal" if is_equal else "NOT EQUAL"}; '
@@ -100,7 +102,7 @@ def digest_at(trial, tick):
     return later.digest()
 
 
-def through_ros(case, speed, busy):
+def through_ros(case, speed, busy, is_heard):
     """The same mission through ROS."""
     names = [nth_name(number) for number in range(1, case.robots + 1)]
     with contextlib.ExitStack() as stack:
@@ -110,6 +112,8 @@ def through_ros(case, speed, busy):
         stack.enter_context(ros_session.simulator(
             map=case.map, robots=case.robots, seed=case.seed, speed=speed, brushes_up='true', lockstep='true',
             wait_for=' '.join(f'cleaner_of_{name}' for name in names)))
+        if is_heard:
+            stack.enter_context(ros_session.listener())
         for name in names:
             stack.enter_context(ros_session.process([
                 'rosrun', 'rumba_cleaning', 'cleaner', f'__name:=cleaner_of_{name}', f'_robot:={name}',

@@ -1,7 +1,7 @@
 """How fast the simulator node is, what it costs in real time, and how soon its first message comes.
 
-One robot on the map studio, at the rates of the node's defaults: odom and tf 50 Hz; scan, ground_truth, bumper, cliff
-and dock_status 10 Hz; battery_status and battery_state 5 Hz; cleaning_status and coverage 1 Hz. simulator/state, once
+One robot on the map studio, at the rates of the node's defaults: odom and tf 50 Hz; scan, ground_truth, bumper, cliff,
+dock_status and battery_state 10 Hz; battery_status 5 Hz; cleaning_status and coverage 1 Hz. simulator/state, once
 a second of the wall clock, always has a subscriber: it tells how much simulated time has passed.
 """
 

@@ -23,7 +23,7 @@ from std_msgs.msg import Float64, Header
 from rumba_msg.msg import BatteryStatus, Bumper, CleaningStatus, DockStatus, SimulatorState
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.robot import Twist
-from rumba_sim.ros.common import conversions
+from rumba_sim.ros.robot.packed import OdometryPacker
 
 TOPICS = {'cleaning_status': CleaningStatus, 'ground_truth': Odometry, 'dock_status': DockStatus, 'bumper': Bumper,
           'battery_state': BatteryState, 'battery_status': BatteryStatus, 'level': Float64}
@@ -98,7 +98,8 @@ class MissionTestTest(unittest.TestCase):
 
     def is_at(self, x, y, theta):
         """Publish the robot's pose."""
-        self.tell('ground_truth', conversions.odometry(Pose(x, y, theta), Twist(0.0, 0.0), Header(), ''))
+        self.tell('ground_truth', OdometryPacker('map', 'base_footprint').message(
+            rospy.Time(), Pose(x, y, theta), Twist(0.0, 0.0)))
 
     def test_each_condition_is_a_test_case_and_all_are_met(self):
         run = Run(self, '_coverage:=0.5', '_reach:=3 1 -0.5', '_docked:=true', '_battery:=20', '_collisions:=1',

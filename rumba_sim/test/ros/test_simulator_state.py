@@ -37,10 +37,12 @@ class SimulatorStateTest(unittest.TestCase):
         for _ in range(5):  # too fast for what is published once a second
             simulator.does('pause')
             simulator.does('resume')
-        wait(self, lambda: len(state.messages) >= 10)
-        pauses = [message.is_paused for message in state.messages]
-        changes = [now for before, now in zip([False, *pauses], pauses) if now != before]
-        self.assertEqual(changes, [True, False] * 5)
+
+        def changes():
+            pauses = [message.is_paused for message in state.messages]
+            return [now for before, now in zip([False, *pauses], pauses) if now != before]
+        wait(self, lambda: len(changes()) >= 10, 'all changes')
+        self.assertEqual(changes(), [True, False] * 5)
         self.tune(speed=4.0, battery_drain=7.0)
         state.find(lambda message: message.speed == 4.0)
         self.assertEqual(rospy.get_param('/simulator/settings/speed'), 4.0)

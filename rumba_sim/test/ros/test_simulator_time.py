@@ -8,6 +8,16 @@ import unittest
 import rospy
 import rostest
 from simulators import STEP_RATE, TICK, Heard, Simulator, forget_parameters, lookup, wait
+from tf2_msgs.msg import TFMessage
+
+
+PER_READING = STEP_RATE // 10  # ticks from one reading of the sensors to the next
+
+
+def ticks_of(transforms):
+    """The ticks of which a message of /tf has the pose by odometry."""
+    return [each.header.stamp.to_nsec() // TICK for each in transforms.transforms
+            if each.child_frame_id == 'base_footprint']
 
 
 class SimulatorTimeTest(unittest.TestCase):
@@ -37,6 +47,18 @@ class SimulatorTimeTest(unittest.TestCase):
         self.assertTrue(rospy.get_param('/use_sim_time'))
         simulator.end()
         self.assertFalse(rospy.has_param('/use_sim_time'))
+
+    def test_at_speed_0_the_clock_and_all_transforms_come_with_the_sensors(self):
+        simulator = Simulator(self, '_map:=field', '_speed:=0')
+        clock, tf = Heard(self, '/clock'), Heard(self, '/tf', TFMessage)
+        wait(self, lambda: len(clock.messages) > 10 and len(tf.messages) > 10)
+        simulator.pause()
+        wait(self, lambda: ticks_of(tf.messages[-1])[-1] == simulator.ticks, 'the last transforms')
+        told = [message.clock.to_nsec() // TICK for message in clock.messages]
+        self.assertEqual({tick % PER_READING for tick in told if tick < simulator.ticks}, {1})
+        numbers = [ticks_of(message) for message in tf.messages[1:]]
+        self.assertEqual({len(each) for each in numbers[:-1]}, {PER_READING})
+        self.assertEqual(sum(numbers, []), list(range(numbers[0][0], simulator.ticks + 1)))
 
     def test_while_paused_the_clock_is_published_and_nothing_else_happens(self):
         simulator, truth = self.stepped()

@@ -9,8 +9,6 @@ from sensor_msgs.msg import BatteryState
 from std_msgs.msg import Header
 
 from rumba_sim.model.battery import Battery, BatteryConfig
-from rumba_sim.model.geometry import Pose
-from rumba_sim.model.robot import Twist
 from rumba_sim.model.robot_config import LaserConfig, OdometryConfig
 from rumba_sim.ros.common import conversions
 from rumba_sim.ros.common.frames import frames
@@ -56,16 +54,6 @@ def test_a_quaternion_turns_counter_clockwise():
     turn = conversions.quaternion(math.pi / 2.0)
     assert (turn.x, turn.y) == (0.0, 0.0)
     assert (turn.z, turn.w) == pytest.approx((math.sqrt(0.5), math.sqrt(0.5)))
-
-
-def test_odometry_has_pose_twist_and_variances_in_the_right_fields():
-    message = conversions.odometry(Pose(1.0, -2.0, 0.5), Twist(0.3, -0.7), HEADER, 'child', (0.01, 0.02), (0.03, 0.04))
-    assert (message.pose.pose.position.x, message.pose.pose.position.y) == (1.0, -2.0)
-    assert (message.twist.twist.linear.x, message.twist.twist.angular.z) == (0.3, -0.7)
-    assert (message.header.frame_id, message.child_frame_id) == ('base', 'child')
-    diagonals = [[part.covariance[7 * place] for place in range(6)] for part in (message.pose, message.twist)]
-    assert diagonals == [[0.01, 0.01, 1e-6, 1e-6, 1e-6, 0.02], [0.03, 0.03, 1e-6, 1e-6, 1e-6, 0.04]]
-    assert sum(map(bool, message.pose.covariance)) == 6
 
 
 def test_the_variance_of_odometry_is_that_of_two_wheels():

@@ -88,7 +88,7 @@ class Footing:
     def _cells(self, points: Array) -> Array:
         """Rows and columns of the cells that hold points (any, 2) [m], or of cells at the edge: int (2, any)."""
         cells = ((points - self._plan.origin) / CELL).astype(np.intp)[:, ::-1]
-        return np.clip(cells, 0, np.array(self._floor.shape) - 1).T
+        return np.minimum(np.maximum(cells, 0), np.array(self._floor.shape) - 1).T  # np.clip takes longer
 
     def _see(self, x: float, y: float) -> None:
         """Remember a cliff, unless it is a known one."""
@@ -124,8 +124,8 @@ class Footing:
         rows, columns = self._cells(points)
         beside = np.arange(-cells, cells + 1)
         height, width = self._floor.shape
-        near = self._floor[np.clip(rows + beside[:, np.newaxis, np.newaxis], 0, height - 1),
-                           np.clip(columns + beside[:, np.newaxis], 0, width - 1)]
+        near = self._floor[np.minimum(np.maximum(rows + beside[:, np.newaxis, np.newaxis], 0), height - 1),
+                           np.minimum(np.maximum(columns + beside[:, np.newaxis], 0), width - 1)]
         return np.asarray(near.any(axis=(0, 1)))
 
 

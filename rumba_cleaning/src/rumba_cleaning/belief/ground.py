@@ -95,8 +95,10 @@ class Ground:
 
     def node(self, x: float, y: float) -> Tuple[int, int]:
         """The node nearest to a point [m]."""
-        row, column = self.nodes(np.array([[x, y]]))[0]
-        return int(row), int(column)
+        left, bottom = self.plan.origin
+        row, column = round((y - bottom) / self.plan.resolution), round((x - left) / self.plan.resolution)
+        rows, columns = self.clearance.shape
+        return min(max(row, 0), rows - 1), min(max(column, 0), columns - 1)
 
     def nodes(self, points: Array) -> Array:
         """The node nearest to each point (any, 2) [m]: int (any, 2); beyond the grid, a node of its edge."""
@@ -120,7 +122,7 @@ class Ground:
 
     def standing_at(self, x: float, y: float) -> Tuple[int, int]:
         """The node nearest to a point [m] at which the robot can stand."""
-        row, column = self.standing(self.nodes(np.array([[x, y]])))[0]
+        row, column = self.standing(np.array([self.node(x, y)]))[0]
         return int(row), int(column)
 
     def within(self, distance: float) -> Array:

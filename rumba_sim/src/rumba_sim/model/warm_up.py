@@ -16,6 +16,7 @@ def main() -> None:
     world.step()
     world.scan('rumba')
     world.infrared('rumba')
+    world.cliffs('rumba')
     guided = GuidedWorld(plan)
     guided.jump(guided.world.start)
     guided.wish()

@@ -293,9 +293,9 @@ class World:
         """Whether there is no floor under the left, front left, front right and right sensor of a robot."""
         pose, config = self.robots[name].pose, self._config.cliff
         angles = (config.outer_angle, config.inner_angle, -config.inner_angle, -config.outer_angle)
-        return [bool(kernel.cell_bits(self.constants[0], self.floor.cells,
-                                      pose.x + config.distance * math.cos(pose.theta + angle),
-                                      pose.y + config.distance * math.sin(pose.theta + angle)) & kernel.CLIFF)
+        return [bool(fast.cell_bits(self.constants[0], self.floor.cells,
+                                    pose.x + config.distance * math.cos(pose.theta + angle),
+                                    pose.y + config.distance * math.sin(pose.theta + angle)) & kernel.CLIFF)
                 for angle in angles]
 
     # --- state ----------------------------------------------------------------------------------------------------

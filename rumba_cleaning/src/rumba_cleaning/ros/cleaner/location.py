@@ -43,9 +43,11 @@ class Location:
 
     def _on_transforms(self, message: TFMessage, is_static: bool) -> None:
         stamp = self.stamp
-        for each in message.transforms:
-            link = each.header.frame_id.lstrip('/'), each.child_frame_id.lstrip('/')
-            if link not in self._links:
+        last = {(each.header.frame_id.lstrip('/'), each.child_frame_id.lstrip('/')): each
+                for each in message.transforms}
+        for link in self._links:
+            each = last.get(link)
+            if each is None:
                 continue
             if is_valid(each):
                 self._newest[link] = conversions.transform_pose(each.transform), is_static

@@ -6,7 +6,7 @@ from typing import List, Sequence
 from geometry_msgs.msg import Point
 from geometry_msgs.msg import Pose as PoseMessage
 from geometry_msgs.msg import Quaternion, Transform, TransformStamped, Vector3
-from nav_msgs.msg import MapMetaData, OccupancyGrid, Odometry
+from nav_msgs.msg import MapMetaData, OccupancyGrid
 from sensor_msgs.msg import BatteryState, LaserScan
 from std_msgs.msg import Header
 
@@ -16,11 +16,10 @@ from rumba_sim.model.floor import Floor
 from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.model.geometry import Pose, half_angle, yaw
 from rumba_sim.model.kernel import Array
-from rumba_sim.model.robot import Infrared, Robot, Twist
+from rumba_sim.model.robot import Infrared, Robot
 from rumba_sim.model.robot_config import TURN, LaserConfig, OdometryConfig
 from rumba_sim.ros.common.frames import MAP, Frames
 
-KNOWN = 1e-6  # variance of what is known: a robot on a floor does not rise, roll or pitch
 LASER_HEIGHT = 0.07  # [m] of laser over base_link
 
 
@@ -83,27 +82,6 @@ def heading(rotation: Quaternion) -> float:
 def plane_pose(pose: PoseMessage) -> Pose:
     """A pose in space as one in the plane."""
     return Pose(pose.position.x, pose.position.y, heading(pose.orientation))
-
-
-def odometry(pose: Pose, twist: Twist, header: Header, child: str, pose_variance: Sequence[float] = (0.0, 0.0),
-             twist_variance: Sequence[float] = (0.0, 0.0)) -> Odometry:
-    """Pose in the header's frame and velocity in the child's, with variances of position and heading."""
-    message = Odometry(header=header, child_frame_id=child)
-    message.pose.pose = PoseMessage(Point(pose.x, pose.y, 0.0), quaternion(pose.theta))
-    message.pose.covariance = _covariance(*pose_variance)
-    message.twist.twist.linear.x = twist.v
-    message.twist.twist.angular.z = twist.w
-    message.twist.covariance = _covariance(*twist_variance)
-    return message
-
-
-def _covariance(position: float, heading: float) -> List[float]:
-    """Row-major 6 x 6 over x, y, z and the rotations about them."""
-    covariance = [0.0] * 36
-    covariance[0] = covariance[7] = max(position, KNOWN)
-    covariance[14] = covariance[21] = covariance[28] = KNOWN
-    covariance[35] = max(heading, KNOWN)
-    return covariance
 
 
 def odometry_variance(distance: float, config: OdometryConfig, wheel_base: float) -> Sequence[float]:

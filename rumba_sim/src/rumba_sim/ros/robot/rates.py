@@ -1,7 +1,8 @@
 """How often the messages of a robot are published, and which of them are due at a tick."""
 
 import dataclasses
-from typing import List, NamedTuple
+import functools
+from typing import NamedTuple, Tuple
 
 from rumba_sim.model.config import names, setting
 from rumba_sim.model.errors import ConfigError
@@ -36,7 +37,7 @@ class Rates:
 
     def due(self, ticks: int, step_rate: float) -> Due:
         """What is due at a tick, 1 or more: everything at the first, then the first tick after each period."""
-        return Due(*((ticks - 1) * rate // step_rate > (ticks - 2) * rate // step_rate for rate in self._all()))
+        return _due(self._all(), (ticks - 1) % step_rate, step_rate)
 
     def check(self, step_rate: int) -> None:
         """Refuse rates whose period is no whole number of ticks.
@@ -50,5 +51,11 @@ class Rates:
                 raise ConfigError(f'rates/{name} is {rate}: must divide step_rate, {step_rate}: one of 0, '
                                   + ', '.join(possible))
 
-    def _all(self) -> List[int]:
-        return [self.odom, self.ground_truth, self.scan, self.sensors, self.battery, self.cleaning]
+    def _all(self) -> Tuple[int, ...]:
+        return self.odom, self.ground_truth, self.scan, self.sensors, self.battery, self.cleaning
+
+
+@functools.lru_cache(maxsize=None)
+def _due(rates: Tuple[int, ...], phase: float, step_rate: float) -> Due:
+    """What is due so many ticks after a whole second."""
+    return Due(*(phase * rate // step_rate > (phase - 1) * rate // step_rate for rate in rates))

@@ -23,6 +23,7 @@ from rumba_sim.ros.common import conversions, peers, teleop
 from rumba_sim.ros.common.frames import MAP, frames
 from rumba_sim.ros.common.requests import Requests
 from rumba_sim.ros.robot.latecomers import Latecomers
+from rumba_sim.ros.robot.packed import OdometryPacker, TransformPacker
 from rumba_sim.ros.robot.rates import Due, Rates
 from rumba_sim.ros.robot.velocity_mux import Input, VelocityMux
 
@@ -56,6 +57,9 @@ class RobotNode:
         self._world = world
         self._name = name
         self._frames = frames(name)
+        odom, base = self._frames.odom, self._frames.base_footprint
+        self._odometry, self._truth = OdometryPacker(odom, base), OdometryPacker(MAP, base)
+        self._body, self._correction = TransformPacker(odom, base), TransformPacker(MAP, odom)
         self._has_localisation = has_localisation
         self._command: Optional[Tuple[float, float]] = None
         self._mux, self._mux_lock = VelocityMux(INPUTS), threading.Lock()
@@ -64,6 +68,7 @@ class RobotNode:
         self._is_held = is_held
         self._report_command = on_command
         self._newest: Dict[str, Callable[[], Any]] = {'coverage': self._coverage_message}  # makes a message of a topic
+        self._inputs = {each.name: rospy.resolve_name(f'{name}/{each.name}') for each in INPUTS}  # full names
         refuse_twin(name)
         self._publishers = {
             topic: rospy.Publisher(f'{name}/{topic}', message,
@@ -103,7 +108,7 @@ class RobotNode:
         else:
             rospy.logerr_throttle(COMPLAINT_PERIOD, f'{self._name}/{topic}: linear.x {v} m/s, angular.z {w} rad/s: '
                                                     'must be finite numbers; ignored')
-        self._report_command(rospy.resolve_name(f'{self._name}/{topic}'))
+        self._report_command(self._inputs[topic])
 
     def is_commanded(self, topic: str) -> bool:
         """Whether a topic, given by its full name, is one of this robot's commands, and has a publisher."""
@@ -147,10 +152,9 @@ class RobotNode:
             self._tell('scan', lambda: conversions.scan(
                 ranges, robot.config.laser, 1.0 / rates.scan, self._header(self._frames.laser)))
         if due.odom:
-            self._tell('odom', self._odometry)
+            self._tell('odom', self._odometry_message)
         if due.ground_truth:
-            self._tell('ground_truth', lambda: conversions.odometry(
-                robot.pose, robot.twist, self._header(MAP), self._frames.base_footprint))
+            self._tell('ground_truth', lambda: self._truth.message(stamp, robot.pose, robot.twist))
         if due.sensors:
             self._publish_sensors()
         if due.battery:
@@ -184,24 +188,23 @@ class RobotNode:
     def _header(self, frame: str) -> Header:
         return Header(stamp=self._stamp, frame_id=frame)
 
-    def _odometry(self) -> Odometry:
+    def _odometry_message(self) -> rospy.AnyMsg:
         robot, config = self._robot, self._robot.config
         wheel_base = config.drive.wheel_base
         tick = 1.0 / self._world.step_rate
         twist = robot.odometry_twist
         distance = abs(twist.v) * tick
-        return conversions.odometry(
-            robot.odometry, twist, self._header(self._frames.odom), self._frames.base_footprint,
+        return self._odometry.message(
+            self._stamp, robot.odometry, twist,
             conversions.odometry_variance(robot.distance, config.odometry, wheel_base),
             [variance / tick ** 2 for variance in conversions.odometry_variance(distance, config.odometry, wheel_base)])
 
-    def transforms(self) -> List[TransformStamped]:
-        """The pose by odometry, and its correction, at the stamp of what was published last."""
+    def transforms(self) -> List[bytes]:
+        """The pose by odometry, and its correction, at the stamp of what was published last, as parts for tf."""
         odometry = self._robot.odometry
-        found = [conversions.transform(self._frames.odom, self._frames.base_footprint, odometry, self._stamp)]
+        found = [self._body.part(self._stamp, odometry)]
         if self._has_localisation:
-            correction = compose(self._robot.pose, inverse(odometry))
-            found.append(conversions.transform(MAP, self._frames.odom, correction, self._stamp))
+            found.append(self._correction.part(self._stamp, compose(self._robot.pose, inverse(odometry))))
         return found
 
     def static_transforms(self) -> List[TransformStamped]:

@@ -2,7 +2,7 @@
 
 import gc
 import re
-from typing import Callable, Dict, Optional
+from typing import Callable, Dict, List, Optional
 
 import rosgraph
 import rospy
@@ -13,6 +13,7 @@ from rumba_sim.model.geometry import Pose
 from rumba_sim.model.robot import nth_name
 from rumba_sim.model.world import World
 from rumba_sim.ros.common.requests import Requests
+from rumba_sim.ros.robot import packed
 from rumba_sim.ros.robot.latecomers import Latecomers
 from rumba_sim.ros.robot.rates import EVERYTHING, Due
 from rumba_sim.ros.robot.robot_node import RobotNode
@@ -55,6 +56,7 @@ class Fleet:
         self._is_held = is_held
         self._on_command = on_command
         self._robots: Dict[str, RobotNode] = {}
+        self._kept: List[bytes] = []  # transforms that were not published yet
         self._tf = rospy.Publisher('/tf', TFMessage, Latecomers(requests, self._missed_transforms), queue_size=100)
         self._tf_static = rospy.Publisher('/tf_static', TFMessage, queue_size=10, latch=True)
         for name in world.robots:
@@ -72,22 +74,30 @@ class Fleet:
         for robot in self._robots.values():
             robot.forget_command()
 
-    def publish(self, due: Due) -> None:
-        """Publish what is due."""
+    def publish(self, due: Due, keep_transforms: bool = False) -> None:
+        """Publish what is due; transforms that are kept are published with those of a later tick."""
         for robot in self._robots.values():
             robot.publish(due, self.settings.rates, self._stamp())
         if due.odom and self._tf.get_num_connections():
-            self._tf.publish(self._transforms())
+            self._kept += self._transforms()
+        if not keep_transforms:
+            self.publish_transforms()
+
+    def publish_transforms(self) -> None:
+        """Publish the transforms that were kept."""
+        if self._kept:
+            self._tf.publish(packed.transforms(self._kept))
+            self._kept = []
 
     def is_commanded(self, topic: str) -> bool:
         """Whether a topic, given by its full name, is one of the velocities of a robot, and has a publisher."""
         return any(robot.is_commanded(topic) for robot in self._robots.values())
 
-    def _transforms(self) -> TFMessage:
-        return TFMessage([part for robot in self._robots.values() for part in robot.transforms()])
+    def _transforms(self) -> List[bytes]:
+        return [part for robot in self._robots.values() for part in robot.transforms()]
 
-    def _missed_transforms(self) -> Optional[TFMessage]:
-        return self._transforms() if self._is_held() else None
+    def _missed_transforms(self) -> Optional[rospy.AnyMsg]:
+        return packed.transforms(self._transforms()) if self._is_held() else None
 
     # --- robots come and go ---------------------------------------------------------------------------------------
 
@@ -115,7 +125,7 @@ class Fleet:
             raise
         if self._is_held():  # whoever works for the robot shall be able to answer
             self._robots[name].publish(EVERYTHING, self.settings.rates, self._stamp())
-            self._tf.publish(self._transforms())
+            self._tf.publish(packed.transforms(self._transforms()))
         return name
 
     def kill(self, name: str) -> None:

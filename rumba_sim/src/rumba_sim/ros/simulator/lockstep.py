@@ -15,7 +15,6 @@ from rumba_sim.ros.robot.rates import Due
 from rumba_sim.ros.simulator.participants import Participants
 
 LOOK_PERIOD = 0.1  # [s] of the wall clock between two looks at those who do not answer
-OTHERS = 'odom', 'scan', 'cleaning'  # what is published at ticks of its own
 
 
 class Lockstep:
@@ -47,18 +46,22 @@ class Lockstep:
             stamp: of the tick.
             resets: of the world.
         """
-        for name in OTHERS:
-            if getattr(due, name):
-                setattr(self._tick, name, stamp)
+        tick = self._tick
+        if due.odom:
+            tick.odom = stamp
+        if due.scan:
+            tick.scan = stamp
+        if due.cleaning:
+            tick.cleaning = stamp
         if due.sensors:
-            self._tick.header, self._tick.resets = Header(stamp=stamp), resets
+            tick.header, tick.resets = Header(stamp=stamp), resets
             self._participants.begin(stamp)
-            self._publisher.publish(self._tick)
+            if self._publisher.get_num_connections():
+                self._publisher.publish(tick)
 
     def reset(self) -> None:
         """The world was reset: what was published before belongs to another one."""
-        for name in OTHERS:
-            setattr(self._tick, name, rospy.Time())
+        self._tick.odom = self._tick.scan = self._tick.cleaning = rospy.Time()
 
     def wait(self, meanwhile: Callable[[], None], but: str = '') -> None:
         """Serve requests until no answer is missing.

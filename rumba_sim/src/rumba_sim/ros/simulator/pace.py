@@ -62,12 +62,12 @@ class Pace:
         """Make the next tick due now."""
         self.due = time.monotonic()
 
-    def tick(self) -> None:
-        """Count a tick, take its stamp, and publish the clock."""
+    def tick(self, is_told: bool = True) -> None:
+        """Count a tick, take its stamp, and publish the clock if it is to be told."""
         self._ticks += 1
         if self._clock is not None:
             self.stamp = _stamp(self._simulated_ns(self._ticks))
-            if self._clock.get_num_connections():
+            if is_told and self._clock.get_num_connections():
                 self._clock.publish(self.stamp)
         else:
             self.stamp = self._real()

@@ -64,7 +64,7 @@ class Participants:
 
     def missing(self, but: str = '') -> Set[str]:
         """Whose answer is missing; `but` is the name of someone who does not count."""
-        return self._missing - {but}
+        return self._missing - {but} if but else self._missing
 
     def commanded(self, topic: str) -> None:
         """A command came on a topic, given by its full name."""

@@ -166,12 +166,18 @@ class Simulator:
         self._fleet.apply_commands()
         self._world.step()
         self._ticks += 1
-        self._pace.tick()
         due = self._settings.rates.due(self._ticks, self._settings.step_rate)
-        self._fleet.publish(due)
+        is_bundled = not due.sensors and self._is_bundled
+        self._pace.tick(is_told=not is_bundled)
+        self._fleet.publish(due, keep_transforms=is_bundled)
         if self._lockstep is not None:
             self._lockstep.publish(due, self._pace.stamp, self._state.resets)
         self._file.save_if_due(self._world, self._ticks)
+
+    @property
+    def _is_bundled(self) -> bool:
+        """Whether clock and transforms wait for the next control tick, since time passes as fast as possible."""
+        return self._pace.speed == 0.0 and not self._is_paused and self._settings.rates.sensors > 0
 
     # --- lockstep -------------------------------------------------------------------------------------------------
 
@@ -194,6 +200,7 @@ class Simulator:
 
     def _pause(self, is_paused: bool) -> Tuple[str]:
         self._is_paused = is_paused
+        self._fleet.publish_transforms()
         self._pace.hurry()
         self._publish_state()
         return ('paused' if is_paused else 'running',)

@@ -44,6 +44,7 @@ from rumba_sim.ros.common.maps import map_path, refuse_second, tell_map
 from rumba_sim.ros.common.names import check_names
 from rumba_sim.ros.common.requests import Requests
 from rumba_sim.ros.common.simulator_client import SETTINGS
+from rumba_sim.ros.robot import packed
 from rumba_sim.ros.robot.rates import Rates
 from rumba_sim.ros.robot.robot_node import RobotNode
 from rumba_sim.ros.robot.state_publisher import StatePublisher
@@ -182,7 +183,7 @@ class TurtlesimBody:
         due, robot = RATES.due(self._ticks, FRAME_RATE), self._open()
         robot.publish(due, RATES, self._stamp)
         if due.odom and self._tf.get_num_connections():
-            self._tf.publish(robot.transforms())
+            self._tf.publish(packed.transforms(robot.transforms()))
         robot.apply_command()
         self._turtle.drive(self._guided.wish())
         if self._ticks >= self._landed:
