@@ -55,13 +55,14 @@ class Workspace:
     """A catkin workspace in a new folder, with links to packages."""
 
     def __init__(self, path: pathlib.Path, packages, environment: Dict[str, str], over: str = '') -> None:
-        """Make the folder; `over` is the setup file of a workspace below this one, if any."""
+        """Make the folder if there is none; `over` is the setup file of a workspace below this one, if any."""
         self.path = path
         self._environment = environment
         self._below = Space(UNDERLAY + (f'. {over};' if over else ''), environment)
-        (path / 'src').mkdir(parents=True)
-        for package in packages:
-            (path / 'src' / package.name).symlink_to(package)
+        if not path.exists():
+            (path / 'src').mkdir(parents=True)
+            for package in packages:
+                (path / 'src' / package.name).symlink_to(package)
 
     def make(self, target: str = '', python: str = '/usr/bin/python3') -> str:
         """catkin_make -j2, which must succeed; returns what it printed."""

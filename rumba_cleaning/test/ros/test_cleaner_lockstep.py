@@ -26,7 +26,7 @@ from rumba_sim.model.world import World
 from rumba_sim.ros.common.maps import map_path
 
 SEED = 3
-TARGET = 0.3
+TARGET = 0.15
 BUSY = 4  # loops beside the nodes
 STOPPED = 1.5  # [s] of the wall clock
 PATIENCE = 1  # [s] of the wall clock
@@ -60,7 +60,7 @@ class CleanerLockstepTest(unittest.TestCase):
     def ends_as_in_process(self, simulator, cleaner, begin=1):
         """Wait until the mission has ended at its target, and compare the world."""
         ended = cleaner.status.find(lambda status: status.state == MissionStatus.IDLE and 'swept' in status.message)
-        self.assertRegex(ended.message, r'^30\.\d % swept$')
+        self.assertRegex(ended.message, r'^15\.\d % swept$')
         digest, tick = simulator.digest()
         self.assertEqual(digest, digest_in_process(tick, begin))
 

@@ -42,7 +42,7 @@ class CleanerResumeTest(unittest.TestCase):
         os.environ['PYTHONPATH'] = f'{folder}:{path}'
         fixture.addCleanup(os.environ.update, PYTHONPATH=path)
         cls.cleaner = Cleaner(fixture, '_strategies:=slow_planner')
-        cls.simulator = Simulator(fixture, '_map:=studio', '_speed:=10')
+        cls.simulator = Simulator(fixture, '_map:=studio', '_speed:=0')
         cls.cleaner.connect()
 
     def setUp(self):

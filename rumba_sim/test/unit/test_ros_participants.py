@@ -6,7 +6,7 @@ from std_msgs.msg import Header
 
 from rumba_msg.msg import LockstepAnswer
 from rumba_sim.ros.simulator import participants
-from rumba_sim.ros.simulator.participants import BEGIN_PATIENCE, FIRST_COMMAND, Participants
+from rumba_sim.ros.simulator.participants import FIRST_COMMAND, STARTING, Participants
 
 PATIENCE = FIRST_COMMAND  # on purpose: they are different things
 TOPIC = '/rumba/cmd_vel'
@@ -115,7 +115,7 @@ def test_whoever_is_silent_for_too_long_is_waited_for_again_after_its_next_sign(
     clock.now += PATIENCE
     assert members.give_up(lambda _: True) == []
     clock.now += 0.1
-    assert members.give_up(lambda _: True) == [name]
+    assert members.give_up(lambda _: True) == [(name, PATIENCE)]
     assert members.missing() == set()
     assert begun(members)
     members.commanded(name) if name == TOPIC else members.take(answer(name, 1))
@@ -134,10 +134,10 @@ def test_a_node_that_is_busy_is_waited_for(clock):
 def test_whoever_was_never_heard_has_time_to_start(clock):
     members = Participants(['/a', TOPIC], PATIENCE)
     members.begin(rospy.Time(1))
-    clock.now += BEGIN_PATIENCE
+    clock.now += STARTING * PATIENCE
     assert members.give_up(lambda _: False) == []
     clock.now += 0.1
-    assert members.give_up(lambda _: False) == ['/a', TOPIC]
+    assert members.give_up(lambda _: False) == [('/a', STARTING * PATIENCE), (TOPIC, STARTING * PATIENCE)]
 
 
 def test_the_first_command_after_a_topic_has_a_publisher_may_be_lost(clock):
@@ -152,4 +152,4 @@ def test_the_first_command_after_a_topic_has_a_publisher_may_be_lost(clock):
     assert members.missing() == set()
     assert begun(members, TOPIC)
     clock.now += PATIENCE + 0.1
-    assert members.give_up(lambda _: True) == [TOPIC]
+    assert members.give_up(lambda _: True) == [(TOPIC, PATIENCE)]

@@ -77,7 +77,7 @@ class Settings(Requirements):
     """The node's private parameters: the requirements, and the robot that must meet them."""
 
     robot: str = setting(FIRST, 'name of the robot: its topics are below it')
-    patience: float = setting(20.0, 'time of the wall clock without any message after which the run is aborted', 's',
+    patience: float = setting(40.0, 'time of the wall clock without any message after which the run is aborted', 's',
                               0.1, 1e6)
     publisher: str = setting('', 'full name of the node that publishes the topics of the robot; empty: the one that '
                                  'simulator/state names')

@@ -72,9 +72,9 @@ class Lockstep:
         """
         while self._participants.missing(but) and not rospy.is_shutdown():
             self._requests.serve(time.monotonic() + LOOK_PERIOD, lambda: not self._participants.missing(but))
-            for name in self._participants.give_up(self._has_publisher):
-                rospy.logwarn(f'lockstep: nothing was heard of {name} for {self._participants.patience:g} s: the world '
-                              'goes on without it until it answers again')
+            for name, patience in self._participants.give_up(self._has_publisher):
+                rospy.logwarn(f'lockstep: nothing was heard of {name} for {patience:g} s: the world goes on without it '
+                              'until it answers again')
             if self._participants.missing(but):
                 meanwhile()
 

@@ -1,14 +1,14 @@
 """For whom a world in lockstep waits after a control tick, and how long."""
 
 import time
-from typing import Callable, List, Optional, Set
+from typing import Callable, List, Optional, Set, Tuple
 
 import rospy
 
 from rumba_msg.msg import LockstepAnswer
 
 COMMANDS = '/cmd_vel'  # a name that ends so is that of a topic, every other one that of a node
-BEGIN_PATIENCE = 60.0  # [s] of the wall clock for a participant that was never heard: it may still be starting
+STARTING = 3.0  # times the usual patience for a participant that was never heard: it may still be starting
 FIRST_COMMAND = 1.0  # [s] of the wall clock from the first publisher of a topic to its first command, which may be lost
 
 
@@ -48,7 +48,7 @@ class Participants:
         """
         self.patience = patience
         self._topics = [name for name in awaited if name.endswith(COMMANDS)]
-        self._members = {name: Member(BEGIN_PATIENCE) for name in awaited}
+        self._members = {name: Member(STARTING * patience) for name in awaited}
         self._missing: Set[str] = set()
         self._commanded: Set[str] = set()  # topics on which a command came since the tick
         self._stamp = rospy.Time()
@@ -92,19 +92,22 @@ class Participants:
         member.heard, member.patience, member.first_until = time.monotonic(), self.patience, None
         return member
 
-    def give_up(self, has_publisher: Callable[[str], bool]) -> List[str]:
-        """Wait no longer for those of whom nothing was heard for too long, until they answer again; their names.
+    def give_up(self, has_publisher: Callable[[str], bool]) -> List[Tuple[str, float]]:
+        """Wait no longer for those of whom nothing was heard for too long, until they answer again.
 
         Whoever commands at a rate of its own may have lost its first command, and sends the next one only when time
         has passed: the world does not wait long for the first one.
 
         Args:
             has_publisher: whether a topic has a publisher now, given by its full name.
+
+        Returns:
+            their names, and how long the world has waited for each [s] of the wall clock.
         """
         late = []
         for name in sorted(self._missing):
             member = self._members[name]
-            if member.patience == BEGIN_PATIENCE and name in self._topics and has_publisher(name):
+            if member.patience > self.patience and name in self._topics and has_publisher(name):
                 member.patience, member.first_until = self.patience, time.monotonic() + FIRST_COMMAND
             if member.first_until is not None:
                 if time.monotonic() > member.first_until:
@@ -113,5 +116,5 @@ class Participants:
             elif time.monotonic() - member.heard > member.patience:
                 self._missing.discard(name)
                 del self._members[name]
-                late.append(name)
+                late.append((name, member.patience))
         return late
