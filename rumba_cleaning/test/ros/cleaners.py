@@ -9,7 +9,7 @@ import actionlib
 import rospy
 from actionlib_msgs.msg import GoalStatus
 from geometry_msgs.msg import Pose2D, Twist
-from simulators import ENDS_WITHIN, TIMEOUT, Heard, lookup, wait
+from simulators import ENDS_WITHIN, TIMEOUT, Heard, executable, lookup, wait
 
 from rumba_msg.msg import CleanAction, DockAction, GoToAction, GoToGoal, MissionStatus, Outcome, UndockAction
 
@@ -35,7 +35,7 @@ class Cleaner:
             rospy.delete_param(name)
         # As in a launch file: simulator and cleaner start at the same time, both in simulated time.
         rospy.set_param('/use_sim_time', True)
-        self.process = subprocess.Popen(['rosrun', 'rumba_cleaning', 'cleaner', *arguments], stderr=stderr,
+        self.process = subprocess.Popen([executable('rumba_cleaning', 'cleaner'), *arguments], stderr=stderr,
                                         universal_newlines=True)
         test.addCleanup(self.end)
 

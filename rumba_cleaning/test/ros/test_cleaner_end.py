@@ -10,7 +10,7 @@ import rospy
 import rostest
 from actionlib import CommState
 from cleaners import Cleaner, go_to
-from simulators import TIMEOUT, Heard, Simulator, folder_of, lookup, wait
+from simulators import TIMEOUT, Heard, Simulator, executable, folder_of, lookup, wait
 
 from rumba_msg.msg import CleanGoal, MissionStatus, Outcome
 
@@ -34,7 +34,7 @@ def start(name, *arguments):
     """A cleaner that needs no simulator, as a process."""
     if rospy.has_param(f'/{name}'):
         rospy.delete_param(f'/{name}')
-    return subprocess.Popen(['rosrun', 'rumba_cleaning', 'cleaner', f'__name:={name}', '_map:=studio', *arguments],
+    return subprocess.Popen([executable('rumba_cleaning', 'cleaner'), f'__name:={name}', '_map:=studio', *arguments],
                             stderr=subprocess.PIPE, stdout=subprocess.DEVNULL, universal_newlines=True)
 
 

@@ -1,5 +1,6 @@
 """What the tests of the simulator share: a simulator, started as by a user, its messages and its services."""
 
+import functools
 import os
 import pathlib
 import signal
@@ -9,6 +10,7 @@ import time
 import unittest
 
 import rosgraph
+import roslib.packages
 import rospy
 from geometry_msgs.msg import Pose2D, Twist
 from nav_msgs.msg import OccupancyGrid, Odometry
@@ -35,6 +37,12 @@ TOPICS = {
 SERVICES = {
     'pause': Trigger, 'resume': Trigger, 'reset': Trigger, 'digest': Trigger, 'step': Step, 'spawn': Spawn,
     'kill': Kill, 'set_brushes_up': SetBool, 'teleport': Teleport, 'static_map': GetMap}
+
+
+@functools.lru_cache(maxsize=None)
+def executable(package, node):
+    """Path of a node, which `rosrun` would look for at each start."""
+    return roslib.packages.find_node(package, node)[0]
 
 
 def wait(test, condition, what='it'):
@@ -143,7 +151,8 @@ class Simulator:
         self.ticks = None
         if forget:
             forget_parameters(node)
-        self.process = subprocess.Popen(['rosrun', 'rumba_sim', 'simulator', *arguments], env=environment, cwd=folder)
+        self.process = subprocess.Popen([executable('rumba_sim', 'simulator'), *arguments], env=environment,
+                                        cwd=folder)
         test.addCleanup(self.end)
         wait(test, lambda: self.process.poll() is not None or lookup(f'{node}/tuning/set_parameters', master),
              'the simulator')

@@ -8,7 +8,7 @@ import unittest
 
 import rospy
 import rostest
-from simulators import ROOM, TIMEOUT, Heard, Master, Simulator, folder_of, forget_parameters, lookup
+from simulators import ROOM, TIMEOUT, Heard, Master, Simulator, executable, folder_of, forget_parameters, lookup
 
 UNIQUE = r"^simulator: a node /simulator is already running: end it first\n$"
 MAP = r'^simulator: another node already serves /static_map: end the other simulator or map_server, or give '
@@ -19,7 +19,7 @@ class SimulatorBadStartTest(unittest.TestCase):
 
     def assert_refused(self, message, *arguments):
         """Start a node that must print one line, which matches a pattern, and end."""
-        done = subprocess.run(['rosrun', 'rumba_sim', 'simulator', *arguments], stdout=subprocess.PIPE,
+        done = subprocess.run([executable('rumba_sim', 'simulator'), *arguments], stdout=subprocess.PIPE,
                               stderr=subprocess.PIPE, universal_newlines=True, timeout=TIMEOUT, check=False)
         self.assertEqual((done.returncode, done.stdout), (2, ''), done.stderr)
         self.assertRegex(done.stderr, message)
