@@ -31,6 +31,8 @@ class TurtlesimStartTest(unittest.TestCase):
                 ("parameter /turtlesim/png_name is '/tmp/a.png': must be letters, digits", '_png_name:=/tmp/a.png'),
                 ('parameter /turtlesim/speed is -1: must be 0 to 1e', '_speed:=-1'),
                 ("parameter /turtlesim/gui is 'perhaps': must be true, false or auto", '_gui:=perhaps'),
+                ('_speed:=.9999.* cannot be a parameter: int exceeds XML-RPC limits$', f'_speed:={40 * "9"}'),
+                (r'_png_name:=.\[. cannot be a parameter: ', '_png_name:=['),
                 ('gui is true, but there is no display', '_gui:=true'),
                 ('unknown parameter _spede: known are _background_r:=, ', '_spede:=2'),
                 ("unknown argument 'fast': known are ", 'fast'),

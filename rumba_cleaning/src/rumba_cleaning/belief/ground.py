@@ -8,7 +8,7 @@ import numpy as np
 from scipy import ndimage
 from skimage import graph
 
-from rumba_cleaning.belief.search import cheapest
+from rumba_cleaning.belief.search import cheapest, is_clear
 from rumba_sim.model.constants import clearance_needed
 from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.model.kernel import Array
@@ -143,8 +143,9 @@ class Ground:
             start, end: [m], map frame.
             margin: clearance that it needs on the whole line, beyond the touching distance [m]; SLACK at least.
         """
-        nodes = self._line(start, end)
-        return bool((self.clearance[nodes[:, 0], nodes[:, 1]] >= self.reach + max(margin, SLACK)).all())
+        (x, y), (to_x, to_y) = start.tolist(), end.tolist()
+        return bool(is_clear(self.clearance, self.plan.origin, self.plan.resolution, (x, y), (to_x, to_y),
+                             self.reach + max(margin, SLACK)))
 
     def is_marked(self, start: Array, end: Array) -> bool:
         """Whether an obstacle that the robot has met lies on the straight line from one point (2) to another [m]."""

@@ -55,6 +55,30 @@ def cheapest(costs: Array, first: Tuple[int, int], last: Tuple[int, int]) -> Arr
 
 
 @compiled
+def is_clear(clearance: Array, origin: Tuple[float, float], resolution: float, start: Tuple[float, float],
+             end: Tuple[float, float], least: float) -> bool:
+    """Whether every node along a straight line, from point to point [m], has a clearance.
+
+    Args:
+        clearance: float64 (rows, columns) [m], at the nodes.
+        origin: position of the first node [m].
+        resolution: from node to node [m].
+        start, end: of the line [m].
+        least: clearance [m].
+    """
+    steps = int(math.hypot(end[0] - start[0], end[1] - start[1]) / (0.5 * resolution)) + 1
+    step = 1.0 / steps
+    rows, columns = clearance.shape
+    for count in range(steps + 1):
+        share = 1.0 if count == steps else count * step
+        x, y = start[0] * (1.0 - share) + end[0] * share, start[1] * (1.0 - share) + end[1] * share
+        row, column = int(np.rint((y - origin[1]) / resolution)), int(np.rint((x - origin[0]) / resolution))
+        if clearance[min(max(row, 0), rows - 1), min(max(column, 0), columns - 1)] < least:
+            return False
+    return True
+
+
+@compiled
 def walked_back(before: Array, first: Tuple[int, int], last: Tuple[int, int]) -> Array:
     """The path to `last`, if `before` holds for each node the step that led to it."""
     count, row, column = 1, last[0], last[1]

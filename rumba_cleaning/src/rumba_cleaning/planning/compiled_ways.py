@@ -133,3 +133,19 @@ def kept(path: Array, off: float) -> Array:
             spans.append((first, middle))
             spans.append((middle, last))
     return keep
+
+
+@compiled
+def cornered_length(path: Array, corner: float) -> float:
+    """Length of a path (any, 2) [m], to which its corners add so much for each radian [m]."""
+    length, last = 0.0, math.nan
+    for index in range(1, len(path)):
+        x, y = path[index, 0] - path[index - 1, 0], path[index, 1] - path[index - 1, 1]
+        if x == 0.0 and y == 0.0:
+            continue
+        heading = math.atan2(y, x)
+        if not math.isnan(last):
+            length += corner * abs((heading - last + math.pi) % (2.0 * math.pi) - math.pi)
+        length += math.hypot(x, y)
+        last = heading
+    return length

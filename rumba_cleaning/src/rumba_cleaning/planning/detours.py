@@ -9,6 +9,7 @@ from rumba_cleaning.behaviours.follower import Route
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.belief.ground import Ground
 from rumba_cleaning.belief.swept import Swept
+from rumba_cleaning.planning.compiled_ways import cornered_length
 from rumba_cleaning.planning.crumbs import crumbs
 from rumba_cleaning.planning.paper import stride_counts, strides
 from rumba_cleaning.planning.stretches import Stretch
@@ -82,20 +83,12 @@ def _detours(context: Context, route: Route, found: List[Stretch]) -> Iterator[D
 def _detour(ground: Ground, route: Route, index: int, crumb: Stretch) -> Optional[Detour]:
     """The shortest detour past a crumb from a waypoint of a route, or None."""
     before, after = route.waypoints[max(index - 1, 0):index + 1], route.waypoints[index + 1:index + 3]
-    without = _length(np.concatenate([before, after]))
+    without = cornered_length(np.concatenate([before, after]), CORNER)
     best: Optional[Detour] = None
     for variant in crumb.variants:
         path = variant.path()
-        length = _length(np.concatenate([before, path, after])) - without
+        length = cornered_length(np.concatenate([before, path, after]), CORNER) - without
         if (best is None or length < best.length) and ground.is_straight(before[-1], path[0]) and (
                 ground.is_straight(path[-1], after[0])):
             best = Detour(index, path, length, crumb.area)
     return best
-
-
-def _length(path: Array) -> float:
-    """Length of a path (any, 2) [m], to which its corners add."""
-    legs = np.diff(path, axis=0)
-    legs = legs[np.hypot(*legs.T) > 0.0]
-    turns = np.diff(np.arctan2(legs[:, 1], legs[:, 0]))
-    return float(np.hypot(*legs.T).sum() + CORNER * np.abs((turns + np.pi) % (2.0 * np.pi) - np.pi).sum())

@@ -12,6 +12,7 @@ import numpy as np
 from scipy import ndimage
 
 from rumba_cleaning.belief.ground import Ground
+from rumba_cleaning.planning import compiled_lanes
 from rumba_cleaning.planning.turned_floor import TurnedFloor
 from rumba_sim.model.kernel import Array
 from rumba_sim.model.reachability import SLACK
@@ -99,7 +100,7 @@ class _Grid:
         self._window = window
         rows, columns = self._window
         nodes = floor.clearance[rows.start:rows.stop + 1, columns.start:columns.stop + 1]  # one more than cells
-        self._clearance = nodes if along_x else nodes.T
+        self._clearance = np.ascontiguousarray(nodes if along_x else nodes.T)
         self._along_x = along_x
         self._missed = self._view(missed)
         self._floor = floor
@@ -172,14 +173,9 @@ class _Grid:
 
     def _lowest(self, bottom: int, top: int, columns: Run) -> Optional[Tuple[int, Run]]:
         """The lowest row from bottom to top that has a long run within columns, and its longest run there."""
-        for row in bottom + np.flatnonzero(self._remaining[bottom:top, slice(*columns)].any(axis=1)):
-            inside = [run for run in _runs(self._remaining[row], JOIN) if run[0] < columns[1] and run[1] > columns[0]]
-            longest = max(inside, key=lambda run: run[1] - run[0])
-            if longest[1] - longest[0] >= self._least:
-                return int(row), longest
-            if columns == (0, self._remaining.shape[1]):
-                self._remaining[row] = False  # nothing but crumbs
-        return None
+        row, first, after = compiled_lanes.lowest(self._remaining, bottom, top, columns[0], columns[1], JOIN,
+                                                  self._least)
+        return None if row == compiled_lanes.NO_ROW else (row, (first, after))
 
     def _lane(self, row: int, run: Run, below: Optional[float]) -> Optional[_Lane]:
         """The lane that cleans a run of a row and as much as possible above it.
@@ -190,28 +186,14 @@ class _Grid:
         """
         beside = below is not None and row <= below + self._half + 0.6  # no whole row lies between the two lanes
         highest = below + 2.0 * self._half if below is not None and beside else row + self._half
-        for across in np.arange(highest, highest - 2.0 * self._half - 0.51, -0.5):  # down by half cells, a brush width
-            for first, after in _runs(self._fits_at(across), 0):
-                low, high = max(first, run[0]), min(after - 1, run[1])
-                if high - low < min(self._least, run[1] - run[0]):
-                    continue
-                band = self._remaining[self._band(across), first:after - 1]
-                if len(band):
-                    for start, end in _runs(band.mean(axis=0) > NEEDED, self._gap):
-                        if start + first < high and end + first > low:
-                            return _Lane(start + first, end + first, float(across))
-        return None
-
-    def _fits_at(self, across: float) -> Array:
-        """At which columns of a row, with fractions, the robot can stand: bool (columns + 1)."""
-        row = min(max(int(across), 0), len(self._clearance) - 2)
-        share = across - row
-        clearance = self._clearance[row] * (1.0 - share) + self._clearance[row + 1] * share
-        return np.asarray(clearance >= self._needed_clearance)
+        first, last, across = compiled_lanes.lane(
+            self._remaining, self._clearance, self._needed_clearance, run, highest, self._half, self._least, self._gap,
+            NEEDED)
+        return _Lane(first, last, across) if last > first else None
 
     def _band(self, across: float) -> slice:
         """The rows whose centres the brush passes over."""
-        return slice(max(math.floor(across - self._half + 0.5), 0), max(math.floor(across + self._half + 0.5), 0))
+        return slice(*compiled_lanes.band(across, self._half))
 
     def _metres(self, lane: _Lane) -> Array:
         """Both ends of a lane: float64 (2, 2) [m], map frame."""
@@ -227,15 +209,3 @@ def _window(missed: Array, margin: int) -> Window:
     rows, columns = (slice(max(part.start - margin, 0), part.stop + margin)
                      for part in ndimage.find_objects(missed.astype(np.int8))[0])
     return rows, columns
-
-
-def _runs(flags: Array, gap: int) -> List[Run]:
-    """Runs of True in bool (any); two runs with at most `gap` elements between them are joined."""
-    steps = np.diff(np.concatenate([[0], flags.astype(np.int8), [0]]))
-    joined: List[Run] = []
-    for first, after in zip(np.flatnonzero(steps == 1).tolist(), np.flatnonzero(steps == -1).tolist()):
-        if joined and first - joined[-1][1] <= gap:
-            joined[-1] = (joined[-1][0], after)
-        else:
-            joined.append((first, after))
-    return joined

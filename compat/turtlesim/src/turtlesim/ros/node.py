@@ -13,10 +13,13 @@ import signal
 import sys
 import threading
 import time
+import xmlrpc.client
 from typing import Any, Callable, Dict, List, NamedTuple
+from xml.parsers.expat import ExpatError
 
 import rosgraph
 import rospy
+import yaml
 
 from turtlesim.model.errors import TurtlesimError
 
@@ -146,15 +149,25 @@ def _check_command_line(arguments: List[str], parameters: Parameters) -> None:
     for name in rospy.names.load_mappings(sys.argv):
         if name in parameters:
             raise TurtlesimError(f'{name}:= remaps a topic: for the parameter write _{name}:=')
-    for name in _assigned():
+    for name, text in _assigned().items():
         if name not in parameters:
             raise TurtlesimError(f'unknown parameter _{name}: {known}')
+        _check_value(name, text)
 
 
-def _assigned() -> List[str]:
-    """Return the names of the private parameters on the command line."""
-    found = (re.match(r'_([^_].*?):=', argument) for argument in sys.argv)
-    return [assignment.group(1) for assignment in found if assignment]
+def _check_value(name: str, text: str) -> None:
+    """Check that the parameter server can take a value, which rospy reads as YAML."""
+    try:
+        xmlrpc.client.loads(xmlrpc.client.dumps((yaml.safe_load(text),)))
+    except (yaml.YAMLError, ValueError, TypeError, OverflowError, RecursionError, ExpatError) as error:
+        reason = ' '.join(str(error).split())
+        raise TurtlesimError(f'_{name}:={reprlib.repr(text)} cannot be a parameter: {reason}') from None
+
+
+def _assigned() -> Dict[str, str]:
+    """Return the private parameters on the command line, by name."""
+    found = (re.match(r'_([^_].*?):=(.*)', argument, re.DOTALL) for argument in sys.argv)
+    return {assignment.group(1): assignment.group(2) for assignment in found if assignment}
 
 
 def _take_parameters_back() -> None:

@@ -1,0 +1,119 @@
+"""The search for the next lane of a block, compiled by numba.
+
+Arguments that many functions share:
+    remaining: bool (rows, columns), the cells that are still to clean, rows along the lanes.
+    clearance: float64 (rows + 1, columns + 1) [m], at the nodes.
+"""
+
+import math
+from typing import Any, Tuple
+
+import numpy as np
+
+from rumba_cleaning.belief.compiled import compiled
+
+Array = Any  # numpy.ndarray
+NO_ROW = -1
+
+
+@compiled
+def runs(flags: Array, gap: int) -> Array:
+    """Runs of True in bool (any); two runs with at most `gap` elements between them are joined.
+
+    Returns:
+        int (runs, 2): the first element of each, and the one after its last.
+    """
+    found = np.empty((len(flags) // 2 + 1, 2), np.int64)
+    count, first = 0, -1
+    for index in range(len(flags) + 1):
+        if index < len(flags) and flags[index]:
+            if first < 0:
+                first = index
+        elif first >= 0:
+            if count > 0 and first - found[count - 1, 1] <= gap:
+                found[count - 1, 1] = index
+            else:
+                found[count, 0], found[count, 1] = first, index
+                count += 1
+            first = -1
+    return found[:count]
+
+
+@compiled
+def lowest(remaining: Array, bottom: int, top: int, left: int, right: int, join: int,
+           least: int) -> Tuple[int, int, int]:
+    """The lowest row from bottom to top with a long run that reaches into the columns from left to right.
+
+    Rows that hold nothing but short runs remain no longer, if the columns are all that there are.
+
+    Args:
+        remaining: see above.
+        bottom, top: rows.
+        left, right: columns.
+        join: see `gap` of `runs`.
+        least: length of a long run [cells].
+
+    Returns:
+        the row, or NO_ROW; its longest run there: the first column, and the one after the last.
+    """
+    for row in range(bottom, top):
+        if not remaining[row, left:right].any():
+            continue
+        first, after = 0, 0
+        for run in runs(remaining[row], join):
+            if run[0] < right and run[1] > left and run[1] - run[0] > after - first:
+                first, after = run[0], run[1]
+        if after - first >= least:
+            return row, first, after
+        if left == 0 and right == remaining.shape[1]:
+            remaining[row] = False
+    return NO_ROW, 0, 0
+
+
+@compiled
+def fitting(clearance: Array, across: float, needed: float) -> Array:
+    """At which columns of a row, with fractions, the robot can stand: bool (columns + 1)."""
+    row = min(max(int(across), 0), len(clearance) - 2)
+    share = across - row
+    return clearance[row] * (1.0 - share) + clearance[row + 1] * share >= needed
+
+
+@compiled
+def band(across: float, half: float) -> Tuple[int, int]:
+    """The rows whose centres a brush of half a width [cells] passes over: the first, and the one after the last."""
+    return max(int(math.floor(across - half + 0.5)), 0), max(int(math.floor(across + half + 0.5)), 0)
+
+
+@compiled
+def lane(remaining: Array, clearance: Array, needed: float, run: Tuple[int, int], highest: float, half: float,
+         least: int, gap: int, missed: float) -> Tuple[int, int, float]:
+    """The highest lane that cleans a part of a run.
+
+    Args:
+        remaining, clearance: see above.
+        needed: clearance of a robot [m].
+        run: columns that it has to clean: the first, and the one after the last.
+        highest: row, with fractions, of the highest lane that cleans the row of the run.
+        half: width that a lane cleans to each side [cells].
+        least: length of a lane, but for a shorter run [cells].
+        gap: of clean floor within a lane [cells].
+        missed: share of the width that is to clean, for a lane to be needed.
+
+    Returns:
+        its first column and the one after its last, which are the same if there is no lane; its row, with fractions.
+    """
+    step = (highest - 0.5) - highest  # down by half cells, a brush width
+    for count in range(math.ceil((2.0 * half + 0.51) / 0.5)):
+        across = highest + count * step
+        for fit in runs(fitting(clearance, across, needed), 0):
+            low, high = max(fit[0], run[0]), min(fit[1] - 1, run[1])
+            if high - low < min(least, run[1] - run[0]):
+                continue
+            bottom, top = band(across, half)
+            rows = remaining[bottom:top, fit[0]:fit[1] - 1]
+            if len(rows) == 0:
+                continue
+            for part in runs(rows.sum(axis=0) / len(rows) > missed, gap):
+                if part[0] + fit[0] < high and part[1] + fit[0] > low:
+                    return part[0] + fit[0], part[1] + fit[0], across
+    return 0, 0, 0.0
