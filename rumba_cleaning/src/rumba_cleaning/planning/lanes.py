@@ -9,7 +9,6 @@ import math
 from typing import List, NamedTuple, Optional, Tuple
 
 import numpy as np
-from scipy import ndimage
 
 from rumba_cleaning.belief.ground import Ground
 from rumba_cleaning.planning import compiled_lanes
@@ -60,9 +59,9 @@ def blocks(ground: Ground, missed: Array, brush: float, speed: float, angle: flo
     """
     found: List[Block] = []
     floor = TurnedFloor(ground, missed, angle)
-    remaining = floor.missed.copy()
     rate = brush * speed
-    whole = _window(remaining, math.ceil(brush / floor.resolution))
+    whole = _window(floor.missed, math.ceil(brush / floor.resolution))
+    remaining = floor.missed[whole].copy()
     while remaining.any():  # in each round the best block, and each other that has no better one near it
         grids = [_Grid(floor, remaining, whole, ground.reach + SLACK, brush, along_x) for along_x in (True, False)]
         choices = [(block.area - USUAL * rate * block.time, block, grid, lanes)
@@ -91,8 +90,8 @@ class _Grid:
 
         Args:
             floor: with the clearance at its nodes.
-            missed: the cells to clean, bool (rows, columns) of the floor.
-            window: rows and columns of the floor that hold them.
+            missed: the cells to clean, bool (rows, columns) of this part.
+            window: its rows and columns on the floor.
             clearance: that the robot needs at its centre [m].
             brush: width of the brush [m].
             along_x: whether the lanes run along x of the floor, or along y.
@@ -112,22 +111,20 @@ class _Grid:
         self._remaining = self._missed
 
     def _view(self, missed: Array) -> Array:
-        """The part of bool (rows, columns) of the floor that this grid holds, as a view."""
-        return missed[self._window] if self._along_x else missed[self._window].T
+        """Bool (rows, columns) of this part of the floor, as a view with rows along the lanes."""
+        return missed if self._along_x else missed.T
 
     def window(self, lanes: List[_Lane]) -> Tuple[slice, slice]:
-        """Rows and columns of the floor around lanes, with the margin in which these lanes change other blocks."""
+        """Rows and columns of this part around lanes, with the margin in which these lanes change other blocks."""
         margin = math.ceil(self._half)
         across = [lane.across for lane in lanes]
         rows = slice(int(min(across)) - 2 * margin, int(max(across)) + 2 * margin + 1)
         columns = slice(min(lane.first for lane in lanes) - margin, max(lane.last for lane in lanes) + margin)
         rows, columns = (rows, columns) if self._along_x else (columns, rows)
-        top, left = self._window[0].start, self._window[1].start
-        return (slice(max(rows.start + top, 0), rows.stop + top),
-                slice(max(columns.start + left, 0), columns.stop + left))
+        return slice(max(rows.start, 0), rows.stop), slice(max(columns.start, 0), columns.stop)
 
     def take(self, lanes: List[_Lane], missed: Array) -> None:
-        """Set to False what lanes clean, in bool (rows, columns) of the floor."""
+        """Set to False what lanes clean, in bool (rows, columns) of this part of the floor."""
         view = self._view(missed)
         for lane in lanes:
             view[self._band(lane.across), lane.first:lane.last] = False
@@ -136,11 +133,13 @@ class _Grid:
         """All blocks, from the lowest row upward, as if no lanes ran in the other direction."""
         self._remaining = self._missed.copy()
         found: List[Tuple[Block, List[_Lane]]] = []
+        bottom = 0  # nothing remains below
         while True:
-            lowest = self._lowest(0, len(self._remaining), (0, self._remaining.shape[1]))
+            lowest = self._lowest(bottom, len(self._remaining), (0, self._remaining.shape[1]))
             if lowest is None:
                 return found
-            lanes, count = self._grow(*lowest)
+            bottom, run = lowest
+            lanes, count = self._grow(bottom, run)
             if lanes:
                 area = count * self._resolution ** 2
                 time = BLOCK + sum((lane.last - lane.first) * self._resolution / speed + TURN for lane in lanes)
@@ -204,8 +203,8 @@ class _Grid:
 
 def _window(missed: Array, margin: int) -> Window:
     """The part of bool (rows, columns) that is not False, and a margin [cells] around it."""
-    if not missed.any():
+    rows, columns = np.flatnonzero(missed.any(axis=1)), np.flatnonzero(missed.any(axis=0))
+    if len(rows) == 0:
         return slice(0, 0), slice(0, 0)
-    rows, columns = (slice(max(part.start - margin, 0), part.stop + margin)
-                     for part in ndimage.find_objects(missed.astype(np.int8))[0])
-    return rows, columns
+    top, left = max(int(rows[0]) - margin, 0), max(int(columns[0]) - margin, 0)
+    return slice(top, int(rows[-1]) + 1 + margin), slice(left, int(columns[-1]) + 1 + margin)

@@ -14,6 +14,8 @@ from rumba_sim.model.kernel import Array
 BENDS = (0.05, 0.4)  # [m] between two lanes, if a half circle joins them: lanes are as far apart as the brush is wide
 OFFSET = 0.35  # [m] by which the ends of the two lanes may differ along the lanes: twice the width of the brush
 CORNERS = 9  # points of a half circle, both ends included: 22.5 degrees apart, within 2 % of its radius
+ANGLES = np.linspace(0.0, math.pi, CORNERS)[:, np.newaxis]
+COS, SIN = np.cos(ANGLES), np.sin(ANGLES)
 NO_POINTS = np.zeros((0, 2))
 
 
@@ -58,6 +60,5 @@ def _half_circle(lane: Array, following: Array) -> Array:
     if not (BENDS[0] < np.hypot(*across) < BENDS[1] and abs(along) < OFFSET):
         return NO_POINTS
     start = lane[-1] + max(along, 0.0) * ahead
-    angles = np.linspace(0.0, math.pi, CORNERS)[:, np.newaxis]
     half = 0.5 * across
-    return np.asarray(start + half - np.cos(angles) * half + np.sin(angles) * np.hypot(*half) * ahead)
+    return np.asarray(start + half - COS * half + SIN * np.hypot(*half) * ahead)
