@@ -32,7 +32,7 @@ class TurtlesimStartTest(unittest.TestCase):
                 ('parameter /turtlesim/speed is -1: must be 0 to 1e', '_speed:=-1'),
                 ("parameter /turtlesim/gui is 'perhaps': must be true, false or auto", '_gui:=perhaps'),
                 ('_speed:=.9999.* cannot be a parameter: int exceeds XML-RPC limits$', f'_speed:={40 * "9"}'),
-                (r'_png_name:=.\[. cannot be a parameter: ', '_png_name:=['),
+                (r'_png_name:=.\[. cannot be a parameter: ', '_png_name:=[', '_png_name:=a.png'),
                 ('gui is true, but there is no display', '_gui:=true'),
                 ('unknown parameter _spede: known are _background_r:=, ', '_spede:=2'),
                 ("unknown argument 'fast': known are ", 'fast'),

@@ -14,7 +14,7 @@ import sys
 import threading
 import time
 import xmlrpc.client
-from typing import Any, Callable, Dict, List, NamedTuple
+from typing import Any, Callable, Dict, List, NamedTuple, Tuple
 from xml.parsers.expat import ExpatError
 
 import rosgraph
@@ -149,7 +149,7 @@ def _check_command_line(arguments: List[str], parameters: Parameters) -> None:
     for name in rospy.names.load_mappings(sys.argv):
         if name in parameters:
             raise TurtlesimError(f'{name}:= remaps a topic: for the parameter write _{name}:=')
-    for name, text in _assigned().items():
+    for name, text in _assigned():
         if name not in parameters:
             raise TurtlesimError(f'unknown parameter _{name}: {known}')
         _check_value(name, text)
@@ -164,14 +164,14 @@ def _check_value(name: str, text: str) -> None:
         raise TurtlesimError(f'_{name}:={reprlib.repr(text)} cannot be a parameter: {reason}') from None
 
 
-def _assigned() -> Dict[str, str]:
-    """Return the private parameters on the command line, by name."""
+def _assigned() -> List[Tuple[str, str]]:
+    """Return the names and the values of the private parameters on the command line."""
     found = (re.match(r'_([^_].*?):=(.*)', argument, re.DOTALL) for argument in sys.argv)
-    return {assignment.group(1): assignment.group(2) for assignment in found if assignment}
+    return [(assignment.group(1), assignment.group(2)) for assignment in found if assignment]
 
 
 def _take_parameters_back() -> None:
     """Delete the parameters of a refused command line: on the parameter server they would outlive this node."""
-    for name in _assigned():
+    for name, _ in _assigned():
         if rospy.has_param(f'~{name}'):
             rospy.delete_param(f'~{name}')
