@@ -25,6 +25,11 @@ def go_to(x, y, theta=float('nan'), time_limit=0.0):
     return GoToGoal(Pose2D(x, y, theta), time_limit)
 
 
+def drives(twist):
+    """Whether a command moves a robot."""
+    return bool(twist.linear.x or twist.angular.z)
+
+
 class Cleaner:
     """A cleaner for one test, and, once it is connected, the clients of its actions."""
 
@@ -59,11 +64,13 @@ class Cleaner:
 
     def refuses(self, pattern, action, goal, code=Outcome.REFUSED):
         """Send a goal that must end with an outcome for a reason, without any command to the wheels."""
+        if self.commands.messages:  # those of the goal before may still be on their way
+            self.commands.last(lambda twist: not drives(twist))
         self.commands.messages.clear()
         message = self.send(action, goal).ends(code).outcome.message
         self._test.assertRegex(message, pattern)
         self._test.assertNotIn('\n', message)
-        self._test.assertFalse([twist for twist in self.commands.messages if twist.linear.x or twist.angular.z])
+        self._test.assertFalse(list(filter(drives, self.commands.messages)))
 
     def settles(self):
         """Wait until it says that it is idle or stranded, which may come after the result; returns that status."""

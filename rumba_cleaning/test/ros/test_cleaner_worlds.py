@@ -108,7 +108,8 @@ class CleanerWorldsTest(unittest.TestCase):
         wait(self, lambda: publisher.get_num_connections() >= 2, 'the cleaner to listen')
         self.simulator.does('pause')
         state.run = 'another'
-        publisher.publish(state)
+        # Again and again, since the simulator tells its own state once a second.
+        wait(self, lambda: publisher.publish(state) or goal.has_ended, 'the end of the goal')
         self.assertEqual(goal.ends(Outcome.NO_READINGS).outcome.message,
                          'the robot is gone: the simulator was started again')
         self.cleaner.refuses('^nothing to resume: ', 'clean', CleanGoal(resume=True))

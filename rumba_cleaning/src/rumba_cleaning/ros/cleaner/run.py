@@ -6,7 +6,7 @@ from typing import Any, Callable, List, Optional
 
 import rospy
 
-from rumba_cleaning.behaviour import Observation, Status
+from rumba_cleaning.behaviour import FALLEN, Observation, Status
 from rumba_cleaning.mission.mission import State
 from rumba_cleaning.outcome import Outcome
 from rumba_cleaning.ros.cleaner import conversions
@@ -86,7 +86,7 @@ class Run:
         """Have the behaviour decide, and do what it says; nothing while a person drives, and once it has ended."""
         behaviour = self.activity.behaviour
         if self._senses.has_fallen:
-            behaviour.fail('a wheel hangs over a cliff: the robot must be put elsewhere', Outcome.FALLEN)
+            behaviour.fail(FALLEN, Outcome.FALLEN)
         elif self._robot.teleop.is_driving:
             behaviour.stand_by(observation)
             self._robot.brushes.forget()  # the person may move them
