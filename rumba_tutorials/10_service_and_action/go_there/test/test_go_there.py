@@ -10,6 +10,7 @@ import unittest
 import rospy
 import rostest
 from nav_msgs.msg import Odometry
+from std_srvs.srv import Trigger
 
 from rumba_msg.msg import MissionStatus
 
@@ -84,10 +85,12 @@ class GoThereTest(unittest.TestCase):
         self.run_script('by_action', '2.5', '2.0', '0.0')
         process = self.start('by_action', '0.8', '2.5', '0.0')
         process.stdout.readline()  # the robot drives
+        rospy.ServiceProxy('simulator/pause', Trigger)()  # else it may be there before a busy machine cancels
         process.send_signal(signal.SIGINT)
         process.communicate(timeout=TIMEOUT)
         self.wait_for(lambda: rospy.wait_for_message('rumba/mission_status', MissionStatus, TIMEOUT),
                       lambda status: (status.state, status.message) == (MissionStatus.IDLE, 'cancelled'))
+        rospy.ServiceProxy('simulator/resume', Trigger)()
         self.assertGreater(math.dist(self.at_rest()[:2], (0.8, 2.5)), 0.1)
 
 
