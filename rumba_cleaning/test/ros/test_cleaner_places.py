@@ -77,7 +77,7 @@ class CleanerPlacesTest(unittest.TestCase):
                     for robot in ('rumba', 'rumba2')}
         path = folder_of(self, ROOMS) / 'rooms.yaml'
         process = subprocess.Popen(['rosrun', 'rumba_sim', 'simulator', '__ns:=/upstairs', f'_map:={path}',
-                                    '_robots:=2', '_speed:=0'])
+                                    '_robots:=2', '_speed:=10'])
         self.addCleanup(process.wait)
         self.addCleanup(process.terminate)
         wait(self, lambda: lookup('/upstairs/simulator/spawn'), 'the simulator')
@@ -98,7 +98,7 @@ class CleanerPlacesTest(unittest.TestCase):
     def test_the_simulator_may_have_any_name_and_relative_paths_of_any_folder(self):
         folder = folder_of(self, {**ROOMS, 'slow.yaml': b'drive: {max_speed: 0.1}\n'})
         cleaner = Cleaner(self)
-        Simulator(self, '__name:=sim2', '_map:=./rooms.yaml', '_config:=./slow.yaml', '_speed:=0', node='/sim2',
+        Simulator(self, '__name:=sim2', '_map:=./rooms.yaml', '_config:=./slow.yaml', '_speed:=10', node='/sim2',
                   folder=folder)
         cleaner.connect()
         truth = Heard(self, '/rumba/ground_truth')
@@ -110,7 +110,7 @@ class CleanerPlacesTest(unittest.TestCase):
 
     def test_a_robot_that_a_person_drives_over_a_cliff_gives_up_and_goes_on_once_it_is_put_elsewhere(self):
         cleaner = Cleaner(self)
-        simulator = Simulator(self, f'_map:={folder_of(self, CLIFF)}/cliff.yaml', '_speed:=0')
+        simulator = Simulator(self, f'_map:={folder_of(self, CLIFF)}/cliff.yaml', '_speed:=10')
         cleaner.connect()
         person = Person(self)
         goal = cleaner.send('clean', CleanGoal())
@@ -131,7 +131,7 @@ class CleanerPlacesTest(unittest.TestCase):
         os.environ['PYTHONPATH'] = f'{folder_of(self, {"my_strategies.py": BREAKS.encode()})}:{path}'
         self.addCleanup(os.environ.update, PYTHONPATH=path)
         cleaner = Cleaner(self, '_strategies:=my_strategies', '_strategy:=breaks')
-        Simulator(self, '_map:=studio', '_speed:=0', '_localisation:=false')
+        Simulator(self, '_map:=studio', '_speed:=10', '_localisation:=false')
         cleaner.connect()
         cleaner.refuses('^no pose: tf has no map -> odom -> base_footprint$', 'go_to', go_to(1.5, 2.5),
                         Outcome.NO_READINGS)

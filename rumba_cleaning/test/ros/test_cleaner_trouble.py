@@ -42,7 +42,7 @@ class CleanerTroubleTest(unittest.TestCase):
     def setUpClass(cls):
         fixture = shared(cls)
         cls.cleaner = Cleaner(fixture)
-        cls.simulator = Simulator(fixture, '_map:=studio', '_speed:=0')
+        cls.simulator = Simulator(fixture, '_map:=studio', '_speed:=10')
         cls.cleaner.connect()
 
     def test_1_a_robot_that_is_gone_is_given_up_and_one_that_comes_back_is_served(self):

@@ -42,7 +42,7 @@ class CleanerWorldsTest(unittest.TestCase):
     @classmethod
     def start(cls):
         """Start a simulator."""
-        cls.simulator = Simulator(cls.fixture, f'_map:={cls.folder}/floor.yaml', '_speed:=0')
+        cls.simulator = Simulator(cls.fixture, f'_map:={cls.folder}/floor.yaml', '_speed:=10')
 
     def start_again(self):
         """Kill the simulator and start another one; returns once the cleaner serves its robot."""
