@@ -43,7 +43,8 @@ class Ground:
             **{name: value for name, value in os.environ.items() if name not in FORGOTTEN},
             'ROS_MASTER_URI': self.uri, 'ROS_HOSTNAME': wire.HOST, 'HOME': str(folder / 'home'),
             'ROS_LOG_DIR': str(folder / 'log'), 'QT_QPA_PLATFORM': 'offscreen', 'XDG_RUNTIME_DIR': str(folder / 'home')}
-        self.master = self._member(Role('/master', 'rosmaster', 'rosmaster', arguments=('--core', '-p', str(port))))
+        self.master = self._member(Role('/master', 'rosmaster', 'rosmaster', arguments=('--core', '-p', str(port)),
+                                        keeps=32))
         self.members = {role.name: self._member(role) for role in scenario.roles}
 
     def _member(self, role):

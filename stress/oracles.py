@@ -18,8 +18,6 @@ ENDS_WITHIN = 2.0  # [s] after it does not answer any more
 COMES_BACK_WITHIN = 25.0  # [s] until what a blow opened is closed again
 # Python closes some files of ROS, epolls of topics, only when its garbage collector runs.
 MORE = Usage(fds=90, sockets=8, threads=8, megabytes=120.0)
-# rosmaster keeps its connections to nodes that were killed, until it wants to tell them something.
-MORE_OF_MASTER = MORE._replace(sockets=40)
 
 
 def check(ground, inputs):
@@ -86,7 +84,7 @@ def comes_back(member):
     if member.baseline is None:
         return
     end = time.monotonic() + COMES_BACK_WITHIN
-    allowed = MORE_OF_MASTER if member.name == '/master' else MORE
+    allowed = MORE._replace(sockets=MORE.sockets + member.role.keeps)
     most = [before + more for before, more in zip(member.baseline, allowed)]
     try:
         while any(now > bound for now, bound in zip(member.usage(), most)):

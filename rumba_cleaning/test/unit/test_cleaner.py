@@ -409,10 +409,10 @@ def test_without_lockstep_a_plan_is_there_as_soon_as_it_is_made():
 
 
 def test_an_error_of_a_plan_goes_to_the_behaviour():
-    planners = executor.Planners(executor.DaemonExecutor(1), lambda: True, lambda: None)
+    done = threading.Event()
+    planners = executor.Planners(executor.DaemonExecutor(1), lambda: True, done.set)
     future = planners.submit(lambda: 1 // 0)
-    while planners.are_at_work:
-        time.sleep(0.001)
+    assert done.wait(30.0)
     planners.deliver()
     with pytest.raises(ZeroDivisionError):
         future.result(0)

@@ -12,6 +12,7 @@ import numpy as np
 
 from rumba_cleaning.behaviour import Command, Observation
 from rumba_cleaning.belief.context import Context
+from rumba_cleaning.belief.limits import limited
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.kernel import Array
 
@@ -195,4 +196,4 @@ def _curvature(speeds: Wheels, half: float) -> float:
 def _ramp(speed: float, goal: float, acceleration: float, steps: int = HOLD_STEPS) -> Array:
     """Speeds of a wheel in each of the next steps, while it accelerates toward a goal: float64 (steps) [m/s]."""
     change = acceleration * STEP * np.arange(1, steps + 1)
-    return np.minimum(np.maximum(goal, speed - change), speed + change)  # np.clip takes longer
+    return limited(goal, speed - change, speed + change)

@@ -6,6 +6,7 @@ from typing import List, Optional, Sequence, Tuple
 import numpy as np
 from scipy import ndimage
 
+from rumba_cleaning.belief.limits import limited
 from rumba_sim.model.compiled import fast
 from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.model.geometry import Pose, wrap_angle
@@ -88,7 +89,7 @@ class Footing:
     def _cells(self, points: Array) -> Array:
         """Rows and columns of the cells that hold points (any, 2) [m], or of cells at the edge: int (2, any)."""
         cells = ((points - self._plan.origin) / CELL).astype(np.intp)[:, ::-1]
-        return np.minimum(np.maximum(cells, 0), np.array(self._floor.shape) - 1).T  # np.clip takes longer
+        return limited(cells, 0, np.array(self._floor.shape) - 1).T
 
     def _see(self, x: float, y: float) -> None:
         """Remember a cliff, unless it is a known one."""
@@ -124,8 +125,8 @@ class Footing:
         rows, columns = self._cells(points)
         beside = np.arange(-cells, cells + 1)
         height, width = self._floor.shape
-        near = self._floor[np.minimum(np.maximum(rows + beside[:, np.newaxis, np.newaxis], 0), height - 1),
-                           np.minimum(np.maximum(columns + beside[:, np.newaxis], 0), width - 1)]
+        near = self._floor[limited(rows + beside[:, np.newaxis, np.newaxis], 0, height - 1),
+                           limited(columns + beside[:, np.newaxis], 0, width - 1)]
         return np.asarray(near.any(axis=(0, 1)))
 
 

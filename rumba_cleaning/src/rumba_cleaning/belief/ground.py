@@ -8,6 +8,7 @@ import numpy as np
 from scipy import ndimage
 from skimage import graph
 
+from rumba_cleaning.belief.limits import limited
 from rumba_cleaning.belief.search import cheapest, is_clear
 from rumba_sim.model.constants import clearance_needed
 from rumba_sim.model.floor_plan import FloorPlan
@@ -87,7 +88,7 @@ class Ground:
     def _update(self) -> None:
         """Derive from `clearance` what depends on it."""
         self.fits = self.clearance >= self.reach + SLACK
-        self._marked = ~self.fits & (self.clearance < self.plan.safe_clearance)
+        self._unmarked = self.fits | (self.clearance >= self.plan.safe_clearance)
         self._nearest: Optional[Array] = None
         self._connected: Optional[Array] = None
 
@@ -103,7 +104,7 @@ class Ground:
     def nodes(self, points: Array) -> Array:
         """The node nearest to each point (any, 2) [m]: int (any, 2); beyond the grid, a node of its edge."""
         nodes = np.rint((np.asarray(points) - self.plan.origin) / self.plan.resolution).astype(np.intp)[:, ::-1]
-        return np.minimum(np.maximum(nodes, 0), np.array(self.clearance.shape) - 1)  # np.clip takes longer
+        return limited(nodes, 0, np.array(self.clearance.shape) - 1)
 
     def points(self, nodes: Array) -> Array:
         """The points at which nodes (any, 2) lie, which may have fractions: float64 (any, 2) [m]."""
@@ -143,20 +144,16 @@ class Ground:
             start, end: [m], map frame.
             margin: clearance that it needs on the whole line, beyond the touching distance [m]; SLACK at least.
         """
-        (x, y), (to_x, to_y) = start.tolist(), end.tolist()
-        return bool(is_clear(self.clearance, self.plan.origin, self.plan.resolution, (x, y), (to_x, to_y),
-                             self.reach + max(margin, SLACK)))
+        return self._are_at_least(self.clearance, start, end, self.reach + max(margin, SLACK))
 
     def is_marked(self, start: Array, end: Array) -> bool:
         """Whether an obstacle that the robot has met lies on the straight line from one point (2) to another [m]."""
-        nodes = self._line(start, end)
-        return bool(self._marked[nodes[:, 0], nodes[:, 1]].any())
+        return not self._are_at_least(self._unmarked, start, end, 1)
 
-    def _line(self, start: Array, end: Array) -> Array:
-        """The nodes along the straight line from one point (2) to another [m]: int (2 or more, 2)."""
-        count = int(np.hypot(*(end - start)) / (0.5 * self.plan.resolution)) + 2
-        share = np.linspace(0.0, 1.0, count)[:, np.newaxis]
-        return self.nodes(start * (1.0 - share) + end * share)
+    def _are_at_least(self, values: Array, start: Array, end: Array, least: float) -> bool:
+        """Whether the values of all nodes along a straight line are at least so large."""
+        (x, y), (to_x, to_y) = start.tolist(), end.tolist()
+        return bool(is_clear(values, self.plan.origin, self.plan.resolution, (x, y), (to_x, to_y), least))
 
     def path(self, start: Array, end: Array) -> Optional[Array]:
         """A short path from one point (2) to another [m]; None if there is none.

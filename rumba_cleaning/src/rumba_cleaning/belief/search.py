@@ -55,25 +55,25 @@ def cheapest(costs: Array, first: Tuple[int, int], last: Tuple[int, int]) -> Arr
 
 
 @compiled
-def is_clear(clearance: Array, origin: Tuple[float, float], resolution: float, start: Tuple[float, float],
+def is_clear(values: Array, origin: Tuple[float, float], resolution: float, start: Tuple[float, float],
              end: Tuple[float, float], least: float) -> bool:
-    """Whether every node along a straight line, from point to point [m], has a clearance.
+    """Whether no node along a straight line, from point to point [m], has too small a value.
 
     Args:
-        clearance: float64 (rows, columns) [m], at the nodes.
+        values: of the nodes (rows, columns): of a clearance, or whether they are free.
         origin: position of the first node [m].
         resolution: from node to node [m].
         start, end: of the line [m].
-        least: clearance [m].
+        least: the smallest value that is not too small.
     """
     steps = int(math.hypot(end[0] - start[0], end[1] - start[1]) / (0.5 * resolution)) + 1
     step = 1.0 / steps
-    rows, columns = clearance.shape
+    rows, columns = values.shape
     for count in range(steps + 1):
         share = 1.0 if count == steps else count * step
         x, y = start[0] * (1.0 - share) + end[0] * share, start[1] * (1.0 - share) + end[1] * share
         row, column = int(np.rint((y - origin[1]) / resolution)), int(np.rint((x - origin[0]) / resolution))
-        if clearance[min(max(row, 0), rows - 1), min(max(column, 0), columns - 1)] < least:
+        if values[min(max(row, 0), rows - 1), min(max(column, 0), columns - 1)] < least:
             return False
     return True
 

@@ -111,9 +111,26 @@ def lane(remaining: Array, clearance: Array, needed: float, run: Tuple[int, int]
                 continue
             bottom, top = band(across, half)
             rows = remaining[bottom:top, fit[0]:fit[1] - 1]
-            if len(rows) == 0:
-                continue
-            for part in runs(rows.sum(axis=0) / len(rows) > missed, gap):
-                if part[0] + fit[0] < high and part[1] + fit[0] > low:
-                    return part[0] + fit[0], part[1] + fit[0], across
+            first, after = needed_part(rows, low - fit[0], high - fit[0], gap, missed)
+            if after > first:
+                return first + fit[0], after + fit[0], across
     return 0, 0, 0.0
+
+
+@compiled
+def needed_part(rows: Array, low: int, high: int, gap: int, missed: float) -> Tuple[int, int]:
+    """The first columns that need a lane and reach between two columns, of the rows that the lane would clean.
+
+    Args:
+        rows: bool (any, columns), what is still to clean.
+        low, high: columns.
+        gap, missed: see `lane`.
+
+    Returns:
+        the first column, and the one after the last; both 0 if there are none.
+    """
+    if len(rows) > 0:
+        for part in runs(rows.sum(axis=0) / len(rows) > missed, gap):
+            if part[0] < high and part[1] > low:
+                return part[0], part[1]
+    return 0, 0

@@ -85,6 +85,7 @@ class GoThereTest(unittest.TestCase):
         self.run_script('by_action', '2.5', '2.0', '0.0')
         process = self.start('by_action', '0.8', '2.5', '0.0')
         process.stdout.readline()  # the robot drives
+        self.addCleanup(rospy.ServiceProxy('simulator/resume', Trigger))
         rospy.ServiceProxy('simulator/pause', Trigger)()  # else it may be there before a busy machine cancels
         process.send_signal(signal.SIGINT)
         process.communicate(timeout=TIMEOUT)

@@ -148,8 +148,8 @@ class Senses:
 
         Args:
             since: stamp until which messages do not count; those without a stamp count.
-            is_new_run: whether the simulator was started again, so that its time may begin anew: then whatever came
-                until now is forgotten. If not, what came after `since` is already of the new world, and counts.
+            is_new_run: True if the simulator was started again: its time may begin anew, so everything that has come
+                is forgotten. False if it was reset: its time goes on, and what came after `since` counts.
         """
         with self._lock:
             self._since, self.unread = since, 0
