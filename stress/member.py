@@ -31,6 +31,7 @@ class Role(NamedTuple):
     registers_again: bool = True  # whether it notices that the master was started again
     pulse: str = ''  # what shows that it does what it is for: one of oracles.PULSES
     talks: bool = False  # whether it prints a line for each message
+    fails_if_ended: bool = False  # with exit code 1, as a test whose conditions are not met yet
     keeps: int = 0  # sockets to nodes that were killed, at most, until it wants to tell them something
 
 

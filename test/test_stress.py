@@ -5,6 +5,7 @@ import os
 import pathlib
 import random
 import re
+import signal
 import subprocess
 import sys
 
@@ -13,11 +14,13 @@ from workspaces import ROOT
 
 sys.path[:0] = [str(ROOT), str(ROOT / 'bench')]
 
+from common.ros_session import wait_until  # noqa: E402
+
 from stress import printed, report, run, shrink  # noqa: E402
-from stress.blows import KINDS, messages  # noqa: E402
+from stress.blows import KINDS, fresh, messages  # noqa: E402
 from stress.blows.blow import Blow, Kind  # noqa: E402
 from stress.failure import Failure  # noqa: E402
-from stress.member import Role  # noqa: E402
+from stress.member import Member, Role  # noqa: E402
 from stress.publishers import Publishers  # noqa: E402
 from stress.scenarios import Scenario  # noqa: E402
 
@@ -166,3 +169,18 @@ def test_the_real_nodes_bear_the_first_ten_seconds():
 def test_the_page_names_every_kind_of_blow():
     table = (ROOT / 'docs' / 'reliability.md').read_text().partition('| blow |')[2].partition('\n\n')[0]
     assert re.findall(r'^\| `([^`]+)` \|', table, re.MULTILINE) == [kind.name for kind in KINDS]
+
+
+@pytest.mark.parametrize('fails_if_ended', [True, False])
+def test_only_a_test_may_end_with_a_failure_after_a_signal(fails_if_ended, tmp_path):
+    script = tmp_path / 'fails'
+    script.write_text("#!/bin/sh\ntrap 'exit 1' INT\necho ready\nwhile :; do sleep 0.1; done\n")
+    script.chmod(0o755)
+    member = Member(Role('fails', '', str(script), fails_if_ended=fails_if_ended), os.environ, tmp_path)
+    member.start()
+    wait_until(lambda: 'ready' in member.last)
+    if fails_if_ended:
+        assert fresh.ends(member, signal.SIGINT) == 1
+    else:
+        with pytest.raises(Failure, match='end: fails: ends with exit code 1 after SIGINT'):
+            fresh.ends(member, signal.SIGINT)

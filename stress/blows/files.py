@@ -132,7 +132,7 @@ PROGRAMS = {
     Role('/viewer', 'rumba_viewer', 'viewer'): ('robot', 'laser', 'linear', 'style', 'width'),
     Role('/turtlesim', 'turtlesim', 'turtlesim_node', '/turtle1/pose', ('_gui:=false',)): ('speed', 'background_r'),
     Role('/turtlesim_body', 'rumba_sim', 'turtlesim_body'): ('turtle', 'map', 'seed'),
-    Role('/mission_test', 'rumba_evaluation', 'mission_test', arguments=('_time_limit:=1',)):
+    Role('/mission_test', 'rumba_evaluation', 'mission_test', arguments=('_time_limit:=1',), fails_if_ended=True):
         ('coverage', 'reach', 'docked', 'fields', 'robot', 'patience'),
 }
 ARGUMENTS = ('--nothing', '-x', '', 'a:=b', '__ns:=/a//b', '__log:=/dev/null/x', '/x:=/y', ':=')

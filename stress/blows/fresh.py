@@ -15,7 +15,7 @@ from stress.printed import ESCAPES, TRACEBACK, tail
 
 DECIDES_WITHIN = 60.0  # [s]
 MEGABYTES = 1500.0  # of memory, at most
-REFUSED = 2  # exit code
+FAILED, REFUSED = 1, 2  # exit codes
 GOOD_CODES = (0, -signal.SIGTERM, -signal.SIGINT)  # after a signal
 LONGEST = 1000  # [characters] of the line that says why
 PERIOD = 0.02  # [s]
@@ -76,7 +76,7 @@ def ends(member, number, may_refuse=False):
     if may_refuse and code == REFUSED:
         return code
     oracles.prints(member)
-    if code not in GOOD_CODES:
+    if code not in GOOD_CODES and not (code == FAILED and member.role.fails_if_ended):
         raise Failure('end', member.name, f'ends with exit code {code} after {name}')
     return code
 
@@ -95,7 +95,7 @@ def check_refusal(member):
     said = [line for line in lines if not INFORMATION.match(line) and not line.startswith(VERDICT)]
     if code == 0 and not said:
         return
-    if code not in (REFUSED, 1) or len(said) != 1:
+    if code not in (REFUSED, FAILED) or len(said) != 1:
         raise Failure('refusal', member.name, f'exit code {code}, {len(said)} lines: {tail(said)}')
     if len(said[0]) > LONGEST or ESCAPES.search(said[0]):
         raise Failure('refusal', member.name, f'{len(said[0])} characters: {said[0][:200]!r}')
