@@ -1,5 +1,9 @@
 """How a node reads its command line and its parameters, without a master."""
 
+import os
+import queue
+import signal
+
 import pytest
 
 from rumba_sim.model.errors import ConfigError
@@ -44,3 +48,26 @@ def test_a_value_that_the_parameter_server_cannot_take_is_refused(monkeypatch, a
 def test_other_values_are_fine(monkeypatch, argument):
     monkeypatch.setattr(node.sys, 'argv', ['simulator', argument])
     node._check_command_line([], ['map', 'seed'])
+
+
+def test_a_signal_during_the_registration_ends_the_node_too(monkeypatch):
+    """rospy's own handlers may wait for ever then, for a lock that the main thread holds."""
+    reasons, options = queue.Queue(), {}
+
+    def register(_, **given_options):
+        options.update(given_options)
+        os.kill(os.getpid(), signal.SIGTERM)
+
+    monkeypatch.setattr(node.rospy, 'init_node', register)
+    monkeypatch.setattr(node.rospy, 'signal_shutdown', reasons.put)
+    monkeypatch.setattr(node.clock, 'guard', lambda: None)
+    monkeypatch.setattr(node.master_watch, 'start', lambda: None)
+    monkeypatch.setattr(node, '_log_trouble_once', lambda _: None)
+    before = {number: signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)}
+    try:
+        node._register('talker', own_clock=False, is_single=False)
+        assert reasons.get(timeout=10.0) == f'signal {signal.SIGTERM.value}'
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)
+    assert options == {'disable_rostime': False, 'disable_signals': True}

@@ -89,12 +89,12 @@ def _register(name: str, own_clock: bool, is_single: bool) -> None:
                 raise WorldError(f'another node {full_name} starts at the same moment: only one of them can')
             peers.refuse_twin(full_name)
         clock.guard()
+        for number in (signal.SIGINT, signal.SIGTERM):
+            signal.signal(number, _shut_down)
         try:
-            rospy.init_node(name, disable_rostime=own_clock)
+            rospy.init_node(name, disable_rostime=own_clock, disable_signals=True)
         except OSError as error:  # of the log file that the argument __log names
             raise ConfigError(f'cannot start: {error}') from None
-    for number in (signal.SIGINT, signal.SIGTERM):
-        signal.signal(number, _shut_down)
     master_watch.start()
 
 
