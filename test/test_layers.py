@@ -16,6 +16,7 @@ FOLDERS = {
         'ros/simulator': {'model', 'ros/common', 'ros/robot'},
         'ros/turtlesim_body': {'model', 'ros/common', 'ros/robot'},
         'ros/teleop_key': {'model', 'ros/common'}, 'ros': {'model', 'ros/common'}},
+    'rumba_localisation': {'': set(), 'ros': {''}},
     'rumba_cleaning': {
         '': set(), 'belief': {''}, 'behaviours': {'', 'belief'}, 'planning': {'', 'belief', 'behaviours'},
         'strategies': {'', 'belief', 'behaviours', 'planning'}, 'mission': {'', 'belief', 'behaviours', 'strategies'},
@@ -26,9 +27,9 @@ FOLDERS = {
     'rumba_viewer': {
         'scene': set(), 'painting': {'scene'}, 'window': {'scene', 'painting'}, 'ros': {'scene', 'window'}}}
 # Which packages each may import, and which of their folders are there for others.
-BELOW = {'rumba_sim': set(), 'rumba_cleaning': {'rumba_sim'}, 'rumba_evaluation': {'rumba_sim', 'rumba_cleaning'},
-         'rumba_viewer': {'rumba_sim', 'rumba_cleaning'}}
-OFFERED = {'rumba_sim': {'model', 'ros/common'},
+BELOW = {'rumba_sim': set(), 'rumba_localisation': {'rumba_sim'}, 'rumba_cleaning': {'rumba_sim', 'rumba_localisation'},
+         'rumba_evaluation': {'rumba_sim', 'rumba_cleaning'}, 'rumba_viewer': {'rumba_sim', 'rumba_cleaning'}}
+OFFERED = {'rumba_sim': {'model', 'ros/common'}, 'rumba_localisation': {''},
            'rumba_cleaning': {'', 'belief', 'behaviours', 'strategies', 'mission'}}
 ROS = ('rospy', 'roslib', 'rospkg', 'rosgraph', 'actionlib', 'rosbag', 'rostopic', 'rosunit', 'tf', 'tf2', 'turtlesim')
 ROS_ENDINGS = ('_msgs', '_msg', '_srvs', '_ros')

@@ -11,6 +11,10 @@ from rumba_sim.model.geometry import Pose
 from rumba_sim.model.kernel import NO_BEAM
 from rumba_sim.model.robot import Infrared
 
+Row = Tuple[float, float, float]
+Covariance = Tuple[Row, Row, Row]  # of x, y and heading
+CERTAIN: Covariance = ((0.0, 0.0, 0.0),) * 3
+LOST_AT, LOST_TURNED = 0.3, 0.5  # [m], [rad] standard deviations of a pose from which on the robot is lost; our choice
 NO_CLIFFS = (False, False, False, False)
 FALLEN = 'a wheel hangs over a cliff: the robot must be put elsewhere'
 FINAL = ('step', 'stand_by', 'stop', 'restart', 'succeed', 'fail')  # methods of Behaviour that no subclass overrides
@@ -27,6 +31,13 @@ class Observation(NamedTuple):
     is_docked: bool = False
     infrared: Infrared = Infrared(NO_BEAM, NO_BEAM, NO_BEAM)  # beams of the dock by receiver
     has_fallen: bool = False  # a wheel hangs over a cliff: the robot cannot drive
+    covariance: Covariance = CERTAIN  # of the pose [m^2, m rad, rad^2]
+
+    @property
+    def is_lost(self) -> bool:
+        """Whether the pose is too uncertain to drive by."""
+        (x, _, _), (_, y, _), (_, _, theta) = self.covariance
+        return not (max(x, y) < LOST_AT ** 2 and theta < LOST_TURNED ** 2)  # true of NaN too
 
     @property
     def contact(self) -> Tuple[bool, bool]:

@@ -5,7 +5,7 @@ from typing import Iterator, Tuple
 import numpy as np
 
 from rumba_cleaning.behaviour import Behaviour, Command, Observation, Status
-from rumba_sim.model.geometry import as_told, compose, inverse
+from rumba_cleaning.pose_source import PoseSource, truth
 from rumba_sim.model.robot import FIRST
 from rumba_sim.model.world import World
 
@@ -14,23 +14,22 @@ CONTROL_TICKS = 5  # from one observation to the next
 CONTROL_DT = CONTROL_TICKS / STEP_RATE  # [s]
 
 
-def observe(world: World, name: str, dt: float) -> Observation:
+def observe(world: World, name: str, dt: float, source: PoseSource = truth) -> Observation:
     """What a robot of a world knows now, `dt` [s] after the observation before.
 
-    Pose and charge are those that the messages of the simulator tell, bit for bit: the pose by way of two transforms,
-    the charge as a float32.
+    Pose and charge are those that messages tell, bit for bit: the charge is a float32.
     """
     robot = world.robots[name]
-    odometry = robot.odometry
-    pose = compose(as_told(compose(robot.pose, inverse(odometry))), as_told(odometry))
+    pose, covariance = source(world, name)
     return Observation(dt, pose, robot.bumper, world.cliffs(name), float(np.float32(robot.battery.state_of_charge)),
-                       robot.is_docked, world.infrared(name), robot.has_fallen)
+                       robot.is_docked, world.infrared(name), robot.has_fallen, covariance)
 
 
-def act(behaviour: Behaviour, world: World, name: str, dt: float) -> Tuple[Observation, Command]:
+def act(behaviour: Behaviour, world: World, name: str, dt: float,
+        source: PoseSource = truth) -> Tuple[Observation, Command]:
     """Have a robot take one step of a behaviour, `dt` [s] after the step before; returns what it saw, and does."""
     robot = world.robots[name]
-    observation = observe(world, name, dt)
+    observation = observe(world, name, dt, source)
     command = behaviour.step(observation)
     robot.brushes_up = command.brushes_up
     robot.command(command.v, command.w, world.tick)

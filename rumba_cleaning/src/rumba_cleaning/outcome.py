@@ -36,3 +36,5 @@ class Outcome(enum.IntEnum):
     """The behaviour gave up for a reason of its own."""
     ERROR = 14
     """An exception was raised."""
+    LOST = 15
+    """The robot does not know where it is."""

@@ -9,7 +9,7 @@ from rooms import quiet, room
 
 from rumba_cleaning.behaviour import Observation
 from rumba_cleaning.belief.ground import Ground
-from rumba_cleaning.strategies.bounce import Bounce
+from rumba_cleaning.behaviours.bounce import Bounce
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.world import World
 

@@ -44,7 +44,7 @@ def commanded(v, w, pose, is_shown, seconds=20.0):
     truth = with_cliffs(plan, STAIRS)
     world = World(truth, quiet())
     robot = world.spawn('rumba', pose)
-    run(Bounded(Always(v, w), 1000.0, Guard(context_of(truth if is_shown else plan, world))), world, seconds=seconds)
+    run(Bounded(Always(v, w), 1000.0, context_of(truth if is_shown else plan, world)), world, seconds=seconds)
     return robot
 
 
@@ -65,7 +65,7 @@ def test_far_from_edges_commands_are_not_changed():
     plan = with_cliffs(room(6.0, 2.0, 0.02, start=Pose(0.5, 1.0, 0.0)), (5.0, 0.0, 6.0, 2.0))
     world = World(plan, quiet())
     world.spawn('rumba')
-    behaviour = Bounded(Always(0.3, 0.05), 1000.0, Guard(context_of(plan, world)))
+    behaviour = Bounded(Always(0.3, 0.05), 1000.0, context_of(plan, world))
     assert all(command == Command(0.3, 0.05) for _, command in steps(behaviour, world, seconds=5.0))
 
 

@@ -3,7 +3,9 @@
 from typing import Optional
 
 from rumba_cleaning.behaviour import Behaviour, Command, Observation, Status
+from rumba_cleaning.behaviours import relocation
 from rumba_cleaning.behaviours.guard import Guard
+from rumba_cleaning.belief.context import Context
 from rumba_cleaning.outcome import Outcome
 
 
@@ -17,10 +19,14 @@ class Bounded(Behaviour):
 
     time = 0.0
 
-    def __init__(self, behaviour: Behaviour, time_limit: float, guard: Optional[Guard] = None) -> None:
-        """Give it `time_limit` [s] of simulated time, and a guard, unless it has one of its own as a mission has."""
+    def __init__(self, behaviour: Behaviour, time_limit: float, context: Optional[Context] = None) -> None:
+        """Give it `time_limit` [s] of simulated time.
+
+        With a context, it is kept from edges, and it waits while the robot is lost; a mission sees to that itself.
+        """
         self.behaviour = behaviour
-        self._guard = guard
+        self._guard = None if context is None else Guard(context)
+        self._relocation = None if context is None else relocation.Relocation(context)
         self._time_limit = time_limit
 
     def initialise(self) -> None:
@@ -37,13 +43,24 @@ class Bounded(Behaviour):
             return self.fail('the battery is empty', Outcome.BATTERY_EMPTY)
         if self.time > self._time_limit:
             return self.fail(f'not done after {self._time_limit:g} s: {self.behaviour.message}', Outcome.TIMED_OUT)
-        decide = self.behaviour.step
-        command = decide(observation) if self._guard is None else self._guard.step(decide, observation)
-        self.message = self.behaviour.message
+        command = self._decide(observation) if self._guard is None else self._guard.step(self._decide, observation)
+        if self._relocation is not None and self._relocation.is_hopeless:
+            return self.fail(relocation.GIVEN_UP, Outcome.LOST)
         if self.behaviour.status is Status.SUCCEEDED:
             return self.succeed(self.message, self.behaviour.outcome)
         if self.behaviour.status is Status.FAILED:
             return self.fail(self.message, self.behaviour.outcome)
+        return command
+
+    def _decide(self, observation: Observation) -> Command:
+        if self._relocation is not None and observation.is_lost:
+            self.behaviour.stand_by(observation)
+            self.message = relocation.MESSAGE
+            return self._relocation.command(observation)
+        if self._relocation is not None:
+            self._relocation.rest()
+        command = self.behaviour.step(observation)
+        self.message = self.behaviour.message
         return command
 
     def terminate(self) -> None:

@@ -8,6 +8,7 @@ import numpy as np
 
 from rumba_cleaning import strategies
 from rumba_cleaning.behaviour import STOP, Behaviour, Command, Observation, Status
+from rumba_cleaning.behaviours import relocation
 from rumba_cleaning.behaviours.dock import Dock
 from rumba_cleaning.behaviours.guard import Guard
 from rumba_cleaning.behaviours.undock import Undock
@@ -73,6 +74,7 @@ class Mission(Behaviour):
         self._context = context.with_target(target_coverage)
         self._cleaning = strategies.make(strategy, self._context)
         self._guard = Guard(self._context)
+        self._relocation = relocation.Relocation(self._context)
         self.strategy = strategy
 
     def resume(self) -> None:
@@ -110,18 +112,35 @@ class Mission(Behaviour):
             self._watch = BatteryWatch(self._context)
         self._resumes = False
         self._guard.rest()
+        self._relocation.rest()
 
     def update(self, observation: Observation) -> Command:
         """Do what the state asks for."""
-        self._track(observation)
+        is_lost = observation.is_lost and self.state is not State.CHARGING
+        if not is_lost:
+            self._relocation.rest()
+            self._track(observation)
         if observation.state_of_charge <= 0.0 and not observation.is_docked:
             return self._strand('the battery is empty', Outcome.BATTERY_EMPTY)
+        if is_lost:
+            return self._relocate(observation)
         if not self._watch.is_ready:
             self.message = 'planning'
             return STOP
         command = self._guard.step(self._decide, observation)
         self._brushes_up = command.brushes_up
         return command
+
+    def _relocate(self, observation: Observation) -> Command:
+        """Drive about until the robot knows where it is; what its brushes pass over meanwhile counts for nothing."""
+        self._brushes_up = True
+        self._is_undisturbed = False
+        if self._part is not None:
+            self._part.stand_by(observation)
+        if self._relocation.is_hopeless:
+            return self._strand(relocation.GIVEN_UP, Outcome.LOST)
+        self.message = relocation.MESSAGE
+        return self._guard.step(self._relocation.command, observation)
 
     def _decide(self, observation: Observation) -> Command:
         return {

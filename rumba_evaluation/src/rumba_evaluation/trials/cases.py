@@ -10,6 +10,7 @@ from rumba_cleaning.outcome import Outcome
 from rumba_sim.model.config import setting
 from rumba_sim.model.errors import ConfigError
 
+TRUTH, LOCALISED, ODOMETRY = POSES = 'truth', 'localised', 'odometry'
 DOCK, ANYWHERE = 'dock', 'anywhere'
 LEVELS = (80, 90, 95, 98, 99)  # [%] of coverage; the time to each is reported
 SEVERITY = {Outcome.SUCCEEDED: 0, Outcome.INCOMPLETE: 1, Outcome.TIMED_OUT: 3, Outcome.FALLEN: 4}
@@ -31,6 +32,9 @@ class Conditions:
     """The conditions that all cases of an evaluation share."""
 
     start: str = setting(DOCK, f'where robots start: {DOCK} (the start of the map) or {ANYWHERE} (drawn from the seed)')
+    pose: str = setting(TRUTH, f'by what robots know where they are: {TRUTH}, {LOCALISED} (by laser and odometry, from '
+                               f'a start that is told roughly) or {ODOMETRY} (alone, from a start that is told)',
+                        choices=POSES)
     drain: float = setting(1.0, 'how many times faster than a real one the battery discharges and charges', '', 0.0,
                            1e4)
     target: float = setting(CleaningConfig().target_coverage, 'share of the reachable floor at which a mission ends',

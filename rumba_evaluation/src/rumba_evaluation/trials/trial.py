@@ -17,8 +17,9 @@ from rumba_cleaning.control import CONTROL_DT, CONTROL_TICKS, STEP_RATE, act
 from rumba_cleaning.mission.duration import longest
 from rumba_cleaning.mission.mission import Mission, State
 from rumba_cleaning.outcome import Outcome
+from rumba_cleaning.pose_source import DeadReckoning, Localised, PoseSource, truth
 from rumba_evaluation.trials import starts
-from rumba_evaluation.trials.cases import ANYWHERE, Conditions, Result, severity
+from rumba_evaluation.trials.cases import ANYWHERE, LOCALISED, ODOMETRY, Conditions, Result, severity
 from rumba_sim.model.config import updated
 from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.model.geometry import Pose, wrap_angle
@@ -37,6 +38,7 @@ class Trial:
         world: the robots and the true state of the floor.
         contexts: what each robot knows, in the order of the world's robots.
         missions: the mission of each robot, in the same order.
+        sources: by what each robot knows where it is, by its name.
         ideal_time: T [s], for one brush to sweep the reachable floor at the cleaning speed, without any overlap.
         curve: working time [s] until 1 %, 2 %, ... of the reachable floor were swept.
     """
@@ -57,6 +59,7 @@ class Trial:
             poses = starts.anywhere(plan, config, self.world.start, robots, np.random.default_rng(seed))
         for number, pose in enumerate(poses, 1):
             self.world.spawn(nth_name(number), pose, brushes_up=True)
+        self.sources = {name: _source(plan, self.world, name, conditions.pose, seed) for name in self.world.robots}
         self._planners = BeforeNextStep()
         self.contexts = [Context(plan, config, cleaning, own_seed(seed, name), self._planners)
                          for name in self.world.robots]
@@ -91,7 +94,7 @@ class Trial:
         """Each robot observes and gets a command; then time passes until the next observation."""
         self._planners.work()
         for name, mission in self._running.items():
-            act(mission, self.world, name, self._dt)
+            act(mission, self.world, name, self._dt, self.sources[name])
         self._dt = CONTROL_DT
         running = self._running.values()
         if running and all(mission.state is State.CHARGING for mission in running):
@@ -133,6 +136,15 @@ class Trial:
         if len(messages) == 1:
             return next(iter(messages.values()))
         return '; '.join(f'{name}: {message}' for name, message in messages.items())
+
+
+def _source(plan: FloorPlan, world: World, name: str, pose: str, seed: int) -> PoseSource:
+    """By what a robot knows where it is."""
+    if pose == LOCALISED:
+        return Localised(plan, world, name, own_seed(seed, name))
+    if pose == ODOMETRY:
+        return DeadReckoning()
+    return truth
 
 
 class _Meter:

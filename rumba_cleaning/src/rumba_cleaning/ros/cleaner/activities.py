@@ -8,7 +8,6 @@ from rumba_cleaning.behaviour import Behaviour
 from rumba_cleaning.behaviours.bounded import Bounded
 from rumba_cleaning.behaviours.dock import Dock
 from rumba_cleaning.behaviours.go_to import GoTo
-from rumba_cleaning.behaviours.guard import Guard
 from rumba_cleaning.behaviours.undock import Undock
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.mission.duration import longest
@@ -38,15 +37,15 @@ class Activity(abc.ABC):
     needs_figures = False
 
     def __init__(self, behaviour: Behaviour, time_limit: float, default_limit: float,
-                 guard: Optional[Guard] = None) -> None:
-        """Give a behaviour the time limit [s] of its goal, or the default if that is 0, and a guard if it has none.
+                 context: Optional[Context] = None) -> None:
+        """Give a behaviour the time limit [s] of its goal, or the default if that is 0; the context as to `Bounded`.
 
         Raises:
             ConfigError: the time limit is negative or not finite.
         """
         if not (math.isfinite(time_limit) and time_limit >= 0.0):
             raise ConfigError(f'time_limit is {time_limit}: must be a finite number, 0 or more [s]')
-        self.behaviour = Bounded(behaviour, time_limit or default_limit, guard)
+        self.behaviour = Bounded(behaviour, time_limit or default_limit, context)
 
     def begin(self) -> None:
         """Called once, after the activity before was terminated."""
@@ -156,7 +155,7 @@ class Docking(Activity):
             ConfigError: the time limit is negative or not finite.
         """
         self._dock = Dock(context)
-        super().__init__(self._dock, goal.time_limit, context.config.time_limit.dock, Guard(context))
+        super().__init__(self._dock, goal.time_limit, context.config.time_limit.dock, context)
 
     @property
     def state(self) -> State:
@@ -184,7 +183,7 @@ class Undocking(Activity):
             ConfigError: the time limit is negative or not finite.
         """
         self._undock = Undock(context)
-        super().__init__(self._undock, goal.time_limit, context.config.time_limit.undock, Guard(context))
+        super().__init__(self._undock, goal.time_limit, context.config.time_limit.undock, context)
 
     @property
     def state(self) -> State:
@@ -214,7 +213,7 @@ class GoingTo(Activity):
         target = Pose(goal.target.x, goal.target.y, goal.target.theta)
         check_finite(target, may_face_anywhere=True)
         self._go_to = GoTo(context, target)
-        super().__init__(self._go_to, goal.time_limit, context.config.time_limit.go_to, Guard(context))
+        super().__init__(self._go_to, goal.time_limit, context.config.time_limit.go_to, context)
 
     @property
     def state(self) -> State:

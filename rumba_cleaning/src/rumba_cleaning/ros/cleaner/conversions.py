@@ -5,7 +5,7 @@ import math
 from geometry_msgs.msg import Pose2D, Transform, Twist, Vector3
 from std_msgs.msg import Header
 
-from rumba_cleaning.behaviour import Command, Observation
+from rumba_cleaning.behaviour import CERTAIN, Command, Covariance, Observation
 from rumba_cleaning.mission.mission import State
 from rumba_cleaning.outcome import Outcome
 from rumba_msg.msg import Bumper, CleaningStatus, Cliff, DockStatus, MissionStatus
@@ -21,13 +21,15 @@ def transform_pose(transform: Transform) -> Pose:
     return Pose(transform.translation.x, transform.translation.y, heading(transform.rotation))
 
 
-def observation(pose: Pose, bumper: Bumper, cliff: Cliff, dock: DockStatus, state_of_charge: float) -> Observation:
+def observation(pose: Pose, bumper: Bumper, cliff: Cliff, dock: DockStatus, state_of_charge: float,
+                covariance: Covariance = CERTAIN) -> Observation:
     """What a robot knows, for its behaviours; dt is 0."""
     return Observation(
         dt=0.0, pose=pose, bumper=(bumper.is_left_pressed, bumper.is_right_pressed),
         cliffs=(cliff.is_cliff_left, cliff.is_cliff_front_left, cliff.is_cliff_front_right, cliff.is_cliff_right),
         state_of_charge=state_of_charge, is_docked=dock.is_docked,
-        infrared=Infrared(dock.infrared_omni, dock.infrared_left, dock.infrared_right))
+        infrared=Infrared(dock.infrared_omni, dock.infrared_left, dock.infrared_right),
+        covariance=covariance)
 
 
 def velocity(command: Command) -> Twist:

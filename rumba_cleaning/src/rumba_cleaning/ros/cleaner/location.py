@@ -29,12 +29,13 @@ class Location:
 
     Attributes:
         stamp: of the newest odom -> base_footprint; 0 before the first.
+        corrected: the same of map -> odom.
     """
 
-    def __init__(self, robot: str, on_odometry: Callable[[], None]) -> None:
-        """Listen to the transforms of a robot, by its name; `on_odometry` is called in a thread of rospy."""
-        self.stamp = rospy.Time()
-        self._on_odometry = on_odometry
+    def __init__(self, robot: str, on_change: Callable[[], None]) -> None:
+        """Listen to the transforms of a robot, by its name; `on_change` is called in a thread of rospy."""
+        self.stamp = self.corrected = rospy.Time()
+        self._on_change = on_change
         self._frames = frames(robot)
         self._links = (MAP, self._frames.odom), (self._frames.odom, self._frames.base_footprint)
         self._newest: Dict[Link, Known] = {}
@@ -42,7 +43,7 @@ class Location:
             rospy.Subscriber(topic, TFMessage, self._on_transforms, topic == STATIC, queue_size=QUEUE)
 
     def _on_transforms(self, message: TFMessage, is_static: bool) -> None:
-        stamp = self.stamp
+        before = self.stamp, self.corrected
         last = {(each.header.frame_id.lstrip('/'), each.child_frame_id.lstrip('/')): each
                 for each in message.transforms}
         for link in self._links:
@@ -51,18 +52,20 @@ class Location:
                 continue
             if is_valid(each):
                 self._newest[link] = conversions.transform_pose(each.transform), is_static
-                stamp = each.header.stamp if link == self._links[1] else stamp
+                if link == self._links[1]:
+                    self.stamp = each.header.stamp
+                else:
+                    self.corrected = each.header.stamp
             else:
                 rospy.logwarn_throttle(COMPLAINT_PERIOD, f'tf has {" -> ".join(link)} with numbers that make no '
                                                          'pose: ignored')
-        if stamp != self.stamp:
-            self.stamp = stamp
-            self._on_odometry()
+        if before != (self.stamp, self.corrected):
+            self._on_change()
 
     def forget(self) -> None:
         """Know nothing of what was told of a time that is over; what is static was told once and for all."""
         self._newest = {link: known for link, known in self._newest.items() if known[1]}
-        self.stamp = rospy.Time()
+        self.stamp = self.corrected = rospy.Time()
 
     def pose(self) -> Optional[Pose]:
         """The pose of the robot in the map frame; None if tf does not have it."""

@@ -10,6 +10,7 @@ from sensor_msgs.msg import BatteryState
 
 from rumba_cleaning.behaviour import Observation
 from rumba_cleaning.ros.cleaner import conversions
+from rumba_cleaning.ros.cleaner.certainty import Certainty
 from rumba_cleaning.ros.cleaner.location import QUEUE, Location
 from rumba_msg.msg import Bumper, CleaningStatus, Cliff, DockStatus, Lockstep
 from rumba_sim.model.geometry import Pose
@@ -61,6 +62,7 @@ class Senses:
         self.unread = 0
         self.cleaning: Optional[CleaningStatus] = None
         self._location = Location(robot, self._check_in_lockstep)
+        self._certainty = Certainty(robot, self._check_in_lockstep)
         rospy.Subscriber(f'{robot}/battery_state', BatteryState, self._on_battery, queue_size=QUEUE)
         rospy.Subscriber(f'{robot}/cleaning_status', CleaningStatus, self._on_cleaning, queue_size=QUEUE)
         self._subscribers = {
@@ -122,7 +124,10 @@ class Senses:
         """Whether everything has come that was published up to a control tick; a stamp of 0: it is not published."""
         stamp = tick.header.stamp
         parts = [(self._newest.get(topic), stamp) for topic in READING]
-        return self._location.stamp >= tick.odom and all(
+        location, certainty = self._location, self._certainty
+        if certainty.is_told and min(location.corrected, certainty.stamp) < tick.scan:
+            return False
+        return location.stamp >= tick.odom and all(
             wanted.is_zero() or message is not None and message.header.stamp >= wanted
             for message, wanted in (*parts, (self._battery, stamp), (self.cleaning, tick.cleaning)))
 
@@ -160,6 +165,7 @@ class Senses:
             self.stamp = None
         if is_new_run:
             self._location.forget()
+            self._certainty.forget()
         self.check()
 
     def observe(self) -> Optional[Observation]:
@@ -176,7 +182,9 @@ class Senses:
         pose = self.pose()
         if pose is None or battery is None or any(topic not in parts for topic in READING):
             return None
-        return conversions.observation(pose, parts['bumper'], parts['cliff'], parts['dock_status'], battery.percentage)
+        covariance = self._certainty.covariance(parts[CLOCK].header.stamp)
+        return conversions.observation(pose, parts['bumper'], parts['cliff'], parts['dock_status'], battery.percentage,
+                                       covariance)
 
     def pose(self) -> Optional[Pose]:
         """The pose of the robot in the map frame; None if tf does not have it."""

@@ -1,4 +1,4 @@
-"""Has a function compiled by numba, as the kernel of rumba_sim is: with a cache, if there is a place for one.
+"""Has a function compiled by numba, as the kernel is: with a cache, if there is a place for one.
 
 The same functions give the same results uncompiled. A compiled function can call only compiled functions.
 """

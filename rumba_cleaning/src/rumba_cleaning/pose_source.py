@@ -1,0 +1,82 @@
+"""Where a robot in process believes to be: by the truth, by its odometry alone, or by a localisation."""
+
+import math
+from typing import Any, Callable, Dict, NamedTuple
+
+import numpy as np
+
+from rumba_cleaning.behaviour import CERTAIN, Covariance
+from rumba_localisation.localiser import Localiser, Seed, points
+from rumba_sim.model.floor_plan import FloorPlan
+from rumba_sim.model.geometry import Pose, as_told, compose, inverse
+from rumba_sim.model.robot_config import TURN
+from rumba_sim.model.world import World
+
+UNKNOWN: Covariance = ((math.inf, 0.0, 0.0), (0.0, math.inf, 0.0), (0.0, 0.0, math.inf))
+
+
+class Belief(NamedTuple):
+    """A pose in the map frame, and how certain it is."""
+
+    pose: Pose
+    covariance: Covariance = CERTAIN
+
+
+PoseSource = Callable[[World, str], Belief]  # called once for each observation of a robot, by its name
+
+
+def truth(world: World, name: str) -> Belief:
+    """The true pose, as the simulator tells it by way of two transforms, bit for bit."""
+    robot = world.robots[name]
+    return Belief(_told(compose(robot.pose, inverse(robot.odometry)), robot.odometry))
+
+
+class DeadReckoning:
+    """A robot that knows where it began, and counts the turns of its wheels since then."""
+
+    def __init__(self) -> None:
+        """Begin with the first observation."""
+        self._corrections: Dict[str, Pose] = {}
+
+    def __call__(self, world: World, name: str) -> Belief:
+        """Where the robot believes to be, as certain as if it were true."""
+        robot = world.robots[name]
+        start = self._corrections.setdefault(name, compose(robot.pose, inverse(robot.odometry)))
+        return Belief(_told(start, robot.odometry))
+
+
+class Localised:
+    """A robot that localises itself by its laser, as the node `localiser` does, bit for bit.
+
+    Attributes:
+        localiser: what it believes.
+    """
+
+    def __init__(self, plan: FloorPlan, world: World, name: str, seed: Seed = 0) -> None:
+        """Have a robot of a world know a map, and where it stands now."""
+        config = world.config
+        self.localiser = Localiser(plan, config.drive.radius, config.laser.range_max, seed=seed)
+        self.localiser.start_at(world.robots[name].pose)
+
+    def __call__(self, world: World, name: str) -> Belief:
+        """Scan, and see where that fits."""
+        odometry = as_told(world.robots[name].odometry)
+        ranges = world.scan(name).astype(np.float32)
+        self.localiser.update(odometry, points(ranges, *_angles(len(ranges))))
+        estimate = self.localiser.estimate
+        pose = _told(self.localiser.correction, odometry)
+        return Belief(pose, UNKNOWN if estimate is None else _rows(estimate.covariance))
+
+
+def _angles(beams: int) -> Any:
+    """Direction of the first beam, and from beam to beam [rad], as a sensor_msgs/LaserScan tells them."""
+    return float(np.float32(-math.pi)), float(np.float32(TURN / beams))
+
+
+def _told(correction: Pose, odometry: Pose) -> Pose:
+    return compose(as_told(correction), as_told(odometry))
+
+
+def _rows(covariance: Any) -> Covariance:
+    (xx, xy, xt), (yx, yy, yt), (tx, ty, tt) = covariance.tolist()
+    return (xx, xy, xt), (yx, yy, yt), (tx, ty, tt)

@@ -1,0 +1,122 @@
+"""Compares scans with the walls of a map: plain functions over arrays, compiled by numba.
+
+Arguments that functions share:
+    points: float64 (beams, 2), where beams end, in the frame of the laser [m].
+    field: float32 (rows + 2, columns + 2), `Walls.log_likelihood`.
+    distance: float32 (rows + 1, columns + 1), `Walls.distance`.
+    left, bottom, resolution: of the map [m].
+"""
+
+import math
+from typing import Any, Tuple
+
+import numpy as np
+
+from rumba_sim.model.jit import compiled
+
+Array = Any  # numpy.ndarray
+Triple = Tuple[float, float, float]
+
+
+@compiled
+def weigh(poses: Array, points: Array, field: Array, left: float, bottom: float, resolution: float,
+          sums: Array) -> None:
+    """Sum up how likely the beams of a scan are at each pose.
+
+    Args, apart from those above:
+        poses: float64 (any, 3), x, y [m] and heading [rad] of the laser.
+        sums: float64 (any), receives the sums of the field.
+    """
+    rows, columns = field.shape
+    for index in range(len(poses)):
+        cos, sin = math.cos(poses[index, 2]) / resolution, math.sin(poses[index, 2]) / resolution
+        u, v = (poses[index, 0] - left) / resolution + 1.0, (poses[index, 1] - bottom) / resolution + 1.0
+        total = 0.0
+        for beam in range(len(points)):
+            x, y = points[beam, 0], points[beam, 1]
+            column, row = int(u + cos * x - sin * y), int(v + sin * x + cos * y)
+            total += field[min(max(row, 0), rows - 1), min(max(column, 0), columns - 1)]
+        sums[index] = total
+
+
+@compiled
+def slope_at(distance: Array, u: float, v: float) -> Triple:
+    """Bilinear interpolation at (u, v) [cells]: the distance, and its slopes along u and v; NaN outside the map."""
+    if not (0.0 <= u < distance.shape[1] - 1 and 0.0 <= v < distance.shape[0] - 1):
+        return math.nan, 0.0, 0.0
+    column, row = int(u), int(v)
+    u, v = u - column, v - row
+    a, b = distance[row, column], distance[row, column + 1]
+    c, d = distance[row + 1, column], distance[row + 1, column + 1]
+    lower, upper = a + u * (b - a), c + u * (d - c)
+    return lower + v * (upper - lower), (b - a) + v * ((d - c) - (b - a)), upper - lower
+
+
+@compiled
+def normal_equations(pose: Array, points: Array, distance: Array, left: float, bottom: float, resolution: float,
+                     sigma: float, matrix: Array, vector: Array) -> float:
+    """Linearise the distances from the ends of beams to the walls around a pose.
+
+    A beam that ends far from any wall, in units of sigma, counts little (Welsch's weight): it hit something that the
+    map does not show.
+
+    Args, apart from those above:
+        pose: float64 (3).
+        sigma: standard deviation of a distance [m].
+        matrix, vector: float64 (3, 3) and (3), receive the information and the gradient of half the sum of squares.
+
+    Returns:
+        The share of the beams that count, weighted [0..1].
+    """
+    cos, sin = math.cos(pose[2]), math.sin(pose[2])
+    matrix[:], vector[:] = 0.0, 0.0
+    count = 0.0
+    for beam in range(len(points)):
+        along, across = cos * points[beam, 0] - sin * points[beam, 1], sin * points[beam, 0] + cos * points[beam, 1]
+        off, by_u, by_v = slope_at(distance, (pose[0] + along - left) / resolution,
+                                   (pose[1] + across - bottom) / resolution)
+        if math.isnan(off):
+            continue
+        by_x, by_y = by_u / resolution, by_v / resolution
+        by_theta = by_y * along - by_x * across
+        share = math.exp(-0.5 * (off / sigma) ** 2)
+        weight = share / sigma ** 2
+        count += share
+        matrix[0, 0] += weight * by_x * by_x
+        matrix[0, 1] += weight * by_x * by_y
+        matrix[0, 2] += weight * by_x * by_theta
+        matrix[1, 1] += weight * by_y * by_y
+        matrix[1, 2] += weight * by_y * by_theta
+        matrix[2, 2] += weight * by_theta * by_theta
+        vector[0] += weight * by_x * off
+        vector[1] += weight * by_y * off
+        vector[2] += weight * by_theta * off
+    matrix[1, 0], matrix[2, 0], matrix[2, 1] = matrix[0, 1], matrix[0, 2], matrix[1, 2]
+    return count / len(points)
+
+
+@compiled
+def match(start: Array, covariance: Array, points: Array, distance: Array, left: float, bottom: float,
+          resolution: float, sigmas: Array, share: float, pose: Array, result: Array) -> float:
+    """Move a pose so that the beams of a scan end at walls (Gauss-Newton on the distances), held by where it began.
+
+    Args, apart from those above:
+        start: float64 (3), where the laser is supposed to be.
+        covariance: float64 (3, 3), of that.
+        sigmas: float64 (steps), standard deviation for each step, falling, so that it finds what is far off too.
+        share: of the beams that err independently [0..1]; for the covariance of the result alone.
+        pose: float64 (3), receives the result.
+        result: float64 (3, 3), receives its covariance.
+
+    Returns:
+        The share of the beams that end at a wall there, weighted [0..1].
+    """
+    prior = np.linalg.inv(covariance)
+    information, vector = np.zeros((3, 3)), np.zeros(3)
+    pose[:] = start
+    for step in range(len(sigmas)):
+        normal_equations(pose, points, distance, left, bottom, resolution, sigmas[step], information, vector)
+        pose -= np.linalg.solve(information + prior, vector + np.dot(prior, pose - start))
+    fit = normal_equations(pose, points, distance, left, bottom, resolution, sigmas[-1], information, vector)
+    result[:] = np.linalg.inv(share * information + prior)
+    return fit

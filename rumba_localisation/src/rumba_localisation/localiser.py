@@ -1,0 +1,231 @@
+"""Monte Carlo localisation: where a robot is, by its odometry and its laser, on a map."""
+
+import math
+from typing import NamedTuple, Optional, Sequence, Union
+
+import numpy as np
+
+from rumba_localisation import compiled_matching, motion, particles
+from rumba_localisation.localiser_config import LocaliserConfig
+from rumba_localisation.search import Search
+from rumba_localisation.walls import Walls
+from rumba_sim.model.floor_plan import FloorPlan
+from rumba_sim.model.geometry import Pose, compose, inverse, wrap_angle
+from rumba_sim.model.kernel import Array
+
+Seed = Union[int, Sequence[int]]
+STEPS = np.geomspace(0.15, 0.03, 6)  # [m] sigmas of `match`
+MATCHED = 180  # beams, at most, by which the pose is refined
+SURE = 0.9  # share of the weight in one cluster from which on the robot knows where it is
+NARROW = 0.3  # [m], [rad] standard deviations in that cluster, at most
+FITS = 0.4  # share of beams that end at a wall, at least
+DOUBT = 0.1  # the share by which scans fit worse than in the long run, from which on particles are drawn from the scan
+GOOD, STARTS = 0.85, 8  # a fit below which a match begins also at so many of the heaviest particles
+FEWEST = 10  # beams with an echo, fewer tell nothing
+HELD = np.diag([0.02, 0.02, 0.02]) ** 2  # least variances of the prior of a match [m^2, m^2, rad^2]
+INDEPENDENT = 0.2  # share of the beams of a match that err independently: the map errs with its neighbours alike
+START = np.diag([0.25, 0.25, math.radians(15.0) ** 2])  # covariance of a start that is told, as amcl's
+
+
+class Estimate(NamedTuple):
+    """Where the robot believes it is."""
+
+    pose: Pose  # [m, rad] map frame
+    covariance: Array  # float64 (3, 3) of x, y, heading; that of a start at least if the robot is not sure
+    fit: float  # [0..1] share of the beams of the newest scan that end at a wall of the map
+    is_sure: bool  # whether it knows its place: one hypothesis, narrow, to which the scans fit
+
+
+class Match(NamedTuple):
+    """Where a scan fits."""
+
+    pose: Array  # float64 (3) [m, m, rad]
+    covariance: Array  # float64 (3, 3)
+    fit: float  # [0..1]
+
+
+class Localiser:
+    """Particles that follow the odometry and are weighed by scans; their heaviest cluster is matched with the walls.
+
+    The laser is in the centre of the robot and looks forward, as a Rumba's.
+
+    Attributes:
+        config: parameters.
+        correction: pose of the frame of the odometry in the map frame.
+        estimate: where the robot was at the newest scan that was used; None before the first.
+        particles: float64 (any, 3), poses of the particles [m, m, rad].
+    """
+
+    def __init__(self, plan: FloorPlan, radius: float, range_max: float, config: LocaliserConfig = LocaliserConfig(),
+                 seed: Seed = 0) -> None:
+        """Know a map, and nothing of where the robot is.
+
+        Args:
+            plan: the map.
+            radius: of the robot [m].
+            range_max: of its laser [m].
+            config: parameters.
+            seed: of the random generator.
+        """
+        self.config = config
+        self._walls = Walls(plan)
+        self._field = self._walls.log_likelihood(config.laser_sigma_hit, config.laser_z_hit, config.laser_z_rand,
+                                                 range_max)
+        self._search = Search(plan, self._walls, radius, range_max)
+        self._generator = np.random.default_rng(seed)
+        self.correction = Pose(0.0, 0.0, 0.0)
+        self.estimate: Optional[Estimate] = None
+        self.search_anywhere()
+
+    def start_at(self, pose: Pose, covariance: Array = START) -> None:
+        """Believe what a person, or the dock, tells of the place.
+
+        Args:
+            pose: [m, rad], map frame.
+            covariance: float64 (3, 3) of x, y and heading.
+        """
+        count = self.config.max_particles
+        self.particles = self._generator.multivariate_normal(pose, covariance, count, method='eigh')
+        self._begin()
+
+    def search_anywhere(self) -> None:
+        """Begin at the next scan with every place on the map to which it fits."""
+        self.particles = np.empty((0, 3))
+        self._begin()
+
+    def _begin(self) -> None:
+        self._logarithms = np.zeros(len(self.particles))
+        self._last: Optional[Pose] = None  # odometry at the newest scan that was used
+        self._slow = self._fast = 0.0  # averages of how well scans fit
+
+    # --- scans ----------------------------------------------------------------------------------------------------
+
+    def pose(self, odometry: Pose) -> Pose:
+        """Where the robot is, from its odometry, by the newest correction."""
+        return compose(self.correction, odometry)
+
+    def update(self, odometry: Pose, points: Array, is_forced: bool = False) -> bool:
+        """Take a scan into account, if the robot has moved enough since the last one.
+
+        Args:
+            odometry: pose by odometry when the scan was taken.
+            points: float64 (beams, 2), where the beams that have an echo end, in the frame of the robot [m]; without
+                echoes the particles follow the odometry alone.
+            is_forced: use it even if the robot has not moved.
+
+        Returns:
+            Whether it was used: there is a new estimate and a new correction.
+        """
+        if not (is_forced or self._has_moved(odometry)):
+            return False
+        if self._last is not None:
+            self.particles = motion.moved(self.particles, self._last, odometry, self.config, self._generator)
+        elif len(points) < FEWEST:
+            return False
+        self._last = odometry
+        if len(points) < FEWEST:
+            self.estimate = self._by_odometry()
+        else:
+            self._weigh(points)
+            self.estimate = self._estimated(points)
+            self._follow_fit(self.estimate.fit)
+        self.correction = compose(self.estimate.pose, inverse(odometry))
+        return True
+
+    def _has_moved(self, odometry: Pose) -> bool:
+        last = self._last
+        return last is None or (
+            math.hypot(odometry.x - last.x, odometry.y - last.y) >= self.config.update_min_d
+            or abs(wrap_angle(odometry.theta - last.theta)) >= self.config.update_min_a)
+
+    def _weigh(self, points: Array) -> None:
+        """Weigh the particles, and draw new ones if few of them carry most of the weight."""
+        config = self.config
+        if not len(self.particles):
+            self.particles = self._found(points, config.max_particles)
+            self._logarithms = np.zeros(len(self.particles))
+        sums = self._likelihoods(points)
+        self._logarithms += sums
+        share = particles.weights(self._logarithms)
+        fresh = 1.0 - self._fast / self._slow if self._slow > 0.0 else 0.0
+        if particles.effective(share) < 0.5 * len(share) or fresh > DOUBT:
+            self._draw(share, fresh if fresh > DOUBT else 0.0, points)
+
+    def _follow_fit(self, fit: float) -> None:
+        """Update the averages of how well scans fit."""
+        config = self.config
+        self._slow += (config.recovery_alpha_slow if self._slow > 0.0 else 1.0) * (fit - self._slow)
+        self._fast += (config.recovery_alpha_fast if self._fast > 0.0 else 1.0) * (fit - self._fast)
+
+    def _draw(self, share: Array, fresh: float, points: Array) -> None:
+        """Draw particles by their weight, and a part of them from the scan if it fits worse than others did before."""
+        self.particles = particles.drawn(self.particles, share, self.config, self._generator)
+        self._logarithms = np.zeros(len(self.particles))
+        count = int(fresh * len(self.particles))
+        if count:
+            self.particles[:count] = self._found(points, count)
+            self._logarithms = self._likelihoods(points)
+
+    def _found(self, points: Array, count: int) -> Array:
+        """Particles at the places to which a scan fits, more where it fits better."""
+        poses, fits = self._search.hypotheses(points, self._generator)
+        chosen = poses[self._generator.choice(len(poses), count, p=particles.weights(fits / 0.05))]
+        return chosen + self._generator.standard_normal((count, 3)) * 0.03
+
+    def _likelihoods(self, points: Array) -> Array:
+        """Logarithms of how likely a scan is at the particles: float64, at most 0."""
+        few = thinned(points, self.config.laser_max_beams)
+        sums = np.empty(len(self.particles))
+        compiled_matching.weigh(self.particles, few, self._field, *self._walls.origin, self._walls.resolution, sums)
+        return sums * self.config.laser_independence
+
+    def _estimated(self, points: Array) -> Estimate:
+        """The heaviest cluster, moved to where the scan fits best; the particles follow, or they would lag behind."""
+        share = particles.weights(self._logarithms)
+        cluster = particles.heaviest(self.particles, share)
+        match = self._matched(cluster, cluster.mean, points)
+        if match.fit < GOOD:  # perhaps the far side of a thin wall: it may fit better from elsewhere in the cluster
+            best = self.particles[np.argsort(-share, kind='stable')[:STARTS]]
+            match = max([match, *(self._matched(cluster, start, points) for start in best)], key=lambda each: each.fit)
+        deviations = np.sqrt(np.diag(cluster.covariance))
+        is_sure = cluster.share >= SURE and float(deviations.max()) < NARROW and match.fit >= FITS
+        if is_sure:
+            self.particles += match.pose - cluster.mean
+        x, y, theta = match.pose.tolist()
+        covariance = match.covariance if is_sure else START + particles.mean_and_covariance(self.particles, share)[1]
+        return Estimate(Pose(x, y, wrap_angle(theta)), covariance, match.fit, is_sure)
+
+    def _by_odometry(self) -> Estimate:
+        """The heaviest cluster while the laser sees nothing: it spreads on the way."""
+        share = particles.weights(self._logarithms)
+        cluster = particles.heaviest(self.particles, share)
+        deviations = np.sqrt(np.diag(cluster.covariance))
+        is_sure = cluster.share >= SURE and float(deviations.max()) < NARROW
+        covariance = cluster.covariance if is_sure else START + cluster.covariance
+        x, y, theta = cluster.mean.tolist()
+        return Estimate(Pose(x, y, theta), covariance, 0.0, is_sure)
+
+    def _matched(self, cluster: particles.Cluster, start: Array, points: Array) -> Match:
+        pose, covariance = np.empty(3), np.empty((3, 3))
+        fit = compiled_matching.match(start, cluster.covariance + HELD, thinned(points, MATCHED),
+                                      self._walls.distance, *self._walls.origin, self._walls.resolution, STEPS,
+                                      INDEPENDENT, pose, covariance)
+        return Match(pose, covariance, fit)
+
+
+def points(ranges: Array, angle_min: float, angle_increment: float) -> Array:
+    """Where the beams of a scan that have an echo end, in the frame of the laser: float64 (any, 2) [m].
+
+    Args:
+        ranges: float (beams) [m]; an infinite one has no echo (REP 117).
+        angle_min: direction of the first beam [rad].
+        angle_increment: from beam to beam [rad].
+    """
+    has_echo = np.isfinite(ranges)
+    angles = angle_min + angle_increment * np.flatnonzero(has_echo)
+    return np.stack([np.cos(angles), np.sin(angles)], axis=1) * ranges[has_echo].astype(np.float64)[:, None]
+
+
+def thinned(points: Array, count: int) -> Array:
+    """At most `count` of the points, spread evenly."""
+    return points if len(points) <= count else points[np.linspace(0, len(points) - 1, count).astype(np.int64)]

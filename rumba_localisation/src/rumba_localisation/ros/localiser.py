@@ -1,0 +1,230 @@
+"""localiser: finds out where a robot is on a map, by its odometry and its laser (Monte Carlo localisation).
+
+For each scan it publishes, with the stamp of that scan,
+  /tf             tf2_msgs/TFMessage: map -> odom
+and below the robot's name
+  amcl_pose       geometry_msgs/PoseWithCovarianceStamped: latched; the covariance is large while it is not sure
+  particlecloud   geometry_msgs/PoseArray: after each scan that it used
+It subscribes to
+  /map            nav_msgs/OccupancyGrid
+and below the robot's name to
+  scan            sensor_msgs/LaserScan: of a laser in the centre of the robot that looks forward
+  odom            nav_msgs/Odometry
+  initialpose     geometry_msgs/PoseWithCovarianceStamped: where the robot is, by a person
+and serves, below the robot's name,
+  global_localization       std_srvs/Empty: look for the place all over the map
+  request_nomotion_update   std_srvs/Empty: use the next scan even if the robot has not moved
+It takes part in a lockstep by simulator/lockstep and simulator/lockstep_answers (rumba_msg/Lockstep, LockstepAnswer).
+
+A simulator must leave map -> odom to it: `rosrun rumba_sim simulator _localisation:=false`.
+
+Parameters, those of amcl with the same meaning, as in `rosrun rumba_localisation localiser _initial_pose_x:=1.5`:
+"""
+
+import dataclasses
+import math
+import time
+from typing import Any, Optional
+
+import rospy
+from geometry_msgs.msg import PoseArray, PoseWithCovarianceStamped
+from nav_msgs.msg import OccupancyGrid, Odometry
+from sensor_msgs.msg import LaserScan
+from std_msgs.msg import Header
+from std_srvs.srv import Empty, EmptyResponse
+from tf2_msgs.msg import TFMessage
+
+from rumba_localisation.localiser import Localiser
+from rumba_localisation.localiser_config import LocaliserConfig
+from rumba_localisation.ros import conversions
+from rumba_localisation.ros.odometries import Odometries
+from rumba_msg.msg import Lockstep
+from rumba_sim.model.config import part, setting
+from rumba_sim.model.errors import ConfigError, MapError
+from rumba_sim.model.floor_plan import FloorPlan
+from rumba_sim.model.geometry import Pose
+from rumba_sim.ros.common import node
+from rumba_sim.ros.common.conversions import plane_pose, transform
+from rumba_sim.ros.common.frames import MAP, frames
+from rumba_sim.ros.common.lockstep import Participant
+from rumba_sim.ros.common.names import check_names
+from rumba_sim.ros.common.requests import Requests
+
+PERIOD = 0.1  # [s] of the wall clock between two looks whether ROS shuts down
+QUEUE = 100  # messages that may wait to be read
+COMPLAINT_PERIOD = 10.0  # [s]
+
+
+@dataclasses.dataclass(frozen=True)
+class Settings(LocaliserConfig):
+    """The node's private parameters."""
+
+    robot: str = setting('rumba', 'name of the robot, below which its topics are')
+    robot_radius: float = setting(0.17425, 'radius of the robot: it is not looked for nearer to a wall', 'm', 0.0, 5.0)
+    initial_pose_x: float = setting(math.nan, 'where it begins; without x and y it looks all over the map', 'm')
+    initial_pose_y: float = setting(math.nan, 'the same', 'm')
+    initial_pose_a: float = setting(0.0, 'the same', 'rad')
+    seed: int = setting(1, 'seed of the random generator', '', 0, 2 ** 31 - 1)
+
+    def __post_init__(self) -> None:
+        """Check the robot's name, and that a start has both coordinates."""
+        super().__post_init__()
+        check_names(self, 'robot')
+        if math.isnan(self.initial_pose_x) != math.isnan(self.initial_pose_y):
+            raise ConfigError('initial_pose_x and initial_pose_y must be given together, or neither')
+
+    @property
+    def start(self) -> Optional[Pose]:
+        """Where the robot begins; None if nobody says."""
+        if math.isnan(self.initial_pose_x):
+            return None
+        return Pose(self.initial_pose_x, self.initial_pose_y, self.initial_pose_a)
+
+
+def main() -> None:
+    """Run the node."""
+    node.run('localiser', Settings, lambda settings: LocaliserNode(settings).run(), is_single=True)
+
+
+class LocaliserNode:
+    """The loop that owns the localiser; callbacks only queue what it is to do."""
+
+    def __init__(self, settings: Settings) -> None:
+        """Open all topics and services."""
+        self._settings = settings
+        self._frames = frames(settings.robot)
+        self._requests = Requests()
+        self._plan: Optional[FloorPlan] = None
+        self._localiser: Optional[Localiser] = None  # None until there are a map and a scan
+        self._odometries = Odometries()
+        self._waiting: Optional[LaserScan] = None  # for its odometry
+        self._tick: Optional[Lockstep] = None  # that was not answered yet
+        self._scanned = rospy.Time()  # stamp of the newest scan that was dealt with
+        self._is_forced = False
+        self._was_sure: Optional[bool] = None
+        name = settings.robot
+        self._tf = rospy.Publisher('/tf', TFMessage, queue_size=QUEUE)
+        self._pose = rospy.Publisher(f'{name}/amcl_pose', PoseWithCovarianceStamped, queue_size=QUEUE, latch=True)
+        self._cloud = rospy.Publisher(f'{name}/particlecloud', PoseArray, queue_size=2)
+        self._participant = Participant(lambda tick: self._requests.post(lambda: self._take_tick(tick)))
+        for topic, kind, take in (('/map', OccupancyGrid, self._take_map), (f'{name}/odom', Odometry, self._take_odom),
+                                  (f'{name}/scan', LaserScan, self._take_scan),
+                                  (f'{name}/initialpose', PoseWithCovarianceStamped, self._take_start)):
+            rospy.Subscriber(topic, kind, self._post, take, queue_size=QUEUE)
+        rospy.Service(f'{name}/global_localization', Empty, lambda _: self._requests.call(self._search_anywhere))
+        rospy.Service(f'{name}/request_nomotion_update', Empty, lambda _: self._requests.call(self._force))
+
+    def _post(self, message: Any, take: Any) -> None:
+        self._requests.post(lambda: take(message))
+
+    def run(self) -> None:
+        """Localise until ROS shuts down."""
+        while not rospy.is_shutdown():
+            self._requests.serve(time.monotonic() + PERIOD)
+        self._participant.leave()
+
+    # --- what comes -------------------------------------------------------------------------------------------------
+
+    def _take_map(self, message: OccupancyGrid) -> None:
+        try:
+            self._plan, self._localiser = conversions.floor_plan(message), None
+        except MapError as error:
+            rospy.logerr_throttle(COMPLAINT_PERIOD, f'{error}; ignored')
+
+    def _take_odom(self, message: Odometry) -> None:
+        pose = plane_pose(message.pose.pose)
+        if all(math.isfinite(number) and abs(number) <= conversions.FARTHEST for number in pose):
+            self._odometries.add(message.header.stamp, pose)
+            self._look()
+
+    def _take_scan(self, message: LaserScan) -> None:
+        self._waiting = message
+        self._look()
+
+    def _take_tick(self, tick: Lockstep) -> None:
+        self._tick = tick
+        self._answer()
+
+    def _take_start(self, message: PoseWithCovarianceStamped) -> None:
+        """Believe a person, if that makes sense."""
+        pose, covariance = plane_pose(message.pose.pose), conversions.covariance_of(message.pose)
+        frame = message.header.frame_id.lstrip('/')
+        if frame not in ('', MAP) or not all(map(math.isfinite, pose)) or not conversions.is_covariance(covariance):
+            rospy.logerr_throttle(COMPLAINT_PERIOD, f'initialpose: must be a finite pose in the frame {MAP} with a '
+                                                    'covariance; ignored')
+        elif self._localiser is None:
+            rospy.logerr_throttle(COMPLAINT_PERIOD, 'initialpose: there is no map or no scan yet; ignored')
+        else:
+            self._localiser.start_at(pose, covariance)
+            self._force()
+
+    def _search_anywhere(self) -> EmptyResponse:
+        if self._localiser is not None:
+            self._localiser.search_anywhere()
+        return self._force()
+
+    def _force(self) -> EmptyResponse:
+        self._is_forced = True
+        return EmptyResponse()
+
+    # --- scans ------------------------------------------------------------------------------------------------------
+
+    def _look(self) -> None:
+        """Use the newest scan as soon as it is known where the robot was by odometry when it was taken."""
+        scan = self._waiting
+        if scan is None or self._plan is None:
+            return
+        odometry = self._odometries.at(scan.header.stamp)
+        if odometry is None and not self._odometries.is_before(scan.header.stamp):
+            return
+        self._waiting = None
+        if odometry is not None:
+            self._localise(self._known(self._plan, scan), odometry, scan)
+        self._scanned = scan.header.stamp
+        self._answer()
+
+    def _known(self, plan: FloorPlan, scan: LaserScan) -> Localiser:
+        """The localiser, made with the first scan."""
+        if self._localiser is None:
+            range_max = scan.range_max if math.isfinite(scan.range_max) and scan.range_max > 0.0 else 1.0
+            settings = self._settings
+            self._localiser = Localiser(plan, settings.robot_radius, range_max, part(settings, LocaliserConfig),
+                                        settings.seed)
+            if settings.start is not None:
+                self._localiser.start_at(settings.start)
+        return self._localiser
+
+    def _localise(self, localiser: Localiser, odometry: Pose, scan: LaserScan) -> None:
+        is_used = localiser.update(odometry, conversions.scan_points(scan), self._is_forced)
+        if localiser.estimate is None:
+            return
+        stamp = scan.header.stamp
+        self._is_forced = self._is_forced and not is_used
+        self._tf.publish(TFMessage([transform(MAP, self._frames.odom, localiser.correction, stamp)]))
+        header = Header(stamp=stamp, frame_id=MAP)
+        self._pose.publish(conversions.pose_with_covariance(
+            localiser.pose(odometry), localiser.estimate.covariance, header))
+        if is_used and self._cloud.get_num_connections():
+            self._cloud.publish(conversions.cloud(localiser.particles, header))
+        self._say(localiser)
+
+    def _say(self, localiser: Localiser) -> None:
+        """Tell a person when the robot finds its place, or loses it."""
+        estimate = localiser.estimate
+        if estimate is None or estimate.is_sure == self._was_sure:
+            return
+        x, y, theta = estimate.pose
+        if estimate.is_sure:
+            rospy.loginfo(f'{self._settings.robot}: is at ({x:.2f}, {y:.2f}) m, heading {theta:.2f} rad; '
+                          f'{100.0 * estimate.fit:.0f} % of the beams fit')
+        else:
+            rospy.logwarn(f'{self._settings.robot}: does not know where it is; {100.0 * estimate.fit:.0f} % of the '
+                          'beams fit at the best place')
+        self._was_sure = estimate.is_sure
+
+    def _answer(self) -> None:
+        """In lockstep, tell that everything is done for the newest tick."""
+        tick = self._tick
+        if tick is not None and self._scanned >= tick.scan and not tick.scan.is_zero():
+            self._tick = None
+            self._participant.answer(tick.header.stamp)

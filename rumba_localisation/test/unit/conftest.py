@@ -1,0 +1,1 @@
+../../../rumba_sim/test/unit/conftest.py

@@ -1,0 +1,123 @@
+"""A robot finds out where it is: told, anywhere, carried away, without a laser, in a room that looks the same twice."""
+
+import math
+
+import numpy as np
+import pytest
+from rooms import RADIUS, crooked, room
+from scans import drive, error, localiser_of, scanned, world_of
+
+from rumba_localisation.localiser import START, points, thinned
+from rumba_localisation.localiser_config import LocaliserConfig
+from rumba_sim.model.errors import ConfigError
+from rumba_sim.model.geometry import Pose
+
+NOBODY = Pose(0.0, 0.0, 0.0)
+
+
+def test_points_are_where_beams_end():
+    found = points(np.array([1.0, np.inf, 2.0, -np.inf, np.nan]), -0.5 * math.pi, 0.5 * math.pi)
+    assert found == pytest.approx(np.array([[0.0, -1.0], [0.0, 2.0]]))
+
+
+def test_few_points_remain_and_are_spread():
+    assert thinned(np.arange(20).reshape(10, 2), 4)[:, 0].tolist() == [0, 6, 12, 18]
+
+
+@pytest.mark.parametrize('seed', range(5))
+def test_a_start_that_is_told_roughly_becomes_exact(seed):
+    world = world_of(seed=seed)
+    localiser = localiser_of(world.plan, seed=seed)
+    localiser.start_at(Pose(2.2, 1.1, 0.5))
+    errors = list(drive(world, localiser, 0.2, 0.4, 10.0))
+    assert max(distance for distance, _ in errors[1:]) < 0.05 and max(turn for _, turn in errors[1:]) < 0.03
+    assert localiser.estimate.is_sure
+
+
+@pytest.mark.parametrize('seed', range(5))
+def test_a_robot_that_was_told_nothing_looks_anywhere(seed):
+    poses = (Pose(0.3, 0.4, 2.0), Pose(3.6, 2.6, -1.0), Pose(2.0, 1.3, 0.0), Pose(0.4, 2.6, -2.8), Pose(3.3, 0.5, 1.0))
+    world = world_of(pose=poses[seed])
+    localiser = localiser_of(world.plan, seed=seed)
+    assert localiser.estimate is None
+    localiser.update(world.robots['rumba'].odometry, scanned(world))
+    assert error(localiser.pose(world.robots['rumba'].odometry), poses[seed]) < (0.03, 0.03)
+    assert localiser.estimate.is_sure
+
+
+def test_a_scan_is_used_only_after_a_movement():
+    world = world_of()
+    localiser = localiser_of(world.plan)
+    assert localiser.update(NOBODY, scanned(world))
+    assert not localiser.update(Pose(0.09, 0.0, 0.09), scanned(world))
+    assert localiser.update(Pose(0.09, 0.0, 0.09), scanned(world), is_forced=True)
+    assert localiser.update(Pose(0.09, 0.0, 0.2), scanned(world))
+    assert localiser.update(Pose(0.2, 0.0, 0.2), scanned(world))
+
+
+def test_a_robot_that_was_carried_away_notices_and_finds_itself_again():
+    world = world_of()
+    localiser = localiser_of(world.plan)
+    localiser.start_at(world.robots['rumba'].pose)
+    list(drive(world, localiser, 0.2, 0.3, 5.0))
+    world.teleport('rumba', Pose(0.5, 1.2, -2.0))
+    errors, sure = [], []
+    for each in drive(world, localiser, 0.12, 0.6, 15.0):
+        errors.append(each[0])
+        sure.append(localiser.estimate.is_sure)
+    assert errors[3] > 1.0 and not all(sure)
+    assert max(errors[-50:]) < 0.05 and all(sure[-50:])
+
+
+def test_without_echoes_the_pose_becomes_uncertain_and_is_found_again():
+    world = world_of(room(4.0, 3.0, 0.05, ((1.0, 0.0, 1.3, 0.4),)), Pose(2.0, 1.5, 0.0))
+    localiser = localiser_of(world.plan)
+    localiser.start_at(world.robots['rumba'].pose)
+    list(drive(world, localiser, 0.1, 0.5, 3.0))
+    known = localiser.estimate.covariance
+    list(drive(world, localiser, 0.2, 1.0, 40.0, is_blind=True))
+    assert localiser.estimate.covariance[0, 0] > 20.0 * known[0, 0]
+    assert list(drive(world, localiser, 0.2, 1.0, 10.0))[-1] < (0.05, 0.05)
+
+
+def test_nothing_is_known_before_the_first_echoes():
+    localiser = localiser_of(crooked())
+    assert not localiser.update(NOBODY, np.empty((0, 2))) and localiser.estimate is None
+
+
+def test_in_a_room_that_looks_the_same_twice_both_places_are_kept():
+    """A rectangle looks the same after half a turn about its middle, however the robot moves."""
+    world = world_of(room(4.0, 2.6, 0.05), Pose(1.2, 0.9, 0.4))
+    localiser = localiser_of(world.plan)
+    for _ in drive(world, localiser, 0.15, 0.5, 10.0):
+        true = world.robots['rumba'].pose
+        mirrored = Pose(4.0 - true.x, 2.6 - true.y, true.theta + math.pi)
+        near = [np.hypot(localiser.particles[:, 0] - pose.x, localiser.particles[:, 1] - pose.y) < 0.4
+                for pose in (true, mirrored)]
+        assert min(part.mean() for part in near) > 0.05
+    assert not localiser.estimate.is_sure
+    assert localiser.estimate.covariance[0, 0] >= START[0, 0]
+
+
+def test_the_same_scans_and_seed_give_the_same_belief():
+    found = []
+    for _ in range(2):
+        world = world_of()
+        localiser = localiser_of(world.plan, seed=7)
+        list(drive(world, localiser, 0.2, 0.5, 5.0))
+        found.append((localiser.correction, localiser.particles.tolist()))
+    assert found[0] == found[1]
+
+
+def test_no_place_is_tried_where_the_robot_does_not_fit():
+    plan = crooked()
+    positions = localiser_of(plan)._search._positions
+    assert len(positions) > 100 and min(plan.clearance_at(x, y) for x, y in positions) >= RADIUS - 0.03
+
+
+@pytest.mark.parametrize('given, message', [
+    ({'max_particles': 100, 'min_particles': 200}, '^max_particles is 100: must not be below min_particles, 200$'),
+    ({'recovery_alpha_fast': 0.01}, '^recovery_alpha_fast is 0.01: must not be below recovery_alpha_slow, 0.02$')])
+def test_parameters_in_the_wrong_order_are_refused(given, message):
+    with pytest.raises(ConfigError, match=message):
+        LocaliserConfig(**given)

@@ -1,0 +1,62 @@
+"""Scans are weighed and matched as closed forms say."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from rooms import crooked, room
+from scans import scanned, world_of
+
+from rumba_localisation import compiled_matching
+from rumba_localisation.localiser import STEPS
+from rumba_localisation.walls import Walls
+from rumba_sim.model.geometry import Pose
+
+WIDE = np.diag([0.1, 0.1, 0.1]) ** 2
+
+
+def matched(walls, start, points, covariance=WIDE):
+    """Pose, its covariance, and the fit."""
+    pose, result = np.empty(3), np.empty((3, 3))
+    fit = compiled_matching.match(np.array(start, float), covariance, points, walls.distance, *walls.origin,
+                                  walls.resolution, STEPS, 1.0, pose, result)
+    return pose, result, fit
+
+
+def test_a_pose_is_weighed_by_the_cells_in_which_its_beams_end():
+    walls = Walls(room(3.0, 2.0, 0.025))
+    field = np.zeros((walls.distance.shape[0] + 1, walls.distance.shape[1] + 1), np.float32)
+    field[1 + 23, 1 + 43], field[1 + 59, 1 + 11] = -1.0, -10.0  # cells around (1.0625, 0.5625) and (0.2625, 1.4625)
+    poses = np.array([[0.56, 0.56, 0.0], [1.06, 1.06, -0.5 * math.pi], [0.26, 0.96, 0.5 * math.pi], [9.0, -9.0, 0.3]])
+    sums = np.empty(4)
+    compiled_matching.weigh(poses, np.array([[0.5, 0.0]]), field, *walls.origin, walls.resolution, sums)
+    assert sums.tolist() == [-1.0, -1.0, -10.0, 0.0]
+
+
+@settings(max_examples=30)
+@given(st.floats(-0.06, 0.06), st.floats(-0.06, 0.06), st.floats(-0.1, 0.1))
+def test_a_match_finds_the_pose_from_nearby(x, y, theta):
+    world = world_of(crooked(0.025), Pose(2.0, 1.3, 0.7))
+    pose, covariance, fit = matched(Walls(world.plan), (2.0 + x, 1.3 + y, 0.7 + theta), scanned(world))
+    assert pose == pytest.approx([2.0, 1.3, 0.7], abs=0.006)
+    assert fit > 0.85 and math.sqrt(covariance[0, 0]) < 0.01
+
+
+def test_along_a_bare_wall_the_prior_decides():
+    """One straight wall says nothing of the position along it."""
+    walls = Walls(room(6.0, 2.0, 0.05))
+    points = np.array([[x, -1.0] for x in np.linspace(-0.5, 0.5, 40)])
+    pose, covariance, _ = matched(walls, (3.03, 1.04, 0.02), points)
+    assert pose == pytest.approx([3.03, 1.0, 0.0], abs=2e-3)
+    assert covariance[0, 0] == pytest.approx(WIDE[0, 0], rel=0.05) and covariance[1, 1] < 0.01 * WIDE[1, 1]
+
+
+def test_beams_that_hit_what_the_map_does_not_show_count_little():
+    world = world_of(crooked(0.025))
+    points = scanned(world)
+    points[:60] *= 0.5  # something stands there
+    pose, _, fit = matched(Walls(world.plan), (2.03, 1.27, 0.75), points)
+    assert pose == pytest.approx([2.0, 1.3, 0.7], abs=0.01)
+    assert fit == pytest.approx(0.95 * (1.0 - 60.0 / len(points)), abs=0.06)

@@ -1,0 +1,94 @@
+"""What the node makes of messages, without a master."""
+
+import math
+
+import numpy as np
+import pytest
+import rospy
+from geometry_msgs.msg import PoseWithCovariance
+from rooms import crooked
+from sensor_msgs.msg import LaserScan
+from std_msgs.msg import Header
+
+from rumba_localisation.ros import conversions
+from rumba_localisation.ros.localiser import Settings
+from rumba_localisation.ros.odometries import KEPT, Odometries
+from rumba_sim.model.errors import ConfigError, MapError
+from rumba_sim.model.geometry import Pose
+from rumba_sim.ros.common.conversions import grid, quaternion
+
+
+def message_of(plan):
+    """The message of a map."""
+    return grid(plan, plan.occupancy, rospy.Time(0))
+
+
+def test_a_map_comes_through_a_message_unchanged():
+    plan = crooked(0.02)
+    message = message_of(plan)
+    message.info.resolution = float(np.float32(message.info.resolution))  # as it is received
+    found = conversions.floor_plan(message)
+    assert (found.resolution, found.origin) == (plan.resolution, plan.origin)
+    assert np.array_equal(found.occupancy, plan.occupancy)
+
+
+@pytest.mark.parametrize('spoil, reason', [
+    (lambda message: message.data.pop(), r'map: \d+ cells: must be width \* height, 82 \* 62'),
+    (lambda message: setattr(message.info, 'resolution', math.nan), 'map: resolution nan m'),
+    (lambda message: setattr(message.info, 'resolution', 0.0), 'map: resolution 0.0 m'),
+    (lambda message: setattr(message.info.origin.position, 'x', math.inf), r'map: .* origin \(inf, '),
+    (lambda message: setattr(message.info.origin, 'orientation', quaternion(0.1)), 'map: its origin is turned')])
+def test_a_map_that_makes_no_sense_is_refused(spoil, reason):
+    message = message_of(crooked(0.05))
+    spoil(message)
+    with pytest.raises(MapError, match=reason):
+        conversions.floor_plan(message)
+
+
+def test_a_scan_ends_at_points():
+    scan = LaserScan(angle_min=0.0, angle_increment=0.5 * math.pi, ranges=[1.0, math.inf, 3.0])
+    assert conversions.scan_points(scan) == pytest.approx(np.array([[1.0, 0.0], [-3.0, 0.0]]))
+    assert len(conversions.scan_points(LaserScan(angle_min=math.nan, angle_increment=0.1, ranges=[1.0]))) == 0
+
+
+def test_a_covariance_stands_at_its_places_in_a_message():
+    covariance = np.array([[1.0, 2.0, 3.0], [2.0, 5.0, 6.0], [3.0, 6.0, 9.0]])
+    message = conversions.pose_with_covariance(Pose(1.0, 2.0, 0.5), covariance, Header())
+    numbers = message.pose.covariance
+    assert (numbers[0], numbers[1], numbers[5], numbers[7], numbers[11], numbers[35]) == (1.0, 2.0, 3.0, 5.0, 6.0, 9.0)
+    assert np.array_equal(conversions.covariance_of(message.pose), covariance)
+
+
+@pytest.mark.parametrize('numbers, is_one', [
+    ([0.0] * 36, True), ([1.0] + [0.0] * 35, True), ([math.nan] + [0.0] * 35, False), ([-1.0] + [0.0] * 35, False),
+    ([0.0, 1.0] + [0.0] * 34, False)])
+def test_not_all_numbers_are_a_covariance(numbers, is_one):
+    assert conversions.is_covariance(conversions.covariance_of(PoseWithCovariance(covariance=numbers))) is is_one
+
+
+def test_poses_by_odometry_are_found_by_their_time_and_between_two():
+    odometries = Odometries()
+    assert odometries.at(rospy.Time(1)) is None and not odometries.is_before(rospy.Time(1))
+    odometries.add(rospy.Time(1), Pose(0.0, 0.0, 3.0))
+    odometries.add(rospy.Time(2), Pose(1.0, 4.0, -3.0))
+    assert odometries.at(rospy.Time(2)) == Pose(1.0, 4.0, -3.0)
+    middle = odometries.at(rospy.Time(1, 500_000_000))
+    assert (middle.x, middle.y) == (0.5, 2.0) and abs(middle.theta) == pytest.approx(math.pi)
+    assert odometries.at(rospy.Time(3)) is None and odometries.at(rospy.Time(0, 1)) is None
+    assert odometries.is_before(rospy.Time(0, 1)) and not odometries.is_before(rospy.Time(1))
+
+
+def test_a_time_that_begins_again_and_a_long_one_forget_what_was():
+    odometries = Odometries()
+    for second in range(2 * KEPT):
+        odometries.add(rospy.Time(second), Pose(0.0, 0.0, 0.0))
+    assert odometries.is_before(rospy.Time(KEPT - 1)) and not odometries.is_before(rospy.Time(KEPT))
+    odometries.add(rospy.Time(1), Pose(1.0, 0.0, 0.0))
+    assert odometries.at(rospy.Time(KEPT + 1)) is None and odometries.at(rospy.Time(1)) == Pose(1.0, 0.0, 0.0)
+
+
+def test_a_start_needs_both_coordinates():
+    assert Settings().start is None
+    assert Settings(initial_pose_x=1.0, initial_pose_y=2.0).start == Pose(1.0, 2.0, 0.0)
+    with pytest.raises(ConfigError, match='^initial_pose_x and initial_pose_y must be given together, or neither$'):
+        Settings(initial_pose_x=1.0)
