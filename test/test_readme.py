@@ -119,4 +119,5 @@ def test_a_clone_in_another_workspace_brings_the_packages_and_nothing_of_its_own
     assert sorted(catkin_pkg.packages.find_package_paths(str(ROOT))) == sorted(
         str(path.relative_to(ROOT)) for path in OURS + TUTORIALS)
     assert [path.name for path in OURS] == [
-        'rumba_bringup', 'rumba_cleaning', 'rumba_evaluation', 'rumba_msg', 'rumba_sim', 'rumba_viewer']
+        'rumba_bringup', 'rumba_cleaning', 'rumba_evaluation', 'rumba_localisation', 'rumba_msg', 'rumba_sim',
+        'rumba_viewer']

@@ -46,7 +46,7 @@ from rumba_sim.model.geometry import Pose
 from rumba_sim.ros.common import node
 from rumba_sim.ros.common.conversions import plane_pose, transform
 from rumba_sim.ros.common.frames import MAP, frames
-from rumba_sim.ros.common.lockstep import Participant
+from rumba_sim.ros.common.lockstep import Participant, Resent
 from rumba_sim.ros.common.names import check_names
 from rumba_sim.ros.common.requests import Requests
 
@@ -103,7 +103,8 @@ class LocaliserNode:
         self._is_forced = False
         self._was_sure: Optional[bool] = None
         name = settings.robot
-        self._tf = rospy.Publisher('/tf', TFMessage, queue_size=QUEUE)
+        self._newest = Resent()
+        self._tf = rospy.Publisher('/tf', TFMessage, self._newest, queue_size=QUEUE)
         self._pose = rospy.Publisher(f'{name}/amcl_pose', PoseWithCovarianceStamped, queue_size=QUEUE, latch=True)
         self._cloud = rospy.Publisher(f'{name}/particlecloud', PoseArray, queue_size=2)
         self._participant = Participant(lambda tick: self._requests.post(lambda: self._take_tick(tick)))
@@ -130,6 +131,7 @@ class LocaliserNode:
             self._plan, self._localiser = conversions.floor_plan(message), None
         except MapError as error:
             rospy.logerr_throttle(COMPLAINT_PERIOD, f'{error}; ignored')
+        self._look()
 
     def _take_odom(self, message: Odometry) -> None:
         pose = plane_pose(message.pose.pose)
@@ -200,7 +202,8 @@ class LocaliserNode:
             return
         stamp = scan.header.stamp
         self._is_forced = self._is_forced and not is_used
-        self._tf.publish(TFMessage([transform(MAP, self._frames.odom, localiser.correction, stamp)]))
+        self._newest.message = TFMessage([transform(MAP, self._frames.odom, localiser.correction, stamp)])
+        self._tf.publish(self._newest.message)
         header = Header(stamp=stamp, frame_id=MAP)
         self._pose.publish(conversions.pose_with_covariance(
             localiser.pose(odometry), localiser.estimate.covariance, header))

@@ -1,0 +1,178 @@
+"""How exactly a robot localises itself, how fast it finds its place, and what its missions cost by the pose it believes.
+
+`localisation.py [--seeds N]` runs seeds 1 to N, 20 by default, on all cores; times are simulated, but for the cost.
+"""
+
+import argparse
+import concurrent.futures
+import functools
+import math
+import pathlib
+import statistics
+import time
+from typing import NamedTuple
+
+import numpy as np
+from common import figures
+
+from rumba_cleaning import control
+from rumba_cleaning.behaviours.bounce import Bounce
+from rumba_cleaning.behaviours.relocation import Relocation
+from rumba_cleaning.belief.context import Context
+from rumba_cleaning.cleaning_config import CleaningConfig
+from rumba_cleaning.pose_source import Localised
+from rumba_evaluation.trials import starts
+from rumba_evaluation.trials.cases import ANYWHERE, LOCALISED, TRUTH, Conditions
+from rumba_evaluation.trials.trial import Trial
+from rumba_sim.model import map_file
+from rumba_sim.model.geometry import wrap_angle
+from rumba_sim.model.world import World
+
+MAPS = pathlib.Path(__file__).resolve().parents[1] / 'rumba_sim' / 'maps'
+NAMES = ('studio', 'apartment')
+TARGET = 0.98
+FOUND = 0.15, math.radians(5.0)  # [m], [rad] error of a pose that is found
+HELD = 2.0  # [s] for which it must stay found
+LIMIT = 60.0  # [s] of a search
+WITHIN = 30.0  # [s]
+BEFORE = 10.0  # [s] of driving before the robot is carried away
+
+
+class Mission(NamedTuple):
+    """A mission by a kind of pose."""
+
+    multiple: float  # working time to the target, in multiples of T
+    is_home: bool
+    position: float  # RMS of the error [m]
+    heading: float  # RMS of the error [rad]
+    worst: float  # [m]
+    lost: float  # share of the time in which the robot was not sure
+    cost: float  # CPU time of the localisation per simulated second [s]
+    speed: float  # simulated seconds per CPU second, all in all
+
+
+@functools.lru_cache(maxsize=None)
+def floor(name):
+    """The plan of a map."""
+    return map_file.load(MAPS / f'{name}.yaml')
+
+
+def error(belief, world):
+    """Error of a belief about the robot of a world: distance [m], angle [rad]."""
+    pose = world.robots['rumba'].pose
+    return (math.hypot(belief.pose.x - pose.x, belief.pose.y - pose.y),
+            abs(wrap_angle(belief.pose.theta - pose.theta)))
+
+
+class Watched:
+    """A source of poses, with the errors of all that it told and the CPU time that it took."""
+
+    def __init__(self, source):
+        """Watch a source."""
+        self.source, self.errors, self.lost, self.cost = source, [], 0, 0.0
+
+    def __call__(self, world, name):
+        """What the source believes."""
+        begun = time.process_time()
+        belief = self.source(world, name)
+        self.cost += time.process_time() - begun
+        self.errors.append(error(belief, world))
+        self.lost += max(belief.covariance[0][0], belief.covariance[1][1]) > 0.05
+        return belief
+
+
+def mission(name, pose, seed):
+    """A mission on a map, by a kind of pose."""
+    begun = time.process_time()
+    trial = Trial(floor(name), 'boustrophedon', Conditions(start=ANYWHERE, pose=pose, target=TARGET), seed)
+    watched = trial.sources['rumba'] = Watched(trial.sources['rumba'])
+    while not trial.is_over:
+        trial.step()
+    errors, result = np.array(watched.errors), trial.result()
+    return Mission(result.multiple_to(round(100 * TARGET)), result.docked == 1, *np.sqrt((errors ** 2).mean(axis=0)),
+                   errors[:, 0].max(), watched.lost / len(errors), watched.cost / result.time,
+                   result.time / (time.process_time() - begun))
+
+
+def search(name, is_carried, seed):
+    """Seconds until a robot has found its place, which nobody told it, or from which it was carried to another one."""
+    plan, generator = floor(name), np.random.default_rng(seed)
+    world = World(plan, seed=seed)
+    poses = starts.anywhere(plan, world.config, world.start, 2, generator)
+    world.spawn('rumba', poses[0])
+    source = Localised(plan, world, 'rumba', seed)
+    context = Context(plan, world.config, CleaningConfig(), seed)
+    if is_carried:
+        _drive(world, source, Bounce(context.generator, CleaningConfig().speed).step, BEFORE)
+        world.teleport('rumba', poses[1])
+    else:
+        source.localiser.search_anywhere()
+    begun, relocation = world.time, Relocation(context)
+    return _found(_drive(world, source, relocation.command, LIMIT), begun)
+
+
+def _drive(world, source, decide, seconds):
+    """Drive for some time; returns the times, and whether the place was known."""
+    known = []
+    end = world.time + seconds
+    while world.time < end:
+        observation = control.observe(world, 'rumba', control.CONTROL_DT, source)
+        off, turned = error(observation, world)
+        known.append((world.time, not observation.is_lost and off < FOUND[0] and turned < FOUND[1]))
+        command = decide(observation)
+        world.robots['rumba'].command(command.v, command.w, world.tick)
+        world.step(control.CONTROL_TICKS)
+    return known
+
+
+def _found(known, begun):
+    """Seconds after which the place was known for good."""
+    held = 0
+    for when, is_known in known:
+        held = held + 1 if is_known else 0
+        if held * control.CONTROL_DT >= HELD:
+            return when - begun - HELD
+    return math.inf
+
+
+def main():
+    """Print."""
+    parser = argparse.ArgumentParser(description=__doc__.split('\n\n')[0])
+    parser.add_argument('--seeds', type=int, default=20)
+    seeds = range(1, parser.parse_args().seeds + 1)
+    with concurrent.futures.ProcessPoolExecutor() as executor:
+        for name in NAMES:
+            figures.heading(f'Localisation on the map {name}, {len(seeds)} seeds')
+            told = list(executor.map(functools.partial(mission, name, LOCALISED), seeds))
+            true = list(executor.map(functools.partial(mission, name, TRUTH), seeds))
+            missions(told, true)
+            for title, is_carried in (('place found, told nothing', False), ('place found, carried away', True)):
+                searches(title, list(executor.map(functools.partial(search, name, is_carried), seeds)))
+
+
+def missions(told, true):
+    """Print how missions went."""
+    figures.row('RMS error of position [m], worst mission', max(each.position for each in told), below=0.03)
+    figures.row('RMS error of heading [deg], worst mission', math.degrees(max(each.heading for each in told)),
+                below=1.5)
+    figures.row('largest error of position [m]', max(each.worst for each in told), below=0.15)
+    figures.row('largest share of the time not sure', max(each.lost for each in told))
+    ratios = [one.multiple / other.multiple for one, other in zip(told, true)]
+    figures.row(f'{100 * TARGET:.0f} % swept: time by that of the true pose, median', statistics.median(ratios),
+                below=1.15)
+    figures.row('    the same, worst', max(ratios))
+    figures.row('home', sum(each.is_home for each in told), at_least=len(told))
+    figures.row('CPU time at real time [%]', 100.0 * statistics.median(each.cost for each in told), below=10.0)
+    figures.row('simulated seconds per CPU second, all', statistics.median(each.speed for each in told), at_least=200)
+
+
+def searches(title, seconds):
+    """Print how searches went."""
+    figures.row(f'{title}, within {WITHIN:.0f} s', sum(each <= WITHIN for each in seconds),
+                at_least=math.ceil(0.95 * len(seconds)))
+    figures.row('    median time [s]', statistics.median(seconds))
+    figures.row('    longest time [s]', max(seconds))
+
+
+if __name__ == '__main__':
+    main()

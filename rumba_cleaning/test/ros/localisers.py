@@ -1,0 +1,1 @@
+../../../rumba_localisation/test/ros/localisers.py

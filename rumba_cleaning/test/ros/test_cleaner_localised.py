@@ -1,0 +1,82 @@
+#!/usr/bin/env python3
+"""A robot that localises itself cleans, through ROS as in process; and knows what to do if nobody tells its pose."""
+
+import unittest
+
+import rospy
+import rostest
+from cleaners import Cleaner
+from geometry_msgs.msg import PoseWithCovarianceStamped
+from localisers import Localiser
+from simulators import Heard, Simulator
+
+from rumba_cleaning.behaviour import Status
+from rumba_cleaning.behaviours import relocation
+from rumba_cleaning.belief.context import BeforeNextStep, Context, own_seed
+from rumba_cleaning.cleaning_config import CleaningConfig
+from rumba_cleaning.control import CONTROL_DT, CONTROL_TICKS, STEP_RATE, act
+from rumba_cleaning.mission.mission import Mission
+from rumba_cleaning.pose_source import Localised
+from rumba_msg.msg import CleanGoal, MissionStatus
+from rumba_sim.model import map_file
+from rumba_sim.model.robot import FIRST
+from rumba_sim.model.robot_config import RobotConfig
+from rumba_sim.model.world import World
+from rumba_sim.ros.common.maps import map_path
+
+SEED, TARGET = 3, 0.15
+SIMULATOR = '_map:=studio', f'_seed:={SEED}', '_speed:=0', '_brushes_up:=true', '_localisation:=false'
+
+
+def digest_in_process(ticks):
+    """The digest of the world so many ticks after the start of a mission by a pose that is localised."""
+    plan = map_file.load(map_path('studio'))
+    world, planners = World(plan, RobotConfig(), STEP_RATE, SEED), BeforeNextStep()
+    world.spawn(FIRST, brushes_up=True)
+    source = Localised(plan, world, FIRST, SEED)
+    world.step()
+    mission = Mission(Context(plan, RobotConfig(), CleaningConfig(), own_seed(SEED, FIRST), planners), 'boustrophedon',
+                      TARGET)
+    dt = 0.0
+    while mission.status is Status.RUNNING:
+        planners.work()
+        act(mission, world, FIRST, dt, source)
+        world.step(CONTROL_TICKS)
+        dt = CONTROL_DT
+    world.step(ticks - world.tick)
+    return world.digest()
+
+
+class CleanerLocalisedTest(unittest.TestCase):
+    """Each test has its own nodes."""
+
+    def test_a_mission_by_a_pose_that_is_localised_is_the_same_as_in_process(self):
+        simulator = Simulator(self, *SIMULATOR, '_wait_for:=cleaner localiser')
+        start = map_file.load(map_path('studio')).dock
+        Localiser(self, f'_seed:={SEED}', f'_initial_pose_x:={start.x}', f'_initial_pose_y:={start.y}',
+                  f'_initial_pose_a:={start.theta}')
+        cleaner = Cleaner(self, f'_seed:={SEED}', f'_target_coverage:={TARGET}', '_autostart:=true').connect()
+        ended = cleaner.status.find(lambda status: status.state == MissionStatus.IDLE and 'swept' in status.message)
+        self.assertRegex(ended.message, r'^15\.\d % swept$')
+        digest, tick = simulator.digest()
+        self.assertEqual(digest, digest_in_process(tick))
+
+    def test_a_robot_whose_localisation_falls_silent_stands_still_until_it_is_back(self):
+        Simulator(self, '_map:=studio', '_speed:=10', '_brushes_up:=true', '_localisation:=false',
+                  '_lockstep_patience:=1')
+        first, cleaner = Localiser(self), Cleaner(self).connect()
+        Heard(self, '/rumba/amcl_pose', PoseWithCovarianceStamped).find()
+        goal = cleaner.send('clean', CleanGoal(target_coverage=0.5))
+        cleaner.status.find(lambda status: status.state == MissionStatus.CLEANING and '%' in status.message)
+        first.process.kill()
+        first.process.wait()
+        cleaner.status.fresh(lambda status: status.message == relocation.MESSAGE)
+        cleaner.commands.fresh(lambda twist: not twist.linear.x and not twist.angular.z)
+        Localiser(self)
+        cleaner.status.fresh(lambda status: status.state == MissionStatus.CLEANING and 'swept' in status.message)
+        self.assertFalse(goal.has_ended)
+
+
+if __name__ == '__main__':
+    rospy.init_node('test_cleaner_localised')
+    rostest.rosrun('rumba_cleaning', 'cleaner_localised', CleanerLocalisedTest)
