@@ -51,7 +51,7 @@ class CleanerLocalisedTest(unittest.TestCase):
     """Each test has its own nodes."""
 
     def test_a_mission_by_a_pose_that_is_localised_is_the_same_as_in_process(self):
-        simulator = Simulator(self, *SIMULATOR, '_wait_for:=cleaner localiser')
+        simulator = Simulator(self, *SIMULATOR, '_wait_for:=cleaner localiser', '_lockstep_patience:=60')
         start = map_file.load(map_path('studio')).dock
         Localiser(self, f'_seed:={SEED}', f'_initial_pose_x:={start.x}', f'_initial_pose_y:={start.y}',
                   f'_initial_pose_a:={start.theta}')
