@@ -292,6 +292,8 @@ class World:
     def cliffs(self, name: str) -> List[bool]:
         """Whether there is no floor under the left, front left, front right and right sensor of a robot."""
         pose, config = self.robots[name].pose, self._config.cliff
+        if self.terrain.cliff is None:
+            return 4 * [False]
         angles = (config.outer_angle, config.inner_angle, -config.inner_angle, -config.outer_angle)
         return [bool(fast.cell_bits(self.constants[0], self.floor.cells,
                                     pose.x + config.distance * math.cos(pose.theta + angle),
