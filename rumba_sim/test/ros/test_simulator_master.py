@@ -97,7 +97,7 @@ class SimulatorMasterTest(unittest.TestCase):
                     self.assertRegex(process.stdout.read(), message)
             wait(self, lambda: master.serves('/static_map'), 'the survivor')
             self.assertIsNone(running[0].poll())
-            self.assertNotIn('reserv', str(master.api.getSystemState()))
+            wait(self, lambda: 'reserv' not in str(master.api.getSystemState()), 'the end of the reservation')
             running[0].terminate()
             self.assertEqual(running[0].wait(TIMEOUT), 0)
 
