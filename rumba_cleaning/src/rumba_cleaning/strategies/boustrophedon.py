@@ -104,12 +104,14 @@ class Boustrophedon(Behaviour):
         return STOP._replace(brushes_up=self._brushes_up)
 
 
-def _round(context: Context, pose: Pose, is_worth: bool, may_forget: bool) -> Planned:
-    """A route that cleans what was missed; if there is none, one without the obstacles that were met.
+def plan(context: Context, pose: Pose) -> Optional[Route]:
+    """As `planner.plan`, which is imported here, where nobody waits: otherwise a cleaner would take longer to start."""
+    from rumba_cleaning.planning import planner
+    return planner.plan(context, pose)
 
-    The planner is imported here, where nobody waits for it: otherwise a cleaner would take a third longer to start.
-    """
-    from rumba_cleaning.planning.planner import plan
+
+def _round(context: Context, pose: Pose, is_worth: bool, may_forget: bool) -> Planned:
+    """A route that cleans what was missed; if there is none, one without the obstacles that were met."""
     route = plan(context, pose) if is_worth else None
     if route is not None or not may_forget:
         return route, False
