@@ -26,7 +26,7 @@ from rumba_sim.model.world import World
 from rumba_sim.ros.common.maps import map_path
 
 SEED = 3
-TARGET = 0.15
+TARGET = 0.05  # with it a mission still undocks, plans, cleans, returns and docks
 BUSY = 4  # loops beside the nodes
 STOPPED = 1.5  # [s] of the wall clock
 PATIENCE = 1  # [s] of the wall clock
@@ -52,24 +52,26 @@ def digest_in_process(ticks, begin=1):
 class CleanerLockstepTest(unittest.TestCase):
     """Each test has its own nodes."""
 
-    def autostarted(self):
-        """A simulator that waits for its cleaner from the first tick on, and that cleaner."""
+    def autostarted(self, loops=0):
+        """A simulator that waits for its cleaner from the first tick on, and that cleaner; busy loops run meanwhile."""
         simulator = Simulator(self, *SIMULATOR, '_wait_for:=cleaner')
+        for _ in range(loops):
+            busy = subprocess.Popen([sys.executable, '-c', 'while True: pass'])
+            self.addCleanup(busy.wait)
+            self.addCleanup(busy.kill)
         return simulator, Cleaner(self, *CLEANER, '_autostart:=true').connect()
 
     def ends_as_in_process(self, simulator, cleaner, begin=1):
         """Wait until the mission has ended at its target, and compare the world."""
+        for state in (MissionStatus.CLEANING, MissionStatus.DOCKING):  # on a busy machine, each takes its time
+            cleaner.status.find(lambda status, state=state: status.state == state)
         ended = cleaner.status.find(lambda status: status.state == MissionStatus.IDLE and 'swept' in status.message)
-        self.assertRegex(ended.message, r'^15\.\d % swept$')
+        self.assertRegex(ended.message, r'^5\.\d % swept$')
         digest, tick = simulator.digest()
         self.assertEqual(digest, digest_in_process(tick, begin))
 
     def test_a_mission_is_the_same_beside_busy_loops(self):
-        for _ in range(BUSY):
-            busy = subprocess.Popen([sys.executable, '-c', 'while True: pass'])
-            self.addCleanup(busy.wait)
-            self.addCleanup(busy.kill)
-        self.ends_as_in_process(*self.autostarted())
+        self.ends_as_in_process(*self.autostarted(BUSY))
 
     def test_a_mission_is_the_same_although_its_processes_are_stopped_for_a_while(self):
         simulator, cleaner = self.autostarted()

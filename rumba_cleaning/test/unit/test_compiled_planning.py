@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from rumba_cleaning.belief.compiled_footing import are_marked, stamp
 from rumba_cleaning.belief.search import is_clear
 from rumba_cleaning.planning.compiled_lanes import NO_ROW, lowest, runs
 from rumba_cleaning.planning.compiled_ways import cornered_length
@@ -58,3 +59,13 @@ def test_a_line_is_clear_if_all_nodes_along_it_are(ends, seed):
     least = float(clearance[nodes[:, 0], nodes[:, 1]].min())
     for needed in (least, least + 1e-9):
         assert is_clear(clearance, ORIGIN, RESOLUTION, tuple(start), tuple(end), needed) == (needed == least)
+
+
+def test_floor_is_marked_where_a_robot_has_its_points_and_found_beside_them():
+    floor = np.zeros((6, 8), np.bool_)
+    stamp(floor, *ORIGIN, RESOLUTION, np.array([[-0.5, 2.25, 0.5 * math.pi]]), np.array([[0.1, 0.15], [9.0, -0.05]]))
+    assert np.argwhere(floor).tolist() == [[3, 3], [5, 5]]  # the second point is off the floor, above its edge
+    points = np.array([[-0.65, 2.35], [-0.55, 2.25], [-0.35, 2.35], [-9.0, 2.35]])
+    for cells, found in ((0, [True, False, False, False]), (1, [True, True, False, False]),
+                         (2, [True, True, True, False]), (3, [True, True, True, True])):
+        assert are_marked(floor, *ORIGIN, RESOLUTION, points, cells).tolist() == found

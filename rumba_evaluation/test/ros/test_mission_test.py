@@ -17,7 +17,7 @@ import rostest
 from nav_msgs.msg import Odometry
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import BatteryState
-from simulators import TIMEOUT, wait
+from simulators import TIMEOUT, executable, wait
 from std_msgs.msg import Float64, Header
 
 from rumba_msg.msg import BatteryStatus, Bumper, CleaningStatus, DockStatus, SimulatorState
@@ -34,13 +34,14 @@ NAMELESS = 'simulator/state:=/nobody/state'  # as if no node told its name there
 class Run:
     """A running mission_test."""
 
-    def __init__(self, test, *arguments, robot='', command=('rosrun', 'rumba_evaluation', 'mission_test')):
+    def __init__(self, test, *arguments, robot='', command=()):
         self._test = test
         folder = tempfile.TemporaryDirectory()
         test.addCleanup(folder.cleanup)
         self._results = pathlib.Path(folder.name, 'results.xml')
         if rospy.has_param('/mission_test'):
             rospy.delete_param('/mission_test')
+        command = command or [executable('rumba_evaluation', 'mission_test')]
         self.process = subprocess.Popen(
             [*command, f'_robot:={robot or test.robot}', *arguments, f'--gtest_output=xml:{self._results}'],
             stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True)

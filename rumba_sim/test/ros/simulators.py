@@ -41,7 +41,7 @@ SERVICES = {
 
 @functools.lru_cache(maxsize=None)
 def executable(package, node):
-    """Path of a node, which `rosrun` would look for at each start."""
+    """Path of a node, which `rosrun` would look for at each start, longer than some nodes take to start."""
     return roslib.packages.find_node(package, node)[0]
 
 

@@ -9,6 +9,7 @@ import unittest
 
 import rospy
 import rostest
+from simulators import executable
 
 from rumba_msg.msg import BatteryStatus
 
@@ -23,8 +24,9 @@ class BatteryStatusListenerTest(unittest.TestCase):
     """Each test has a listener in a separate namespace."""
 
     def start(self, namespace, **options):
-        """Start the node as a user does."""
-        process = subprocess.Popen(['rosrun', 'rumba_sim', 'battery_status_listener', f'__ns:=/{namespace}'], **options)
+        """Start the node in a separate namespace."""
+        command = [executable('rumba_sim', 'battery_status_listener'), f'__ns:=/{namespace}']
+        process = subprocess.Popen(command, **options)
         self.addCleanup(process.wait)
         self.addCleanup(process.kill)
         return process

@@ -8,6 +8,7 @@ import unittest
 import rospy
 import rostest
 from rosgraph_msgs.msg import Clock
+from simulators import executable
 
 from rumba_msg.msg import BatteryStatus
 
@@ -19,9 +20,9 @@ class BatteryStatusPublisherTest(unittest.TestCase):
     """The node of the launch file's namespace, and nodes that the test starts."""
 
     def start(self, namespace, *arguments):
-        """Start the node as a user does, in a separate namespace."""
+        """Start the node in a separate namespace."""
         process = subprocess.Popen(
-            ['rosrun', 'rumba_sim', 'battery_status_publisher', f'__ns:=/{namespace}', *arguments],
+            [executable('rumba_sim', 'battery_status_publisher'), f'__ns:=/{namespace}', *arguments],
             stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True)
         self.addCleanup(process.communicate)
         self.addCleanup(process.kill)

@@ -107,7 +107,7 @@ class SimulatorBadStartTest(unittest.TestCase):
 
     def start_without_master(self, master):
         """Start a simulator, and check the line that it prints."""
-        process = subprocess.Popen(['rosrun', 'rumba_sim', 'simulator', '_map:=field'], stderr=subprocess.PIPE,
+        process = subprocess.Popen([executable('rumba_sim', 'simulator'), '_map:=field'], stderr=subprocess.PIPE,
                                    universal_newlines=True, env={**os.environ, 'ROS_MASTER_URI': master.uri})
         self.addCleanup(process.communicate)
         self.addCleanup(process.terminate)

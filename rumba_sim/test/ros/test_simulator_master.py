@@ -12,7 +12,7 @@ import unittest
 import rosgraph
 import rospy
 import rostest
-from simulators import TIMEOUT, lookup, wait
+from simulators import TIMEOUT, executable, lookup, wait
 
 ROUNDS = 3
 READY = 'tuning/set_parameters'
@@ -64,7 +64,7 @@ class OwnMaster:
 
     def simulator(self, *arguments):
         """A simulator at this master, perhaps not ready yet."""
-        return self.begin('rosrun', 'rumba_sim', 'simulator', '_map:=studio', *arguments)
+        return self.begin(executable('rumba_sim', 'simulator'), '_map:=studio', *arguments)
 
     def serves(self, service):
         """Whether a service is registered."""
@@ -97,7 +97,7 @@ class SimulatorMasterTest(unittest.TestCase):
                     self.assertRegex(process.stdout.read(), message)
             wait(self, lambda: master.serves('/static_map'), 'the survivor')
             self.assertIsNone(running[0].poll())
-            self.assertNotIn('reserv', str(master.api.getSystemState()))
+            wait(self, lambda: 'reserv' not in str(master.api.getSystemState()), 'the end of the reservation')
             running[0].terminate()
             self.assertEqual(running[0].wait(TIMEOUT), 0)
 
@@ -116,7 +116,7 @@ class SimulatorMasterTest(unittest.TestCase):
     def test_after_a_restart_of_the_master_all_nodes_are_there_again(self):
         master = OwnMaster(self)
         master.simulator('_speed:=10')
-        listener = master.begin('rosrun', 'rumba_sim', 'battery_status_listener')
+        listener = master.begin(executable('rumba_sim', 'battery_status_listener'))
         wait(self, lambda: master.serves(f'/simulator/{READY}'), 'the simulator')
         self.assertIn('battery', listener.stdout.readline())
         before = master.api.getSystemState()

@@ -7,7 +7,7 @@ import unittest
 
 import rospy
 import rostest
-from simulators import STEP_RATE, TICK, Heard, Simulator, forget_parameters, lookup, wait
+from simulators import STEP_RATE, TICK, Heard, Simulator, executable, forget_parameters, lookup, wait
 from tf2_msgs.msg import TFMessage
 
 
@@ -198,7 +198,7 @@ class SimulatorTimeTest(unittest.TestCase):
     def test_a_node_that_waits_for_a_clock_that_nobody_publishes_says_so(self):
         rospy.set_param('/use_sim_time', True)
         self.addCleanup(rospy.delete_param, '/use_sim_time')
-        node = subprocess.Popen(['rosrun', 'rumba_sim', 'battery_status_publisher'], stderr=subprocess.PIPE,
+        node = subprocess.Popen([executable('rumba_sim', 'battery_status_publisher')], stderr=subprocess.PIPE,
                                 universal_newlines=True)
         self.addCleanup(node.communicate)
         self.addCleanup(node.terminate)

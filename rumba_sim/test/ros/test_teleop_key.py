@@ -14,12 +14,13 @@ import unittest
 import rospy
 import rostest
 from geometry_msgs.msg import Twist
+from simulators import executable
 from std_srvs.srv import SetBool, SetBoolResponse
 
 from rumba_msg.msg import BatteryStatus
 
 TIMEOUT = 30.0
-COMMAND = ['rosrun', 'rumba_sim', 'teleop_key']
+COMMAND = executable('rumba_sim', 'teleop_key')
 READY = 'show the keys'
 HIDE_CURSOR, SHOW_CURSOR = '\x1b[?25l', '\x1b[?25h'
 ZEROS = 3
@@ -35,7 +36,7 @@ class Keyboard:
         self._ours, self._theirs = pty.openpty()
         self.found = self.attributes()
         subscriber = rospy.Subscriber(f'/{namespace}/rumba/teleop/cmd_vel', Twist, self._hear)
-        command = [*COMMAND, f'__ns:=/{namespace}', *arguments]
+        command = [COMMAND, f'__ns:=/{namespace}', *arguments]
         if shell:
             command = ['sh', '-mc', shell.format(' '.join(command))]
         self.process = subprocess.Popen(['setsid', '--ctty', *command], stdin=self._theirs, stdout=self._theirs,
@@ -236,7 +237,7 @@ class TeleopKeyTest(unittest.TestCase):
                 ({'stdin': subprocess.DEVNULL, 'stdout': theirs}, '_hold:=1', 'needs a terminal for its input and '),
                 ({'stdin': theirs, 'stdout': subprocess.DEVNULL}, '_hold:=1', 'needs a terminal for its input and '),
                 ({'stdin': theirs, 'stdout': theirs}, '_linear:=0.6', r'.*linear is 0\.6: must be 0\.02 to 0\.5 ')):
-            done = subprocess.run([*COMMAND, argument], stderr=subprocess.PIPE, universal_newlines=True,
+            done = subprocess.run([COMMAND, argument], stderr=subprocess.PIPE, universal_newlines=True,
                                   timeout=TIMEOUT, check=False, **options)
             self.assertEqual(done.returncode, 2)
             self.assertRegex(done.stderr, rf'\Ateleop_key: {message}[^\n]*\n\Z')

@@ -10,7 +10,7 @@ import signal
 import subprocess
 
 import rospy
-from simulators import TIMEOUT, Commands, Heard, lookup, wait
+from simulators import TIMEOUT, Commands, Heard, executable, lookup, wait
 from std_srvs.srv import Empty
 
 from turtlesim.msg import Color, Pose
@@ -24,13 +24,14 @@ SERVICES = {'reset': Empty, 'kill': Kill, 'spawn': Spawn, 'turtle1/teleport_abso
 class Process:
     """A node that runs until the end of a test."""
 
-    def __init__(self, test, service, *command, endings=(0,), **environment):
+    def __init__(self, test, service, package, node, *arguments, endings=(0,), **environment):
         self._test = test
         self._endings = endings
-        self.process = subprocess.Popen(['rosrun', *command], env={**os.environ, **environment})
+        self.process = subprocess.Popen([executable(package, node), *arguments],
+                                        env={**os.environ, **environment})
         test.addCleanup(self.end)
         wait(test, lambda: self.process.poll() is not None or lookup(service), service)
-        test.assertIsNone(self.process.poll(), f'{command} ended')
+        test.assertIsNone(self.process.poll(), f'{node} ended')
 
     def end(self, number=signal.SIGINT):
         """End it; it must end with one of the exit codes that are expected."""

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from pytest import approx
-from rooms import NAMES, PLANS, RADIUS, STARTS, alone, distances, drive, drove, quiet, room, start
+from rooms import NAMES, PLANS, RADIUS, STARTS, alone, distances, drive, drove, hall, quiet, room, start
 
 from rumba_sim.model.errors import WorldError
 from rumba_sim.model.geometry import Pose
@@ -151,7 +151,7 @@ def test_a_robot_gets_through_a_door_that_is_a_little_wider_even_off_centre(y, r
 
 
 def test_a_robot_that_appears_in_front_of_another_is_noticed_at_once():
-    world = World(room(20.0, 20.0, 0.1), quiet())
+    world = World(hall(), quiet())
     world.spawn('rumba', Pose(3.0, 3.0, 0.0))
     world.spawn('other', Pose(17.0, 17.0, 0.0))
     drove(world, 0.3, 0.0, 50)

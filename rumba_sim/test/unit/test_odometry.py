@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 from pytest import approx
-from rooms import RADIUS, alone, drove, quiet, room
+from rooms import RADIUS, alone, drove, hall, quiet, room
 
 from rumba_sim.model.geometry import Pose, wrap_angle
 from rumba_sim.model.world import World
@@ -17,7 +17,7 @@ TICK = 1.0 / TICKS_PER_METRE
 
 def hall_of_robots(rows=8, columns=12, seed=1, **odometry):
     """A world with many robots that all face along x, with 4 m of free floor ahead and behind."""
-    world = World(room(20.0, 20.0, 0.1), quiet(odometry=odometry), seed=seed)
+    world = World(hall(), quiet(odometry=odometry), seed=seed)
     for row in range(rows):
         for column in range(columns):
             world.spawn(f'rumba{row}_{column}', Pose(4.5 + column, 1.0 + 2.0 * row, 0.0))
@@ -99,7 +99,7 @@ def test_wheels_that_slip_at_a_wall_still_count():
 def test_each_wheel_has_its_own_scale_and_the_odometry_turns_away_from_the_larger():
     lefts = []
     for seed in range(6):
-        world = World(room(20.0, 20.0, 0.1), quiet(odometry={'scale_error': 0.05}), seed=seed)
+        world = World(hall(), quiet(odometry={'scale_error': 0.05}), seed=seed)
         robot = world.spawn('rumba', Pose(10.0, 10.0, 0.0))
         drove(world, 0.3, 0.0, 250)
         left, right = (ticks / TICKS_PER_METRE for ticks in robot.ticks)
@@ -138,7 +138,7 @@ def test_noise_grows_with_the_square_root_of_the_distance(v, seconds):
 
 def test_noise_does_not_depend_on_the_length_of_a_tick():
     for step_rate in (20, 100):
-        world = World(room(20.0, 20.0, 0.1), quiet(odometry={'noise': 0.02}), step_rate, seed=3)
+        world = World(hall(), quiet(odometry={'noise': 0.02}), step_rate, seed=3)
         for index in range(64):
             world.spawn(f'rumba{index}', Pose(1.0 + index % 8, 1.0 + 2.0 * (index // 8), 0.0))
         drive_all(world, 0.4, 0.0, 5 * step_rate)

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 from pytest import approx
-from rooms import RADIUS, alone, crooked, drive, drove, quiet, room
+from rooms import RADIUS, alone, crooked, drive, drove, hall, quiet, room
 
 from rumba_sim.model.config import updated
 from rumba_sim.model.constants import constants
@@ -105,13 +105,13 @@ def test_a_reset_keeps_all_robots_even_if_two_began_at_the_same_position():
 
 @pytest.mark.parametrize('others', [[], [B], [B, C]])
 def test_what_a_robot_sees_and_counts_does_not_depend_on_how_many_others_there_are(others):
-    world = World(room(20.0, 20.0, 0.1), RobotConfig(), seed=9)
+    world = World(hall(), RobotConfig(), seed=9)
     robot = world.spawn('rumba', Pose(3.0, 3.0, 0.5))
     for number, _ in enumerate(others):
         world.spawn(str(number), Pose(15.0, 5.0 + 8.0 * number, 0.0))
         world.scan(str(number))
     drove(world, 0.3, 0.4, 600)
-    alike = World(room(20.0, 20.0, 0.1), RobotConfig(), seed=9)
+    alike = World(hall(), RobotConfig(), seed=9)
     same = alike.spawn('other name', Pose(3.0, 3.0, 0.5))
     drove(alike, 0.3, 0.4, 600, 'other name')
     assert (robot.ticks, robot.odometry, robot.pose) == (same.ticks, same.odometry, same.pose)
@@ -128,7 +128,7 @@ def test_robots_have_different_errors():
 def test_a_robot_keeps_its_noise_if_an_earlier_robot_is_removed():
     ticks = []
     for is_killed in (True, False):
-        world = World(room(20.0, 20.0, 0.1), RobotConfig(odometry=OdometryConfig(noise=0.1)), seed=9)
+        world = World(hall(), RobotConfig(odometry=OdometryConfig(noise=0.1)), seed=9)
         world.spawn('first', Pose(15.0, 15.0, 0.0))
         robot = world.spawn('second', Pose(3.0, 3.0, 0.5))
         drove(world, 0.3, 0.4, 100, 'second')

@@ -14,7 +14,7 @@ import rospy
 import rostest
 from geometry_msgs.msg import Pose2D, Twist
 from PIL import Image
-from simulators import Heard, Master, Simulator, lookup, stands_still, wait
+from simulators import Heard, Master, Simulator, executable, lookup, stands_still, wait
 from viewers import CARD, CLIFF, ROBOT, Cleaner, Display, Viewer, of_colour
 
 from rumba_msg.msg import MissionStatus, Outcome
@@ -31,8 +31,8 @@ def middle(shown):
 class Node:
     """A node that serves a service, until the end of a test."""
 
-    def __init__(self, test, service, *command):
-        process = subprocess.Popen(['rosrun', *command])
+    def __init__(self, test, service, package, node, *arguments):
+        process = subprocess.Popen([executable(package, node), *arguments])
         test.addCleanup(process.wait)
         test.addCleanup(process.terminate)
         wait(test, lambda: process.poll() is not None or lookup(service), service)

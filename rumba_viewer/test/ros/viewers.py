@@ -9,13 +9,12 @@ import time
 import numpy as np
 import rospy
 from PIL import Image
-from simulators import TIMEOUT, wait
+from simulators import TIMEOUT, executable, wait
 from std_srvs.srv import Trigger
 
 from rumba_msg.msg import CleanActionGoal, CleanActionResult, CleanResult, GoToActionGoal, MissionStatus, Outcome
 
 BETWEEN = 0.5  # [s] from one press of a key to the next
-COMMAND = ['rosrun', 'rumba_viewer', 'viewer']
 ROBOT, CARD, CLIFF = (31, 111, 214), (255, 255, 255), (232, 143, 134)  # colours of the light style
 PANEL = 300  # [pixels] on the right that are not floor
 
@@ -61,7 +60,8 @@ class Viewer:
         test.addCleanup(self._output.close)
         self.folder = tempfile.TemporaryDirectory()
         test.addCleanup(self.folder.cleanup)
-        self.process = subprocess.Popen([*COMMAND, '_style:=light', f'_folder:={self.folder.name}', *arguments],
+        self.process = subprocess.Popen([executable('rumba_viewer', 'viewer'), '_style:=light',
+                                         f'_folder:={self.folder.name}', *arguments],
                                         env=environment, stdout=self._output, stderr=self._output)
         test.addCleanup(self.process.wait)
         test.addCleanup(self.process.kill)

@@ -1,11 +1,13 @@
 """What the tests of the nodes share: nodes started as a user starts them, their topics and services."""
 
+import functools
 import os
 import signal
 import subprocess
 import time
 
 import rosgraph
+import roslib.packages
 import rospy
 from geometry_msgs.msg import Twist, Vector3
 from PIL import Image
@@ -20,6 +22,12 @@ ENDS_WITHIN = 5.0  # [s] enough on a busy machine, too little for a deadlock
 TOPICS = {'pose': Pose, 'color_sensor': Color, 'clock': Clock, 'rosout': Log, 'cmd_vel': Twist}
 SERVICES = {'clear': Empty, 'reset': Empty, 'spawn': Spawn, 'kill': Kill, 'save_png': Trigger, 'set_pen': SetPen,
             'teleport_absolute': TeleportAbsolute, 'teleport_relative': TeleportRelative}
+
+
+@functools.lru_cache(maxsize=None)
+def executable(node):
+    """Path of a node, which `rosrun` would look for at each start, longer than some of them take to start."""
+    return roslib.packages.find_node('turtlesim', node)[0]
 
 
 def wait(test, condition, what='it'):
@@ -83,7 +91,7 @@ class Turtlesim(Node):
 
     def __init__(self, test, *arguments, name='/turtlesim', **options):
         forget_parameters('/turtlesim')
-        super().__init__(test, 'rosrun', 'turtlesim', 'turtlesim_node', *arguments, **options)
+        super().__init__(test, executable('turtlesim_node'), *arguments, **options)
         wait(test, lambda: self.process.poll() is not None or is_served(f'{name}/save_png'), 'turtlesim_node')
         test.assertIsNone(self.process.poll(), 'turtlesim_node ended')
 

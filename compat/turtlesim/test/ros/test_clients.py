@@ -10,7 +10,7 @@ import unittest
 
 import rospy
 import rostest
-from nodes import TIMEOUT, Heard, Node, Turtlesim, commander, wait
+from nodes import TIMEOUT, Heard, Node, Turtlesim, commander, executable, wait
 
 MIDDLE = 5.544444
 
@@ -24,8 +24,8 @@ class ClientsTest(unittest.TestCase):
         for end in (ours, theirs):
             self.addCleanup(os.close, end)
         found = termios.tcgetattr(theirs)
-        node = Node(self, 'setsid', '--ctty', 'rosrun', 'turtlesim', 'turtle_teleop_key', *arguments, stdin=theirs,
-                    stdout=theirs, stderr=theirs)
+        node = Node(self, 'setsid', '--ctty', executable('turtle_teleop_key'), *arguments, stdin=theirs, stdout=theirs,
+                    stderr=theirs)
         wait(self, lambda: b'q quits' in os.read(ours, 10000), 'its help')
         return node, ours, theirs, found
 
@@ -65,8 +65,8 @@ class ClientsTest(unittest.TestCase):
         self.addCleanup(rospy.delete_param, '/scale_angular')
         for stdin, pattern in ((subprocess.DEVNULL, 'the standard input is not a term'),
                                (theirs, "parameter /scale_angular is 'fast': must be -1000 to 1000")):
-            done = subprocess.run(['rosrun', 'turtlesim', 'turtle_teleop_key'], stdin=stdin,
-                                  stderr=subprocess.PIPE, universal_newlines=True, timeout=TIMEOUT, check=False)
+            done = subprocess.run([executable('turtle_teleop_key')], stdin=stdin, stderr=subprocess.PIPE,
+                                  universal_newlines=True, timeout=TIMEOUT, check=False)
             self.assertEqual(done.returncode, 2)
             self.assertRegex(done.stderr, rf'\Ateleop_turtle: {pattern}[^\n]*\n\Z')
         os.close(ours)
@@ -76,14 +76,14 @@ class ClientsTest(unittest.TestCase):
         node = Turtlesim(self, '_speed:=5')
         node.call('turtle1/teleport_absolute', 1.0, 1.0, 2.0)
         pose = Heard(self, '/turtle1/pose')
-        Node(self, 'rosrun', 'turtlesim', 'draw_square')
+        Node(self, executable('draw_square'))
         for x, y in ((0.0, 0.0), (2.0, 0.0), (2.0, 2.0), (0.0, 2.0), (0.0, 0.0)):
             pose.messages.clear()
             pose.find(lambda pose, x=x, y=y: abs(pose.x - MIDDLE - x) < 0.1 and abs(pose.y - MIDDLE - y) < 0.1)
 
     def test_mimic_moves_a_turtle_as_one_of_another_field_moves(self):
         Node(self, 'roslaunch', 'turtlesim', 'multisim.launch', stdout=subprocess.DEVNULL)
-        Node(self, 'rosrun', 'turtlesim', 'mimic', 'input:=turtlesim1/turtle1', 'output:=turtlesim2/turtle1')
+        Node(self, executable('mimic'), 'input:=turtlesim1/turtle1', 'output:=turtlesim2/turtle1')
         first, second = Heard(self, '/turtlesim1/turtle1/pose'), Heard(self, '/turtlesim2/turtle1/pose')
         Heard(self, '/turtlesim2/turtle1/cmd_vel').find()
         commander(self, 'turtlesim1/turtle1')(1.0, 0.0, 0.8)

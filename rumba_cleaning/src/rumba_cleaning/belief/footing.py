@@ -6,7 +6,7 @@ from typing import List, Optional, Sequence, Tuple
 import numpy as np
 from scipy import ndimage
 
-from rumba_cleaning.belief.limits import limited
+from rumba_cleaning.belief.compiled_footing import are_marked, stamp
 from rumba_sim.model.compiled import fast
 from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.model.geometry import Pose, wrap_angle
@@ -52,11 +52,15 @@ class Footing:
         self._edges: Optional[Array] = None if self._mapped is None else self._mapped.copy()
         left, bottom, right, top = self._plan.bounds
         self._floor: Array = np.zeros((int((top - bottom) / CELL) + 1, int((right - left) / CELL) + 1), np.bool_)
-        self._last: Optional[Pose] = None
+        self._noted: Optional[Tuple[Pose, Tuple[bool, ...], bool]] = None  # the last that was
 
     def note(self, pose: Pose, cliffs: Sequence[bool], is_docked: bool) -> None:
         """Remember what the cliff sensors see at a pose, and that there is floor under the wheels."""
-        last, self._last = self._last, pose
+        noted = (pose, tuple(cliffs), is_docked)
+        if noted == self._noted:
+            return  # a robot that stands, as while it charges, learns nothing new
+        last = None if self._noted is None else self._noted[0]
+        self._noted = noted
         if is_docked:
             self._stamp([pose], self._before_dock)
         if last is None or math.hypot(pose.x - last.x, pose.y - last.y) > JUMP:
@@ -80,16 +84,7 @@ class Footing:
 
     def _stamp(self, poses: Sequence[Pose], points: Array) -> None:
         """Remember floor at points (any, 2) [m] in the frame of a robot at each of the poses."""
-        at = np.array(poses)
-        cos, sin, ahead, aside = np.cos(at[:, 2:]), np.sin(at[:, 2:]), points[:, 0], points[:, 1]
-        x, y = at[:, :1] + ahead * cos - aside * sin, at[:, 1:2] + ahead * sin + aside * cos
-        rows, columns = self._cells(np.stack([x.ravel(), y.ravel()], axis=1))
-        self._floor[rows, columns] = True
-
-    def _cells(self, points: Array) -> Array:
-        """Rows and columns of the cells that hold points (any, 2) [m], or of cells at the edge: int (2, any)."""
-        cells = ((points - self._plan.origin) / CELL).astype(np.intp)[:, ::-1]
-        return limited(cells, 0, np.array(self._floor.shape) - 1).T
+        stamp(self._floor, *self._plan.origin, CELL, np.array(poses), points)
 
     def _see(self, x: float, y: float) -> None:
         """Remember a cliff, unless it is a known one."""
@@ -122,12 +117,7 @@ class Footing:
 
     def are_known(self, points: Array, cells: int) -> Array:
         """Whether wheels or sensors found floor at each point (any, 2) [m], or so many cells beside it: bool (any)."""
-        rows, columns = self._cells(points)
-        beside = np.arange(-cells, cells + 1)
-        height, width = self._floor.shape
-        near = self._floor[limited(rows + beside[:, np.newaxis, np.newaxis], 0, height - 1),
-                           limited(columns + beside[:, np.newaxis], 0, width - 1)]
-        return np.asarray(near.any(axis=(0, 1)))
+        return np.asarray(are_marked(self._floor, *self._plan.origin, CELL, points, cells))
 
 
 def _line(start: Tuple[float, float], end: Tuple[float, float]) -> Array:

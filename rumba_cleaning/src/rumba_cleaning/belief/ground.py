@@ -6,10 +6,9 @@ from typing import List, Optional, Tuple
 
 import numpy as np
 from scipy import ndimage
-from skimage import graph
 
 from rumba_cleaning.belief.limits import limited
-from rumba_cleaning.belief.search import cheapest, is_clear
+from rumba_cleaning.belief.search import cheapest, is_clear, path_lengths
 from rumba_sim.model.constants import clearance_needed
 from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.model.kernel import Array
@@ -191,9 +190,7 @@ class Ground:
         Returns:
             float64 (rows + 1, columns + 1) [m]; inf at nodes from which no path leads there.
         """
-        search = graph.MCP_Geometric(np.where(self.fits, 1.0, -1.0))
-        costs, _ = search.find_costs([self.standing_at(x, y)])
-        return np.asarray(costs * self.plan.resolution)
+        return np.asarray(path_lengths(self.fits, *self.standing_at(x, y)) * self.plan.resolution)
 
     def _search(self, first: Array, last: Array, margin: int, spacing: int) -> Optional[Array]:
         """The cheapest path between two nodes (2), or None: int (any, 2), nodes.

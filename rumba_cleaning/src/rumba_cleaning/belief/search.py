@@ -1,4 +1,4 @@
-"""The search for a path on the grid of the ground, compiled by numba."""
+"""The search for paths on the grid of the ground, compiled by numba."""
 
 import heapq
 import math
@@ -52,6 +52,37 @@ def cheapest(costs: Array, first: Tuple[int, int], last: Tuple[int, int]) -> Arr
                     ahead = math.hypot(float(last[0] - to_row), float(last[1] - to_column))
                     heapq.heappush(queue, (cost + ahead, to_row, to_column))
     return np.empty((0, 2), np.int64)
+
+
+@compiled
+def path_lengths(is_free: Array, row: int, column: int) -> Array:
+    """Length of the shortest path from each node to one of them (E. W. Dijkstra, A Note on Two Problems in Connexion
+    with Graphs, 1959).
+
+    Args:
+        is_free: bool (rows, columns), the nodes over which a path may lead.
+        row, column: the node to which all paths lead; it is free.
+
+    Returns:
+        float64 (rows, columns) [nodes]; inf at nodes from which no path leads there.
+    """
+    rows, columns = is_free.shape
+    lengths = np.full(is_free.shape, np.inf)
+    lengths[row, column] = 0.0
+    queue = [(0.0, row, column)]
+    while len(queue) > 0:
+        length, row, column = heapq.heappop(queue)
+        if length > lengths[row, column]:
+            continue
+        for step in range(8):
+            down, right = STEPS[step]
+            to_row, to_column = row + down, column + right
+            if 0 <= to_row < rows and 0 <= to_column < columns and is_free[to_row, to_column]:
+                longer = length + math.sqrt(float(down * down + right * right))
+                if longer < lengths[to_row, to_column]:
+                    lengths[to_row, to_column] = longer
+                    heapq.heappush(queue, (longer, to_row, to_column))
+    return lengths
 
 
 @compiled

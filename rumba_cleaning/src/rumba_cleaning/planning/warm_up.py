@@ -24,6 +24,9 @@ def main() -> None:
     drive(context.swept, route.waypoints)
     plan(context, pose)
     context.ground.path(np.array([1.0, 1.0]), np.array([1.0, 5.0]))
+    context.ground.path_lengths_to(1.0, 1.0)
+    context.footing.note(pose, 4 * (False,), False)
+    context.footing.are_known(np.array([[1.0, 1.0]]), 2)
     context.ground.is_marked(np.array([1.0, 1.0]), np.array([2.0, 1.0]))
 
 

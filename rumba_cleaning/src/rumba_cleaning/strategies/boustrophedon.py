@@ -8,7 +8,6 @@ from rumba_cleaning.behaviours.detour import detour
 from rumba_cleaning.behaviours.follower import Route
 from rumba_cleaning.behaviours.travel import Going, Travel
 from rumba_cleaning.belief.context import Context
-from rumba_cleaning.planning.planner import plan
 from rumba_cleaning.strategies import strategy
 from rumba_sim.model.geometry import Pose
 
@@ -103,6 +102,12 @@ class Boustrophedon(Behaviour):
         if self._planning is not None:
             self.message = 'planning'
         return STOP._replace(brushes_up=self._brushes_up)
+
+
+def plan(context: Context, pose: Pose) -> Optional[Route]:
+    """As `planner.plan`, which is imported here, where nobody waits: otherwise a cleaner would take longer to start."""
+    from rumba_cleaning.planning import planner
+    return planner.plan(context, pose)
 
 
 def _round(context: Context, pose: Pose, is_worth: bool, may_forget: bool) -> Planned:

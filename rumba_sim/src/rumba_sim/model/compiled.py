@@ -2,7 +2,9 @@
 
 Compiled functions can call only compiled functions, and numba caches compiled code until the source file changes. So
 the file of the kernel is executed a second time, as a separate module in which every function is replaced by its
-compiled version. Code from the cache loads in a fraction of a second; compiling takes some seconds.
+compiled version. Code from the cache loads in a fraction of a second; compiling takes some seconds. All of that waits
+for the first use of `fast`, and so does the import of numba, which takes as long as that of rospy: a node that refuses
+its input, or prints its help, needs none of it.
 
 numba caches beside the source file, or in the user's home if that folder cannot be written. If neither can, or the
 cache is damaged, or the disk is full, the kernel is compiled at each start.
@@ -13,9 +15,8 @@ import importlib.util
 import inspect
 import os
 import sys
+import threading
 from typing import Any, List
-
-import numba
 
 from rumba_sim.model import kernel
 from rumba_sim.model.errors import one_line
@@ -23,6 +24,7 @@ from rumba_sim.model.errors import one_line
 
 def _compiled(path: str) -> Any:
     """The module of a source file with all its functions compiled."""
+    import numba
     spec = importlib.util.spec_from_file_location(f'{__name__}_kernel', path)
     if spec is None or spec.loader is None:
         raise ImportError(f'{path} is not a Python module')
@@ -36,6 +38,7 @@ def _compiled(path: str) -> Any:
 
 def _cached(function: Any, path: str) -> Any:
     """A compiled function of a source file with its cache, if there is a place for one."""
+    import numba
     if not (numba.config.CACHE_DIR or os.access(os.path.dirname(path), os.W_OK) or _knows_home()):
         _say('no home folder is known')  # numba would take ~ for the name of a folder here, and make it
         return function
@@ -87,5 +90,19 @@ def _say(reason: str) -> None:
               'NUMBA_CACHE_DIR can name a writable folder for its cache', file=sys.stderr)
 
 
+class _Fast:
+    """The compiled kernel, which is loaded when its first function is asked for."""
+
+    def __getattr__(self, name: str) -> Any:
+        with _loading:  # another thread may ask too
+            if not vars(self):
+                vars(self).update(vars(_compiled(kernel.__file__)))
+        try:
+            return vars(self)[name]
+        except KeyError:
+            raise AttributeError(name) from None
+
+
 _said: List[str] = []
-fast: Any = _compiled(kernel.__file__)
+_loading = threading.Lock()
+fast: Any = _Fast()

@@ -10,7 +10,8 @@ from rumba_sim.model.world import World
 
 def main() -> None:
     """Call every function of the kernel that a world calls."""
-    plan = FloorPlan('a room of 4 m', np.zeros((40, 40), np.int8), 0.1, (0.0, 0.0), dock=Pose(3.0, 2.0, 0.0))
+    floor = np.zeros((40, 40), np.int8)
+    plan = FloorPlan('a room of 4 m', floor, 0.1, (0.0, 0.0), cliff=floor > 0, dock=Pose(3.0, 2.0, 0.0))
     world = World(plan)
     world.spawn('rumba')
     world.step()

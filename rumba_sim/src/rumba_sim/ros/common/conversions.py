@@ -1,7 +1,9 @@
 """From the model to messages: pure functions."""
 
+from __future__ import annotations
+
 import math
-from typing import List, Sequence
+from typing import TYPE_CHECKING, List, Sequence
 
 from geometry_msgs.msg import Point
 from geometry_msgs.msg import Pose as PoseMessage
@@ -12,13 +14,15 @@ from std_msgs.msg import Header
 
 from rumba_msg.msg import BatteryStatus, Bumper, CleaningStatus, Cliff, DockStatus
 from rumba_sim.model.battery import CELLS, Battery
-from rumba_sim.model.floor import Floor
-from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.model.geometry import Pose, half_angle, yaw
 from rumba_sim.model.kernel import Array
 from rumba_sim.model.robot import Infrared, Robot
 from rumba_sim.model.robot_config import TURN, LaserConfig, OdometryConfig
 from rumba_sim.ros.common.frames import MAP, Frames
+
+if TYPE_CHECKING:  # with numba and SciPy, they take longer to import than all the rest of battery_status_publisher
+    from rumba_sim.model.floor import Floor
+    from rumba_sim.model.floor_plan import FloorPlan
 
 LASER_HEIGHT = 0.07  # [m] of laser over base_link
 
