@@ -1,15 +1,11 @@
 """What an obstacle is that the map does not show: a disc or a box that stands, walks, or opens and closes."""
 
 import math
-import re
 from typing import NamedTuple, Sequence, Tuple
 
-from rumba_sim.model.errors import WorldError, quoted
 from rumba_sim.model.geometry import Pose
 
 LASER_HEIGHT = 0.106  # [m] of the laser over the floor: what is lower is not seen
-LONGEST_NAME = 64  # [characters] of an obstacle
-NAME = re.compile(rf'[A-Za-z]\w{{0,{LONGEST_NAME - 1}}}', re.ASCII)
 
 
 class Stop(NamedTuple):
@@ -41,17 +37,6 @@ class Obstacle(NamedTuple):
     def is_seen(self) -> bool:
         """Whether the laser sees it."""
         return self.height > LASER_HEIGHT
-
-
-def check_name(name: str) -> None:
-    """Check the name of an obstacle.
-
-    Raises:
-        WorldError: it is too long, or has other characters than letters, digits and _.
-    """
-    if not isinstance(name, str) or not NAME.fullmatch(name):
-        raise WorldError(f'{quoted(name)} is not a valid name: must be 1 to {LONGEST_NAME} letters, digits and _, '
-                         'beginning with a letter')
 
 
 def walk(waypoints: Sequence[Pose], speed: float, is_loop: bool, least: float, most: float) -> Tuple[Stop, ...]:

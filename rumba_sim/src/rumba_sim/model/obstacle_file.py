@@ -6,7 +6,8 @@ from typing import Any, Dict, List, Mapping, NamedTuple, Optional, Tuple
 from rumba_sim.model.config import nearest
 from rumba_sim.model.errors import ConfigError, WorldError, quoted
 from rumba_sim.model.geometry import Pose, wrap_angle
-from rumba_sim.model.obstacle import Obstacle, Stop, check_name, door, walk
+from rumba_sim.model.name import check_name
+from rumba_sim.model.obstacle import Obstacle, Stop, door, walk
 from rumba_sim.model.yaml_file import read_mapping
 
 SIZES = (0.005, 20.0)  # [m] of a radius, a length or a width

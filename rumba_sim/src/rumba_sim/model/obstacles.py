@@ -12,7 +12,8 @@ from rumba_sim.model.errors import WorldError
 from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.model.geometry import Pose, wrap_angle
 from rumba_sim.model.kernel import Array, Record
-from rumba_sim.model.obstacle import Obstacle, Stop, check_name
+from rumba_sim.model.name import check_name
+from rumba_sim.model.obstacle import Obstacle, Stop
 
 MOST = 1000  # obstacles of a world
 MOVER = 3  # purpose of random generators, beside those of `World`
@@ -98,8 +99,10 @@ class Obstacles:
 
     def arrays(self) -> Dict[str, Array]:
         """What changes while movers move, by name; nothing without obstacles."""
-        names = (kernel.OBSTACLE.names or ()) if self.items else ()
-        return {f'obstacles/{name}': self.records[name] for name in names}
+        if not self.items:
+            return {}
+        records = {f'obstacles/{name}': self.records[name] for name in kernel.OBSTACLE.names or ()}
+        return {**records, 'stops': self.stops}
 
     def _take(self, items: Dict[str, Obstacle], records: Array) -> None:
         self.items, self.records = items, records
