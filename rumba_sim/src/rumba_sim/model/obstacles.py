@@ -133,7 +133,7 @@ class Obstacles:
         Raises:
             WorldError: one does, so that the mover could pass through a robot.
         """
-        for before, stop in zip([obstacle.stops[-1:][0], *obstacle.stops] if obstacle.stops else [], obstacle.stops):
+        for before, stop in zip((*obstacle.stops[-1:], *obstacle.stops), obstacle.stops):
             turn = abs(wrap_angle(stop.pose.theta - before.pose.theta))
             way = math.hypot(stop.pose.x - before.pose.x, stop.pose.y - before.pose.y) + turn * obstacle.reach
             if way > self._radius * _ticks(stop, self._step_rate):

@@ -35,6 +35,7 @@ class World:
     Attributes:
         plan: the floor plan.
         terrain: the refined plan, on which robots drive.
+        reachable_plan: the same, its safe clearance also that to obstacles which stood there from the start.
         step_rate: ticks per second [Hz].
         seed: seed of everything that is random.
         constants: array of the one record that the kernel reads (`constants.Constants`).
@@ -74,7 +75,7 @@ class World:
         for obstacle in obstacles:
             self.add_obstacle(obstacle)
         self._at_start = tuple(obstacles)
-        self._reachable = kept_clear(self.terrain, self.constants[0], self.obstacles)
+        self.reachable_plan = kept_clear(self.terrain, self.constants[0], self.obstacles)
         self.start = self._checked_start()
         self._noise: Array = np.zeros((0, NOISE_TICKS, 2))
         self._wheels: List[np.random.Generator] = []
@@ -86,7 +87,7 @@ class World:
     def _begin(self) -> None:
         self.tick = 0
         self.obstacles.begin()
-        self.floor = Floor(self._reachable, self._config, self.start, self._generator(FLOOR, 0))
+        self.floor = Floor(self.reachable_plan, self._config, self.start, self._generator(FLOOR, 0))
         # Kept together, since finding them takes as long as a tenth of a tick.
         self._ground = (self.terrain.clearance, self.floor.cells, self.floor.sweep.samples, self.floor.dirt,
                         self.floor.sweep.tally)
@@ -94,12 +95,12 @@ class World:
     def _checked_start(self) -> Pose:
         """The start of the plan, else the dock, else the position with the largest clearance."""
         radius = float(self.constants[0]['reach'])
-        start = self.plan.start or self.plan.dock or self._reachable.most_open_pose()
+        start = self.plan.start or self.plan.dock or self.reachable_plan.most_open_pose()
         for what, pose in (('dock', self.plan.dock), ('start', start)):
             if pose is not None:
                 self.terrain.check_pose(pose, radius, what)
                 # The clearance is interpolated, and smaller than the distance near a corner of an obstacle.
-                is_free = self._reachable.safe_clearance_at(pose.x, pose.y) >= radius
+                is_free = self.reachable_plan.safe_clearance_at(pose.x, pose.y) >= radius
                 name = self.obstacles.near(pose.x, pose.y, radius + (0.0 if is_free else self.terrain.resolution))
                 if name:
                     raise WorldError(f'{name!r} stands at the {what}, ({pose.x:.2f}, {pose.y:.2f}) m: no robot fits '
@@ -285,7 +286,7 @@ class World:
         if all(math.hypot(pose.x - self.start.x, pose.y - self.start.y) >= 2.0 * radius for pose in others) and (
                 not self.obstacles.near(*self.start[:2], radius)):
             return self.check(self.start)
-        where = np.argwhere(stands(self._reachable, float(self.constants[0]['reach']), self.start.x, self.start.y))
+        where = np.argwhere(stands(self.reachable_plan, float(self.constants[0]['reach']), self.start.x, self.start.y))
         points = 0.5 * self.terrain.resolution * where[:, ::-1] + self.terrain.origin
         points = points[np.argsort(np.hypot(*(points - self.start[:2]).T), kind='stable')]
         for gap in (APART, TOUCHING):
