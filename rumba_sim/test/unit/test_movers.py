@@ -85,7 +85,7 @@ def test_a_door_opens_and_closes_by_its_schedule():
 def test_a_mover_that_meets_a_robot_presses_its_bumper_and_waits(theta, pressed, height):
     world = World(HALL, quiet(), obstacles=[walker('cat', [(4.0, 2.0), (1.0, 2.0)], 0.5, 0.15, height=height)])
     robot = world.spawn('rumba', Pose(2.0, 2.0, theta))
-    world.step(500)
+    world.step(300)
     assert robot.pose == Pose(2.0, 2.0, theta)
     assert 0.0 <= gaps(world)[0] < GAP and robot.bumper == pressed and robot.bumps == int(any(pressed))
     assert robot.contact_angle == approx(-theta if theta < 3.0 else math.pi, abs=1e-9)
@@ -95,11 +95,10 @@ def test_a_mover_that_would_crush_a_robot_against_a_wall_waits_and_goes_on_when_
     crate = walker('crate', [(2.0, 2.5, -0.3), (0.2, 2.5, -0.3)], 0.8, size=(0.3, 1.0))
     world = World(HALL, quiet(), obstacles=[crate])
     robot = world.spawn('rumba', Pose(RADIUS + 0.01, 2.5, math.pi / 2.0))
-    world.step(1000)
+    world.step(200)
     assert robot.pose == Pose(RADIUS + 0.01, 2.5, math.pi / 2.0) and 0.0 <= gaps(world)[0] < GAP
-    drove(world, 0.3, 0.0, 200)
-    drove(world, 0.0, 0.0, 100)
-    assert robot.pose.y > 3.0 and next(world.obstacles.poses())[1].x < 1.0 and gaps(world)[0] > 0.0
+    least = min(next(world.obstacles.poses())[1].x for _ in drive(world, 0.3, 0.0, 200))
+    assert robot.pose.y > 3.0 and least == approx(0.2)
 
 
 def test_a_door_waits_for_a_robot_that_stands_in_it():
@@ -107,10 +106,25 @@ def test_a_door_waits_for_a_robot_that_stands_in_it():
     leaf = Obstacle('door', wide, 2.0, length=0.9, width=0.04, stops=door(wide, shut, 1.0, 1.0, 2.0))
     world = World(HALL, quiet(), obstacles=[leaf])
     robot = world.spawn('rumba', Pose(3.0, 2.4, 0.0))
-    world.step(1000)
+    world.step(250)
     assert robot.pose == Pose(3.0, 2.4, 0.0) and 0.0 <= gaps(world)[0] < GAP
-    drove(world, 0.4, 0.0, 200)
-    assert next(world.obstacles.poses())[1].y == approx(2.5) or robot.pose.x > 3.5
+    drove(world, 0.4, 0.0, 120)
+    assert robot.pose.x > 3.5 and next(world.obstacles.poses())[1].y == approx(2.5)
+
+
+def test_a_mover_that_has_waited_for_five_seconds_turns_back_pauses_and_tries_again():
+    world = World(HALL, quiet(), obstacles=[walker('cat', [(4.0, 2.0), (1.0, 2.0)], 0.5, 0.15, pause=(1.0, 1.0))])
+    robot = world.spawn('rumba', Pose(2.0, 2.0, 0.0))
+    places = []
+    for _ in range(1000):
+        world.step()
+        places.append(next(world.obstacles.poses())[1].x)
+    contact = 2.0 + RADIUS + 0.15
+    meets = 1.0 + (4.0 - contact) / 0.5  # [s]
+    for seconds, place in ((meets, contact), (meets + 4.9, contact), (meets + 6.0, contact + 0.5), (2.0 * meets + 4.0, 4.0),
+                           (2.0 * meets + 5.0, 4.0), (2.0 * meets + 6.0, 3.5), (3.0 * meets + 5.0, contact)):
+        assert places[round(50 * seconds)] == approx(place, abs=0.03), seconds
+    assert robot.pose == Pose(2.0, 2.0, 0.0) and robot.bumps == 2
 
 
 def test_a_robot_that_drives_after_a_mover_never_touches_it_harder_than_a_wall():

@@ -48,14 +48,16 @@ ROBOT = np.dtype((np.record, np.dtype([(name, 'f8') for name in (
             (name, 'u1') for name in ('bumper', 'brushes_up', 'docked', 'fallen', 'sweeps')], align=True)))
 # A disc has a radius, and halves that are 0; a box has halves, and a radius that is 0. `reach` is the distance from its
 # centre to its farthest point. A mover has `stops` stops from row `first` of the array of stops on; it has left number
-# `stop` of them, `moved` [ticks] ago, or stands there for `rest` ticks more; it has reached stops `visits` times.
+# `stop` of them, `moved` [ticks] ago, or stands there for `rest` ticks more; it has reached stops `visits` times. A robot
+# has been in its way for `waited` ticks; `is_back` while it returns to the stop that it left, because one was too long.
 OBSTACLE = np.dtype((np.record, np.dtype([(name, 'f8') for name in (
     'x', 'y', 'theta', 'cos', 'sin', 'half_length', 'half_width', 'radius', 'reach', 'moved')] + [
-        (name, 'i8') for name in ('first', 'stops', 'stop', 'rest', 'visits', 'key')] + [
-            ('is_seen', 'u1')], align=True)))
+        (name, 'i8') for name in ('first', 'stops', 'stop', 'rest', 'visits', 'waited', 'key')] + [
+            (name, 'u1') for name in ('is_back', 'is_seen')], align=True)))
 X, Y, THETA = 0, 1, 2  # columns of a stop: its pose [m, rad]
 TRAVEL = 3  # [ticks] that the way from the stop before takes
 LEAST, MOST = 4, 5  # [ticks] shortest and longest pause
+PATIENCE = 5.0  # [s] that a mover waits for a robot before it turns back, so that it cannot hold a robot for ever
 HALVINGS = 10  # of the last step of a mover before a contact, which is then known to a thousandth of the step
 TALLY = np.dtype((np.record, np.dtype([('swept', 'i8'), ('dirt', 'f8')], align=True)))
 
@@ -393,7 +395,7 @@ def keep_clear(obstacles: Array, k: Record, field: Array) -> None:
 
 
 def go(obstacles: Array, stops: Array, robots: Array, k: Record) -> None:
-    """Let the movers among the obstacles go on for one tick; they stop at robots and wait."""
+    """Let the movers among the obstacles go on for one tick; they stop at robots, wait, and turn back in the end."""
     for index in range(len(obstacles)):
         mover = obstacles[index]
         if mover.stops == 0:
@@ -401,19 +403,33 @@ def go(obstacles: Array, stops: Array, robots: Array, k: Record) -> None:
         if mover.rest > 0:
             mover.rest -= 1
             continue
-        there = mover.first + (mover.stop + 1) % mover.stops
-        before, moved = mover.moved, min(mover.moved + 1.0, stops[there, TRAVEL])
+        travel = stops[mover.first + (mover.stop + 1) % mover.stops, TRAVEL]
+        before = mover.moved
+        moved = max(before - 1.0, 0.0) if mover.is_back else min(before + 1.0, travel)
         if is_blocked(mover, stops, robots, k, before, moved):
             moved = farthest(mover, stops, robots, k, before, moved)
+            mover.waited += 1
+        else:
+            mover.waited = 0
         put_between(mover, stops, moved)
-        if moved >= stops[there, TRAVEL]:
-            mover.stop, mover.moved = (mover.stop + 1) % mover.stops, 0.0
-            mover.visits += 1
-            mover.rest = pause(mover, stops)
+        if mover.waited * k.dt >= PATIENCE:
+            mover.waited, mover.is_back = 0, not mover.is_back
+        elif moved == (0.0 if mover.is_back else travel):
+            arrive(mover, stops)
+
+
+def arrive(mover: Record, stops: Array) -> None:
+    """Let a mover, which has reached the next stop or returned to the last one, pause there."""
+    if mover.is_back:
+        mover.is_back = False
+    else:
+        mover.stop, mover.moved = (mover.stop + 1) % mover.stops, 0.0
+    mover.visits += 1
+    mover.rest = pause(mover, stops)
 
 
 def farthest(mover: Record, stops: Array, robots: Array, k: Record, before: float, moved: float) -> float:
-    """How far a mover can move on [ticks of its way], from `before` and less than `moved`, until it meets a robot."""
+    """How far a mover can move [ticks of its way], from `before` and not up to `moved`, until it meets a robot."""
     free = before
     for _ in range(HALVINGS):
         middle = 0.5 * (free + moved)
