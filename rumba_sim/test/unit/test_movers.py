@@ -31,8 +31,8 @@ def track(obstacle, seconds, seed=0, step_rate=50):
 
 def test_a_mover_goes_back_and_forth_at_its_speed():
     poses = track(walker('cat', [(1.0, 1.0), (3.0, 1.0), (3.0, 2.0)], 0.5), 12.0)
-    for seconds, place in ((2.0, (2.0, 1.0)), (4.0, (3.0, 1.0)), (5.0, (3.0, 1.5)), (6.0, (3.0, 2.0)), (7.0, (3.0, 1.5)),
-                           (10.0, (2.0, 1.0)), (12.0, (1.0, 1.0))):
+    for seconds, place in ((2.0, (2.0, 1.0)), (4.0, (3.0, 1.0)), (5.0, (3.0, 1.5)), (6.0, (3.0, 2.0)),
+                           (7.0, (3.0, 1.5)), (10.0, (2.0, 1.0)), (12.0, (1.0, 1.0))):
         assert tuple(poses[round(50 * seconds) - 1][:2]) == approx(place, abs=1e-9), seconds
 
 
@@ -121,8 +121,9 @@ def test_a_mover_that_has_waited_for_five_seconds_turns_back_pauses_and_tries_ag
         places.append(next(world.obstacles.poses())[1].x)
     contact = 2.0 + RADIUS + 0.15
     meets = 1.0 + (4.0 - contact) / 0.5  # [s]
-    for seconds, place in ((meets, contact), (meets + 4.9, contact), (meets + 6.0, contact + 0.5), (2.0 * meets + 4.0, 4.0),
-                           (2.0 * meets + 5.0, 4.0), (2.0 * meets + 6.0, 3.5), (3.0 * meets + 5.0, contact)):
+    for seconds, place in ((meets, contact), (meets + 4.9, contact), (meets + 6.0, contact + 0.5),
+                           (2.0 * meets + 4.0, 4.0), (2.0 * meets + 5.0, 4.0), (2.0 * meets + 6.0, 3.5),
+                           (3.0 * meets + 5.0, contact)):
         assert places[round(50 * seconds)] == approx(place, abs=0.03), seconds
     assert robot.pose == Pose(2.0, 2.0, 0.0) and robot.bumps == 2
 
@@ -219,8 +220,8 @@ def test_a_state_does_not_fit_to_a_world_with_other_obstacles():
 def test_movers_do_not_change_what_robots_count_and_measure():
     """Far from everything, so that they differ in nothing but the noise, which is their own."""
     found = []
-    for things in ([], [walker('cat', [(17.0, 17.0), (18.0, 19.0)], pause=(0.0, 1.0)), box('crate', 2.0, 18.0, 0.3, 1.0,
-                                                                                        0.3)]):
+    far = [walker('cat', [(17.0, 17.0), (18.0, 19.0)], pause=(0.0, 1.0)), box('crate', 2.0, 18.0, 0.3, 1.0, 0.3)]
+    for things in ([], far):
         world = World(room(20.0, 20.0, 0.1), updated(RobotConfig(), {'laser': {'range_max': 5.0}}, 'test'), seed=9,
                       obstacles=things)
         robot = world.spawn('rumba', Pose(3.0, 3.0, 0.5))

@@ -51,8 +51,8 @@ def test_an_empty_file_has_no_obstacles(tmp_path):
     ('leg', {**DISC, 'radus': 1}, "leg/radus is unknown: did you mean 'radius'?"),
     ('leg', {**DISC, 5: 1}, 'leg/5 is unknown: known are height, radius, size, pose, waypoints, speed, loop, pause, '
                             'closed, open, closed_for, open_for, moves_for'),
-    ('leg', 7, 'leg is 7: must be a mapping of height, radius, size, pose, waypoints, speed, loop, pause, closed, open, '
-               'closed_for, open_for, moves_for'),
+    ('leg', 7, 'leg is 7: must be a mapping of height, radius, size, pose, waypoints, speed, loop, pause, closed, '
+               'open, closed_for, open_for, moves_for'),
     ('a leg', DISC, "'a leg' is not a valid name: must be 1 to 64 letters, digits and _, beginning with a letter"),
     (3, DISC, '3 is not a valid name: must be 1 to 64 letters, digits and _, beginning with a letter'),
     ('leg', {'pose': [1, 2], 'radius': 0.1}, 'leg/height is missing: must be 0.001 to 10 [m]'),

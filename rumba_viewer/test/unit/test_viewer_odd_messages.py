@@ -43,6 +43,8 @@ def grid(value):
                                     data=np.full(1200, value, np.int8))
 
 
+CUBE = Marker(type=Marker.CUBE, header=Header(frame_id='map'))
+CUBE.pose.orientation.w = CUBE.scale.x = CUBE.scale.y = CUBE.scale.z = 1.0
 GOOD = {
     '/map': grid(0), 'rumba/ground_truth': odometry(1.0, 2.0), 'rumba/coverage': grid(100),
     'rumba/scan': numpy_msg(LaserScan)(angle_min=-3.0, angle_max=3.0, angle_increment=0.1, range_max=4.0,
@@ -56,10 +58,6 @@ GOOD = {
     'simulator/obstacles': MarkerArray([CUBE]),
     'simulator/state': SimulatorState(node=NODE, map='/nowhere.yaml', speed=2.0, real_time_factor=2.0,
                                       is_time_simulated=True)}
-
-
-CUBE = Marker(type=Marker.CUBE, header=Header(frame_id='map'))
-CUBE.pose.orientation.w = CUBE.scale.x = CUBE.scale.y = CUBE.scale.z = 1.0
 
 
 class Watched:

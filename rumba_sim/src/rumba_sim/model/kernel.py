@@ -57,7 +57,7 @@ OBSTACLE = np.dtype((np.record, np.dtype([(name, 'f8') for name in (
 X, Y, THETA = 0, 1, 2  # columns of a stop: its pose [m, rad]
 TRAVEL = 3  # [ticks] that the way from the stop before takes
 LEAST, MOST = 4, 5  # [ticks] shortest and longest pause
-PATIENCE = 5.0  # [s] that a mover waits for a robot before it turns back, so that it cannot hold a robot for ever
+PATIENCE = 5.0  # [s] that a mover waits for a robot before it turns back: it shall not hold a robot for ever
 HALVINGS = 10  # of the last step of a mover before a contact, which is then known to a thousandth of the step
 TALLY = np.dtype((np.record, np.dtype([('swept', 'i8'), ('dirt', 'f8')], align=True)))
 

@@ -187,8 +187,8 @@ def _state(header: Mapping[str, Any], arrays: Dict[str, Array]) -> WorldState:
 
 
 def _obstacle(name: Any, pose: Any, height: Any, radius: Any, length: Any, width: Any, stops: Any) -> Obstacle:
-    return Obstacle(str(name), _pose(*pose), *map(float, (height, radius, length, width)),
-                    tuple(Stop(_pose(*where), *map(float, times)) for where, *times in stops))
+    return Obstacle(str(name), _pose(*pose), float(height), float(radius), float(length), float(width), tuple(
+        Stop(_pose(*where), float(travel), float(least), float(most)) for where, travel, least, most in stops))
 
 
 def _pose(x: Any, y: Any, theta: Any) -> Pose:
