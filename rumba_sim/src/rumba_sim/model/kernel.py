@@ -48,8 +48,8 @@ ROBOT = np.dtype((np.record, np.dtype([(name, 'f8') for name in (
             (name, 'u1') for name in ('bumper', 'brushes_up', 'docked', 'fallen', 'sweeps')], align=True)))
 # A disc has a radius, and halves that are 0; a box has halves, and a radius that is 0. `reach` is the distance from its
 # centre to its farthest point. A mover has `stops` stops from row `first` of the array of stops on; it has left number
-# `stop` of them, `moved` [ticks] ago, or stands there for `rest` ticks more; it has reached stops `visits` times. A robot
-# has been in its way for `waited` ticks; `is_back` while it returns to the stop that it left, because one was too long.
+# `stop` of them, `moved` [ticks] ago, or stands there for `rest` ticks more; it has reached stops `visits` times. For
+# `waited` ticks a robot has been in its way; `is_back` while it returns to the stop that it left, for lack of patience.
 OBSTACLE = np.dtype((np.record, np.dtype([(name, 'f8') for name in (
     'x', 'y', 'theta', 'cos', 'sin', 'half_length', 'half_width', 'radius', 'reach', 'moved')] + [
         (name, 'i8') for name in ('first', 'stops', 'stop', 'rest', 'visits', 'waited', 'key')] + [
