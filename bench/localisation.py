@@ -1,4 +1,4 @@
-"""How exactly a robot localises itself, how fast it finds its place, and what its missions cost by the pose it believes.
+"""How exactly a robot localises itself, how fast it finds its place, and how missions by that pose go.
 
 `localisation.py [--seeds N]` runs seeds 1 to N, 20 by default, on all cores; times are simulated, but for the cost.
 """

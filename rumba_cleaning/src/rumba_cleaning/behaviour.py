@@ -14,6 +14,7 @@ from rumba_sim.model.robot import Infrared
 Row = Tuple[float, float, float]
 Covariance = Tuple[Row, Row, Row]  # of x, y and heading
 CERTAIN: Covariance = ((0.0, 0.0, 0.0),) * 3
+UNKNOWN: Covariance = ((math.inf, 0.0, 0.0), (0.0, math.inf, 0.0), (0.0, 0.0, math.inf))
 LOST_AT, LOST_TURNED = 0.3, 0.5  # [m], [rad] standard deviations of a pose from which on the robot is lost; our choice
 NO_CLIFFS = (False, False, False, False)
 FALLEN = 'a wheel hangs over a cliff: the robot must be put elsewhere'

@@ -5,14 +5,12 @@ from typing import Any, Callable, Dict, NamedTuple
 
 import numpy as np
 
-from rumba_cleaning.behaviour import CERTAIN, Covariance
+from rumba_cleaning.behaviour import CERTAIN, UNKNOWN, Covariance
 from rumba_localisation.localiser import Localiser, Seed, points
 from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.model.geometry import Pose, as_told, compose, inverse
 from rumba_sim.model.robot_config import TURN
 from rumba_sim.model.world import World
-
-UNKNOWN: Covariance = ((math.inf, 0.0, 0.0), (0.0, math.inf, 0.0), (0.0, 0.0, math.inf))
 
 
 class Belief(NamedTuple):

@@ -12,3 +12,4 @@ def test_the_cleaner_imports_neither_a_window_nor_the_planner():
                              check=True).stdout.split()
     assert 'rumba_cleaning.strategies' in modules
     assert not [name for name in modules if name.split('.')[0] in LATER]
+    assert 'rumba_localisation' not in modules

@@ -5,7 +5,7 @@ import math
 import pytest
 from rooms import crooked
 
-from rumba_cleaning.behaviour import CERTAIN, STOP, Behaviour, Command, Observation, Status
+from rumba_cleaning.behaviour import CERTAIN, STOP, UNKNOWN, Behaviour, Command, Observation, Status
 from rumba_cleaning.behaviours import relocation
 from rumba_cleaning.behaviours.bounded import Bounded
 from rumba_cleaning.behaviours.relocation import Relocation
@@ -14,7 +14,7 @@ from rumba_cleaning.cleaning_config import CleaningConfig
 from rumba_cleaning.control import CONTROL_TICKS, STEP_RATE, act
 from rumba_cleaning.mission.mission import Mission, State
 from rumba_cleaning.outcome import Outcome
-from rumba_cleaning.pose_source import UNKNOWN, Belief, truth
+from rumba_cleaning.pose_source import Belief, truth
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.robot_config import RobotConfig
 from rumba_sim.model.world import World
@@ -52,7 +52,8 @@ def test_it_leaves_the_dock_backward():
     docked = Observation(0.1, HERE, is_docked=True, covariance=LOST)
     assert lost.command(docked) == Command(-relocation.SPEED, 0.0, brushes_up=True)
     commands = [lost.command(docked._replace(is_docked=False)) for _ in range(40)]
-    assert sum(command.v < 0.0 for command in commands) == pytest.approx(10.0 * relocation.BACK / relocation.SPEED, abs=1)
+    steps = 10.0 * relocation.BACK / relocation.SPEED
+    assert sum(command.v < 0.0 for command in commands) == pytest.approx(steps, abs=1)
 
 
 def test_without_any_pose_it_stands_still():

@@ -249,6 +249,19 @@ def test_bad_input_gives_one_line_and_nothing_is_written(run, tmp_path, argument
     assert errors.count('\n') == 1
 
 
+def test_missions_among_obstacles_begin_beside_them_and_a_wrong_file_is_one_line(run, tmp_path):
+    good, bad = tmp_path / 'good.yaml', tmp_path / 'bad.yaml'
+    good.write_text('bin: {pose: [0.5, 0.5], radius: 0.1, height: 0.3}\n')
+    bad.write_text('bin: {pose: [0.5, 0.5], radus: 0.1, height: 0.3}\n')
+    code, _, errors = run('--strategies', 'turn', '--obstacles', str(good), '--start', 'anywhere', '--bound', '0.5')
+    assert (code, errors) == (0, '')
+    for row in rows(tmp_path):
+        assert (row['obstacles'], row['penetrated']) == (str(good), 'False')
+        assert np.hypot(float(row['x']) - 0.5, float(row['y']) - 0.5) > 0.27
+    assert run('--obstacles', str(bad)) == (
+        2, '', f"evaluate: {bad}: bin/radus is unknown: did you mean 'radius'?\n")
+
+
 def test_a_map_without_free_floor_is_refused(run, tmp_path):
     write(tmp_path, np.zeros((9, 9), np.uint8))
     batch.floor_plan.cache_clear()

@@ -15,6 +15,7 @@ from rumba_evaluation.trials.cases import ANYWHERE, Conditions
 from rumba_evaluation.trials.trial import Trial
 from rumba_sim.model.errors import StrategyError, WorldError
 from rumba_sim.model.geometry import Pose
+from rumba_sim.model.obstacle import Obstacle
 from rumba_sim.model.robot_config import RobotConfig
 
 ROBOT = RobotConfig()
@@ -145,6 +146,14 @@ def test_boustrophedon_cleans_a_room_and_comes_home():
 def test_a_body_in_a_wall_is_reported(x, penetrated):
     trial = Trial(hall(), 'wait')
     trial.world.robots['rumba'].state['x'] = x
+    trial.step()
+    assert trial.result().penetrated == penetrated
+
+
+@pytest.mark.parametrize('gap, penetrated', [(0.0, False), (-0.002, True)])
+def test_a_body_in_an_obstacle_is_reported(gap, penetrated):
+    trial = Trial(hall(), 'wait', obstacles=[Obstacle('leg', Pose(2.0, 0.5, 0.0), height=0.05, radius=0.1)])
+    trial.world.robots['rumba'].state['x'] = 2.0 - 0.1 - ROBOT.drive.radius - gap
     trial.step()
     assert trial.result().penetrated == penetrated
 

@@ -39,7 +39,7 @@ class LocaliserNodeTest(unittest.TestCase):
         wait(test, cls.wheels.get_num_connections, 'the simulator to listen to cmd_vel')
 
     def off(self, message):
-        """Distance [m] and angle [rad] from a pose that was told to the true one at its stamp; None before that comes."""
+        """Distance [m] and angle [rad] from a pose that was told to the true one; None before that comes."""
         true = next((each for each in self.truth.messages[:] if each.header.stamp == message.header.stamp), None)
         if true is None:
             return None

@@ -20,7 +20,7 @@ from sensor_msgs.msg import BatteryState, LaserScan
 from std_srvs.srv import SetBool, Trigger
 
 from rumba_msg.msg import BatteryStatus, Bumper, CleaningStatus, Cliff, DockStatus, SimulatorState
-from rumba_msg.srv import Kill, Spawn, Step, Teleport
+from rumba_msg.srv import AddObstacle, Kill, RemoveObstacle, Spawn, Step, Teleport
 
 TIMEOUT = 30.0
 STEP_RATE = 50  # the simulator's default [Hz]
@@ -36,7 +36,8 @@ TOPICS = {
     'coverage': OccupancyGrid, 'clock': Clock, 'map': OccupancyGrid, 'rosout': Log, 'state': SimulatorState}
 SERVICES = {
     'pause': Trigger, 'resume': Trigger, 'reset': Trigger, 'digest': Trigger, 'step': Step, 'spawn': Spawn,
-    'kill': Kill, 'set_brushes_up': SetBool, 'teleport': Teleport, 'static_map': GetMap}
+    'kill': Kill, 'add_obstacle': AddObstacle, 'remove_obstacle': RemoveObstacle, 'set_brushes_up': SetBool,
+    'teleport': Teleport, 'static_map': GetMap}
 
 
 @functools.lru_cache(maxsize=None)

@@ -28,8 +28,11 @@ class SimulatorBadStartTest(unittest.TestCase):
     def test_bad_input_ends_the_node_with_one_line_and_exit_code_2_and_leaves_no_parameter(self):
         forget_parameters()
         where = '^simulator: parameter of /simulator: '
-        folder = folder_of(self, {**ROOM, 'bad.yaml': b'battery:\n  drian: 2\n'})
-        path, room = folder / 'bad.yaml', folder / 'room.yaml'
+        folder = folder_of(self, {
+            **ROOM, 'bad.yaml': b'battery:\n  drian: 2\n', 'leg.yaml': b'leg: {pose: [1, 1], radus: 0.1, height: 1}\n',
+            'dock.yaml': b'leg: {pose: [2.9, 2.8], radius: 0.1, height: 1}\n'})
+        room = folder / 'room.yaml'
+        path, leg, dock = (folder / f'{name}.yaml' for name in ('bad', 'leg', 'dock'))
         for message, *arguments in (
                 ("^simulator: there is no map 'moon': give the path of a map_server YAML file, or one of apartment, ",
                  '_map:=moon'),
@@ -50,6 +53,10 @@ class SimulatorBadStartTest(unittest.TestCase):
                 (r"^simulator: _seed:='9{23}': cannot be a parameter: int exceeds XML-RPC limits\n$",
                  f'_seed:={23 * "9"}'),
                 (rf'^simulator: {room}: no room for another robot\n$', '_robots:=20', f'_map:={room}'),
+                (r'^simulator: /no/things\.yaml: No such file or directory\n$', '_obstacles:=/no/things.yaml'),
+                (rf"^simulator: {leg}: leg/radus is unknown: did you mean 'radius'\?\n$", f'_obstacles:={leg}'),
+                (r"^simulator: 'leg' stands at the dock, \(3\.0[78], 2\.84\) m: no robot fits there\n$",
+                 f'_obstacles:={dock}', '_map:=studio'),
                 (r"^simulator: unknown argument 'studio': ", 'studio'),
                 (r"^simulator: cannot start: \[Errno 20\] Not a directory: '/dev/null/x'\n$", '__log:=/dev/null/x'),
                 (r'^simulator: map:= remaps a topic: for the parameter write _map:=\n$', 'map:=studio')):

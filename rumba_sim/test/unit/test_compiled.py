@@ -11,10 +11,18 @@ from rumba_sim.model.compiled import fast
 from rumba_sim.model.constants import constants
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.reachability import stands
-from rumba_sim.model.world import ON_THEIR_OWN, World
+from rumba_sim.model.obstacle import Obstacle, walk
+from rumba_sim.model.world import World
 
 DOCK = Pose(3.8, 1.0, 0.0)
 STARTS = [Pose(0.5, 0.5, 0.3), Pose(0.9, 0.5, 3.0), Pose(2.0, 1.3, -2.0), Pose(3.5, 1.0, 0.1), Pose(3.2, 2.6, 0.0)]
+OBSTACLES = [
+    Obstacle('post', Pose(1.1, 0.75, 0.0), height=0.3, radius=0.02),
+    Obstacle('book', Pose(2.3, 0.8, 0.7), height=0.3, length=0.3, width=0.2),
+    Obstacle('cat', Pose(3.0, 2.2, 0.0), height=0.3, radius=0.1, stops=walk(
+        [Pose(3.0, 2.2, 0.0), Pose(3.6, 0.7, 0.0), Pose(2.0, 1.7, 0.0)], 0.3, True, 0.0, 1.0)),
+    Obstacle('crate', Pose(0.5, 2.0, 0.0), height=0.3, length=0.2, width=0.1, stops=walk(
+        [Pose(0.5, 2.0, 0.0), Pose(0.5, 0.4, 1.0)], 0.3, False, 0.0, 0.5))]
 ROUNDING = 1e-12
 
 
@@ -22,20 +30,29 @@ class Copy:
     """All data of the kernel, separate from any world."""
 
     def __init__(self, charge):
-        world = World(crooked(dock=DOCK, cliff=(3.6, 2.4, 4.0, 3.0), carpet=(0.0, 0.0, 1.0, 1.0)), seed=4)
+        plan = crooked(dock=DOCK, cliff=(3.6, 2.4, 4.0, 3.0), carpet=(0.0, 0.0, 1.0, 1.0))
+        world = World(plan, seed=4, obstacles=OBSTACLES)
         self.robots = np.concatenate([
             np.atleast_1d(world.spawn(str(number), start, charge).state) for number, start in enumerate(STARTS)
         ]).astype(kernel.ROBOT)
         self.constants = constants(world.config, world.terrain, world.step_rate)
         self.plan, self.floor = world.terrain, world.floor
+        self.obstacles, self.stops = world.obstacles.records, world.obstacles.stops
         angles = np.linspace(-math.pi, math.pi, 360, endpoint=False)
         self.fan = np.stack([np.cos(angles), np.sin(angles)], axis=1)
         self.noise = np.random.default_rng(2).standard_normal((len(STARTS), 64, 2))
 
-    def advance(self, functions, led, tick, ticks):
+    @property
+    def ground(self):
+        """What all robots stand on and what has the same place in the arguments of the kernel."""
+        return (self.robots, self.constants, self.obstacles, self.plan.clearance, self.floor.cells,
+                self.floor.sweep.samples, self.floor.dirt, self.floor.sweep.tally, self.noise)
+
+    def advance(self, functions, tick, ticks):
         """Simulate a number of ticks."""
-        functions.advance(self.robots, self.constants, self.plan.clearance, self.floor.cells, self.floor.sweep.samples,
-                          self.floor.dirt, self.floor.sweep.tally, self.noise, led, tick, ticks)
+        for now in range(tick, tick + ticks):
+            functions.go(self.obstacles, self.stops, self.robots, self.constants[0])
+            functions.advance(*self.ground, now, 1)
 
     def run(self, functions, ticks):
         """Drive around; returns the states after each command, the infrared readings and the scans."""
@@ -45,14 +62,14 @@ class Copy:
             for robot in self.robots:
                 robot.command_v, robot.command_w = rng.uniform(-0.1, 0.5), rng.uniform(-1.9, 1.9)
                 robot.command_tick = tick
-            self.advance(functions, ON_THEIR_OWN, tick, 10)
+            self.advance(functions, tick, 10)
             states.append(np.array([[float(robot[name]) for name in kernel.ROBOT.names] for robot in self.robots]))
             for robot in self.robots:
                 seen.append(functions.infrared(robot, self.constants[0], self.plan.skips, self.floor.cells))
         ranges = np.empty((len(STARTS), len(self.fan)))
         for me in range(len(STARTS)):
-            functions.scan(self.robots, me, self.constants[0], self.plan.skips, self.floor.cells, self.fan,
-                           self.noise.reshape(-1)[:len(self.fan)], ranges[me])
+            functions.scan(self.robots, me, self.constants[0], self.obstacles, self.plan.skips, self.floor.cells,
+                           self.fan, self.noise.reshape(-1)[:len(self.fan)], ranges[me])
         return np.array(states), seen, ranges
 
 
@@ -65,12 +82,15 @@ def test_compiled_and_plain_kernel_agree_except_for_rounding(charge):
         np.testing.assert_allclose(fast_states[..., place], states[..., place], ROUNDING, ROUNDING, err_msg=name)
     assert fast_seen == seen
     np.testing.assert_allclose(fast_ranges, ranges, ROUNDING, ROUNDING)
+    for name in kernel.OBSTACLE.names:
+        np.testing.assert_allclose(compiled.obstacles[name], plain.obstacles[name], ROUNDING, ROUNDING, err_msg=name)
     np.testing.assert_array_equal(compiled.floor.sweep.samples, plain.floor.sweep.samples)
     np.testing.assert_allclose(compiled.floor.sweep.tally[0].tolist(), plain.floor.sweep.tally[0].tolist(), 1e-9)
     if charge == 1.0:  # every kind of event happened
         columns = dict(zip(kernel.ROBOT.names, states.transpose(2, 0, 1)))
         assert columns['bumps'].max() > 0 and columns['docked'].any() and columns['fallen'].any()
         assert any(beams != (0, 0, 0) for beams in seen) and np.isfinite(ranges).any()
+        assert plain.obstacles['visits'][2:].min() > 0
         assert np.isnan(columns['contact_angle']).any() and not np.isnan(columns['contact_angle']).all()
 
 
@@ -79,7 +99,7 @@ def test_compiled_and_plain_kernel_move_led_robots_in_the_same_way():
     states = []
     for functions in (kernel, fast):
         copy = Copy(1.0)
-        copy.advance(functions, led, 0, 1)
+        functions.follow(*copy.ground, 0, led)
         assert [(robot.x, robot.y, robot.theta) for robot in copy.robots] == [tuple(to) for to in led[:, :3]]
         states.append(np.array([[float(robot[name]) for name in kernel.ROBOT.names] for robot in copy.robots]))
         halted = [functions.halted(robot, copy.constants[0], copy.plan.clearance, 0.3) for robot in copy.robots]

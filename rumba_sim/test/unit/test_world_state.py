@@ -203,11 +203,11 @@ def test_a_file_of_another_version_is_refused(path):
     with np.load(path) as content:
         arrays = dict(content)
     header = json.loads(arrays['header'].tobytes())
-    arrays['header'] = np.frombuffer(json.dumps({**header, 'version': 2}).encode(), np.uint8)
+    arrays['header'] = np.frombuffer(json.dumps({**header, 'version': 1}).encode(), np.uint8)
     with open(path, 'wb') as file:
         np.savez(file, **arrays)
-    with pytest.raises(WorldError, match=r'/state: was saved by another version of rumba_sim: its format is 2, must be '
-                                         '1$'):
+    with pytest.raises(WorldError, match=r'/state: was saved by another version of rumba_sim: its format is 1, must be '
+                                         '2$'):
         world_state.read(str(path))
 
 

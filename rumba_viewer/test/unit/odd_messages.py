@@ -35,10 +35,14 @@ def _places(message, path=()):
             yield from _places(value, (*path, name))
         elif kind == 'time':
             yield (*path, name), [genpy.Time(0, 0), genpy.Time(2 ** 32 - 1, 999_999_999)]
+        elif kind == 'duration':
+            yield (*path, name), [genpy.Duration(0, 0), genpy.Duration(2 ** 31 - 1, 999_999_999)]
         elif kind == 'string':
             yield (*path, name), TEXTS
         elif kind == 'bool':
             yield (*path, name), (False, True)
+        elif kind.endswith(']') and '/' in kind:  # of messages
+            yield (*path, name), [[], *([odd] for odd in (all_of(value[0], 0) if value else ()))]
         elif kind.endswith(']'):
             number = 0 if kind.startswith(('int', 'uint')) else math.nan
             arrays = [length * [number] for length in (LENGTHS if kind.endswith('[]') else [len(value)])]

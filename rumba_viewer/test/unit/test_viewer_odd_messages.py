@@ -13,14 +13,17 @@ from nav_msgs.msg import MapMetaData, OccupancyGrid, Odometry
 from pytest import approx
 from rospy.numpy_msg import numpy_msg
 from sensor_msgs.msg import BatteryState, LaserScan
+from std_msgs.msg import Header
+from visualization_msgs.msg import Marker, MarkerArray
 from windows import APPLICATION, Opened
 
 from rumba_msg.msg import (BatteryStatus, Bumper, CleanActionResult, CleaningStatus, CleanResult, Cliff, MissionStatus,
                            Outcome, SimulatorState)
+from rumba_sim.model.geometry import Pose
 from rumba_sim.model.robot_config import RobotConfig
 from rumba_viewer.ros import listener, subscription
 from rumba_viewer.ros.ros_graph import RosGraph
-from rumba_viewer.scene.snapshot import Snapshot
+from rumba_viewer.scene.snapshot import Obstacle, Snapshot
 
 NODE = '/simulator'
 GRAPH = RosGraph('a master', ('rumba', 'rumba2'), frozenset({f'{NODE}/reset', '/reset'}), True)
@@ -40,6 +43,8 @@ def grid(value):
                                     data=np.full(1200, value, np.int8))
 
 
+CUBE = Marker(type=Marker.CUBE, header=Header(frame_id='map'))
+CUBE.pose.orientation.w = CUBE.scale.x = CUBE.scale.y = CUBE.scale.z = 1.0
 GOOD = {
     '/map': grid(0), 'rumba/ground_truth': odometry(1.0, 2.0), 'rumba/coverage': grid(100),
     'rumba/scan': numpy_msg(LaserScan)(angle_min=-3.0, angle_max=3.0, angle_increment=0.1, range_max=4.0,
@@ -50,6 +55,7 @@ GOOD = {
     'rumba/cleaning_status': CleaningStatus(coverage=0.5, cleaned_area=1.0, reachable_area=2.0, distance=3.0),
     'rumba/mission_status': MissionStatus(state=MissionStatus.CLEANING, strategy='bounce', message='cleans'),
     'rumba/clean/result': CleanActionResult(result=CleanResult(outcome=Outcome(Outcome.CANCELLED, 'cancelled'))),
+    'simulator/obstacles': MarkerArray([CUBE]),
     'simulator/state': SimulatorState(node=NODE, map='/nowhere.yaml', speed=2.0, real_time_factor=2.0,
                                       is_time_simulated=True)}
 
@@ -112,6 +118,7 @@ def test_after_any_messages_the_window_shows_a_good_one(watched, monkeypatch, to
     robot = shown.robot
     assert shown.plan.cells.shape == (30, 40) and (robot.pose.x, robot.pose.y) == approx((1.0, 2.0), abs=1e-6)
     assert (shown.simulation.node, shown.simulation.speed, shown.is_complete) == (NODE, 2.0, True)
+    assert shown.obstacles == (Obstacle(Pose(0.0, 0.0, 0.0), 1.0, 1.0, is_round=False, is_low=False),)
     assert (robot.mission.message, robot.cleaning.distance, robot.battery.voltage) == ('cleans', 3.0, 15.0)
 
 

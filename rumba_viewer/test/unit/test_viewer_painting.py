@@ -9,7 +9,7 @@ from windows import BOTTOM, HEIGHT, LEFT, SCALE, WIDTH, count, near, path, pixel
 
 from rumba_sim.model.geometry import Pose
 from rumba_viewer.painting.paint_scene import ScenePainter, picture
-from rumba_viewer.scene.snapshot import Dock, MapFeatures, Point, Snapshot
+from rumba_viewer.scene.snapshot import Dock, MapFeatures, Obstacle, Point, Snapshot
 from rumba_viewer.scene.theme import DARK, LIGHT, robot_colour
 from rumba_viewer.scene.view_transform import ViewTransform
 
@@ -73,6 +73,21 @@ def test_a_robot_is_true_to_scale_and_its_bumper_is_in_front(theta, view, theme)
     assert at(image, view, *ahead(-0.1 * radius, 0.3 * radius), theme.lit, 30)
     for side in ((1.2, 0.0), (-1.2, 0.0), (0.0, 1.2), (0.0, -1.2)):
         assert at(image, view, *ahead(*(radius * share for share in side)), theme.out_of_reach), side
+
+
+@THEMES
+@VIEWS
+def test_obstacles_are_true_to_scale_and_turned_and_low_ones_are_lighter(view, theme):
+    disc = Obstacle(Pose(0.5, 4.0, 0.0), 0.3, 0.3, is_round=True, is_low=False)
+    high = Obstacle(Pose(1.5, 4.0, math.pi / 4.0), 0.6, 0.1, is_round=False, is_low=False)
+    low = high._replace(is_low=True)
+    image = picture(snapshot(obstacles=(disc, high)), view, theme)
+    for x, y in ((0.5, 4.0), (0.62, 4.0), (1.5, 4.0), (1.65, 4.15), (1.35, 3.85)):
+        assert at(image, view, x, y, theme.obstacle), (x, y)
+    for x, y in ((0.62, 4.12), (1.65, 3.85), (1.35, 4.15)):
+        assert at(image, view, x, y, theme.out_of_reach), (x, y)
+    image = picture(snapshot(obstacles=(low,)), view, theme)
+    assert not at(image, view, 1.65, 4.15, theme.obstacle) and not at(image, view, 1.65, 4.15, theme.out_of_reach)
 
 
 def test_the_side_of_the_bumper_that_is_pressed_is_red():

@@ -18,11 +18,14 @@ from std_srvs.srv import TriggerResponse
 
 from rumba_msg.msg import (BatteryStatus, CleanActionResult, CleaningStatus, CleanResult, Cliff, GoToResult,
                            MissionStatus, Outcome, SimulatorState)
+from rumba_sim.model import obstacle
+from rumba_sim.model.geometry import Pose
 from rumba_sim.model.robot_config import RobotConfig
 from rumba_sim.ros.common.conversions import quaternion
+from rumba_sim.ros.common.obstacle_markers import markers
 from rumba_viewer.ros import actor, listener, robot_client, robot_listener
 from rumba_viewer.ros.ros_graph import RosGraph, robots
-from rumba_viewer.scene.snapshot import Size
+from rumba_viewer.scene.snapshot import Obstacle, Size
 
 STATE = SimulatorState(node='/sim2', speed=2.0, real_time_factor=1.9, is_time_simulated=True, map='/nowhere.yaml')
 SERVICES = frozenset({'/sim2/reset', '/sim2/pause', '/sim2/tuning/set_parameters', '/rumba/teleport'})
@@ -191,6 +194,18 @@ def test_each_state_is_news_and_so_is_the_silence_of_a_simulator(simulation):
     later = time.monotonic() + listener.SILENCE + 0.1
     assert simulation.has_news(later)
     assert simulation.snapshot(later).simulation.node == ''
+
+
+def test_the_obstacles_of_a_simulator_are_shown_until_it_is_gone(simulation):
+    after(simulation)
+    things = [obstacle.Obstacle('leg', Pose(3.0, 2.0, 0.0), height=0.4, radius=0.05),
+              obstacle.Obstacle('book', Pose(5.0, 3.0, 0.5), height=0.03, length=0.3, width=0.2)]
+    Topic.opened['simulator/obstacles'].callback(markers(((one, one.pose) for one in things), Header()))
+    assert simulation.has_news(time.monotonic())
+    leg, book = simulation.snapshot(time.monotonic()).obstacles
+    assert leg == Obstacle(Pose(3.0, 2.0, 0.0), 0.1, 0.1, is_round=True, is_low=False)
+    assert book == Obstacle(Pose(5.0, 3.0, approx(0.5)), 0.3, 0.2, is_round=False, is_low=True)
+    assert simulation.snapshot(time.monotonic() + listener.SILENCE + 0.1).obstacles == ()
 
 
 def test_a_simulator_that_took_its_services_back_is_gone(simulation):

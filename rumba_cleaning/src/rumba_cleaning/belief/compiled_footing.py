@@ -5,7 +5,7 @@ from typing import Any, Tuple
 
 import numpy as np
 
-from rumba_cleaning.belief.compiled import compiled
+from rumba_sim.model.jit import compiled
 
 Array = Any  # numpy.ndarray
 

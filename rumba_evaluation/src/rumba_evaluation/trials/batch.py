@@ -21,10 +21,11 @@ from rumba_cleaning import strategies
 from rumba_cleaning.outcome import Outcome
 from rumba_evaluation.trials.cases import Case, Conditions, Result
 from rumba_evaluation.trials.trial import Trial
-from rumba_sim.model import map_file
+from rumba_sim.model import map_file, obstacle_file
 from rumba_sim.model.errors import ConfigError, RumbaError, StrategyError
 from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.model.kernel import Array
+from rumba_sim.model.obstacle import Obstacle
 
 SCHEDULER_TIMEOUT = 10.0  # [s]
 EXAMPLE = 'tcp://10.0.0.1:8786'
@@ -61,16 +62,26 @@ def floor_plan(path: str) -> FloorPlan:
     return map_file.load(path)
 
 
+@functools.lru_cache(maxsize=1)
+def obstacles_in(path: str) -> Tuple[Obstacle, ...]:
+    """The obstacles in a file; none if the path is empty.
+
+    Raises:
+        ConfigError: they cannot be used.
+    """
+    return tuple(obstacle_file.load(path)) if path else ()
+
+
 def prepare(job: Job) -> Trial:
     """The trial of a job.
 
     Raises:
-        RumbaError: the map, the strategy or the number of robots cannot be used.
+        RumbaError: the map, the strategy, the obstacles or the number of robots cannot be used.
     """
     strategies.load(job.modules)
-    plan = floor_plan(job.path)
+    plan, obstacles = floor_plan(job.path), obstacles_in(job.conditions.obstacles)
     try:
-        return Trial(plan, job.case.strategy, job.conditions, job.case.seed, job.case.robots)
+        return Trial(plan, job.case.strategy, job.conditions, job.case.seed, job.case.robots, obstacles)
     except RumbaError:
         raise
     except (Exception, SystemExit) as error:  # in the code that makes a strategy

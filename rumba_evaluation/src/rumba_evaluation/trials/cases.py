@@ -39,6 +39,7 @@ class Conditions:
                            1e4)
     target: float = setting(CleaningConfig().target_coverage, 'share of the reachable floor at which a mission ends',
                             '', 0.0, 1.0)
+    obstacles: str = setting('', 'path of a YAML file of obstacles that the maps do not show; robots do not know them')
     bound: float = setting(12.0, 'working time, in multiples of T, after which a mission is stopped', '', 0.01, 1e6)
 
     def __post_init__(self) -> None:
@@ -70,7 +71,7 @@ class Result:
     energy: float  # [Wh] the same
     energy_per_area: float  # [Wh/m^2] swept; NaN if nothing was swept
     docked: int  # robots on the dock at the end
-    penetrated: bool  # a robot was inside a wall by more than 1 mm
+    penetrated: bool  # a robot was inside a wall or an obstacle by more than 1 mm
     x: float  # [m] start of the first robot, map frame
     y: float  # [m]
     theta: float  # [rad]

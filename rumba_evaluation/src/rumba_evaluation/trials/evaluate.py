@@ -73,9 +73,12 @@ def _parser() -> argparse.ArgumentParser:
     add('--robots', type=_positive, nargs='+', default=[1], metavar='N', help='numbers of robots; default 1')
     add('--start', choices=(DOCK, ANYWHERE), default=DOCK,
         help='where robots start: at the start of the map, or anywhere, drawn from the seed; default %(default)s')
-    for field in dataclasses.fields(Conditions)[1:]:
-        add(f'--{field.name}', type=float, default=field.default,
-            help=f'{explain(field)}; default {field.default:g}'.replace('%', '%%'))
+    add('--obstacles', type=_path, default='', metavar='FILE',
+        help='YAML file of obstacles that the maps do not show, and that the robots do not know')
+    for field in dataclasses.fields(Conditions):
+        if isinstance(field.default, float):
+            add(f'--{field.name}', type=float, default=field.default,
+                help=f'{explain(field)}; default {field.default:g}'.replace('%', '%%'))
     add('--import', dest='modules', default='', metavar='MODULES',
         help='Python modules that register strategies, with commas between them')
     add('--output', default='evaluation', metavar='DIR', help='folder for results, table and pictures; default '
@@ -94,6 +97,10 @@ def _seeds(text: str) -> List[int]:
         raise argparse.ArgumentTypeError(f'{text!r} must be a number of seeds, as in 10, or the first and the last, '
                                          'as in 11-20')
     return list(range(first, last + 1))
+
+
+def _path(text: str) -> str:
+    return os.path.abspath(text) if text else ''
 
 
 def _positive(text: str) -> int:

@@ -1,7 +1,7 @@
 """Random poses at which robots start."""
 
 import math
-from typing import List
+from typing import Callable, List
 
 import numpy as np
 
@@ -13,11 +13,20 @@ from rumba_sim.model.robot_config import RobotConfig
 
 
 def anywhere(plan: FloorPlan, config: RobotConfig, origin: Pose, count: int,
-             generator: np.random.Generator) -> List[Pose]:
+             generator: np.random.Generator,
+             is_taken: Callable[[float, float], bool] = lambda x, y: False) -> List[Pose]:
     """Random poses for robots that do not overlap, anywhere a robot fits and can drive to from an origin.
 
     A robot may also fit at a position that it cannot reach, for example between the legs of a table, but there is
     nothing to clean there.
+
+    Args:
+        plan: the floor plan.
+        config: of the robots.
+        origin: from which they could drive there [m, rad], map frame.
+        count: number of poses.
+        generator: source of the poses.
+        is_taken: whether something that is not on the plan stands at a position (x, y) [m].
 
     Raises:
         MapError: no robot fits at the origin.
@@ -32,8 +41,11 @@ def anywhere(plan: FloorPlan, config: RobotConfig, origin: Pose, count: int,
         if len(positions) == 0:
             raise WorldError(f'{plan.name}: no room for another robot beside {len(poses)}')
         row, column = positions[generator.integers(len(positions))].tolist()
-        poses.append(Pose(terrain.origin[0] + column * spacing, terrain.origin[1] + row * spacing,
-                          generator.uniform(-math.pi, math.pi)))
+        x, y = terrain.origin[0] + column * spacing, terrain.origin[1] + row * spacing
+        if is_taken(x, y):
+            free[row, column] = False
+            continue
+        poses.append(Pose(x, y, generator.uniform(-math.pi, math.pi)))
         rows, columns = np.ogrid[:free.shape[0], :free.shape[1]]
         free &= np.hypot(rows - row, columns - column) * spacing > 2.0 * radius
     return poses

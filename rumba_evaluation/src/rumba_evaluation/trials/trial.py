@@ -23,6 +23,7 @@ from rumba_evaluation.trials.cases import ANYWHERE, LOCALISED, ODOMETRY, Conditi
 from rumba_sim.model.config import updated
 from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.model.geometry import Pose, wrap_angle
+from rumba_sim.model.obstacle import Obstacle
 from rumba_sim.model.robot import Robot, nth_name
 from rumba_sim.model.robot_config import TURN, RobotConfig
 from rumba_sim.model.world import World
@@ -44,19 +45,29 @@ class Trial:
     """
 
     def __init__(self, plan: FloorPlan, strategy: str, conditions: Conditions = Conditions(), seed: int = 0,
-                 robots: int = 1) -> None:
+                 robots: int = 1, obstacles: Sequence[Obstacle] = ()) -> None:
         """Put charged robots on a floor plan.
 
+        Args:
+            plan: the floor plan, which the robots know.
+            strategy: name of the cleaning strategy.
+            conditions: of the trial; the obstacles are not read from the file that they name.
+            seed: of everything that is random.
+            robots: number of robots.
+            obstacles: that are there from the start, and that the robots do not know.
+
         Raises:
-            RumbaError: the strategy is unknown, or there is no space for so many robots.
+            RumbaError: the strategy is unknown, there is no space for so many robots, or an obstacle is wrong.
         """
         config = updated(RobotConfig(), {'battery': {'drain': conditions.drain}}, 'conditions')
         cleaning = CleaningConfig()
         self._conditions = conditions
-        self.world = World(plan, config, STEP_RATE, seed)
+        self.world = World(plan, config, STEP_RATE, seed, obstacles)
         poses: Sequence[Optional[Pose]] = [None] * robots
         if conditions.start == ANYWHERE:
-            poses = starts.anywhere(plan, config, self.world.start, robots, np.random.default_rng(seed))
+            poses = starts.anywhere(
+                self.world.reachable_plan, config, self.world.start, robots, np.random.default_rng(seed),
+                lambda x, y: bool(self.world.obstacles.near(x, y, config.drive.radius)))
         for number, pose in enumerate(poses, 1):
             self.world.spawn(nth_name(number), pose, brushes_up=True)
         self.sources = {name: _source(plan, self.world, name, conditions.pose, seed) for name in self.world.robots}
@@ -67,7 +78,7 @@ class Trial:
         self.missions = [Mission(context, strategy, conditions.target) for context in self.contexts]
         self.ideal_time = self.world.floor.reachable_area / (config.brush.width * cleaning.speed)
         self.curve: List[float] = []
-        self._meters = [_Meter(self.world.terrain, robot) for robot in self.world.robots.values()]
+        self._meters = [_Meter(self.world, robot) for robot in self.world.robots.values()]
         self._dt = 0.0  # [s] since the last observations
         self._steps = 0
         self._charging_steps = 0
@@ -154,11 +165,11 @@ class _Meter:
         turned: rotation [rad], left and right added up.
         charge: out of the battery [Ah], at a drain of 1.
         energy: the same [Wh].
-        penetrated: whether the robot was inside a wall.
+        penetrated: whether the robot was inside a wall or an obstacle.
     """
 
-    def __init__(self, plan: FloorPlan, robot: Robot) -> None:
-        self._plan = plan
+    def __init__(self, world: World, robot: Robot) -> None:
+        self._world = world
         self._robot = robot
         self._theta = robot.pose.theta
         self._least_clearance = robot.config.drive.radius - OVERLAP
@@ -176,4 +187,5 @@ class _Meter:
             charge = -battery.current * CONTROL_DT / HOUR
             self.charge += charge
             self.energy += battery.voltage * charge
-        self.penetrated |= self._plan.clearance_at(pose.x, pose.y) < self._least_clearance
+        self.penetrated |= self._world.terrain.clearance_at(pose.x, pose.y) < self._least_clearance or bool(
+            self._world.obstacles.near(pose.x, pose.y, self._least_clearance))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import math
 from typing import TYPE_CHECKING, Any, NamedTuple, Optional, Tuple
 
@@ -178,6 +179,12 @@ class FloorPlan:
             self._refined = FloorPlan(self.name, _enlarged(self.occupancy, parts), self.resolution / parts, self.origin,
                                       cliff=cliff, carpet=carpet, dock=self.dock, start=self.start)
         return self._refined
+
+    def with_safe_clearance(self, safe_clearance: NDArray[np.float64]) -> FloorPlan:
+        """The same floor with another `safe_clearance`, of the same shape."""
+        plan = copy.copy(self)
+        plan.safe_clearance = safe_clearance
+        return plan
 
     @property
     def sample_squares(self) -> int:

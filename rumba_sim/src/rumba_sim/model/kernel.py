@@ -1,4 +1,4 @@
-"""What every robot does in one tick (drive, collide, count, drain, sweep), and what laser and infrared see.
+"""What robots and movers do in one tick (drive, collide, count, drain, sweep), and what laser and infrared see.
 
 This is plain Python that `compiled` hands to numba as a whole: it uses only numbers, arrays and records, and imports
 only math and NumPy. Uncompiled, the same functions give the same results about a hundred times slower.
@@ -12,6 +12,8 @@ Units: [m], [rad], [s], [A], [Ah]. Arguments that many functions share:
         sample point in each of the n x n squares of a cell.
     dirt: float32 (rows, columns), dirt on the samples of each cell in the beginning.
     skips: uint8 (rows, columns), how many cells a beam may skip from anywhere in a cell (`FloorPlan.skips`).
+    obstacles: array of records of type OBSTACLE, which the map does not show.
+    stops: float64 (all stops of all movers, 6), the columns X, Y, THETA, TRAVEL, LEAST and MOST of each stop.
 In arrays of cells row 0 lies at the lowest y.
 """
 
@@ -44,41 +46,69 @@ ROBOT = np.dtype((np.record, np.dtype([(name, 'f8') for name in (
     'brush_time', 'contact_angle', 'swept_x', 'swept_y', 'swept_theta', 'swept_distance')] + [
         (name, 'i8') for name in ('command_tick', 'left_ticks', 'right_ticks', 'bumps', 'alone_until')] + [
             (name, 'u1') for name in ('bumper', 'brushes_up', 'docked', 'fallen', 'sweeps')], align=True)))
+# A disc has a radius, and halves that are 0; a box has halves, and a radius that is 0. `reach` is the distance from its
+# centre to its farthest point. A mover has `stops` stops from row `first` of the array of stops on; it has left number
+# `stop` of them, `moved` [ticks] ago, or stands there for `rest` ticks more; it has reached stops `visits` times. For
+# `waited` ticks a robot has been in its way; `is_back` while it returns to the stop that it left, for lack of patience.
+OBSTACLE = np.dtype((np.record, np.dtype([(name, 'f8') for name in (
+    'x', 'y', 'theta', 'cos', 'sin', 'half_length', 'half_width', 'radius', 'reach', 'moved')] + [
+        (name, 'i8') for name in ('first', 'stops', 'stop', 'rest', 'visits', 'waited', 'key')] + [
+            (name, 'u1') for name in ('is_back', 'is_seen')], align=True)))
+X, Y, THETA = 0, 1, 2  # columns of a stop: its pose [m, rad]
+TRAVEL = 3  # [ticks] that the way from the stop before takes
+LEAST, MOST = 4, 5  # [ticks] shortest and longest pause
+PATIENCE = 5.0  # [s] that a mover waits for a robot before it turns back: it shall not hold a robot for ever
+HALVINGS = 10  # of the last step of a mover before a contact, which is then known to a thousandth of the step
 TALLY = np.dtype((np.record, np.dtype([('swept', 'i8'), ('dirt', 'f8')], align=True)))
 
 
-def advance(robots: Array, constants: Array, field: Array, cells: Array, samples: Array, dirt: Array, tallies: Array,
-            noise: Array, led: Array, tick: int, ticks: int) -> None:
+def advance(robots: Array, constants: Array, obstacles: Array, field: Array, cells: Array, samples: Array, dirt: Array,
+            tallies: Array, noise: Array, tick: int, ticks: int) -> None:
     """Simulate `ticks` ticks; the first of them has the number `tick`.
 
     Args, apart from those above:
         constants: array of one record `k`.
         tallies: array of one record of type TALLY.
         noise: float64 (robots, any, 2), standard normal; tick t uses row t modulo the number of rows.
-        led: float64 (robots, 4), if something else moves the robots: x, y and theta after each tick, and 1 if the
-            wheels turned on the way, 0 if the robot was carried. Shape (0, 4) if the robots drive themselves.
     """
     k, tally = constants[0], tallies[0]
     for now in range(tick, tick + ticks):
         for me in range(len(robots)):
             robot = robots[me]
-            if len(led) > 0:
-                from_x, from_y, from_theta = lead(robot, k, led[me])
-                toward_x, toward_y = 0.0, 0.0
-            else:
-                drive(robot, k, now)
-                from_x, from_y, from_theta = robot.x, robot.y, robot.theta
-                toward_x, toward_y = move(robots, me, k, field, now)
-            traction = k.floor_traction
-            if k.has_layers:
-                traction = stand(robot, k, cells)
+            drive(robot, k, now)
+            start = robot.x, robot.y, robot.theta
+            toward_x, toward_y = move(robots, me, k, obstacles, field, now)
+            traction = stand(robot, k, cells) if k.has_layers else k.floor_traction
             count(robot, k, traction, noise[me, now % noise.shape[1]])
-            touch(robots, me, k, field, now, toward_x, toward_y)
-            brush(robot, k, samples, dirt, tally, (from_x, from_y, from_theta))
-            if k.has_dock:
-                robot.docked = at_contacts(robot, k)
-            robot.current = battery_current(robot.charge, k, load(robot, k), robot.docked)
-            robot.charge = charge_after(robot.charge, k, robot.current, k.dt)
+            touch(robots, me, k, obstacles, field, now, toward_x, toward_y)
+            work(robot, k, samples, dirt, tally, start)
+
+
+def follow(robots: Array, constants: Array, obstacles: Array, field: Array, cells: Array, samples: Array, dirt: Array,
+           tallies: Array, noise: Array, tick: int, led: Array) -> None:
+    """Simulate one tick in which something else moves the robots.
+
+    Args, apart from those of `advance`:
+        led: float64 (robots, 4): x, y and theta after the tick, and 1 if the wheels turned on the way, 0 if the robot
+            was carried.
+    """
+    k, tally = constants[0], tallies[0]
+    for me in range(len(robots)):
+        robot = robots[me]
+        start = lead(robot, k, led[me])
+        traction = stand(robot, k, cells) if k.has_layers else k.floor_traction
+        count(robot, k, traction, noise[me, tick % noise.shape[1]])
+        touch(robots, me, k, obstacles, field, tick, 0.0, 0.0)
+        work(robot, k, samples, dirt, tally, start)
+
+
+def work(robot: Record, k: Record, samples: Array, dirt: Array, tally: Record, start: Triple) -> None:
+    """Sweep, dock and use energy in a tick that began with the pose `start`."""
+    brush(robot, k, samples, dirt, tally, start)
+    if k.has_dock:
+        robot.docked = at_contacts(robot, k)
+    robot.current = battery_current(robot.charge, k, load(robot, k), robot.docked)
+    robot.charge = charge_after(robot.charge, k, robot.current, k.dt)
 
 
 # --- geometry -----------------------------------------------------------------------------------------------------
@@ -150,7 +180,7 @@ def approach(speed: float, wanted: float, k: Record) -> float:
     return min(max(wanted, speed - change), speed + change)
 
 
-def move(robots: Array, me: int, k: Record, field: Array, now: int) -> Tuple[float, float]:
+def move(robots: Array, me: int, k: Record, obstacles: Array, field: Array, now: int) -> Tuple[float, float]:
     """Move a robot as its wheels turn for one tick; it slides along obstacles and never enters them.
 
     Returns the vector from where the robot is now to where its wheels led: (0, 0) if nothing was in the way.
@@ -162,7 +192,7 @@ def move(robots: Array, me: int, k: Record, field: Array, now: int) -> Tuple[flo
         robot.theta = wrap(robot.theta + turn)
         return 0.0, 0.0
     to_x, to_y, robot.theta = arc(robot.x, robot.y, robot.theta, distance, turn)
-    x, y = settle(robots, me, k, field, now, to_x, to_y)
+    x, y = settle(robots, me, k, obstacles, field, now, to_x, to_y)
     robot.distance += math.hypot(x - robot.x, y - robot.y)
     robot.x, robot.y = x, y
     return to_x - x, to_y - y
@@ -171,7 +201,7 @@ def move(robots: Array, me: int, k: Record, field: Array, now: int) -> Tuple[flo
 def lead(robot: Record, k: Record, to: Array) -> Triple:
     """Put a robot at the pose `to` within one tick, and set the speeds of its wheels to match.
 
-    `to` is a row of `led` of `advance`. Returns the pose from which the brush sweeps in this tick.
+    `to` is a row of `led` of `follow`. Returns the pose from which the brush sweeps in this tick.
     """
     from_x, from_y, from_theta = robot.x, robot.y, robot.theta
     robot.x, robot.y, robot.theta = to[0], to[1], to[2]
@@ -196,8 +226,9 @@ def halted(robot: Record, k: Record, field: Array, v: float) -> float:
     return v * max(gap - k.reach, 0.0) / nearer
 
 
-def settle(robots: Array, me: int, k: Record, field: Array, now: int, x: float, y: float) -> Tuple[float, float]:
-    """Where a robot ends that moves to (x, y): pushed out of walls and other robots, or where it was if that fails."""
+def settle(robots: Array, me: int, k: Record, obstacles: Array, field: Array, now: int, x: float,
+           y: float) -> Tuple[float, float]:
+    """Where a robot ends that moves to (x, y): pushed out of all that is there, or where it was if that fails."""
     for _ in range(PUSHES):
         gap, along_x, along_y = clearance(k, field, x, y)
         free = gap >= k.reach
@@ -207,6 +238,12 @@ def settle(robots: Array, me: int, k: Record, field: Array, now: int, x: float, 
                 break
             push = (k.reach + PUSH - gap) / slope
             x, y = x + push * along_x, y + push * along_y
+        if len(obstacles) > 0:
+            gap, along_x, along_y = nearest_obstacle(obstacles, x, y, k.radius)
+            if gap < k.radius:
+                free = False
+                push = k.radius + PUSH - gap
+                x, y = x + push * along_x, y + push * along_y
         if now >= robots[me].alone_until:
             other, distance = nearest(robots, me, k, now, x, y)
             if other >= 0 and distance < 2.0 * k.radius:
@@ -247,10 +284,11 @@ def nearest(robots: Array, me: int, k: Record, now: int, x: float, y: float) -> 
     return other, distance
 
 
-def touch(robots: Array, me: int, k: Record, field: Array, now: int, toward_x: float, toward_y: float) -> None:
-    """Press the switches of the bumper if a wall or a robot touches the front.
+def touch(robots: Array, me: int, k: Record, obstacles: Array, field: Array, now: int, toward_x: float,
+          toward_y: float) -> None:
+    """Press the switches of the bumper if a wall, an obstacle or a robot touches the front.
 
-    (toward_x, toward_y) points to an obstacle that stopped the robot; (0, 0) if none did.
+    (toward_x, toward_y) points to what stopped the robot; (0, 0) if nothing did.
     """
     robot = robots[me]
     robot.contact_angle = math.nan
@@ -258,6 +296,11 @@ def touch(robots: Array, me: int, k: Record, field: Array, now: int, toward_x: f
     gap, along_x, along_y = clearance(k, field, robot.x, robot.y)
     if gap < k.reach + PUSH + TOUCH:
         pressed |= press(robot, k, -along_x, -along_y)
+    for index in range(len(obstacles)):
+        if is_near(obstacles[index], robot.x, robot.y, k.radius + PUSH + TOUCH):
+            gap, along_x, along_y = outside(obstacles[index], robot.x, robot.y)
+            if gap < k.radius + PUSH + TOUCH:
+                pressed |= press(robot, k, -along_x, -along_y)
     if now >= robot.alone_until:
         _, distance = nearest(robots, me, k, now, robot.x, robot.y)
         if distance < 2.0 * k.radius + PUSH + TOUCH:
@@ -305,6 +348,130 @@ def count(robot: Record, k: Record, traction: float, noise: Array) -> None:
     if left != 0.0 or right != 0.0:
         robot.odom_x, robot.odom_y, robot.odom_theta = arc(
             robot.odom_x, robot.odom_y, robot.odom_theta, 0.5 * (left + right), (right - left) / k.wheel_base)
+
+
+# --- obstacles ----------------------------------------------------------------------------------------------------
+
+def is_near(obstacle: Record, x: float, y: float, within: float) -> bool:
+    """Whether an obstacle may be nearer than `within` to (x, y): false if the circle around it is not."""
+    dx, dy, far = x - obstacle.x, y - obstacle.y, obstacle.reach + within
+    return bool(dx * dx + dy * dy < far * far)
+
+
+def outside(obstacle: Record, x: float, y: float) -> Triple:
+    """Distance from an obstacle to (x, y), negative inside it, and the direction away from it as a unit vector."""
+    dx, dy = x - obstacle.x, y - obstacle.y
+    u, v = obstacle.cos * dx + obstacle.sin * dy, obstacle.cos * dy - obstacle.sin * dx
+    beyond_u, beyond_v = abs(u) - obstacle.half_length, abs(v) - obstacle.half_width
+    if beyond_u <= 0.0 and beyond_v <= 0.0:
+        gap = max(beyond_u, beyond_v)
+        along_u, along_v = (1.0, 0.0) if beyond_u > beyond_v else (0.0, 1.0)
+    else:
+        along_u, along_v = max(beyond_u, 0.0), max(beyond_v, 0.0)
+        gap = math.hypot(along_u, along_v)
+        along_u, along_v = along_u / gap, along_v / gap
+    along_u, along_v = math.copysign(along_u, u), math.copysign(along_v, v)
+    return (gap - obstacle.radius, obstacle.cos * along_u - obstacle.sin * along_v,
+            obstacle.sin * along_u + obstacle.cos * along_v)
+
+
+def nearest_obstacle(obstacles: Array, x: float, y: float, within: float) -> Triple:
+    """What `outside` answers for the nearest obstacle; (`within`, 0, 0) if none is nearer than that."""
+    least, away_x, away_y = within, 0.0, 0.0
+    for index in range(len(obstacles)):
+        if is_near(obstacles[index], x, y, least):
+            gap, along_x, along_y = outside(obstacles[index], x, y)
+            if gap < least:
+                least, away_x, away_y = gap, along_x, along_y
+    return least, away_x, away_y
+
+
+def keep_clear(obstacles: Array, k: Record, field: Array) -> None:
+    """Reduce the clearance at the corners of the cells to the distance from obstacles, where that is smaller."""
+    for row in range(field.shape[0]):
+        for column in range(field.shape[1]):
+            x, y = k.origin_x + column * k.resolution, k.origin_y + row * k.resolution
+            field[row, column] = max(nearest_obstacle(obstacles, x, y, field[row, column])[0], 0.0)
+
+
+def go(obstacles: Array, stops: Array, robots: Array, k: Record) -> None:
+    """Let the movers among the obstacles go on for one tick; they stop at robots, wait, and turn back in the end."""
+    for index in range(len(obstacles)):
+        mover = obstacles[index]
+        if mover.stops == 0:
+            continue
+        if mover.rest > 0:
+            mover.rest -= 1
+            continue
+        travel = stops[mover.first + (mover.stop + 1) % mover.stops, TRAVEL]
+        before = mover.moved
+        moved = max(before - 1.0, 0.0) if mover.is_back else min(before + 1.0, travel)
+        if is_blocked(mover, stops, robots, k, before, moved):
+            moved = farthest(mover, stops, robots, k, before, moved)
+            mover.waited += 1
+        else:
+            mover.waited = 0
+        put_between(mover, stops, moved)
+        if mover.waited * k.dt >= PATIENCE:
+            mover.waited, mover.is_back = 0, not mover.is_back
+        elif moved == (0.0 if mover.is_back else travel):
+            arrive(mover, stops)
+
+
+def arrive(mover: Record, stops: Array) -> None:
+    """Let a mover, which has reached the next stop or returned to the last one, pause there."""
+    if mover.is_back:
+        mover.is_back = False
+    else:
+        mover.stop, mover.moved = (mover.stop + 1) % mover.stops, 0.0
+    mover.visits += 1
+    mover.rest = pause(mover, stops)
+
+
+def farthest(mover: Record, stops: Array, robots: Array, k: Record, before: float, moved: float) -> float:
+    """How far a mover can move [ticks of its way], from `before` and not up to `moved`, until it meets a robot."""
+    free = before
+    for _ in range(HALVINGS):
+        middle = 0.5 * (free + moved)
+        if is_blocked(mover, stops, robots, k, before, middle):
+            moved = middle
+        else:
+            free = middle
+    return free
+
+
+def is_blocked(mover: Record, stops: Array, robots: Array, k: Record, before: float, moved: float) -> bool:
+    """Whether a mover comes too near to a robot if it moves on from `before` to `moved` [ticks of its way].
+
+    A mover that touches a robot may move away from it.
+    """
+    for index in range(len(robots)):
+        x, y = robots[index].x, robots[index].y
+        put_between(mover, stops, before)
+        if is_near(mover, x, y, 3.0 * k.radius):  # no point of a mover moves by more than a radius in a tick
+            gap_before = outside(mover, x, y)[0]
+            put_between(mover, stops, moved)
+            gap = outside(mover, x, y)[0]
+            if gap < k.radius + PUSH and gap < gap_before:
+                return True
+    return False
+
+
+def put_between(mover: Record, stops: Array, moved: float) -> None:
+    """Put a mover where it is `moved` [ticks of its way] after it left its last stop."""
+    here, there = stops[mover.first + mover.stop], stops[mover.first + (mover.stop + 1) % mover.stops]
+    share = moved / there[TRAVEL]
+    mover.moved = moved
+    mover.x = here[X] + share * (there[X] - here[X])
+    mover.y = here[Y] + share * (there[Y] - here[Y])
+    mover.theta = wrap(here[THETA] + share * wrap(there[THETA] - here[THETA]))
+    mover.cos, mover.sin = math.cos(mover.theta), math.sin(mover.theta)
+
+
+def pause(mover: Record, stops: Array) -> int:
+    """How long a mover stands at the stop that it has reached [ticks]: by a hash of its key and of its visits."""
+    stop = stops[mover.first + mover.stop]
+    return int(stop[LEAST] + scrambled(mover.key, mover.visits) / 0x100000000 * (stop[MOST] - stop[LEAST]) + 0.5)
 
 
 # --- floor --------------------------------------------------------------------------------------------------------
@@ -403,10 +570,15 @@ def sample_point(row: int, column: int) -> Tuple[float, float]:
     It lies anywhere in its square, as a hash of row and column says (stratified sampling). So a strip of floor contains
     points in proportion to its area whatever its heading; points in the middles of the squares would form lines.
     """
-    bits = (row * 0x9E3779B1 + column * 0x85EBCA77) & 0xFFFFFFFF
-    bits = ((bits ^ (bits >> 15)) * 0x2C1B3C6D) & 0xFFFFFFFF
-    bits ^= bits >> 13
+    bits = scrambled(row, column)
     return column + (bits & 0xFFFF) / 65536.0, row + (bits >> 16) / 65536.0
+
+
+def scrambled(one: int, other: int) -> int:
+    """A hash of two whole numbers from 0 to 2^31: 32 bits."""
+    bits = (one * 0x9E3779B1 + other * 0x85EBCA77) & 0xFFFFFFFF
+    bits = ((bits ^ (bits >> 15)) * 0x2C1B3C6D) & 0xFFFFFFFF
+    return bits ^ (bits >> 13)
 
 
 def clean(k: Record, samples: Array, dirt: Array, tally: Record, row: int, column: int) -> None:
@@ -582,7 +754,7 @@ def to_border(position: float, along: float) -> float:
     return math.inf
 
 
-def scan(robots: Array, me: int, k: Record, skips: Array, cells: Array, fan: Array, noise: Array,
+def scan(robots: Array, me: int, k: Record, obstacles: Array, skips: Array, cells: Array, fan: Array, noise: Array,
          ranges: Array) -> None:
     """Measure with the laser of the robot with index `me`.
 
@@ -599,7 +771,13 @@ def scan(robots: Array, me: int, k: Record, skips: Array, cells: Array, fan: Arr
         ranges[beam] = cast(k, skips, cells, robot.x, robot.y, along_x, along_y, k.range_max)
     for other in range(len(robots)):
         if other != me:
-            see(robots[other].x - robot.x, robots[other].y - robot.y, robot.theta, k, ranges)
+            see_disc(robots[other].x - robot.x, robots[other].y - robot.y, k.radius, robot.theta, k, ranges)
+    for index in range(len(obstacles)):
+        obstacle = obstacles[index]
+        if obstacle.is_seen and obstacle.radius > 0.0:
+            see_disc(obstacle.x - robot.x, obstacle.y - robot.y, obstacle.radius, robot.theta, k, ranges)
+        elif obstacle.is_seen:
+            see_box(obstacle, robot, k, ranges)
     for beam in range(len(ranges)):
         if ranges[beam] < k.range_max:
             ranges[beam] += k.range_noise * noise[beam]
@@ -609,18 +787,53 @@ def scan(robots: Array, me: int, k: Record, skips: Array, cells: Array, fan: Arr
             ranges[beam] = -math.inf
 
 
-def see(dx: float, dy: float, theta: float, k: Record, ranges: Array) -> None:
-    """Shorten the beams that hit another robot, which is (dx, dy) away from the laser."""
+def see_disc(dx: float, dy: float, radius: float, theta: float, k: Record, ranges: Array) -> None:
+    """Shorten the beams that hit a disc, such as another robot, which is (dx, dy) away from the laser."""
     square = dx * dx + dy * dy
-    if square >= (k.range_max + k.radius) ** 2 or square <= k.radius ** 2:
+    if square >= (k.range_max + radius) ** 2 or square <= radius ** 2:
         return
     distance = math.sqrt(square)
     step = 2.0 * math.pi / len(ranges)
-    half = math.asin(k.radius / distance)
+    half = math.asin(radius / distance)
     middle = wrap(math.atan2(dy, dx) - theta) + math.pi  # beam 0 points backward
     for beam in range(math.ceil((middle - half) / step), math.floor((middle + half) / step) + 1):
         off = beam * step - middle
         side = distance * math.sin(off)
-        edge = distance * math.cos(off) - math.sqrt(max(0.0, k.radius * k.radius - side * side))
+        edge = distance * math.cos(off) - math.sqrt(max(0.0, radius * radius - side * side))
         index = beam % len(ranges)
         ranges[index] = min(ranges[index], edge)
+
+
+def see_box(box: Record, robot: Record, k: Record, ranges: Array) -> None:
+    """Shorten the beams of a robot that hit a box: those between its outermost corners."""
+    dx, dy = box.x - robot.x, box.y - robot.y
+    if not is_near(box, robot.x, robot.y, k.range_max) or outside(box, robot.x, robot.y)[0] <= 0.0:
+        return
+    bearing, right, left = math.atan2(dy, dx), 0.0, 0.0
+    for corner in range(4):
+        u = box.half_length if corner & 1 else -box.half_length
+        v = box.half_width if corner & 2 else -box.half_width
+        off = wrap(math.atan2(dy + box.sin * u + box.cos * v, dx + box.cos * u - box.sin * v) - bearing)
+        right, left = min(right, off), max(left, off)
+    step = 2.0 * math.pi / len(ranges)
+    middle = wrap(bearing - robot.theta) + math.pi  # beam 0 points backward
+    u, v = -box.cos * dx - box.sin * dy, box.sin * dx - box.cos * dy
+    for beam in range(math.ceil((middle + right) / step), math.floor((middle + left) / step) + 1):
+        angle = robot.theta + beam * step - math.pi - box.theta
+        enter_u, leave_u = crossing(u, math.cos(angle), box.half_length)
+        enter_v, leave_v = crossing(v, math.sin(angle), box.half_width)
+        edge = max(enter_u, enter_v)
+        if 0.0 <= edge <= min(leave_u, leave_v):
+            index = beam % len(ranges)
+            ranges[index] = min(ranges[index], edge)
+
+
+def crossing(position: float, along: float, half: float) -> Tuple[float, float]:
+    """Distances along a beam at which one of its coordinates enters and leaves the interval from -half to half.
+
+    `position` is the coordinate at the laser, and grows by `along` per metre. A beam along the border does not enter.
+    """
+    if abs(along) < NUDGE:
+        return (-math.inf, math.inf) if abs(position) < half else (math.inf, -math.inf)
+    one, other = (-half - position) / along, (half - position) / along
+    return min(one, other), max(one, other)

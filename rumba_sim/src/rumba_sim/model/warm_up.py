@@ -5,6 +5,7 @@ import numpy as np
 from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.guided_world import GuidedWorld
+from rumba_sim.model.obstacle import Obstacle, walk
 from rumba_sim.model.world import World
 
 
@@ -12,7 +13,10 @@ def main() -> None:
     """Call every function of the kernel that a world calls."""
     floor = np.zeros((40, 40), np.int8)
     plan = FloorPlan('a room of 4 m', floor, 0.1, (0.0, 0.0), cliff=floor > 0, dock=Pose(3.0, 2.0, 0.0))
-    world = World(plan)
+    stands, walks = Pose(1.0, 1.0, 0.0), (Pose(1.0, 3.0, 0.0), Pose(2.0, 3.0, 0.0))
+    world = World(plan, obstacles=[
+        Obstacle('box', stands, height=1.0, length=0.2, width=0.1),
+        Obstacle('disc', walks[0], height=1.0, radius=0.1, stops=walk(walks, 0.5, False, 0.0, 0.0))])
     world.spawn('rumba')
     world.step()
     world.scan('rumba')

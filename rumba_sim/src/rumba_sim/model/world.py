@@ -1,9 +1,9 @@
-"""The world: a floor plan, the state of its floor, and the robots on it, advanced tick by tick."""
+"""The world: a floor plan, the state of its floor, the robots and obstacles on it, advanced tick by tick."""
 
 import dataclasses
 import hashlib
 import math
-from typing import Any, Dict, List, Optional
+from typing import Any, Dict, List, Optional, Sequence
 
 import numpy as np
 
@@ -15,6 +15,8 @@ from rumba_sim.model.floor import Floor
 from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.model.geometry import Pose, wrap_angle
 from rumba_sim.model.kernel import Array
+from rumba_sim.model.obstacle import Obstacle
+from rumba_sim.model.obstacles import Obstacles, kept_clear
 from rumba_sim.model.reachability import stands
 from rumba_sim.model.robot import Infrared, Robot, Start
 from rumba_sim.model.robot_config import RobotConfig
@@ -22,9 +24,8 @@ from rumba_sim.model.world_state import Member, WorldState
 
 NOISE_TICKS = 256  # ticks for which the noise of the wheels is drawn at once
 PLAIN = np.dtype((np.void, kernel.ROBOT))  # its elements are read in half the time that those of np.record take
-ON_THEIR_OWN: Array = np.zeros((0, 4))  # `led` of `kernel.advance` if robots drive themselves
 APART, TOUCHING = 0.5, 0.0  # radii between a robot that is added and the others, if there is room, and if not
-FLOOR, WHEELS, LASER = 0, 1, 2  # purposes of random generators
+FLOOR, WHEELS, LASER = 0, 1, 2  # purposes of random generators, beside that of `Obstacles`
 
 
 class World:
@@ -35,22 +36,32 @@ class World:
     Attributes:
         plan: the floor plan.
         terrain: the refined plan, on which robots drive.
+        reachable_plan: the same, its safe clearance also that to obstacles which stood there from the start.
         step_rate: ticks per second [Hz].
         seed: seed of everything that is random.
         constants: array of the one record that the kernel reads (`constants.Constants`).
         start: pose of the first robot if none is given.
         floor: which cells are swept, and the dirt on them.
         robots: robots by name, in the order in which they were added.
+        obstacles: what else stands or moves there; `add_obstacle` and `remove_obstacle` change it.
         tick: number of ticks since the beginning or the last reset.
     """
 
     def __init__(self, plan: FloorPlan, config: Optional[RobotConfig] = None, step_rate: float = 50,
-                 seed: int = 0) -> None:
+                 seed: int = 0, obstacles: Sequence[Obstacle] = ()) -> None:
         """A world without robots.
+
+        Args:
+            plan: the floor plan.
+            config: of all robots.
+            step_rate: ticks per second [Hz].
+            seed: of everything that is random.
+            obstacles: that are there from the start; the floor beneath those that do not move is out of reach.
 
         Raises:
             ConfigError: a robot could move by more than its radius in one tick.
             MapError: a robot does not fit at the dock or at the start of the plan, or the cells are too large for it.
+            WorldError: an obstacle cannot be added, or stands at the dock or at the start.
         """
         self.plan = plan
         self.step_rate = step_rate
@@ -59,9 +70,14 @@ class World:
         check_speed(self._config, step_rate)
         self.terrain = plan.refined()
         self.constants = constants(self._config, self.terrain, step_rate)
-        self.start = self._checked_start()
         self.robots: Dict[str, Robot] = {}
         self._states: Array = np.zeros(0, kernel.ROBOT)
+        self.obstacles = Obstacles(step_rate, seed, self._config.drive.radius)
+        for obstacle in obstacles:
+            self.add_obstacle(obstacle)
+        self._at_start = tuple(obstacles)
+        self.reachable_plan = kept_clear(self.terrain, self.constants[0], self.obstacles)
+        self.start = self._checked_start()
         self._noise: Array = np.zeros((0, NOISE_TICKS, 2))
         self._wheels: List[np.random.Generator] = []
         self._lasers: List[np.random.Generator] = []
@@ -71,16 +87,25 @@ class World:
 
     def _begin(self) -> None:
         self.tick = 0
-        self.floor = Floor(self.terrain, self._config, self.start, self._generator(FLOOR, 0))
+        self.obstacles.begin()
+        self.floor = Floor(self.reachable_plan, self._config, self.start, self._generator(FLOOR, 0))
+        # Kept together, since finding them takes as long as a tenth of a tick.
+        self._ground = (self.terrain.clearance, self.floor.cells, self.floor.sweep.samples, self.floor.dirt,
+                        self.floor.sweep.tally)
 
     def _checked_start(self) -> Pose:
         """The start of the plan, else the dock, else the position with the largest clearance."""
         radius = float(self.constants[0]['reach'])
-        for what, pose in (('dock', self.plan.dock), ('start', self.plan.start)):
+        start = self.plan.start or self.plan.dock or self.reachable_plan.most_open_pose()
+        for what, pose in (('dock', self.plan.dock), ('start', start)):
             if pose is not None:
                 self.terrain.check_pose(pose, radius, what)
-        start = self.plan.start or self.plan.dock or self.terrain.most_open_pose()
-        self.terrain.check_pose(start, radius, 'start')
+                # The clearance is interpolated, and smaller than the distance near a corner of an obstacle.
+                is_free = self.reachable_plan.safe_clearance_at(pose.x, pose.y) >= radius
+                name = self.obstacles.near(pose.x, pose.y, radius + (0.0 if is_free else self.terrain.resolution))
+                if name:
+                    raise WorldError(f'{name!r} stands at the {what}, ({pose.x:.2f}, {pose.y:.2f}) m: no robot fits '
+                                     'there')
         return start
 
     def _generator(self, purpose: int, number: int) -> np.random.Generator:
@@ -95,31 +120,39 @@ class World:
 
     def step(self, ticks: int = 1) -> None:
         """Simulate a number of ticks."""
+        obstacles = self.obstacles
         while ticks > 0:
-            now = min(ticks, NOISE_TICKS - self.tick % NOISE_TICKS)
-            self._advance(now, ON_THEIR_OWN)
+            row = self.tick % NOISE_TICKS
+            if row == 0:
+                self._draw_noise()
+            now = ticks if ticks < NOISE_TICKS - row else NOISE_TICKS - row
+            if obstacles.has_movers:
+                now = 1
+                obstacles.step(self._states, self.constants[0])
+            fast.advance(self._states, self.constants, obstacles.records, *self._ground, self._noise, self.tick, now)
+            self.tick += now
             ticks -= now
 
     def lead(self, led: Array) -> None:
         """Simulate one tick in which something else moves the robots.
 
         Args:
-            led: poses of the robots after the tick, in the order of `robots`, as for `kernel.advance`.
+            led: poses of the robots after the tick, in the order of `robots`, as for `kernel.follow`.
         """
-        self._advance(1, led)
-
-    def _advance(self, ticks: int, led: Array) -> None:
-        """Simulate no more ticks than are left of the noise that was drawn last."""
         if self.tick % NOISE_TICKS == 0:
-            for row, generator in zip(self._noise, self._wheels):
-                generator.standard_normal(out=row)
-        swept = self.floor.sweep
-        fast.advance(self._states, self.constants, self.terrain.clearance, self.floor.cells, swept.samples,
-                     self.floor.dirt, swept.tally, self._noise, led, self.tick, ticks)
-        self.tick += ticks
+            self._draw_noise()
+        if self.obstacles.has_movers:
+            self.obstacles.step(self._states, self.constants[0])
+        fast.follow(self._states, self.constants, self.obstacles.records, *self._ground, self._noise, self.tick, led)
+        self.tick += 1
+
+    def _draw_noise(self) -> None:
+        """Draw the noise of the next NOISE_TICKS ticks."""
+        for row, generator in zip(self._noise, self._wheels):
+            generator.standard_normal(out=row)
 
     def reset(self) -> None:
-        """Start again: dirty floor, tick 0, every robot as it began."""
+        """Start again: dirty floor, tick 0, every robot and every mover as it began."""
         before = list(self.robots.values())
         for member in before:
             self.kill(member.name)
@@ -218,7 +251,7 @@ class World:
             The pose with its heading in (-pi, pi].
 
         Raises:
-            WorldError: a number is not finite, or the robot does not fit beside walls, cliffs and other robots.
+            WorldError: a number is not finite, or the robot does not fit beside walls, cliffs, obstacles and robots.
         """
         if not all(map(math.isfinite, pose)):
             raise WorldError(f'pose ({pose.x}, {pose.y}, {pose.theta}): must be finite numbers')
@@ -230,6 +263,9 @@ class World:
             gap = math.hypot(other.pose.x - pose.x, other.pose.y - pose.y) - 2.0 * self._config.drive.radius
             if other.name != name and gap < 0.0:
                 raise WorldError(f'({pose.x:.2f}, {pose.y:.2f}) m: {other.name!r} stands there')
+        obstacle = self.obstacles.near(pose.x, pose.y, self._config.drive.radius)
+        if obstacle:
+            raise WorldError(f'({pose.x:.2f}, {pose.y:.2f}) m: the obstacle {obstacle!r} stands there')
         return Pose(pose.x, pose.y, wrap_angle(pose.theta))
 
     def _take(self, states: Array) -> None:
@@ -248,18 +284,49 @@ class World:
         """The free position nearest to the start that a robot can drive to from there; a little apart from others."""
         others = [member.pose for member in self.robots.values()]
         radius = self._config.drive.radius
-        if all(math.hypot(pose.x - self.start.x, pose.y - self.start.y) >= 2.0 * radius for pose in others):
+        if all(math.hypot(pose.x - self.start.x, pose.y - self.start.y) >= 2.0 * radius for pose in others) and (
+                not self.obstacles.near(*self.start[:2], radius)):
             return self.check(self.start)
-        where = np.argwhere(stands(self.terrain, float(self.constants[0]['reach']), self.start.x, self.start.y))
+        where = np.argwhere(stands(self.reachable_plan, float(self.constants[0]['reach']), self.start.x, self.start.y))
         points = 0.5 * self.terrain.resolution * where[:, ::-1] + self.terrain.origin
         points = points[np.argsort(np.hypot(*(points - self.start[:2]).T), kind='stable')]
         for gap in (APART, TOUCHING):
             free = np.ones(len(points), np.bool_)
             for pose in others:
                 free &= np.hypot(*(points - pose[:2]).T) >= (2.0 + gap) * radius
-            for x, y in points[free][:1].tolist():
-                return self.check(Pose(x, y, self.start.theta))
+            for x, y in points[free].tolist():
+                if not self.obstacles.near(x, y, radius):
+                    return self.check(Pose(x, y, self.start.theta))
         raise WorldError(f'{self.plan.name}: no room for another robot')
+
+    # --- obstacles ------------------------------------------------------------------------------------------------
+
+    def add_obstacle(self, obstacle: Obstacle) -> None:
+        """Add an obstacle, which begins to move if it is a mover; the reachable floor stays what it is.
+
+        Raises:
+            WorldError: its name is taken, it lies outside the map or on a robot, or it cannot be an obstacle.
+        """
+        left, bottom, right, top = self.terrain.bounds
+        for x, y, _ in [obstacle.pose, *(stop.pose for stop in obstacle.stops)]:
+            if not (left - obstacle.reach < x < right + obstacle.reach
+                    and bottom - obstacle.reach < y < top + obstacle.reach):
+                raise WorldError(f'{obstacle.name} at ({x:.2f}, {y:.2f}) m lies outside the map (x {left:.2f} to '
+                                 f'{right:.2f} m, y {bottom:.2f} to {top:.2f} m)')
+        self.obstacles.add(obstacle)
+        for member in self.robots.values():
+            if self.obstacles.near(*member.pose[:2], self._config.drive.radius):
+                self.obstacles.remove(obstacle.name)
+                raise WorldError(f'{obstacle.name} at ({obstacle.pose.x:.2f}, {obstacle.pose.y:.2f}) m: '
+                                 f'{member.name!r} stands there')
+
+    def remove_obstacle(self, name: str) -> None:
+        """Take an obstacle away.
+
+        Raises:
+            WorldError: there is no obstacle of that name.
+        """
+        self.obstacles.remove(name)
 
     def swept(self) -> Array:
         """How much of each cell of the plan is swept: int8 (rows, columns), as `Floor.swept`."""
@@ -277,8 +344,8 @@ class World:
         """
         index = self._index(name)
         ranges = np.empty(len(self._fan))
-        fast.scan(self._states, index, self.constants[0], self.terrain.skips, self.floor.cells, self._fan,
-                  self._lasers[index].standard_normal(len(self._fan)), ranges)
+        fast.scan(self._states, index, self.constants[0], self.obstacles.records, self.terrain.skips, self.floor.cells,
+                  self._fan, self._lasers[index].standard_normal(len(self._fan)), ranges)
         return ranges
 
     def infrared(self, name: str) -> Infrared:
@@ -312,37 +379,42 @@ class World:
         robots = {f'robots/{name}': self._states[name] for name in names}
         return {**robots,  # field by field, since bytes between fields are undefined
                 'noise': self._noise, 'dirt': self.floor.dirt, 'samples': self.floor.sweep.samples,
-                'tally': self.floor.sweep.tally}
+                'tally': self.floor.sweep.tally, **self.obstacles.arrays()}
 
     def digest(self) -> str:
-        """SHA-256 of everything that changes: tick, robots, noise, floor."""
-        state = hashlib.sha256(f'{self.tick} {" ".join(self.robots)}'.encode())
+        """SHA-256 of everything that changes: tick, robots, noise, floor, obstacles."""
+        state = hashlib.sha256(' '.join([str(self.tick), *self.robots, *self.obstacles.items]).encode())
         for array in self._arrays().values():
             state.update(np.ascontiguousarray(array).tobytes())
         return state.hexdigest()
 
     def _origin(self) -> Dict[str, Any]:
-        return world_state.origin(self.plan, dataclasses.asdict(self._config), self.step_rate, self.seed)
+        return world_state.origin(self.plan, dataclasses.asdict(self._config), self.step_rate, self.seed,
+                                  self._at_start)
 
     def state(self) -> WorldState:
         """A copy of everything that changes, from which `restored` goes on."""
         members = [Member(member.name, member.start, wheels.bit_generator.state, laser.bit_generator.state)
                    for member, wheels, laser in zip(self.robots.values(), self._wheels, self._lasers)]
         arrays = {name: array.copy() for name, array in self._arrays().items()}
-        return WorldState(self._origin(), self.tick, self._spawned, members, arrays, self.digest())
+        obstacles = list(self.obstacles.items.values())
+        return WorldState(self._origin(), self.tick, self._spawned, members, obstacles, arrays, self.digest())
 
     @classmethod
     def restored(cls, state: WorldState, plan: FloorPlan, config: Optional[RobotConfig] = None,
-                 step_rate: float = 50, seed: int = 0) -> 'World':
+                 step_rate: float = 50, seed: int = 0, obstacles: Sequence[Obstacle] = ()) -> 'World':
         """A world that goes on from a state as the world would have from which the state was taken, bit for bit.
 
+        The arguments are those of the world that was saved, as for the constructor.
+
         Raises:
-            WorldError: the state was taken from a world with another map, configuration, step rate or seed.
+            WorldError: the state was taken from a world with other arguments.
             RumbaError: as for the constructor.
         """
-        world = cls(plan, config, step_rate, seed)
+        world = cls(plan, config, step_rate, seed, obstacles)
         world_state.check_origin(state.origin, world._origin())
         world.tick, world._spawned = state.tick, state.spawned
+        world.obstacles.restore(state.obstacles)
         world._states = np.zeros(len(state.members), kernel.ROBOT)
         world._noise = np.zeros((len(state.members), NOISE_TICKS, 2))
         for member, record in zip(state.members, world._states):

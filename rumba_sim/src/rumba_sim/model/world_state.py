@@ -7,7 +7,7 @@ import contextlib
 import hashlib
 import json
 import os
-from typing import Any, Dict, List, Mapping, NamedTuple, Tuple
+from typing import Any, Dict, List, Mapping, NamedTuple, Sequence, Tuple
 
 import numpy as np
 
@@ -15,10 +15,11 @@ from rumba_sim.model.errors import WorldError, quoted
 from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.kernel import Array
+from rumba_sim.model.obstacle import Obstacle, Stop
 from rumba_sim.model.regular_file import opened
 from rumba_sim.model.robot import Start
 
-FORMAT, VERSION = 'world of rumba_sim', 1
+FORMAT, VERSION = 'world of rumba_sim', 2
 HEADER = 'header'
 
 
@@ -38,16 +39,27 @@ class WorldState(NamedTuple):
     tick: int
     spawned: int  # how many robots there were so far
     members: List[Member]  # in the order of the arrays
+    obstacles: List[Obstacle]  # in the order of the arrays
     arrays: Dict[str, Array]
     digest: str  # of the world
 
 
-def origin(plan: FloorPlan, settings: Mapping[str, Any], step_rate: float, seed: int) -> Dict[str, Any]:
-    """What the state of a world fits to, by names for people; `settings` are nested mappings."""
+def origin(plan: FloorPlan, settings: Mapping[str, Any], step_rate: float, seed: int,
+           obstacles: Sequence[Obstacle]) -> Dict[str, Any]:
+    """What the state of a world fits to, by names for people.
+
+    Args:
+        plan: the floor plan.
+        settings: of the robots, as nested mappings.
+        step_rate: ticks per second [Hz].
+        seed: of the world.
+        obstacles: that were there from the start.
+    """
     floor = hashlib.sha256(repr((plan.resolution, plan.origin, plan.dock, plan.start)).encode())
     for layer in (plan.occupancy, plan.cliff, plan.carpet):
         floor.update(b'none' if layer is None else repr(layer.shape).encode() + np.ascontiguousarray(layer).tobytes())
-    return {'map': plan.name, 'floor': floor.hexdigest(), 'seed': seed, 'step_rate': step_rate, **_flat(settings)}
+    return {'map': plan.name, 'floor': floor.hexdigest(), 'seed': seed, 'step_rate': step_rate,
+            'obstacles': hashlib.sha256(repr(obstacles).encode()).hexdigest(), **_flat(settings)}
 
 
 def _flat(settings: Mapping[str, Any], path: str = '') -> Dict[str, Any]:
@@ -69,6 +81,8 @@ def check_origin(saved: Mapping[str, Any], here: Mapping[str, Any]) -> None:
     """
     if saved.get('floor') != here['floor']:
         raise WorldError(f'was saved on another map, {quoted(saved.get("map"))}, or the map has changed since')
+    if saved.get('obstacles') != here['obstacles']:
+        raise WorldError('was saved with other obstacles at the start')
     if saved.keys() != here.keys():
         raise WorldError('was saved by another version of rumba_sim, which has other settings')
     for name, value in here.items():
@@ -164,11 +178,21 @@ def read(path: str) -> Tuple[WorldState, int]:
 def _state(header: Mapping[str, Any], arrays: Dict[str, Array]) -> WorldState:
     members = []
     for each in header['members']:
-        (x, y, theta), charge, brushes_up = each['start']
-        start = Start(Pose(float(x), float(y), float(theta)), float(charge), bool(brushes_up))
+        pose, charge, brushes_up = each['start']
+        start = Start(_pose(*pose), float(charge), bool(brushes_up))
         members.append(Member(str(each['name']), start, dict(each['wheels']), dict(each['laser'])))
-    return WorldState(dict(header['origin']), _count(header['tick']), _count(header['spawned']), members, arrays,
-                      str(header['digest']))
+    obstacles = [_obstacle(*each) for each in header['obstacles']]
+    return WorldState(dict(header['origin']), _count(header['tick']), _count(header['spawned']), members, obstacles,
+                      arrays, str(header['digest']))
+
+
+def _obstacle(name: Any, pose: Any, height: Any, radius: Any, length: Any, width: Any, stops: Any) -> Obstacle:
+    return Obstacle(str(name), _pose(*pose), float(height), float(radius), float(length), float(width), tuple(
+        Stop(_pose(*where), float(travel), float(least), float(most)) for where, travel, least, most in stops))
+
+
+def _pose(x: Any, y: Any, theta: Any) -> Pose:
+    return Pose(float(x), float(y), float(theta))
 
 
 def _count(value: Any) -> int:

@@ -9,6 +9,7 @@ from PyQt5.QtGui import QColor, QFont, QImage, QPainter, QPen
 from rumba_sim.model.geometry import Pose
 from rumba_viewer.painting import paint_robot
 from rumba_viewer.painting.paint_floor import FloorPainter, PathPainter
+from rumba_viewer.painting.paint_obstacles import paint_obstacles
 from rumba_viewer.scene.snapshot import Snapshot
 from rumba_viewer.scene.theme import Theme, robot_colour
 from rumba_viewer.scene.view_transform import ViewTransform
@@ -64,6 +65,7 @@ class ScenePainter:
             self._paths.paint(painter, snapshot, view, theme)
         painter.save()
         paint_robot.in_metres(painter, view)
+        paint_obstacles(painter, snapshot.obstacles, theme)
         for robot in snapshot.robots:
             paint_robot.paint_beams(painter, robot, theme)
         if dock is not None:

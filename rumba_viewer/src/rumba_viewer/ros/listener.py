@@ -11,18 +11,20 @@ import rosgraph
 import rospy
 from nav_msgs.msg import OccupancyGrid
 from rospy.numpy_msg import numpy_msg
+from visualization_msgs.msg import MarkerArray
 
 from rumba_msg.msg import SimulatorState
 from rumba_sim.model import map_file
 from rumba_sim.model.errors import RumbaError, one_line
 from rumba_sim.model.robot_config import RobotConfig
+from rumba_sim.ros.common import obstacle_markers
 from rumba_sim.ros.common.simulator_client import TOPIC, robot_config
 from rumba_viewer.ros import readings, ros_graph
 from rumba_viewer.ros.readings import State
 from rumba_viewer.ros.robot_listener import RobotListener
 from rumba_viewer.ros.subscription import Subscription
 from rumba_viewer.scene.dock_field import dock
-from rumba_viewer.scene.snapshot import Grid, MapFeatures, Robot, Simulation, Size, Snapshot
+from rumba_viewer.scene.snapshot import Grid, MapFeatures, Obstacle, Robot, Simulation, Size, Snapshot
 
 # What is raised if the master or the simulator ends during a call.
 GONE = (rospy.ROSException, rosgraph.MasterException, xmlrpc.client.Error, http.client.HTTPException, OSError)
@@ -67,6 +69,7 @@ class Listener:
         self._robots: Dict[str, RobotListener] = {}
         self._subscriptions: Tuple[Subscription[Any], ...] = ()
         self._plan: Optional[Grid] = None
+        self._obstacles: Tuple[Obstacle, ...] = ()
         self._coverage: Tuple[Optional[Grid], float] = (None, 0.0)  # that is shown, and since when
         self._files, self._heard = MapFiles(), Heard()
         self._before = -math.inf  # when the last snapshot was made
@@ -129,7 +132,8 @@ class Listener:
             subscription.close()
         self._subscriptions = (
             Subscription('/map', numpy_msg(OccupancyGrid), readings.grid, self._on_map),
-            Subscription(TOPIC, SimulatorState, readings.state, self._on_state, queue_size=10))
+            Subscription(TOPIC, SimulatorState, readings.state, self._on_state, queue_size=10),
+            Subscription(obstacle_markers.TOPIC, MarkerArray, readings.obstacles, self._on_obstacles))
         self._on_master()
 
     def _read_map_files(self) -> None:
@@ -162,6 +166,10 @@ class Listener:
             self._wake.set()
         self._tell()
 
+    def _on_obstacles(self, obstacles: Tuple[Obstacle, ...]) -> None:
+        self._obstacles = obstacles
+        self._tell()
+
     # --- what the window asks -----------------------------------------------------------------------------------------
 
     def has_news(self, now: float) -> bool:
@@ -181,7 +189,8 @@ class Listener:
         stamps = [stamp for stamp in (one.known.stamp for one in listeners.values()) if stamp is not None]
         simulation = self._simulation(now, max(stamps) if stamps else None)
         coverage = self._shown_coverage(selected.known.coverage if selected else None, now)
-        return Snapshot(self._plan, coverage, features, robots, name, simulation,
+        obstacles = self._obstacles if self._has_simulator(now) else ()
+        return Snapshot(self._plan, coverage, features, robots, obstacles, name, simulation,
                         missing=self._missing(robots, simulation))
 
     def _simulation(self, now: float, stamp: Optional[float]) -> Simulation:

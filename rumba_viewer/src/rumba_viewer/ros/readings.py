@@ -6,24 +6,27 @@ needs to doubt it.
 
 import itertools
 import math
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Tuple
 
 import numpy as np
 import rosgraph
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import BatteryState
+from visualization_msgs.msg import Marker, MarkerArray
 
 from rumba_msg.msg import CleaningStatus, MissionStatus, SimulatorState
 from rumba_sim.model.errors import RumbaError, one_line, quoted
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.map_image import MAX_PIXELS
+from rumba_sim.model.obstacle import LASER_HEIGHT
 from rumba_sim.ros.common.conversions import plane_pose
-from rumba_viewer.scene.snapshot import YIELDING, Array, Battery, Cleaning, Grid, Mission
+from rumba_viewer.scene.snapshot import YIELDING, Array, Battery, Cleaning, Grid, Mission, Obstacle
 
 FAR = 1e7  # [m] larger coordinates are not valid
 FINEST = 1e-4  # [m] smallest side of a cell
 MOST = 1e9  # larger voltages, currents, areas, distances and speeds are not valid
 MOST_BEAMS = 3600  # of a scan that are shown
+MOST_OBSTACLES = 1000  # that are shown
 MOST_TURNS = 1e3  # [rad] largest angle of a beam
 ROUNDING = 1e-6  # by which a share may exceed 1
 STATES = {**{getattr(MissionStatus, name): name.lower().replace('_', ' ') for name in (
@@ -155,6 +158,25 @@ def state(message: SimulatorState) -> State:
         raise OddMessage(f'map is {quoted(message.map)}: must be the path of a file')
     return State(message.node, message.map, _amount(message.real_time_factor), _amount(message.speed),
                  message.is_paused, message.is_time_simulated)
+
+
+def obstacles(message: MarkerArray) -> Tuple[Obstacle, ...]:
+    """The cubes and cylinders among the markers that a simulator shows instead of its earlier ones.
+
+    Raises:
+        OddMessage: a pose or a size is not finite, or is too large.
+    """
+    return tuple(_obstacle(marker) for marker in message.markers[:MOST_OBSTACLES + 1]
+                 if marker.action == Marker.ADD and marker.type in (Marker.CUBE, Marker.CYLINDER))
+
+
+def _obstacle(marker: Marker) -> Obstacle:
+    pose, size = plane_pose(marker.pose), marker.scale
+    if not (abs(pose.x) < FAR and abs(pose.y) < FAR and math.isfinite(pose.theta)
+            and 0.0 <= size.x < FAR and 0.0 <= size.y < FAR):
+        raise OddMessage(f'an obstacle of {size.x:g} x {size.y:g} m at {pose.x:g}, {pose.y:g} m, {pose.theta:g} rad: '
+                         f'must be finite, within {FAR:g} m')
+    return Obstacle(pose, size.x, size.y, marker.type == Marker.CYLINDER, not size.z > LASER_HEIGHT)
 
 
 def _value(value: float) -> float:

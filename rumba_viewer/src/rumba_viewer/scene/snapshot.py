@@ -95,6 +95,23 @@ class Path:
     number: int
 
 
+class Obstacle(NamedTuple):
+    """Something that the map does not show.
+
+    Attributes:
+        pose: of its centre.
+        length, width: along and across its heading [m].
+        is_round: whether it is a disc, or a box.
+        is_low: whether the laser passes over it.
+    """
+
+    pose: Pose
+    length: float
+    width: float
+    is_round: bool
+    is_low: bool
+
+
 class Battery(NamedTuple):
     """Charge 0..1, [V], [A] (negative while discharging), and `charging`, `full` or `on battery`; NaN: unknown."""
 
@@ -201,6 +218,7 @@ class Snapshot:
     Attributes:
         plan: OCCUPIED, FREE or UNKNOWN for each cell, as in nav_msgs/OccupancyGrid.
         coverage: 100 swept, 0 still to sweep, -1 out of reach, for each cell of the plan.
+        obstacles: what stands or moves on the floor without being on the plan.
         selected: name of the robot that the keys drive and the panel describes; it may be absent.
         target: where a person may send the selected robot; None while none is chosen.
         missing: what the window waits for, and how to start it; empty if a robot and a map are there.
@@ -210,6 +228,7 @@ class Snapshot:
     coverage: Optional[Grid] = None
     features: MapFeatures = MapFeatures()
     robots: Tuple[Robot, ...] = ()
+    obstacles: Tuple[Obstacle, ...] = ()
     selected: str = 'rumba'
     simulation: Simulation = Simulation()
     target: Optional[Point] = None

@@ -6,8 +6,7 @@ from typing import Callable, Optional
 import rospy
 from geometry_msgs.msg import PoseWithCovarianceStamped
 
-from rumba_cleaning.behaviour import CERTAIN, Covariance
-from rumba_cleaning.pose_source import UNKNOWN
+from rumba_cleaning.behaviour import CERTAIN, UNKNOWN, Covariance
 from rumba_cleaning.ros.cleaner.location import QUEUE
 
 TOPIC = 'amcl_pose'

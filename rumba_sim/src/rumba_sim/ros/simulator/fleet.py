@@ -1,15 +1,15 @@
 """The robots of a simulator: their topics, services and frames, and how they come and go."""
 
 import gc
-import re
 from typing import Callable, Dict, List, Optional
 
 import rosgraph
 import rospy
 from tf2_msgs.msg import TFMessage
 
-from rumba_sim.model.errors import WorldError, quoted
+from rumba_sim.model.errors import WorldError
 from rumba_sim.model.geometry import Pose
+from rumba_sim.model.name import check_name
 from rumba_sim.model.robot import nth_name
 from rumba_sim.model.world import World
 from rumba_sim.ros.common.requests import Requests
@@ -19,9 +19,6 @@ from rumba_sim.ros.robot.rates import EVERYTHING, Due
 from rumba_sim.ros.robot.robot_node import RobotNode
 from rumba_sim.ros.simulator.diagnostics import Diagnostics
 from rumba_sim.ros.simulator.settings import Settings
-
-LONGEST_NAME = 64  # [characters] of a robot
-NAME = re.compile(rf'[A-Za-z]\w{{0,{LONGEST_NAME - 1}}}', re.ASCII)
 
 
 class Fleet:
@@ -112,9 +109,7 @@ class Fleet:
             WorldError: the name or the pose is wrong or taken, or the master does not answer.
         """
         name = name or self._free_name()
-        if not NAME.fullmatch(name):
-            raise WorldError(f'{quoted(name)} is not a valid name: must be 1 to {LONGEST_NAME} letters, digits and _, '
-                             'beginning with a letter')
+        check_name(name)
         if not rosgraph.is_master_online():  # otherwise its topics could not be registered, and time would stand still
             raise WorldError('the master does not answer: a robot needs it for its topics')
         self._world.spawn(name, pose, self.settings.percentage / 100.0, self.settings.brushes_up)

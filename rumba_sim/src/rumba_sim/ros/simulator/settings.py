@@ -36,6 +36,7 @@ class Settings(RobotConfig):
     percentage: float = setting(100.0, 'charge at the start', '%', 0.0, 100.0)
     brushes_up: bool = setting(False, 'whether the brushes are lifted at the start')
     localisation: bool = setting(True, 'whether to publish map -> odom, the exact correction of odometry')
+    obstacles: str = setting('', 'path of a YAML file of obstacles that the map does not show')
     config: str = setting('', 'path of a YAML file with any of these; parameters override it')
     state: str = setting('', 'path of a file: the world is saved there every minute of simulated time and at the end, '
                              'and goes on from there at the next start')

@@ -13,10 +13,12 @@ and serves
   set_brushes_up   std_srvs/SetBool           teleport        rumba_msg/Teleport
 It publishes simulator/state (rumba_msg/SimulatorState, latched), /map, /tf, /tf_static and /diagnostics, and also
 /clock if time is simulated: at any speed except 1, or if /use_sim_time is true. It serves /static_map and, below its
-own name, pause, resume, reset, digest (std_srvs/Trigger), step (rumba_msg/Step), spawn (rumba_msg/Spawn) and kill
-(rumba_msg/Kill). In lockstep it publishes simulator/lockstep (rumba_msg/Lockstep), and waits for those who answer on
-simulator/lockstep_answers (rumba_msg/LockstepAnswer). rqt_reconfigure shows it as NAME/tuning; the parameters
-NAME/settings are the settings in force.
+own name, pause, resume, reset, digest (std_srvs/Trigger), step (rumba_msg/Step), spawn (rumba_msg/Spawn), kill
+(rumba_msg/Kill), add_obstacle (rumba_msg/AddObstacle) and remove_obstacle (rumba_msg/RemoveObstacle). It publishes
+simulator/obstacles (visualization_msgs/MarkerArray) for those who want to see them. In lockstep it publishes
+simulator/lockstep (rumba_msg/Lockstep), and waits for those who answer on simulator/lockstep_answers
+(rumba_msg/LockstepAnswer). rqt_reconfigure shows it as NAME/tuning; the parameters NAME/settings are the settings in
+force.
 
 Parameters, as in `rosrun rumba_sim simulator _map:=studio _speed:=10 _battery/drain:=60`:
 """
@@ -30,14 +32,17 @@ from typing import Any, Callable, Dict, Optional, Tuple
 import rospy
 from std_srvs.srv import Trigger, TriggerResponse
 
-from rumba_msg.srv import Kill, KillResponse, Spawn, SpawnResponse, Step, StepResponse
-from rumba_sim.model import map_file
+from rumba_msg.srv import (
+    AddObstacle, AddObstacleResponse, Kill, KillResponse, RemoveObstacle, RemoveObstacleResponse, Spawn, SpawnResponse,
+    Step, StepResponse)
+from rumba_sim.model import map_file, obstacle_file
 from rumba_sim.model.config import updated
 from rumba_sim.model.errors import ConfigError, RumbaError, WorldError
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.world import World
 from rumba_sim.ros.common import master_watch, node, peers
 from rumba_sim.ros.common.maps import map_path, refuse_second, tell_map
+from rumba_sim.ros.common.paths import absolute
 from rumba_sim.ros.common.peers import NO_ANSWER
 from rumba_sim.ros.common.requests import Requests
 from rumba_sim.ros.common.simulator_client import SETTINGS
@@ -46,6 +51,7 @@ from rumba_sim.ros.simulator import reconfigure
 from rumba_sim.ros.simulator.diagnostics import Diagnostics
 from rumba_sim.ros.simulator.fleet import Fleet
 from rumba_sim.ros.simulator.lockstep import Lockstep
+from rumba_sim.ros.simulator.obstacle_board import ObstacleBoard
 from rumba_sim.ros.simulator.pace import Pace, wake_on_time
 from rumba_sim.ros.simulator.settings import TUNABLE, Settings
 from rumba_sim.ros.simulator.simulated_time import SimulatedTime
@@ -77,14 +83,16 @@ class Simulator:
         path = map_path(settings.map)
         plan = map_file.load(path)
         self._file = StateFile(settings)
-        saved, self._ticks = self._file.world(plan, settings)
-        self._world = saved or World(plan, settings.robot, settings.step_rate, settings.seed)
+        obstacles = obstacle_file.load(absolute(settings.obstacles)) if settings.obstacles else []
+        saved, self._ticks = self._file.world(plan, settings, obstacles)
+        self._world = saved or World(plan, settings.robot, settings.step_rate, settings.seed, obstacles)
         self._pace = Pace(settings.step_rate, settings.speed, is_time_simulated(settings), self._ticks)
         self._run = uuid.uuid4().hex
         self._lockstep = self._lockstep_of(settings)
         self._diagnostics = Diagnostics(settings.map)
         self._fleet = Fleet(self._world, settings, self._requests, self._diagnostics, lambda: self._pace.stamp,
                             self._is_held, self._on_command)
+        self._obstacles = ObstacleBoard(self._world, self._requests, lambda: self._pace.stamp)
         for _ in range(0 if saved else settings.robots):
             self._fleet.spawn()
         self._file.begin(self._world, self._ticks)
@@ -103,7 +111,9 @@ class Simulator:
                 ('digest', Trigger, TriggerResponse, lambda _: (f'{self._world.digest()} {self._world.tick}',)),
                 ('step', Step, StepResponse, lambda request: self._step(request.ticks)),
                 ('spawn', Spawn, SpawnResponse, self._spawn),
-                ('kill', Kill, KillResponse, self._kill)):
+                ('kill', Kill, KillResponse, self._kill),
+                ('add_obstacle', AddObstacle, AddObstacleResponse, self._obstacles.add),
+                ('remove_obstacle', RemoveObstacle, RemoveObstacleResponse, self._obstacles.remove)):
             rospy.Service(f'~{name}', service, self._handler(response, act))
         self._tuning = reconfigure.serve(self._settings, TUNABLE, TUNING, self._on_tuning)
 
@@ -170,6 +180,7 @@ class Simulator:
         is_bundled = not due.sensors and self._is_bundled
         self._pace.tick(is_told=not is_bundled)
         self._fleet.publish(due, keep_transforms=is_bundled)
+        self._obstacles.publish_if_due(self._ticks)
         if self._lockstep is not None:
             self._lockstep.publish(due, self._pace.stamp, self._state.resets)
         self._file.save_if_due(self._world, self._ticks)
@@ -211,6 +222,7 @@ class Simulator:
         if self._lockstep is not None:
             self._lockstep.reset()
         self._world.reset()
+        self._obstacles.publish()
         self._state.resets += 1
         self._publish_state()
         return ('everything is as it was at the start, except the time',)

@@ -1,13 +1,14 @@
 """The file from which a simulator goes on, as it was, after it was ended or killed."""
 
 import os
-from typing import Optional, Tuple
+from typing import Optional, Sequence, Tuple
 
 import rospy
 
 from rumba_sim.model import world_state
 from rumba_sim.model.errors import WorldError
 from rumba_sim.model.floor_plan import FloorPlan
+from rumba_sim.model.obstacle import Obstacle
 from rumba_sim.model.world import World
 from rumba_sim.ros.common.paths import absolute
 from rumba_sim.ros.simulator.settings import Settings
@@ -23,8 +24,14 @@ class StateFile:
         self._path = absolute(settings.state) if settings.state else ''
         self._period = PERIOD * settings.step_rate
 
-    def world(self, plan: FloorPlan, settings: Settings) -> Tuple[Optional[World], int]:
+    def world(self, plan: FloorPlan, settings: Settings,
+              obstacles: Sequence[Obstacle]) -> Tuple[Optional[World], int]:
         """The world that was saved, None if there is none; and the number of ticks of the simulation.
+
+        Args:
+            plan: its floor plan.
+            settings: of the simulator.
+            obstacles: that were there from the start.
 
         Raises:
             WorldError: the file is damaged, or does not fit to map and settings; it stays as it is.
@@ -33,7 +40,8 @@ class StateFile:
             return None, 0
         state, ticks = world_state.read(self._path)
         try:
-            world = World.restored(state, plan, settings.robot, settings.step_rate, settings.seed)
+            world = World.restored(state, plan, settings.robot, settings.step_rate, settings.seed,
+                                   obstacles)
         except WorldError as error:
             raise WorldError(f'{self._path}: {error}: start with what it was saved with, or give state another '
                              'file') from None

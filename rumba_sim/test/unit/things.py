@@ -1,0 +1,60 @@
+"""Obstacles for the tests of the model, and exact distances to them, computed from their corners."""
+
+import math
+
+import numpy as np
+
+from rumba_sim.model.geometry import Pose
+from rumba_sim.model.obstacle import Obstacle, walk
+
+HIGH, LOW = 0.5, 0.05  # [m] over the laser and below it
+
+
+def disc(name, x, y, radius, height=HIGH):
+    """A disc that stands."""
+    return Obstacle(name, Pose(x, y, 0.0), height, radius=radius)
+
+
+def box(name, x, y, yaw, length, width, height=HIGH):
+    """A box that stands."""
+    return Obstacle(name, Pose(x, y, yaw), height, length=length, width=width)
+
+
+def walker(name, waypoints, speed=0.5, radius=0.15, is_loop=False, pause=(0.0, 0.0), size=(0.0, 0.0), height=HIGH):
+    """A disc, or a box of a size, that goes along waypoints."""
+    poses = [Pose(*waypoint, *[0.0] * (3 - len(waypoint))) for waypoint in waypoints]
+    return Obstacle(name, poses[0], height, 0.0 if any(size) else radius, *size,
+                    stops=walk(poses, speed, is_loop, *pause))
+
+
+def corners(pose, obstacle):
+    """Corners of a box at a pose, counter-clockwise: float64 (4, 2) [m]."""
+    halves = 0.5 * np.array([[1, 1], [-1, 1], [-1, -1], [1, -1]]) * (obstacle.length, obstacle.width)
+    cos, sin = math.cos(pose.theta), math.sin(pose.theta)
+    return halves @ np.array([[cos, sin], [-sin, cos]]) + pose[:2]
+
+
+def to_segment(point, start, end):
+    """Distance from a point to a segment [m]."""
+    along = np.subtract(end, start)
+    share = np.clip(np.dot(np.subtract(point, start), along) / np.dot(along, along), 0.0, 1.0)
+    return float(np.hypot(*(np.asarray(start) + share * along - point)))
+
+
+def distance(pose, obstacle, x, y):
+    """Distance from an obstacle at a pose to a point [m], negative inside: by the sides of a box, one by one."""
+    if obstacle.radius:
+        return math.hypot(pose.x - x, pose.y - y) - obstacle.radius
+    points = corners(pose, obstacle)
+    sides = list(zip(points, np.roll(points, -1, axis=0)))
+    least = min(to_segment((x, y), start, end) for start, end in sides)
+    is_inside = all((end[0] - start[0]) * (y - start[1]) - (end[1] - start[1]) * (x - start[0]) > 0.0
+                    for start, end in sides)
+    return -least if is_inside else least
+
+
+def gaps(world):
+    """Distance from the edge of each robot to each obstacle [m]."""
+    radius = world.config.drive.radius
+    return [distance(pose, obstacle, robot.pose.x, robot.pose.y) - radius
+            for robot in world.robots.values() for obstacle, pose in world.obstacles.poses()]
