@@ -6,14 +6,14 @@ from floors import knowing, length, wiped_but
 from rooms import room
 
 from rumba_cleaning.behaviours.follower import Route
-from rumba_cleaning.planning.detours import APART, FARTHEST, SURPLUS, with_crumbs
+from rumba_cleaning.planning.detours import APART, DEAREST, FARTHEST, SURPLUS, with_crumbs
 from rumba_cleaning.planning.paper import drive
 from rumba_cleaning.planning.regions import regions
 from rumba_sim.model.geometry import Pose
 
 START = Pose(0.5, 1.5, 0.0)
 ACROSS = Route(np.array([[0.5, 1.5], [3.5, 1.5]]), np.array([0.3]))
-NEAR, FAR, BEYOND = (1.0, 1.7, 1.1, 1.8), (2.5, 1.9, 2.6, 2.0), (2.0, 2.5, 2.1, 2.6)  # crumbs: left, bottom, right, top
+NEAR, FAR, BEYOND = (1.0, 1.7, 1.2, 1.9), (2.5, 1.9, 2.7, 2.1), (2.0, 2.5, 2.2, 2.7)  # crumbs: left, bottom, right, top
 
 
 def detoured(*boxes, target=1.0, route=ACROSS, plan=None):
@@ -47,22 +47,30 @@ def test_without_crumbs_a_route_only_has_more_waypoints():
 def test_crumbs_that_cost_less_come_first_and_no_more_than_the_target_needs():
     both, _ = detoured(NEAR, FAR)
     assert passes(both, NEAR) and passes(both, FAR)
-    share = 0.01 / knowing(room(4.0, 3.0, 0.02), START).swept.reachable_area
+    share = 0.04 / knowing(room(4.0, 3.0, 0.02), START).swept.reachable_area
     one, _ = detoured(NEAR, FAR, target=1.0 - SURPLUS - 1.5 * share)
     assert passes(one, NEAR) and not passes(one, FAR)
     none, _ = detoured(NEAR, FAR, target=1.0 - SURPLUS - 2.5 * share)
     assert not passes(none, NEAR) and not passes(none, FAR)
 
 
+def test_crumbs_that_cost_too_much_for_their_area_are_left_whatever_the_target():
+    worth = (2.0, 1.7, 2.2, 1.9)
+    small = (3.0, 1.9, 3.05, 1.95)
+    assert 2.0 * (small[1] - 1.5) > DEAREST * 0.05 ** 2  # there and back
+    found, _ = detoured(worth, small)
+    assert passes(found, worth) and not passes(found, small)
+
+
 def test_crumbs_that_are_far_or_behind_a_wall_are_left():
     found, _ = detoured(BEYOND)
     assert BEYOND[1] - 1.5 > FARTHEST and (found.waypoints[:, 1] == 1.5).all()
     wall = room(4.0, 3.0, 0.02, [(0.4, 1.72, 4.0, 1.74)])
-    found, _ = detoured((1.0, 1.98, 1.1, 2.06), plan=wall)
+    found, _ = detoured((1.0, 1.98, 1.2, 2.15), plan=wall)
     assert (found.waypoints[:, 1] == 1.5).all()
 
 
 def test_there_are_no_detours_from_where_the_robot_drives_fast_with_its_brushes_up():
     fast = Route(np.array([[0.5, 1.5], [2.0, 1.5], [3.5, 1.5]]), np.array([0.45, 0.3]))
-    found, _ = detoured((0.7, 1.7, 0.8, 1.8), (3.0, 1.7, 3.1, 1.8), route=fast)
-    assert not passes(found, (0.7, 1.7, 0.8, 1.8)) and passes(found, (3.0, 1.7, 3.1, 1.8))
+    found, _ = detoured((0.7, 1.7, 0.9, 1.9), (3.0, 1.7, 3.2, 1.9), route=fast)
+    assert not passes(found, (0.7, 1.7, 0.9, 1.9)) and passes(found, (3.0, 1.7, 3.2, 1.9))

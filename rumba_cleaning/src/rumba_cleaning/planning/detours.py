@@ -18,6 +18,9 @@ from rumba_sim.model.kernel import Array
 # All figures are our choice; each comment says what speaks for a larger and for a smaller value.
 SURPLUS = 0.005  # of coverage that is planned beyond the target, since no robot drives exactly as planned
 APART = 0.1  # [m] between the waypoints at which a detour may begin, at most: small makes detours shorter
+# [m] that a detour takes for each [m^2], at most: ten times as long as a lane. Such a detour cleans little, since the
+# robot cuts its corners. Large meets high targets, small leaves more to the next route.
+DEAREST = 60.0
 FARTHEST = 0.6  # [m] from the route to a crumb: large meets high targets, small leaves more to the next route
 TRIES = 10  # waypoints from which a straight line to a crumb is looked for, at most: saves time
 CORNER = 0.1  # [m] that each rad of a corner counts: 0.3 s at the cleaning speed
@@ -33,7 +36,7 @@ class Detour(NamedTuple):
 
 
 def with_crumbs(context: Context, route: Route, paper: Swept, labels: Array) -> Route:
-    """A route with detours to crumbs that it would leave, as many as the target needs, those first that cost least.
+    """A route with detours to crumbs that it would leave, no more than the target needs: those that cost least.
 
     Args:
         context: where the robot can stand, and the target.
@@ -46,7 +49,7 @@ def with_crumbs(context: Context, route: Route, paper: Swept, labels: Array) -> 
     found = _detours(context, route, crumbs(context.ground, paper.missing_share(), labels))
     chosen: Dict[int, Detour] = {}
     for detour in sorted(found, key=lambda detour: detour.length / detour.area):
-        if missing <= 0.0:
+        if missing <= 0.0 or detour.length > DEAREST * detour.area:
             break
         if detour.waypoint not in chosen:
             chosen[detour.waypoint] = detour
