@@ -5,12 +5,12 @@ import types
 
 import pytest
 import rospy
-from geometry_msgs.msg import Quaternion, Transform, TransformStamped, Vector3
+from geometry_msgs.msg import PoseWithCovarianceStamped, Quaternion, Transform, TransformStamped, Vector3
 from sensor_msgs.msg import BatteryState
 from std_msgs.msg import Header
 from tf2_msgs.msg import TFMessage
 
-from rumba_cleaning.behaviour import Command
+from rumba_cleaning.behaviour import CERTAIN, UNKNOWN, Command
 from rumba_cleaning.mission.mission import State
 from rumba_cleaning.outcome import Outcome
 from rumba_cleaning.ros.cleaner import conversions, location, senses
@@ -322,3 +322,69 @@ def test_in_lockstep_a_reading_of_another_world_counts_once_that_is_known(monkey
     robot.senses.forget(rospy.Time(4), is_new_run=False)
     assert (robot.readings, robot.senses.stamp) == (1, rospy.Time(5))
     assert robot.senses.look() is not None
+
+
+# --- certainty --------------------------------------------------------------------------------------------------------
+
+def believes(stamp, **covariance):
+    """What a localisation tells: entries of the covariance by their number, such as c35."""
+    message = PoseWithCovarianceStamped(header=Header(stamp=stamp))
+    for name, value in covariance.items():
+        message.pose.covariance[int(name[1:])] = value
+    return message
+
+
+def test_without_a_localisation_that_tells_it_the_pose_is_certain(robot):
+    robot.reads(1.0)
+    assert robot.senses.look().covariance == CERTAIN
+
+
+def test_the_covariance_is_that_of_x_y_and_heading(robot):
+    robot.reads(1.0)
+    robot.tells('amcl_pose', believes(rospy.Time(1), c0=1.0, c1=2.0, c5=3.0, c7=4.0, c11=5.0, c14=99.0, c30=6.0,
+                                         c35=7.0))
+    assert robot.senses.look().covariance == ((1.0, 2.0, 3.0), (0.0, 4.0, 5.0), (6.0, 0.0, 7.0))
+
+
+@pytest.mark.parametrize('number', [math.nan, math.inf])
+def test_a_covariance_that_is_not_finite_means_that_nothing_is_known(robot, number):
+    robot.reads(1.0)
+    robot.tells('amcl_pose', believes(rospy.Time(1), c7=number))
+    assert robot.senses.look().covariance == UNKNOWN and robot.senses.look().is_lost
+
+
+def test_a_localisation_that_falls_silent_leaves_nothing_known_until_it_is_back(robot):
+    robot.tells('amcl_pose', believes(rospy.Time(1), c0=0.01))
+    for seconds, is_lost in ((1.0, False), (3.0, False), (3.1, True)):
+        robot.reads(seconds)
+        assert robot.senses.look().is_lost is is_lost
+    robot.tells('amcl_pose', believes(rospy.Time(3), c0=0.01))
+    assert not robot.senses.look().is_lost
+    robot.senses.forget(rospy.Time(4), is_new_run=True)
+    robot.stands()
+    robot.tells('battery_state', BatteryState(header=Header(stamp=rospy.Time(90)), percentage=0.5))
+    robot.reads(90.0)
+    assert robot.senses.look().covariance == CERTAIN
+
+
+@pytest.mark.parametrize('last', ['amcl_pose', 'correction', 'tick'])
+def test_in_lockstep_a_localisation_is_waited_for_if_there_is_one(monkeypatch, last):
+    robot, stamp = Robot(monkeypatch, lockstep=WORLD), rospy.Time(1)
+    parts = {**parts_of(stamp), 'tf': lambda robot: robot.transforms(odometry(stamp=stamp)),
+             'amcl_pose': lambda robot: robot.tells('amcl_pose', believes(stamp)),
+             'correction': lambda robot: robot.transforms(odometry(stamp=stamp, frame='map', child='odom')),
+             'tick': lambda robot: robot.senses.on_tick(Lockstep(Header(stamp=stamp), *WORLD, stamp, stamp, stamp))}
+    for topic in [topic for topic in parts if topic != last]:
+        parts[topic](robot)
+    assert robot.readings == 0
+    parts[last](robot)
+    assert robot.readings == 1
+
+
+def test_in_lockstep_a_scan_without_a_localisation_is_not_waited_for(monkeypatch):
+    robot, stamp = Robot(monkeypatch, lockstep=WORLD), rospy.Time(1)
+    robot.connections = 0
+    for part in parts_of(stamp).values():
+        part(robot)
+    robot.senses.on_tick(Lockstep(Header(stamp=stamp), *WORLD, stamp, rospy.Time(9), stamp))
+    assert robot.readings == 1
