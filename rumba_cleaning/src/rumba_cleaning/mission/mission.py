@@ -7,7 +7,7 @@ from typing import Optional, Tuple
 import numpy as np
 
 from rumba_cleaning import strategies
-from rumba_cleaning.behaviour import STOP, Behaviour, Command, Observation, Status
+from rumba_cleaning.behaviour import CERTAIN, STOP, Behaviour, Command, Observation, Status
 from rumba_cleaning.behaviours import relocation
 from rumba_cleaning.behaviours.dock import Dock
 from rumba_cleaning.behaviours.guard import Guard
@@ -21,6 +21,7 @@ from rumba_sim.model.geometry import Pose
 JUMP = 0.5  # [m] from one observation to the next: the robot did not drive there, somebody moved it; as in `Swept`
 OFF = 1.0  # [s] off the contacts while charging: the robot was moved; contacts that bounce are closed again sooner
 EXACT = 0.0002  # of coverage beyond the target: by so much the account of a robot may differ from the truth
+INEXACT = 0.0008  # the same by a pose that is not certain: twice what an error of 2 mm brings, as localiser's
 ROUNDING = 1e-6  # tenths of percent
 GAIN = 0.002  # of coverage: a charge that brings less brings nothing; as boustrophedon judges its rounds
 VAIN = 3  # charges, one after the other, that brought nothing: the mission is given up; our choice
@@ -215,7 +216,8 @@ class Mission(Behaviour):
     def _clean(self, observation: Observation) -> Command:
         coverage = self._context.swept.coverage
         target = self._context.target_coverage
-        if coverage >= min(target + EXACT, 1.0):
+        margin = EXACT if observation.covariance == CERTAIN else INEXACT
+        if coverage >= min(target + margin, 1.0):
             return self._close(Status.SUCCEEDED, f'{_percent(coverage)} swept', Outcome.SUCCEEDED)
         needed = self._watch.needed(observation.pose)
         if observation.state_of_charge < needed:
