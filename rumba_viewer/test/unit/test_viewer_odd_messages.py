@@ -9,6 +9,7 @@ import odd_messages
 import pytest
 import rospy
 from fake_topics import Topic
+from geometry_msgs.msg import PoseArray, PoseWithCovarianceStamped
 from nav_msgs.msg import MapMetaData, OccupancyGrid, Odometry
 from pytest import approx
 from rospy.numpy_msg import numpy_msg
@@ -54,6 +55,8 @@ GOOD = {
     'rumba/bumper': Bumper(), 'rumba/cliff': Cliff(),
     'rumba/cleaning_status': CleaningStatus(coverage=0.5, cleaned_area=1.0, reachable_area=2.0, distance=3.0),
     'rumba/mission_status': MissionStatus(state=MissionStatus.CLEANING, strategy='bounce', message='cleans'),
+    'rumba/amcl_pose': PoseWithCovarianceStamped(pose=odometry(1.1, 2.1).pose),
+    'rumba/particlecloud': PoseArray(poses=[odometry(1.2, 2.2).pose.pose]),
     'rumba/clean/result': CleanActionResult(result=CleanResult(outcome=Outcome(Outcome.CANCELLED, 'cancelled'))),
     'simulator/obstacles': MarkerArray([CUBE]),
     'simulator/state': SimulatorState(node=NODE, map='/nowhere.yaml', speed=2.0, real_time_factor=2.0,

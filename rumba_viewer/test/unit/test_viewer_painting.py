@@ -8,6 +8,7 @@ from PyQt5.QtGui import QImage, QPainter
 from windows import BOTTOM, HEIGHT, LEFT, SCALE, WIDTH, count, near, path, pixels, plan, robot, snapshot
 
 from rumba_sim.model.geometry import Pose
+from rumba_viewer.painting.paint_belief import RING
 from rumba_viewer.painting.paint_scene import ScenePainter, picture
 from rumba_viewer.scene.snapshot import Dock, MapFeatures, Obstacle, Point, Snapshot
 from rumba_viewer.scene.theme import DARK, LIGHT, robot_colour
@@ -169,6 +170,24 @@ def test_the_beams_of_the_laser_are_tinted(theme):
     assert not at(lit, WHOLE, 1.0, 4.2, theme.out_of_reach, 2)
     assert at(lit, WHOLE, 1.0, 3.35, theme.out_of_reach, 2)
     assert at(picture(snapshot(robot(pose=pose)), WHOLE, theme), WHOLE, 1.0, 4.2, theme.out_of_reach, 2)
+
+
+@THEMES
+def test_particles_and_the_believed_robot_are_painted_where_they_are_beside_the_true_one(theme):
+    true, believed = Pose(0.0, 4.0, 0.0), Pose(1.5, 4.0, 0.5 * math.pi)
+    cloud = np.array([(0.6, 3.2), (0.7, 3.2)])
+    image = picture(snapshot(robot(pose=true, believed=believed, particles=cloud)), WHOLE, theme)
+    plain = picture(snapshot(robot(pose=true)), WHOLE, theme)
+    colour, radius = robot_colour(theme, 'rumba'), RING * 0.17425
+    ring = [(1.5 + radius * math.cos(angle), 4.0 + radius * math.sin(angle)) for angle in np.arange(0.0, 6.28, 0.02)]
+    share = np.mean([at(image, WHOLE, x, y, colour, 60) for x, y in ring])
+    assert 0.3 < share < 0.95 and not any(at(plain, WHOLE, x, y, colour, 60) for x, y in ring)
+    assert at(image, WHOLE, 1.5, 4.0 + 1.3 * radius, colour, 60)
+    assert not at(image, WHOLE, 1.5 + 1.3 * radius, 4.0, colour)
+    for x, y in cloud:
+        left, top = (round(pixel) for pixel in WHOLE.to_pixel(x, y))
+        spot = left - 1, top - 1, left + 2, top + 2
+        assert abs(pixels(image.copy(spot[0], spot[1], 3, 3)) - pixels(plain.copy(spot[0], spot[1], 3, 3))).max() > 40
 
 
 def test_dock_carpet_and_cliff_are_painted_on_their_cells():

@@ -8,6 +8,7 @@ from PyQt5.QtGui import QColor, QFont, QImage, QPainter, QPen
 
 from rumba_sim.model.geometry import Pose
 from rumba_viewer.painting import paint_robot
+from rumba_viewer.painting.paint_belief import paint_believed, paint_particles
 from rumba_viewer.painting.paint_floor import FloorPainter, PathPainter
 from rumba_viewer.painting.paint_obstacles import paint_obstacles
 from rumba_viewer.scene.snapshot import Snapshot
@@ -68,11 +69,13 @@ class ScenePainter:
         paint_obstacles(painter, snapshot.obstacles, theme)
         for robot in snapshot.robots:
             paint_robot.paint_beams(painter, robot, theme)
+            paint_particles(painter, robot, theme)
         if dock is not None:
             paint_robot.paint_dock(painter, dock, _size(snapshot), theme)
         for robot in snapshot.robots:
             is_selected = robot.name == snapshot.selected and len(snapshot.robots) > 1
             paint_robot.paint_robot(painter, robot, view, theme, is_selected)
+            paint_believed(painter, robot, theme)
             if ghost is not None and ghost[0] == robot.name:
                 paint_robot.paint_ghost(painter, robot, ghost[1], theme)
         painter.restore()

@@ -6,10 +6,11 @@ needs to doubt it.
 
 import itertools
 import math
-from typing import Any, NamedTuple, Tuple
+from typing import Any, NamedTuple, Tuple, Union
 
 import numpy as np
 import rosgraph
+from geometry_msgs.msg import PoseArray, PoseWithCovarianceStamped
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import BatteryState
 from visualization_msgs.msg import Marker, MarkerArray
@@ -27,6 +28,7 @@ FINEST = 1e-4  # [m] smallest side of a cell
 MOST = 1e9  # larger voltages, currents, areas, distances and speeds are not valid
 MOST_BEAMS = 3600  # of a scan that are shown
 MOST_OBSTACLES = 1000  # that are shown
+MOST_PARTICLES = 1000  # that are shown
 MOST_TURNS = 1e3  # [rad] largest angle of a beam
 ROUNDING = 1e-6  # by which a share may exceed 1
 STATES = {**{getattr(MissionStatus, name): name.lower().replace('_', ' ') for name in (
@@ -88,10 +90,26 @@ def reading(message: Odometry) -> Reading:
     Raises:
         OddMessage: the pose is not finite, or is too far away.
     """
+    return Reading(message.header.stamp.to_sec(), believed(message))
+
+
+def believed(message: Union[Odometry, PoseWithCovarianceStamped]) -> Pose:
+    """The pose of a message with covariance.
+
+    Raises:
+        OddMessage: it is not finite, or is too far away.
+    """
     pose = plane_pose(message.pose.pose)
     if not (abs(pose.x) < FAR and abs(pose.y) < FAR and math.isfinite(pose.theta)):
         raise OddMessage(f'the pose is {pose.x:g}, {pose.y:g} m, {pose.theta:g} rad: must be finite, within {FAR:g} m')
-    return Reading(message.header.stamp.to_sec(), pose)
+    return pose
+
+
+def particles(message: PoseArray) -> Array:
+    """Positions (n, 2) [m] of poses, at most MOST_PARTICLES, without those that are not finite or too far away."""
+    step = max(-(-len(message.poses) // MOST_PARTICLES), 1)
+    points = np.array([(pose.position.x, pose.position.y) for pose in message.poses[::step]], float).reshape(-1, 2)
+    return np.asarray(points[(np.abs(points) < FAR).all(axis=1)])
 
 
 def battery(message: BatteryState) -> Battery:

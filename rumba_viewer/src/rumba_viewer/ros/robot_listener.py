@@ -6,12 +6,14 @@ import threading
 import time
 from typing import Any, Callable, Dict, FrozenSet, Iterable, List, NamedTuple, Optional, Tuple
 
+from geometry_msgs.msg import PoseArray, PoseWithCovarianceStamped
 from nav_msgs.msg import OccupancyGrid, Odometry
 from rospy.numpy_msg import numpy_msg
 from sensor_msgs.msg import BatteryState, LaserScan
 
 from rumba_msg.msg import BatteryStatus, Bumper, CleanActionResult, CleaningStatus, Cliff, MissionStatus, Outcome
 from rumba_sim.model.errors import one_line
+from rumba_sim.model.geometry import Pose
 from rumba_viewer.ros import readings
 from rumba_viewer.ros.readings import Reading, Scan
 from rumba_viewer.ros.subscription import Subscription
@@ -36,6 +38,8 @@ ALWAYS = {
     'bumper': Topic(Bumper, lambda message: {'bumper': (message.is_left_pressed, message.is_right_pressed)}),
     'cliff': Topic(Cliff, lambda message: {'has_fallen': message.is_wheel_dropped}),
     'cleaning_status': Topic(CleaningStatus, lambda message: {'cleaning': readings.cleaning(message)}),
+    'amcl_pose': Topic(PoseWithCovarianceStamped, lambda message: {'believed': readings.believed(message)}),
+    'particlecloud': Topic(PoseArray, lambda message: {'particles': readings.particles(message)}),
     'mission_status': Topic(MissionStatus, lambda message: {'mission': readings.mission(message)})}
 LARGE = {  # only while they are shown
     'coverage': Topic(numpy_msg(OccupancyGrid), lambda message: {'coverage': readings.grid(message)}),
@@ -66,6 +70,8 @@ class Known:
     can_resume: Optional[bool] = None
     coverage: Optional[Grid] = None
     scan: Optional[Scan] = None
+    believed: Optional[Pose] = None
+    particles: Optional[Array] = None
 
     def beams(self) -> Optional[Array]:
         """Ends of the laser's beams (n, 2) [m], seen from where the robot was when it measured them."""
@@ -156,7 +162,7 @@ class RobotListener:
     def _forget(self) -> None:
         self._trail.clear()
         self._glide = Glide()
-        self._known = dataclasses.replace(self._known, recent=(), coverage=None)
+        self._known = dataclasses.replace(self._known, recent=(), coverage=None, believed=None, particles=None)
 
     # --- what the window asks -----------------------------------------------------------------------------------------
 
@@ -176,7 +182,8 @@ class RobotListener:
 
     def robot(self, now: float, size: Size) -> Optional[Robot]:
         """What is known of it at a time of the wall clock [s]; None before the first reading."""
-        has_cleaner = self._subscriptions['mission_status'].is_connected
+        has_cleaner, is_localised = (self._subscriptions[topic].is_connected
+                                     for topic in ('mission_status', 'amcl_pose'))
         if not has_cleaner:
             self._learn(can_resume=None)
         with self._lock:
@@ -187,8 +194,9 @@ class RobotListener:
         return Robot(
             self._name, pose, size, bumper=known.bumper, has_fallen=known.has_fallen, brushes_up=known.brushes_up,
             message=known.message, battery=known.battery, cleaning=known.cleaning,
-            mission=known.mission if has_cleaner else None, path=path, beams=known.beams(), has_cleaner=has_cleaner,
-            can_resume=known.can_resume)
+            mission=known.mission if has_cleaner else None, path=path, beams=known.beams(),
+            believed=known.believed if is_localised else None, particles=known.particles if is_localised else None,
+            has_cleaner=has_cleaner, can_resume=known.can_resume)
 
 
 def _was_reset(before: Optional[Cleaning], after: Optional[Cleaning]) -> bool:

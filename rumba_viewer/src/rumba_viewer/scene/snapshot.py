@@ -169,6 +169,8 @@ class Robot:
         has_fallen: whether a wheel hangs over a cliff, so that it cannot drive.
         message: the debug message of battery_status, for a person.
         beams: ends (n, 2) of the laser's beams [m]; None while they are not shown.
+        believed: where its localisation believes it to be; None if none tells.
+        particles: positions (n, 2) where that holds it possible to be [m]; None likewise.
         has_cleaner: whether a cleaner takes goals for it.
         can_resume: whether its cleaner has an interrupted cleaning to resume; None: unknown.
     """
@@ -185,6 +187,8 @@ class Robot:
     mission: Optional[Mission] = None
     path: Optional[Path] = None
     beams: Optional[Array] = None
+    believed: Optional[Pose] = None
+    particles: Optional[Array] = None
     has_cleaner: bool = False
     can_resume: Optional[bool] = None
 
