@@ -9,19 +9,19 @@ from definitions import FILES, NAME, md5, parts
 MD5 = {
     'Clean.action': [
         '5520a1c6e8a152c7ac1f5c4fe608b442',
-        'da611ab6608d7770fcc6e025d9cf29e6',
+        '39e9ffb7d99eb6865c50f392bae7340d',
         '0d748d8d3231932a4b6b2a7d1cea9318'],
     'Dock.action': [
         '1f5cb61fc531052411e5e7b804abd313',
-        '44488ba004cf2f2ce795d76e5b0406ba',
+        '511fe5243b2dfc2fdfa5e46f2b6b5631',
         'e4b9ae907daf8089dc36f0f979c46ed8'],
     'GoTo.action': [
         '4a583f82c50523a742b8ac903242685d',
-        '07a9b9b476804a5088b165c2d66c341f',
+        '8431718871231402abc7c6c527e38fe4',
         'e46fb0854dc85a00cd3de9ea8446b383'],
     'Undock.action': [
         '1f5cb61fc531052411e5e7b804abd313',
-        '44488ba004cf2f2ce795d76e5b0406ba',
+        '511fe5243b2dfc2fdfa5e46f2b6b5631',
         '1092bf11150d7a9e1554cca2e9dde9b1'],
     'BatteryStatus.msg': ['8553ab09064a977637e06a24726e1227'],
     'Bumper.msg': ['082df846252723b63047bfcdd7401c21'],
@@ -31,7 +31,7 @@ MD5 = {
     'Lockstep.msg': ['0ee5539633c36786a042805782056911'],
     'LockstepAnswer.msg': ['fa246e5f451b61e13a5bc6fdb57db664'],
     'MissionStatus.msg': ['b5dc28a8c8d879395d4353c7e03795b4'],
-    'Outcome.msg': ['ccc8028bf7d81f58a9c828224cd41835'],
+    'Outcome.msg': ['a70673e9425e07411f8380f0a44dbf9b'],
     'SimulatorState.msg': ['f9b4dcc49d5285d3df3d11c9d29d19b5'],
     'AddObstacle.srv': ['c0b79402098083bb719b5f6fb4d6ddb9'],
     'Kill.srv': ['d82dc6474dd88dad5e1615ab1b2ca74c'],
