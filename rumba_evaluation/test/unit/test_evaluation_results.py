@@ -107,7 +107,7 @@ def test_a_file_of_another_kind_is_refused_and_not_changed(path, content):
 
 
 @pytest.mark.parametrize('old, new', [(',bounce,2,', ',bounce,two,'), ('False', 'perhaps'), (',dock,', ',somewhere,'),
-                                      ('timed_out', 'lost'), ('bounce,2,1,dock,0.99,12,', '')])
+                                      ('timed_out', 'mislaid'), ('bounce,2,1,dock,0.99,12,', '')])
 def test_the_message_names_a_line_that_cannot_be_read(path, old, new):
     lines = written(path).decode().split('\n')
     lines[2] = lines[2].replace('True', 'False').replace(old, new, 1)

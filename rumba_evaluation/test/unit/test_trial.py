@@ -2,6 +2,7 @@
 
 import dataclasses
 import math
+import pathlib
 
 import numpy as np
 import pytest
@@ -13,12 +14,14 @@ from rumba_cleaning.mission.mission import State
 from rumba_cleaning.outcome import Outcome
 from rumba_evaluation.trials.cases import ANYWHERE, Conditions
 from rumba_evaluation.trials.trial import Trial
-from rumba_sim.model.errors import StrategyError, WorldError
+from rumba_sim.model import map_file
+from rumba_sim.model.errors import ConfigError, StrategyError, WorldError
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.obstacle import Obstacle
 from rumba_sim.model.robot_config import RobotConfig
 
 ROBOT = RobotConfig()
+STUDIO = pathlib.Path(__file__).resolve().parents[3] / 'rumba_sim' / 'maps' / 'studio.yaml'
 BRUSH_SPEED = 0.17 * 0.3  # [m^2/s] width of the brush, cleaning speed
 
 
@@ -251,3 +254,22 @@ def test_a_result_has_the_digest_of_its_last_tick():
     first, second, other = (ran(hall(), 'ahead', 5.0, seed=seed) for seed in (1, 1, 2))
     assert first.result().digest == second.result().digest == first.world.digest() != other.result().digest
     assert first.result().ticks == first.world.tick
+
+
+def test_a_mission_by_a_pose_that_is_localised_meets_its_target_and_one_by_odometry_is_lost():
+    """The floor is the studio's, where the laser sees furniture and odometry drifts by metres."""
+    plan = map_file.load(STUDIO)
+    outcomes = {}
+    for pose in ('localised', 'odometry'):
+        trial = Trial(plan, 'boustrophedon', Conditions(pose=pose, target=0.5), seed=4)
+        while not trial.is_over:
+            trial.step()
+        outcomes[pose] = trial.result()
+    assert outcomes['localised'].outcome is Outcome.SUCCEEDED and outcomes['localised'].coverage >= 0.5
+    assert outcomes['localised'].docked == 1
+    assert outcomes['odometry'].coverage < outcomes['localised'].coverage
+
+
+def test_a_pose_of_no_known_kind_is_refused():
+    with pytest.raises(ConfigError, match='^pose is .dreamt.: must be one of truth, localised, odometry$'):
+        Conditions(pose='dreamt')

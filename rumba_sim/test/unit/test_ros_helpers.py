@@ -12,10 +12,11 @@ from diagnostic_updater import DiagnosticStatusWrapper
 
 from rumba_sim.model.battery import Battery, BatteryConfig
 from rumba_sim.model.errors import ConfigError, MapError, WorldError
+from rumba_sim.model.name import NAME
 from rumba_sim.ros.common import maps, node, paths
 from rumba_sim.ros.common.requests import Requests
 from rumba_sim.ros.robot.latecomers import Latecomers
-from rumba_sim.ros.simulator import diagnostics, fleet, reconfigure
+from rumba_sim.ros.simulator import diagnostics, reconfigure
 from rumba_sim.ros.simulator.settings import TUNABLE, Rates, Settings
 
 
@@ -196,9 +197,9 @@ def test_a_relative_path_begins_at_the_working_folder_or_where_roslaunch_was_sta
 
 @pytest.mark.parametrize('name', ['', 'a b', '/x', 'x/y', '1x', '_x', 'ä', 'xä', 'x\n', 'x٣', 65 * 'x'])
 def test_invalid_names_of_a_robot(name):
-    assert fleet.NAME.fullmatch(name) is None
+    assert NAME.fullmatch(name) is None
 
 
 @pytest.mark.parametrize('name', ['x', 'Rumba_2', 'r2_d2', 64 * 'x'])
 def test_valid_names_of_a_robot(name):
-    assert fleet.NAME.fullmatch(name)
+    assert NAME.fullmatch(name)

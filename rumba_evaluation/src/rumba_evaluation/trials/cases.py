@@ -33,8 +33,7 @@ class Conditions:
 
     start: str = setting(DOCK, f'where robots start: {DOCK} (the start of the map) or {ANYWHERE} (drawn from the seed)')
     pose: str = setting(TRUTH, f'by what robots know where they are: {TRUTH}, {LOCALISED} (by laser and odometry, from '
-                               f'a start that is told roughly) or {ODOMETRY} (alone, from a start that is told)',
-                        choices=POSES)
+                               f'a start that is told roughly) or {ODOMETRY} (alone, from a start that is told)')
     drain: float = setting(1.0, 'how many times faster than a real one the battery discharges and charges', '', 0.0,
                            1e4)
     target: float = setting(CleaningConfig().target_coverage, 'share of the reachable floor at which a mission ends',
@@ -43,7 +42,9 @@ class Conditions:
     bound: float = setting(12.0, 'working time, in multiples of T, after which a mission is stopped', '', 0.01, 1e6)
 
     def __post_init__(self) -> None:
-        """Check the kind of start."""
+        """Check the kinds of start and pose."""
+        if self.pose not in POSES:
+            raise ConfigError(f'pose is {self.pose!r}: must be one of {", ".join(POSES)}')
         if self.start not in (DOCK, ANYWHERE):
             raise ConfigError(f'start is {self.start!r}: must be {DOCK} or {ANYWHERE}')
 

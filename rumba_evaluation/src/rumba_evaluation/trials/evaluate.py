@@ -19,7 +19,7 @@ from rumba_cleaning import strategies
 from rumba_cleaning.outcome import Outcome
 from rumba_evaluation.trials import batch, table
 from rumba_evaluation.trials.batch import Job
-from rumba_evaluation.trials.cases import ANYWHERE, DOCK, Case, Conditions, Result, grid
+from rumba_evaluation.trials.cases import ANYWHERE, DOCK, POSES, TRUTH, Case, Conditions, Result, grid
 from rumba_evaluation.trials.results import Results
 from rumba_sim.model.config import explain, updated
 from rumba_sim.model.errors import ConfigError, RumbaError
@@ -73,6 +73,8 @@ def _parser() -> argparse.ArgumentParser:
     add('--robots', type=_positive, nargs='+', default=[1], metavar='N', help='numbers of robots; default 1')
     add('--start', choices=(DOCK, ANYWHERE), default=DOCK,
         help='where robots start: at the start of the map, or anywhere, drawn from the seed; default %(default)s')
+    add('--pose', choices=POSES, default=TRUTH,
+        help='by what robots know where they are: the truth, laser and odometry, or odometry; default %(default)s')
     add('--obstacles', type=_path, default='', metavar='FILE',
         help='YAML file of obstacles that the maps do not show, and that the robots do not know')
     for field in dataclasses.fields(Conditions):
