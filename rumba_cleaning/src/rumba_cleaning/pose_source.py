@@ -60,7 +60,7 @@ class Localised:
         """Scan, and see where that fits."""
         odometry = as_told(world.robots[name].odometry)
         ranges = world.scan(name).astype(np.float32)
-        self.localiser.update(odometry, points(ranges, *_angles(len(ranges))))
+        self.localiser.observe(odometry, points(ranges, *_angles(len(ranges))))
         estimate = self.localiser.estimate
         pose = _told(self.localiser.correction, odometry)
         return Belief(pose, UNKNOWN if estimate is None else _rows(estimate.covariance))

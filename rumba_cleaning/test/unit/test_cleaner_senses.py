@@ -13,7 +13,7 @@ from tf2_msgs.msg import TFMessage
 from rumba_cleaning.behaviour import CERTAIN, UNKNOWN, Command
 from rumba_cleaning.mission.mission import State
 from rumba_cleaning.outcome import Outcome
-from rumba_cleaning.ros.cleaner import conversions, location, senses
+from rumba_cleaning.ros.cleaner import certainty, conversions, location, senses
 from rumba_msg.msg import Bumper, CleaningStatus, Cliff, DockStatus, Lockstep
 from rumba_sim.model.geometry import Pose
 from rumba_sim.ros.common.conversions import transform
@@ -22,20 +22,22 @@ from rumba_sim.ros.common.conversions import transform
 class Robot:
     """A robot's topics without ROS: what it publishes goes straight to the subscribers."""
 
-    def __init__(self, monkeypatch, name='rumba', lockstep=None):
+    def __init__(self, monkeypatch, name='rumba', lockstep=None, expected=''):
         self._name = name
         self.lockstep = lockstep
         self._callbacks = {}
         self.connections = 1
+        self.expected = expected  # the topic that has a publisher already
         self.readings = 0
         monkeypatch.setattr(senses.rospy, 'Subscriber', self._subscribe)
+        monkeypatch.setattr(certainty, '_has_publisher', lambda topic: topic == self.expected)
         self.warnings = []
         monkeypatch.setattr(location.rospy, 'logwarn_throttle', lambda _, line: self.warnings.append(line))
         self.senses = senses.Senses(name, self._count, lambda: self.lockstep)
 
     def _subscribe(self, topic, _, callback, *arguments, **__):
         self._callbacks[topic] = lambda message: callback(message, *arguments)
-        return types.SimpleNamespace(get_num_connections=lambda: self.connections)
+        return types.SimpleNamespace(get_num_connections=lambda: self.connections, resolved_name=topic)
 
     def _count(self):
         self.readings += 1
@@ -341,8 +343,8 @@ def test_without_a_localisation_that_tells_it_the_pose_is_certain(robot):
 
 def test_the_covariance_is_that_of_x_y_and_heading(robot):
     robot.reads(1.0)
-    robot.tells('amcl_pose', believes(rospy.Time(1), c0=1.0, c1=2.0, c5=3.0, c7=4.0, c11=5.0, c14=99.0, c30=6.0,
-                                         c35=7.0))
+    told = believes(rospy.Time(1), c0=1.0, c1=2.0, c5=3.0, c7=4.0, c11=5.0, c14=99.0, c30=6.0, c35=7.0)
+    robot.tells('amcl_pose', told)
     assert robot.senses.look().covariance == ((1.0, 2.0, 3.0), (0.0, 4.0, 5.0), (6.0, 0.0, 7.0))
 
 
@@ -387,4 +389,16 @@ def test_in_lockstep_a_scan_without_a_localisation_is_not_waited_for(monkeypatch
     for part in parts_of(stamp).values():
         part(robot)
     robot.senses.on_tick(Lockstep(Header(stamp=stamp), *WORLD, stamp, rospy.Time(9), stamp))
+    assert robot.readings == 1
+
+
+def test_in_lockstep_a_localisation_that_was_there_before_is_waited_for_although_it_is_not_connected_yet(monkeypatch):
+    robot, stamp = Robot(monkeypatch, lockstep=WORLD, expected='rumba/amcl_pose'), rospy.Time(1)
+    robot.connections = 0
+    for topic, tell in parts_of(stamp).items():
+        if topic != 'tick':
+            tell(robot)
+    robot.senses.on_tick(Lockstep(Header(stamp=stamp), *WORLD, stamp, rospy.Time(1), stamp))
+    assert robot.readings == 0
+    robot.tells('amcl_pose', believes(stamp))
     assert robot.readings == 1

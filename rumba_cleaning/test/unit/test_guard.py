@@ -73,10 +73,10 @@ def test_it_is_faster_than_the_sensors_allow_only_over_floor_that_it_has_seen():
     plan = room(6.0, 2.0, 0.02, start=Pose(1.0, 1.0, 0.0))
     world = World(plan, quiet())
     robot = world.spawn('rumba')
-    guard = Guard(context_of(plan, world))
-    there = [command.v for _, command in steps(Bounded(Always(0.45, 0.0), 1e3, guard), world, seconds=6.0)]
+    context = context_of(plan, world)
+    there = [command.v for _, command in steps(Bounded(Always(0.45, 0.0), 1e3, context), world, seconds=6.0)]
     world.teleport('rumba', Pose(robot.pose.x - 1.5, robot.pose.y, 0.0))
-    again = [command.v for _, command in steps(Bounded(Always(0.45, 0.0), 1e3, guard), world, seconds=1.5)]
+    again = [command.v for _, command in steps(Bounded(Always(0.45, 0.0), 1e3, context), world, seconds=1.5)]
     assert max(there[5:]) < 0.36 and max(again) == 0.45
 
 

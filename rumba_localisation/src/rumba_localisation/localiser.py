@@ -104,7 +104,7 @@ class Localiser:
         """Where the robot is, from its odometry, by the newest correction."""
         return compose(self.correction, odometry)
 
-    def update(self, odometry: Pose, points: Array, is_forced: bool = False) -> bool:
+    def observe(self, odometry: Pose, points: Array, is_forced: bool = False) -> bool:
         """Take a scan into account, if the robot has moved enough since the last one.
 
         Args:

@@ -15,7 +15,7 @@ def main() -> None:
     angles = np.linspace(-math.pi, math.pi, 90, endpoint=False)
     ranges = 2.0 / np.maximum(np.abs(np.cos(angles)), np.abs(np.sin(angles)))
     localiser = Localiser(plan, 0.17, 8.0)
-    localiser.update(Pose(0.0, 0.0, 0.0), points(ranges, -math.pi, math.pi / 45.0))
+    localiser.observe(Pose(0.0, 0.0, 0.0), points(ranges, -math.pi, math.pi / 45.0))
 
 
 if __name__ == '__main__':

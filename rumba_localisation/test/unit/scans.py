@@ -43,5 +43,5 @@ def drive(world, localiser, v, w, seconds, is_blind=False):
     for _ in range(round(10 * seconds)):
         robot.command(v, w, world.tick)
         world.step(5)
-        localiser.update(robot.odometry, np.empty((0, 2)) if is_blind else scanned(world))
+        localiser.observe(robot.odometry, np.empty((0, 2)) if is_blind else scanned(world))
         yield error(localiser.pose(robot.odometry), robot.pose)

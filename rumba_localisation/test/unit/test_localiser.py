@@ -40,7 +40,7 @@ def test_a_robot_that_was_told_nothing_looks_anywhere(seed):
     world = world_of(pose=poses[seed])
     localiser = localiser_of(world.plan, seed=seed)
     assert localiser.estimate is None
-    localiser.update(world.robots['rumba'].odometry, scanned(world))
+    localiser.observe(world.robots['rumba'].odometry, scanned(world))
     assert error(localiser.pose(world.robots['rumba'].odometry), poses[seed]) < (0.03, 0.03)
     assert localiser.estimate.is_sure
 
@@ -48,11 +48,11 @@ def test_a_robot_that_was_told_nothing_looks_anywhere(seed):
 def test_a_scan_is_used_only_after_a_movement():
     world = world_of()
     localiser = localiser_of(world.plan)
-    assert localiser.update(NOBODY, scanned(world))
-    assert not localiser.update(Pose(0.09, 0.0, 0.09), scanned(world))
-    assert localiser.update(Pose(0.09, 0.0, 0.09), scanned(world), is_forced=True)
-    assert localiser.update(Pose(0.09, 0.0, 0.2), scanned(world))
-    assert localiser.update(Pose(0.2, 0.0, 0.2), scanned(world))
+    assert localiser.observe(NOBODY, scanned(world))
+    assert not localiser.observe(Pose(0.09, 0.0, 0.09), scanned(world))
+    assert localiser.observe(Pose(0.09, 0.0, 0.09), scanned(world), is_forced=True)
+    assert localiser.observe(Pose(0.09, 0.0, 0.2), scanned(world))
+    assert localiser.observe(Pose(0.2, 0.0, 0.2), scanned(world))
 
 
 def test_a_robot_that_was_carried_away_notices_and_finds_itself_again():
@@ -82,7 +82,7 @@ def test_without_echoes_the_pose_becomes_uncertain_and_is_found_again():
 
 def test_nothing_is_known_before_the_first_echoes():
     localiser = localiser_of(crooked())
-    assert not localiser.update(NOBODY, np.empty((0, 2))) and localiser.estimate is None
+    assert not localiser.observe(NOBODY, np.empty((0, 2))) and localiser.estimate is None
 
 
 def test_in_a_room_that_looks_the_same_twice_both_places_are_kept():

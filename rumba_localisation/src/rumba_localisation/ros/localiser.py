@@ -197,7 +197,7 @@ class LocaliserNode:
         return self._localiser
 
     def _localise(self, localiser: Localiser, odometry: Pose, scan: LaserScan) -> None:
-        is_used = localiser.update(odometry, conversions.scan_points(scan), self._is_forced)
+        is_used = localiser.observe(odometry, conversions.scan_points(scan), self._is_forced)
         if localiser.estimate is None:
             return
         stamp = scan.header.stamp

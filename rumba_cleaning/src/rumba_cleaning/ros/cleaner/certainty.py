@@ -3,6 +3,7 @@
 import math
 from typing import Callable, Optional
 
+import rosgraph
 import rospy
 from geometry_msgs.msg import PoseWithCovarianceStamped
 
@@ -26,18 +27,20 @@ class Certainty:
         self._covariance: Optional[Covariance] = None
         self._on_pose = on_pose
         self._subscriber = rospy.Subscriber(f'{robot}/{TOPIC}', PoseWithCovarianceStamped, self._take, queue_size=QUEUE)
+        self._is_expected = _has_publisher(self._subscriber.resolved_name)  # and it was not heard yet
 
     def _take(self, message: PoseWithCovarianceStamped) -> None:
         numbers = message.pose.covariance
         x, y, theta = ((numbers[6 * row], numbers[6 * row + 1], numbers[6 * row + 5]) for row in (0, 1, 5))
         self._covariance = (x, y, theta) if all(map(math.isfinite, (*x, *y, *theta))) else UNKNOWN
         self.stamp = message.header.stamp
+        self._is_expected = False
         self._on_pose()
 
     @property
     def is_told(self) -> bool:
-        """Whether a localisation tells it."""
-        return bool(self._subscriber.get_num_connections())
+        """Whether a localisation tells it, or was there already when this node started."""
+        return self._is_expected or bool(self._subscriber.get_num_connections())
 
     def forget(self) -> None:
         """Know nothing of what was told of a time that is over."""
@@ -48,3 +51,11 @@ class Certainty:
         if self._covariance is None:
             return CERTAIN
         return self._covariance if (now - self.stamp).to_sec() <= STALE else UNKNOWN
+
+
+def _has_publisher(topic: str) -> bool:
+    """Whether the master knows a publisher of a topic, given by its full name."""
+    try:
+        return any(name == topic for name, _ in rosgraph.Master(rospy.get_name()).getSystemState()[0])
+    except (rosgraph.MasterException, OSError):  # it is being restarted
+        return False
