@@ -64,7 +64,9 @@ def running(workspace):
 def info(space, node):
     """Topics with their types, and services, of a node in /readme."""
     text = space.run(f'rosnode info /readme/{node}')
-    topics = set(re.findall(r'^ \* (/\S+ \[.+\])$', text, re.MULTILINE))
+    kinds = re.findall(r'^ \* (/\S+) \[(.+)\]$', text, re.MULTILINE)
+    topics = {f'{topic} [{space.run(f"rostopic type {topic}").strip() if kind == "unknown type" else kind}]'
+              for topic, kind in kinds}  # the type of a topic without a publisher is unknown there
     services = set(re.findall(r'^ \* (/\S+)$', text, re.MULTILINE))
     return ({topic for topic in topics if not OF_RECONFIGURE.search(topic)},
             {service for service in services if not OF_RECONFIGURE.search(service)})

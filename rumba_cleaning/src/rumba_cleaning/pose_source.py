@@ -62,7 +62,7 @@ class Localised:
         ranges = world.scan(name).astype(np.float32)
         self.localiser.observe(odometry, points(ranges, *_angles(len(ranges))))
         estimate = self.localiser.estimate
-        pose = _told(self.localiser.correction, odometry)
+        pose = compose(as_told(self.localiser.correction), odometry)
         return Belief(pose, UNKNOWN if estimate is None else _rows(estimate.covariance))
 
 
