@@ -107,31 +107,30 @@ def search(name, is_carried, seed):
         world.teleport('rumba', poses[1])
     else:
         source.localiser.search_anywhere()
-    begun, relocation = world.time, Relocation(context)
-    return _found(_drive(world, source, relocation.command, LIMIT), begun)
+    return _found(_drive(world, source, Relocation(context).command, LIMIT))
 
 
 def _drive(world, source, decide, seconds):
-    """Drive for some time; returns the times, and whether the place was known."""
+    """Drive for some time; returns for each step whether the place was known."""
     known = []
     end = world.time + seconds
     while world.time < end:
         observation = control.observe(world, 'rumba', control.CONTROL_DT, source)
         off, turned = error(observation, world)
-        known.append((world.time, not observation.is_lost and off < FOUND[0] and turned < FOUND[1]))
+        known.append(not observation.is_lost and off < FOUND[0] and turned < FOUND[1])
         command = decide(observation)
         world.robots['rumba'].command(command.v, command.w, world.tick)
         world.step(control.CONTROL_TICKS)
     return known
 
 
-def _found(known, begun):
+def _found(known):
     """Seconds after which the place was known for good."""
     held = 0
-    for when, is_known in known:
+    for step, is_known in enumerate(known, 1):
         held = held + 1 if is_known else 0
         if held * control.CONTROL_DT >= HELD:
-            return when - begun - HELD
+            return (step - held) * control.CONTROL_DT
     return math.inf
 
 
