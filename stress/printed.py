@@ -16,6 +16,7 @@ FRAME = re.compile(r'^ *File "([^"]+)", line')
 FOREIGN = re.compile(r'/usr/lib/python3|/opt/ros/|<|.*/(msg|srv)/_\w+\.py$')
 THREAD = '_bootstrap_inner'  # in a traceback: it ended a thread ...
 CONNECTION = '/rospy/impl/tcpros'  # ... that was there for one connection
+CHAINED = 'During handling of the above exception, another exception occurred:'
 # ROS repeats in these what a client sent, whatever that is.
 ECHOES = ('Could not process inbound connection', 'Inbound TCP/IP connection failed', 'Unable to ')
 
@@ -35,7 +36,7 @@ def check(who, lines, most=None):
     Args:
         who: name of the node.
         lines: what it printed.
-        most: how many lines it may print; None for one that prints all the time.
+        most: how many lines it may print, beside tracebacks of others; None for one that prints all the time.
 
     Raises:
         Failure: a traceback of the project's code or of a thread that ended, a flood, or what confuses a terminal.
@@ -52,8 +53,22 @@ def check(who, lines, most=None):
             raise Failure('long line', who, f'{len(line)} characters: {line[:200]}...')
         if ESCAPES.search(line):
             raise Failure('escape', who, repr(line[:200]))
-    if most is not None and len(lines) > most:
-        raise Failure('flood', who, f'{len(lines)} lines: {tail(lines[-3:])}')
+    if most is not None:
+        told = list(_told(lines))
+        if len(told) > most:
+            raise Failure('flood', who, f'{len(told)} lines: {tail(told[-3:])}')
+
+
+def _told(lines):
+    """The lines that are no part of a traceback."""
+    is_inside = False
+    for line in lines:
+        if TRACEBACK in line:
+            is_inside = True
+        elif is_inside:
+            is_inside = line.startswith(' ')  # the error itself comes last, below all frames
+        elif line and line != CHAINED:
+            yield line
 
 
 def _is_ours(lines):
