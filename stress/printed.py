@@ -11,6 +11,7 @@ SHOWN = 12  # lines, for a person
 ESCAPES = re.compile(r'\x1b(?!\[K|\[\d*m)')  # colours, and clearing the rest of a line, are all right
 LOGGED = re.compile(r'^(\x1b\[\d*m)*\[ ?(DEBUG|INFO|WARN|ERROR|FATAL)\]')  # the first line of a message
 TRACEBACK = 'Traceback (most recent call last)'
+ERROR = re.compile(r'^[\w.]+(:|$)')  # the last line of a traceback; another line may be one of another thread
 FRAME = re.compile(r'^ *File "([^"]+)", line')
 # Python's own, ROS's, and what ROS generates; what these print of a broken connection is none of the project's.
 FOREIGN = re.compile(r'/usr/lib/python3|/opt/ros/|<|.*/(msg|srv)/_\w+\.py$')
@@ -66,7 +67,7 @@ def _told(lines):
         if TRACEBACK in line:
             is_inside = True
         elif is_inside:
-            is_inside = line.startswith(' ')  # the error itself comes last, below all frames
+            is_inside = not ERROR.match(line)
         elif line and line != CHAINED:
             yield line
 
@@ -81,6 +82,6 @@ def _is_ours(lines):
         if frame and CONNECTION in line:
             return False
         has_ended_thread |= THREAD in line
-        if not frame and not line.startswith(' '):  # the error itself, below all frames
+        if ERROR.match(line):
             break
     return has_ended_thread

@@ -136,6 +136,9 @@ ROSPY = '/usr/lib/python3/dist-packages/rospy'
       f'  File "{ROSPY}/timer.py", line 1, in run', 'IOError'], 'traceback'),
     (['Traceback (most recent call last):', '  File "/usr/lib/python3.11/threading.py", line 1, in _bootstrap_inner',
       f'  File "{ROSPY}/impl/tcpros_service.py", line 1, in handle', 'IOError'], None),
+    (['Traceback (most recent call last):', '  File "/usr/lib/python3.11/threading.py", line 1, in _bootstrap_inner',
+      'battery 100 %   at (2.45, 0.18) m', f'  File "{ROSPY}/impl/tcpros_service.py", line 1, in handle',
+      'rospy.exceptions.TransportException: receive_once'], None),
 ])
 def test_what_a_node_prints_is_judged(lines, oracle):
     if oracle is None:
