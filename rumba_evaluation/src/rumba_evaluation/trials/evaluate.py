@@ -21,6 +21,7 @@ from rumba_evaluation.trials import batch, table
 from rumba_evaluation.trials.batch import Job
 from rumba_evaluation.trials.cases import ANYWHERE, DOCK, POSES, TRUTH, Case, Conditions, Result, grid
 from rumba_evaluation.trials.results import Results
+from rumba_sim.model import named_maps
 from rumba_sim.model.config import explain, updated
 from rumba_sim.model.errors import ConfigError, RumbaError
 
@@ -40,7 +41,12 @@ class _Parser(argparse.ArgumentParser):
         self.exit(BAD_INPUT, f'{NAME}: {message}; see --help\n')
 
 
-def main(arguments: Sequence[str], map_path: Callable[[str], str]) -> int:
+def command() -> None:
+    """Run the command line of this process, without ROS; leaves the process with the exit code."""
+    sys.exit(main(sys.argv[1:]))
+
+
+def main(arguments: Sequence[str], map_path: Callable[[str], str] = named_maps.path) -> int:
     """Run the command with the arguments of a command line; returns the exit code.
 
     Args:
