@@ -1,8 +1,8 @@
 """Reads paths from text: CSV with a header, or the trajectory format of the TUM RGB-D benchmark.
 
 CSV: the first line names the columns: x and y [m], and, if they are known, t [s] and theta [rad]. Empty lines and lines
-that begin with # are left out. TUM: `timestamp tx ty tz qx qy qz qw` in each line, with spaces between the numbers
-(J. Sturm et al., A Benchmark for the Evaluation of RGB-D SLAM Systems, IROS 2012); of the quaternion the heading counts.
+that begin with # are left out. TUM: `timestamp tx ty tz qx qy qz qw` in each line, with spaces between the numbers; of
+the quaternion the heading counts (J. Sturm et al., A Benchmark for the Evaluation of RGB-D SLAM Systems, IROS 2012).
 """
 
 import os

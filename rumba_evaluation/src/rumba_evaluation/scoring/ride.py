@@ -26,7 +26,7 @@ from rumba_sim.model.world import World
 
 PATIENCE = 10.0  # [s] without progress along the path: something is in the way; our choice, longer than any turn
 PROGRESS = 0.01  # [m]: more than a robot at rest seems to move
-AT_END = Outcome.SUCCEEDED, 'the end of the path is reached'
+AT_END = 'the end of the path is reached'
 SEED = 1  # of the dirt, and of wheels whose errors matter to nobody, since the pose is known
 
 
@@ -145,7 +145,7 @@ class AsDrawn(Ride):
         if self._next >= len(self._poses):
             self.robot.brushes_up = True  # what is left of the last stride is swept
             self._lead(self._poses[-1])
-            self._end(*AT_END)
+            self._end(Outcome.SUCCEEDED, AT_END)
 
     def _lead(self, pose: Array) -> None:
         self.world.lead(np.array([[pose[0], pose[1], wrap_angle(pose[2]), 1.0]]))
@@ -170,7 +170,7 @@ class FollowPath(Behaviour):
         """Go on along the path."""
         v, w = self._follower.velocity(observation.pose, observation.dt)
         if self._follower.is_done:
-            return self.succeed(*reversed(AT_END))
+            return self.succeed(AT_END)
         if self._follower.remaining < self._left - PROGRESS:
             self._left, self._waited = self._follower.remaining, 0.0
         else:

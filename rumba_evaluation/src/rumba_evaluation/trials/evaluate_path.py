@@ -23,9 +23,11 @@ OF_PATHS = ('as_drawn', 'speed', 'topic')
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Add the options of paths to a parser."""
-    add = parser.add_argument_group('paths of others (with --maps, --obstacles, --drain, --bound, --output)').add_argument
-    add('--path', default='', metavar='FILE', help='score a path instead of missions: CSV with x,y or t,x,y,theta in '
-                                                   'its first line, TUM trajectory, or nav_msgs/Path in a bag')
+    group = parser.add_argument_group('paths of others (with --maps, --obstacles, --drain, --bound, --output)')
+    add = group.add_argument
+    add('--path', default='', metavar='FILE',
+        help='score a path instead of missions: CSV with x,y or t,x,y,theta in its first line, TUM trajectory, or '
+             'nav_msgs/Path in a bag')
     add('--as-drawn', action='store_true', help='follow the path exactly, even if no real robot could')
     add('--speed', type=float, default=CleaningConfig().speed, metavar='M/S',
         help='speed along the path; default %(default)s')
@@ -46,8 +48,8 @@ def check_options(options: argparse.Namespace, defaults: argparse.Namespace) -> 
     if options.path and (len(options.maps) != 1 or options.maps == defaults.maps):
         raise ConfigError('--path needs --maps with the one map that the path is for')
     if not 0.0 < options.speed <= RobotConfig().drive.max_speed:
-        raise ConfigError(f'--speed is {options.speed:g}: must be above 0, and {RobotConfig().drive.max_speed:g} m/s at '
-                          'most')
+        raise ConfigError(f'--speed is {options.speed:g}: must be above 0, and {RobotConfig().drive.max_speed:g} m/s '
+                          'at most')
 
 
 def evaluate_path(options: argparse.Namespace, conditions: Conditions, map_path: Callable[[str], str],
