@@ -18,7 +18,7 @@ PURE = ('rumba_sim', 'rumba_localisation', 'rumba_cleaning', 'rumba_evaluation')
 NEEDED = (*PURE, 'pyproject.toml', 'setup.py', 'MANIFEST.in', 'docs/without_ros.md', 'LICENSE')
 NO_ROS = """
 import re, sys
-ROS = re.compile('(ros|rospy|roslib|rospkg|rosgraph|rosbag|rostopic|genpy|catkin_pkg|actionlib|tf2_ros|.*_msgs?|PyQt5)$')
+ROS = re.compile('(rospy|roslib|rospkg|rosgraph|rosbag|rostopic|genpy|catkin_pkg|actionlib|tf2_ros|.*_msgs?|PyQt5)$')
 class NoRos:
     def find_spec(self, name, path=None, target=None):
         if ROS.match(name):

@@ -47,7 +47,8 @@ def planners(tmp_path):
 def test_a_planner_and_a_strategy_stand_in_one_table(tmp_path, planners, capsys, monkeypatch):
     monkeypatch.setattr(benchmark, 'BOUND', 0.05)
     monkeypatch.setattr(benchmark, 'FLOORS', {'bare': floors.bare, 'narrows': floors.narrows})
-    arguments = [str(tmp_path), '--strategies', 'bounce', '--seeds', '2', '--jobs', '1', '--paths', str(planners.parent)]
+    arguments = [str(tmp_path), '--strategies', 'bounce', '--seeds', '2', '--jobs', '1',
+                 '--paths', str(planners.parent)]
     assert benchmark.main(arguments) == 0
     lines = capsys.readouterr().out.splitlines()
     assert [line.split()[:4] for line in lines[2:5]] == [

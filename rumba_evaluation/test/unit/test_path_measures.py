@@ -56,7 +56,8 @@ def test_a_square_as_drawn():
     area = 8.0 * WIDTH - 4.0 * square + 3.0 * quarter
     assert ride.world.floor.cleaned_area == approx(area, rel=0.01)
     assert found.overlap_ratio == approx(4.0 * square / area, rel=0.1)
-    assert found.revisit_ratio == approx((8.0 * WIDTH + 6.0 * quarter) / area - 1.0, rel=0.15)  # swept in strides of 3 cm
+    # The floor is swept in strides of 3 cm.
+    assert found.revisit_ratio == approx((8.0 * WIDTH + 6.0 * quarter) / area - 1.0, rel=0.15)
 
 
 def test_a_spiral_as_drawn_and_driven():
@@ -87,6 +88,8 @@ def test_the_charge_that_was_used_is_what_the_battery_lacks():
 
 def test_times_of_a_path_count_as_drawn_only():
     points, times = [(1.0, 2.0), (2.0, 2.0), (3.0, 2.0)], [100.0, 110.0, 112.0]
+    assert 'which no robot can do' not in drawn(points, times=times).message
+    assert '(up to 1.0 m/s, which no robot can do)' in drawn(points, times=[0.0, 1.0, 2.0]).message
     assert drawn(points, times=times).time == approx(12.0, abs=2.0 * TICK)
     assert driven(points, times=times).time == approx(2.0 / SPEED, abs=1.5)
 
@@ -95,6 +98,7 @@ def test_headings_of_a_path_count_as_drawn_unless_they_are_all_the_same():
     points = [(1.0, 2.0), (3.0, 2.0), (3.0, 3.0)]
     aside = drawn(points, headings=[0.0, 0.0, 0.001])  # the brush lies along the second lane
     along = drawn(points, headings=[0.0, 0.0, 0.0])
+    assert '(1.0 m of it sideways, which no robot can do)' in aside.message and 'which' not in along.message
     assert aside.world.floor.cleaned_area == approx(2.0 * WIDTH, rel=0.02)
     assert along.world.floor.cleaned_area > 2.9 * WIDTH
 
@@ -198,6 +202,13 @@ def test_what_was_never_reached_is_where_the_path_did_not_lead():
     [patch] = found.never_reached
     assert patch.y > 2.0 and patch.area == approx(found.cells_never_reached * 0.05 ** 2)
     assert patch.area == approx((4.0 - 2.0 * RIM) ** 2 - 3.0 * WIDTH, abs=0.6)
+
+
+def test_a_path_in_a_room_that_nobody_can_reach_sweeps_nothing_that_counts():
+    plan = room(4.0, 4.0, 0.05, [(1.9, 0.0, 2.1, 4.0)], start=Pose(1.0, 1.0, 0.0))
+    for ride in (drawn([(3.0, 1.0), (3.0, 3.0)], plan=plan), driven([(3.0, 1.0), (3.0, 3.0)], plan=plan)):
+        assert ride.message.endswith('; it swept nothing that a robot can reach from the start of the map')
+        assert ride.observer.measures().overlap_ratio == ride.observer.measures().revisit_ratio == 0.0
 
 
 def test_a_ride_ends_at_its_bound_or_with_an_empty_battery():

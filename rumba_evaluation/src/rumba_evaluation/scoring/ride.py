@@ -14,7 +14,7 @@ from rumba_cleaning.outcome import Outcome
 from rumba_evaluation.scoring.drawn_path import DrawnPath, PathError, check_on_map
 from rumba_evaluation.scoring.measures import Observer
 from rumba_evaluation.scoring.meter import Meter
-from rumba_evaluation.scoring.timetable import timetable
+from rumba_evaluation.scoring.timetable import beyond_robots, timetable
 from rumba_sim.model.errors import WorldError
 from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.model.geometry import Pose, wrap_angle
@@ -104,6 +104,8 @@ class Ride(abc.ABC):
     def _end(self, outcome: Outcome, what: str) -> None:
         pose = self.robot.pose
         self.outcome, self.message = outcome, f'{what} at ({pose.x:.2f}, {pose.y:.2f}) m'
+        if self.world.floor.cleaned_area == 0.0:
+            self.message += '; it swept nothing that a robot can reach from the start of the map'
 
 
 class Driven(Ride):
@@ -145,7 +147,8 @@ class AsDrawn(Ride):
         if self._next >= len(self._poses):
             self.robot.brushes_up = True  # what is left of the last stride is swept
             self._lead(self._poses[-1])
-            self._end(Outcome.SUCCEEDED, AT_END)
+            beyond = beyond_robots(self._poses, STEP_RATE, self.world.config.drive.max_speed)
+            self._end(Outcome.SUCCEEDED, AT_END + beyond)
 
     def _lead(self, pose: Array) -> None:
         self.world.lead(np.array([[pose[0], pose[1], wrap_angle(pose[2]), 1.0]]))

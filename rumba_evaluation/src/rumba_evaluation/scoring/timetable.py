@@ -4,11 +4,13 @@ from typing import Optional, Tuple
 
 import numpy as np
 
-from rumba_evaluation.scoring.drawn_path import LONGEST, DrawnPath, PathError
+from rumba_evaluation.scoring.drawn_path import LEAST_LENGTH, LONGEST, DrawnPath, PathError
 from rumba_sim.model.kernel import Array
 
 CORNER = 0.5  # [rad] a sharper one is turned on the spot, a bend of less while driving; our choice: 30 degrees
 STILL = 1e-9  # [m] points nearer to each other are one
+ASIDE = 0.5  # [rad] between heading and way: more is driven sideways; our choice
+SLACK = 0.01  # [m/s]
 
 
 def timetable(path: DrawnPath, speed: float, turn_rate: float, rate: float) -> Array:
@@ -38,6 +40,25 @@ def timetable(path: DrawnPath, speed: float, turn_rate: float, rate: float) -> A
         raise PathError(f'{path.source}: takes {times[-1]:.0f} s: must take a day at most')
     ticks = np.arange(int(np.ceil(times[-1] * rate - 1e-6)) + 1) / rate
     return np.stack([np.interp(ticks, times, values) for values in (*points.T, headings)], axis=1)
+
+
+def beyond_robots(poses: Array, rate: float, fastest: float) -> str:
+    """What of a drive no robot with two wheels can do, in words; empty if there is nothing.
+
+    Args:
+        poses: at all ticks, float64 (any, 3) [m, m, rad].
+        rate: ticks per second [Hz].
+        fastest: speed of its wheels [m/s].
+    """
+    moves, headings = np.diff(poses[:, :2], axis=0), 0.5 * (poses[1:, 2] + poses[:-1, 2])
+    lengths = np.hypot(*moves.T)
+    beside = np.abs(np.cos(headings) * moves[:, 1] - np.sin(headings) * moves[:, 0])
+    aside = float(np.sum(lengths[beside > np.sin(ASIDE) * np.maximum(lengths, STILL)]))
+    speed = float(np.max(lengths, initial=0.0)) * rate
+    words = [f'{aside:.1f} m of it sideways'] if aside > LEAST_LENGTH else []
+    if speed > fastest + SLACK:
+        words.append(f'up to {speed:.1f} m/s')
+    return f' ({", ".join(words)}, which no robot can do)' if words else ''
 
 
 def _along(points: Array, times: Optional[Array]) -> Tuple[Array, Array, Optional[Array]]:
