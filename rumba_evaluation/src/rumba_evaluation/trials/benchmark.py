@@ -17,6 +17,7 @@ from rumba_evaluation.scoring.measures import Observer
 from rumba_evaluation.scoring.ride import AsDrawn, Driven
 from rumba_evaluation.trials import batch, score
 from rumba_evaluation.trials.cases import Case, Conditions
+from rumba_evaluation.trials.evaluate_path import FORMATS, JSON, TEXT
 from rumba_evaluation.trials.floors import FLOORS
 from rumba_evaluation.trials.score import Score
 from rumba_sim.model.errors import ConfigError, RumbaError
@@ -64,7 +65,7 @@ def main(arguments: Sequence[str]) -> int:
     add('--jobs', type=int, choices=range(1, 1001), default=len(os.sched_getaffinity(0)), metavar='N',
         help='drives in parallel; default %(default)s, all cores')
     add('--floors-only', action='store_true', help='write the floors, and end')
-    add('--format', choices=('json', 'text'), default='text', help='what to print; default %(default)s')
+    add('--format', choices=FORMATS, default=TEXT, help='what to print: a table, or JSON; default %(default)s')
     options = parser.parse_args(arguments)
     try:
         return _benchmark(options)
@@ -88,7 +89,7 @@ def _benchmark(options: argparse.Namespace) -> int:
     with batch.local(options.jobs) as executor:
         found: Dict[Any, Score] = dict(batch.each(executor, run, tasks, 'drives'))
     scores = [found[task] for task in tasks]
-    if options.format == 'json':
+    if options.format == JSON:
         sys.stdout.write(score.as_json({'drives': [score.document(one.case, one.result, one.measures)
                                                    for one in scores]}))
     else:
