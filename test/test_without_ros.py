@@ -1,6 +1,7 @@
 """What pip installs runs without ROS: the page that says so, in an environment in which no module of ROS can be found.
 
-Nothing is fetched: the libraries are those of the system.
+Nothing is fetched: the libraries and setuptools are those of the system. Ubuntu 22.04 has a setuptools that knows nothing
+of pyproject.toml; there, pip would fetch a newer one.
 """
 
 import os
@@ -12,6 +13,8 @@ import sys
 import pytest
 from consoles import play
 from workspaces import ROOT, Space
+
+pytest.importorskip('setuptools', minversion='61')
 
 PAGE = ROOT / 'docs' / 'without_ros.md'
 PURE = ('rumba_sim', 'rumba_localisation', 'rumba_cleaning', 'rumba_evaluation')
