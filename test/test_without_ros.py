@@ -1,7 +1,7 @@
 """What pip installs runs without ROS: the page that says so, in an environment in which no module of ROS can be found.
 
-Nothing is fetched: the libraries and setuptools are those of the system. Ubuntu 22.04 has a setuptools that knows nothing
-of pyproject.toml; there, pip would fetch a newer one.
+Nothing is fetched: the libraries and setuptools are those of the system. Ubuntu 22.04 has a setuptools that knows
+nothing of pyproject.toml; there, pip would fetch a newer one.
 """
 
 import os
