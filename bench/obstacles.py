@@ -117,7 +117,8 @@ def show(seeds, missions, is_each):
                 at_least=len(missions))
     figures.row('home', sum(each.is_home for each in missions), at_least=len(missions))
     figures.row('in a wall or an obstacle', sum(each.has_penetrated for each in missions), below=1)
-    figures.row('swept of what is free at the end, median [%]', 100.0 * statistics.median(each.coverage for each in missions))
+    figures.row('swept of what is free at the end, median [%]',
+                100.0 * statistics.median(each.coverage for each in missions))
     figures.row('    the same, least [%]', 100.0 * min(each.coverage for each in missions))
     figures.row('working time, median [T]', statistics.median(each.multiple for each in missions))
     figures.row('    the same, longest [T]', max(each.multiple for each in missions))
