@@ -1,9 +1,11 @@
 """Steps and sensors of many worlds in one call: the loops over worlds around the kernel.
 
 This is plain Python that `compiled` hands to numba, as the kernel is. No world reads what belongs to another, so that
-several threads may each advance a part of them, from world `first` up to world `last`, not included.
+several threads may each take a part of them.
 
 Arguments that the functions share. Each row belongs to one world; it may be longer than what the world needs.
+    first, last: the part of `order` that the call is about, `last` not included.
+    order: int64 (any), the numbers of worlds. What sensors receive is in this order.
     robots: (worlds) records of type ROBOT: each world has one robot.
     constants: (worlds) records `constants.Constants`.
     obstacles: (worlds, any) records of type OBSTACLE, of which the first `counts[world]` are there.
@@ -15,12 +17,17 @@ Arguments that the functions share. Each row belongs to one world; it may be lon
 import math
 from typing import Tuple
 
+import numpy as np
+
 from rumba_sim.model import kernel
-from rumba_sim.model.kernel import Array
+from rumba_sim.model.kernel import Array, Record
+
+NO_FLOOR = kernel.BLOCKED | kernel.CLIFF
+ANY_BUT_SWEEPABLE = 0xFF - kernel.SWEEPABLE  # bits of a sample; only REACHABLE is left if it can be reached and is unswept
 
 
-def advance(first: int, last: int, ticks: Array, spans: Array, robots: Array, constants: Array, obstacles: Array,
-            counts: Array, stops: Array, moving: Array, plans: Array, shapes: Array, fields: Array, cells: Array,
+def advance(first: int, last: int, order: Array, ticks: Array, spans: Array, robots: Array, constants: Array,
+            obstacles: Array, counts: Array, stops: Array, moving: Array, plans: Array, shapes: Array, fields: Array, cells: Array,
             samples: Array, dirt: Array, tallies: Array, noise: Array) -> None:
     """Advance each world by a number of ticks of its own.
 
@@ -32,7 +39,7 @@ def advance(first: int, last: int, ticks: Array, spans: Array, robots: Array, co
         tallies: (worlds) records of type TALLY.
         noise: float64 (worlds, 1, any, 2), standard normal, as for the kernel.
     """
-    for world in range(first, last):
+    for world in order[first:last]:
         rows, columns = shapes[world, 0], shapes[world, 1]
         high, wide = rows * shapes[world, 2], columns * shapes[world, 2]
         field = fields[plans[world], :(rows + 1) * (columns + 1)].reshape((rows + 1, columns + 1))
@@ -50,47 +57,96 @@ def advance(first: int, last: int, ticks: Array, spans: Array, robots: Array, co
             kernel.advance(robot, k, things, field, floor, sample, dirty, tally, noise[world], tick, 1)
 
 
-def scan(first: int, last: int, robots: Array, constants: Array, obstacles: Array, counts: Array, plans: Array,
-         shapes: Array, cells: Array, skips: Array, fan: Array, noise: Array, ranges: Array) -> None:
+def scan(first: int, last: int, order: Array, robots: Array, constants: Array, obstacles: Array, counts: Array,
+         plans: Array, shapes: Array, cells: Array, skips: Array, fan: Array, noise: Array, ranges: Array) -> None:
     """Measure with the laser of each robot.
 
     Args, apart from those above:
         fan: float64 (beams, 2), as for the kernel.
-        noise: float64 (worlds, beams), standard normal.
-        ranges: float64 (worlds, beams), receives the measured distances.
+        noise: float64 (any, beams), standard normal.
+        ranges: float64 (any, beams), receives the measured distances.
     """
-    for world in range(first, last):
+    for index in range(first, last):
+        world = order[index]
         floor, skip = floor_of(plans[world], shapes[world], cells, skips)
         kernel.scan(robots[world:world + 1], 0, constants[world], obstacles[world, :counts[world]], skip, floor, fan,
-                    noise[world], ranges[world])
+                    noise[index], ranges[index])
 
 
-def infrared(first: int, last: int, robots: Array, constants: Array, plans: Array, shapes: Array, cells: Array,
-             skips: Array, beams: Array) -> None:
-    """What the receivers of each robot get from the dock: `beams`, uint8 (worlds, 3), receives omni, left, right."""
-    for world in range(first, last):
+def infrared(first: int, last: int, order: Array, robots: Array, constants: Array, plans: Array, shapes: Array,
+             cells: Array, skips: Array, beams: Array) -> None:
+    """What the receivers of each robot get from the dock: `beams`, uint8 (any, 3), receives omni, left, right."""
+    for index in range(first, last):
+        world = order[index]
         floor, skip = floor_of(plans[world], shapes[world], cells, skips)
-        beams[world, 0], beams[world, 1], beams[world, 2] = kernel.infrared(robots[world], constants[world], skip,
+        beams[index, 0], beams[index, 1], beams[index, 2] = kernel.infrared(robots[world], constants[world], skip,
                                                                             floor)
 
 
-def cliffs(first: int, last: int, robots: Array, constants: Array, plans: Array, shapes: Array, cells: Array,
-           distances: Array, angles: Array, seen: Array) -> None:
+def cliffs(first: int, last: int, order: Array, robots: Array, constants: Array, plans: Array, shapes: Array,
+           cells: Array, distances: Array, angles: Array, seen: Array) -> None:
     """Whether there is no floor under the cliff sensors of each robot.
 
     Args, apart from those above:
         distances: float64 (worlds), of the sensors from the centre of the robot [m].
         angles: float64 (worlds, 4), of the sensors from straight ahead [rad].
-        seen: bool (worlds, 4), receives the answer.
+        seen: bool (any, 4), receives the answer.
     """
-    for world in range(first, last):
+    for index in range(first, last):
+        world = order[index]
         floor, _ = floor_of(plans[world], shapes[world], cells, cells)
         robot, k = robots[world], constants[world]
         for sensor in range(angles.shape[1]):
             along = robot.theta + angles[world, sensor]
-            seen[world, sensor] = k.has_layers and kernel.cell_bits(
+            seen[index, sensor] = k.has_layers and kernel.cell_bits(
                 k, floor, robot.x + distances[world] * math.cos(along),
                 robot.y + distances[world] * math.sin(along)) & kernel.CLIFF != 0
+
+
+def surroundings(first: int, last: int, order: Array, robots: Array, constants: Array, plans: Array, shapes: Array,
+                 cells: Array, samples: Array, pitches: Array, points: Array, maps: Array) -> None:
+    """Draw the floor around each robot, which looks up in the middle of its maps.
+
+    Args, apart from those above:
+        pitches: float64 (scales), side of a pixel [m].
+        points: int64 (scales), a pixel is the mean of so many points along each of its sides.
+        maps: uint8 (any, scales, 2, size, size), receives 255 times the share of each pixel that is no floor, and that
+            of floor that the brush can reach and has not passed over yet. Row 0 is ahead, column 0 is to the left.
+    """
+    for index in range(first, last):
+        world = order[index]
+        high, wide = shapes[world, 0] * shapes[world, 2], shapes[world, 1] * shapes[world, 2]
+        floor, _ = floor_of(plans[world], shapes[world], cells, cells)
+        sample = samples[world, :high * wide].reshape((high, wide))
+        for scale in range(len(pitches)):
+            draw(robots[world], constants[world], shapes[world, 2], floor, sample, pitches[scale], points[scale],
+                 maps[index, scale])
+
+
+def draw(robot: Record, k: Record, squares: int, cells: Array, samples: Array, pitch: float, points: int,
+         picture: Array) -> None:
+    """Draw one of the maps of `surroundings`: `picture`, uint8 (2, size, size)."""
+    size, share = picture.shape[1], 255.0 / (points * points)
+    step = pitch / points / k.resolution  # from point to point [cells]
+    along_u, along_v = math.cos(robot.theta) * step, math.sin(robot.theta) * step
+    first = 0.5 * size * points - 0.5
+    first_u = (robot.x - k.origin_x) / k.resolution + first * along_u - first * along_v
+    first_v = (robot.y - k.origin_y) / k.resolution + first * along_v + first * along_u
+    for row in range(size):
+        for column in range(size):
+            blocked, unswept = 0, 0
+            for back in range(row * points, (row + 1) * points):
+                for right in range(column * points, (column + 1) * points):
+                    u = first_u - back * along_u + right * along_v
+                    v = first_v - back * along_v - right * along_u
+                    if 0.0 <= u < cells.shape[1] and 0.0 <= v < cells.shape[0] and not (
+                            cells[np.uint32(v), np.uint32(u)] & NO_FLOOR):
+                        sample = samples[np.uint32(v * squares), np.uint32(u * squares)]
+                        unswept += sample & ANY_BUT_SWEEPABLE == kernel.REACHABLE
+                    else:
+                        blocked += 1
+            picture[0, row, column] = np.uint8(blocked * share + 0.5)
+            picture[1, row, column] = np.uint8(unswept * share + 0.5)
 
 
 def floor_of(plan: int, shape: Array, cells: Array, skips: Array) -> Tuple[Array, Array]:

@@ -28,6 +28,7 @@ def main() -> None:
     worlds.scan()
     worlds.infrared()
     worlds.cliffs()
+    worlds.surroundings(4, [0.1])
     guided = GuidedWorld(plan)
     guided.jump(guided.world.start)
     guided.wish()

@@ -7,8 +7,9 @@
     print(worlds.robots['x'], worlds.coverage)
 """
 
+import math
 from concurrent.futures import ThreadPoolExecutor
-from typing import Any, Callable, Dict, List, Optional, Sequence
+from typing import Any, Callable, Dict, List, Optional, Sequence, Union
 
 import numpy as np
 
@@ -16,12 +17,14 @@ from rumba_sim.model import kernel
 from rumba_sim.model.compiled import many
 from rumba_sim.model.constants import RECORD
 from rumba_sim.model.errors import CommandError, WorldError
-from rumba_sim.model.floor_plan import FloorPlan
+from rumba_sim.model.floor_plan import ROUNDING, FloorPlan
 from rumba_sim.model.kernel import Array
 from rumba_sim.model.robot import FIRST
 from rumba_sim.model.robot_config import RobotConfig
 from rumba_sim.model.world import NOISE_TICKS, World
 from rumba_sim.model.world_arrays import WorldArrays
+
+POINT = 0.1  # [m] between the points that are looked at for a map of the surroundings, at most
 
 
 def world_with_a_robot(plan: FloorPlan, config: Optional[RobotConfig] = None, step_rate: float = 50,
@@ -44,7 +47,6 @@ class Worlds:
 
     Attributes:
         threads: how many threads advance the worlds.
-        robots: (worlds) records `kernel.ROBOT`, the states of all robots.
     """
 
     def __init__(self, worlds: Sequence[World], threads: int = 1) -> None:
@@ -64,6 +66,7 @@ class Worlds:
         self.threads = threads
         self._pool = ThreadPoolExecutor(threads) if threads > 1 else None
         self._worlds = list(worlds)
+        self._all = np.arange(len(worlds))
         self._take_all()
 
     def __len__(self) -> int:
@@ -84,6 +87,18 @@ class Worlds:
         self._worlds[index] = world
         self._versions[index] = -1
 
+    @property
+    def robots(self) -> Array:
+        """The states of all robots: (worlds) records `kernel.ROBOT`. Ask again after a world was replaced."""
+        self._follow_changes()
+        return self._robots
+
+    @property
+    def constants(self) -> Array:
+        """The constants of all worlds: (worlds) records `constants.Constants`; `World.config` changes them."""
+        self._follow_changes()
+        return self._constants
+
     # --- what the robots do ---------------------------------------------------------------------------------------
 
     def command(self, v: Array, w: Array, brushes_up: Optional[Array] = None) -> None:
@@ -100,13 +115,13 @@ class Worlds:
         if not (np.isfinite(v).all() and np.isfinite(w).all()):
             raise CommandError('a velocity is not a finite number')
         self._follow_changes()
-        self.robots['command_v'], self.robots['command_w'] = v, w
-        self.robots['command_tick'] = self._ticks()
+        self._robots['command_v'], self._robots['command_w'] = v, w
+        self._robots['command_tick'] = self._ticks()
         if brushes_up is not None:
-            self.robots['brushes_up'] = brushes_up
+            self._robots['brushes_up'] = brushes_up
 
-    def step(self, ticks: int = 1) -> None:
-        """Simulate a number of ticks in each world."""
+    def step(self, ticks: Union[int, Array] = 1) -> None:
+        """Simulate a number of ticks in each world, the same in all or one for each: int64 (worlds)."""
         self._follow_changes()
         left = np.full(len(self), ticks, np.int64)
         while left.any():
@@ -115,40 +130,63 @@ class Worlds:
             for index in np.flatnonzero((rows == 0) & (left > 0)):
                 self._worlds[index].draw_noise()
             spans = np.minimum(left, NOISE_TICKS - rows)
-            self._run(many.advance, now, spans, self.robots, self._constants, self._obstacles, self._counts,
+            self._run(many.advance, self._all, now, spans, self._robots, self._constants, self._obstacles, self._counts,
                       self._stops, self._moving, self._plans, self._shapes, self._fields, self._cells, self._samples,
                       self._dirt, self._tallies, self._noise)
             for world, span in zip(self._worlds, spans.tolist()):
                 world.tick += span
             left -= spans
 
-    # --- what they sense ------------------------------------------------------------------------------------------
+    # --- what they sense: in all worlds, or in those that are named -------------------------------------------------
 
-    def scan(self) -> Array:
-        """Ranges that each laser measures, as `World.scan` answers them: float64 (worlds, beams) [m]."""
-        self._follow_changes()
-        for world, noise in zip(self._worlds, self._laser_noise):
-            world.draw_laser_noise(0, noise)
-        ranges = np.empty_like(self._laser_noise)
-        self._run(many.scan, self.robots, self._constants, self._obstacles, self._counts, self._plans, self._shapes,
-                  self._cells, self._skips, self._fan, self._laser_noise, ranges)
+    def scan(self, which: Optional[Array] = None) -> Array:
+        """Ranges that each laser measures, as `World.scan` answers them: float64 (worlds, beams) [m].
+
+        Args:
+            which: int64 (any), the numbers of the worlds; None for all. The same of the other sensors.
+        """
+        order = self._order(which)
+        ranges, noise = np.empty((2, len(order), len(self._fan)))
+        for row, index in zip(noise, order.tolist()):
+            self._worlds[index].draw_laser_noise(0, row)
+        self._run(many.scan, order, self._robots, self._constants, self._obstacles, self._counts, self._plans,
+                  self._shapes, self._cells, self._skips, self._fan, noise, ranges)
         return ranges
 
-    def infrared(self) -> Array:
+    def infrared(self, which: Optional[Array] = None) -> Array:
         """Beams of the dock that each robot receives: uint8 (worlds, 3), omni, left and right as for `Infrared`."""
-        self._follow_changes()
-        beams = np.empty((len(self), 3), np.uint8)
-        self._run(many.infrared, self.robots, self._constants, self._plans, self._shapes, self._cells, self._skips,
-                  beams)
+        order = self._order(which)
+        beams = np.empty((len(order), 3), np.uint8)
+        self._run(many.infrared, order, self._robots, self._constants, self._plans, self._shapes, self._cells,
+                  self._skips, beams)
         return beams
 
-    def cliffs(self) -> Array:
+    def cliffs(self, which: Optional[Array] = None) -> Array:
         """What `World.cliffs` answers for each robot: bool (worlds, 4)."""
-        self._follow_changes()
-        seen = np.empty((len(self), 4), np.bool_)
-        self._run(many.cliffs, self.robots, self._constants, self._plans, self._shapes, self._cells,
+        order = self._order(which)
+        seen = np.empty((len(order), 4), np.bool_)
+        self._run(many.cliffs, order, self._robots, self._constants, self._plans, self._shapes, self._cells,
                   self._cliff_distances, self._cliff_angles, seen)
         return seen
+
+    def surroundings(self, size: int, pitches: Sequence[float], which: Optional[Array] = None) -> Array:
+        """Maps of the floor around each robot, by its true pose: uint8 (worlds, scales, 2, size, size).
+
+        The robot is in the middle and looks toward row 0, with column 0 on its left. The first of the two pictures
+        of a scale shows what is no floor by the map, the second what is left to be swept: 255 times the share of the
+        pixel, which is looked at in points at most POINT apart.
+
+        Args:
+            size: pixels along a side.
+            pitches: side of a pixel in each scale [m].
+            which: as for `scan`.
+        """
+        order = self._order(which)
+        maps = np.empty((len(order), len(pitches), 2, size, size), np.uint8)
+        points = [math.ceil(pitch / POINT - ROUNDING) for pitch in pitches]
+        self._run(many.surroundings, order, self._robots, self._constants, self._plans, self._shapes, self._cells,
+                  self._samples, np.array(pitches, np.float64), np.array(points, np.int64), maps)
+        return maps
 
     @property
     def coverage(self) -> Array:
@@ -156,13 +194,23 @@ class Worlds:
         self._follow_changes()
         return np.where(self._reachable > 0, self._tallies['swept'] / np.maximum(self._reachable, 1), 1.0)
 
-    def _run(self, function: Callable[..., None], *arguments: Any) -> None:
-        """Call a function of `batch` for all worlds, in all threads."""
+    @property
+    def cleaned_area(self) -> Array:
+        """Area that can be reached and is swept: float64 (worlds) [m^2]."""
+        self._follow_changes()
+        return np.asarray(self._tallies['swept'] * self._constants['sample_pitch'] ** 2)
+
+    def _order(self, which: Optional[Array]) -> Array:
+        self._follow_changes()
+        return self._all if which is None else np.asarray(which, np.int64)
+
+    def _run(self, function: Callable[..., None], order: Array, *arguments: Any) -> None:
+        """Call a function of `batch` for the worlds of an order, in all threads."""
         if self._pool is None:
-            function(0, len(self), *arguments)
+            function(0, len(order), order, *arguments)
             return
-        bounds = np.linspace(0, len(self), self.threads + 1).astype(int).tolist()
-        parts = [self._pool.submit(function, *part, *arguments) for part in zip(bounds, bounds[1:])]
+        bounds = np.linspace(0, len(order), self.threads + 1).astype(int).tolist()
+        parts = [self._pool.submit(function, *part, order, *arguments) for part in zip(bounds, bounds[1:])]
         for part in parts:
             part.result()
 
@@ -195,7 +243,7 @@ class Worlds:
         def rows(name: str, *shape: int) -> Array:
             most = max(getattr(each, name).size for each in arrays)
             return np.zeros((number, most, *shape), getattr(arrays[0], name).dtype)
-        self.robots: Array = np.zeros(number, kernel.ROBOT)
+        self._robots: Array = np.zeros(number, kernel.ROBOT)
         self._constants: Array = np.zeros(number, RECORD)
         self._tallies: Array = np.zeros(number, kernel.TALLY)
         self._noise: Array = np.zeros((number, 1, NOISE_TICKS, 2))
@@ -206,7 +254,6 @@ class Worlds:
         self._shapes = np.zeros((number, 3), np.int64)
         self._cliff_distances, self._cliff_angles = np.zeros(number), np.zeros((number, 4))
         self._fan = worlds[0].fan
-        self._laser_noise: Array = np.zeros((number, len(self._fan)))
         most = max(world.terrain.skips.size for world in plans.values())
         nodes = max(world.terrain.clearance.size for world in plans.values())
         self._fields: Array = np.zeros((len(plans), nodes))
@@ -244,7 +291,7 @@ class Worlds:
         self._cliff_angles[index] = cliff.outer_angle, cliff.inner_angle, -cliff.inner_angle, -cliff.outer_angle
         alone = slice(index, index + 1)
         after = WorldArrays(
-            self.robots[alone], self._constants[alone], _begin_of(self._obstacles[index], before.obstacles),
+            self._robots[alone], self._constants[alone], _begin_of(self._obstacles[index], before.obstacles),
             self._stops[index, :len(before.stops)], self._noise[index], _begin_of(self._cells[plan], before.cells),
             _begin_of(self._samples[index], before.samples), _begin_of(self._dirt[index], before.dirt),
             self._tallies[alone])
