@@ -22,7 +22,7 @@ FOLDERS = {
         'strategies': {'', 'belief', 'behaviours', 'planning'}, 'mission': {'', 'belief', 'behaviours', 'strategies'},
         'ros/cleaner': {'', 'belief', 'behaviours', 'strategies', 'mission'}},
     'rumba_evaluation': {
-        'trials': set(), 'report': set(), 'verdicts': set(), 'ros/mission_report': {'report'},
+        'trials': set(), 'report': set(), 'verdicts': set(), 'learning': {'trials'}, 'ros/mission_report': {'report'},
         'ros': {'trials', 'verdicts'}},
     'rumba_viewer': {
         'scene': set(), 'painting': {'scene'}, 'window': {'scene', 'painting'}, 'ros': {'scene', 'window'}}}
@@ -42,7 +42,7 @@ KEYS = {'PIL': 'python3-pil', 'PyQt5': 'python3-qt5-bindings', 'matplotlib': 'py
         'numba': 'python3-numba', 'numpy': 'python3-numpy', 'rospkg': 'python3-rospkg', 'scipy': 'python3-scipy',
         'skimage': 'python3-skimage', 'tqdm': 'python3-tqdm', 'yaml': 'python3-yaml'}
 # Imported only if they are installed.
-OPTIONAL = {'dask', 'distributed', 'turtlesim'}
+OPTIONAL = {'dask', 'distributed', 'gymnasium', 'turtlesim'}
 SOURCES = [(package, path) for package in FOLDERS
            for path in sorted((ROOT / package / 'src' / package).glob('**/*.py'))]
 ARCHITECTURE = (ROOT / 'docs' / 'architecture.md').read_text()

@@ -71,13 +71,14 @@ def do(world, action, kind, v, w, ticks):
     return ''
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=30, deadline=None)
 @given(KINDS, ACTIONS, st.integers(1, 3))
 def test_each_world_is_as_if_it_were_alone_whatever_happens_to_any_of_them(kinds, actions, threads):
-    worlds, alone = Worlds(built(kinds), threads), built(kinds)
+    worlds, alone, left = Worlds(built(kinds), threads), built(kinds), []
     for action, number, v, w, ticks in actions:
         which = number % len(alone)
         if action == 'again':
+            left.append((worlds[which], alone[which]))
             worlds[which], alone[which] = built([kinds[0]])[0], built([kinds[0]])[0]
         assert do(worlds[which], action, number, v, w, ticks) == do(alone[which], action, number, v, w, ticks)
         speeds, turns = np.linspace(v, 0.4, len(alone)), np.linspace(-w, w, len(alone))
@@ -95,6 +96,10 @@ def test_each_world_is_as_if_it_were_alone_whatever_happens_to_any_of_them(kinds
                 assert tuple(infrared[index]) == world.infrared('rumba')
                 assert list(cliffs[index]) == world.cliffs('rumba')
     assert [worlds[index].digest() for index in range(len(alone))] == [world.digest() for world in alone]
+    for replaced, like in left:
+        replaced.step(20)
+        like.step(20)
+        assert replaced.digest() == like.digest()
     np.testing.assert_array_equal(worlds.coverage, [world.floor.coverage for world in alone])
     np.testing.assert_array_equal(worlds.robots['x'], [world.robots['rumba'].pose.x for world in alone])
 
@@ -110,6 +115,65 @@ def test_robots_sweep_bump_and_sense_so_that_the_comparison_says_something():
     assert len({worlds[index].digest() for index in range(20)}) == 20
 
 
+def test_a_map_of_the_surroundings_looks_where_the_robot_looks():
+    """A robot at (1.5, 1) in a room of 4 x 3 m faces up; it has come from below, and only the left wall is near."""
+    plan = room(4.0, 3.0, 0.05, [(0.0, 2.0, 1.0, 3.0)])
+    world = World(plan, updated(config(), {'odometry': {'scale_error': 0.0}}, 'test'))
+    world.spawn('rumba', Pose(1.5, 0.5, math.pi / 2.0))
+    worlds = Worlds([world])
+    for _ in range(34):
+        worlds.command(np.full(1, 0.3), np.zeros(1))
+        worlds.step(5)
+    x, y, _ = world.robots['rumba'].pose
+    fine, coarse = worlds.surroundings(20, [0.1, 0.4])[0].astype(float) / 255.0
+    blocked, left = fine  # from 1 m on the left to 1 m on the right, from 1 m ahead to 1 m behind
+    assert x == pytest.approx(1.5) and y == pytest.approx(1.5, abs=0.03)
+    np.testing.assert_array_equal(blocked[:4, :4], 1.0)  # the box ahead on the left
+    np.testing.assert_array_equal(blocked[:4, 6:], 0.0)
+    np.testing.assert_array_equal(blocked[6:], 0.0)
+    np.testing.assert_array_equal(left[13:18, 9:11] < 0.3, True)  # the trail behind, as wide as the brush
+    np.testing.assert_array_equal(left[1:9, 9:11], 1.0)
+    np.testing.assert_array_equal(left[13:18, [7, 12]] > 0.9, True)
+    across = coarse[0][10]  # the left wall is 1.5 m away, the right one 2.5 m
+    np.testing.assert_array_equal(across, [*6 * [1.0], across[6], *9 * [0.0], across[16], *3 * [1.0]])
+    np.testing.assert_array_equal(coarse[0][[0, -1]], 1.0)  # outside the map there is no floor
+
+
+@settings(max_examples=15, deadline=None)
+@given(KINDS, st.lists(st.tuples(st.floats(-0.3, 0.5), st.floats(-1.9, 1.9), st.integers(1, 300),
+                                 st.sampled_from(['', '', 'move', 'alone', 'reset'])), min_size=1, max_size=6))
+def test_maps_that_were_kept_up_to_date_are_those_that_are_drawn_anew(kinds, moves):
+    worlds = Worlds(built(kinds))
+    for v, w, ticks, action in moves:
+        do(worlds[0], action, 0, v, w, 20)
+        worlds.command(np.full(len(worlds), v), np.full(len(worlds), w))
+        worlds.step(ticks)
+        kept = worlds.surroundings(16, [0.05, 0.3])
+    anew = Worlds([worlds[index] for index in range(len(worlds))]).surroundings(16, [0.05, 0.3])
+    np.testing.assert_array_equal(kept, anew)
+
+
+def test_sensors_can_be_asked_of_some_worlds_in_any_order():
+    worlds, alone = (Worlds(built([(kind, seed, (), 0.4, 0.2, 1.0, 50.0) for seed, kind in enumerate((0, 3, 0, 2))]))
+                     for _ in range(2))
+    which = np.array([3, 0, 2])
+    scans, infrared = worlds.scan(which), worlds.infrared(which)
+    cliffs, maps = worlds.cliffs(which), worlds.surroundings(8, [0.1], which)
+    for row, index in enumerate(which):
+        np.testing.assert_array_equal(scans[row], alone[index].scan('rumba'))
+        np.testing.assert_array_equal(infrared[row], alone.infrared()[index])
+        np.testing.assert_array_equal(cliffs[row], alone.cliffs()[index])
+        np.testing.assert_array_equal(maps[row], alone.surroundings(8, [0.1])[index])
+    assert len(np.unique(scans, axis=0)) == 3
+
+
+def test_worlds_may_take_steps_of_their_own():
+    worlds, alone = Worlds(built(3 * [(0, 1, (), 0.4, 0.2, 1.0, 50.0)])), built([(0, 1, (), 0.4, 0.2, 1.0, 50.0)])[0]
+    worlds.step(np.array([0, 300, 7]))
+    alone.step(300)
+    assert [worlds[index].tick for index in range(3)] == [0, 300, 7] and worlds[1].digest() == alone.digest()
+
+
 def test_worlds_on_one_plan_share_what_never_changes():
     worlds = Worlds([world_with_a_robot(PLANS['crooked', 0.05], config(), seed=seed) for seed in range(3)])
     worlds.step(1)
@@ -123,11 +187,11 @@ def test_the_plain_functions_give_the_results_of_the_compiled_ones(monkeypatch):
                      for _ in range(2))
     worlds.command(np.array([0.4, 0.3]), np.array([0.5, 0.0]))
     worlds.step(90)
-    seen = worlds.scan(), worlds.infrared(), worlds.cliffs()
+    seen = worlds.scan(), worlds.infrared(), worlds.cliffs(), worlds.surroundings(6, [0.2])
     monkeypatch.setattr('rumba_sim.model.worlds.many', batch)
     plain.command(np.array([0.4, 0.3]), np.array([0.5, 0.0]))
     plain.step(90)
-    for one, other in zip(seen, (plain.scan(), plain.infrared(), plain.cliffs())):
+    for one, other in zip(seen, (plain.scan(), plain.infrared(), plain.cliffs(), plain.surroundings(6, [0.2]))):
         np.testing.assert_allclose(other, one, rtol=0.0, atol=1e-12)
     for name in ('x', 'y', 'theta', 'charge'):
         np.testing.assert_allclose(plain.robots[name], worlds.robots[name], rtol=0.0, atol=1e-12)

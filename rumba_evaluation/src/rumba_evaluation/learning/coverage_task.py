@@ -17,7 +17,7 @@ from rumba_evaluation.trials import starts
 from rumba_sim.model.config import updated
 from rumba_sim.model.errors import ConfigError
 from rumba_sim.model.floor_plan import FloorPlan
-from rumba_sim.model.kernel import STRIDE, Array
+from rumba_sim.model.kernel import BEND, STRIDE, Array
 from rumba_sim.model.robot import FIRST
 from rumba_sim.model.robot_config import RobotConfig
 from rumba_sim.model.world import World
@@ -79,17 +79,17 @@ class CoverageTask:
     @property
     def highest_reward(self) -> float:
         """More than this is no step worth: what the brush can sweep in it at most, and the target is reached."""
-        brush, drive = self._robot.brush, self._robot.drive
+        brush, drive, seconds = self._robot.brush, self._robot.drive, CONTROL_DT * self.config.hold
         # It sweeps in strides: one may have begun before.
-        straight = brush.width * (drive.max_speed * CONTROL_DT + STRIDE)
-        turned = brush.width ** 2 / 4.0 * (drive.max_turn_rate * CONTROL_DT + 0.2)
+        straight = brush.width * (drive.max_speed * seconds + STRIDE)
+        turned = brush.width ** 2 / 4.0 * (drive.max_turn_rate * seconds + BEND)
         return self.config.reward.swept * (straight + turned) / self._full_step + self.config.reward.finish
 
     @property
     def lowest_reward(self) -> float:
         """Less than this is no step worth."""
         reward = self.config.reward
-        return -(reward.time + reward.bump * MOST_BUMPS + reward.fall)
+        return -(reward.time * self.config.hold + reward.bump * MOST_BUMPS * self.config.hold + reward.fall)
 
     # --- episodes -------------------------------------------------------------------------------------------------
 
@@ -136,11 +136,11 @@ class CoverageTask:
 
         def below(value: float, share: float) -> float:
             return value * (1.0 - share * float(generator.random()))
-        odometry = around(1.0, variation.odometry)
+        error = around(1.0, variation.odometry)
         return updated(robot, {
             'drive': {'acceleration': around(robot.drive.acceleration, variation.acceleration)},
             'odometry': {'floor_traction': below(robot.odometry.floor_traction, variation.traction),
-                         'scale_error': odometry * robot.odometry.scale_error, 'noise': odometry * robot.odometry.noise},
+                         'scale_error': error * robot.odometry.scale_error, 'noise': error * robot.odometry.noise},
             'laser': {'noise': around(robot.laser.noise, variation.laser)},
             'battery': {'capacity': below(robot.battery.capacity, variation.capacity)},
         }, 'a varied robot'), below(1.0, variation.charge)
@@ -148,7 +148,7 @@ class CoverageTask:
     # --- steps ----------------------------------------------------------------------------------------------------
 
     def step(self, actions: Array, which: Optional[Array] = None) -> Outcome:
-        """Let each robot, or some of them, act for 0.1 s.
+        """Let each robot, or some of them, act for a step.
 
         Args:
             actions: of all robots: int64 (robots), numbers of MOVES, or float64 (robots, 3) [-1..1] with the forward
@@ -162,12 +162,13 @@ class CoverageTask:
         else:
             moves, up = np.clip(actions[:, :2], -1.0, 1.0), actions[:, 2] < 0.0
         acts = np.ones(len(worlds), np.bool_) if which is None else which
-        worlds.command(moves[:, 0] * self.config.speed, moves[:, 1] * self.config.turn_rate, up)
-        worlds.step(CONTROL_TICKS * acts)
+        for _ in range(self.config.hold):  # a command lapses after half a second
+            worlds.command(moves[:, 0] * self.config.speed, moves[:, 1] * self.config.turn_rate, up)
+            worlds.step(CONTROL_TICKS * acts)
         self._steps += acts
         coverage, robots = worlds.coverage, worlds.robots
         fallen, finished = robots['fallen'] > 0, coverage >= self.config.target
-        worth = (reward.swept / self._full_step * (worlds.cleaned_area - swept) - reward.time
+        worth = (reward.swept / self._full_step * (worlds.cleaned_area - swept) - reward.time * self.config.hold
                  - reward.bump * (robots['bumps'] - bumps) - reward.fall * fallen + reward.finish * finished)
         return Outcome(np.where(acts, worth, 0.0), fallen | finished | (robots['charge'] <= 0.0),
                        self._steps >= self.config.most_steps, coverage)

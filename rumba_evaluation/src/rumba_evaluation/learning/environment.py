@@ -31,7 +31,7 @@ Settings = Mapping[str, Any]
 Floors = Union[Sequence[int], Sequence[str], Sequence[FloorPlan]]
 
 
-class CoverageEnv(gymnasium.Env):  # type: ignore[misc]
+class CoverageEnv(gymnasium.Env):
     """One robot."""
 
     metadata = {'render_modes': RENDER_MODES, 'render_fps': FRAMES}

@@ -1,7 +1,7 @@
 """Rooms at random, as many as there are numbers: some to learn in, others that a learner has never seen."""
 
 import functools
-from typing import List, Sequence
+from typing import List, Tuple
 
 import numpy as np
 
@@ -75,5 +75,5 @@ def _add_piece(generator: np.random.Generator, inside: Array) -> None:
     inside[row:row + height, column:column + width] = OCCUPIED
 
 
-def _cells(generator: np.random.Generator, metres: Sequence[float]) -> int:
+def _cells(generator: np.random.Generator, metres: Tuple[float, float]) -> int:
     return round(float(generator.uniform(*metres)) / RESOLUTION)

@@ -14,7 +14,7 @@ ANYWHERE, DOCK = 'anywhere', 'dock'
 class Reward:
     """What a step is worth: the sum of these."""
 
-    swept: float = setting(1.0, 'for the area that the brush sweeps straight ahead at `speed` in a step, and in '
+    swept: float = setting(1.0, 'for the area that the brush sweeps straight ahead at `speed` in 0.1 s, and in '
                                 'proportion for more and less', '', 0.0, 1000.0)
     time: float = setting(0.1, 'taken away in each step', '', 0.0, 1000.0)
     bump: float = setting(0.5, 'taken away each time the bumper is pressed', '', 0.0, 1000.0)
@@ -36,11 +36,12 @@ class Variation:
 
 @dataclasses.dataclass(frozen=True)
 class TaskConfig:
-    """The whole task. A step takes 0.1 s of simulated time, five ticks of the world."""
+    """The whole task. A step takes `hold` times 0.1 s of simulated time, which are five ticks of the world."""
 
     actions: str = setting(CONTINUOUS, 'what an action is', choices=(CONTINUOUS, DISCRETE))
     speed: float = setting(0.3, 'of the robot at action 1 (Create 3: its safe speed)', 'm/s', 0.02, 0.5)
     turn_rate: float = setting(1.9, 'of the robot at action 1 (Create 3)', 'rad/s', 0.1, 10.0)
+    hold: int = setting(1, 'for how many times 0.1 s an action is in force: so long is a step', '', 1, 100)
     beams: int = setting(24, 'number of range beams in a full turn', '', 1, 1000)
     maps: int = setting(0, 'number of egocentric maps, each of another scale; 0 for none', '', 0, 8)
     map_size: int = setting(32, 'pixels along a side of such a map', '', 2, 256)
@@ -60,4 +61,4 @@ class TaskConfig:
     @property
     def most_steps(self) -> int:
         """Steps until an episode is cut off."""
-        return max(round(self.time_limit / CONTROL_DT), 1)
+        return max(round(self.time_limit / CONTROL_DT / self.hold), 1)

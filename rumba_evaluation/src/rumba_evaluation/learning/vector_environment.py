@@ -17,7 +17,7 @@ from rumba_sim.model.errors import ConfigError
 from rumba_sim.model.kernel import Array
 
 
-class CoverageVectorEnv(gymnasium.vector.VectorEnv):  # type: ignore[misc]
+class CoverageVectorEnv(gymnasium.vector.VectorEnv):
     """Many robots, each in a world of its own; robot i plays what one robot alone plays with its seed."""
 
     def __init__(self, num_envs: int = 1, floors: Floors = range(100), settings: Optional[Settings] = None,

@@ -5,7 +5,9 @@ several threads may each take a part of them.
 
 Arguments that the functions share. Each row belongs to one world; it may be longer than what the world needs.
     first, last: the part of `order` that the call is about, `last` not included.
-    order: int64 (any), the numbers of worlds. What sensors receive is in this order.
+    order: int64 (any), the numbers of worlds. Worlds on one floor plan are best side by side, since the plan then stays
+        in the cache of the processor.
+    rows: int64 (any), for each of them the row of the arrays that receive what its sensors measure.
     robots: (worlds) records of type ROBOT: each world has one robot.
     constants: (worlds) records `constants.Constants`.
     obstacles: (worlds, any) records of type OBSTACLE, of which the first `counts[world]` are there.
@@ -22,13 +24,14 @@ import numpy as np
 from rumba_sim.model import kernel
 from rumba_sim.model.kernel import Array, Record
 
-NO_FLOOR = kernel.BLOCKED | kernel.CLIFF
-ANY_BUT_SWEEPABLE = 0xFF - kernel.SWEEPABLE  # bits of a sample; only REACHABLE is left if it can be reached and is unswept
+NO_FLOOR, WHOLE = 255, 254  # of a cell: there is no floor; all of its floor is left to be swept
+WITHOUT_FLOOR = kernel.BLOCKED | kernel.CLIFF  # bits of a cell
+ANY_BUT_SWEEPABLE = 0xFF - kernel.SWEEPABLE  # bits of a sample: REACHABLE and the passes
 
 
 def advance(first: int, last: int, order: Array, ticks: Array, spans: Array, robots: Array, constants: Array,
-            obstacles: Array, counts: Array, stops: Array, moving: Array, plans: Array, shapes: Array, fields: Array, cells: Array,
-            samples: Array, dirt: Array, tallies: Array, noise: Array) -> None:
+            obstacles: Array, counts: Array, stops: Array, moving: Array, plans: Array, shapes: Array, fields: Array,
+            cells: Array, samples: Array, dirt: Array, tallies: Array, noise: Array) -> None:
     """Advance each world by a number of ticks of its own.
 
     Args, apart from those above:
@@ -57,8 +60,9 @@ def advance(first: int, last: int, order: Array, ticks: Array, spans: Array, rob
             kernel.advance(robot, k, things, field, floor, sample, dirty, tally, noise[world], tick, 1)
 
 
-def scan(first: int, last: int, order: Array, robots: Array, constants: Array, obstacles: Array, counts: Array,
-         plans: Array, shapes: Array, cells: Array, skips: Array, fan: Array, noise: Array, ranges: Array) -> None:
+def scan(first: int, last: int, order: Array, rows: Array, robots: Array, constants: Array, obstacles: Array,
+         counts: Array, plans: Array, shapes: Array, cells: Array, skips: Array, fan: Array, noise: Array,
+         ranges: Array) -> None:
     """Measure with the laser of each robot.
 
     Args, apart from those above:
@@ -67,24 +71,23 @@ def scan(first: int, last: int, order: Array, robots: Array, constants: Array, o
         ranges: float64 (any, beams), receives the measured distances.
     """
     for index in range(first, last):
-        world = order[index]
-        floor, skip = floor_of(plans[world], shapes[world], cells, skips)
+        world, row = order[index], rows[index]
+        floor, skip = floor_of(plans[world], plans[world], shapes[world], cells, skips)
         kernel.scan(robots[world:world + 1], 0, constants[world], obstacles[world, :counts[world]], skip, floor, fan,
-                    noise[index], ranges[index])
+                    noise[row], ranges[row])
 
 
-def infrared(first: int, last: int, order: Array, robots: Array, constants: Array, plans: Array, shapes: Array,
-             cells: Array, skips: Array, beams: Array) -> None:
+def infrared(first: int, last: int, order: Array, rows: Array, robots: Array, constants: Array, plans: Array,
+             shapes: Array, cells: Array, skips: Array, beams: Array) -> None:
     """What the receivers of each robot get from the dock: `beams`, uint8 (any, 3), receives omni, left, right."""
     for index in range(first, last):
-        world = order[index]
-        floor, skip = floor_of(plans[world], shapes[world], cells, skips)
-        beams[index, 0], beams[index, 1], beams[index, 2] = kernel.infrared(robots[world], constants[world], skip,
-                                                                            floor)
+        world, row = order[index], rows[index]
+        floor, skip = floor_of(plans[world], plans[world], shapes[world], cells, skips)
+        beams[row, 0], beams[row, 1], beams[row, 2] = kernel.infrared(robots[world], constants[world], skip, floor)
 
 
-def cliffs(first: int, last: int, order: Array, robots: Array, constants: Array, plans: Array, shapes: Array,
-           cells: Array, distances: Array, angles: Array, seen: Array) -> None:
+def cliffs(first: int, last: int, order: Array, rows: Array, robots: Array, constants: Array, plans: Array,
+           shapes: Array, cells: Array, distances: Array, angles: Array, seen: Array) -> None:
     """Whether there is no floor under the cliff sensors of each robot.
 
     Args, apart from those above:
@@ -93,64 +96,92 @@ def cliffs(first: int, last: int, order: Array, robots: Array, constants: Array,
         seen: bool (any, 4), receives the answer.
     """
     for index in range(first, last):
-        world = order[index]
-        floor, _ = floor_of(plans[world], shapes[world], cells, cells)
+        world, row = order[index], rows[index]
+        floor, _ = floor_of(plans[world], plans[world], shapes[world], cells, cells)
         robot, k = robots[world], constants[world]
         for sensor in range(angles.shape[1]):
             along = robot.theta + angles[world, sensor]
-            seen[index, sensor] = k.has_layers and kernel.cell_bits(
+            seen[row, sensor] = k.has_layers and kernel.cell_bits(
                 k, floor, robot.x + distances[world] * math.cos(along),
                 robot.y + distances[world] * math.sin(along)) & kernel.CLIFF != 0
 
 
-def surroundings(first: int, last: int, order: Array, robots: Array, constants: Array, plans: Array, shapes: Array,
-                 cells: Array, samples: Array, pitches: Array, points: Array, maps: Array) -> None:
+def surroundings(first: int, last: int, order: Array, rows: Array, robots: Array, constants: Array, plans: Array,
+                 shapes: Array, cells: Array, samples: Array, left: Array, known: Array, pitches: Array, points: Array,
+                 maps: Array) -> None:
     """Draw the floor around each robot, which looks up in the middle of its maps.
 
     Args, apart from those above:
+        left: uint8 (worlds, any), what is left to be swept of each cell of a world, as `look` counts it; up to date
+            except where the robot has been since.
+        known: float64 (worlds, 3), x, y and driven distance [m] of the robot at that time; NaN if `left` is not known.
         pitches: float64 (scales), side of a pixel [m].
         points: int64 (scales), a pixel is the mean of so many points along each of its sides.
         maps: uint8 (any, scales, 2, size, size), receives 255 times the share of each pixel that is no floor, and that
             of floor that the brush can reach and has not passed over yet. Row 0 is ahead, column 0 is to the left.
     """
     for index in range(first, last):
-        world = order[index]
-        high, wide = shapes[world, 0] * shapes[world, 2], shapes[world, 1] * shapes[world, 2]
-        floor, _ = floor_of(plans[world], shapes[world], cells, cells)
+        world, row = order[index], rows[index]
+        squares = shapes[world, 2]
+        high, wide = shapes[world, 0] * squares, shapes[world, 1] * squares
+        floor, dirty = floor_of(plans[world], world, shapes[world], cells, left)
         sample = samples[world, :high * wide].reshape((high, wide))
+        look(robots[world], constants[world], squares, floor, sample, dirty, known[world])
         for scale in range(len(pitches)):
-            draw(robots[world], constants[world], shapes[world, 2], floor, sample, pitches[scale], points[scale],
-                 maps[index, scale])
+            draw(robots[world], constants[world], dirty, pitches[scale], points[scale], maps[row, scale])
 
 
-def draw(robot: Record, k: Record, squares: int, cells: Array, samples: Array, pitch: float, points: int,
-         picture: Array) -> None:
+def look(robot: Record, k: Record, squares: int, cells: Array, samples: Array, left: Array, known: Array) -> None:
+    """Bring `left` up to date: NO_FLOOR, or the share of the cell that can be reached and is not swept, 0 to WHOLE.
+
+    The robot can have swept only what is near the way that it drove since the last time.
+    """
+    from_row, from_column, to_row, to_column = 0, 0, left.shape[0], left.shape[1]
+    driven = robot.distance - known[2]
+    if math.hypot(robot.x - known[0], robot.y - known[1]) <= driven + kernel.PUSH:  # false if it is NaN
+        near = driven + 0.5 * k.brush_width + 2.0 * kernel.STRIDE
+        from_row = max(int((known[1] - near - k.origin_y) / k.resolution), 0)
+        from_column = max(int((known[0] - near - k.origin_x) / k.resolution), 0)
+        to_row = min(int((known[1] + near - k.origin_y) / k.resolution) + 1, to_row)
+        to_column = min(int((known[0] + near - k.origin_x) / k.resolution) + 1, to_column)
+    share = WHOLE / (squares * squares)
+    for row in range(from_row, to_row):
+        for column in range(from_column, to_column):
+            count = 0
+            for i in range(row * squares, (row + 1) * squares):
+                for j in range(column * squares, (column + 1) * squares):
+                    count += samples[i, j] & ANY_BUT_SWEEPABLE == kernel.REACHABLE
+            left[row, column] = NO_FLOOR if cells[row, column] & WITHOUT_FLOOR else np.uint8(count * share + 0.5)
+    known[0], known[1], known[2] = robot.x, robot.y, robot.distance
+
+
+def draw(robot: Record, k: Record, left: Array, pitch: float, points: int, picture: Array) -> None:
     """Draw one of the maps of `surroundings`: `picture`, uint8 (2, size, size)."""
-    size, share = picture.shape[1], 255.0 / (points * points)
+    size, share, part = picture.shape[1], 255.0 / (points * points), 255.0 / (points * points * WHOLE)
     step = pitch / points / k.resolution  # from point to point [cells]
     along_u, along_v = math.cos(robot.theta) * step, math.sin(robot.theta) * step
     first = 0.5 * size * points - 0.5
     first_u = (robot.x - k.origin_x) / k.resolution + first * along_u - first * along_v
     first_v = (robot.y - k.origin_y) / k.resolution + first * along_v + first * along_u
+    rows, columns = float(left.shape[0]), float(left.shape[1])
     for row in range(size):
         for column in range(size):
-            blocked, unswept = 0, 0
+            blocked, total = 0, 0
             for back in range(row * points, (row + 1) * points):
                 for right in range(column * points, (column + 1) * points):
                     u = first_u - back * along_u + right * along_v
                     v = first_v - back * along_v - right * along_u
-                    if 0.0 <= u < cells.shape[1] and 0.0 <= v < cells.shape[0] and not (
-                            cells[np.uint32(v), np.uint32(u)] & NO_FLOOR):
-                        sample = samples[np.uint32(v * squares), np.uint32(u * squares)]
-                        unswept += sample & ANY_BUT_SWEEPABLE == kernel.REACHABLE
-                    else:
-                        blocked += 1
+                    seen = NO_FLOOR
+                    if 0.0 <= u < columns and 0.0 <= v < rows:
+                        seen = int(left[np.uint32(v), np.uint32(u)])
+                    blocked += seen == NO_FLOOR
+                    total += seen
             picture[0, row, column] = np.uint8(blocked * share + 0.5)
-            picture[1, row, column] = np.uint8(unswept * share + 0.5)
+            picture[1, row, column] = np.uint8((total - NO_FLOOR * blocked) * part + 0.5)
 
 
-def floor_of(plan: int, shape: Array, cells: Array, skips: Array) -> Tuple[Array, Array]:
-    """The cells of a world, and how many a beam may skip there, in rows and columns."""
+def floor_of(plan: int, world: int, shape: Array, cells: Array, others: Array) -> Tuple[Array, Array]:
+    """Row `plan` of `cells`, and row `world` of another such array, in rows and columns."""
     rows, columns = shape[0], shape[1]
     return (cells[plan, :rows * columns].reshape((rows, columns)),
-            skips[plan, :rows * columns].reshape((rows, columns)))
+            others[world, :rows * columns].reshape((rows, columns)))

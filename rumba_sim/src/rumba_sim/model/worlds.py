@@ -9,13 +9,11 @@
 
 import math
 from concurrent.futures import ThreadPoolExecutor
-from typing import Any, Callable, Dict, List, Optional, Sequence, Union
+from typing import Any, Callable, List, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
-from rumba_sim.model import kernel
 from rumba_sim.model.compiled import many
-from rumba_sim.model.constants import RECORD
 from rumba_sim.model.errors import CommandError, WorldError
 from rumba_sim.model.floor_plan import ROUNDING, FloorPlan
 from rumba_sim.model.kernel import Array
@@ -23,6 +21,7 @@ from rumba_sim.model.robot import FIRST
 from rumba_sim.model.robot_config import RobotConfig
 from rumba_sim.model.world import NOISE_TICKS, World
 from rumba_sim.model.world_arrays import WorldArrays
+from rumba_sim.model.world_rows import WorldRows
 
 POINT = 0.1  # [m] between the points that are looked at for a map of the surroundings, at most
 
@@ -66,7 +65,8 @@ class Worlds:
         self.threads = threads
         self._pool = ThreadPoolExecutor(threads) if threads > 1 else None
         self._worlds = list(worlds)
-        self._all = np.arange(len(worlds))
+        self._by_plan: Array = np.arange(len(worlds))
+        self._versions: List[int] = []
         self._take_all()
 
     def __len__(self) -> int:
@@ -78,12 +78,13 @@ class Worlds:
         return self._worlds[index]
 
     def __setitem__(self, index: int, world: World) -> None:
-        """Put another world at the place of one.
+        """Put another world at the place of one, which is free to go on alone.
 
         Raises:
             WorldError: as for the constructor; the old world stays.
         """
         _check(world, self[0])
+        self[index].keep_in(WorldArrays(*(array.copy() for array in self[index].arrays)))
         self._worlds[index] = world
         self._versions[index] = -1
 
@@ -91,13 +92,13 @@ class Worlds:
     def robots(self) -> Array:
         """The states of all robots: (worlds) records `kernel.ROBOT`. Ask again after a world was replaced."""
         self._follow_changes()
-        return self._robots
+        return self._rows.robots
 
     @property
     def constants(self) -> Array:
         """The constants of all worlds: (worlds) records `constants.Constants`; `World.config` changes them."""
         self._follow_changes()
-        return self._constants
+        return self._rows.constants
 
     # --- what the robots do ---------------------------------------------------------------------------------------
 
@@ -115,24 +116,24 @@ class Worlds:
         if not (np.isfinite(v).all() and np.isfinite(w).all()):
             raise CommandError('a velocity is not a finite number')
         self._follow_changes()
-        self._robots['command_v'], self._robots['command_w'] = v, w
-        self._robots['command_tick'] = self._ticks()
+        self._rows.robots['command_v'], self._rows.robots['command_w'] = v, w
+        self._rows.robots['command_tick'] = self._ticks()
         if brushes_up is not None:
-            self._robots['brushes_up'] = brushes_up
+            self._rows.robots['brushes_up'] = brushes_up
 
     def step(self, ticks: Union[int, Array] = 1) -> None:
         """Simulate a number of ticks in each world, the same in all or one for each: int64 (worlds)."""
         self._follow_changes()
         left = np.full(len(self), ticks, np.int64)
         while left.any():
-            now = self._ticks()
+            now, here = self._ticks(), self._rows
             rows = now % NOISE_TICKS
             for index in np.flatnonzero((rows == 0) & (left > 0)):
                 self._worlds[index].draw_noise()
             spans = np.minimum(left, NOISE_TICKS - rows)
-            self._run(many.advance, self._all, now, spans, self._robots, self._constants, self._obstacles, self._counts,
-                      self._stops, self._moving, self._plans, self._shapes, self._fields, self._cells, self._samples,
-                      self._dirt, self._tallies, self._noise)
+            self._run(many.advance, self._by_plan, now, spans, here.robots, here.constants, here.obstacles, here.counts,
+                      here.stops, here.moving, here.plans, here.shapes, here.fields, here.cells, here.samples,
+                      here.dirt, here.tallies, here.noise)
             for world, span in zip(self._worlds, spans.tolist()):
                 world.tick += span
             left -= spans
@@ -145,28 +146,31 @@ class Worlds:
         Args:
             which: int64 (any), the numbers of the worlds; None for all. The same of the other sensors.
         """
-        order = self._order(which)
-        ranges, noise = np.empty((2, len(order), len(self._fan)))
-        for row, index in zip(noise, order.tolist()):
-            self._worlds[index].draw_laser_noise(0, row)
-        self._run(many.scan, order, self._robots, self._constants, self._obstacles, self._counts, self._plans,
-                  self._shapes, self._cells, self._skips, self._fan, noise, ranges)
+        order, rows = self._order(which)
+        here = self._rows
+        ranges, noise = np.empty((2, len(order), len(self._rows.fan)))
+        for row, index in zip(rows.tolist(), order.tolist()):
+            self._worlds[index].draw_laser_noise(0, noise[row])
+        self._run(many.scan, order, rows, here.robots, here.constants, here.obstacles, here.counts, here.plans,
+                  here.shapes, here.cells, here.skips, here.fan, noise, ranges)
         return ranges
 
     def infrared(self, which: Optional[Array] = None) -> Array:
         """Beams of the dock that each robot receives: uint8 (worlds, 3), omni, left and right as for `Infrared`."""
-        order = self._order(which)
+        order, rows = self._order(which)
+        here = self._rows
         beams = np.empty((len(order), 3), np.uint8)
-        self._run(many.infrared, order, self._robots, self._constants, self._plans, self._shapes, self._cells,
-                  self._skips, beams)
+        self._run(many.infrared, order, rows, here.robots, here.constants, here.plans, here.shapes, here.cells,
+                  here.skips, beams)
         return beams
 
     def cliffs(self, which: Optional[Array] = None) -> Array:
         """What `World.cliffs` answers for each robot: bool (worlds, 4)."""
-        order = self._order(which)
+        order, rows = self._order(which)
+        here = self._rows
         seen = np.empty((len(order), 4), np.bool_)
-        self._run(many.cliffs, order, self._robots, self._constants, self._plans, self._shapes, self._cells,
-                  self._cliff_distances, self._cliff_angles, seen)
+        self._run(many.cliffs, order, rows, here.robots, here.constants, here.plans, here.shapes, here.cells,
+                  here.cliff_distances, here.cliff_angles, seen)
         return seen
 
     def surroundings(self, size: int, pitches: Sequence[float], which: Optional[Array] = None) -> Array:
@@ -181,28 +185,34 @@ class Worlds:
             pitches: side of a pixel in each scale [m].
             which: as for `scan`.
         """
-        order = self._order(which)
+        order, rows = self._order(which)
+        here = self._rows
         maps = np.empty((len(order), len(pitches), 2, size, size), np.uint8)
         points = [math.ceil(pitch / POINT - ROUNDING) for pitch in pitches]
-        self._run(many.surroundings, order, self._robots, self._constants, self._plans, self._shapes, self._cells,
-                  self._samples, np.array(pitches, np.float64), np.array(points, np.int64), maps)
+        self._run(many.surroundings, order, rows, here.robots, here.constants, here.plans, here.shapes, here.cells,
+                  here.samples, here.left, here.known, np.array(pitches, np.float64), np.array(points, np.int64), maps)
         return maps
 
     @property
     def coverage(self) -> Array:
         """Swept part of the floor that can be reached: float64 (worlds) [0..1]."""
         self._follow_changes()
-        return np.where(self._reachable > 0, self._tallies['swept'] / np.maximum(self._reachable, 1), 1.0)
+        swept, reachable = self._rows.tallies['swept'], self._rows.reachable
+        return np.where(reachable > 0, swept / np.maximum(reachable, 1), 1.0)
 
     @property
     def cleaned_area(self) -> Array:
         """Area that can be reached and is swept: float64 (worlds) [m^2]."""
         self._follow_changes()
-        return np.asarray(self._tallies['swept'] * self._constants['sample_pitch'] ** 2)
+        return np.asarray(self._rows.tallies['swept'] * self._rows.constants['sample_pitch'] ** 2)
 
-    def _order(self, which: Optional[Array]) -> Array:
+    def _order(self, which: Optional[Array]) -> Tuple[Array, Array]:
+        """In which order to look at worlds, and in which row to put what is seen in each."""
         self._follow_changes()
-        return self._all if which is None else np.asarray(which, np.int64)
+        if which is None:
+            return self._by_plan, self._by_plan
+        order = np.asarray(which, np.int64)
+        return order, np.arange(len(order))
 
     def _run(self, function: Callable[..., None], order: Array, *arguments: Any) -> None:
         """Call a function of `batch` for the worlds of an order, in all threads."""
@@ -227,95 +237,23 @@ class Worlds:
         for index, world in enumerate(self._worlds):
             if world.version != self._versions[index]:
                 _check(world, self._worlds[0])
-                if not self._fits(world):
+                if not self._rows.fit(world, self._worlds):
                     self._take_all()
                     return
-                self._take(index, world)
+                self._rows.take(index, world, self._worlds)
+                self._versions[index] = world.version
+        self._sort()
 
     def _take_all(self) -> None:
-        """Make rows that are long enough for each of the worlds, and take over all of them."""
-        worlds = self._worlds
-        for world in worlds:
-            _check(world, worlds[0])
-        plans: Dict[int, World] = {id(world.terrain): world for world in worlds}
-        number, arrays = len(worlds), [world.arrays for world in worlds]
+        for world in self._worlds:
+            _check(world, self._worlds[0])
+        self._rows = WorldRows(self._worlds)
+        self._versions = [world.version for world in self._worlds]
+        self._sort()
 
-        def rows(name: str, *shape: int) -> Array:
-            most = max(getattr(each, name).size for each in arrays)
-            return np.zeros((number, most, *shape), getattr(arrays[0], name).dtype)
-        self._robots: Array = np.zeros(number, kernel.ROBOT)
-        self._constants: Array = np.zeros(number, RECORD)
-        self._tallies: Array = np.zeros(number, kernel.TALLY)
-        self._noise: Array = np.zeros((number, 1, NOISE_TICKS, 2))
-        self._obstacles, self._samples, self._dirt = rows('obstacles'), rows('samples'), rows('dirt')
-        self._stops: Array = np.zeros((number, max(len(each.stops) for each in arrays), 6))
-        self._counts, self._plans, self._reachable = np.zeros((3, number), np.int64)
-        self._moving = np.zeros(number, np.bool_)
-        self._shapes = np.zeros((number, 3), np.int64)
-        self._cliff_distances, self._cliff_angles = np.zeros(number), np.zeros((number, 4))
-        self._fan = worlds[0].fan
-        most = max(world.terrain.skips.size for world in plans.values())
-        nodes = max(world.terrain.clearance.size for world in plans.values())
-        self._fields: Array = np.zeros((len(plans), nodes))
-        self._cells, self._skips = np.zeros((2, len(plans), most), np.uint8)
-        self._terrains: List[Optional[FloorPlan]] = [None] * len(plans)
-        self._versions = [-1] * number
-        for index, world in enumerate(worlds):
-            self._take(index, world)
-
-    def _fits(self, world: World) -> bool:
-        """Whether the rows are long enough for a world."""
-        arrays, terrain = world.arrays, world.terrain
-        return (arrays.obstacles.size <= self._obstacles.shape[1] and len(arrays.stops) <= self._stops.shape[1]
-                and arrays.samples.size <= self._samples.shape[1] and arrays.dirt.size <= self._dirt.shape[1]
-                and terrain.clearance.size <= self._fields.shape[1] and terrain.skips.size <= self._cells.shape[1]
-                and self._row_of(terrain) is not None)
-
-    def _row_of(self, terrain: FloorPlan) -> Optional[int]:
-        """The row that belongs to a floor plan, or one that no world needs any more."""
-        if terrain in self._terrains:
-            return self._terrains.index(terrain)
-        needed = {id(world.terrain) for world in self._worlds}
-        return next((row for row, known in enumerate(self._terrains) if id(known) not in needed), None)
-
-    def _take(self, index: int, world: World) -> None:
-        """Move the arrays of a world into row `index`."""
-        terrain, before = world.terrain, world.arrays
-        plan = self._plan_row(world)
-        self._plans[index] = plan
-        self._shapes[index] = terrain.rows, terrain.columns, terrain.sample_squares
-        self._counts[index], self._moving[index] = len(before.obstacles), world.obstacles.has_movers
-        self._reachable[index] = world.floor.sweep.reachable
-        cliff = world.config.cliff
-        self._cliff_distances[index] = cliff.distance
-        self._cliff_angles[index] = cliff.outer_angle, cliff.inner_angle, -cliff.inner_angle, -cliff.outer_angle
-        alone = slice(index, index + 1)
-        after = WorldArrays(
-            self._robots[alone], self._constants[alone], _begin_of(self._obstacles[index], before.obstacles),
-            self._stops[index, :len(before.stops)], self._noise[index], _begin_of(self._cells[plan], before.cells),
-            _begin_of(self._samples[index], before.samples), _begin_of(self._dirt[index], before.dirt),
-            self._tallies[alone])
-        for old, new in zip(before, after):
-            new[...] = old
-        world.keep_in(after)
-        self._versions[index] = world.version
-
-    def _plan_row(self, world: World) -> int:
-        """The row of a world's floor plan, with the plan in it."""
-        terrain = world.terrain
-        row = self._row_of(terrain)
-        if row is None:
-            raise AssertionError('there are as many rows as plans')
-        if self._terrains[row] is not terrain:
-            self._terrains[row] = terrain
-            _begin_of(self._fields[row], terrain.clearance)[...] = terrain.clearance
-            _begin_of(self._skips[row], terrain.skips)[...] = terrain.skips
-        return row
-
-
-def _begin_of(row: Array, array: Array) -> Array:
-    """The begin of a row, in the shape of an array."""
-    return row[:array.size].reshape(array.shape)
+    def _sort(self) -> None:
+        """Find the order in which worlds on one floor plan are side by side."""
+        self._by_plan = np.argsort(self._rows.plans, kind='stable')
 
 
 def _check(world: World, like: World) -> None:
