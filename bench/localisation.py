@@ -16,6 +16,7 @@ import numpy as np
 from common import figures
 
 from rumba_cleaning import control
+from rumba_cleaning.behaviour import Observation
 from rumba_cleaning.behaviours.bounce import Bounce
 from rumba_cleaning.behaviours.relocation import Relocation
 from rumba_cleaning.belief.context import Context
@@ -77,7 +78,7 @@ class Watched:
         belief = self.source(world, name)
         self.cost += time.process_time() - begun
         self.errors.append(error(belief, world))
-        self.lost += max(belief.covariance[0][0], belief.covariance[1][1]) > 0.05
+        self.lost += Observation(0.0, belief.pose, covariance=belief.covariance).is_lost
         return belief
 
 

@@ -11,11 +11,13 @@ SHOWN = 12  # lines, for a person
 ESCAPES = re.compile(r'\x1b(?!\[K|\[\d*m)')  # colours, and clearing the rest of a line, are all right
 LOGGED = re.compile(r'^(\x1b\[\d*m)*\[ ?(DEBUG|INFO|WARN|ERROR|FATAL)\]')  # the first line of a message
 TRACEBACK = 'Traceback (most recent call last)'
+ERROR = re.compile(r'^[\w.]+(:|$)')  # the last line of a traceback; another line may be one of another thread
 FRAME = re.compile(r'^ *File "([^"]+)", line')
 # Python's own, ROS's, and what ROS generates; what these print of a broken connection is none of the project's.
 FOREIGN = re.compile(r'/usr/lib/python3|/opt/ros/|<|.*/(msg|srv)/_\w+\.py$')
 THREAD = '_bootstrap_inner'  # in a traceback: it ended a thread ...
 CONNECTION = '/rospy/impl/tcpros'  # ... that was there for one connection
+CHAINED = 'During handling of the above exception, another exception occurred:'
 # ROS repeats in these what a client sent, whatever that is.
 ECHOES = ('Could not process inbound connection', 'Inbound TCP/IP connection failed', 'Unable to ')
 
@@ -35,7 +37,7 @@ def check(who, lines, most=None):
     Args:
         who: name of the node.
         lines: what it printed.
-        most: how many lines it may print; None for one that prints all the time.
+        most: how many lines it may print, beside tracebacks of others; None for one that prints all the time.
 
     Raises:
         Failure: a traceback of the project's code or of a thread that ended, a flood, or what confuses a terminal.
@@ -52,8 +54,22 @@ def check(who, lines, most=None):
             raise Failure('long line', who, f'{len(line)} characters: {line[:200]}...')
         if ESCAPES.search(line):
             raise Failure('escape', who, repr(line[:200]))
-    if most is not None and len(lines) > most:
-        raise Failure('flood', who, f'{len(lines)} lines: {tail(lines[-3:])}')
+    if most is not None:
+        told = list(_told(lines))
+        if len(told) > most:
+            raise Failure('flood', who, f'{len(told)} lines: {tail(told[-3:])}')
+
+
+def _told(lines):
+    """The lines that are no part of a traceback."""
+    is_inside = False
+    for line in lines:
+        if TRACEBACK in line:
+            is_inside = True
+        elif is_inside:
+            is_inside = not ERROR.match(line)
+        elif line and line != CHAINED:
+            yield line
 
 
 def _is_ours(lines):
@@ -66,6 +82,6 @@ def _is_ours(lines):
         if frame and CONNECTION in line:
             return False
         has_ended_thread |= THREAD in line
-        if not frame and not line.startswith(' '):  # the error itself, below all frames
+        if ERROR.match(line):
             break
     return has_ended_thread

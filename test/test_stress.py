@@ -125,6 +125,10 @@ ROSPY = '/usr/lib/python3/dist-packages/rospy'
     (['[WARN] [1.0]: Inbound TCP/IP connection failed: x', '[WARN] [1.0]: ' + 'y' * 5000], 'long line'),
     (['[ERROR] [1.0]: no map \x1b[2J'], 'escape'),
     (['[ERROR] [1.0]: no'] * 201, 'flood'),
+    (['Traceback (most recent call last):', f'  File "{ROSPY}/impl/tcpros_base.py", line 1, in x', '    raise',
+      'IOError', '', printed.CHAINED, ''] * 201, None),
+    (['Traceback (most recent call last):', f'  File "{ROSPY}/impl/tcpros_base.py", line 1, in x', 'IOError',
+      '[ERROR] [1.0]: no'] * 201, 'flood'),
     (['Traceback (most recent call last):', f'  File "{ROSPY}/topics.py", line 1, in x', 'IOError'], None),
     (['Traceback (most recent call last):', f'  File "{ROSPY}/topics.py", line 1, in x',
       f'  File "{OURS}", line 1, in x', 'IOError'], 'traceback'),
@@ -132,6 +136,9 @@ ROSPY = '/usr/lib/python3/dist-packages/rospy'
       f'  File "{ROSPY}/timer.py", line 1, in run', 'IOError'], 'traceback'),
     (['Traceback (most recent call last):', '  File "/usr/lib/python3.11/threading.py", line 1, in _bootstrap_inner',
       f'  File "{ROSPY}/impl/tcpros_service.py", line 1, in handle', 'IOError'], None),
+    (['Traceback (most recent call last):', '  File "/usr/lib/python3.11/threading.py", line 1, in _bootstrap_inner',
+      'battery 100 %   at (2.45, 0.18) m', f'  File "{ROSPY}/impl/tcpros_service.py", line 1, in handle',
+      'rospy.exceptions.TransportException: receive_once'], None),
 ])
 def test_what_a_node_prints_is_judged(lines, oracle):
     if oracle is None:

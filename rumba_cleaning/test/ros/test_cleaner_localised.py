@@ -25,7 +25,7 @@ from rumba_sim.model.world import World
 from rumba_sim.ros.common.maps import map_path
 
 SEED, TARGET = 3, 0.05
-SIMULATOR = '_map:=studio', f'_seed:={SEED}', '_speed:=0', '_brushes_up:=true', '_localisation:=false'
+SIMULATOR = '_map:=studio', f'_seed:={SEED}', '_speed:=0', '_brushes_up:=true', '_localisation:=none'
 
 
 def digest_in_process(ticks):
@@ -62,7 +62,7 @@ class CleanerLocalisedTest(unittest.TestCase):
         self.assertEqual(digest, digest_in_process(tick))
 
     def test_a_robot_whose_localisation_falls_silent_stands_still_until_it_is_back(self):
-        Simulator(self, '_map:=studio', '_speed:=10', '_brushes_up:=true', '_localisation:=false',
+        Simulator(self, '_map:=studio', '_speed:=10', '_brushes_up:=true', '_localisation:=none',
                   '_lockstep_patience:=1')
         first, cleaner = Localiser(self), Cleaner(self).connect()
         Heard(self, '/rumba/amcl_pose', PoseWithCovarianceStamped).find()

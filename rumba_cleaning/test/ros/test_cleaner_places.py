@@ -131,7 +131,7 @@ class CleanerPlacesTest(unittest.TestCase):
         os.environ['PYTHONPATH'] = f'{folder_of(self, {"my_strategies.py": BREAKS.encode()})}:{path}'
         self.addCleanup(os.environ.update, PYTHONPATH=path)
         cleaner = Cleaner(self, '_strategies:=my_strategies', '_strategy:=breaks')
-        Simulator(self, '_map:=studio', '_speed:=10', '_localisation:=false')
+        Simulator(self, '_map:=studio', '_speed:=10', '_localisation:=none')
         cleaner.connect()
         cleaner.refuses('^no pose: tf has no map -> odom -> base_footprint$', 'go_to', go_to(1.5, 2.5),
                         Outcome.NO_READINGS)

@@ -18,7 +18,7 @@ STEPS = np.geomspace(0.15, 0.03, 6)  # [m] sigmas of `match`
 MATCHED = 180  # beams, at most, by which the pose is refined
 SURE = 0.9  # share of the weight in one cluster from which on the robot knows where it is
 NARROW = 0.3  # [m], [rad] standard deviations in that cluster, at most
-FITS = 0.4  # share of beams that end at a wall, at least
+FITS = 0.25  # share of beams that end at a wall, at least: what the map does not show may hide most of it
 DOUBT = 0.1  # the share by which scans fit worse than in the long run, from which on particles are drawn from the scan
 GOOD, STARTS = 0.85, 8  # a fit below which a match begins also at so many of the heaviest particles
 FEWEST = 10  # beams with an echo, fewer tell nothing
@@ -120,14 +120,13 @@ class Localiser:
             return False
         if self._last is not None:
             self.particles = motion.moved(self.particles, self._last, odometry, self.config, self._generator)
-        elif len(points) < FEWEST:
+        elif is_blind(points):
             return False
         self._last = odometry
-        if len(points) < FEWEST:
-            self.estimate = self._by_odometry()
-        else:
+        if not is_blind(points):
             self._weigh(points)
-            self.estimate = self._estimated(points)
+        self.estimate = self._estimated(points)
+        if not is_blind(points):
             self._follow_fit(self.estimate.fit)
         self.correction = compose(self.estimate.pose, inverse(odometry))
         return True
@@ -180,30 +179,30 @@ class Localiser:
         return sums * self.config.laser_independence
 
     def _estimated(self, points: Array) -> Estimate:
-        """The heaviest cluster, moved to where the scan fits best; the particles follow, or they would lag behind."""
+        """The heaviest cluster, moved to where the scan fits best; the particles follow, or they would lag behind.
+
+        While the laser sees nothing the cluster stays where the odometry has it, and spreads on the way.
+        """
         share = particles.weights(self._logarithms)
         cluster = particles.heaviest(self.particles, share)
-        match = self._matched(cluster, cluster.mean, points)
-        if match.fit < GOOD:  # perhaps the far side of a thin wall: it may fit better from elsewhere in the cluster
-            best = self.particles[np.argsort(-share, kind='stable')[:STARTS]]
-            match = max([match, *(self._matched(cluster, start, points) for start in best)], key=lambda each: each.fit)
+        match = self._best_match(cluster, share, points)
         deviations = np.sqrt(np.diag(cluster.covariance))
-        is_sure = cluster.share >= SURE and float(deviations.max()) < NARROW and match.fit >= FITS
+        is_sure = cluster.share >= SURE and float(deviations.max()) < NARROW and (match.fit >= FITS or is_blind(points))
         if is_sure:
             self.particles += match.pose - cluster.mean
         x, y, theta = match.pose.tolist()
         covariance = match.covariance if is_sure else START + particles.mean_and_covariance(self.particles, share)[1]
         return Estimate(Pose(x, y, wrap_angle(theta)), covariance, match.fit, is_sure)
 
-    def _by_odometry(self) -> Estimate:
-        """The heaviest cluster while the laser sees nothing: it spreads on the way."""
-        share = particles.weights(self._logarithms)
-        cluster = particles.heaviest(self.particles, share)
-        deviations = np.sqrt(np.diag(cluster.covariance))
-        is_sure = cluster.share >= SURE and float(deviations.max()) < NARROW
-        covariance = cluster.covariance if is_sure else START + cluster.covariance
-        x, y, theta = cluster.mean.tolist()
-        return Estimate(Pose(x, y, theta), covariance, 0.0, is_sure)
+    def _best_match(self, cluster: particles.Cluster, share: Array, points: Array) -> Match:
+        """Where a scan fits near a cluster; the cluster itself if there is no scan."""
+        if is_blind(points):
+            return Match(cluster.mean, cluster.covariance, 0.0)
+        match = self._matched(cluster, cluster.mean, points)
+        if match.fit < GOOD:  # perhaps the far side of a thin wall: it may fit better from elsewhere in the cluster
+            best = self.particles[np.argsort(-share, kind='stable')[:STARTS]]
+            match = max([match, *(self._matched(cluster, start, points) for start in best)], key=lambda each: each.fit)
+        return match
 
     def _matched(self, cluster: particles.Cluster, start: Array, points: Array) -> Match:
         pose, covariance = np.empty(3), np.empty((3, 3))
@@ -224,6 +223,11 @@ def points(ranges: Array, angle_min: float, angle_increment: float) -> Array:
     has_echo = np.isfinite(ranges)
     angles = angle_min + angle_increment * np.flatnonzero(has_echo)
     return np.stack([np.cos(angles), np.sin(angles)], axis=1) * ranges[has_echo].astype(np.float64)[:, None]
+
+
+def is_blind(points: Array) -> bool:
+    """Whether so few beams have an echo that they tell nothing."""
+    return len(points) < FEWEST
 
 
 def thinned(points: Array, count: int) -> Array:

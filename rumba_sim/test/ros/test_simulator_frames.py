@@ -116,7 +116,7 @@ class SimulatorFramesTest(unittest.TestCase):
             (prefix + 'base_footprint', prefix + 'base_link'), (prefix + 'base_link', prefix + 'laser'))})
 
     def test_without_localisation_odometry_is_not_corrected(self):
-        simulator = self.start('_localisation:=false')
+        simulator = self.start('_localisation:=none')
         self.listen()
         simulator.step(10)
         self.lookup('odom', 'base_footprint', self.odom.at(simulator.ticks).header.stamp)

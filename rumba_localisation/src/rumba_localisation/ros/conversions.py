@@ -4,7 +4,7 @@ import math
 from typing import Any, List
 
 import numpy as np
-from geometry_msgs.msg import Point, PoseArray, PoseWithCovariance, PoseWithCovarianceStamped, Quaternion
+from geometry_msgs.msg import Point, PoseArray, PoseWithCovariance, PoseWithCovarianceStamped
 from geometry_msgs.msg import Pose as PoseMessage
 from nav_msgs.msg import OccupancyGrid
 from sensor_msgs.msg import LaserScan
@@ -13,9 +13,9 @@ from std_msgs.msg import Header
 from rumba_localisation.localiser import points
 from rumba_sim.model.errors import MapError
 from rumba_sim.model.floor_plan import FloorPlan
-from rumba_sim.model.geometry import Pose, half_angle
+from rumba_sim.model.geometry import Pose
 from rumba_sim.model.kernel import Array
-from rumba_sim.ros.common.conversions import heading
+from rumba_sim.ros.common.conversions import heading, quaternion
 
 PLANE = (0, 1, 5)  # rows and columns of x, y and the rotation about z in a covariance of ROS
 FARTHEST = 1e6  # [m] of a coordinate, at most
@@ -74,4 +74,4 @@ def cloud(poses: Array, header: Header) -> PoseArray:
 
 def pose_message(x: float, y: float, theta: float) -> PoseMessage:
     """A pose in the plane as one in space."""
-    return PoseMessage(Point(x, y, 0.0), Quaternion(0.0, 0.0, *half_angle(theta)))
+    return PoseMessage(Point(x, y, 0.0), quaternion(theta))

@@ -153,8 +153,8 @@ class Senses:
 
         Args:
             since: stamp until which messages do not count; those without a stamp count.
-            is_new_run: True if the simulator was started again: its time may begin anew, so everything that has come
-                is forgotten. False if it was reset: its time goes on, and what came after `since` counts.
+            is_new_run: whether the simulator was started again. Then its time may start at 0 again, and all messages so
+                far are forgotten; otherwise it was reset, its time continues, and messages after `since` count.
         """
         with self._lock:
             self._since, self.unread = since, 0

@@ -15,6 +15,7 @@ from rumba_sim.model.world import World
 from rumba_sim.ros.common.requests import Requests
 from rumba_sim.ros.robot import packed
 from rumba_sim.ros.robot.latecomers import Latecomers
+from rumba_sim.ros.robot.localisation import TRUTH
 from rumba_sim.ros.robot.rates import EVERYTHING, Due
 from rumba_sim.ros.robot.robot_node import RobotNode
 from rumba_sim.ros.simulator.diagnostics import Diagnostics
@@ -140,8 +141,8 @@ class Fleet:
         return next(name for name in names if name not in self._robots)
 
     def _open(self, name: str) -> None:
-        self._robots[name] = RobotNode(self._world, name, self._requests, self.settings.localisation, self._stamp(),
-                                       is_held=self._is_held, on_command=self._on_command)
+        self._robots[name] = RobotNode(self._world, name, self._requests, self.settings.localisation == TRUTH,
+                                       self._stamp(), is_held=self._is_held, on_command=self._on_command)
         self._diagnostics.add(name, lambda: self._world.robots[name])
         self._tell_static()
 

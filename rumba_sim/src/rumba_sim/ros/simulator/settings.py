@@ -7,6 +7,7 @@ import rosgraph
 from rumba_sim.model.config import names, part, section, setting
 from rumba_sim.model.errors import ConfigError, quoted
 from rumba_sim.model.robot_config import RobotConfig
+from rumba_sim.ros.robot.localisation import localisation_setting
 from rumba_sim.ros.robot.rates import MAX_RATE, Rates
 
 LOWEST_SPEED = 0.001  # [times real time] with the default step rate, a tick takes 20 s
@@ -35,7 +36,7 @@ class Settings(RobotConfig):
     step_rate: int = setting(50, 'ticks per second of simulated time', 'Hz', 1, MAX_RATE)
     percentage: float = setting(100.0, 'charge at the start', '%', 0.0, 100.0)
     brushes_up: bool = setting(False, 'whether the brushes are lifted at the start')
-    localisation: bool = setting(True, 'whether to publish map -> odom, the exact correction of odometry')
+    localisation: str = localisation_setting()
     obstacles: str = setting('', 'path of a YAML file of obstacles that the map does not show')
     config: str = setting('', 'path of a YAML file with any of these; parameters override it')
     state: str = setting('', 'path of a file: the world is saved there every minute of simulated time and at the end, '

@@ -45,6 +45,7 @@ from rumba_sim.ros.common.names import check_names
 from rumba_sim.ros.common.requests import Requests
 from rumba_sim.ros.common.simulator_client import SETTINGS
 from rumba_sim.ros.robot import packed
+from rumba_sim.ros.robot.localisation import TRUTH, localisation_setting
 from rumba_sim.ros.robot.rates import Rates
 from rumba_sim.ros.robot.robot_node import RobotNode
 from rumba_sim.ros.robot.state_publisher import StatePublisher
@@ -80,7 +81,7 @@ class Settings(RobotConfig):
     seed: int = setting(1, 'seed of the random generators', '', 0, 2 ** 31 - 1)
     percentage: float = setting(100.0, 'charge at the start', '%', 0.0, 100.0)
     brushes_up: bool = setting(False, 'whether the brushes are lifted at the start')
-    localisation: bool = setting(True, 'whether to publish map -> odom, the exact correction of odometry')
+    localisation: str = localisation_setting()
     config: str = setting('', 'path of a YAML file with any of these; parameters override it')
     pen: PenSettings = section(PenSettings, 'the line that shows the cleaned floor')
 
@@ -138,7 +139,7 @@ class TurtlesimBody:
         """The topics and services of the robot, which are opened if they are closed."""
         if self._node is None:
             self._node = TurtleNode(self._guided.world, self._settings.robot, self._requests,
-                                    self._settings.localisation, self._stamp, self._teleport)
+                                    self._settings.localisation == TRUTH, self._stamp, self._teleport)
         return self._node
 
     def _look_for_turtle(self) -> None:
