@@ -29,7 +29,7 @@ def main():
         figures.heading(f'ROOM20, cells of {resolution * 100:.0f} cm, steps of {1.0 / step_rate:g} s, no laser')
         for robots in ROBOTS:
             steps(plans[resolution], robots, step_rate)
-    figures.heading('ROOM20, cells of 2 cm, steps of 0.02 s, no laser, the ten ticks from command to command in one call')
+    figures.heading('ROOM20, cells of 2 cm, steps of 0.02 s, no laser, the ten ticks between two commands in one call')
     for robots in ROBOTS:
         steps_at_once(plans[0.02], robots)
     for step_rate, resolution in ((50, 0.02), (10, 0.05)):
