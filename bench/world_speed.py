@@ -1,6 +1,7 @@
 """Speed of the model without ROS: ROOM20 with 1 to 1000 robots, with and without laser, in CPU time of one core.
 
-Every robot has its battery, noisy odometry, bumper, dirt and coverage. Each tick is one call of World.step.
+Every robot has its battery, noisy odometry, bumper, dirt and coverage. Each tick is one call of World.step, unless the
+heading says that nobody looks in between.
 """
 
 import time
@@ -8,7 +9,8 @@ import time
 from common import figures, room20
 
 STEPS = 250_000  # robot-steps in a CPU second; the lower bound
-SCANS = 10_000  # scans in a CPU second; the lower bound
+AT_ONCE = {1: 1_000_000, 10: 2_000_000, 100: 2_300_000}  # the same by robots, ten ticks in a call
+SCANS = {1: 30_000, 10: 30_000, 100: 25_000}  # scans of 360 beams in a CPU second, by robots; the lower bounds
 LASER_PERIOD = 0.1  # [s]
 ROBOTS = (1, 10, 100)
 SETTLED = 100  # ticks before the measurement: then the robots have their speed, and know which others are far away
@@ -27,6 +29,9 @@ def main():
         figures.heading(f'ROOM20, cells of {resolution * 100:.0f} cm, steps of {1.0 / step_rate:g} s, no laser')
         for robots in ROBOTS:
             steps(plans[resolution], robots, step_rate)
+    figures.heading('ROOM20, cells of 2 cm, steps of 0.02 s, no laser, the ten ticks between two commands in one call')
+    for robots in ROBOTS:
+        steps_at_once(plans[0.02], robots)
     for step_rate, resolution in ((50, 0.02), (10, 0.05)):
         figures.heading(f'ROOM20, cells of {resolution * 100:.0f} cm, steps of {1.0 / step_rate:g} s, '
                         f'360 beams to 8 m every {LASER_PERIOD:g} s')
@@ -60,9 +65,19 @@ def steps(plan, robots, step_rate):
     figures.row('             simulated seconds', figure / robots / step_rate)
 
 
+def steps_at_once(plan, robots):
+    """Print figures of robots that nobody looks at between their commands."""
+    world = room20.populated(plan, robots, 50)
+    room20.drive(world, SETTLED)
+    commands = max(1, WORK // robots // 10)
+    figure = figures.per_cpu_second(lambda: room20.drive_at_once(world, commands), commands * 10 * robots, 0.4)
+    room20.check(world)
+    figures.row(f'{robots:>4} robots: robot-steps', figure, at_least=AT_ONCE[robots])
+
+
 def lasers(plan, robots, step_rate):
     """Print figures with laser."""
-    figures.row(f'{robots:>4} robots: scans', measured_scans(plan, robots, step_rate), at_least=SCANS)
+    figures.row(f'{robots:>4} robots: scans', measured_scans(plan, robots, step_rate), at_least=SCANS[robots])
     world = room20.populated(plan, robots, step_rate)
     room20.drive(world, SETTLED)
     ticks = round(step_rate * max(LASER_PERIOD, 10.0 / robots))

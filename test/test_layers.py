@@ -23,7 +23,7 @@ FOLDERS = {
         'ros/cleaner': {'', 'belief', 'behaviours', 'strategies', 'mission'}},
     'rumba_evaluation': {
         'scoring': set(), 'trials': {'scoring'}, 'report': set(), 'verdicts': set(), 'ros/mission_report': {'report'},
-        'ros': {'scoring', 'trials', 'verdicts'}},
+        'learning': {'trials'}, 'ros': {'scoring', 'trials', 'verdicts'}},
     'rumba_viewer': {
         'scene': set(), 'painting': {'scene'}, 'window': {'scene', 'painting'}, 'ros': {'scene', 'window'}}}
 # Which packages each may import, and which of their folders are there for others.
@@ -42,7 +42,7 @@ KEYS = {'PIL': 'python3-pil', 'PyQt5': 'python3-qt5-bindings', 'matplotlib': 'py
         'numba': 'python3-numba', 'numpy': 'python3-numpy', 'rospkg': 'python3-rospkg', 'scipy': 'python3-scipy',
         'skimage': 'python3-skimage', 'tqdm': 'python3-tqdm', 'yaml': 'python3-yaml'}
 # Imported only if they are installed.
-OPTIONAL = {'dask', 'distributed', 'turtlesim'}
+OPTIONAL = {'dask', 'distributed', 'gymnasium', 'turtlesim'}
 SOURCES = [(package, path) for package in FOLDERS
            for path in sorted((ROOT / package / 'src' / package).glob('**/*.py'))]
 ARCHITECTURE = (ROOT / 'docs' / 'architecture.md').read_text()

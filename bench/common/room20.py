@@ -64,6 +64,15 @@ def drive(world, ticks, laser_period=0.0):
             scan(world)
 
 
+def drive_at_once(world, commands):
+    """Simulate until so many commands were given, with all ticks from one to the next in one call."""
+    command_every = round(COMMAND_PERIOD * world.step_rate)
+    for _ in range(commands):
+        for robot in world.robots.values():
+            robot.command(SPEED, TURN_RATE, world.tick)
+        world.step(command_every)
+
+
 def scan(world):
     """Let every robot scan once."""
     for name in world.robots:

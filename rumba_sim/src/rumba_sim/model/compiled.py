@@ -2,9 +2,10 @@
 
 Compiled functions can call only compiled functions, and numba caches compiled code until the source file changes. So
 the file of the kernel is executed a second time, as a separate module in which every function is replaced by its
-compiled version. Code from the cache loads in a fraction of a second; compiling takes some seconds. All of that waits
-for the first use of `fast`, and so does the import of numba, which takes as long as that of rospy: a node that refuses
-its input, or prints its help, needs none of it.
+compiled version. `batch` calls the kernel: its copy calls the compiled one, and its cache also lasts only until the
+file of the kernel changes. Code from the cache loads in a fraction of a second; compiling takes some seconds. All of
+that waits for the first use of `fast` or `many`, and so does the import of numba, which takes as long as that of rospy:
+a node that refuses its input, or prints its help, needs none of it.
 
 numba caches beside the source file, or in the user's home if that folder cannot be written. If neither can, or the
 cache is damaged, or the disk is full, the kernel is compiled at each start.
@@ -16,23 +17,36 @@ import inspect
 import os
 import sys
 import threading
-from typing import Any, List
+from typing import Any, Callable, List
 
-from rumba_sim.model import kernel
+from rumba_sim.model import batch, kernel
 from rumba_sim.model.errors import one_line
 
 
-def _compiled(path: str) -> Any:
-    """The module of a source file with all its functions compiled."""
+def _compiled(name: str, path: str, **options: Any) -> Any:
+    """The module of a source file with all its functions compiled, with options of numba."""
     import numba
-    spec = importlib.util.spec_from_file_location(f'{__name__}_kernel', path)
+    spec = importlib.util.spec_from_file_location(f'{__name__}_{name}', path)
     if spec is None or spec.loader is None:
         raise ImportError(f'{path} is not a Python module')
     module = importlib.util.module_from_spec(spec)
     sys.modules[spec.name] = module  # numba looks for the module there when it loads code from its cache
     spec.loader.exec_module(module)
     for name, function in inspect.getmembers(module, inspect.isfunction):
-        setattr(module, name, _cached(numba.njit(function), path))
+        setattr(module, name, _cached(numba.njit(function, **options), path))
+    return module
+
+
+def _compiled_kernel() -> Any:
+    return _compiled('kernel', kernel.__file__)
+
+
+def _compiled_batch() -> Any:
+    """The functions of `batch`, which call the compiled kernel, and let other threads work meanwhile."""
+    module = _compiled('batch', batch.__file__, nogil=True)
+    module.kernel = fast.module
+    for _, function in inspect.getmembers(module, lambda member: isinstance(getattr(member, '_cache', None), _Cache)):
+        function._cache.also_depends_on(kernel.__file__)
     return module
 
 
@@ -64,6 +78,11 @@ class _Cache:
     def __getattr__(self, name: str) -> Any:
         return getattr(self._cache, name)
 
+    def also_depends_on(self, path: str) -> None:
+        """Count what is in the cache as out of date, too, if this file has changed."""
+        status, file = os.stat(path), self._cache._cache_file
+        file._source_stamp = (file._source_stamp, status.st_mtime, status.st_size)
+
     def load_overload(self, *what: Any) -> Any:
         """The compiled code, or None if it is not in the cache or cannot be read."""
         try:
@@ -91,18 +110,27 @@ def _say(reason: str) -> None:
 
 
 class _Fast:
-    """The compiled kernel, which is loaded when its first function is asked for."""
+    """A compiled module, which is loaded when its first function is asked for."""
+
+    def __init__(self, load: Callable[[], Any]) -> None:
+        self._load = load
+        self._module: Any = None
+
+    @property
+    def module(self) -> Any:
+        """The module itself."""
+        with _loading:  # another thread may ask too
+            if self._module is None:
+                self._module = self._load()
+        return self._module
 
     def __getattr__(self, name: str) -> Any:
-        with _loading:  # another thread may ask too
-            if not vars(self):
-                vars(self).update(vars(_compiled(kernel.__file__)))
-        try:
-            return vars(self)[name]
-        except KeyError:
-            raise AttributeError(name) from None
+        function = getattr(self.module, name)
+        setattr(self, name, function)
+        return function
 
 
 _said: List[str] = []
-_loading = threading.Lock()
-fast: Any = _Fast()
+_loading = threading.RLock()  # the batch loads the kernel
+fast: Any = _Fast(_compiled_kernel)
+many: Any = _Fast(_compiled_batch)

@@ -32,6 +32,7 @@ class Sweep:
     Attributes:
         samples: uint8 (n * rows, n * columns), as for `kernel`.
         tally: array of one record (`kernel.TALLY`): number of swept reachable samples, and dirt left on those.
+        reachable: number of reachable samples.
     """
 
     def __init__(self, plan: FloorPlan, config: RobotConfig) -> None:
@@ -48,7 +49,7 @@ class Sweep:
         self.tally = np.zeros(1, kernel.TALLY)
         size = plan.sample_squares
         self.samples: Array = np.zeros((plan.rows * size, plan.columns * size), np.uint8)
-        self._reachable = 0
+        self.reachable = 0
 
     def begin(self, x: float, y: float) -> None:
         """Forget what was swept, and find out what can be reached from (x, y) [m], map frame.
@@ -58,13 +59,13 @@ class Sweep:
         """
         found = reach(self._plan, self._config, x, y)
         self.samples = found.samples.copy()
-        self._reachable = found.reachable
+        self.reachable = found.reachable
         self.tally.fill(0)
 
     def copy(self) -> 'Sweep':
         """The same state of the floor, which stays as it is if this one changes."""
         other = Sweep(self._plan, self._config)
-        other.samples, other.tally, other._reachable = self.samples.copy(), self.tally.copy(), self._reachable
+        other.samples, other.tally, other.reachable = self.samples.copy(), self.tally.copy(), self.reachable
         return other
 
     def pass_over(self, start: Pose, end: Pose) -> None:
@@ -74,7 +75,7 @@ class Sweep:
     @property
     def reachable_area(self) -> float:
         """Area that a brush can reach [m^2]."""
-        return self._reachable * self._plan.sample_pitch ** 2
+        return self.reachable * self._plan.sample_pitch ** 2
 
     @property
     def cleaned_area(self) -> float:
@@ -84,7 +85,7 @@ class Sweep:
     @property
     def coverage(self) -> float:
         """cleaned_area / reachable_area [0..1]; 1 if nothing is reachable."""
-        return int(self.tally[0]['swept']) / self._reachable if self._reachable else 1.0
+        return int(self.tally[0]['swept']) / self.reachable if self.reachable else 1.0
 
     def within(self, clearance: Array, x: float, y: float) -> Part:
         """What can be reached on the same floor with less clearance; all, if a robot does not fit at the start then.
@@ -98,7 +99,7 @@ class Sweep:
             return Part(1.0, self.coverage)
         found = reach(plan, self._config, x, y)
         is_reachable = found.samples & kernel.REACHABLE > 0
-        return Part(found.reachable / self._reachable, float((self.samples[is_reachable] >= kernel.PASS).mean()))
+        return Part(found.reachable / self.reachable, float((self.samples[is_reachable] >= kernel.PASS).mean()))
 
     def counts(self, squares: int) -> Tuple[Array, Array]:
         """Numbers of samples that can be reached, and of these that were swept, in blocks of squares.

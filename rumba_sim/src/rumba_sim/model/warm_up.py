@@ -7,10 +7,11 @@ from rumba_sim.model.geometry import Pose
 from rumba_sim.model.guided_world import GuidedWorld
 from rumba_sim.model.obstacle import Obstacle, walk
 from rumba_sim.model.world import World
+from rumba_sim.model.worlds import Worlds
 
 
 def main() -> None:
-    """Call every function of the kernel that a world calls."""
+    """Call every function of the kernel and of the batch that a world, and many of them, call."""
     floor = np.zeros((40, 40), np.int8)
     plan = FloorPlan('a room of 4 m', floor, 0.1, (0.0, 0.0), cliff=floor > 0, dock=Pose(3.0, 2.0, 0.0))
     stands, walks = Pose(1.0, 1.0, 0.0), (Pose(1.0, 3.0, 0.0), Pose(2.0, 3.0, 0.0))
@@ -22,6 +23,12 @@ def main() -> None:
     world.scan('rumba')
     world.infrared('rumba')
     world.cliffs('rumba')
+    worlds = Worlds([world])
+    worlds.step()
+    worlds.scan()
+    worlds.infrared()
+    worlds.cliffs()
+    worlds.surroundings(4, [0.1])
     guided = GuidedWorld(plan)
     guided.jump(guided.world.start)
     guided.wish()

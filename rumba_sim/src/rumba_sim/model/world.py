@@ -20,6 +20,7 @@ from rumba_sim.model.obstacles import Obstacles, kept_clear
 from rumba_sim.model.reachability import stands
 from rumba_sim.model.robot import Infrared, Robot, Start
 from rumba_sim.model.robot_config import RobotConfig
+from rumba_sim.model.world_arrays import WorldArrays
 from rumba_sim.model.world_state import Member, WorldState
 
 NOISE_TICKS = 256  # ticks for which the noise of the wheels is drawn at once
@@ -45,6 +46,8 @@ class World:
         robots: robots by name, in the order in which they were added.
         obstacles: what else stands or moves there; `add_obstacle` and `remove_obstacle` change it.
         tick: number of ticks since the beginning or the last reset.
+        fan: directions of the laser's beams in the frame of a robot: float64 (beams, 2), unit vectors.
+        version: grows whenever arrays of the world are replaced, or one of its constants changes.
     """
 
     def __init__(self, plan: FloorPlan, config: Optional[RobotConfig] = None, step_rate: float = 50,
@@ -72,6 +75,7 @@ class World:
         self.constants = constants(self._config, self.terrain, step_rate)
         self.robots: Dict[str, Robot] = {}
         self._states: Array = np.zeros(0, kernel.ROBOT)
+        self.version = 0
         self.obstacles = Obstacles(step_rate, seed, self._config.drive.radius)
         for obstacle in obstacles:
             self.add_obstacle(obstacle)
@@ -82,7 +86,7 @@ class World:
         self._wheels: List[np.random.Generator] = []
         self._lasers: List[np.random.Generator] = []
         self._spawned = 0
-        self._fan = _fan(self._config.laser.beams)
+        self.fan = _fan(self._config.laser.beams)
         self._begin()
 
     def _begin(self) -> None:
@@ -92,6 +96,7 @@ class World:
         # Kept together, since finding them takes as long as a tenth of a tick.
         self._ground = (self.terrain.clearance, self.floor.cells, self.floor.sweep.samples, self.floor.dirt,
                         self.floor.sweep.tally)
+        self.version += 1
 
     def _checked_start(self) -> Pose:
         """The start of the plan, else the dock, else the position with the largest clearance."""
@@ -123,8 +128,7 @@ class World:
         obstacles = self.obstacles
         while ticks > 0:
             row = self.tick % NOISE_TICKS
-            if row == 0:
-                self._draw_noise()
+            self.draw_noise()
             now = ticks if ticks < NOISE_TICKS - row else NOISE_TICKS - row
             if obstacles.has_movers:
                 now = 1
@@ -139,17 +143,11 @@ class World:
         Args:
             led: poses of the robots after the tick, in the order of `robots`, as for `kernel.follow`.
         """
-        if self.tick % NOISE_TICKS == 0:
-            self._draw_noise()
+        self.draw_noise()
         if self.obstacles.has_movers:
             self.obstacles.step(self._states, self.constants[0])
         fast.follow(self._states, self.constants, self.obstacles.records, *self._ground, self._noise, self.tick, led)
         self.tick += 1
-
-    def _draw_noise(self) -> None:
-        """Draw the noise of the next NOISE_TICKS ticks."""
-        for row, generator in zip(self._noise, self._wheels):
-            generator.standard_normal(out=row)
 
     def reset(self) -> None:
         """Start again: dirty floor, tick 0, every robot and every mover as it began."""
@@ -184,7 +182,7 @@ class World:
         self._config = config
         self._states['charge'] = np.minimum(self._states['charge'], config.battery.capacity)
         self._take(self._states)  # robots that were far apart may meet sooner now
-        self._fan = _fan(config.laser.beams)
+        self.fan = _fan(config.laser.beams)
         for member in self.robots.values():
             member.config = config
 
@@ -272,6 +270,7 @@ class World:
         """Use these states from now on, after robots were added, removed or moved: any two of them may be close now."""
         states['alone_until'] = 0
         self._states = states
+        self.version += 1
         for member, state in zip(self.robots.values(), states.view(PLAIN)):
             member.state = state
 
@@ -319,6 +318,7 @@ class World:
                 self.obstacles.remove(obstacle.name)
                 raise WorldError(f'{obstacle.name} at ({obstacle.pose.x:.2f}, {obstacle.pose.y:.2f}) m: '
                                  f'{member.name!r} stands there')
+        self.version += 1
 
     def remove_obstacle(self, name: str) -> None:
         """Take an obstacle away.
@@ -327,6 +327,7 @@ class World:
             WorldError: there is no obstacle of that name.
         """
         self.obstacles.remove(name)
+        self.version += 1
 
     def swept(self) -> Array:
         """How much of each cell of the plan is swept: int8 (rows, columns), as `Floor.swept`."""
@@ -343,9 +344,9 @@ class World:
             WorldError: there is no robot of that name.
         """
         index = self._index(name)
-        ranges = np.empty(len(self._fan))
+        ranges = np.empty(len(self.fan))
         fast.scan(self._states, index, self.constants[0], self.obstacles.records, self.terrain.skips, self.floor.cells,
-                  self._fan, self._lasers[index].standard_normal(len(self._fan)), ranges)
+                  self.fan, self._lasers[index].standard_normal(len(self.fan)), ranges)
         return ranges
 
     def infrared(self, name: str) -> Infrared:
@@ -369,6 +370,32 @@ class World:
                 for angle in angles]
 
     # --- state ----------------------------------------------------------------------------------------------------
+
+    @property
+    def arrays(self) -> WorldArrays:
+        """The arrays in which the world is, and not copies."""
+        return WorldArrays(self._states, self.constants, self.obstacles.records, self.obstacles.stops, self._noise,
+                           self.floor.cells, self.floor.sweep.samples, self.floor.dirt, self.floor.sweep.tally)
+
+    def keep_in(self, arrays: WorldArrays) -> None:
+        """Be in these arrays from now on, whose contents are the same already."""
+        floor, sweep = self.floor, self.floor.sweep
+        self.constants, self._noise = arrays.constants, arrays.noise
+        self.obstacles.records, self.obstacles.stops = arrays.obstacles, arrays.stops
+        floor.cells, sweep.samples, floor.dirt, sweep.tally = (
+            arrays.cells, arrays.samples, arrays.dirt, arrays.tally)
+        self._ground = (self.terrain.clearance, floor.cells, sweep.samples, floor.dirt, sweep.tally)
+        self._take(arrays.robots)
+
+    def draw_noise(self) -> None:
+        """Draw the noise of the wheels for the next NOISE_TICKS ticks, if that of the last ones is used up."""
+        if self.tick % NOISE_TICKS == 0:
+            for row, generator in zip(self._noise, self._wheels):
+                generator.standard_normal(out=row)
+
+    def draw_laser_noise(self, index: int, noise: Array) -> None:
+        """Draw the noise of a scan by the robot with an index: float64 (beams)."""
+        self._lasers[index].standard_normal(out=noise)
 
     def _arrays(self) -> Dict[str, Array]:
         """All arrays that change, by name.

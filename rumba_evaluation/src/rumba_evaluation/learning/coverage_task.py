@@ -1,0 +1,201 @@
+"""The task of the environment without Gymnasium: many robots, each on a floor of its own, that are to clean it.
+
+    task = CoverageTask(rooms(0, 100), 1024)
+    task.reset(range(1024))
+    seen, outcome = task.step(np.ones((1024, 3)))
+
+Each robot has a random generator of its own: what it meets depends on its seed alone, and not on the others.
+"""
+
+from typing import Dict, NamedTuple, Optional, Sequence, Tuple
+
+import numpy as np
+
+from rumba_cleaning.control import CONTROL_DT, CONTROL_TICKS, STEP_RATE
+from rumba_evaluation.learning.task_config import ANYWHERE, DISCRETE, TaskConfig
+from rumba_evaluation.trials import starts
+from rumba_sim.model.config import updated
+from rumba_sim.model.errors import ConfigError
+from rumba_sim.model.floor_plan import FloorPlan
+from rumba_sim.model.kernel import BEND, STRIDE, Array
+from rumba_sim.model.robot import FIRST
+from rumba_sim.model.robot_config import RobotConfig
+from rumba_sim.model.world import World
+from rumba_sim.model.worlds import Worlds
+
+MOVES = np.array([(1.0, 0.0), (1.0, 0.5), (1.0, -0.5), (0.0, 0.7), (0.0, -0.7), (-0.5, 0.0)])  # discrete actions
+MOVE_NAMES = ('ahead', 'ahead to the left', 'ahead to the right', 'turn left', 'turn right', 'back')
+DOCK_BITS = np.array([1, 4, 8], np.uint8)  # force field, green buoy, red buoy of rumba_msg/DockStatus
+MOST_BUMPS = (CONTROL_TICKS + 1) // 2  # in a step: the bumper opens in between
+LARGEST_SEED = 2 ** 31
+
+Seen = Dict[str, Array]
+
+
+class Outcome(NamedTuple):
+    """What a step led to, robot by robot; each is an array of (robots)."""
+
+    reward: Array  # float64
+    terminated: Array  # bool, the target is reached, the robot has fallen, or its battery is empty
+    truncated: Array  # bool, the time is up
+    coverage: Array  # float64 [0..1]
+
+
+class CoverageTask:
+    """Robots that are to sweep floors.
+
+    Attributes:
+        config: settings of the task.
+        worlds: the worlds in which the robots are, from the first reset of all of them on.
+    """
+
+    def __init__(self, floors: Sequence[FloorPlan], robots: int = 1, config: TaskConfig = TaskConfig(),
+                 robot: RobotConfig = RobotConfig(), threads: int = 1) -> None:
+        """Prepare; `reset` makes the worlds.
+
+        Args:
+            floors: each episode takes place on one of them.
+            robots: how many, each in a world of its own.
+            config: settings of the task.
+            robot: what a robot is like; the task says how many beams it has, and varies it.
+            threads: how many cores to use.
+
+        Raises:
+            ConfigError: there is no floor or no robot.
+        """
+        if not floors:
+            raise ConfigError('there is no floor to clean: give at least one')
+        if robots < 1:
+            raise ConfigError(f'robots is {robots}: must be at least 1')
+        self.config = config
+        self.worlds: Worlds
+        self._floors = list(floors)
+        self._robot = updated(robot, {'laser': {'beams': config.beams}}, 'the task')
+        self._threads = threads
+        self._generators = [np.random.default_rng() for _ in range(robots)]
+        self._steps = np.zeros(robots, np.int64)
+        self._full_step = robot.brush.width * config.speed * CONTROL_DT  # [m^2]
+
+    @property
+    def highest_reward(self) -> float:
+        """More than this is no step worth: what the brush can sweep in it at most, and the target is reached."""
+        brush, drive, seconds = self._robot.brush, self._robot.drive, CONTROL_DT * self.config.hold
+        # It sweeps in strides: one may have begun before.
+        straight = brush.width * (drive.max_speed * seconds + STRIDE)
+        turned = brush.width ** 2 / 4.0 * (drive.max_turn_rate * seconds + BEND)
+        return self.config.reward.swept * (straight + turned) / self._full_step + self.config.reward.finish
+
+    @property
+    def lowest_reward(self) -> float:
+        """Less than this is no step worth."""
+        reward = self.config.reward
+        return -(reward.time * self.config.hold + reward.bump * MOST_BUMPS * self.config.hold + reward.fall)
+
+    # --- episodes -------------------------------------------------------------------------------------------------
+
+    def reset(self, seeds: Sequence[Optional[int]], which: Optional[Array] = None) -> Seen:
+        """Begin an episode with each robot, or with some of them.
+
+        Args:
+            seeds: of all that is random from now on, one for each of the robots; None goes on with what was seeded.
+            which: int64 (any), the numbers of the robots; None for all.
+
+        Returns:
+            What these robots see, as for `look`.
+        """
+        order = np.arange(len(self._steps)) if which is None else np.asarray(which, np.int64)
+        for index, seed in zip(order.tolist(), seeds):
+            if seed is not None:
+                self._generators[index] = np.random.default_rng(seed)
+        begun = [self._world(self._generators[index]) for index in order.tolist()]
+        if which is None:
+            self.worlds = Worlds(begun, self._threads)
+        else:
+            for index, world in zip(order.tolist(), begun):
+                self.worlds[index] = world
+        self._steps[order] = 0
+        return self.look(order)
+
+    def _world(self, generator: np.random.Generator) -> World:
+        """The world of an episode."""
+        plan = self._floors[generator.integers(len(self._floors))]
+        config, charge = self._varied(generator)
+        world = World(plan, config, STEP_RATE, int(generator.integers(LARGEST_SEED)))
+        pose = None
+        if self.config.start == ANYWHERE:
+            pose = starts.anywhere(world.reachable_plan, config, world.start, 1, generator)[0]
+        world.spawn(FIRST, pose, charge)
+        return world
+
+    def _varied(self, generator: np.random.Generator) -> Tuple[RobotConfig, float]:
+        """What the robot of an episode is like, and its state of charge."""
+        variation, robot = self.config.variation, self._robot
+
+        def around(value: float, share: float) -> float:
+            return value * (1.0 + share * float(generator.uniform(-1.0, 1.0)))
+
+        def below(value: float, share: float) -> float:
+            return value * (1.0 - share * float(generator.random()))
+        error = around(1.0, variation.odometry)
+        return updated(robot, {
+            'drive': {'acceleration': around(robot.drive.acceleration, variation.acceleration)},
+            'odometry': {'floor_traction': below(robot.odometry.floor_traction, variation.traction),
+                         'scale_error': error * robot.odometry.scale_error, 'noise': error * robot.odometry.noise},
+            'laser': {'noise': around(robot.laser.noise, variation.laser)},
+            'battery': {'capacity': below(robot.battery.capacity, variation.capacity)},
+        }, 'a varied robot'), below(1.0, variation.charge)
+
+    # --- steps ----------------------------------------------------------------------------------------------------
+
+    def step(self, actions: Array, which: Optional[Array] = None) -> Outcome:
+        """Let each robot, or some of them, act for a step.
+
+        Args:
+            actions: of all robots: int64 (robots), numbers of MOVES, or float64 (robots, 3) [-1..1] with the forward
+                velocity [`speed`], the angular velocity [`turn_rate`], and the brush, which is down from 0 on.
+            which: bool (robots), which of them act; None for all. The time of the others stands still.
+        """
+        worlds, reward = self.worlds, self.config.reward
+        swept, bumps = worlds.cleaned_area, worlds.robots['bumps'].copy()
+        if self.config.actions == DISCRETE:
+            moves, up = MOVES[actions], np.zeros(len(worlds), np.bool_)
+        else:
+            moves, up = np.clip(actions[:, :2], -1.0, 1.0), actions[:, 2] < 0.0
+        acts = np.ones(len(worlds), np.bool_) if which is None else which
+        for _ in range(self.config.hold):  # a command lapses after half a second
+            worlds.command(moves[:, 0] * self.config.speed, moves[:, 1] * self.config.turn_rate, up)
+            worlds.step(CONTROL_TICKS * acts)
+        self._steps += acts
+        coverage, robots = worlds.coverage, worlds.robots
+        fallen, finished = robots['fallen'] > 0, coverage >= self.config.target
+        worth = (reward.swept / self._full_step * (worlds.cleaned_area - swept) - reward.time * self.config.hold
+                 - reward.bump * (robots['bumps'] - bumps) - reward.fall * fallen + reward.finish * finished)
+        return Outcome(np.where(acts, worth, 0.0), fallen | finished | (robots['charge'] <= 0.0),
+                       self._steps >= self.config.most_steps, coverage)
+
+    # --- observations ---------------------------------------------------------------------------------------------
+
+    def look(self, which: Optional[Array] = None) -> Seen:
+        """What the robots see, or some of them, by name: see `spaces.observations`.
+
+        The noise of the ranges is drawn anew each time.
+        """
+        worlds, laser = self.worlds, self._robot.laser
+        robots = worlds.robots if which is None else worlds.robots[which]
+        seen: Dict[str, Array] = {}
+        ranges = worlds.scan(which)
+        ranges /= laser.range_max
+        seen['ranges'] = np.clip(ranges, 0.0, 1.0, out=ranges).astype(np.float32)
+        seen['bumper'] = (robots['bumper'][:, np.newaxis] & np.array([1, 2], np.uint8) > 0).astype(np.float32)
+        seen['cliff'] = worlds.cliffs(which).astype(np.float32)
+        constants = worlds.constants if which is None else worlds.constants[which]
+        seen['battery'] = (robots['charge'] / constants['capacity'])[:, np.newaxis].astype(np.float32)
+        beams = worlds.infrared(which)[:, :, np.newaxis] & DOCK_BITS > 0
+        seen['dock'] = beams.reshape(len(robots), beams.shape[1] * beams.shape[2]).astype(np.float32)
+        theta = robots['odom_theta']
+        seen['odometry'] = np.stack([robots['odom_x'], robots['odom_y'], np.cos(theta), np.sin(theta),
+                                     robots['odom_v'], robots['odom_w']], axis=1).astype(np.float32)
+        if self.config.maps:
+            maps = worlds.surroundings(self.config.map_size, self.config.pitches, which)
+            seen['maps'] = maps.reshape(len(robots), 2 * self.config.maps, *maps.shape[-2:])
+        return seen

@@ -1,0 +1,187 @@
+"""Steps and sensors of many worlds in one call: the loops over worlds around the kernel.
+
+This is plain Python that `compiled` hands to numba, as the kernel is. No world reads what belongs to another, so that
+several threads may each take a part of them.
+
+Arguments that the functions share. Each row belongs to one world; it may be longer than what the world needs.
+    first, last: the part of `order` that the call is about, `last` not included.
+    order: int64 (any), the numbers of worlds. Worlds on one floor plan are best side by side, since the plan then stays
+        in the cache of the processor.
+    rows: int64 (any), for each of them the row of the arrays that receive what its sensors measure.
+    robots: (worlds) records of type ROBOT: each world has one robot.
+    constants: (worlds) records `constants.Constants`.
+    obstacles: (worlds, any) records of type OBSTACLE, of which the first `counts[world]` are there.
+    plans: int64 (worlds), which row of `fields`, `cells` and `skips` belongs to a world; worlds on one plan share it.
+    shapes: int64 (worlds, 3), rows and columns of the cells, and the squares of samples along the side of a cell.
+    fields, cells, skips, samples, dirt: what the kernel calls so, row by row, in one row of a world or of a plan.
+"""
+
+import math
+from typing import Tuple
+
+import numpy as np
+
+from rumba_sim.model import kernel
+from rumba_sim.model.kernel import Array, Record
+
+NO_FLOOR, WHOLE = 255, 254  # of a cell: there is no floor; all of its floor is left to be swept
+WITHOUT_FLOOR = kernel.BLOCKED | kernel.CLIFF  # bits of a cell
+ANY_BUT_SWEEPABLE = 0xFF - kernel.SWEEPABLE  # bits of a sample: REACHABLE and the passes
+
+
+def advance(first: int, last: int, order: Array, ticks: Array, spans: Array, robots: Array, constants: Array,
+            obstacles: Array, counts: Array, stops: Array, moving: Array, plans: Array, shapes: Array, fields: Array,
+            cells: Array, samples: Array, dirt: Array, tallies: Array, noise: Array) -> None:
+    """Advance each world by a number of ticks of its own.
+
+    Args, apart from those above:
+        ticks: int64 (worlds), the number of the next tick.
+        spans: int64 (worlds), how many ticks to simulate.
+        stops: float64 (worlds, any, 6), the stops of its movers.
+        moving: bool (worlds), whether it has movers.
+        tallies: (worlds) records of type TALLY.
+        noise: float64 (worlds, 1, any, 2), standard normal, as for the kernel.
+    """
+    for world in order[first:last]:
+        rows, columns = shapes[world, 0], shapes[world, 1]
+        high, wide = rows * shapes[world, 2], columns * shapes[world, 2]
+        field = fields[plans[world], :(rows + 1) * (columns + 1)].reshape((rows + 1, columns + 1))
+        floor = cells[plans[world], :rows * columns].reshape((rows, columns))
+        sample = samples[world, :high * wide].reshape((high, wide))
+        dirty = dirt[world, :rows * columns].reshape((rows, columns))
+        robot, k, tally = robots[world:world + 1], constants[world:world + 1], tallies[world:world + 1]
+        things = obstacles[world, :counts[world]]
+        if not moving[world]:
+            kernel.advance(robot, k, things, field, floor, sample, dirty, tally, noise[world], ticks[world],
+                           spans[world])
+            continue
+        for tick in range(ticks[world], ticks[world] + spans[world]):
+            kernel.go(things, stops[world], robot, k[0])
+            kernel.advance(robot, k, things, field, floor, sample, dirty, tally, noise[world], tick, 1)
+
+
+def scan(first: int, last: int, order: Array, rows: Array, robots: Array, constants: Array, obstacles: Array,
+         counts: Array, plans: Array, shapes: Array, cells: Array, skips: Array, fan: Array, noise: Array,
+         ranges: Array) -> None:
+    """Measure with the laser of each robot.
+
+    Args, apart from those above:
+        fan: float64 (beams, 2), as for the kernel.
+        noise: float64 (any, beams), standard normal.
+        ranges: float64 (any, beams), receives the measured distances.
+    """
+    for index in range(first, last):
+        world, row = order[index], rows[index]
+        floor, skip = floor_of(plans[world], plans[world], shapes[world], cells, skips)
+        kernel.scan(robots[world:world + 1], 0, constants[world], obstacles[world, :counts[world]], skip, floor, fan,
+                    noise[row], ranges[row])
+
+
+def infrared(first: int, last: int, order: Array, rows: Array, robots: Array, constants: Array, plans: Array,
+             shapes: Array, cells: Array, skips: Array, beams: Array) -> None:
+    """What the receivers of each robot get from the dock: `beams`, uint8 (any, 3), receives omni, left, right."""
+    for index in range(first, last):
+        world, row = order[index], rows[index]
+        floor, skip = floor_of(plans[world], plans[world], shapes[world], cells, skips)
+        beams[row, 0], beams[row, 1], beams[row, 2] = kernel.infrared(robots[world], constants[world], skip, floor)
+
+
+def cliffs(first: int, last: int, order: Array, rows: Array, robots: Array, constants: Array, plans: Array,
+           shapes: Array, cells: Array, distances: Array, angles: Array, seen: Array) -> None:
+    """Whether there is no floor under the cliff sensors of each robot.
+
+    Args, apart from those above:
+        distances: float64 (worlds), of the sensors from the centre of the robot [m].
+        angles: float64 (worlds, 4), of the sensors from straight ahead [rad].
+        seen: bool (any, 4), receives the answer.
+    """
+    for index in range(first, last):
+        world, row = order[index], rows[index]
+        floor, _ = floor_of(plans[world], plans[world], shapes[world], cells, cells)
+        robot, k = robots[world], constants[world]
+        for sensor in range(angles.shape[1]):
+            along = robot.theta + angles[world, sensor]
+            seen[row, sensor] = k.has_layers and kernel.cell_bits(
+                k, floor, robot.x + distances[world] * math.cos(along),
+                robot.y + distances[world] * math.sin(along)) & kernel.CLIFF != 0
+
+
+def surroundings(first: int, last: int, order: Array, rows: Array, robots: Array, constants: Array, plans: Array,
+                 shapes: Array, cells: Array, samples: Array, left: Array, known: Array, pitches: Array, points: Array,
+                 maps: Array) -> None:
+    """Draw the floor around each robot, which looks up in the middle of its maps.
+
+    Args, apart from those above:
+        left: uint8 (worlds, any), what is left to be swept of each cell of a world, as `look` counts it; up to date
+            except where the robot has been since.
+        known: float64 (worlds, 3), x, y and driven distance [m] of the robot at that time; NaN if `left` is not known.
+        pitches: float64 (scales), side of a pixel [m].
+        points: int64 (scales), a pixel is the mean of so many points along each of its sides.
+        maps: uint8 (any, scales, 2, size, size), receives 255 times the share of each pixel that is no floor, and that
+            of floor that the brush can reach and has not passed over yet. Row 0 is ahead, column 0 is to the left.
+    """
+    for index in range(first, last):
+        world, row = order[index], rows[index]
+        squares = shapes[world, 2]
+        high, wide = shapes[world, 0] * squares, shapes[world, 1] * squares
+        floor, dirty = floor_of(plans[world], world, shapes[world], cells, left)
+        sample = samples[world, :high * wide].reshape((high, wide))
+        look(robots[world], constants[world], squares, floor, sample, dirty, known[world])
+        for scale in range(len(pitches)):
+            draw(robots[world], constants[world], dirty, pitches[scale], points[scale], maps[row, scale])
+
+
+def look(robot: Record, k: Record, squares: int, cells: Array, samples: Array, left: Array, known: Array) -> None:
+    """Bring `left` up to date: NO_FLOOR, or the share of the cell that can be reached and is not swept, 0 to WHOLE.
+
+    The robot can have swept only what is near the way that it drove since the last time.
+    """
+    from_row, from_column, to_row, to_column = 0, 0, left.shape[0], left.shape[1]
+    driven = robot.distance - known[2]
+    if math.hypot(robot.x - known[0], robot.y - known[1]) <= driven + kernel.PUSH:  # false if it is NaN
+        near = driven + 0.5 * k.brush_width + 2.0 * kernel.STRIDE
+        from_row = max(int((known[1] - near - k.origin_y) / k.resolution), 0)
+        from_column = max(int((known[0] - near - k.origin_x) / k.resolution), 0)
+        to_row = min(int((known[1] + near - k.origin_y) / k.resolution) + 1, to_row)
+        to_column = min(int((known[0] + near - k.origin_x) / k.resolution) + 1, to_column)
+    share = WHOLE / (squares * squares)
+    for row in range(from_row, to_row):
+        for column in range(from_column, to_column):
+            count = 0
+            for i in range(row * squares, (row + 1) * squares):
+                for j in range(column * squares, (column + 1) * squares):
+                    count += samples[i, j] & ANY_BUT_SWEEPABLE == kernel.REACHABLE
+            left[row, column] = NO_FLOOR if cells[row, column] & WITHOUT_FLOOR else np.uint8(count * share + 0.5)
+    known[0], known[1], known[2] = robot.x, robot.y, robot.distance
+
+
+def draw(robot: Record, k: Record, left: Array, pitch: float, points: int, picture: Array) -> None:
+    """Draw one of the maps of `surroundings`: `picture`, uint8 (2, size, size)."""
+    size, share, part = picture.shape[1], 255.0 / (points * points), 255.0 / (points * points * WHOLE)
+    step = pitch / points / k.resolution  # from point to point [cells]
+    along_u, along_v = math.cos(robot.theta) * step, math.sin(robot.theta) * step
+    first = 0.5 * size * points - 0.5
+    first_u = (robot.x - k.origin_x) / k.resolution + first * along_u - first * along_v
+    first_v = (robot.y - k.origin_y) / k.resolution + first * along_v + first * along_u
+    rows, columns = float(left.shape[0]), float(left.shape[1])
+    for row in range(size):
+        for column in range(size):
+            blocked, total = 0, 0
+            for back in range(row * points, (row + 1) * points):
+                for right in range(column * points, (column + 1) * points):
+                    u = first_u - back * along_u + right * along_v
+                    v = first_v - back * along_v - right * along_u
+                    seen = NO_FLOOR
+                    if 0.0 <= u < columns and 0.0 <= v < rows:
+                        seen = int(left[np.uint32(v), np.uint32(u)])
+                    blocked += seen == NO_FLOOR
+                    total += seen
+            picture[0, row, column] = np.uint8(blocked * share + 0.5)
+            picture[1, row, column] = np.uint8((total - NO_FLOOR * blocked) * part + 0.5)
+
+
+def floor_of(plan: int, world: int, shape: Array, cells: Array, others: Array) -> Tuple[Array, Array]:
+    """Row `plan` of `cells`, and row `world` of another such array, in rows and columns."""
+    rows, columns = shape[0], shape[1]
+    return (cells[plan, :rows * columns].reshape((rows, columns)),
+            others[world, :rows * columns].reshape((rows, columns)))
