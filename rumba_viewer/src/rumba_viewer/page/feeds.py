@@ -36,12 +36,14 @@ class Demand(NamedTuple):
         throttle: [s] between two messages, at least; 0: every message.
         queue: messages that may wait while the client is slow; 0: as the server likes.
         is_png: whether each message comes in a picture, as rosbridge compresses.
+        name: of the topic, as the client wrote it; its messages carry this name.
         newest: whether to begin with the newest message that is known, even if the topic is not latched.
     """
 
     throttle: float = 0.0
     queue: int = 0
     is_png: bool = False
+    name: str = ''
     newest: bool = False
 
     @property
@@ -50,8 +52,8 @@ class Demand(NamedTuple):
         return min(self.queue or (1 if self.throttle else MOST_KEPT), MOST_KEPT)
 
 
-# Makes the text of a message: of the arrival, and whether it is compressed. None if it cannot be made.
-Encode = Callable[[Arrival, bool], Optional[bytes]]
+# Makes the frame of a message: of the arrival, the name of its topic, and whether it is compressed. None: impossible.
+Encode = Callable[[Arrival, str, bool], Optional[bytes]]
 
 
 class Listener:
@@ -69,7 +71,8 @@ class Listener:
         """Take the shortest throttle and the longest queue of all reasons, as rosbridge does."""
         demands = self.demands.values()
         self.demand = Demand(min(one.throttle for one in demands), max(one.queue for one in demands),
-                             all(one.is_png for one in demands), any(one.newest for one in demands))
+                             all(one.is_png for one in demands), next(one.name for one in demands),
+                             any(one.newest for one in demands))
 
 
 class Feed:
@@ -114,7 +117,7 @@ class Feed:
         if not first and listener.demand.newest and self._newest is not None:
             first = [self._newest]
         for arrival in first:
-            self._push(listener, encode(arrival, listener.demand.is_png))
+            self._push(listener, encode(arrival, listener.demand.name, listener.demand.is_png))
 
     def remove(self, client: Any, reason: Any = None) -> None:
         """Let a client no longer listen for a reason; None: for any."""
@@ -143,22 +146,22 @@ class Feed:
             self._hand_on(arrived, self._newest, now, encode)
 
     def _hand_on(self, arrived: Any, newest: Arrival, now: float, encode: Encode) -> None:
-        made: Dict[Tuple[int, bool], Optional[bytes]] = {}
+        made: Dict[Tuple[int, str, bool], Optional[bytes]] = {}
 
-        def text(arrival: Arrival, is_png: bool) -> Optional[bytes]:
-            key = id(arrival), is_png
+        def frame(arrival: Arrival, demand: Demand) -> Optional[bytes]:
+            key = id(arrival), demand.name, demand.is_png
             if key not in made:
-                made[key] = encode(arrival, is_png)
+                made[key] = encode(arrival, demand.name, demand.is_png)
             return made[key]
         begin = self._clock()
         for listener in list(self._listeners.values()):
             demand = listener.demand
             if not demand.throttle:
                 for arrival in arrived:
-                    self._push(listener, text(arrival, demand.is_png))
+                    self._push(listener, frame(arrival, demand))
                 listener.seen = self._number
             elif listener.seen < self._number and now >= max(listener.due, self._affordable):
-                self._push(listener, text(newest, demand.is_png))
+                self._push(listener, frame(newest, demand))
                 listener.seen = self._number
                 listener.due = max(listener.due, now - demand.throttle / 2) + demand.throttle
         if made:
@@ -167,9 +170,3 @@ class Feed:
     def _push(self, listener: Listener, frame: Optional[bytes]) -> None:
         if frame is not None:
             listener.client.push(self.topic, frame, listener.demand.most)
-
-    def forget(self) -> None:
-        """Forget all messages, because nobody subscribes any longer, or the publishers are others."""
-        self.arrivals.clear()
-        self._latched.clear()
-        self._newest = None

@@ -114,7 +114,7 @@ class Session:
             raise Refusal(f'{topic} has {MOST_TOPICS} subscriptions of this client already')
         compression = _one(operation, 'compression', COMPRESSIONS, 'none')
         demand = Demand(min(_number(operation, 'throttle_rate') / 1000.0, LONGEST_THROTTLE),
-                        int(_number(operation, 'queue_length')), compression == 'png',
+                        int(_number(operation, 'queue_length')), compression == 'png', operation['topic'],
                         operation.get('newest') is True)
         self._ros.subscribe(self._client, topic, reason, demand)
         self._listens.setdefault(topic, set()).add(reason)

@@ -95,17 +95,14 @@ class Hub:
 
     def listen(self, client: Client, topic: str, reason: Any, demand: Demand) -> None:
         """Let a client listen to a topic."""
-        self.feed(topic).add(client, reason, demand, self._encoder(topic))
-
-    def _encoder(self, topic: str) -> Callable[[Arrival, bool], Optional[bytes]]:
-        return lambda arrival, is_png: self._encode(arrival, topic, is_png)
+        self.feed(topic).add(client, reason, demand, self._encode)
 
     def tick(self) -> None:
         """Hand on what has arrived."""
         now = self.now()
-        for topic, feed in list(self.feeds.items()):
+        for feed in list(self.feeds.values()):
             if feed.has_news:
-                feed.tick(now, self._encoder(topic))
+                feed.tick(now, self._encode)
         for client in list(self._with_mail):
             if client.deliver():
                 self._with_mail.discard(client)

@@ -145,7 +145,7 @@ class RosLink(Ros):
 
     def call(self, client: Any, service: str, values: Any, done: Callable[[bool, Any], None]) -> None:
         """Call a service."""
-        self._services.call(service, values, done)
+        self._services.call(client, service, values, done)
 
 
 def _later(loop: IOLoop, seconds: float, act: Callable[[], Any]) -> None:
