@@ -125,9 +125,9 @@ export class Floor {
   }
 
   paintLaser(view, robot) {
-    const {scan, pose} = robot, {context} = this;
-    if (!scan || !pose) return;
-    const {x, y, theta} = robot.shown(performance.now());
+    const {scan} = robot, {context} = this;
+    if (!scan) return;
+    const {x, y, theta} = scan.pose;
     context.beginPath();
     scan.ranges.forEach((range, number) => {
       const length = range === null ? scan.range_max : range;

@@ -1,6 +1,7 @@
 // What is known of one robot, from its topics.
 
 const TRAIL = 20000;  // points
+const RECENT = 30;  // poses that are kept, to find that of a scan
 const NEAR = 0.03;  // [m] between two points of the trail
 const STATES = ['Idle', 'Leaving the dock', 'Cleaning', 'Returning to the dock', 'Docking', 'Charging', 'Going to a point',
   'Stranded', 'You are driving'];
@@ -13,6 +14,10 @@ const SMALL = {  // topic -> what it changes
 };
 const RATES = {battery_status: 500, battery_state: 1000, dock_status: 500, cleaning_status: 1000, mission_status: 0};
 const LARGE = {scan: {throttle_rate: 200}, coverage: {throttle_rate: 500, compression: 'png'}};
+const LEARN = {
+  coverage: (robot, msg) => { robot.coverage = msg; },
+  scan: (robot, msg) => { robot.arrived = msg; robot.placeScan(); },
+};
 
 export class Robot {
   // `name` with its namespace, as in /rumba; `onNews` is called when there is something new to show.
@@ -25,7 +30,7 @@ export class Robot {
   }
 
   forget() {
-    Object.assign(this, {pose: null, before: null, came: 0, stamp: null, trail: [], scan: null, coverage: null,
+    Object.assign(this, {pose: null, before: null, came: 0, stamp: null, trail: [], recent: [], scan: null, arrived: null, coverage: null,
       battery: null, cleaning: null, mission: null, isDocked: false, brushesUp: null, target: null});
   }
 
@@ -43,10 +48,10 @@ export class Robot {
     }
     for (const [topic, options] of Object.entries(LARGE)) {
       const name = `${this.name}/${topic}`;
-      if (isSelected) this.hear(name, {...options, newest: true}, (robot, msg) => { robot[topic] = msg; });
+      if (isSelected) this.hear(name, {...options, newest: true}, LEARN[topic]);
       else this.link.unsubscribe(name);
     }
-    if (!isSelected) this.scan = this.coverage = null;
+    if (!isSelected) this.scan = this.arrived = this.coverage = null;
   }
 
   hear(topic, options, learn) {
@@ -54,10 +59,12 @@ export class Robot {
   }
 
   learnPose(msg) {
-    const {position, orientation: q} = msg.pose.pose, {secs, nsecs} = msg.header.stamp, stamp = secs + nsecs * 1e-9;
+    const {position, orientation: q} = msg.pose.pose, stamp = seconds(msg.header.stamp);
     const pose = {x: position.x, y: position.y, theta: Math.atan2(2 * (q.w * q.z + q.x * q.y), 1 - 2 * (q.y ** 2 + q.z ** 2))};
     if (![pose.x, pose.y, pose.theta].every(Number.isFinite)) return;
     if (this.stamp !== null && stamp < this.stamp) this.forget();  // another simulation has started
+    this.recent = [...this.recent.slice(1 - RECENT), {stamp, pose}];
+    this.placeScan();
     const now = performance.now(), last = this.trail[this.trail.length - 1];
     const jumped = this.pose && Math.hypot(pose.x - this.pose.x, pose.y - this.pose.y) > 1;
     Object.assign(this, {before: jumped ? null : this.shown(now), pose, came: now, stamp, velocity: msg.twist.twist});
@@ -68,6 +75,18 @@ export class Robot {
     this.onNews(this);
   }
 
+  // Put a scan where the robot was when it measured, as soon as a pose of that time or later is known.
+  placeScan() {
+    const {arrived, recent} = this;
+    if (!arrived) return;
+    const stamp = seconds(arrived.header.stamp), next = recent.findIndex(one => one.stamp >= stamp);
+    if (next < 0) return;
+    const [from, to] = [recent[Math.max(next - 1, 0)], recent[next]];
+    const share = to.stamp > from.stamp ? Math.min(Math.max((stamp - from.stamp) / (to.stamp - from.stamp), 0), 1) : 1;
+    this.scan = {...arrived, pose: between(from.pose, to.pose, share)};
+    this.arrived = null;
+  }
+
   learnCleaning(msg) {
     if (this.cleaning && msg.distance < this.cleaning.distance) this.trail = [];  // a reset
     this.cleaning = msg;
@@ -76,10 +95,7 @@ export class Robot {
   // Where to draw it: it glides from one pose to the next.
   shown(now) {
     if (!this.before || !this.pose) return this.pose;
-    const share = Math.min((now - this.came) / 110, 1), turn = this.pose.theta - this.before.theta;
-    const mix = (from, to) => from + share * (to - from);
-    return {x: mix(this.before.x, this.pose.x), y: mix(this.before.y, this.pose.y),
-      theta: this.before.theta + share * Math.atan2(Math.sin(turn), Math.cos(turn))};
+    return between(this.before, this.pose, Math.min((now - this.came) / 110, 1));
   }
 
   isGliding(now) {
@@ -94,4 +110,15 @@ export class Robot {
   get isCharging() {
     return this.battery?.power_supply_status === 1;
   }
+}
+
+function seconds({secs, nsecs}) {
+  return secs + nsecs * 1e-9;
+}
+
+// A pose between two others.
+function between(from, to, share) {
+  const turn = to.theta - from.theta;
+  return {x: from.x + share * (to.x - from.x), y: from.y + share * (to.y - from.y),
+    theta: from.theta + share * Math.atan2(Math.sin(turn), Math.cos(turn))};
 }

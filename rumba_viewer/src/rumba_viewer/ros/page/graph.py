@@ -1,7 +1,9 @@
 """What the master knows, looked at once a second while there are clients, and what `/rosapi` tells of it."""
 
+import http.client
 import threading
 import time
+import xmlrpc.client
 from typing import Any, Callable, Dict, FrozenSet, List, NamedTuple
 
 import rosgraph
@@ -10,8 +12,9 @@ import rosservice
 
 from rumba_viewer.page.allow_list import AllowList
 from rumba_viewer.page.errors import Refusal
-from rumba_viewer.ros.listener import GONE
 
+# What is raised if the master ends during a call.
+GONE = (rosgraph.MasterException, xmlrpc.client.Error, http.client.HTTPException, OSError)
 PERIOD = 1.0  # [s] between two looks
 
 
