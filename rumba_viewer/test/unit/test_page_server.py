@@ -125,8 +125,8 @@ def test_other_sites_and_other_names_of_this_machine_are_refused():
 
 
 @pytest.mark.parametrize('message, words', [
-    ('{"op": ', 'is no JSON'), ('[1]', 'must be a JSON object'), (10_000_000 * 'x', 'too big'), (70_000 * 'x', 'too big')],
-    ids=['no JSON', 'no operation', '10 MB', 'over the bound'])
+    ('{"op": ', 'is no JSON'), ('[1]', 'must be a JSON object'), (10_000_000 * 'x', 'too big'),
+    (70_000 * 'x', 'too big')], ids=['no JSON', 'no operation', '10 MB', 'over the bound'])
 def test_hostile_input_ends_its_own_client_with_a_status(message, words):
     async def act():
         page = Page()

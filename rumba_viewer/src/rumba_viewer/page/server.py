@@ -21,7 +21,7 @@ from rumba_viewer.page.protocol import Ros, Session
 TICK = 0.02  # [s] between two looks at what has arrived from ROS
 REQUEST = 65536  # [bytes] of the head or the body of a request, at most
 IDLE = 30.0  # [s] after which a connection that asks for nothing is closed
-PING = 20.0  # [s] between two pings of a websocket; one that does not answer within that time is closed
+PING, SILENT = 20.0, 60.0  # [s] between two pings of a websocket; without an answer, until it is closed
 HEADERS = {
     'Content-Security-Policy': "default-src 'self'; connect-src 'self' ws: wss:; img-src 'self' data:; "
                                "frame-ancestors 'none'; base-uri 'none'; form-action 'none'",
@@ -168,7 +168,7 @@ def serve(hub: Hub, tokens: Tokens, folder: pathlib.Path, where: List[socket.soc
         [(r'/', _Root, {'hub': hub, 'rights_of': tokens.rights}),
          (r'/([a-z_]+\.(?:js|css|svg))', _Files, {'path': str(folder)})],
         folder=folder, log_function=lambda _: None, websocket_max_message_size=hub.bounds.size,
-        websocket_ping_interval=PING, websocket_ping_timeout=PING)
+        websocket_ping_interval=PING, websocket_ping_timeout=SILENT)
     application.is_local = all(is_loopback(one.getsockname()[0]) for one in where)
     server = HTTPServer(application, idle_connection_timeout=IDLE, body_timeout=IDLE, max_header_size=REQUEST,
                         max_body_size=REQUEST, max_buffer_size=4 * REQUEST)

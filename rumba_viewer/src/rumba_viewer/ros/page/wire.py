@@ -71,8 +71,9 @@ def png(text: str) -> str:
     height = math.ceil(len(data) / (3 * width))
     data = data.ljust(3 * width * height, b'\n')
     rows = b''.join(b'\0' + data[start:start + 3 * width] for start in range(0, len(data), 3 * width))
-    return base64.b64encode(b'\x89PNG\r\n\x1a\n' + _chunk(b'IHDR', struct.pack('!IIBBBBB', width, height, 8, 2, 0, 0, 0))
-                            + _chunk(b'IDAT', zlib.compress(rows, FAST)) + _chunk(b'IEND', b'')).decode()
+    head = struct.pack('!IIBBBBB', width, height, 8, 2, 0, 0, 0)
+    picture = _chunk(b'IHDR', head) + _chunk(b'IDAT', zlib.compress(rows, FAST)) + _chunk(b'IEND', b'')
+    return base64.b64encode(b'\x89PNG\r\n\x1a\n' + picture).decode()
 
 
 def _chunk(kind: bytes, data: bytes) -> bytes:
