@@ -7,6 +7,7 @@ With a number of seconds, as in `python3 bench/page.py 3600`, it measures for so
 import asyncio
 import contextlib
 import json
+import socket
 import statistics
 import subprocess
 import sys
@@ -64,20 +65,18 @@ def beside(seconds, clients, robots, share, memory):
 
 def is_served(port):
     """Whether the page answers."""
-    with contextlib.suppress(OSError):
-        asyncio.run(AsyncHTTPClient().fetch(f'http://127.0.0.1:{port}/'))
-        return True
-    return False
+    with socket.socket() as probe:
+        return not probe.connect_ex(('127.0.0.1', port))
 
 
 async def client(port, robot):
     """A client that listens to what a browser shows of a robot."""
-    socket = await websocket_connect(f'ws://127.0.0.1:{port}/')
+    connection = await websocket_connect(f'ws://127.0.0.1:{port}/')
     own = [{'topic': f'/{robot}/{topic}', 'throttle_rate': rate, 'newest': True,
             'compression': 'png' if topic == 'coverage' else 'none'} for topic, rate in OWN.items()]
     for operation in (*SHARED, *own):
-        await socket.write_message(json.dumps({'op': 'subscribe', **operation}))
-    return socket
+        await connection.write_message(json.dumps({'op': 'subscribe', **operation}))
+    return connection
 
 
 async def first_picture(port):
@@ -85,28 +84,29 @@ async def first_picture(port):
     begin = time.monotonic()
     for name in FILES:
         await AsyncHTTPClient().fetch(f'http://127.0.0.1:{port}/{name}')
-    socket = await client(port, 'rumba')
+    connection = await client(port, 'rumba')
     pictures, has_pose = 0, False
     while pictures < 2 or not has_pose:
-        text = await socket.read_message()
+        text = await connection.read_message()
         pictures += '"op": "png"' in text or '"op":"png"' in text
         has_pose = has_pose or '/ground_truth' in text
-    socket.close()
+    connection.close()
     return time.monotonic() - begin
 
 
 async def listen(port, clients, robots):
     """Be many clients; print a line when all are connected, and every second how many poses each got in a second."""
-    sockets = [await client(port, 'rumba' + (str(number % robots + 1) if number % robots else ''))
-               for number in range(clients)]
+    connections = [await client(port, 'rumba' + (str(number % robots + 1) if number % robots else ''))
+                   for number in range(clients)]
     poses = [0]
 
-    async def read(socket):
+    async def read(connection):
         while True:
-            text = await socket.read_message()
+            text = await connection.read_message()
             poses[0] += '/ground_truth' in text[:80]
-    readers = [asyncio.ensure_future(read(socket)) for socket in sockets]
+    readers = [asyncio.ensure_future(read(one)) for one in connections]
     print('connected', flush=True)
+    await asyncio.sleep(WARM)  # what came while the others connected does not count
     while not any(reader.done() for reader in readers):
         begin, poses[0] = time.monotonic(), 0
         await asyncio.sleep(5.0)

@@ -7,6 +7,7 @@ is any object with `__slots__` and `_slot_types`, as genpy makes them.
 import base64
 import binascii
 import functools
+import json
 import math
 import re
 from typing import Any, Callable, List, NamedTuple, Optional, Sequence, Tuple
@@ -22,6 +23,7 @@ FLOATS = ('float32', 'float64')
 BYTES = ('uint8', 'char')
 TIMES = ('time', 'duration')
 HEADERS = ('Header', 'std_msgs/Header', 'roslib/Header')
+SMALL = {number: str(number) for number in range(-128, 128)}
 MOST_NESTED = 32  # levels of a message
 
 
@@ -54,6 +56,18 @@ def to_json(message: Any) -> Any:
     """What `json.dumps` makes the text of a message from."""
     return {name: _value(getattr(message, name), kind(of))
             for name, of in zip(message.__slots__, message._slot_types)}
+
+
+def to_text(message: Any) -> str:
+    """The JSON of a message; for the cells of a map, `json.dumps` would take three times as long."""
+    return '{' + ','.join(f'"{name}":{_text(getattr(message, name), kind(of))}'
+                          for name, of in zip(message.__slots__, message._slot_types)) + '}'
+
+
+def _text(value: Any, of: Kind) -> str:
+    if of.is_list and of.base == 'int8':
+        return '[' + ','.join(map(SMALL.__getitem__, value)) + ']'
+    return json.dumps(_value(value, of), separators=(',', ':'), allow_nan=False)
 
 
 def _value(value: Any, of: Kind) -> Any:

@@ -1,6 +1,6 @@
 """Topics and those who listen to them: each message is made into text once, however many clients there are.
 
-Threads of ROS only store what arrives; `Feed.tick` hands it on, some fifty times a second.
+Threads of ROS only store what arrives; `Feed.tick` hands it on, some twenty times a second.
 """
 
 import collections

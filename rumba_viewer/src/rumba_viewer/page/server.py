@@ -18,7 +18,7 @@ from rumba_viewer.page.errors import Refusal
 from rumba_viewer.page.feeds import Arrival, Demand, Feed
 from rumba_viewer.page.protocol import Ros, Session
 
-TICK = 0.02  # [s] between two looks at what has arrived from ROS
+TICK = 0.05  # [s] between two looks at what has arrived from ROS
 REQUEST = 65536  # [bytes] of the head or the body of a request, at most
 IDLE = 30.0  # [s] after which a connection that asks for nothing is closed
 PING, SILENT = 20.0, 60.0  # [s] between two pings of a websocket; without an answer, until it is closed
