@@ -13,6 +13,7 @@ from rumba_cleaning.mission.mission import Mission, State
 from rumba_cleaning.outcome import Outcome
 from rumba_cleaning.strategies.boustrophedon import Boustrophedon
 from rumba_sim.model.geometry import Pose
+from rumba_sim.model.obstacle import Obstacle
 from rumba_sim.model.world import World
 
 
@@ -23,7 +24,8 @@ def test_a_closed_door_does_not_keep_it_busy_for_ever():
     mission = Mission(context_of(plan, world), 'boustrophedon', 0.99)
     assert max(observation.state_of_charge for observation, _ in steps(mission, world, seconds=3000.0)) == 1.0
     assert (mission.status, mission.outcome) == (Status.FAILED, Outcome.INCOMPLETE)
-    assert mission.message.endswith('% swept, the target is 99.0 %: nothing more can be reached')
+    assert re.fullmatch('.* of what lies beside obstacles, the target is 99.0 %: nothing more can be reached',
+                        mission.message)
     assert world.floor.coverage >= 0.98
 
 
@@ -50,6 +52,24 @@ def test_driven_elsewhere_by_a_person_it_returns_to_its_route_and_goes_on_where_
 def left(behaviour):
     """What is left of the plan [m]."""
     return float(re.match(r'(\d+) m of the plan to go', behaviour.message).group(1))
+
+
+def test_it_waits_for_what_stands_in_a_doorway_to_go():
+    plan = room(5.0, 3.0, boxes=[(2.4, 0.0, 2.6, 1.0), (2.4, 1.9, 2.6, 3.0)], start=Pose(1.0, 1.0, 0.0))
+    world = World(plan, quiet(), obstacles=[Obstacle('person', Pose(2.5, 1.45, 0.0), 1.7, 0.2)])
+    robot = world.spawn('rumba')
+    context = context_of(plan, world)
+    context.swept.begin(1.0, 1.0)
+    waited, before, is_open = 0.0, robot.pose, False
+    for observation, _ in steps(Boustrophedon(context), world, seconds=1500.0):
+        context.swept.follow(robot.pose, robot.brushes_up)
+        waited = waited + observation.dt if robot.pose == before else 0.0
+        before = robot.pose
+        if waited > 5.0 and not is_open:
+            assert context.swept.coverage < 0.6
+            world.remove_obstacle('person')
+            is_open = True
+    assert is_open and context.swept.coverage > 0.98
 
 
 def test_a_robot_that_parks_in_the_way_is_cleaned_around_and_under_once_it_is_gone():

@@ -126,3 +126,35 @@ def test_every_point_among_obstacles_has_a_path_if_its_path_length_is_finite():
         assert (path is None) == np.isinf(expected)
         if path is not None:
             assert math.hypot(*(start - end)) - 1e-9 <= length(path) <= 1.3 * expected + 0.1
+
+
+def test_what_is_met_again_after_it_was_forgotten_stays_and_what_is_not_goes():
+    floor = ground(room(6.0, 4.0))
+    for x in (2.0, 2.08, 4.0):
+        floor.mark(x, 2.0, 0.05)
+    assert floor.has_marks and not floor.has_lasting
+    floor.forget_doubtful()
+    assert not floor.has_marks and (floor.clearance == floor.plan.safe_clearance).all()
+    floor.mark(2.05, 2.0, 0.05)  # where the first two were: both are back
+    assert floor.has_lasting and floor.clearance[floor.node(2.15, 2.0)] == approx(0.02)
+    assert floor.clearance[floor.node(4.0, 2.0)] > 1.0
+    floor.mark(5.0, 3.0, 0.05)
+    lasting = floor.lasting_clearance()
+    assert lasting[floor.node(2.0, 2.0)] == 0.0 < lasting[floor.node(5.0, 3.0)]
+    floor.forget_doubtful()
+    assert np.array_equal(floor.clearance, lasting)
+    floor.forget_doubtful()  # none is left that was met once: now those that were met twice are in doubt
+    assert not floor.has_marks
+    floor.mark(2.0, 2.0, 0.05)
+    assert floor.has_lasting
+
+
+def test_a_copy_has_the_lasting_obstacles_too():
+    floor = ground(room(6.0, 4.0))
+    floor.mark(2.0, 2.0, 0.05)
+    floor.forget_doubtful()
+    copy = floor.copy()
+    floor.mark(2.0, 2.0, 0.05)
+    assert floor.has_lasting and not copy.has_lasting
+    copy.mark(2.0, 2.0, 0.05)
+    assert copy.has_lasting and floor.copy().has_lasting

@@ -69,6 +69,20 @@ def test_a_robot_that_was_carried_away_notices_and_finds_itself_again():
     assert max(errors[-50:]) < 0.05 and all(sure[-50:])
 
 
+@pytest.mark.parametrize('slipped', [0.1, 0.2, 0.3])
+def test_wheels_that_slip_for_a_second_do_not_lose_the_robot(slipped):
+    """The wheels count a way that the robot does not drive: for the localiser, it was pushed back."""
+    world = world_of()
+    localiser = localiser_of(world.plan)
+    localiser.start_at(world.robots['rumba'].pose)
+    list(drive(world, localiser, 0.2, 0.3, 4.0))
+    pose = world.robots['rumba'].pose
+    world.teleport('rumba', Pose(pose.x - slipped * math.cos(pose.theta), pose.y - slipped * math.sin(pose.theta),
+                                 pose.theta))
+    errors = list(drive(world, localiser, 0.2, 0.3, 6.0))
+    assert max(map(max, errors[-30:])) < 0.05 and localiser.estimate.is_sure
+
+
 def test_without_echoes_the_pose_becomes_uncertain_and_is_found_again():
     world = world_of(room(4.0, 3.0, 0.05, ((1.0, 0.0, 1.3, 0.4),)), Pose(2.0, 1.5, 0.0))
     localiser = localiser_of(world.plan)

@@ -12,6 +12,7 @@ from rumba_cleaning.belief.swept import Swept
 from rumba_cleaning.cleaning_config import CleaningConfig
 from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.model.robot_config import RobotConfig
+from rumba_sim.model.sweep import Part
 
 Result = TypeVar('Result')
 Seed = Union[int, Sequence[int]]
@@ -96,6 +97,12 @@ class Context:
         other = copy.copy(self)
         other.target_coverage = target_coverage
         return other
+
+    def beside_obstacles(self) -> Part:
+        """What can be reached of the floor beside the obstacles that were met and stay."""
+        if not self.ground.has_lasting:
+            return Part(1.0, self.swept.coverage)
+        return self.swept.within(self.ground.lasting_clearance())
 
     def submit(self, function: Callable[..., Result], *args: Any) -> 'Future[Result]':
         """Have the executor compute `function(context, *args)` with a copy of this context as it is now.

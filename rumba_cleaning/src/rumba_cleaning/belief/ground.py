@@ -2,7 +2,7 @@
 
 import copy
 import math
-from typing import List, Optional, Tuple
+from typing import List, NamedTuple, Optional, Tuple
 
 import numpy as np
 from scipy import ndimage
@@ -17,6 +17,7 @@ from rumba_sim.model.robot_config import RobotConfig
 
 # All figures below are our choice; each comment says what speaks for a larger and for a smaller value.
 GROWTH = 0.02  # [m] added to the radius of an obstacle that is met again: large passes it after fewer touches
+SAME = 1.5  # radii from where it was met before: small outlines wide obstacles touch by touch, large hides free floor
 LARGEST = 0.25  # [m] radius of an obstacle, at most: small leaves gaps beside it open, large passes wide obstacles
 EXTRA_CLEARANCE = 0.04  # [m] beside straight parts of a path: large touches less, small makes paths shorter
 NEAR = 0.4  # [m] a goal this near is driven to directly, without the extra clearance: a path around it costs more
@@ -26,8 +27,23 @@ INFLATION = 0.1  # [m] beyond the touching distance, within which a path costs m
 INFLATION_COST = 2.0  # ... up to this many times its length more: small lets a path follow a wall to be shorter
 
 
+class Mark(NamedTuple):
+    """A round obstacle that the robot has met."""
+
+    x: float  # [m] of its centre, map frame
+    y: float  # [m]
+    radius: float  # [m]
+
+    def overlaps(self, other: 'Mark') -> bool:
+        """Whether it has floor in common with another one."""
+        return math.hypot(self.x - other.x, self.y - other.y) < self.radius + other.radius
+
+
 class Ground:
     """The floor as one robot knows it.
+
+    What it meets may move: `forget_doubtful` forgets marks, and what is met again after that where something was met
+    before is there to stay.
 
     Points are (x, y) [m] in the map frame; an array of points, and a path, is float64 (any, 2). Nodes are the corners
     of the cells, (row, column) into `FloorPlan.safe_clearance`; an array of nodes is int (any, 2).
@@ -49,19 +65,42 @@ class Ground:
         """A ground with the same obstacles, which stays as it is if this one changes."""
         other = copy.copy(self)
         other.clearance = self.clearance.copy()
-        other._marks = list(self._marks)
+        other._unsure, other._former, other._lasting = list(self._unsure), list(self._former), list(self._lasting)
         return other
 
     def forget(self) -> None:
         """Forget all obstacles that the robot has met."""
         self.clearance = self.plan.safe_clearance.copy()
-        self._marks: List[Tuple[float, float, float]] = []  # x, y, radius [m]
+        self._unsure: List[Mark] = []  # met once
+        self._former: List[Mark] = []  # met once, and forgotten last
+        self._lasting: List[Mark] = []  # met again after that
+        self._update()
+
+    def forget_doubtful(self) -> None:
+        """Forget the obstacles that may have gone since they were met: those met once; if there are none, all."""
+        if self._unsure:
+            self._former, self._unsure = self._unsure, []
+        else:
+            self._former, self._lasting = self._lasting, []
+        self.clearance = self.lasting_clearance()
         self._update()
 
     @property
     def has_marks(self) -> bool:
         """Whether the robot has met any obstacles."""
-        return bool(self._marks)
+        return bool(self._unsure or self._lasting)
+
+    @property
+    def has_lasting(self) -> bool:
+        """Whether it has met any that stay."""
+        return bool(self._lasting)
+
+    def lasting_clearance(self) -> Array:
+        """As `clearance`, without the obstacles that may go again."""
+        clearance = self.plan.safe_clearance.copy()
+        for mark in self._lasting:
+            self._keep_clear(clearance, mark)
+        return clearance
 
     def mark(self, x: float, y: float, radius: float) -> None:
         """Remember a round obstacle; one that is met again is taken to be larger than before.
@@ -70,19 +109,31 @@ class Ground:
             x, y: its centre in the map frame [m].
             radius: [m]
         """
-        again = [other for mark_x, mark_y, other in self._marks if math.hypot(mark_x - x, mark_y - y) < radius + other]
-        radius = min(max([radius, *(other + GROWTH for other in again)]), LARGEST)
-        self._marks.append((x, y, radius))
-        rows, columns = self.clearance.shape
+        touched = Mark(x, y, radius)
+        again = [mark.radius + GROWTH for mark in self._unsure + self._lasting
+                 if math.hypot(mark.x - x, mark.y - y) < SAME * radius]
+        touched = Mark(x, y, min(max([radius, *again]), LARGEST))
+        back = [mark for mark in self._former if mark.overlaps(touched)]
+        if back or any(mark.overlaps(touched) for mark in self._lasting):
+            self._lasting += [touched, *back]
+            self._former = [mark for mark in self._former if mark not in back]
+        else:
+            self._unsure.append(touched)
+        for mark in [touched, *back]:
+            self._keep_clear(self.clearance, mark)
+        self._update()
+
+    def _keep_clear(self, clearance: Array, mark: Mark) -> None:
+        """Lower a clearance, which is changed, around an obstacle."""
+        rows, columns = clearance.shape
         res = self.plan.resolution
-        row, column = self.node(x, y)
-        size = int((radius + self.reach + INFLATION) / res) + 2
+        row, column = self.node(mark.x, mark.y)
+        size = int((mark.radius + self.reach + INFLATION) / res) + 2
         top, left = max(row - size, 0), max(column - size, 0)
         near_y, near_x = np.ogrid[top:min(row + size + 1, rows), left:min(column + size + 1, columns)]
-        distance = np.hypot(near_x * res + self.plan.origin[0] - x, near_y * res + self.plan.origin[1] - y) - radius
-        window = self.clearance[top:row + size + 1, left:column + size + 1]
-        np.minimum(window, np.maximum(distance, 0.0), out=window)
-        self._update()
+        x, y = near_x * res + self.plan.origin[0] - mark.x, near_y * res + self.plan.origin[1] - mark.y
+        window = clearance[top:row + size + 1, left:column + size + 1]
+        np.minimum(window, np.maximum(np.hypot(x, y) - mark.radius, 0.0), out=window)
 
     def _update(self) -> None:
         """Derive from `clearance` what depends on it."""

@@ -1,6 +1,7 @@
 """The floor that the brush of one robot has swept, computed from the poses that the robot knows."""
 
 import copy
+import math
 from typing import Optional
 
 import numpy as np
@@ -9,7 +10,7 @@ from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.kernel import Array
 from rumba_sim.model.robot_config import RobotConfig
-from rumba_sim.model.sweep import Sweep
+from rumba_sim.model.sweep import Part, Sweep
 
 # Our choice: ten times what a robot drives at the default transit speed, 0.45 m/s, from one observation to the next.
 JUMP = 0.5  # [m] |dx| + |dy| from pose to pose: the robot did not drive there, somebody moved it
@@ -23,6 +24,7 @@ class Swept:
         """Remember a floor by its refined plan."""
         self._sweep = Sweep(plan, config)
         self._last: Optional[Pose] = None
+        self._start = math.nan, math.nan  # [m], map frame
 
     def begin(self, x: float, y: float) -> None:
         """Forget what was swept, and find out what can be reached from (x, y) [m], map frame.
@@ -32,6 +34,7 @@ class Swept:
         """
         self._sweep.begin(x, y)
         self._last = None
+        self._start = x, y
 
     def copy(self) -> 'Swept':
         """A memory of the same floor, which stays as it is if this one changes, and has no last pose."""
@@ -58,6 +61,14 @@ class Swept:
     def coverage(self) -> float:
         """Share of the reachable floor that was swept [0..1]; 1 if nothing can be reached."""
         return self._sweep.coverage
+
+    def within(self, clearance: Array) -> Part:
+        """What can be reached on the same floor with less clearance.
+
+        Args:
+            clearance: as `FloorPlan.safe_clearance` [m].
+        """
+        return self._sweep.within(clearance, *self._start)
 
     @property
     def reachable_area(self) -> float:

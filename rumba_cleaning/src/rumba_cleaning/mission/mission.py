@@ -14,6 +14,7 @@ from rumba_cleaning.behaviours.guard import Guard
 from rumba_cleaning.behaviours.undock import Undock
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.mission.battery_watch import BatteryWatch
+from rumba_cleaning.mission.wording import percent, swept
 from rumba_cleaning.outcome import Outcome
 from rumba_sim.model.errors import CommandError, ConfigError
 from rumba_sim.model.geometry import Pose
@@ -22,7 +23,6 @@ JUMP = 0.5  # [m] from one observation to the next: the robot did not drive ther
 OFF = 1.0  # [s] off the contacts while charging: the robot was moved; contacts that bounce are closed again sooner
 EXACT = 0.0002  # of coverage beyond the target: by so much the account of a robot may differ from the truth
 INEXACT = 0.0008  # the same by a pose that is not certain: twice what an error of 2 mm brings, as localiser's
-ROUNDING = 1e-6  # tenths of percent
 GAIN = 0.002  # of coverage: a charge that brings less brings nothing; as boustrophedon judges its rounds
 VAIN = 3  # charges, one after the other, that brought nothing: the mission is given up; our choice
 HOMES = 2  # attempts to return to the dock, each with the tries of `Dock`; our choice
@@ -218,23 +218,23 @@ class Mission(Behaviour):
         target = self._context.target_coverage
         margin = EXACT if observation.covariance == CERTAIN else INEXACT
         if coverage >= min(target + margin, 1.0):
-            return self._close(Status.SUCCEEDED, f'{_percent(coverage)} swept', Outcome.SUCCEEDED)
+            return self._close(Status.SUCCEEDED, f'{percent(coverage)} swept', Outcome.SUCCEEDED)
         needed = self._watch.needed(observation.pose)
         if observation.state_of_charge < needed:
             if math.isfinite(needed):
                 return self._enter(State.RETURNING, Dock(self._context))
             if observation.state_of_charge < self._context.config.reserve:
-                return self._close(Status.FAILED, f'{_percent(coverage)} swept: the battery is low, and no path leads '
+                return self._close(Status.FAILED, f'{percent(coverage)} swept: the battery is low, and no path leads '
                                                   'to a dock', Outcome.BATTERY_LOW)
         cleaning = self._cleaning
         command = cleaning.step(observation)
-        self.message = '; '.join(filter(None, [f'{_percent(coverage)} swept', cleaning.message]))
+        self.message = '; '.join(filter(None, [f'{percent(coverage)} swept', cleaning.message]))
         if cleaning.status is Status.FAILED:
-            return self._close(Status.FAILED, f'{_percent(coverage)} swept: {cleaning.message}', cleaning.outcome)
+            return self._close(Status.FAILED, f'{percent(coverage)} swept: {cleaning.message}', cleaning.outcome)
         if cleaning.status is Status.SUCCEEDED:
             if coverage >= target:
-                return self._close(Status.SUCCEEDED, f'{_percent(coverage)} swept', Outcome.SUCCEEDED)
-            return self._close(Status.FAILED, f'{_percent(coverage)} swept, the target is {_percent(target)}: '
+                return self._close(Status.SUCCEEDED, f'{percent(coverage)} swept', Outcome.SUCCEEDED)
+            return self._close(Status.FAILED, f'{swept(self._context)}, the target is {percent(target)}: '
                                               f'{cleaning.message}', Outcome.INCOMPLETE)
         return command
 
@@ -246,7 +246,7 @@ class Mission(Behaviour):
         if self._part.status is Status.FAILED:
             self._homes += 1
             if self._homes >= HOMES:
-                return self._strand(f'{_percent(self._context.swept.coverage)} swept: {self._part.message}',
+                return self._strand(f'{percent(self._context.swept.coverage)} swept: {self._part.message}',
                                     self._part.outcome)
             self._part.restart()
         elif self._part.status is Status.SUCCEEDED:
@@ -263,13 +263,13 @@ class Mission(Behaviour):
             self._vain += 1
         self._gained = coverage
         if self._vain >= VAIN:
-            return self._strand(f'{_percent(coverage)} swept: {VAIN} charges brought no more: the battery does not '
+            return self._strand(f'{percent(coverage)} swept: {VAIN} charges brought no more: the battery does not '
                                 'last', Outcome.BATTERY_LOW)
         self.charges += 1
         return self._enter(State.CHARGING, None)
 
     def _charge(self, observation: Observation) -> Command:
-        self.message = f'charging, {_percent(observation.state_of_charge)}'
+        self.message = f'charging, {percent(observation.state_of_charge)}'
         self._off = 0.0 if observation.is_docked else self._off + observation.dt
         if self._off > OFF:
             self._is_undisturbed = False
@@ -297,8 +297,3 @@ class Mission(Behaviour):
     def _strand(self, message: str, outcome: Outcome) -> Command:
         self.state = State.STRANDED
         return self.fail(message, outcome)
-
-
-def _percent(share: float) -> str:
-    """A share [0..1], rounded down, so that one below a target does not read like it."""
-    return f'{math.floor(1000.0 * share + ROUNDING) / 10.0:.1f} %'

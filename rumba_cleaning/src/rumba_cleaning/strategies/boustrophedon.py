@@ -12,6 +12,9 @@ from rumba_cleaning.strategies import strategy
 from rumba_sim.model.geometry import Pose
 
 WORTH = 0.0005  # of coverage: a round that gains less is the last: a round for the last spots gains little more
+VAIN = 3  # times that obstacles are forgotten and nothing was gained since the last time, after which it ends
+OPEN = 0.9  # of the floor: what lies beside obstacles must be more to be all that is cleaned, or a door may be closed
+PAUSE = 10.0  # [s] before the first of these times, twice that before the second ...: who stands there may walk on
 ROUNDS = 20  # at most, each with what was missed before: far more than the maps of rumba_sim need
 
 Planned = Tuple[Optional[Route], bool]  # a route, and whether obstacles that were met had to be forgotten for it
@@ -21,7 +24,7 @@ Planned = Tuple[Optional[Route], bool]  # a route, and whether obstacles that we
 class Boustrophedon(Behaviour):
     """Cleans what was missed, round by round, until a round gains nothing more.
 
-    Then it forgets the obstacles that were met, since they may be gone, as long as that helps.
+    Then it forgets the obstacles that it met once, since they may be gone, as long as that helps.
     """
 
     _planning: 'Optional[Future[Planned]]' = None
@@ -37,6 +40,8 @@ class Boustrophedon(Behaviour):
         self._is_round = False  # what is planned: a round, or a detour
         self._rounds = 0
         self._forgot_at = -1.0  # coverage when obstacles that were met were forgotten
+        self._vain = 0  # times, one after the other, that this did not help
+        self._pause = 0.0  # [s] still to wait
         self._before = -1.0  # coverage when the round began
         self._brushes_up = True
 
@@ -50,6 +55,9 @@ class Boustrophedon(Behaviour):
                 if self._planning is not None or not self._is_round:
                     return self._wait()
                 return self.succeed('nothing more can be reached')
+        if self._pause > 0.0:
+            self._pause -= observation.dt
+            return self._wait()
         self._brushes_up = False
         command = self._travel.command(observation, self._brushes_up)
         self.message = f'{self._travel.remaining:.0f} m of the plan to go'
@@ -64,10 +72,10 @@ class Boustrophedon(Behaviour):
     # --- planning -------------------------------------------------------------------------------------------------
 
     def _plan_round(self, pose: Pose) -> None:
-        """Plan for what was missed, unless another round is not worth it."""
+        """Plan for what was missed, unless another round is not worth it; then forget what may have gone."""
         context, coverage = self._context, self._context.swept.coverage
         is_worth = coverage > self._before + WORTH and self._rounds < ROUNDS
-        may_forget = context.ground.has_marks and coverage > self._forgot_at + WORTH
+        may_forget = context.ground.has_marks and self._vain < VAIN
         self._before = coverage
         self._rounds += 1
         self._is_round = True
@@ -89,8 +97,10 @@ class Boustrophedon(Behaviour):
         route, has_forgotten = self._planning.result()
         self._planning = None
         if has_forgotten:
+            self._vain = 0 if self._before > self._forgot_at + WORTH else self._vain + 1
+            self._pause = PAUSE * self._vain
             self._forgot_at = self._before
-            self._context.ground.forget()
+            self._context.ground.forget_doubtful()
         self._travel = None if route is None else Travel(self._context, route)
 
     def _drop_plan(self) -> None:
@@ -111,11 +121,14 @@ def plan(context: Context, pose: Pose) -> Optional[Route]:
 
 
 def _round(context: Context, pose: Pose, is_worth: bool, may_forget: bool) -> Planned:
-    """A route that cleans what was missed; if there is none, one without the obstacles that were met."""
+    """A route that cleans what was missed; if there is none, one without the obstacles that may have gone."""
+    part = context.beside_obstacles()
+    if part.coverage >= context.target_coverage and part.share > OPEN:
+        return None, False
     route = plan(context, pose) if is_worth else None
     if route is not None or not may_forget:
         return route, False
-    context.ground.forget()
+    context.ground.forget_doubtful()
     return plan(context, pose), True
 
 

@@ -1,6 +1,6 @@
 """Which part of a floor a brush has passed over: the one rule by which coverage is counted everywhere."""
 
-from typing import Tuple
+from typing import NamedTuple, Tuple
 
 import numpy as np
 
@@ -14,6 +14,13 @@ from rumba_sim.model.reachability import reach
 from rumba_sim.model.robot_config import RobotConfig
 
 ANY_RATE = 50  # [Hz] `constants` asks for a rate, but the constants of a brush do not depend on it
+
+
+class Part(NamedTuple):
+    """A part of the reachable floor."""
+
+    share: float  # [0..1] of all of it
+    coverage: float  # [0..1] of the part
 
 
 class Sweep:
@@ -78,6 +85,20 @@ class Sweep:
     def coverage(self) -> float:
         """cleaned_area / reachable_area [0..1]; 1 if nothing is reachable."""
         return int(self.tally[0]['swept']) / self._reachable if self._reachable else 1.0
+
+    def within(self, clearance: Array, x: float, y: float) -> Part:
+        """What can be reached on the same floor with less clearance; all, if a robot does not fit at the start then.
+
+        Args:
+            clearance: as `FloorPlan.safe_clearance` [m].
+            x, y: the start [m], map frame.
+        """
+        plan = self._plan.with_safe_clearance(clearance)
+        if plan.safe_clearance_at(x, y) < self._config.drive.radius:
+            return Part(1.0, self.coverage)
+        found = reach(plan, self._config, x, y)
+        is_reachable = found.samples & kernel.REACHABLE > 0
+        return Part(found.reachable / self._reachable, float((self.samples[is_reachable] >= kernel.PASS).mean()))
 
     def counts(self, squares: int) -> Tuple[Array, Array]:
         """Numbers of samples that can be reached, and of these that were swept, in blocks of squares.

@@ -1,0 +1,129 @@
+"""How missions end among obstacles that the map does not show, two of which move.
+
+`obstacles.py [--seeds N] [--poses POSE ...]` runs seeds 1 to N, 20 by default, on all cores; times are simulated.
+"""
+
+import argparse
+import concurrent.futures
+import functools
+import itertools
+import math
+import pathlib
+import statistics
+from typing import NamedTuple
+
+import numpy as np
+from common import figures
+
+from rumba_cleaning.outcome import Outcome
+from rumba_evaluation.trials.cases import LOCALISED, POSES, TRUTH, Conditions
+from rumba_evaluation.trials.trial import Trial
+from rumba_sim.model import map_file
+from rumba_sim.model.geometry import Pose
+from rumba_sim.model.obstacle import Obstacle, walk
+
+MAPS = pathlib.Path(__file__).resolve().parents[1] / 'rumba_sim' / 'maps'
+NAMES = ('studio', 'apartment')
+TARGET = 0.98
+STANDING, MOVING = 10, 2
+KEPT = 1.0  # [m] around the dock, where nothing stands
+ENDED = (Outcome.SUCCEEDED, Outcome.INCOMPLETE)
+
+
+class Mission(NamedTuple):
+    """A mission among obstacles."""
+
+    outcome: Outcome
+    coverage: float  # of what can be reached beside all that stands there [0..1]
+    multiple: float  # working time in multiples of T
+    multiple_98: float  # the same until 98 % were swept; inf if they never were
+    collisions: int
+    is_home: bool
+    has_penetrated: bool  # a wall or an obstacle
+    message: str
+
+
+@functools.lru_cache(maxsize=None)
+def floor(name):
+    """The plan of a map."""
+    return map_file.load(MAPS / f'{name}.yaml')
+
+
+def drawn(plan, seed):
+    """Obstacles for a floor, as different as what lies in a home."""
+    generator = np.random.default_rng([seed, 7])
+    found = [_standing(f'thing_{number}', _place(plan, generator), generator) for number in range(STANDING)]
+    for number in range(MOVING):
+        start = _place(plan, generator)
+        ways = sorted((_place(plan, generator) for _ in range(8)),
+                      key=lambda place: abs(math.hypot(place.x - start.x, place.y - start.y) - 2.0))
+        found.append(Obstacle(f'mover_{number}', start, 0.25, float(generator.uniform(0.08, 0.16)),
+                              stops=walk([start, *ways[:2]], float(generator.uniform(0.2, 0.6)), False, 2.0, 20.0)))
+    return found
+
+
+def _standing(name, pose, generator):
+    height = float(generator.choice([0.05, 0.3]))
+    if generator.random() < 0.5:
+        return Obstacle(name, pose, height, float(generator.uniform(0.03, 0.2)))
+    return Obstacle(name, pose, height, 0.0, *generator.uniform(0.08, 0.5, 2).tolist())
+
+
+def _place(plan, generator):
+    """A pose on free floor, not near the dock."""
+    dock, radius = plan.dock or plan.start, 0.1
+    free = np.argwhere((plan.clearance > radius)[:-1, :-1])
+    for row, column in generator.permutation(free):
+        x, y = plan.origin[0] + column * plan.resolution, plan.origin[1] + row * plan.resolution
+        if math.hypot(x - dock.x, y - dock.y) > KEPT:
+            return Pose(float(x), float(y), float(generator.uniform(-math.pi, math.pi)))
+    raise ValueError('no place is free')
+
+
+def mission(name, pose, seed):
+    """A mission on a map, by a kind of pose."""
+    plan = floor(name)
+    trial = Trial(plan, 'boustrophedon', Conditions(pose=pose, target=TARGET), seed, obstacles=drawn(plan, seed))
+    while not trial.is_over:
+        trial.step()
+    result = trial.result()
+    return Mission(result.outcome, result.coverage, (result.time - result.charging_time) / result.ideal_time,
+                   result.multiple_to(98), result.collisions, result.docked == 1, result.penetrated, result.message)
+
+
+def main():
+    """Print."""
+    parser = argparse.ArgumentParser(description=__doc__.split('\n\n')[0])
+    parser.add_argument('--seeds', type=int, default=20)
+    parser.add_argument('--first', type=int, default=1, help='seed')
+    parser.add_argument('--poses', nargs='+', choices=POSES, default=(TRUTH, LOCALISED))
+    parser.add_argument('--each', action='store_true', help='print a line for each mission')
+    arguments = parser.parse_args()
+    seeds = range(arguments.first, arguments.first + arguments.seeds)
+    with concurrent.futures.ProcessPoolExecutor() as executor:
+        for name, pose in itertools.product(NAMES, arguments.poses):
+            figures.heading(f'{STANDING} obstacles and {MOVING} movers on the map {name}, pose: {pose}, '
+                            f'{len(seeds)} seeds')
+            show(seeds, list(executor.map(functools.partial(mission, name, pose), seeds)), arguments.each)
+
+
+def show(seeds, missions, is_each):
+    """Print how missions went."""
+    if is_each:
+        for seed, each in zip(seeds, missions):
+            print(f'  {seed}: {each.outcome.name}, {100 * each.coverage:.1f} %, {each.multiple:.2f} T, '
+                  f'{each.collisions} collisions, home {each.is_home}: {each.message}')
+    figures.row('ended at the target, or with what could be reached', sum(each.outcome in ENDED for each in missions),
+                at_least=len(missions))
+    figures.row('home', sum(each.is_home for each in missions), at_least=len(missions))
+    figures.row('in a wall or an obstacle', sum(each.has_penetrated for each in missions), below=1)
+    figures.row('swept of what is free at the end, median [%]', 100.0 * statistics.median(each.coverage for each in missions))
+    figures.row('    the same, least [%]', 100.0 * min(each.coverage for each in missions))
+    figures.row('working time, median [T]', statistics.median(each.multiple for each in missions))
+    figures.row('    the same, longest [T]', max(each.multiple for each in missions))
+    figures.row('98 % swept of what is free, median [T]', statistics.median(each.multiple_98 for each in missions))
+    figures.row('collisions, median', statistics.median(each.collisions for each in missions))
+
+
+if __name__ == '__main__':
+    main()

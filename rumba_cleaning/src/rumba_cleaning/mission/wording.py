@@ -1,0 +1,20 @@
+"""What a mission tells people of the floor that it swept."""
+
+import math
+
+from rumba_cleaning.belief.context import Context
+
+ROUNDING = 1e-6  # tenths of percent
+
+
+def percent(share: float) -> str:
+    """A share [0..1], rounded down, so that one below a target does not read like it."""
+    return f'{math.floor(1000.0 * share + ROUNDING) / 10.0:.1f} %'
+
+
+def swept(context: Context) -> str:
+    """How much was swept, and how much of what lies beside obstacles that stay, if the robot has met any."""
+    told = f'{percent(context.swept.coverage)} swept'
+    if not context.ground.has_lasting:
+        return told
+    return f'{told}, {percent(context.beside_obstacles().coverage)} of what lies beside obstacles'
