@@ -58,7 +58,8 @@ class Patient(WebSocketProtocol13):
         """Say it in a status first."""
         if code == TOO_BIG:
             self._is_too_much = True
-            self.handler.tell_and_drop(f'the message is too big: at most {self.params.max_message_size} bytes')
+            client: Any = self.handler
+            client.tell_and_drop(f'the message is too big: at most {self.params.max_message_size} bytes')
         super().close(code, reason)
 
     def _abort(self) -> None:

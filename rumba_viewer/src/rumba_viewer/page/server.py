@@ -171,7 +171,7 @@ def serve(hub: Hub, tokens: Tokens, folder: pathlib.Path, where: List[socket.soc
         websocket_ping_interval=PING, websocket_ping_timeout=SILENT)
     application.is_local = all(is_loopback(one.getsockname()[0]) for one in where)
     server = HTTPServer(application, idle_connection_timeout=IDLE, body_timeout=IDLE, max_header_size=REQUEST,
-                        max_body_size=REQUEST, max_buffer_size=4 * REQUEST)
+                        max_body_size=REQUEST, max_buffer_size=max(4 * REQUEST, 2 * hub.bounds.size))
     server.add_sockets(where)
     PeriodicCallback(hub.tick, 1000.0 * TICK).start()
     return server

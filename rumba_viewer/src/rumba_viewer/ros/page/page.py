@@ -101,8 +101,9 @@ class RosLink(Ros):
 
     def close(self) -> None:
         """Begin nothing more."""
-        for part in (self._listening, self._talking, self._services):
-            part.close()
+        self._listening.close()
+        self._talking.close()
+        self._services.close()
 
     def subscribe(self, client: Any, topic: str, reason: Any, demand: Demand) -> None:
         """Send the messages of a topic to a client."""
