@@ -121,7 +121,8 @@ def show(seeds, missions, is_each):
     figures.row('    the same, least [%]', 100.0 * min(each.coverage for each in missions))
     figures.row('working time, median [T]', statistics.median(each.multiple for each in missions))
     figures.row('    the same, longest [T]', max(each.multiple for each in missions))
-    figures.row('98 % swept of what is free, median [T]', statistics.median(each.multiple_98 for each in missions))
+    figures.row('98 % swept of what is free, median [T]',
+                statistics.median(each.multiple_98 for each in missions))
     figures.row('collisions, median', statistics.median(each.collisions for each in missions))
 
 

@@ -22,8 +22,8 @@ FOLDERS = {
         'strategies': {'', 'belief', 'behaviours', 'planning'}, 'mission': {'', 'belief', 'behaviours', 'strategies'},
         'ros/cleaner': {'', 'belief', 'behaviours', 'strategies', 'mission'}},
     'rumba_evaluation': {
-        'trials': set(), 'report': set(), 'verdicts': set(), 'ros/mission_report': {'report'},
-        'ros': {'trials', 'verdicts'}},
+        'scoring': set(), 'trials': {'scoring'}, 'report': set(), 'verdicts': set(), 'ros/mission_report': {'report'},
+        'ros': {'scoring', 'trials', 'verdicts'}},
     'rumba_viewer': {
         'scene': set(), 'painting': {'scene'}, 'window': {'scene', 'painting'}, 'ros': {'scene', 'window'},
         'page': set(), 'ros/page': {'page'}}}

@@ -11,11 +11,12 @@ from rumba_cleaning.behaviour import Behaviour, Command
 from rumba_cleaning.behaviours.bounded import Bounded
 from rumba_cleaning.behaviours.follower import Route
 from rumba_cleaning.behaviours.guard import Guard
-from rumba_cleaning.behaviours.travel import Travel
+from rumba_cleaning.behaviours.travel import Going, Travel
 from rumba_cleaning.control import CONTROL_DT, CONTROL_TICKS, observe, steps
 from rumba_cleaning.mission.mission import Mission
 from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.model.geometry import Pose
+from rumba_sim.model.obstacle import Obstacle
 from rumba_sim.model.world import World
 
 STAIRS = (2.0, 0.0, 3.0, 2.0)
@@ -117,3 +118,30 @@ def test_the_brushes_are_up_where_a_route_is_faster_than_the_cleaning_speed(spee
     world.spawn('rumba')
     travel = Travel(context_of(plan, world), Route(np.array([[0.5, 1.0], [3.0, 1.0]]), np.array([speed])))
     assert travel.command(observe(world, 'rumba', 0.0), brushes_up=False).brushes_up == brushes_up
+
+
+@pytest.mark.parametrize('v', [0.1, 0.3, 0.45])
+@pytest.mark.parametrize('aside', [0.1, 0.14, 0.18, 0.22, 0.25])
+@pytest.mark.parametrize('gap', [0.178, 0.19, 0.21])
+def test_a_robot_that_slides_along_an_obstacle_beside_an_edge_does_not_fall(gap, aside, v):
+    """The obstacle turns it towards the edge, `gap` [m] to its left."""
+    plan = with_cliffs(room(4.0, 2.0, 0.02, start=Pose(0.5, 0.5, 0.0)), (0.0, 1.4, 4.0, 2.0))
+    y = 1.4 - gap
+    world = World(plan, quiet(), obstacles=[Obstacle('post', Pose(2.0, y - aside, 0.0), 0.05, 0.09)])
+    robot = world.spawn('rumba', Pose(1.2, y, 0.0))
+    run(Bounded(Always(v, 0.0), 1000.0, context_of(plan, world)), world, seconds=12.0)
+    assert robot.bumps >= 1 and not robot.has_fallen
+
+
+def test_a_contact_beside_an_edge_is_one_with_something_unknown():
+    plan = with_cliffs(room(4.0, 2.0, 0.02, start=Pose(0.5, 0.5, 0.0)), (0.0, 1.4, 4.0, 2.0))
+    world = World(plan, quiet(), obstacles=[Obstacle('post', Pose(2.0, 1.06, 0.0), 0.05, 0.09)])
+    robot = world.spawn('rumba', Pose(1.2, 1.22, 0.0))
+    context = context_of(plan, world)
+    travel = Travel(context, Route(np.array([[1.2, 1.22], [3.5, 1.22]]), np.array([0.3])))
+    guard = Guard(context)
+    while travel.going is Going.ON:
+        command = guard.step(lambda observation: travel.command(observation, True), observe(world, 'rumba', CONTROL_DT))
+        robot.command(command.v, command.w, world.tick)
+        world.step(CONTROL_TICKS)
+    assert travel.going is Going.BLOCKED and robot.pose.y == pytest.approx(1.22, abs=0.05) and not robot.has_fallen

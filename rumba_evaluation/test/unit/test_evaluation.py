@@ -271,8 +271,8 @@ def test_a_map_without_free_floor_is_refused(run, tmp_path):
 
 @pytest.mark.parametrize('arguments, code, output, errors', [
     (('--no-plots',), 0, 'Working time to coverage', ''),
-    ((), 2, '', r"evaluate: pictures need matplotlib \(.*\): install the package python3-matplotlib, or give "
-                r'--no-plots\n')])
+    ((), 2, '', r"evaluate: pictures need matplotlib \(.*\): install the package python3-matplotlib "
+                r'\(with pip: matplotlib\), or give --no-plots\n')])
 def test_only_pictures_need_matplotlib(tmp_path, arguments, code, output, errors):
     script = ('import sys; sys.modules["matplotlib"] = None; from rumba_evaluation.trials import evaluate; '
               'sys.exit(evaluate.main(sys.argv[1:], str))')

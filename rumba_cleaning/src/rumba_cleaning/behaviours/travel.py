@@ -109,6 +109,7 @@ def mark(context: Context, pose: Pose, angle: float) -> None:
 
 
 def _is_known(ground: Ground, pose: Pose) -> bool:
-    """Whether the ground shows an obstacle that a robot here touches."""
-    row, column = ground.node(pose.x, pose.y)
-    return bool(ground.clearance[row, column] < ground.reach + KNOWN)
+    """Whether the ground shows an obstacle that a robot here touches; an edge presses no switch of the bumper."""
+    node, most = ground.node(pose.x, pose.y), ground.reach + KNOWN
+    is_edge = ground.clearance[node] >= ground.plan.safe_clearance[node] and ground.plan.clearance[node] >= most
+    return bool(ground.clearance[node] < most) and not is_edge

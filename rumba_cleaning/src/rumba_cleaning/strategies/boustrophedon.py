@@ -12,6 +12,7 @@ from rumba_cleaning.strategies import strategy
 from rumba_sim.model.geometry import Pose
 
 WORTH = 0.0005  # of coverage: a round that gains less is the last: a round for the last spots gains little more
+HELPED = 0.01  # of coverage: forgetting obstacles that gained less was in vain: to touch them all again takes long
 VAIN = 3  # times that obstacles are forgotten and nothing was gained since the last time, after which it ends
 OPEN = 0.9  # of the floor: what lies beside obstacles must be more to be all that is cleaned, or a door may be closed
 PAUSE = 10.0  # [s] before the first of these times, twice that before the second ...: who stands there may walk on
@@ -97,7 +98,7 @@ class Boustrophedon(Behaviour):
         route, has_forgotten = self._planning.result()
         self._planning = None
         if has_forgotten:
-            self._vain = 0 if self._before > self._forgot_at + WORTH else self._vain + 1
+            self._vain = 0 if self._before > self._forgot_at + HELPED else self._vain + 1
             self._pause = PAUSE * self._vain
             self._forgot_at = self._before
             self._context.ground.forget_doubtful()

@@ -31,6 +31,7 @@ SCHEDULER_TIMEOUT = 10.0  # [s]
 EXAMPLE = 'tcp://10.0.0.1:8786'
 PLANS = 8  # floor plans that a worker keeps
 MISSED = 50  # [%] of a cell that were swept: cells with less are shown as missed
+Work = TypeVar('Work')
 Done = TypeVar('Done')
 
 
@@ -89,8 +90,8 @@ def prepare(job: Job) -> Trial:
 
 
 def run(job: Job) -> Result:
-    """Run a trial to its end; an exception of a strategy gives a result too."""
-    return _finish(prepare(job), lambda: None)
+    """Run the trial of a job to its end."""
+    return finish(prepare(job))
 
 
 def trace(job: Job) -> Trace:
@@ -104,13 +105,14 @@ def trace(job: Job) -> Trace:
             if robot.pose[:2] != path[-1]:
                 path.append(robot.pose[:2])
 
-    result = _finish(trial, record)
+    result = finish(trial, record)
     swept = trial.world.swept()
     missed = (swept >= 0) & (swept < MISSED)
     return Trace(job, result, [np.array(path, np.float32) for path in paths], missed)
 
 
-def _finish(trial: Trial, after_each_step: Callable[[], None]) -> Result:
+def finish(trial: Trial, after_each_step: Callable[[], None] = lambda: None) -> Result:
+    """Run a trial to its end; an exception of a strategy gives a result too."""
     try:
         while not trial.is_over:
             trial.step()
@@ -128,8 +130,8 @@ def _described(error: BaseException) -> str:
 
 # --- workers ------------------------------------------------------------------------------------------------------
 
-def each(executor: Executor, function: Callable[[Job], Done], jobs: Sequence[Job],
-         unit: str) -> Iterator[Tuple[Job, Done]]:
+def each(executor: Executor, function: Callable[[Work], Done], jobs: Sequence[Work],
+         unit: str) -> Iterator[Tuple[Work, Done]]:
     """Jobs with the results of a function, in the order in which they are finished; shows a progress bar."""
     futures = {executor.submit(function, job): job for job in jobs}
     with tqdm(total=len(jobs), unit=f' {unit}', disable=None) as bar:

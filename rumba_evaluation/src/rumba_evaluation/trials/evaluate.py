@@ -1,6 +1,7 @@
 """evaluate: runs cleaning missions in process, without ROS and faster than real time, and prints how well they went.
 
-Runs a mission for each map, strategy, number of robots and seed. Each result is written to DIR/results.csv as soon as
+With --path, it drives along a path that somebody else planned, and prints how good that is. Otherwise it
+runs a mission for each map, strategy, number of robots and seed. Each result is written to DIR/results.csv as soon as
 the mission has ended: after an interruption the same command goes on from there. At the end it prints a table and
 draws pictures, for which it needs matplotlib.
 """
@@ -13,18 +14,21 @@ import os
 import re
 import sys
 from concurrent.futures import BrokenExecutor, Executor
-from typing import Callable, ContextManager, Dict, Iterator, List, NoReturn, Sequence
+from typing import Callable, ContextManager, Dict, Iterator, List, NoReturn, Optional, Sequence
 
 from rumba_cleaning import strategies
 from rumba_cleaning.outcome import Outcome
-from rumba_evaluation.trials import batch, table
+from rumba_evaluation.scoring.path_file import ReadBag
+from rumba_evaluation.trials import batch, evaluate_path, score, table
 from rumba_evaluation.trials.batch import Job
 from rumba_evaluation.trials.cases import ANYWHERE, DOCK, POSES, TRUTH, Case, Conditions, Result, grid
 from rumba_evaluation.trials.results import Results
+from rumba_sim.model import named_maps
 from rumba_sim.model.config import explain, updated
 from rumba_sim.model.errors import ConfigError, RumbaError
 
 NAME = 'evaluate'
+FOLDER = 'evaluation'
 MAPS = ('apartment', 'studio', 'field')
 STRATEGIES = ('boustrophedon', 'bounce')
 ERROR, BAD_INPUT, INTERRUPTED = 1, 2, 130
@@ -40,16 +44,31 @@ class _Parser(argparse.ArgumentParser):
         self.exit(BAD_INPUT, f'{NAME}: {message}; see --help\n')
 
 
-def main(arguments: Sequence[str], map_path: Callable[[str], str]) -> int:
+def command() -> None:
+    """Run the command line of this process, without ROS; leaves the process with the exit code."""
+    sys.exit(main(sys.argv[1:]))
+
+
+def main(arguments: Sequence[str], map_path: Callable[[str], str] = named_maps.path,
+         read_bag: Optional[ReadBag] = None) -> int:
     """Run the command with the arguments of a command line; returns the exit code.
 
     Args:
         arguments: without the name of the program.
         map_path: finds the path of a map by its name, or raises MapError.
+        read_bag: reads a path from a bag; None where there is no ROS.
     """
-    options = _parser().parse_args(arguments)
+    parser = _parser()
+    options = parser.parse_args(arguments)
     try:
-        return _evaluate(options, map_path)
+        evaluate_path.check_options(options, parser.parse_args([]))
+        conditions = updated(Conditions(), {field.name: getattr(options, field.name)
+                                            for field in dataclasses.fields(Conditions)}, 'conditions')
+        if not options.no_plots and (options.output or not options.path):
+            _check_matplotlib()
+        if options.path:
+            return evaluate_path.evaluate_path(options, conditions, map_path, read_bag)
+        return _evaluate(options, conditions, map_path)
     except RumbaError as error:
         print(f'{NAME}:', *str(error).split(), file=sys.stderr)
         return BAD_INPUT
@@ -83,12 +102,15 @@ def _parser() -> argparse.ArgumentParser:
                 help=f'{explain(field)}; default {field.default:g}'.replace('%', '%%'))
     add('--import', dest='modules', default='', metavar='MODULES',
         help='Python modules that register strategies, with commas between them')
-    add('--output', default='evaluation', metavar='DIR', help='folder for results, table and pictures; default '
-                                                              './%(default)s')
+    add('--output', default='', metavar='DIR', help=f'folder for results, table and pictures; default ./{FOLDER}, and '
+                                                    'none with --path')
+    add('--format', choices=evaluate_path.FORMATS, default=evaluate_path.TEXT,
+        help='what to print: a table, or JSON; default %(default)s')
     add('--jobs', type=_positive, default=len(os.sched_getaffinity(0)), metavar='N',
         help='number of missions that run in parallel; default %(default)s, all cores')
     add('--scheduler', default='', metavar='ADDRESS', help='run on a Dask cluster: address of its scheduler')
     add('--no-plots', action='store_true', help='draw no pictures; without this option matplotlib is needed')
+    evaluate_path.add_options(parser)
     return parser
 
 
@@ -113,11 +135,8 @@ def _positive(text: str) -> int:
 
 # --- the work -----------------------------------------------------------------------------------------------------
 
-def _evaluate(options: argparse.Namespace, map_path: Callable[[str], str]) -> int:
-    conditions = updated(Conditions(), {field.name: getattr(options, field.name)
-                                        for field in dataclasses.fields(Conditions)}, 'conditions')
-    if not options.no_plots:
-        _check_matplotlib()
+def _evaluate(options: argparse.Namespace, conditions: Conditions, map_path: Callable[[str], str]) -> int:
+    options.output = options.output or FOLDER
     cases = grid(options.maps, options.strategies, options.seeds, options.robots)
     jobs = _jobs(cases, conditions, {name: map_path(name) for name in options.maps}, options.modules)
     with _locked(options.output):
@@ -130,7 +149,7 @@ def _evaluate_jobs(options: argparse.Namespace, jobs: Sequence[Job], results: Re
     try:
         with _workers(options) as executor:
             _run_missing(executor, jobs, results)
-            _report(options.output, cases, results.found)
+            _report(options, cases, results.found)
             if not options.no_plots:
                 _draw(executor, options.output, jobs, results.found)
     except KeyboardInterrupt:
@@ -155,8 +174,8 @@ def _check_matplotlib() -> None:
     try:
         import matplotlib  # noqa: F401
     except ImportError as error:
-        raise ConfigError(f'pictures need matplotlib ({error}): install the package python3-matplotlib, or give '
-                          '--no-plots') from error
+        raise ConfigError(f'pictures need matplotlib ({error}): install the package python3-matplotlib (with pip: '
+                          'matplotlib), or give --no-plots') from error
 
 
 def _jobs(cases: Sequence[Case], conditions: Conditions, paths: Dict[str, str], modules: str) -> List[Job]:
@@ -223,10 +242,13 @@ def _run_missing(executor: Executor, jobs: Sequence[Job], results: Results) -> N
         results.add(job.case, result)
 
 
-def _report(folder: str, cases: Sequence[Case], found: Dict[Case, Result]) -> None:
-    """Print the tables, and write them and the curves to files."""
-    tables = table.text(table.grouped(cases, found))
-    print(tables, end='')
+def _report(options: argparse.Namespace, cases: Sequence[Case], found: Dict[Case, Result]) -> None:
+    """Print the tables or JSON, and write the tables and the curves to files."""
+    tables, folder = table.text(table.grouped(cases, found)), options.output
+    if options.format == evaluate_path.JSON:
+        sys.stdout.write(score.as_json({'missions': [score.document(case, found[case]) for case in cases]}))
+    else:
+        print(tables, end='')
     table.write_curves(_in_folder(folder, 'coverage.csv'), cases, found)
     with open(_in_folder(folder, 'table.txt'), 'w', encoding='utf-8') as file:
         file.write(tables)

@@ -50,21 +50,30 @@ def grouped(cases: Sequence[Case], found: Dict[Case, Result]) -> Dict[Group, Lis
 
 def text(groups: Dict[Group, List[Result]]) -> str:
     """Two tables: the time to coverage with the outcomes, and the effort."""
-    ideal = {name.map: results[0] for name, results in groups.items()}
-    floors = ', '.join(f'{name} {result.ideal_time:.0f} s ({result.area:.1f} m2)' for name, result in ideal.items())
-    times = [['map', 'strategy', 'robots', 'runs', *(f'{percent} %' for percent in LEVELS), 'failed', 'outcomes']]
     efforts = [['map', 'strategy', 'robots', 'least %', *(effort.title for effort in EFFORTS), 'in walls']]
     for name, results in groups.items():
-        failed = sum(result.has_failed for result in results)
         penetrated = sum(result.penetrated for result in results)
-        least = 100.0 * min(result.coverage for result in results)
-        times.append([*map(str, name), str(len(results)), *(_median_and_worst(results, percent) for percent in LEVELS),
-                      str(failed), _outcomes(results)])
-        efforts.append([*map(str, name), f'{least:.1f}', *(_median(results, effort) for effort in EFFORTS),
+        efforts.append([*map(str, name), least(results), *(_median(results, effort) for effort in EFFORTS),
                         str(penetrated)])
-    return (f'Working time to coverage in multiples of T, median and worst of the runs; T: {floors}\n'
-            f'{_aligned(times)}\nLeast coverage, medians of the runs, and runs in which a robot was in a wall\n'
-            f'{_aligned(efforts)}')
+    return (f'{times(groups)}\nLeast coverage, medians of the runs, and runs in which a robot was in a wall\n'
+            f'{aligned(efforts)}')
+
+
+def times(groups: Dict[Group, List[Result]]) -> str:
+    """A table of the time to coverage with the outcomes."""
+    ideal = {name.map: results[0] for name, results in groups.items()}
+    floors = ', '.join(f'{name} {result.ideal_time:.0f} s ({result.area:.1f} m2)' for name, result in ideal.items())
+    rows = [['map', 'strategy', 'robots', 'runs', *(f'{percent} %' for percent in LEVELS), 'failed', 'outcomes']]
+    for name, results in groups.items():
+        failed = sum(result.has_failed for result in results)
+        rows.append([*map(str, name), str(len(results)), *(_median_and_worst(results, percent) for percent in LEVELS),
+                     str(failed), _outcomes(results)])
+    return f'Working time to coverage in multiples of T, median and worst of the runs; T: {floors}\n{aligned(rows)}'
+
+
+def least(results: Iterable[Result]) -> str:
+    """The least coverage of some runs [%]."""
+    return f'{100.0 * min(result.coverage for result in results):.1f}'
 
 
 def _outcomes(results: Sequence[Result]) -> str:
@@ -88,7 +97,8 @@ def _median(results: Iterable[Result], effort: Effort) -> str:
     return f'{statistics.median(known):.{effort.decimals}f}' if known else NEVER
 
 
-def _aligned(rows: Sequence[Sequence[str]]) -> str:
+def aligned(rows: Sequence[Sequence[str]]) -> str:
+    """Rows, the first of them titles, as lines with columns below one another."""
     widths = [max(len(row[column]) for row in rows) for column in range(len(rows[0]))]
     lines = ['  '.join(cell.ljust(width) if title in TEXTS else cell.rjust(width)
                        for title, cell, width in zip(rows[0], row, widths)) for row in rows]

@@ -6,7 +6,7 @@
     print(trial.result())
 """
 
-from typing import Dict, List, Optional, Sequence
+from typing import Callable, Dict, List, Optional, Sequence
 
 import numpy as np
 
@@ -18,18 +18,16 @@ from rumba_cleaning.mission.duration import longest
 from rumba_cleaning.mission.mission import Mission, State
 from rumba_cleaning.outcome import Outcome
 from rumba_cleaning.pose_source import DeadReckoning, Localised, PoseSource, truth
+from rumba_evaluation.scoring.meter import Meter
 from rumba_evaluation.trials import starts
 from rumba_evaluation.trials.cases import ANYWHERE, LOCALISED, ODOMETRY, Conditions, Result, severity
 from rumba_sim.model.config import updated
 from rumba_sim.model.floor_plan import FloorPlan
-from rumba_sim.model.geometry import Pose, wrap_angle
+from rumba_sim.model.geometry import Pose
 from rumba_sim.model.obstacle import Obstacle
-from rumba_sim.model.robot import Robot, nth_name
+from rumba_sim.model.robot import nth_name
 from rumba_sim.model.robot_config import TURN, RobotConfig
 from rumba_sim.model.world import World
-
-OVERLAP = 0.001  # [m] of body and wall that can come from rounding
-HOUR = 3600.0  # [s]
 
 
 class Trial:
@@ -42,6 +40,7 @@ class Trial:
         sources: by what each robot knows where it is, by its name.
         ideal_time: T [s], for one brush to sweep the reachable floor at the cleaning speed, without any overlap.
         curve: working time [s] until 1 %, 2 %, ... of the reachable floor were swept.
+        advance: lets a number of ticks pass; replaced by those who look at each tick.
     """
 
     def __init__(self, plan: FloorPlan, strategy: str, conditions: Conditions = Conditions(), seed: int = 0,
@@ -78,7 +77,8 @@ class Trial:
         self.missions = [Mission(context, strategy, conditions.target) for context in self.contexts]
         self.ideal_time = self.world.floor.reachable_area / (config.brush.width * cleaning.speed)
         self.curve: List[float] = []
-        self._meters = [_Meter(self.world, robot) for robot in self.world.robots.values()]
+        self.advance: Callable[[int], None] = self.world.step
+        self._meters = [Meter(self.world, robot) for robot in self.world.robots.values()]
         self._dt = 0.0  # [s] since the last observations
         self._steps = 0
         self._charging_steps = 0
@@ -110,7 +110,7 @@ class Trial:
         running = self._running.values()
         if running and all(mission.state is State.CHARGING for mission in running):
             self._charging_steps += 1
-        self.world.step(CONTROL_TICKS)
+        self.advance(CONTROL_TICKS)
         self._steps += 1
         for meter in self._meters:
             meter.update()
@@ -156,36 +156,3 @@ def _source(plan: FloorPlan, world: World, name: str, pose: str, seed: int) -> P
     if pose == ODOMETRY:
         return DeadReckoning()
     return truth
-
-
-class _Meter:
-    """Sums of one robot, updated at the control rate.
-
-    Attributes:
-        turned: rotation [rad], left and right added up.
-        charge: out of the battery [Ah], at a drain of 1.
-        energy: the same [Wh].
-        penetrated: whether the robot was inside a wall or an obstacle.
-    """
-
-    def __init__(self, world: World, robot: Robot) -> None:
-        self._world = world
-        self._robot = robot
-        self._theta = robot.pose.theta
-        self._least_clearance = robot.config.drive.radius - OVERLAP
-        self.turned = 0.0
-        self.charge = 0.0
-        self.energy = 0.0
-        self.penetrated = False
-
-    def update(self) -> None:
-        """A control step has passed."""
-        pose, battery = self._robot.pose, self._robot.battery
-        self.turned += abs(wrap_angle(pose.theta - self._theta))
-        self._theta = pose.theta
-        if battery.current < 0.0:
-            charge = -battery.current * CONTROL_DT / HOUR
-            self.charge += charge
-            self.energy += battery.voltage * charge
-        self.penetrated |= self._world.terrain.clearance_at(pose.x, pose.y) < self._least_clearance or bool(
-            self._world.obstacles.near(pose.x, pose.y, self._least_clearance))

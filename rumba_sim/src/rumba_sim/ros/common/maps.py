@@ -1,14 +1,13 @@
 """Where maps are, by name or path; and how a simulator publishes its own."""
 
 import atexit
-import pathlib
 
-import rospkg
 import rospy
 from nav_msgs.msg import OccupancyGrid
 from nav_msgs.srv import GetMap, GetMapResponse
 
-from rumba_sim.model.errors import MapError, WorldError
+from rumba_sim.model import named_maps
+from rumba_sim.model.errors import WorldError
 from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.ros.common import conversions, master_watch, peers
 from rumba_sim.ros.common.paths import absolute
@@ -20,14 +19,7 @@ def map_path(name: str) -> str:
     Raises:
         MapError: no map of this package has that name.
     """
-    if '/' in name or name.endswith(('.yaml', '.yml')):
-        return absolute(name)
-    maps = pathlib.Path(rospkg.RosPack().get_path('rumba_sim'), 'maps')
-    known = {path.stem: str(path) for path in sorted(maps.glob('*.yaml'))}
-    if name not in known:
-        raise MapError(f'there is no map {name!r}: give the path of a map_server YAML file, or one of '
-                       + ', '.join(known))
-    return known[name]
+    return absolute(name) if named_maps.is_path(name) else named_maps.path(name)
 
 
 # --- for a node that is a simulator -----------------------------------------------------------------------------------

@@ -1,0 +1,1 @@
+"""How good a path is that anybody planned: read it, drive it, measure the drive."""
