@@ -32,7 +32,8 @@ BELOW = {'rumba_sim': set(), 'rumba_localisation': {'rumba_sim'}, 'rumba_cleanin
          'rumba_evaluation': {'rumba_sim', 'rumba_cleaning'}, 'rumba_viewer': {'rumba_sim', 'rumba_cleaning'}}
 OFFERED = {'rumba_sim': {'model', 'ros/common'}, 'rumba_localisation': {''},
            'rumba_cleaning': {'', 'belief', 'behaviours', 'strategies', 'mission'}}
-ROS = ('rospy', 'roslib', 'rospkg', 'rosgraph', 'rosservice', 'actionlib', 'rosbag', 'rostopic', 'rosunit', 'tf', 'tf2', 'turtlesim')
+ROS = ('rospy', 'roslib', 'rospkg', 'rosgraph', 'rosservice', 'actionlib', 'rosbag', 'rostopic', 'rosunit', 'tf',
+       'tf2', 'turtlesim')
 ROS_ENDINGS = ('_msgs', '_msg', '_srvs', '_ros')
 QT = ('PyQt5',)
 CLOCK = ('time',)
