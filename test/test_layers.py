@@ -25,13 +25,15 @@ FOLDERS = {
         'scoring': set(), 'trials': {'scoring'}, 'report': set(), 'verdicts': set(), 'ros/mission_report': {'report'},
         'learning': {'trials'}, 'ros': {'scoring', 'trials', 'verdicts'}},
     'rumba_viewer': {
-        'scene': set(), 'painting': {'scene'}, 'window': {'scene', 'painting'}, 'ros': {'scene', 'window'}}}
+        'scene': set(), 'painting': {'scene'}, 'window': {'scene', 'painting'}, 'ros': {'scene', 'window'},
+        'page': set(), 'ros/page': {'page'}}}
 # Which packages each may import, and which of their folders are there for others.
 BELOW = {'rumba_sim': set(), 'rumba_localisation': {'rumba_sim'}, 'rumba_cleaning': {'rumba_sim', 'rumba_localisation'},
          'rumba_evaluation': {'rumba_sim', 'rumba_cleaning'}, 'rumba_viewer': {'rumba_sim', 'rumba_cleaning'}}
 OFFERED = {'rumba_sim': {'model', 'ros/common'}, 'rumba_localisation': {''},
            'rumba_cleaning': {'', 'belief', 'behaviours', 'strategies', 'mission'}}
-ROS = ('rospy', 'roslib', 'rospkg', 'rosgraph', 'actionlib', 'rosbag', 'rostopic', 'rosunit', 'tf', 'tf2', 'turtlesim')
+ROS = ('rospy', 'roslib', 'rospkg', 'rosgraph', 'rosservice', 'actionlib', 'rosbag', 'rostopic', 'rosunit', 'tf',
+       'tf2', 'turtlesim')
 ROS_ENDINGS = ('_msgs', '_msg', '_srvs', '_ros')
 QT = ('PyQt5',)
 CLOCK = ('time',)
@@ -40,7 +42,7 @@ WITH_QT = {'rumba_viewer/painting', 'rumba_viewer/window', 'rumba_viewer/ros'}
 # How rosdep calls what is imported, if it is not the name of the import.
 KEYS = {'PIL': 'python3-pil', 'PyQt5': 'python3-qt5-bindings', 'matplotlib': 'python3-matplotlib',
         'numba': 'python3-numba', 'numpy': 'python3-numpy', 'rospkg': 'python3-rospkg', 'scipy': 'python3-scipy',
-        'skimage': 'python3-skimage', 'tqdm': 'python3-tqdm', 'yaml': 'python3-yaml'}
+        'skimage': 'python3-skimage', 'tornado': 'python3-tornado', 'tqdm': 'python3-tqdm', 'yaml': 'python3-yaml'}
 # Imported only if they are installed.
 OPTIONAL = {'dask', 'distributed', 'gymnasium', 'turtlesim'}
 SOURCES = [(package, path) for package in FOLDERS

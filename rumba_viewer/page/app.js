@@ -1,0 +1,215 @@
+// The page: joins the connection, the scene, the picture and the controls.
+
+import {Driving} from './driving.js';
+import {Floor} from './floor.js';
+import {Link} from './link.js';
+import {Scene} from './scene.js';
+
+const ACTIONS = ['clean', 'dock', 'undock', 'go_to'];
+const NOTICE = 8000;  // [ms] for which a line is shown
+const SURE = 4000;  // [ms] within which Reset must be pressed again
+const DESCRIBED = 3000;  // [ms] between two descriptions of the picture for screen readers
+
+const at = id => document.getElementById(id);
+let token = new URLSearchParams(location.hash.slice(1)).get('token') ?? sessionStorage.token ?? '';
+if (token) sessionStorage.token = token;
+history.replaceState(null, '', location.pathname);  // nobody should read the token over a shoulder
+
+const floor = new Floor(at('floor'));
+let isDirty = true, noticeTimer = null, sureTimer = null, described = 0;
+
+const link = new Link(() => {
+  const scheme = location.protocol === 'https:' ? 'wss' : 'ws';
+  return `${scheme}://${location.host}/${token ? `?token=${encodeURIComponent(token)}` : ''}`;
+}, isOpen => { isOpen ? scene.look() : driving.stop(); news(); }, onStatus);
+const scene = new Scene(link, news, line => notice(line, true));
+const driving = new Driving(document.querySelectorAll('#drive button'), drive);
+
+function news() {
+  isDirty = true;
+}
+
+function notice(line, isGood = false) {
+  at('notice').textContent = line;
+  at('notice').classList.toggle('good', isGood);
+  clearTimeout(noticeTimer);
+  noticeTimer = setTimeout(() => { at('notice').textContent = ''; }, NOTICE);
+}
+
+function onStatus(line) {
+  notice(line);
+  if (line.includes('token')) at('access').hidden = false;
+  if (line.startsWith('wrong token')) {
+    token = '';
+    delete sessionStorage.token;
+  }
+}
+
+// --- what a person does -----------------------------------------------------------------------------------------------
+
+function drive(v, w) {
+  if (scene.selected) link.publish(`${scene.selected.name}/teleop/cmd_vel`, 'geometry_msgs/Twist',
+    {linear: {x: v}, angular: {z: w}});
+}
+
+function send(action, type, goal) {
+  const id = `page-${Date.now()}-${Math.random().toString(36).slice(2)}`;
+  if (!link.publish(`${scene.selected.name}/${action}/goal`, `rumba_msg/${type}ActionGoal`, {goal_id: {id}, goal}))
+    notice('not connected');
+}
+
+function goTo(point) {
+  scene.selected.target = point;
+  send('go_to', 'GoTo', {target: {x: point.x, y: point.y, theta: null}});
+  news();
+}
+
+function choose(event) {
+  const box = floor.canvas.getBoundingClientRect();
+  const point = floor.toPoint(event.clientX - box.left, event.clientY - box.top);
+  if (!point || !scene.selected) return null;
+  scene.selected.target = point;
+  at('x').value = point.x.toFixed(2);
+  at('y').value = point.y.toFixed(2);
+  news();
+  return point;
+}
+
+async function call(service, args) {
+  try {
+    const answer = await link.call(`${scene.state.node}/${service}`, args);
+    if (answer.message) notice(answer.message, answer.success !== false);
+  } catch (error) {
+    onStatus(error.message);
+  }
+}
+
+at('clean').onclick = () => send('clean', 'Clean', {});
+at('dock').onclick = () => send('dock', 'Dock', {});
+at('stop').onclick = () => {
+  driving.stop();
+  for (const action of ACTIONS) link.publish(`${scene.selected.name}/${action}/cancel`, 'actionlib_msgs/GoalID', {});
+  scene.selected.target = null;
+};
+at('pause').onclick = () => call(scene.state.is_paused ? 'resume' : 'pause');
+at('speed').onchange = () => call('tuning/set_parameters',
+  {config: {doubles: [{name: 'speed', value: Number(at('speed').value)}]}});
+at('reset').onclick = () => {
+  const isSure = at('reset').classList.toggle('sure');
+  at('reset').textContent = isSure ? 'Really?' : 'Reset';
+  clearTimeout(sureTimer);
+  if (isSure) sureTimer = setTimeout(() => at('reset').classList.contains('sure') && unsure(), SURE);
+  else call('reset');
+};
+function unsure() {
+  at('reset').classList.remove('sure');
+  at('reset').textContent = 'Reset';
+}
+at('go').onsubmit = event => {
+  event.preventDefault();
+  const point = {x: at('x').valueAsNumber, y: at('y').valueAsNumber};
+  if (Number.isFinite(point.x) && Number.isFinite(point.y)) goTo(point);
+  else notice('Give x and y in metres, or click on the floor');
+};
+at('access').onsubmit = event => {
+  event.preventDefault();
+  token = sessionStorage.token = at('token').value;
+  at('token').value = '';
+  at('access').hidden = true;
+  link.restart();
+};
+at('robots').onchange = () => scene.select(scene.robots.find(robot => robot.name === at('robots').value));
+floor.canvas.onclick = choose;
+floor.canvas.ondblclick = event => { const point = choose(event); if (point && canClean()) goTo(point); };
+addEventListener('keydown', event => {
+  if (event.key === 'Escape' && scene.selected) at('stop').click();
+});
+matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => { floor.readColours(); news(); });
+
+// --- what it shows ----------------------------------------------------------------------------------------------------
+
+function canClean() {
+  return link.isOpen && Boolean(scene.selected?.mission);
+}
+
+function text(id, value) {
+  if (at(id).textContent !== value) at(id).textContent = value;
+}
+
+function meter(id, share, words) {
+  at(id).value = share ?? 0;
+  text(`${id}-text`, words);
+}
+
+function duration(seconds) {
+  const whole = Math.floor(seconds), two = number => String(number).padStart(2, '0');
+  return `${Math.floor(whole / 3600)}:${two(Math.floor(whole / 60) % 60)}:${two(whole % 60)}`;
+}
+
+function fixed(number, digits, unit) {
+  return Number.isFinite(number) ? `${number.toFixed(digits)} ${unit}` : '–';
+}
+
+function showRobot(robot) {
+  const {cleaning, battery, pose, mission} = robot ?? {};
+  text('state', robot ? robot.state : '–');
+  text('detail', mission?.message ?? '');
+  const swept = cleaning ? 100 * cleaning.coverage : null;
+  meter('coverage', swept, swept === null ? '–' : `${swept.toFixed(1)} %`);
+  const charge = battery && battery.percentage !== null ? 100 * battery.percentage : null;
+  meter('battery', charge, charge === null ? '–' : `${robot.isCharging ? '⚡ ' : ''}${charge.toFixed(0)} %`);
+  at('battery').classList.toggle('low', charge !== null && charge < 15);
+  at('battery').title = robot?.isCharging ? 'charging' : '';
+  text('position', pose ? `${pose.x.toFixed(2)}, ${pose.y.toFixed(2)} m` : '–');
+  text('distance', fixed(cleaning?.distance, 1, 'm'));
+  text('area', cleaning ? `${cleaning.cleaned_area.toFixed(1)} of ${cleaning.reachable_area.toFixed(1)} m²` : '–');
+  text('time', Number.isFinite(robot?.stamp) && scene.state?.is_time_simulated ? duration(robot.stamp) : 'real time');
+}
+
+function showControls() {
+  const {state, hasSimulator, selected} = scene;
+  text('pause', state?.is_paused ? 'Resume' : 'Pause');
+  for (const id of ['pause', 'reset', 'speed']) at(id).disabled = !link.isOpen || !hasSimulator;
+  for (const id of ['clean', 'dock', 'stop', 'go-to', 'x', 'y']) at(id).disabled = !canClean();
+  for (const button of document.querySelectorAll('#drive button')) button.disabled = !link.isOpen || !selected;
+  if (document.activeElement !== at('speed') && Number.isFinite(state?.speed)) showSpeed(state.speed);
+}
+
+function showSpeed(speed) {
+  const list = at('speed');
+  if (![...list.options].some(option => Number(option.value) === speed)) list.add(new Option(`${speed} ×`, speed));
+  list.value = String(speed);
+}
+
+function showRobots() {
+  const list = at('robots'), names = scene.robots.map(robot => robot.name);
+  if (names.join() !== [...list.options].map(option => option.value).join())
+    list.replaceChildren(...scene.robots.map(robot => new Option(robot.label, robot.name)));
+  list.value = scene.selected?.name ?? '';
+  at('chooser').hidden = names.length < 2;
+}
+
+function describe(now) {
+  if (now - described < DESCRIBED) return;
+  described = now;
+  const places = scene.robots.filter(robot => robot.pose).map(
+    robot => `${robot.label} at ${robot.pose.x.toFixed(1)}, ${robot.pose.y.toFixed(1)} metres, ${robot.state}`);
+  floor.canvas.setAttribute('aria-label', `Floor plan. ${places.join('; ') || scene.missing}`);
+}
+
+function frame(now) {
+  const hasNewSize = floor.resize();
+  if (isDirty || hasNewSize || scene.robots.some(robot => robot.isGliding(now))) {
+    isDirty = false;
+    floor.map = scene.map;
+    floor.paint(scene, now);
+    at('stage').classList.toggle('has-map', Boolean(scene.map));
+    text('waiting', scene.missing);
+    showRobots();
+    showRobot(scene.selected);
+    showControls();
+    describe(now);
+  }
+  requestAnimationFrame(frame);
+}
+requestAnimationFrame(frame);

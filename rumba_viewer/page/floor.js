@@ -1,0 +1,204 @@
+// Paints the floor with its robots onto a canvas.
+
+const MARGIN = 16;  // [pixels] around the map
+const BODY = 0.175;  // [m] radius of a robot
+const SMALLEST = 7;  // [pixels] radius at which a robot is drawn, at least
+const STRIPE = 4;  // [cells] of the stripes of what is out of reach
+export const ROBOT_COLOURS = ['#1f6fd6', '#d9580d', '#7a43c4', '#00857c', '#b3266e', '#7a6a00'];
+
+export class Floor {
+  constructor(canvas) {
+    this.canvas = canvas;
+    this.context = canvas.getContext('2d');
+    this.cells = document.createElement('canvas');
+    this.map = null;
+    this.painted = null;
+    this.readColours();
+  }
+
+  readColours() {
+    const style = getComputedStyle(document.documentElement);
+    this.colour = name => style.getPropertyValue(`--${name}`).trim();
+    this.painted = null;
+  }
+
+  // Keep the size of the canvas that of the screen; returns whether it has changed.
+  resize() {
+    const {clientWidth, clientHeight} = this.canvas, ratio = window.devicePixelRatio || 1;
+    const [width, height] = [Math.round(clientWidth * ratio), Math.round(clientHeight * ratio)];
+    if (this.canvas.width === width && this.canvas.height === height) return false;
+    Object.assign(this.canvas, {width, height});
+    return true;
+  }
+
+  // Where the map lies on the canvas.
+  view() {
+    const {info} = this.map, ratio = window.devicePixelRatio || 1, margin = MARGIN * ratio, foot = 28 * ratio;
+    const width = info.width * info.resolution, height = info.height * info.resolution;
+    const scale = Math.min((this.canvas.width - 2 * margin) / width, (this.canvas.height - margin - foot) / height);
+    return {scale, left: (this.canvas.width - scale * width) / 2, ratio, height: scale * height,
+      top: (this.canvas.height - foot + margin - scale * height) / 2, x: info.origin.position.x, y: info.origin.position.y};
+  }
+
+  toPixel(view, x, y) {
+    return [view.left + (x - view.x) * view.scale, view.top + view.height - (y - view.y) * view.scale];
+  }
+
+  // The point [m] at a place on the screen [CSS pixels from the corner of the canvas].
+  toPoint(left, top) {
+    if (!this.map) return null;
+    const view = this.view();
+    return {x: view.x + (left * view.ratio - view.left) / view.scale,
+      y: view.y + (view.top + view.height - top * view.ratio) / view.scale};
+  }
+
+  // One pixel for each cell.
+  paintCells(coverage) {
+    const {info, data} = this.map, {width, height} = info;
+    const same = coverage && coverage.data.length === data.length ? coverage.data : null;
+    Object.assign(this.cells, {width, height});
+    const context = this.cells.getContext('2d'), image = context.createImageData(width, height);
+    const pixels = new Uint32Array(image.data.buffer);
+    const [unknown, wall, dirty, swept, beyond, stripe] =
+      ['unknown', 'wall', 'dirty', 'swept', 'beyond', 'stripe'].map(name => packed(this.colour(name)));
+    const shades = Array.from({length: 101}, (_, share) => mixed(dirty, swept, share / 100));
+    for (let row = 0, at = 0; row < height; row++) {
+      let to = (height - 1 - row) * width;
+      for (let column = 0; column < width; column++, at++, to++) {
+        if (data[at] < 0) pixels[to] = unknown;
+        else if (data[at] >= 65) pixels[to] = wall;
+        else if (!same) pixels[to] = swept;
+        else if (same[at] < 0) pixels[to] = (row + column) % (2 * STRIPE) < STRIPE ? beyond : stripe;
+        else pixels[to] = shades[Math.min(same[at], 100)];
+      }
+    }
+    context.putImageData(image, 0, 0);
+  }
+
+  paint(scene, now) {
+    const {context, canvas} = this;
+    context.setTransform(1, 0, 0, 1, 0, 0);
+    context.fillStyle = this.colour('background');
+    context.fillRect(0, 0, canvas.width, canvas.height);
+    if (!this.map) return;
+    const coverage = scene.selected?.coverage ?? null;
+    if (this.painted?.map !== this.map || this.painted.coverage !== coverage) {
+      this.paintCells(coverage);
+      this.painted = {map: this.map, coverage};
+    }
+    const view = this.view(), {cells} = this;
+    context.imageSmoothingEnabled = view.scale * this.map.info.resolution < 3;
+    context.drawImage(cells, view.left, view.top, cells.width * this.map.info.resolution * view.scale, view.height);
+    for (const marker of scene.obstacles) this.paintObstacle(view, marker);
+    if (scene.selected) this.paintTrail(view, scene.selected);
+    if (scene.selected) this.paintLaser(view, scene.selected);
+    if (scene.target) this.paintTarget(view, scene.target);
+    for (const robot of scene.robots) this.paintRobot(view, robot, robot === scene.selected, robot.shown(now));
+  }
+
+  paintObstacle(view, {type, pose, scale}) {
+    const [x, y] = this.toPixel(view, pose.position.x, pose.position.y), {context} = this;
+    const q = pose.orientation;
+    context.save();
+    context.translate(x, y);
+    context.rotate(-Math.atan2(2 * (q.w * q.z + q.x * q.y), 1 - 2 * (q.y ** 2 + q.z ** 2)));
+    context.fillStyle = this.colour('obstacle');
+    const [width, height] = [scale.x * view.scale, scale.y * view.scale];
+    context.beginPath();
+    if (type === 1) context.rect(-width / 2, -height / 2, width, height);
+    else context.ellipse(0, 0, width / 2, height / 2, 0, 0, 2 * Math.PI);
+    context.fill();
+    context.restore();
+  }
+
+  paintTrail(view, robot) {
+    const {context} = this;
+    context.beginPath();
+    for (const point of robot.trail) {
+      const [x, y] = this.toPixel(view, point.x, point.y);
+      if (point.jumped) context.moveTo(x, y);
+      else context.lineTo(x, y);
+    }
+    context.strokeStyle = this.colour('trail');
+    context.lineWidth = 1.4 * view.ratio;
+    context.stroke();
+  }
+
+  paintLaser(view, robot) {
+    const {scan} = robot, {context} = this;
+    if (!scan) return;
+    const {x, y, theta} = scan.pose;
+    context.beginPath();
+    scan.ranges.forEach((range, number) => {
+      const length = range === null ? scan.range_max : range;
+      const angle = theta + scan.angle_min + number * scan.angle_increment;
+      context.lineTo(...this.toPixel(view, x + length * Math.cos(angle), y + length * Math.sin(angle)));
+    });
+    context.closePath();
+    context.fillStyle = this.colour('laser');
+    context.fill();
+    context.strokeStyle = this.colour('laser-edge');
+    context.lineWidth = view.ratio;
+    context.stroke();
+  }
+
+  paintTarget(view, target) {
+    const [x, y] = this.toPixel(view, target.x, target.y), {context} = this, size = 8 * view.ratio;
+    context.strokeStyle = this.colour('target');
+    context.lineWidth = 2.5 * view.ratio;
+    context.beginPath();
+    context.arc(x, y, size, 0, 2 * Math.PI);
+    for (const [dx, dy] of [[1, 0], [-1, 0], [0, 1], [0, -1]]) {
+      context.moveTo(x + dx * size * 0.5, y + dy * size * 0.5);
+      context.lineTo(x + dx * size * 1.6, y + dy * size * 1.6);
+    }
+    context.stroke();
+  }
+
+  paintRobot(view, robot, isSelected, pose) {
+    if (!pose) return;
+    const [x, y] = this.toPixel(view, pose.x, pose.y), {context} = this;
+    const radius = Math.max(BODY * view.scale, SMALLEST * view.ratio);
+    context.beginPath();
+    context.arc(x, y, radius, 0, 2 * Math.PI);
+    context.fillStyle = robot.colour;
+    context.fill();
+    context.lineWidth = 2 * view.ratio;
+    context.strokeStyle = '#ffffff';
+    context.stroke();
+    context.beginPath();
+    context.moveTo(x, y);
+    context.lineTo(x + radius * Math.cos(pose.theta), y - radius * Math.sin(pose.theta));
+    context.lineWidth = Math.max(radius * 0.22, 2);
+    context.stroke();
+    if (isSelected) {
+      context.beginPath();
+      context.arc(x, y, radius + 4 * view.ratio, 0, 2 * Math.PI);
+      context.strokeStyle = robot.colour;
+      context.stroke();
+    }
+    context.font = `${12 * view.ratio}px system-ui, sans-serif`;
+    context.textAlign = 'center';
+    context.lineWidth = 3 * view.ratio;
+    context.strokeStyle = this.colour('card');
+    context.fillStyle = this.colour('text');
+    const below = y + radius + 16 * view.ratio;
+    context.strokeText(robot.label, x, below);
+    context.fillText(robot.label, x, below);
+  }
+}
+
+// A colour #rrggbb as a pixel.
+function packed(colour) {
+  const [red, green, blue] = [1, 3, 5].map(at => parseInt(colour.slice(at, at + 2), 16));
+  return (0xff000000 | blue << 16 | green << 8 | red) >>> 0;
+}
+
+function mixed(from, to, share) {
+  let result = 0xff000000;
+  for (const shift of [0, 8, 16]) {
+    const [a, b] = [from >>> shift & 255, to >>> shift & 255];
+    result |= Math.round(a + share * (b - a)) << shift;
+  }
+  return result >>> 0;
+}

@@ -1,0 +1,109 @@
+// What there is to show: the map, the simulator and the robots that the master knows.
+
+import {ROBOT_COLOURS} from './floor.js';
+import {Robot} from './robot.js';
+
+const LOOK = 2000;  // [ms] between two looks for robots
+const SILENCE = 4000;  // [ms] after which a silent simulator counts as gone
+const TRUTH = '/ground_truth';
+
+export class Scene {
+  // `onNews` is called when there is something new to show, `onResult` with the line at the end of a task.
+  constructor(link, onNews, onResult) {
+    Object.assign(this, {link, onNews, onResult, map: null, state: null, heard: 0, robots: [], selected: null,
+      markers: new Map(), trouble: '', wanted: sessionStorage.robot});
+    link.subscribe('/map', {compression: 'png', queue_length: 1}, msg => { this.map = msg; onNews(); });
+    link.subscribe('simulator/state', {}, msg => this.learnState(msg));
+    link.subscribe('simulator/obstacles', {throttle_rate: 200, newest: true}, msg => this.learnObstacles(msg));
+    setInterval(() => this.look(), LOOK);
+    setInterval(onNews, 1000);  // silence is news too
+  }
+
+  get obstacles() {
+    return [...this.markers.values()];
+  }
+
+  get target() {
+    return this.selected?.target ?? null;
+  }
+
+  get hasSimulator() {
+    return this.state !== null && performance.now() - this.heard < SILENCE;
+  }
+
+  learnState(msg) {
+    if (this.state && msg.run !== this.state.run) for (const robot of this.robots) robot.forget();
+    if (this.state && msg.run === this.state.run && msg.resets !== this.state.resets)
+      for (const robot of this.robots) Object.assign(robot, {trail: [], target: null});
+    const isNew = !this.hasSimulator;
+    Object.assign(this, {state: msg, heard: performance.now()});
+    if (isNew) this.look();
+    this.onNews();
+  }
+
+  learnObstacles(msg) {
+    for (const marker of msg.markers) {
+      if (marker.action === 3) this.markers.clear();
+      else if (marker.action === 2) this.markers.delete(`${marker.ns}/${marker.id}`);
+      else if ([1, 2, 3].includes(marker.type)) this.markers.set(`${marker.ns}/${marker.id}`, marker);
+    }
+    this.onNews();
+  }
+
+  // Ask which robots there are.
+  async look() {
+    if (!this.link.isOpen) return;
+    try {
+      const {topics} = await this.link.call('/rosapi/topics_for_type', {type: 'nav_msgs/Odometry'});
+      this.trouble = '';
+      this.learnRobots(topics.filter(name => name.endsWith(TRUTH)).map(name => name.slice(0, -TRUTH.length)));
+    } catch (error) {
+      this.trouble = error.message.replace(/^\/rosapi\/\w+: /, '');
+    }
+    this.onNews();
+  }
+
+  learnRobots(names) {
+    names.sort((one, other) => one.length - other.length || (one < other ? -1 : 1));
+    const before = new Map(this.robots.map(robot => [robot.name, robot]));
+    this.robots = names.map(name => before.get(name) ?? new Robot(this.link, name, this.onNews));
+    this.robots.forEach((robot, number) => {
+      robot.label = robot.name.split('/').pop();
+      robot.colour = ROBOT_COLOURS[number % ROBOT_COLOURS.length];
+    });
+    for (const [name, robot] of before) if (!names.includes(name)) robot.close();
+    if (!this.robots.includes(this.selected))
+      this.select(this.robots.find(robot => robot.name === this.wanted) ?? this.robots[0] ?? null);
+  }
+
+  select(robot) {
+    if (robot === this.selected) return;
+    if (this.selected) {
+      for (const action of ['clean', 'dock', 'go_to']) this.link.unsubscribe(`${this.selected.name}/${action}/result`);
+      this.selected.select(false);
+    }
+    this.selected = robot;
+    if (robot) {
+      sessionStorage.robot = this.wanted = robot.name;
+      robot.select(true);
+      for (const action of ['clean', 'dock', 'go_to'])
+        this.link.subscribe(`${robot.name}/${action}/result`, {queue_length: 5}, msg => {
+          if (action === 'go_to') robot.target = null;
+          this.onResult(`${robot.label}: ${msg.result.outcome.message}`);
+        });
+    }
+    this.onNews();
+  }
+
+  // What it waits for, in one line; empty if all is there.
+  get missing() {
+    if (!this.link.isOpen) return `Connecting to ${location.host}. On that machine runs: rosrun rumba_viewer page`;
+    if (this.trouble) return `Waiting for ROS: ${this.trouble}`;
+    if (!this.hasSimulator) return 'Waiting for a simulator. To start one: roslaunch rumba_sim simulator.launch';
+    if (!this.map) return 'Waiting for a map: no message of /map has come';
+    if (!this.robots.length) return 'There is no robot. To add one: rosservice call /simulator/spawn "{}"';
+    if (!this.selected.pose)
+      return `Waiting for a pose of ${this.selected.label}${this.state.is_paused ? ': time is paused' : ''}`;
+    return '';
+  }
+}

@@ -1,0 +1,1 @@
+"""The page for browsers: rosbridge's protocol, who may do what, and a web server; without ROS."""

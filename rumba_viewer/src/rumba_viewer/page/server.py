@@ -1,0 +1,190 @@
+"""The web server: static files and websockets on one port, all in one thread."""
+
+import dataclasses
+import pathlib
+import re
+import socket
+from typing import Any, Callable, Dict, List, Optional, Sequence, Set
+
+from tornado.httpserver import HTTPServer
+from tornado.ioloop import IOLoop, PeriodicCallback
+from tornado.netutil import bind_sockets
+from tornado.web import Application, HTTPError, RequestHandler, StaticFileHandler
+
+from rumba_sim.model.errors import ConfigError
+from rumba_viewer.page.allow_list import AllowList, Rights, Tokens, host_name, is_loopback
+from rumba_viewer.page.client import Client
+from rumba_viewer.page.errors import Refusal
+from rumba_viewer.page.feeds import Arrival, Demand, Feed
+from rumba_viewer.page.protocol import Ros, Session
+
+TICK = 0.05  # [s] between two looks at what has arrived from ROS
+REQUEST = 65536  # [bytes] of the head or the body of a request, at most
+IDLE = 30.0  # [s] after which a connection that asks for nothing is closed
+PING, SILENT = 20.0, 60.0  # [s] between two pings of a websocket; without an answer, until it is closed
+HEADERS = {
+    'Content-Security-Policy': "default-src 'self'; connect-src 'self' ws: wss:; img-src 'self' data:; "
+                               "frame-ancestors 'none'; base-uri 'none'; form-action 'none'",
+    'X-Content-Type-Options': 'nosniff', 'Referrer-Policy': 'no-referrer', 'Cache-Control': 'no-cache'}
+
+
+@dataclasses.dataclass(frozen=True)
+class Bounds:
+    """What clients may do at most: connections, messages per second of each, bytes of a message."""
+
+    connections: int = 200
+    rate: float = 100.0
+    size: int = 65536
+
+
+class Hub:
+    """All clients and all topics to which they listen."""
+
+    def __init__(self, namespace: str, allowed: AllowList, origins: Sequence[str], bounds: Bounds,
+                 encode: Callable[[Arrival, str, bool], Optional[bytes]]) -> None:
+        """Serve names of a namespace; `encode` makes the frame of an arrival on a topic."""
+        self.origins, self.bounds = origins, bounds
+        self.feeds: Dict[str, Feed] = {}
+        self.ros: Ros = Ros()
+        self._namespace, self._allowed, self._encode = namespace, allowed, encode
+        self._clients: Set[Client] = set()
+        self._with_mail: Set[Client] = set()
+
+    @staticmethod
+    def now() -> float:
+        """The time of the loop [s]."""
+        return IOLoop.current().time()
+
+    # --- clients ------------------------------------------------------------------------------------------------------
+
+    @property
+    def clients(self) -> int:
+        """How many clients there are."""
+        return len(self._clients)
+
+    def enter(self, client: Client) -> None:
+        """Take in one more client.
+
+        Raises:
+            Refusal: there are too many.
+        """
+        if len(self._clients) >= self.bounds.connections:
+            raise Refusal(f'this page has {self.bounds.connections} clients already: close one, or raise connections')
+        self._clients.add(client)
+
+    def leave(self, client: Client) -> None:
+        """Forget a client."""
+        self._clients.discard(client)
+        self._with_mail.discard(client)
+
+    def session(self, client: Client, rights: Rights) -> Session:
+        """A session for a client."""
+        return Session(self.ros, self._allowed, rights, self._namespace, client, client.reply)
+
+    def has_mail(self, client: Client) -> None:
+        """Deliver what waits for a client at the end of the tick."""
+        self._with_mail.add(client)
+
+    # --- topics -------------------------------------------------------------------------------------------------------
+
+    def feed(self, topic: str) -> Feed:
+        """The feed of a topic; a new one if nobody listened to it yet."""
+        if topic not in self.feeds:
+            self.feeds[topic] = Feed(topic, self.now)
+        return self.feeds[topic]
+
+    def listen(self, client: Client, topic: str, reason: Any, demand: Demand) -> None:
+        """Let a client listen to a topic."""
+        self.feed(topic).add(client, reason, demand, self._encode)
+
+    def tick(self) -> None:
+        """Hand on what has arrived."""
+        now = self.now()
+        for feed in list(self.feeds.values()):
+            if feed.has_news:
+                feed.tick(now, self._encode)
+        for client in list(self._with_mail):
+            if client.deliver():
+                self._with_mail.discard(client)
+
+
+class _Root(Client):
+    """A websocket if the client asks for one, else the page."""
+
+    async def get(self, *args: Any, **kwargs: Any) -> None:
+        if self.request.headers.get('Upgrade', '').lower() == 'websocket':
+            await super().get(*args, **kwargs)
+        else:
+            for name, value in HEADERS.items():
+                self.set_header(name, value)
+            self.set_header('Content-Type', 'text/html; charset=utf-8')
+            self.finish((self.application.settings['folder'] / 'index.html').read_bytes())
+
+
+class _Files(StaticFileHandler):
+    """The other files of the page."""
+
+    def set_extra_headers(self, _: str) -> None:
+        for name, value in HEADERS.items():
+            self.set_header(name, value)
+
+
+class _Guarded(Application):
+    """Answers only those who call this server by a name of its own, so that no other site can pose as it."""
+
+    is_local = False
+
+    def find_handler(self, request: Any, **kwargs: Any) -> Any:
+        name, _ = host_name(request.headers.get('Host', ''))
+        if self.is_local and not is_loopback(name):
+            return self.get_handler_delegate(request, _Stranger)
+        return super().find_handler(request, **kwargs)
+
+
+class _Stranger(RequestHandler):
+    def prepare(self) -> None:
+        raise HTTPError(403)
+
+    def write_error(self, status_code: int, **_: Any) -> None:
+        self.finish('This server answers at localhost only: start it with address:= and token:= for others.\n')
+
+
+def sockets(address: str, port: int) -> List[socket.socket]:
+    """Sockets that listen at an address; port 0: any free one.
+
+    Raises:
+        ConfigError: it is not possible.
+    """
+    try:
+        return bind_sockets(port, address, reuse_port=False)
+    except OSError as error:
+        raise ConfigError(f'cannot serve at {address}, port {port}: {error.strerror or error}: choose another port:= '
+                          'or address:=') from None
+
+
+def serve(hub: Hub, tokens: Tokens, folder: pathlib.Path, where: List[socket.socket]) -> HTTPServer:
+    """Begin to serve in the loop of this thread; returns the server."""
+    application = _Guarded(
+        [(r'/', _Root, {'hub': hub, 'rights_of': tokens.rights}),
+         (r'/([a-z_]+\.(?:js|css|svg))', _Files, {'path': str(folder)})],
+        folder=folder, log_function=lambda _: None, websocket_max_message_size=hub.bounds.size,
+        websocket_ping_interval=PING, websocket_ping_timeout=SILENT)
+    application.is_local = all(is_loopback(one.getsockname()[0]) for one in where)
+    server = HTTPServer(application, idle_connection_timeout=IDLE, body_timeout=IDLE, max_header_size=REQUEST,
+                        max_body_size=REQUEST, max_buffer_size=max(4 * REQUEST, 2 * hub.bounds.size))
+    server.add_sockets(where)
+    PeriodicCallback(hub.tick, 1000.0 * TICK).start()
+    return server
+
+
+def check_address(address: str, tokens: Tokens) -> None:
+    """Check that others can reach the page only if changes need a token.
+
+    Raises:
+        ConfigError: they could change everything.
+    """
+    if not re.fullmatch(r'[\w.:-]+', address):
+        raise ConfigError(f'address is {address!r}: must be an address of this machine, or 0.0.0.0 for all')
+    if not is_loopback(address) and not tokens.are_needed:
+        raise ConfigError(f'address is {address}, which others can reach: give a token:= too, without which they can '
+                          'only watch')

@@ -1,0 +1,1 @@
+"""The node `page`: between the web server and ROS."""

@@ -1,0 +1,135 @@
+"""Publishers of the topics that clients have advertised. One serves all clients of a topic."""
+
+import concurrent.futures
+import time
+from typing import Any, Callable, Dict, List, Optional, Set
+
+import rosgraph
+import rospy
+
+from rumba_viewer.page.errors import Refusal
+
+QUEUE = 20  # messages that wait for a subscriber that is slow; of more, the oldest are dropped
+PATIENCE = 1.0  # [s] for which a new publisher waits for the subscribers that the master knows
+LOOK = 0.02  # [s] between two looks whether they are connected
+MOST_PENDING = 20  # messages that wait for that
+
+
+class Outlet:
+    """A topic that clients publish to.
+
+    Attributes:
+        kind: type of its messages.
+        publisher: None until the master knows of it.
+        pending: messages that came before that, and before subscribers were connected.
+    """
+
+    def __init__(self, kind: str, make: Any) -> None:
+        """Publish messages that `make` makes."""
+        self.kind, self.make = kind, make
+        self.clients: Set[Any] = set()
+        self.publisher: Any = None
+        self.pending: Optional[List[Any]] = []
+        self.is_closed = False
+
+    def publish(self, message: Any) -> None:
+        """Publish a message, as soon as that is possible."""
+        if self.pending is not None:
+            self.pending.append(message)
+            del self.pending[:-MOST_PENDING]
+        else:
+            self.publisher.publish(message)
+
+    def release(self) -> None:
+        """Publish what has waited."""
+        pending, self.pending = self.pending or [], None
+        for message in pending:
+            self.publisher.publish(message)
+
+
+class Talking:
+    """Publishes for clients. Its methods are called in the thread of the loop, and never block."""
+
+    def __init__(self, find: Callable[[str], Any], later: Callable[..., Any]) -> None:
+        """Find classes of messages by `find`; call functions in the loop `later`, after a time [s]."""
+        self._find, self._later = find, later
+        self._outlets: Dict[str, Outlet] = {}
+        self._executor = concurrent.futures.ThreadPoolExecutor(1)  # for what waits for the master
+
+    def advertise(self, client: Any, topic: str, kind: str, latch: bool) -> None:
+        """Prepare to publish on a topic.
+
+        Raises:
+            Refusal: the type is not installed, or another client publishes another type there.
+        """
+        outlet = self._outlets.get(topic)
+        if outlet is None:
+            make = self._find(kind)
+            if make is None:
+                raise Refusal(f'{topic}: the type {kind} is not installed here')
+            outlet = self._outlets[topic] = Outlet(kind, make)
+            self._open(topic, outlet, latch)
+        if outlet.kind != kind:
+            raise Refusal(f'{topic} has the type {outlet.kind} and not {kind}')
+        outlet.clients.add(client)
+
+    def unadvertise(self, client: Any, topic: str) -> None:
+        """A client no longer publishes; the last one takes the publisher back."""
+        outlet = self._outlets.get(topic)
+        if outlet is None:
+            return
+        outlet.clients.discard(client)
+        if not outlet.clients:
+            del self._outlets[topic]
+            outlet.is_closed = True
+            self._submit(self._take_back, outlet)
+
+    def outlet(self, topic: str) -> Outlet:
+        """The outlet of a topic that was advertised."""
+        return self._outlets[topic]
+
+    def close(self) -> None:
+        """Begin nothing more."""
+        self._executor.shutdown(wait=False)
+
+    def _submit(self, act: Callable[..., Any], *arguments: Any) -> Any:
+        try:
+            return self._executor.submit(act, *arguments)
+        except RuntimeError:  # closed
+            return None
+
+    @staticmethod
+    def _take_back(outlet: Outlet) -> None:
+        if outlet.publisher is not None:
+            outlet.publisher.unregister()
+
+    def _open(self, topic: str, outlet: Outlet, latch: bool) -> None:
+        future = self._submit(self._register, topic, outlet, latch)
+        if future is not None:
+            future.add_done_callback(lambda found: self._later(0.0, lambda: self._on_registered(
+                topic, outlet, latch, None if found.exception() else found.result())))
+
+    @staticmethod
+    def _register(topic: str, outlet: Outlet, latch: bool) -> int:
+        """Register at the master; returns how many nodes subscribe to the topic."""
+        if outlet.publisher is None:
+            outlet.publisher = rospy.Publisher(topic, outlet.make, queue_size=QUEUE, latch=latch, tcp_nodelay=True)
+        subscribed = rosgraph.Master(rospy.get_name()).getSystemState()[1]
+        return sum(len(nodes) for name, nodes in subscribed if name == topic)
+
+    def _on_registered(self, topic: str, outlet: Outlet, latch: bool, subscribers: Optional[int]) -> None:
+        if outlet.is_closed or rospy.is_shutdown():
+            return
+        if subscribers is None:  # the master did not answer
+            self._later(PATIENCE, lambda: self._open(topic, outlet, latch))
+        else:
+            self._await(outlet, subscribers, time.monotonic() + PATIENCE)
+
+    def _await(self, outlet: Outlet, subscribers: int, end: float) -> None:
+        """Publish as soon as all subscribers are connected, or after a while."""
+        if outlet.is_closed:
+            return
+        if outlet.publisher.get_num_connections() >= subscribers or time.monotonic() > end:
+            outlet.release()
+        else:
+            self._later(LOOK, lambda: self._await(outlet, subscribers, end))

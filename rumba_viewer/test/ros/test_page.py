@@ -1,0 +1,223 @@
+#!/usr/bin/env python3
+"""The page beside a simulator: its protocol, its rights, the client libraries of others, and real browsers."""
+
+import importlib.util
+import math
+import os
+import shutil
+import subprocess
+import sys
+import unittest
+
+import rospy
+import rostest
+from pages import DESK, PHONE, Browser, Client, Master, Page
+from simulators import TIMEOUT, Heard, Simulator, wait
+
+from rumba_msg.msg import CleanActionGoal
+
+HAS_BROWSER = all(map(shutil.which, ('chromium', 'chromedriver'))) and importlib.util.find_spec('selenium')
+TELEOP = '/rumba/teleop/cmd_vel'
+MIDDLE = 5.54  # [m] x and y of the middle of the map field
+PYTHON_CLIENT = '''
+import sys, time, roslibpy
+ros = roslibpy.Ros(host="127.0.0.1", port=int(sys.argv[1]))
+ros.run()
+heard = []
+roslibpy.Topic(ros, "/chatter", "std_msgs/String").subscribe(lambda message: heard.append(message["data"]))
+talker = roslibpy.Topic(ros, "/chatter", "std_msgs/String")
+while not heard:
+    talker.publish(roslibpy.Message({"data": "Hello World!"}))
+    time.sleep(0.05)
+print(heard[0], "/rumba/scan" in ros.get_topics(), ros.get_topic_type("/map"),
+      roslibpy.Service(ros, "/simulator/pause", "std_srvs/Trigger").call(roslibpy.ServiceRequest()))
+ros.terminate()
+'''
+NODE_CLIENT = '''
+import * as ROSLIB from "roslib";
+const ros = new ROSLIB.Ros({url: `ws://127.0.0.1:${process.argv[1]}`});
+const topic = new ROSLIB.Topic({ros, name: "/chatter", messageType: "std_msgs/String"});
+const pause = new ROSLIB.Service({ros, name: "/simulator/pause", serviceType: "std_srvs/Trigger"});
+const map = new ROSLIB.Topic({ros, name: "/map", messageType: "nav_msgs/OccupancyGrid", compression: "png"});
+const timer = setInterval(() => topic.publish({data: "Hello World!"}), 50);
+topic.subscribe(heard => {
+  clearInterval(timer);
+  map.subscribe(({info, data}) => ros.getTopics(({topics}) => pause.callService({}, answer => {
+    console.log(heard.data, topics.includes("/rumba/scan"), answer.message, data.length === info.width * info.height);
+    process.exit(0);
+  })));
+});
+'''
+NODE_FOLDER = os.path.dirname(os.environ.get('NODE_PATH', '').rstrip('/')) or None  # that contains node_modules
+
+
+def printed_by(test, *command, folder=None):
+    """What a program prints that must end well."""
+    done = subprocess.run(command, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True,
+                          timeout=3 * TIMEOUT)
+    test.assertEqual(done.returncode, 0, done.stderr)
+    return done.stdout
+
+
+class PageTest(unittest.TestCase):
+    """Each test has a simulator and a page of its own."""
+
+    def test_a_client_sees_drives_sends_goals_and_calls(self):
+        Simulator(self, '_map:=field', '_speed:=2')
+        client = Client(self, Page(self))
+        goals = []
+        self.addCleanup(rospy.Subscriber('/rumba/clean/goal', CleanActionGoal, goals.append).unregister)
+        client.send(op='subscribe', topic='/rumba/ground_truth', throttle_rate=50)
+        start = client.message('/rumba/ground_truth')['pose']['pose']['position']
+        truth = Heard(self, '/rumba/ground_truth').fresh().pose.pose.position
+        self.assertEqual((start['x'], start['y']), (truth.x, truth.y))
+        client.send(op='advertise', topic='/rumba/clean/goal', type='rumba_msg/CleanActionGoal')
+        client.send(op='publish', topic='/rumba/clean/goal', msg={'goal': {'target_coverage': 0.5}})
+        goal = wait(self, lambda: goals, 'the goal')[0]
+        self.assertEqual(goal.goal.target_coverage, 0.5)
+        self.assertGreater(goal.header.stamp.secs, 0)
+        client.send(op='advertise', topic=TELEOP, type='geometry_msgs/Twist')
+        for _ in range(1000):
+            client.send(op='publish', topic=TELEOP, msg={'linear': {'x': 0.3}})
+            there = client.message('/rumba/ground_truth')['pose']['pose']['position']
+            if math.hypot(there['x'] - start['x'], there['y'] - start['y']) > 0.3:
+                break
+        else:
+            self.fail('the robot does not move')
+        self.assertEqual(client.call('/simulator/pause'), (True, {'success': True, 'message': 'paused'}))
+        client.send(op='subscribe', topic='simulator/state')
+        self.assertTrue(client.message('simulator/state', lambda state: state['is_paused']))
+        works, line = client.call('/rumba/set_brushes_up', data='up')
+        self.assertFalse(works)
+        self.assertIn("data is 'up': must be true or false", line)
+        topics = client.call('/rosapi/topics_for_type', type='nav_msgs/Odometry')[1]['topics']
+        self.assertIn('/rumba/ground_truth', topics)
+
+    def test_each_pupil_drives_one_robot_and_spectators_none(self):
+        Simulator(self, '_map:=field', '_robots:=2')
+        page = Page(self, '_token:=teacher', '_robot_tokens:=rumba:blue,rumba2:green')
+        commands = {robot: Heard(self, f'/{robot}/ground_truth') for robot in ('rumba', 'rumba2')}
+        pupil, guest = Client(self, page, token='blue'), Client(self, page)
+        for client, robot in ((guest, 'rumba'), (pupil, 'rumba2')):
+            client.send(op='publish', topic=f'/{robot}/cmd_vel', msg={'linear': {'x': 0.3}})
+            self.assertIn('token', client.find(lambda one: one['op'] == 'status')['msg'])
+        self.assertEqual(pupil.call('/simulator/pause')[0], False)
+        wait(self, lambda: pupil.send(op='publish', topic='/rumba/cmd_vel', msg={'linear': {'x': 0.3}}) or any(
+            message.twist.twist.linear.x > 0.1 for message in commands['rumba'].messages), 'the pupil’s robot to drive')
+        self.assertFalse(any(message.twist.twist.linear.x for message in commands['rumba2'].messages))
+        self.assertTrue(Client(self, page, token='teacher').call('/simulator/pause')[0])
+
+    def test_a_restart_of_the_simulator_and_of_the_master_is_survived(self):
+        master = Master(self)
+        simulator, page = master.simulator(), Page(self, '_rate:=10000', master=master.uri)
+        client = Client(self, page)
+        client.send(op='subscribe', topic='/simulator/state')
+        first = client.message('/simulator/state')['run']
+        simulator.end()
+        master.simulator()
+        client.message('/simulator/state', lambda state: state['run'] != first)
+        master.restart()
+        client = Client(self, page)
+        wait(self, lambda: '/rumba/odom' in str(client.call('/rosapi/topics')), 'the new master')
+        client.send(op='subscribe', topic='/rumba/odom')
+        client.message('/rumba/odom')
+
+    def test_bad_parameters_are_refused_in_one_line(self):
+        for arguments, words in ((['_address:=0.0.0.0'], 'which others can reach: give a token:= too'),
+                                 (['_robot_tokens:=rumba'], 'robot_tokens must be robots with their tokens'),
+                                 (['_read:=x/*y'], "'x/*y' cannot be allowed"),
+                                 (['_port:=70000'], 'port'), (['_tokn:=x'], 'tokn')):
+            with self.subTest(arguments=arguments):
+                if rospy.has_param('/page'):
+                    rospy.delete_param('/page')
+                done = subprocess.run(['rosrun', 'rumba_viewer', 'page', *arguments], stdout=subprocess.PIPE,
+                                      stderr=subprocess.PIPE, universal_newlines=True, timeout=TIMEOUT)
+                self.assertEqual(done.returncode, 2)
+                self.assertIn(words, done.stderr)
+                self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+
+
+class LibraryTest(unittest.TestCase):
+    """Client libraries of others, unchanged."""
+
+    def start(self):
+        """A simulator, and a page at which /chatter can be used."""
+        Simulator(self, '_map:=field')
+        return str(Page(self, '_read:=/chatter', '_write:=/chatter').port)
+
+    @unittest.skipUnless(importlib.util.find_spec('roslibpy'), 'roslibpy is not installed: pip install roslibpy')
+    def test_roslibpy_talks_listens_and_calls(self):
+        output = printed_by(self, sys.executable, '-c', PYTHON_CLIENT, self.start())
+        self.assertEqual(
+            output.strip(), "Hello World! True nav_msgs/OccupancyGrid {'success': True, 'message': 'paused'}")
+
+    @unittest.skipUnless(shutil.which('node') and NODE_FOLDER and os.path.isdir(f'{NODE_FOLDER}/node_modules/roslib'),
+                         'roslib is not installed: npm install roslib, and its node_modules in NODE_PATH')
+    def test_roslib_talks_listens_and_calls(self):
+        output = printed_by(self, 'node', '--input-type=module', '-e', NODE_CLIENT, self.start(), folder=NODE_FOLDER)
+        self.assertEqual(output.strip(), 'Hello World! true paused true')
+
+
+@unittest.skipUnless(HAS_BROWSER, 'needs chromium, chromium-driver and python3-selenium')
+class BrowserTest(unittest.TestCase):
+    """Chromium."""
+
+    def check_pixels(self, simulator, browser):
+        """Check that the robot is drawn where it is; the map is a square, and lies in the middle of the floor."""
+        seen = []
+        for x, y in ((MIDDLE, MIDDLE), (MIDDLE + 3.0, MIDDLE + 1.0)):
+            simulator.teleport(x, y, 0.0)
+            browser.wait_for('position', f'^{x:.2f}, {y:.2f} m$')
+            seen.append(wait(self, browser.robot_at_rest, 'the robot on the floor'))
+        (x, y), (to_x, to_y) = seen
+        scale = (to_x - x) / 3.0
+        self.assertGreater(scale * 2 * MIDDLE, 0.8 * min(browser.floor_size()))
+        self.assertAlmostEqual(x, browser.floor_size()[0] / 2, delta=2.0)
+        self.assertAlmostEqual(to_y - y, -scale, delta=2.0)  # up on the screen
+
+    def check_restarts(self, simulator, page, browser):
+        """Restart the page and the simulator under an open browser; returns the new simulator."""
+        page.end()
+        browser.wait_for('waiting', '^Connecting to ')
+        Page(self, port=page.port)
+        browser.wait_for('waiting', '^$')
+        simulator.end()
+        browser.wait_for('waiting', '^Waiting for a simulator|^There is no robot')
+        simulator = Simulator(self, '_map:=field')
+        browser.wait_for('waiting', '^$')
+        return simulator
+
+    def test_a_desk_shows_the_robot_where_it_is_drives_it_by_keys_and_survives_restarts(self):
+        from selenium.webdriver.common.action_chains import ActionChains
+        from selenium.webdriver.common.keys import Keys
+        simulator, page = Simulator(self, '_map:=field'), Page(self)
+        browser = Browser(self, page, DESK)
+        browser.wait_for('waiting', '^$')
+        self.check_pixels(simulator, browser)
+        self.check_restarts(simulator, page, browser)
+        truth = Heard(self, '/rumba/ground_truth')
+        ActionChains(browser.driver).key_down(Keys.ARROW_UP).perform()
+        truth.find(lambda message: message.twist.twist.linear.x > 0.25)
+        ActionChains(browser.driver).key_up(Keys.ARROW_UP).perform()
+        truth.fresh(lambda message: message.twist.twist.linear.x == 0.0)
+        self.assertEqual(browser.errors(), [])
+
+    def test_a_phone_drives_by_touch_pauses_and_fits_its_screen(self):
+        Simulator(self, '_map:=field')
+        browser = Browser(self, Page(self), PHONE)
+        browser.wait_for('waiting', '^$')
+        self.assertLessEqual(browser.driver.execute_script('return document.documentElement.scrollWidth'), PHONE[0])
+        truth = Heard(self, '/rumba/ground_truth')
+        browser.touch('touchStart', 'left')
+        truth.find(lambda message: message.twist.twist.angular.z > 1.0)
+        browser.touch('touchEnd', 'left')
+        truth.fresh(lambda message: message.twist.twist.angular.z == 0.0)
+        browser.element('pause').click()
+        browser.wait_for('pause', '^Resume$')
+        self.assertEqual(browser.unlabelled(), [])
+        self.assertEqual(browser.errors(), [])
+
+
+if __name__ == '__main__':
+    rospy.init_node('test_page', disable_rostime=True)
+    rostest.rosrun('rumba_viewer', 'page', '__main__')

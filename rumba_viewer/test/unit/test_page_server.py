@@ -1,0 +1,215 @@
+"""The web server with real sockets and without ROS: files, origins, tokens, hostile and slow clients."""
+
+import asyncio
+import json
+import pathlib
+import socket
+
+import pytest
+
+pytest.importorskip('tornado', reason='the page needs python3-tornado')
+
+from tornado.httpclient import AsyncHTTPClient, HTTPClientError, HTTPRequest  # noqa: E402
+from tornado.websocket import websocket_connect  # noqa: E402
+
+from rumba_sim.model.errors import ConfigError  # noqa: E402
+from rumba_viewer.page.allow_list import AllowList, Tokens  # noqa: E402
+from rumba_viewer.page.client import framed  # noqa: E402
+from rumba_viewer.page.feeds import Arrival  # noqa: E402
+from rumba_viewer.page.protocol import Ros  # noqa: E402
+from rumba_viewer.page.server import Bounds, Hub, check_address, serve, sockets  # noqa: E402
+
+FOLDER = pathlib.Path(__file__).resolve().parents[2] / 'page'
+TIMEOUT = 30.0  # [s]
+
+
+class Topics(Ros):
+    """Lets clients subscribe to what `arrive` brings."""
+
+    def __init__(self, hub):
+        self._hub = hub
+
+    def subscribe(self, client, topic, reason, demand):
+        self._hub.listen(client, topic, reason, demand)
+
+    def unsubscribe(self, client, topic, reason):
+        self._hub.feed(topic).remove(client, reason)
+
+
+class Page:
+    """A server at a free port."""
+
+    def __init__(self, tokens=Tokens(), **bounds):
+        self.hub = Hub('/', AllowList(), [], Bounds(**bounds),
+                       lambda arrival, name, _: framed(json.dumps({'op': 'publish', 'topic': name,
+                                                                   'msg': arrival.data.decode()})))
+        self.hub.ros = Topics(self.hub)
+        where = sockets('127.0.0.1', 0)
+        self.at = f'127.0.0.1:{where[0].getsockname()[1]}'
+        self._server = serve(self.hub, tokens, FOLDER, where)
+
+    def arrive(self, data):
+        """Let a message of /map arrive."""
+        self.hub.feed('/map').arrivals.append(Arrival(data, 'a/B', '*', '/n', False))
+
+    async def open(self, query='', **headers):
+        """A client."""
+        return await websocket_connect(HTTPRequest(f'ws://{self.at}/{query}', headers=headers))
+
+
+async def read(client):
+    """The next operation that a client gets; None if its connection has ended."""
+    message = await asyncio.wait_for(client.read_message(), TIMEOUT)
+    return message and json.loads(message)
+
+
+async def until(condition):
+    """Wait until a condition holds."""
+    for _ in range(int(TIMEOUT / 0.01)):
+        if condition():
+            return
+        await asyncio.sleep(0.01)
+    raise AssertionError('waited in vain')
+
+
+async def is_told_and_ended(client, words):
+    """A client gets a status, and then its connection ends."""
+    status = await read(client)
+    assert status['op'] == 'status' and words in status['msg']
+    assert await read(client) is None
+
+
+async def is_served(page, client):
+    """A client still gets what arrives."""
+    page.arrive(b'still here')
+    assert (await read(client))['msg'] == 'still here'
+
+
+async def listener(page, **headers):
+    """A client that listens to /map."""
+    client = await page.open(**headers)
+    await client.write_message('{"op": "subscribe", "topic": "/map"}')
+    await until(lambda: '/map' in page.hub.feeds and page.hub.feeds['/map'].has_listeners)
+    return client
+
+
+def run(act):
+    """Run a test in a loop of its own."""
+    asyncio.run(asyncio.wait_for(act(), 4 * TIMEOUT))
+
+
+def test_every_file_that_the_page_names_is_served_with_its_type_and_nothing_else():
+    async def act():
+        page, fetch = Page(), AsyncHTTPClient().fetch
+        index = (await fetch(f'http://{page.at}/')).body.decode()
+        assert '<canvas id="floor"' in index and 'http' not in index
+        for path in FOLDER.iterdir():
+            if path.suffix != '.html':
+                answer = await fetch(f'http://{page.at}/{path.name}')
+                assert answer.body == path.read_bytes() and "default-src 'self'" in answer.headers[
+                    'Content-Security-Policy']
+        for path in ('/..%2fpackage.xml', '/package.xml', '/x.js', '/../setup.py'):
+            with pytest.raises(HTTPClientError, match='404'):
+                await fetch(f'http://{page.at}{path}')
+    run(act)
+
+
+def test_other_sites_and_other_names_of_this_machine_are_refused():
+    async def act():
+        page = Page()
+        for headers in ({'Origin': 'http://evil.example'}, {'Host': 'evil.example', 'Origin': 'http://evil.example'}):
+            with pytest.raises(HTTPClientError, match='403'):
+                await page.open(**headers)
+        (await page.open(Origin=f'http://{page.at}')).close()
+    run(act)
+
+
+@pytest.mark.parametrize('message, words', [
+    ('{"op": ', 'is no JSON'), ('[1]', 'must be a JSON object'), (10_000_000 * 'x', 'too big'),
+    (70_000 * 'x', 'too big')], ids=['no JSON', 'no operation', '10 MB', 'over the bound'])
+def test_hostile_input_ends_its_own_client_with_a_status(message, words):
+    async def act():
+        page = Page()
+        good, bad = await listener(page), await page.open()
+        sending = asyncio.ensure_future(bad.write_message(message))
+        sending.add_done_callback(lambda future: future.exception())
+        await is_told_and_ended(bad, words)
+        await is_served(page, good)
+    run(act)
+
+
+def test_a_flood_of_messages_ends_its_own_client():
+    async def act():
+        page = Page(rate=10.0)
+        good, bad = await listener(page), await page.open()
+        for _ in range(30):
+            await bad.write_message('{"op": "status"}')
+        await is_told_and_ended(bad, 'too many messages: at most 10 in a second')
+        await is_served(page, good)
+    run(act)
+
+
+def test_a_thousand_connections_are_told_that_there_are_too_many_and_the_first_is_served():
+    async def act():
+        page = Page(connections=20)
+        good = await listener(page)
+        others = []
+        for _ in range(40):
+            others += await asyncio.gather(*(page.open() for _ in range(25)))
+        for client in others[19:]:
+            await is_told_and_ended(client, 'has 20 clients already')
+        await is_served(page, good)
+        for client in others[:19]:
+            client.close()
+        await until(lambda: page.hub.clients == 1)
+        assert (await listener(page)) is not None
+    run(act)
+
+
+def test_a_wrong_token_ends_the_connection_and_none_lets_watch():
+    async def act():
+        page = Page(Tokens('secret'))
+        await is_told_and_ended(await page.open('?token=guess'), 'wrong token')
+        watching, driving = await listener(page), await page.open('?token=secret')
+        await is_served(page, watching)
+        await watching.write_message('{"op": "advertise", "topic": "/rumba/cmd_vel", "type": "geometry_msgs/Twist"}')
+        assert 'needs a token' in (await read(watching))['msg']
+        driving.close()
+    run(act)
+
+
+def test_a_client_that_does_not_read_loses_messages_and_slows_nobody():
+    async def act():
+        page = Page()
+        good, slow = await listener(page), socket.create_connection(page.at.split(':'))
+        slow.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
+        slow.sendall(f'GET / HTTP/1.1\r\nHost: {page.at}\r\nUpgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-'
+                     'Version: 13\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n'.encode())
+        text = b'{"op":"subscribe","topic":"/map"}'
+        slow.sendall(bytes([0x81, 0x80 | len(text), 0, 0, 0, 0]) + text)
+        await until(lambda: len(page.hub.feeds['/map']._listeners) == 2)
+        victim = next(client for client in page.hub.feeds['/map']._listeners if client.request.connection and
+                      client.request.headers.get('User-Agent') is None and client is not good)
+        for number in range(200):
+            page.arrive(b'%06d' % number + 50_000 * b'.')
+            assert int((await read(good))['msg'][:6]) == number
+        assert victim.lost > 100 and sum(map(len, victim._waiting.values())) <= 20
+        slow.close()
+        await until(lambda: page.hub.clients == 1)
+    run(act)
+
+
+def test_others_can_reach_it_only_if_changes_need_a_token():
+    check_address('127.0.0.1', Tokens())
+    check_address('0.0.0.0', Tokens('secret'))
+    with pytest.raises(ConfigError, match='address is 0.0.0.0, which others can reach: give a token:= too'):
+        check_address('0.0.0.0', Tokens())
+    with pytest.raises(ConfigError, match='must be an address of this machine'):
+        check_address('http://x', Tokens())
+
+
+def test_a_port_that_is_taken_is_named():
+    taken, = sockets('127.0.0.1', 0)
+    with pytest.raises(ConfigError, match='cannot serve at 127.0.0.1, port .*: choose another port:='):
+        sockets('127.0.0.1', taken.getsockname()[1])
+    taken.close()
