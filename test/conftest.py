@@ -1,12 +1,14 @@
-"""Workspaces that the tests share, each built from nothing once."""
+"""Workspaces that the tests share: that of ./rumba, and those of strangers, each built from nothing once."""
 
 import contextlib
 import fcntl
 import os
+import shutil
 import signal
+import subprocess
 
 import pytest
-from workspaces import OURS, ROOT, STAND_INS, TUTORIALS, Workspace, clean_environment, roscore
+from workspaces import BUILD_TIMEOUT, ROOT, UNDERLAY, WS, Space, Workspace, clean_environment, roscore
 
 STRANGERS = sorted((ROOT / 'test' / 'packages').iterdir())
 
@@ -24,27 +26,39 @@ def environment():
 
 @pytest.fixture(scope='session')
 def workspace(tmp_path_factory, environment):
-    """This repository's packages, its lessons, and a stranger's side by side, built from nothing, then installed."""
-    packages = OURS + STAND_INS + TUTORIALS + STRANGERS
-    with once(tmp_path_factory, 'side_by_side') as (path, is_first):
-        workspace = Workspace(path, packages, environment)
+    """The workspace that ./rumba builds: this repository's packages and lessons; installed into an empty folder."""
+    with once(tmp_path_factory, 'installed') as (_, is_first):
+        if is_first:
+            shutil.rmtree(WS / 'install', ignore_errors=True)
+            if not (WS / 'lessons').exists():  # otherwise ./rumba test has just built it
+                subprocess.run([str(ROOT / 'rumba'), 'build'], check=True, timeout=BUILD_TIMEOUT)
+            # What `make install` does last: the rest is built, and other tests use the folder at the same time.
+            Space(UNDERLAY, environment).run(f'cmake -P {WS}/build/cmake_install.cmake', BUILD_TIMEOUT)
+    return Workspace(WS, [], environment)
+
+
+@pytest.fixture(scope='session')
+def beside(tmp_path_factory, environment):
+    """A stranger's packages and the package of messages that they use side by side, built from nothing."""
+    packages = [ROOT / 'rumba_msg', *(path for path in STRANGERS if path.name.startswith('battery_'))]
+    return built(tmp_path_factory, 'beside', lambda path: Workspace(path, packages, environment))
+
+
+@pytest.fixture(scope='session')
+def overlay(tmp_path_factory, environment, workspace):
+    """A stranger's packages alone, built from nothing over the install space of this repository's."""
+    return built(tmp_path_factory, 'overlay',
+                 lambda path: Workspace(path, STRANGERS, environment, workspace.setup('install')))
+
+
+def built(tmp_path_factory, name, workspace_at):
+    """A workspace with its install space, built by the first that wants it."""
+    with once(tmp_path_factory, name) as (path, is_first):
+        workspace = workspace_at(path)
         if is_first:
             workspace.make()
             workspace.make('install')
     return workspace
-
-
-@pytest.fixture(scope='session')
-def overlay(tmp_path_factory, environment):
-    """A stranger's packages alone, built from nothing over the install space of this repository's."""
-    with once(tmp_path_factory, 'overlay') as (path, is_first):
-        below = Workspace(path / 'below', OURS + STAND_INS, environment)
-        overlay = Workspace(path / 'above', STRANGERS, environment, below.setup('install'))
-        if is_first:
-            below.make('install')
-            overlay.make()
-            overlay.make('install')
-    return overlay
 
 
 @contextlib.contextmanager

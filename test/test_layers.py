@@ -117,6 +117,14 @@ def test_only_the_folders_of_the_window_import_qt(package, path):
         assert name.split('.')[0] not in QT or f'{package}/{folder(package, path)}' in WITH_QT, name
 
 
+def test_compiled_files_use_nothing_of_other_files_since_numba_would_not_see_it_change():
+    compiled = {path: {name for name in imports(path) if name.split('.')[0] in FOLDERS} for _, path in SOURCES}
+    of_decorator = {path: names for path, names in compiled.items() if 'rumba_sim.model.jit.compiled' in names}
+    assert of_decorator and {name for names in of_decorator.values() for name in names} == {
+        'rumba_sim.model.jit.compiled'}
+    assert compiled[source('rumba_sim') / 'model' / 'kernel.py'] == set()
+
+
 @pytest.mark.parametrize('package', FOLDERS)
 def test_the_tests_of_a_package_use_no_package_above_it(package):
     imported = {name.split('.')[0] for path in (ROOT / package / 'test').glob('**/*.py') for name in imports(path)}

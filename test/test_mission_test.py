@@ -10,10 +10,10 @@ HOMEWORK = ROOT / 'test' / 'packages' / 'homework'
 
 
 @pytest.fixture()
-def mark(workspace, tmp_path):
+def mark(overlay, tmp_path):
     """A function that marks the node of a student, and returns the exit code and the output of rostest."""
     def mark(student):
-        process = workspace.space('devel').start(
+        process = overlay.space('devel').start(
             f'rostest --results-base-dir {tmp_path} homework homework.test student:={student}')
         output, _ = process.communicate(timeout=180.0)
         return process.returncode, output

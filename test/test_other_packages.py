@@ -4,7 +4,7 @@ import pytest
 
 
 @pytest.mark.parametrize('space', ['devel', 'install'])
-@pytest.mark.parametrize('name', ['workspace', 'overlay'])
+@pytest.mark.parametrize('name', ['beside', 'overlay'])
 def test_a_python_node_reads_what_a_cpp_node_publishes(request, name, space):
     stranger = request.getfixturevalue(name).space(space)
     namespace = f'__ns:=/{name}_{space}'

@@ -15,8 +15,8 @@ def test_a_turtle_cleans_and_comes_home(workspace):
     assert re.search(r'm, 0 charges; the floor is 1\.\d % clean: 1\.\d % swept$', report), report
 
 
-def test_the_lessons_publisher_and_ours_are_heard_by_the_same_listener(workspace):
-    here = workspace.space('devel')
+def test_the_lessons_publisher_and_ours_are_heard_by_the_same_listener(overlay):
+    here = overlay.space('devel')
     with here.running(f'{LAUNCH} autostart:=false percentage:=64'), here.running('rosrun battery_cpp publisher'), \
             here.running('rosrun rumba_sim battery_status_listener') as listener:
         seen = set()

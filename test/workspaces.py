@@ -11,6 +11,7 @@ import time
 from typing import Dict, Iterator, Optional
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
+WS = (ROOT / '.ws').resolve()  # a link if the path of the checkout has spaces
 OURS = [path.parent for path in sorted(ROOT.glob('*/package.xml'))]
 STAND_INS = [path.parent for path in sorted(ROOT.glob('compat/*/package.xml'))]
 TUTORIALS = [path.parent for path in sorted(ROOT.glob('rumba_tutorials/**/package.xml'))]

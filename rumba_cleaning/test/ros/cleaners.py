@@ -1,18 +1,19 @@
 """What the tests of the cleaner share: a cleaner as a user starts it, and clients of its actions."""
 
 import signal
-import subprocess
 import threading
 import time
 
 import actionlib
+import programs
 import rospy
 from actionlib_msgs.msg import GoalStatus
 from geometry_msgs.msg import Pose2D, Twist
-from simulators import ENDS_WITHIN, TIMEOUT, Heard, executable, lookup, wait
+from simulators import ENDS_WITHIN, TIMEOUT, Heard, wait, wait_for_service
 
 from rumba_msg.msg import CleanAction, DockAction, GoToAction, GoToGoal, MissionStatus, Outcome, UndockAction
 
+programs.LIBRARIES += ['actionlib_msgs.msg', 'rumba_cleaning.mission', 'rumba_cleaning.planning.warm_up']
 KEY_PERIOD = 0.1  # [s] from one command of a person to the next, as of teleop_key
 ACTIONS = {'clean': CleanAction, 'dock': DockAction, 'undock': UndockAction, 'go_to': GoToAction}
 # Statuses of actionlib by the code of the outcome; goals with any other code are aborted.
@@ -40,15 +41,13 @@ class Cleaner:
             rospy.delete_param(name)
         # As in a launch file: simulator and cleaner start at the same time, both in simulated time.
         rospy.set_param('/use_sim_time', True)
-        self.process = subprocess.Popen([executable('rumba_cleaning', 'cleaner'), *arguments], stderr=stderr,
-                                        universal_newlines=True)
+        self.process = programs.start('rumba_cleaning', 'cleaner', *arguments, stderr=stderr, universal_newlines=True)
         test.addCleanup(self.end)
 
     def connect(self):
         """Wait until it is there; returns itself."""
         test = self._test
-        wait(test, lambda: self.process.poll() is not None or lookup(f'{self._robot}/go_to_position'), 'the cleaner')
-        test.assertIsNone(self.process.poll(), 'the cleaner ended')
+        wait_for_service(test, f'{self._robot}/go_to_position', self.process)
         self.clients = {}
         for action, kind in ACTIONS.items():
             self.clients[action] = actionlib.ActionClient(f'{self._robot}/{action}', kind)

@@ -6,11 +6,12 @@ import signal
 import subprocess
 import unittest
 
+import programs
 import rospy
 import rostest
 from actionlib import CommState
 from cleaners import Cleaner, go_to
-from simulators import TIMEOUT, Heard, Simulator, executable, folder_of, lookup, wait
+from simulators import TIMEOUT, Heard, Simulator, folder_of, wait, wait_for_service
 
 from rumba_msg.msg import CleanGoal, MissionStatus, Outcome
 
@@ -34,8 +35,8 @@ def start(name, *arguments):
     """A cleaner that needs no simulator, as a process."""
     if rospy.has_param(f'/{name}'):
         rospy.delete_param(f'/{name}')
-    return subprocess.Popen([executable('rumba_cleaning', 'cleaner'), f'__name:={name}', '_map:=studio', *arguments],
-                            stderr=subprocess.PIPE, stdout=subprocess.DEVNULL, universal_newlines=True)
+    return programs.start('rumba_cleaning', 'cleaner', f'__name:={name}', '_map:=studio', *arguments,
+                          stderr=subprocess.PIPE, stdout=subprocess.DEVNULL, universal_newlines=True)
 
 
 class CleanerEndTest(unittest.TestCase):
@@ -84,7 +85,7 @@ class CleanerEndTest(unittest.TestCase):
         cleaners = {name: start(name) for name in ('one', 'two')}
         for process in cleaners.values():
             self.addCleanup(self.kill, process)
-        wait(self, lambda: lookup('/rumba/go_to_position'), 'one to work')
+        wait_for_service(self, '/rumba/go_to_position')
         wait(self, lambda: any(process.poll() is not None for process in cleaners.values()), 'one to end')
         works, ends = sorted(cleaners, key=lambda name: cleaners[name].poll() is not None)
         self.assertEqual((cleaners[works].poll(), cleaners[ends].returncode), (None, 2))
@@ -100,7 +101,7 @@ class CleanerEndTest(unittest.TestCase):
         self.assertIsNone(cleaners[works].poll())
         other = start('other', '_robot:=rumba2')
         self.addCleanup(self.kill, other)
-        wait(self, lambda: lookup('/rumba2/go_to_position'), 'one for another robot')
+        wait_for_service(self, '/rumba2/go_to_position', other)
 
     def test_a_cleaner_that_was_killed_does_not_count(self):
         first = start('killed')

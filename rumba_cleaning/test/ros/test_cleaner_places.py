@@ -9,7 +9,7 @@ import rospy
 import rostest
 from cleaners import Cleaner, Person, go_to
 from geometry_msgs.msg import Pose2D, TransformStamped
-from simulators import Heard, Simulator, folder_of, lookup, wait
+from simulators import Heard, Simulator, folder_of, wait_for_service
 from tf2_msgs.msg import TFMessage
 
 from rumba_msg.msg import CleanGoal, DockGoal, MissionStatus, Outcome
@@ -80,7 +80,7 @@ class CleanerPlacesTest(unittest.TestCase):
                                     '_robots:=2', '_speed:=10'])
         self.addCleanup(process.wait)
         self.addCleanup(process.terminate)
-        wait(self, lambda: lookup('/upstairs/simulator/spawn'), 'the simulator')
+        wait_for_service(self, '/upstairs/simulator/spawn')
         for robot, x in (('rumba2', 3.0), ('rumba', 1.0)):
             rospy.ServiceProxy(f'/upstairs/{robot}/teleport', Teleport)(Pose2D(x, 1.0, 0.0))
             cleaners[robot].connect()

@@ -7,12 +7,13 @@ import subprocess
 import time
 import unittest
 
+import programs
 import rospy
 import rostest
 from cleaners import Cleaner, go_to
 from dynamic_reconfigure.client import Client
 from geometry_msgs.msg import Pose2D
-from simulators import TIMEOUT, Heard, Simulator, executable, folder_of, shared
+from simulators import TIMEOUT, Heard, Simulator, folder_of, shared
 
 from rumba_msg.msg import CleanGoal, MissionStatus, Outcome, UndockGoal
 
@@ -93,9 +94,9 @@ class CleanerTroubleTest(unittest.TestCase):
         environment = {**os.environ, 'PYTHONPATH': f'{folder}:{os.environ["PYTHONPATH"]}'}
         for number, (message, argument) in enumerate(BAD_STARTS):
             with self.subTest(argument):
-                done = subprocess.run([executable('rumba_cleaning', 'cleaner'), f'__name:=bad_{number}', argument],
-                                      env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=TIMEOUT,
-                                      universal_newlines=True, check=False)
+                done = programs.run('rumba_cleaning', 'cleaner', f'__name:=bad_{number}', argument, env=environment,
+                                    stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=TIMEOUT,
+                                    universal_newlines=True)
                 self.assertRegex(done.stderr, message)
                 self.assertEqual((done.returncode, done.stdout, done.stderr.count('\n')), (2, '', 1))
                 self.assertFalse(any(value != {} for value in rospy.get_param(f'/bad_{number}', {}).values()))

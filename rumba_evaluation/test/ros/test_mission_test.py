@@ -11,13 +11,14 @@ import time
 import unittest
 import xml.etree.ElementTree
 
+import programs
 import rosgraph
 import rospy
 import rostest
 from nav_msgs.msg import Odometry
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import BatteryState
-from simulators import TIMEOUT, executable, wait
+from simulators import TIMEOUT, wait
 from std_msgs.msg import Float64, Header
 
 from rumba_msg.msg import BatteryStatus, Bumper, CleaningStatus, DockStatus, SimulatorState
@@ -41,10 +42,10 @@ class Run:
         self._results = pathlib.Path(folder.name, 'results.xml')
         if rospy.has_param('/mission_test'):
             rospy.delete_param('/mission_test')
-        command = command or [executable('rumba_evaluation', 'mission_test')]
-        self.process = subprocess.Popen(
-            [*command, f'_robot:={robot or test.robot}', *arguments, f'--gtest_output=xml:{self._results}'],
-            stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True)
+        arguments = [f'_robot:={robot or test.robot}', *arguments, f'--gtest_output=xml:{self._results}']
+        streams = {'stdout': subprocess.PIPE, 'stderr': subprocess.PIPE, 'universal_newlines': True}
+        self.process = (subprocess.Popen([*command, *arguments], **streams) if command else
+                        programs.start('rumba_evaluation', 'mission_test', *arguments, **streams))
         test.addCleanup(self._kill)
 
     def _kill(self):

@@ -1,10 +1,12 @@
 """What the tests of the localiser share: a localiser as a user starts it."""
 
 import signal
-import subprocess
 
+import programs
 import rospy
-from simulators import TIMEOUT, executable, lookup, wait
+from simulators import TIMEOUT, wait_for_service
+
+programs.LIBRARIES += ['rumba_localisation.warm_up']
 
 
 class Localiser:
@@ -15,11 +17,9 @@ class Localiser:
         if rospy.has_param(name):
             rospy.delete_param(name)
         rospy.set_param('/use_sim_time', True)
-        self.process = subprocess.Popen([executable('rumba_localisation', 'localiser'), *arguments])
+        self.process = programs.start('rumba_localisation', 'localiser', *arguments)
         test.addCleanup(self.end)
-        wait(test, lambda: self.process.poll() is not None or lookup(f'{robot}/request_nomotion_update'),
-             'the localiser')
-        test.assertIsNone(self.process.poll(), 'the localiser ended')
+        wait_for_service(test, f'{robot}/request_nomotion_update', self.process)
 
     def end(self):
         """End it, cleanly."""

@@ -28,7 +28,7 @@ class LocaliserNodeTest(unittest.TestCase):
     def setUpClass(cls):
         """Start both."""
         test = shared(cls)
-        cls.simulator = Simulator(test, '_map:=studio', '_speed:=5', '_localisation:=false', '_seed:=2')
+        cls.simulator = Simulator(test, '_map:=studio', '_speed:=5', '_localisation:=none', '_seed:=2')
         Localiser(test)
         cls.pose = Heard(test, '/rumba/amcl_pose', PoseWithCovarianceStamped)
         cls.truth, cls.odom = Heard(test, '/rumba/ground_truth'), Heard(test, '/rumba/odom')

@@ -1,6 +1,5 @@
 """What the tests of the simulator share: a simulator, started as by a user, its messages and its services."""
 
-import functools
 import os
 import pathlib
 import signal
@@ -9,8 +8,8 @@ import tempfile
 import time
 import unittest
 
+import programs
 import rosgraph
-import roslib.packages
 import rospy
 from geometry_msgs.msg import Pose2D, Twist
 from nav_msgs.msg import OccupancyGrid, Odometry
@@ -23,6 +22,7 @@ from rumba_msg.msg import BatteryStatus, Bumper, CleaningStatus, Cliff, DockStat
 from rumba_msg.srv import AddObstacle, Kill, RemoveObstacle, Spawn, Step, Teleport
 
 TIMEOUT = 30.0
+LOOK_PERIOD = 0.04  # [s] between two questions to a master
 STEP_RATE = 50  # the simulator's default [Hz]
 TICK = 1_000_000_000 // STEP_RATE  # [ns]
 ENDS_WITHIN = 30.0  # [s]: a deadlock lasts longer, a busy machine does not
@@ -40,21 +40,15 @@ SERVICES = {
     'teleport': Teleport, 'static_map': GetMap}
 
 
-@functools.lru_cache(maxsize=None)
-def executable(package, node):
-    """Path of a node, which `rosrun` would look for at each start, longer than some nodes take to start."""
-    return roslib.packages.find_node(package, node)[0]
-
-
-def wait(test, condition, what='it'):
-    """Wait until a condition holds; returns what it returned."""
+def wait(test, condition, what='it', period=0.005):
+    """Wait until a condition holds; returns what it returned. `period` [s] is long if to look takes long."""
     end = time.monotonic() + TIMEOUT
     while True:
         result = condition()
         if result:
             return result
         test.assertLess(time.monotonic(), end, f'waited in vain for {what}')
-        time.sleep(0.005)
+        time.sleep(period)
 
 
 def lookup(service, master=None):
@@ -63,6 +57,14 @@ def lookup(service, master=None):
         return rosgraph.Master('/test', master_uri=master).lookupService(service)
     except (rosgraph.MasterException, OSError):
         return None
+
+
+def wait_for_service(test, service, process=None, master=None):
+    """Wait until a service is registered; a process that shall register it must not end."""
+    wait(test, lambda: process is not None and process.poll() is not None or lookup(service, master), service,
+         LOOK_PERIOD)
+    if process is not None:
+        test.assertIsNone(process.poll(), f'what shall serve {service} ended')
 
 
 def folder_of(test, contents):
@@ -99,7 +101,7 @@ class Master:
 
     def wait_for(self, service):
         """Wait until a service is registered."""
-        wait(self._test, lambda: lookup(service, self.uri), f'{service} at the new master')
+        wait_for_service(self._test, service, master=self.uri)
 
 
 def forget_parameters(node='/simulator'):
@@ -152,12 +154,9 @@ class Simulator:
         self.ticks = None
         if forget:
             forget_parameters(node)
-        self.process = subprocess.Popen([executable('rumba_sim', 'simulator'), *arguments], env=environment,
-                                        cwd=folder)
+        self.process = programs.start('rumba_sim', 'simulator', *arguments, env=environment, cwd=folder)
         test.addCleanup(self.end)
-        wait(test, lambda: self.process.poll() is not None or lookup(f'{node}/tuning/set_parameters', master),
-             'the simulator')
-        test.assertIsNone(self.process.poll(), 'the simulator ended')
+        wait_for_service(test, f'{node}/tuning/set_parameters', self.process, master)
 
     def call(self, service, *arguments):
         """The answer of a service, given by its name below that of the simulator, or with a robot: `rumba/teleport`."""

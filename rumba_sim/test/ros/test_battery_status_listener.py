@@ -9,7 +9,7 @@ import unittest
 
 import rospy
 import rostest
-from simulators import executable
+from programs import executable
 
 from rumba_msg.msg import BatteryStatus
 

@@ -5,10 +5,10 @@ import signal
 import subprocess
 import unittest
 
+import programs
 import rospy
 import rostest
 from rosgraph_msgs.msg import Clock
-from simulators import executable
 
 from rumba_msg.msg import BatteryStatus
 
@@ -21,9 +21,8 @@ class BatteryStatusPublisherTest(unittest.TestCase):
 
     def start(self, namespace, *arguments):
         """Start the node in a separate namespace."""
-        process = subprocess.Popen(
-            [executable('rumba_sim', 'battery_status_publisher'), f'__ns:=/{namespace}', *arguments],
-            stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True)
+        process = programs.start('rumba_sim', 'battery_status_publisher', f'__ns:=/{namespace}', *arguments,
+                                 stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True)
         self.addCleanup(process.communicate)
         self.addCleanup(process.kill)
         return process

@@ -6,9 +6,10 @@ import signal
 import subprocess
 import unittest
 
+import programs
 import rospy
 import rostest
-from simulators import ROOM, TIMEOUT, Heard, Master, Simulator, executable, folder_of, forget_parameters, lookup
+from simulators import ROOM, TIMEOUT, Heard, Master, Simulator, folder_of, forget_parameters, lookup
 
 UNIQUE = r"^simulator: a node /simulator is already running: end it first\n$"
 MAP = r'^simulator: another node already serves /static_map: end the other simulator or map_server, or give '
@@ -19,8 +20,8 @@ class SimulatorBadStartTest(unittest.TestCase):
 
     def assert_refused(self, message, *arguments):
         """Start a node that must print one line, which matches a pattern, and end."""
-        done = subprocess.run([executable('rumba_sim', 'simulator'), *arguments], stdout=subprocess.PIPE,
-                              stderr=subprocess.PIPE, universal_newlines=True, timeout=TIMEOUT, check=False)
+        done = programs.run('rumba_sim', 'simulator', *arguments, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                            universal_newlines=True, timeout=TIMEOUT)
         self.assertEqual((done.returncode, done.stdout), (2, ''), done.stderr)
         self.assertRegex(done.stderr, message)
         self.assertEqual(done.stderr.count('\n'), 1)
@@ -114,8 +115,8 @@ class SimulatorBadStartTest(unittest.TestCase):
 
     def start_without_master(self, master):
         """Start a simulator, and check the line that it prints."""
-        process = subprocess.Popen([executable('rumba_sim', 'simulator'), '_map:=field'], stderr=subprocess.PIPE,
-                                   universal_newlines=True, env={**os.environ, 'ROS_MASTER_URI': master.uri})
+        process = programs.start('rumba_sim', 'simulator', '_map:=field', stderr=subprocess.PIPE,
+                                 universal_newlines=True, env={**os.environ, 'ROS_MASTER_URI': master.uri})
         self.addCleanup(process.communicate)
         self.addCleanup(process.terminate)
         self.assertEqual(process.stderr.readline(),

@@ -6,17 +6,17 @@ import re
 import signal
 import socket
 import subprocess
-import sys
 import unittest
 
+import programs
 import rosgraph
 import rospy
 import rostest
-from simulators import TIMEOUT, executable, lookup, wait
+from simulators import LOOK_PERIOD, TIMEOUT, folder_of, wait, wait_for_service
 
 ROUNDS = 3
 READY = 'tuning/set_parameters'
-TOGETHER = """
+TOGETHER = """#!/usr/bin/env python3
 import sys
 from rumba_sim.ros.simulator import simulator
 print('ready', flush=True)
@@ -44,7 +44,7 @@ class OwnMaster:
         self._process = subprocess.Popen(['rosmaster', '--core', '-p', str(self._port)], stdout=subprocess.DEVNULL)
         self._test.addCleanup(self._process.wait)
         self._test.addCleanup(self._process.kill)
-        wait(self._test, self.api.is_online, 'the master')
+        wait(self._test, self.api.is_online, 'the master', LOOK_PERIOD)
 
     def restart(self):
         """Kill it, so that it forgets everything, and start it again."""
@@ -52,10 +52,10 @@ class OwnMaster:
         self._process.wait(TIMEOUT)
         self.start()
 
-    def begin(self, *command):
-        """A process at this master."""
-        process = subprocess.Popen(command, env=self.environment, stdin=subprocess.PIPE, stdout=subprocess.PIPE,
-                                   stderr=subprocess.STDOUT, universal_newlines=True)
+    def begin(self, path, *arguments):
+        """A program at this master."""
+        process = programs.start_script(path, *arguments, env=self.environment, stdin=subprocess.PIPE,
+                                        stdout=subprocess.PIPE, stderr=subprocess.STDOUT, universal_newlines=True)
         self._test.addCleanup(process.stdout.close)
         self._test.addCleanup(process.stdin.close)
         self._test.addCleanup(process.wait)
@@ -64,11 +64,11 @@ class OwnMaster:
 
     def simulator(self, *arguments):
         """A simulator at this master, perhaps not ready yet."""
-        return self.begin(executable('rumba_sim', 'simulator'), '_map:=studio', *arguments)
+        return self.begin(programs.executable('rumba_sim', 'simulator'), '_map:=studio', *arguments)
 
-    def serves(self, service):
-        """Whether a service is registered."""
-        return lookup(service, self.uri)
+    def wait_for(self, service):
+        """Wait until a service is registered."""
+        wait_for_service(self._test, service, master=self.uri)
 
     def call(self, *command):
         """What a command of ROS prints."""
@@ -82,8 +82,9 @@ class SimulatorMasterTest(unittest.TestCase):
     def assert_one_survives(self, arguments, message):
         """Start simulators at the same moment: one runs, the others say in one line why they do not."""
         master = OwnMaster(self)
+        together = folder_of(self, {'together': TOGETHER.encode()}) / 'together'
         for _ in range(ROUNDS):
-            processes = [master.begin(sys.executable, '-c', TOGETHER, '_map:=studio', *each) for each in arguments]
+            processes = [master.begin(together, '_map:=studio', *each) for each in arguments]
             for process in processes:
                 self.assertEqual(process.stdout.readline(), 'ready\n')
             for process in processes:
@@ -93,11 +94,13 @@ class SimulatorMasterTest(unittest.TestCase):
             self.assertEqual(len(running), 1)
             for process in processes:
                 if process not in running:
-                    self.assertEqual(process.returncode, 2)
-                    self.assertRegex(process.stdout.read(), message)
-            wait(self, lambda: master.serves('/static_map'), 'the survivor')
+                    told = process.stdout.read()
+                    self.assertEqual(process.returncode, 2, told)
+                    self.assertRegex(told, message)
+            master.wait_for('/static_map')
             self.assertIsNone(running[0].poll())
-            wait(self, lambda: 'reserv' not in str(master.api.getSystemState()), 'the end of the reservation')
+            wait(self, lambda: 'reserv' not in str(master.api.getSystemState()), 'the end of the reservation',
+                 LOOK_PERIOD)
             running[0].terminate()
             self.assertEqual(running[0].wait(TIMEOUT), 0)
 
@@ -116,13 +119,13 @@ class SimulatorMasterTest(unittest.TestCase):
     def test_after_a_restart_of_the_master_all_nodes_are_there_again(self):
         master = OwnMaster(self)
         master.simulator('_speed:=10')
-        listener = master.begin(executable('rumba_sim', 'battery_status_listener'))
-        wait(self, lambda: master.serves(f'/simulator/{READY}'), 'the simulator')
+        listener = master.begin(programs.executable('rumba_sim', 'battery_status_listener'))
+        master.wait_for(f'/simulator/{READY}')
         self.assertIn('battery', listener.stdout.readline())
         before = master.api.getSystemState()
         tick = self.tick(master)
         master.restart()
-        wait(self, lambda: as_sets(master.api.getSystemState()) == as_sets(before), f'{before} again')
+        wait(self, lambda: as_sets(master.api.getSystemState()) == as_sets(before), f'{before} again', LOOK_PERIOD)
         wait(self, lambda: master.api.hasParam('/simulator/tuning/speed'), 'the parameters of the tuning')
         self.assertEqual(master.api.getParam('/simulator/settings/speed'), 10.0)
         self.assertTrue(master.api.getParam('/use_sim_time'))
@@ -139,11 +142,11 @@ class SimulatorMasterTest(unittest.TestCase):
     def test_a_simulator_that_finds_another_at_the_new_master_ends_with_one_line(self):
         master = OwnMaster(self)
         old = master.simulator('__name:=old')
-        wait(self, lambda: master.serves(f'/old/{READY}'), 'the old simulator')
+        master.wait_for(f'/old/{READY}')
         old.send_signal(signal.SIGSTOP)
         master.restart()
         new = master.simulator('__name:=new')
-        wait(self, lambda: master.serves(f'/new/{READY}'), 'the new simulator')
+        master.wait_for(f'/new/{READY}')
         old.send_signal(signal.SIGCONT)
         told = old.communicate(timeout=TIMEOUT)[0]
         self.assertIn('the master was restarted, and this node ends: another node already serves /static_map: ', told)

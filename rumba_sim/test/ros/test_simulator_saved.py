@@ -5,10 +5,11 @@ import os
 import subprocess
 import unittest
 
+import programs
 import rospy
 import rostest
 from geometry_msgs.msg import Pose2D
-from simulators import ROOM, TIMEOUT, Heard, Simulator, executable, folder_of, forget_parameters, wait
+from simulators import ROOM, TIMEOUT, Heard, Simulator, folder_of, forget_parameters, wait
 
 from rumba_sim.model import map_file, world_state
 from rumba_sim.model.config import updated
@@ -75,10 +76,8 @@ class SimulatorSavedTest(unittest.TestCase):
         """Start a simulator that must print one line, which matches a pattern, and end."""
         forget_parameters()
         before = self.path.read_bytes() if self.path.is_file() else None
-        command = executable('rumba_sim', 'simulator')
-        done = subprocess.run([command, *self.arguments, f'_state:={self.path}', *arguments],
-                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, universal_newlines=True,
-                              timeout=TIMEOUT, check=False)
+        done = programs.run('rumba_sim', 'simulator', *self.arguments, f'_state:={self.path}', *arguments,
+                            stdout=subprocess.PIPE, stderr=subprocess.STDOUT, universal_newlines=True, timeout=TIMEOUT)
         self.assertEqual(done.returncode, 2, done.stdout)
         self.assertRegex(done.stdout.splitlines()[-1], f'^simulator: {self.path}: {message}$')
         self.assertEqual(self.path.read_bytes() if self.path.is_file() else None, before)

@@ -5,9 +5,10 @@ import subprocess
 import threading
 import unittest
 
+import programs
 import rospy
 import rostest
-from simulators import STEP_RATE, TICK, Heard, Simulator, executable, forget_parameters, lookup, wait
+from simulators import STEP_RATE, TICK, Heard, Simulator, forget_parameters, wait, wait_for_service
 from tf2_msgs.msg import TFMessage
 
 
@@ -189,7 +190,7 @@ class SimulatorTimeTest(unittest.TestCase):
                                            f'speed:={speed}'], stdout=subprocess.DEVNULL)
                 self.addCleanup(launch.wait)
                 self.addCleanup(launch.terminate)
-                wait(self, lambda: lookup('/simulator/tuning/set_parameters'), 'the simulator')
+                wait_for_service(self, '/simulator/tuning/set_parameters', launch)
                 self.assertEqual(rospy.get_param('/use_sim_time'), found or speed != 1)
                 launch.terminate()
                 launch.wait()
@@ -198,8 +199,7 @@ class SimulatorTimeTest(unittest.TestCase):
     def test_a_node_that_waits_for_a_clock_that_nobody_publishes_says_so(self):
         rospy.set_param('/use_sim_time', True)
         self.addCleanup(rospy.delete_param, '/use_sim_time')
-        node = subprocess.Popen([executable('rumba_sim', 'battery_status_publisher')], stderr=subprocess.PIPE,
-                                universal_newlines=True)
+        node = programs.start('rumba_sim', 'battery_status_publisher', stderr=subprocess.PIPE, universal_newlines=True)
         self.addCleanup(node.communicate)
         self.addCleanup(node.terminate)
         self.assertIn('/use_sim_time is true, but nothing publishes /clock: for this node, time stands still. Start a '

@@ -14,7 +14,7 @@ import unittest
 import rospy
 import rostest
 from geometry_msgs.msg import Twist
-from simulators import executable
+from programs import executable
 from std_srvs.srv import SetBool, SetBoolResponse
 
 from rumba_msg.msg import BatteryStatus

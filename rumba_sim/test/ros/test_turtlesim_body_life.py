@@ -5,9 +5,10 @@ import math
 import subprocess
 import unittest
 
+import programs
 import rospy
 import rostest
-from simulators import Commands, Heard, executable, lookup, wait
+from simulators import TIMEOUT, Commands, Heard, lookup, wait
 from turtles import IS_STAND_IN, Turtle, ask, body, turtlesim
 
 from turtlesim.msg import Pose
@@ -104,8 +105,8 @@ class TurtlesimBodyLifeTest(unittest.TestCase):
                 (['_turtle:=a/b'], "turtle is 'a/b': must be letters"), (['_map:=moon'], "there is no map 'moon'"),
                 (['_pen/red:=256'], 'pen/red is 256: must be 0 to 255'), (['_speed:=2'], 'speed is unknown')):
             with self.subTest(arguments):
-                process = subprocess.run([executable('rumba_sim', 'turtlesim_body'), *arguments],
-                                         stderr=subprocess.PIPE, universal_newlines=True)
+                process = programs.run('rumba_sim', 'turtlesim_body', *arguments, timeout=TIMEOUT,
+                                       stderr=subprocess.PIPE, universal_newlines=True)
                 self.assertEqual(process.returncode, 2)
                 self.assertIn(message, process.stderr)
                 self.assertEqual(process.stderr.count('\n'), 1)

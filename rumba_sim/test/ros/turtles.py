@@ -7,10 +7,10 @@ other speed than 1, and dies of SIGINT.
 import importlib.util
 import os
 import signal
-import subprocess
 
+import programs
 import rospy
-from simulators import TIMEOUT, Commands, Heard, executable, lookup, wait
+from simulators import TIMEOUT, Commands, Heard, wait, wait_for_service
 from std_srvs.srv import Empty
 
 from turtlesim.msg import Color, Pose
@@ -27,11 +27,9 @@ class Process:
     def __init__(self, test, service, package, node, *arguments, endings=(0,), **environment):
         self._test = test
         self._endings = endings
-        self.process = subprocess.Popen([executable(package, node), *arguments],
-                                        env={**os.environ, **environment})
+        self.process = programs.start(package, node, *arguments, env={**os.environ, **environment})
         test.addCleanup(self.end)
-        wait(test, lambda: self.process.poll() is not None or lookup(service), service)
-        test.assertIsNone(self.process.poll(), f'{node} ended')
+        wait_for_service(test, service, self.process)
 
     def end(self, number=signal.SIGINT):
         """End it; it must end with one of the exit codes that are expected."""

@@ -78,6 +78,7 @@ def drove(world, v, w, ticks, name='rumba'):
     return list(drive(world, v, w, ticks, name))[-1]
 
 
+@functools.lru_cache(maxsize=16)
 def squares(plan):
     """Lower left corners [m] of all cells that are not free, with a ring around the grid: float64 (any, 2)."""
     blocked = np.pad(~plan.free, 1, mode='constant', constant_values=True)

@@ -54,6 +54,39 @@ def test_the_advice_helps(source, tmp_path):
     assert run(source, NOBODY + TURN, NUMBA_CACHE_DIR=str(tmp_path / 'cache')) == ('True\n', '')
 
 
+def turned_around(source, path):
+    """Copy the model to a folder, with an error in its kernel, and with a file of the same size and time."""
+    shutil.copytree(str(source), str(path), symlinks=True)
+    changed, original = path / 'rumba_sim' / 'model' / 'kernel.py', source / 'rumba_sim' / 'model' / 'kernel.py'
+    text = original.read_text()
+    changed.write_text(text.replace('return angle if -math.pi < angle', 'return angle if -math.pi > angle'))
+    os.utime(str(changed), ns=(original.stat().st_atime_ns, original.stat().st_mtime_ns))
+    assert changed.read_text() != text and changed.stat().st_size == original.stat().st_size
+
+
+ANGLE = 'from rumba_sim.model.compiled import fast; print(fast.wrap(-4.0) == -4.0)'
+
+
+@pytest.mark.parametrize('place', ['HOME', 'NUMBA_CACHE_DIR'])
+def test_two_copies_of_the_model_that_share_a_place_for_the_cache_share_no_code(source, tmp_path, place):
+    turned_around(source, tmp_path / 'other')
+    where = {'HOME': '/dev/null/home', place: str(tmp_path / 'place')}
+    for _ in range(2):  # the second time from the cache
+        assert run(source, ANGLE, **where) == ('False\n', '')
+        assert run(tmp_path / 'other', ANGLE, **where) == ('True\n', '')
+
+
+def test_what_was_cached_of_a_source_that_has_changed_is_not_used(source, tmp_path):
+    home = {'HOME': str(tmp_path / 'home')}
+    assert run(source, ANGLE, **home) == ('False\n', '')
+    turned_around(source, tmp_path / 'other')
+    kernel_file = source / 'rumba_sim' / 'model' / 'kernel.py'
+    begin = kernel_file.stat().st_mtime_ns
+    shutil.copy(str(tmp_path / 'other' / 'rumba_sim' / 'model' / 'kernel.py'), str(kernel_file))
+    os.utime(str(kernel_file), ns=(begin, begin + 1_000_000_000))  # as after an installation a second later
+    assert run(source, ANGLE, **home) == ('True\n', '')
+
+
 def test_a_full_disk_does_no_harm(source, tmp_path):
     out, error = run(source, SMALL_FILES + TURN, HOME=str(tmp_path / 'home'))
     assert out == 'True\n'

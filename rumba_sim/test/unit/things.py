@@ -36,17 +36,18 @@ def corners(pose, obstacle):
 
 def to_segment(point, start, end):
     """Distance from a point to a segment [m]."""
-    along = np.subtract(end, start)
-    share = np.clip(np.dot(np.subtract(point, start), along) / np.dot(along, along), 0.0, 1.0)
-    return float(np.hypot(*(np.asarray(start) + share * along - point)))
+    x, y = end[0] - start[0], end[1] - start[1]
+    share = ((point[0] - start[0]) * x + (point[1] - start[1]) * y) / (x * x + y * y)
+    share = min(max(share, 0.0), 1.0)
+    return math.hypot(start[0] + share * x - point[0], start[1] + share * y - point[1])
 
 
 def distance(pose, obstacle, x, y):
     """Distance from an obstacle at a pose to a point [m], negative inside: by the sides of a box, one by one."""
     if obstacle.radius:
         return math.hypot(pose.x - x, pose.y - y) - obstacle.radius
-    points = corners(pose, obstacle)
-    sides = list(zip(points, np.roll(points, -1, axis=0)))
+    points = corners(pose, obstacle).tolist()
+    sides = list(zip(points, points[1:] + points[:1]))
     least = min(to_segment((x, y), start, end) for start, end in sides)
     is_inside = all((end[0] - start[0]) * (y - start[1]) - (end[1] - start[1]) * (x - start[0]) > 0.0
                     for start, end in sides)

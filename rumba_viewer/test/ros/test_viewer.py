@@ -4,17 +4,17 @@
 import os
 import pathlib
 import signal
-import subprocess
 import tempfile
 import unittest
 
 import numpy as np
+import programs
 import rosnode
 import rospy
 import rostest
 from geometry_msgs.msg import Pose2D, Twist
 from PIL import Image
-from simulators import Heard, Master, Simulator, executable, lookup, stands_still, wait
+from simulators import Heard, Master, Simulator, stands_still, wait, wait_for_service
 from viewers import CARD, CLIFF, ROBOT, Cleaner, Display, Viewer, of_colour
 
 from rumba_msg.msg import MissionStatus, Outcome
@@ -32,10 +32,10 @@ class Node:
     """A node that serves a service, until the end of a test."""
 
     def __init__(self, test, service, package, node, *arguments):
-        process = subprocess.Popen([executable(package, node), *arguments])
+        process = programs.start(package, node, *arguments)
         test.addCleanup(process.wait)
         test.addCleanup(process.terminate)
-        wait(test, lambda: process.poll() is not None or lookup(service), service)
+        wait_for_service(test, service, process)
 
 
 class ViewerTest(unittest.TestCase):

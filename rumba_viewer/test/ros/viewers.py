@@ -7,13 +7,15 @@ import tempfile
 import time
 
 import numpy as np
+import programs
 import rospy
 from PIL import Image
-from simulators import TIMEOUT, executable, wait
+from simulators import LOOK_PERIOD, TIMEOUT, wait
 from std_srvs.srv import Trigger
 
 from rumba_msg.msg import CleanActionGoal, CleanActionResult, CleanResult, GoToActionGoal, MissionStatus, Outcome
 
+programs.LIBRARIES += ['PyQt5.QtWidgets', 'actionlib_msgs.msg']
 BETWEEN = 0.5  # [s] from one press of a key to the next
 ROBOT, CARD, CLIFF = (31, 111, 214), (255, 255, 255), (232, 143, 134)  # colours of the light style
 PANEL = 300  # [pixels] on the right that are not floor
@@ -60,9 +62,8 @@ class Viewer:
         test.addCleanup(self._output.close)
         self.folder = tempfile.TemporaryDirectory()
         test.addCleanup(self.folder.cleanup)
-        self.process = subprocess.Popen([executable('rumba_viewer', 'viewer'), '_style:=light',
-                                         f'_folder:={self.folder.name}', *arguments],
-                                        env=environment, stdout=self._output, stderr=self._output)
+        self.process = programs.start('rumba_viewer', 'viewer', '_style:=light', f'_folder:={self.folder.name}',
+                                      *arguments, env=environment, stdout=self._output, stderr=self._output)
         test.addCleanup(self.process.wait)
         test.addCleanup(self.process.kill)
 
@@ -79,7 +80,7 @@ class Viewer:
                 return self.process.poll() is not None or self.picture() is not None
             except rospy.ServiceException:  # not there yet, or the entry of a killed one
                 return False
-        wait(self._test, answers, 'the viewer')
+        wait(self._test, answers, 'the viewer', LOOK_PERIOD)
         self._test.assertIsNone(self.process.poll(), self.printed)
         return self
 

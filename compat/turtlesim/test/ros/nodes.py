@@ -18,7 +18,8 @@ from turtlesim.msg import Color, Pose
 from turtlesim.srv import Kill, SetPen, Spawn, TeleportAbsolute, TeleportRelative
 
 TIMEOUT = 30.0
-ENDS_WITHIN = 5.0  # [s] enough on a busy machine, too little for a deadlock
+LOOK_PERIOD = 0.04  # [s] between two questions to a master
+ENDS_WITHIN = 30.0  # [s]: a deadlock lasts longer, a busy machine does not
 TOPICS = {'pose': Pose, 'color_sensor': Color, 'clock': Clock, 'rosout': Log, 'cmd_vel': Twist}
 SERVICES = {'clear': Empty, 'reset': Empty, 'spawn': Spawn, 'kill': Kill, 'save_png': Trigger, 'set_pen': SetPen,
             'teleport_absolute': TeleportAbsolute, 'teleport_relative': TeleportRelative}
@@ -30,15 +31,15 @@ def executable(node):
     return roslib.packages.find_node('turtlesim', node)[0]
 
 
-def wait(test, condition, what='it'):
-    """Wait until a condition holds; return its value."""
+def wait(test, condition, what='it', period=0.005):
+    """Wait until a condition holds; return its value. `period` [s] is long if to look takes long."""
     end = time.monotonic() + TIMEOUT
     while True:
         result = condition()
         if result:
             return result
         test.assertLess(time.monotonic(), end, f'{what} did not come')
-        time.sleep(0.005)
+        time.sleep(period)
 
 
 def is_served(service):
@@ -92,7 +93,8 @@ class Turtlesim(Node):
     def __init__(self, test, *arguments, name='/turtlesim', **options):
         forget_parameters('/turtlesim')
         super().__init__(test, executable('turtlesim_node'), *arguments, **options)
-        wait(test, lambda: self.process.poll() is not None or is_served(f'{name}/save_png'), 'turtlesim_node')
+        wait(test, lambda: self.process.poll() is not None or is_served(f'{name}/save_png'), 'turtlesim_node',
+             LOOK_PERIOD)
         test.assertIsNone(self.process.poll(), 'turtlesim_node ended')
 
     def call(self, service, *arguments):

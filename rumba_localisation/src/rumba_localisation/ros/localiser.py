@@ -16,7 +16,7 @@ and serves, below the robot's name,
   request_nomotion_update   std_srvs/Empty: use the next scan even if the robot has not moved
 It takes part in a lockstep by simulator/lockstep and simulator/lockstep_answers (rumba_msg/Lockstep, LockstepAnswer).
 
-A simulator must leave map -> odom to it: `rosrun rumba_sim simulator _localisation:=false`.
+A simulator must leave map -> odom to it: `rosrun rumba_sim simulator _localisation:=none`.
 
 Parameters, those of amcl with the same meaning, as in `rosrun rumba_localisation localiser _initial_pose_x:=1.5`:
 """
