@@ -75,8 +75,8 @@ class CleanerLockstepTest(unittest.TestCase):
 
     def test_a_mission_is_the_same_although_its_processes_are_stopped_for_a_while(self):
         simulator, cleaner = self.autostarted()
+        cleaner.status.find(lambda status: status.state == MissionStatus.CLEANING)
         for process in (cleaner.process, simulator.process):
-            cleaner.status.fresh(lambda status: status.state == MissionStatus.CLEANING)
             process.send_signal(signal.SIGSTOP)
             time.sleep(STOPPED)
             process.send_signal(signal.SIGCONT)
