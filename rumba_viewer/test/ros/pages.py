@@ -9,9 +9,10 @@ import subprocess
 import tempfile
 
 import numpy as np
+import programs
 import rospy
 from PIL import Image
-from simulators import TIMEOUT, Simulator, executable, wait
+from simulators import TIMEOUT, Simulator, wait
 from tornado.ioloop import IOLoop
 from tornado.websocket import websocket_connect
 
@@ -29,8 +30,8 @@ class Page:
         environment = {**os.environ, **({'ROS_MASTER_URI': master} if master else {})}
         self._output = tempfile.TemporaryFile('w+')
         test.addCleanup(self._output.close)
-        self.process = subprocess.Popen([executable('rumba_viewer', 'page'), f'_port:={port}', *arguments],
-                                        env=environment, stdout=self._output, stderr=self._output)
+        self.process = programs.start('rumba_viewer', 'page', f'_port:={port}', *arguments, env=environment,
+                                      stdout=self._output, stderr=self._output)
         test.addCleanup(self.process.wait)
         test.addCleanup(self.process.kill)
         wait(test, lambda: self.process.poll() is not None or self._port(), 'the page')
