@@ -32,6 +32,8 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.split('\n\n')[0])
     parser.add_argument('--days', type=int, default=3)
     days = parser.parse_args().days
+    if days < 2:
+        parser.error(f'--days is {days}: must be 2 or more, since growth counts from the second day on')
     plan = map_file.load(MAP)
     world = World(plan, step_rate=STEP_RATE, seed=1)
     world.spawn('rumba', brushes_up=True)
