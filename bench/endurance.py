@@ -6,7 +6,6 @@ the robot rests on its dock.
 
 import argparse
 import os
-import pathlib
 import threading
 
 import tqdm
@@ -17,10 +16,9 @@ from rumba_cleaning.cleaning_config import CleaningConfig
 from rumba_cleaning.control import STEP_RATE, steps
 from rumba_cleaning.mission.mission import Mission
 from rumba_cleaning.outcome import Outcome
-from rumba_sim.model import map_file
+from rumba_sim.model import map_file, named_maps
 from rumba_sim.model.world import World
 
-MAP = pathlib.Path(__file__).resolve().parents[1] / 'rumba_sim' / 'maps' / 'apartment.yaml'
 DAY = 86400  # [s]
 TARGET = 0.98
 STRIDE = 10  # [s] of rest in one call
@@ -34,7 +32,7 @@ def main():
     days = parser.parse_args().days
     if days < 2:
         parser.error(f'--days is {days}: must be 2 or more, since growth counts from the second day on')
-    plan = map_file.load(MAP)
+    plan = map_file.load(named_maps.path('apartment'))
     world = World(plan, step_rate=STEP_RATE, seed=1)
     world.spawn('rumba', brushes_up=True)
     held = [a_day(plan, world, day) for day in tqdm.trange(days, unit='day', disable=None)]

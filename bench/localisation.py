@@ -7,7 +7,6 @@ import argparse
 import concurrent.futures
 import functools
 import math
-import pathlib
 import statistics
 import time
 from typing import NamedTuple
@@ -25,11 +24,10 @@ from rumba_cleaning.pose_source import Localised
 from rumba_evaluation.trials import starts
 from rumba_evaluation.trials.cases import ANYWHERE, LOCALISED, TRUTH, Conditions
 from rumba_evaluation.trials.trial import Trial
-from rumba_sim.model import map_file
+from rumba_sim.model import map_file, named_maps
 from rumba_sim.model.geometry import wrap_angle
 from rumba_sim.model.world import World
 
-MAPS = pathlib.Path(__file__).resolve().parents[1] / 'rumba_sim' / 'maps'
 NAMES = ('studio', 'apartment')
 TARGET = 0.98
 FOUND = 0.15, math.radians(5.0)  # [m], [rad] error of a pose that is found
@@ -55,7 +53,7 @@ class Mission(NamedTuple):
 @functools.lru_cache(maxsize=None)
 def floor(name):
     """The plan of a map."""
-    return map_file.load(MAPS / f'{name}.yaml')
+    return map_file.load(named_maps.path(name))
 
 
 def error(belief, world):

@@ -8,7 +8,6 @@ import concurrent.futures
 import functools
 import itertools
 import math
-import pathlib
 import statistics
 from typing import NamedTuple
 
@@ -18,11 +17,10 @@ from common import figures
 from rumba_cleaning.outcome import Outcome
 from rumba_evaluation.trials.cases import LOCALISED, POSES, TRUTH, Conditions
 from rumba_evaluation.trials.trial import Trial
-from rumba_sim.model import map_file
+from rumba_sim.model import map_file, named_maps
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.obstacle import Obstacle, walk
 
-MAPS = pathlib.Path(__file__).resolve().parents[1] / 'rumba_sim' / 'maps'
 NAMES = ('studio', 'apartment')
 TARGET = 0.98
 STANDING, MOVING = 10, 2
@@ -46,7 +44,7 @@ class Mission(NamedTuple):
 @functools.lru_cache(maxsize=None)
 def floor(name):
     """The plan of a map."""
-    return map_file.load(MAPS / f'{name}.yaml')
+    return map_file.load(named_maps.path(name))
 
 
 def drawn(plan, seed):

@@ -37,7 +37,7 @@ export class Link {
     };
   }
 
-  // Connect anew, for example with another token.
+  // Connect again, for example with another token.
   restart() {
     clearTimeout(this.again);
     const old = this.socket;

@@ -139,9 +139,11 @@ def test_a_contact_beside_an_edge_is_one_with_something_unknown():
     robot = world.spawn('rumba', Pose(1.2, 1.22, 0.0))
     context = context_of(plan, world)
     travel = Travel(context, Route(np.array([[1.2, 1.22], [3.5, 1.22]]), np.array([0.3])))
-    guard = Guard(context)
+    guard, farthest = Guard(context), 0.0
     while travel.going is Going.ON:
+        farthest = max(farthest, robot.pose.x)
         command = guard.step(lambda observation: travel.command(observation, True), observe(world, 'rumba', CONTROL_DT))
         robot.command(command.v, command.w, world.tick)
         world.step(CONTROL_TICKS)
     assert travel.going is Going.BLOCKED and robot.pose.y == pytest.approx(1.22, abs=0.05) and not robot.has_fallen
+    assert robot.pose.x < farthest - 0.02  # it backed off, although the contact and the edge are still near

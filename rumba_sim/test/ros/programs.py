@@ -3,7 +3,7 @@
 What runs is the installed script, as the main program of a process of its own, with the arguments, environment, folder
 and files that Popen is given; this process is its parent, so that the exit code is the node's own. Only LIBRARIES are
 loaded before: neither rospy, which reads the arguments when it is imported, nor anything that imports it. The tests
-that start a node by rosrun or roslaunch load all of it anew, as users do.
+that start a node by rosrun or roslaunch load all of it each time, as users do.
 """
 
 import array

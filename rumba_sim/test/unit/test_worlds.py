@@ -142,15 +142,15 @@ def test_a_map_of_the_surroundings_looks_where_the_robot_looks():
 @settings(max_examples=15, deadline=None)
 @given(KINDS, st.lists(st.tuples(st.floats(-0.3, 0.5), st.floats(-1.9, 1.9), st.integers(1, 300),
                                  st.sampled_from(['', '', 'move', 'alone', 'reset'])), min_size=1, max_size=6))
-def test_maps_that_were_kept_up_to_date_are_those_that_are_drawn_anew(kinds, moves):
+def test_maps_that_were_kept_up_to_date_are_those_that_are_drawn_from_nothing(kinds, moves):
     worlds = Worlds(built(kinds))
     for v, w, ticks, action in moves:
         do(worlds[0], action, 0, v, w, 20)
         worlds.command(np.full(len(worlds), v), np.full(len(worlds), w))
         worlds.step(ticks)
         kept = worlds.surroundings(16, [0.05, 0.3])
-    anew = Worlds([worlds[index] for index in range(len(worlds))]).surroundings(16, [0.05, 0.3])
-    np.testing.assert_array_equal(kept, anew)
+    fresh = Worlds([worlds[index] for index in range(len(worlds))]).surroundings(16, [0.05, 0.3])
+    np.testing.assert_array_equal(kept, fresh)
 
 
 def test_sensors_can_be_asked_of_some_worlds_in_any_order():

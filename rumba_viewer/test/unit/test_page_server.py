@@ -16,14 +16,13 @@ from rumba_sim.model.errors import ConfigError  # noqa: E402
 from rumba_viewer.page.allow_list import AllowList, Tokens  # noqa: E402
 from rumba_viewer.page.client import framed  # noqa: E402
 from rumba_viewer.page.feeds import Arrival  # noqa: E402
-from rumba_viewer.page.protocol import Ros  # noqa: E402
 from rumba_viewer.page.server import Bounds, Hub, check_address, serve, sockets  # noqa: E402
 
 FOLDER = pathlib.Path(__file__).resolve().parents[2] / 'page'
 TIMEOUT = 30.0  # [s]
 
 
-class Topics(Ros):
+class Topics:
     """Lets clients subscribe to what `arrive` brings."""
 
     def __init__(self, hub):

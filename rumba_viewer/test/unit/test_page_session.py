@@ -7,10 +7,10 @@ import pytest
 from rumba_viewer.page.allow_list import AllowList, Rights
 from rumba_viewer.page.errors import Hostile, Refusal
 from rumba_viewer.page.feeds import Arrival, Demand, Feed
-from rumba_viewer.page.protocol import MOST_TOPICS, Ros, Session
+from rumba_viewer.page.protocol import MOST_TOPICS, Session
 
 
-class FakeRos(Ros):
+class FakeRos:
     """Writes down what it is asked for."""
 
     def __init__(self):

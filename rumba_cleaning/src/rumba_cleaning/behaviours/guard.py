@@ -103,11 +103,11 @@ class Guard:
         must_know = not (self._sees_ahead(wanted) and self._sees_ahead(self._speeds))
         if not (is_near or must_know) or fastest == 0.0:
             return command
-        found = []
+        found, slips = [], self._slips(observation, wanted)
         for share in (1.0, min(SAFE_SPEED / max(abs(speed) for speed in wanted), 1.0) if any(wanted) else 1.0, *SHARES):
             slower = command._replace(v=share * command.v, w=share * command.w)
             edges = [self._edge(pose, self._wanted(slower), slip, is_near, must_know)
-                     for slip in self._slips(observation, fastest)]
+                     for slip in slips]
             found.append((any(left for left, _ in edges), any(right for _, right in edges)))
             if found[-1] == NONE:
                 return slower
@@ -121,14 +121,15 @@ class Guard:
         return min(left, right) >= 0.0 and max(left, right) <= SAFE_SPEED and (
             left + right == 0.0 or _curvature(speeds, self._half) <= SAFE_CURVATURE)
 
-    def _slips(self, observation: Observation, fastest: float) -> List[float]:
-        """How fast the robot may slide to its left if its wheels are so fast [m/s], for which it must be safe.
+    def _slips(self, observation: Observation, wanted: Wheels) -> List[float]:
+        """How fast the robot may slide to its left after a command [m/s]: for each of these it must be safe.
 
-        As it did last, and along what it touches: at an angle a from its front, that turns a speed v into
-        v * sin(a) * cos(a) sideways, away from the contact, at most half of it.
+        As it did last, and, if it drives forward, along what it touches: at an angle a from its front, that turns a
+        speed v into v * sin(a) * cos(a) sideways, away from the contact, at most half of it.
         """
-        left, right = observation.bumper
-        return [self._slip(observation), *([-0.5 * fastest] if left else []), *([0.5 * fastest] if right else [])]
+        left, right = observation.bumper if max(sum(wanted), sum(self._speeds)) > 0.0 else NONE
+        most = 0.5 * max(abs(speed) for speed in self._speeds + wanted)
+        return [self._slip(observation), *([-most] if left else []), *([most] if right else [])]
 
     def _slip(self, observation: Observation) -> float:
         """How fast the robot slides to its left [m/s]."""

@@ -34,8 +34,8 @@ class Footing:
         self._plan = plan
         self._far = robot.cliff.distance
         half, radius, sensors = 0.5 * robot.drive.wheel_base, robot.drive.radius, robot.cliff
-        self._sensors = [(sensors.distance * math.cos(angle), sensors.distance * math.sin(angle)) for angle in (
-            sensors.outer_angle, sensors.inner_angle, -sensors.inner_angle, -sensors.outer_angle)]
+        self._sensors = [(sensors.distance * math.cos(angle), sensors.distance * math.sin(angle))
+                         for angle in sensors.angles]
         self._axle = _line((0.0, half), (0.0, -half))
         self._between = [_line(start, end) for start, end in zip(self._sensors, self._sensors[1:])]
         self._everywhere = np.concatenate([self._axle, *self._between])

@@ -13,9 +13,9 @@ from rumba_sim.model.geometry import Pose
 
 WORTH = 0.0005  # of coverage: a round that gains less is the last: a round for the last spots gains little more
 HELPED = 0.01  # of coverage: forgetting obstacles that gained less was in vain: to touch them all again takes long
-VAIN = 3  # times that obstacles are forgotten and nothing was gained since the last time, after which it ends
+VAIN = 3  # times that obstacles are forgotten in vain, after which it ends
+PAUSE = 10.0  # [s] after the first of these times, twice that after the second ...: who stands there may walk on
 OPEN = 0.9  # of the floor: what lies beside obstacles must be more to be all that is cleaned, or a door may be closed
-PAUSE = 10.0  # [s] before the first of these times, twice that before the second ...: who stands there may walk on
 ROUNDS = 20  # at most, each with what was missed before: far more than the maps of rumba_sim need
 
 Planned = Tuple[Optional[Route], bool]  # a route, and whether obstacles that were met had to be forgotten for it
@@ -58,6 +58,7 @@ class Boustrophedon(Behaviour):
                 return self.succeed('nothing more can be reached')
         if self._pause > 0.0:
             self._pause -= observation.dt
+            self.message = 'waiting for what is in the way'
             return self._wait()
         self._brushes_up = False
         command = self._travel.command(observation, self._brushes_up)

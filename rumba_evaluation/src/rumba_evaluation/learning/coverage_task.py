@@ -12,8 +12,9 @@ from typing import Dict, NamedTuple, Optional, Sequence, Tuple
 import numpy as np
 
 from rumba_cleaning.control import CONTROL_DT, CONTROL_TICKS, STEP_RATE
-from rumba_evaluation.learning.task_config import ANYWHERE, DISCRETE, TaskConfig
+from rumba_evaluation.learning.task_config import DISCRETE, TaskConfig
 from rumba_evaluation.trials import starts
+from rumba_evaluation.trials.cases import ANYWHERE
 from rumba_sim.model.config import updated
 from rumba_sim.model.errors import ConfigError
 from rumba_sim.model.floor_plan import FloorPlan
@@ -23,8 +24,8 @@ from rumba_sim.model.robot_config import RobotConfig
 from rumba_sim.model.world import World
 from rumba_sim.model.worlds import Worlds
 
-MOVES = np.array([(1.0, 0.0), (1.0, 0.5), (1.0, -0.5), (0.0, 0.7), (0.0, -0.7), (-0.5, 0.0)])  # discrete actions
-MOVE_NAMES = ('ahead', 'ahead to the left', 'ahead to the right', 'turn left', 'turn right', 'back')
+# The discrete actions: ahead, ahead to the left, ahead to the right, turn left, turn right, back.
+MOVES = np.array([(1.0, 0.0), (1.0, 0.5), (1.0, -0.5), (0.0, 0.7), (0.0, -0.7), (-0.5, 0.0)])
 DOCK_BITS = np.array([1, 4, 8], np.uint8)  # force field, green buoy, red buoy of rumba_msg/DockStatus
 MOST_BUMPS = (CONTROL_TICKS + 1) // 2  # in a step: the bumper opens in between
 LARGEST_SEED = 2 ** 31
@@ -178,7 +179,7 @@ class CoverageTask:
     def look(self, which: Optional[Array] = None) -> Seen:
         """What the robots see, or some of them, by name: see `spaces.observations`.
 
-        The noise of the ranges is drawn anew each time.
+        The noise of the ranges is another one each time.
         """
         worlds, laser = self.worlds, self._robot.laser
         robots = worlds.robots if which is None else worlds.robots[which]

@@ -4,10 +4,10 @@ import dataclasses
 from typing import List
 
 from rumba_cleaning.control import CONTROL_DT
+from rumba_evaluation.trials.cases import ANYWHERE, DOCK
 from rumba_sim.model.config import section, setting
 
 CONTINUOUS, DISCRETE = 'continuous', 'discrete'
-ANYWHERE, DOCK = 'anywhere', 'dock'
 
 
 @dataclasses.dataclass(frozen=True)

@@ -2,13 +2,14 @@
 
 import dataclasses
 import math
-from typing import Any, List, NamedTuple, Tuple
+from typing import List, NamedTuple, Tuple
 
 import numpy as np
 from scipy import ndimage
 
 from rumba_sim.model import kernel
 from rumba_sim.model.compiled import fast
+from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.model.kernel import Array
 from rumba_sim.model.robot import Robot
 from rumba_sim.model.world import World
@@ -164,7 +165,7 @@ def events(path: Array, gaps: Array, rate: float, begin: int) -> Tuple[Tuple[Eve
     return tuple(event(*run) for run in contacts), tuple(event(*run) for run in near)
 
 
-def patches(missed: Array, plan: Any) -> Tuple[Patch, ...]:
+def patches(missed: Array, plan: FloorPlan) -> Tuple[Patch, ...]:
     """Connected parts of the cells that were missed, the largest first.
 
     Args:

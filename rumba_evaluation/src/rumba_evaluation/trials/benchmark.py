@@ -8,7 +8,7 @@ import argparse
 import os
 import pathlib
 import sys
-from typing import Any, Dict, List, NamedTuple, NoReturn, Sequence
+from typing import Any, Dict, List, NamedTuple, Sequence
 
 from rumba_cleaning import strategies
 from rumba_evaluation.scoring import path_file
@@ -17,13 +17,13 @@ from rumba_evaluation.scoring.measures import Observer
 from rumba_evaluation.scoring.ride import AsDrawn, Driven
 from rumba_evaluation.trials import batch, score
 from rumba_evaluation.trials.cases import Case, Conditions
+from rumba_evaluation.trials.command_line import BAD_INPUT, INTERRUPTED, Parser
 from rumba_evaluation.trials.evaluate_path import FORMATS, JSON, TEXT
 from rumba_evaluation.trials.floors import FLOORS
 from rumba_evaluation.trials.score import Score
 from rumba_sim.model.errors import ConfigError, RumbaError
 
 NAME = 'rumba-benchmark'
-BAD_INPUT, INTERRUPTED = 2, 130
 SEEDS = 3
 BOUND = 6.0  # [T]
 ENDINGS = ('.csv', '.tum', '.txt')
@@ -38,14 +38,6 @@ class Task(NamedTuple):
     as_drawn: bool
 
 
-class _Parser(argparse.ArgumentParser):
-    """Reports an error in one line."""
-
-    def error(self, message: str) -> NoReturn:
-        """Print the line and exit."""
-        self.exit(BAD_INPUT, f'{NAME}: {message}; see --help\n')
-
-
 def command() -> None:
     """Run the command line of this process; leaves the process with the exit code."""
     sys.exit(main(sys.argv[1:]))
@@ -54,7 +46,7 @@ def command() -> None:
 def main(arguments: Sequence[str]) -> int:
     """Run the command with the arguments of a command line; returns the exit code."""
     about, details = (__doc__ or '').split('\n\n')
-    parser = _Parser(NAME, description=about, epilog=details, allow_abbrev=False)
+    parser = Parser(NAME, description=about, epilog=details, allow_abbrev=False)
     add = parser.add_argument
     add('folder', metavar='FOLDER', help='for the floors')
     add('--paths', default='', metavar='DIR', help='folder with a folder for each planner')

@@ -14,7 +14,7 @@ import os
 import re
 import sys
 from concurrent.futures import BrokenExecutor, Executor
-from typing import Callable, ContextManager, Dict, Iterator, List, NoReturn, Optional, Sequence
+from typing import Callable, ContextManager, Dict, Iterator, List, Optional, Sequence
 
 from rumba_cleaning import strategies
 from rumba_cleaning.outcome import Outcome
@@ -22,6 +22,7 @@ from rumba_evaluation.scoring.path_file import ReadBag
 from rumba_evaluation.trials import batch, evaluate_path, score, table
 from rumba_evaluation.trials.batch import Job
 from rumba_evaluation.trials.cases import ANYWHERE, DOCK, POSES, TRUTH, Case, Conditions, Result, grid
+from rumba_evaluation.trials.command_line import BAD_INPUT, ERROR, INTERRUPTED, Parser
 from rumba_evaluation.trials.results import Results
 from rumba_sim.model import named_maps
 from rumba_sim.model.config import explain, updated
@@ -31,17 +32,8 @@ NAME = 'evaluate'
 FOLDER = 'evaluation'
 MAPS = ('apartment', 'studio', 'field')
 STRATEGIES = ('boustrophedon', 'bounce')
-ERROR, BAD_INPUT, INTERRUPTED = 1, 2, 130
 LOCK = '.evaluate.lock'  # in the folder for results; stays there, but is locked only while a process writes there
 MOST = 1_000_000  # seeds
-
-
-class _Parser(argparse.ArgumentParser):
-    """Reports an error in one line."""
-
-    def error(self, message: str) -> NoReturn:
-        """Print the line and exit."""
-        self.exit(BAD_INPUT, f'{NAME}: {message}; see --help\n')
 
 
 def command() -> None:
@@ -82,7 +74,7 @@ def main(arguments: Sequence[str], map_path: Callable[[str], str] = named_maps.p
 
 def _parser() -> argparse.ArgumentParser:
     about, details = (__doc__ or '').split('\n\n')
-    parser = _Parser(NAME, description=about, epilog=details, allow_abbrev=False)
+    parser = Parser(NAME, description=about, epilog=details, allow_abbrev=False)
     add = parser.add_argument
     add('--maps', nargs='+', default=MAPS, metavar='MAP', help='names of maps of rumba_sim, or paths of map_server '
                                                                f'YAML files; default {" ".join(MAPS)}')

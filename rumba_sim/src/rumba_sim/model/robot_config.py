@@ -7,6 +7,7 @@ of battery makers and measurements by owners.
 
 import dataclasses
 import math
+from typing import Tuple
 
 from rumba_sim.model.battery import BatteryConfig
 from rumba_sim.model.config import section, setting
@@ -66,6 +67,11 @@ class CliffConfig:
                               0.0, 5.0)
     inner_angle: float = setting(0.26, 'angle from straight ahead to front left and front right', 'rad', 0.0, math.pi)
     outer_angle: float = setting(0.9, 'angle from straight ahead to left and right', 'rad', 0.0, math.pi)
+
+    @property
+    def angles(self) -> Tuple[float, float, float, float]:
+        """Of the left, front left, front right and right sensor, from straight ahead [rad]."""
+        return self.outer_angle, self.inner_angle, -self.inner_angle, -self.outer_angle
 
 
 @dataclasses.dataclass(frozen=True)

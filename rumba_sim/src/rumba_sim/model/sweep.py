@@ -95,7 +95,7 @@ class Sweep:
             x, y: the start [m], map frame.
         """
         plan = self._plan.with_safe_clearance(clearance)
-        if plan.safe_clearance_at(x, y) < self._config.drive.radius:
+        if not self.reachable or plan.safe_clearance_at(x, y) < self._config.drive.radius:
             return Part(1.0, self.coverage)
         found = reach(plan, self._config, x, y)
         is_reachable = found.samples & kernel.REACHABLE > 0

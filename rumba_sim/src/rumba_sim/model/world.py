@@ -363,11 +363,10 @@ class World:
         pose, config = self.robots[name].pose, self._config.cliff
         if self.terrain.cliff is None:
             return 4 * [False]
-        angles = (config.outer_angle, config.inner_angle, -config.inner_angle, -config.outer_angle)
         return [bool(fast.cell_bits(self.constants[0], self.floor.cells,
                                     pose.x + config.distance * math.cos(pose.theta + angle),
                                     pose.y + config.distance * math.sin(pose.theta + angle)) & kernel.CLIFF)
-                for angle in angles]
+                for angle in config.angles]
 
     # --- state ----------------------------------------------------------------------------------------------------
 

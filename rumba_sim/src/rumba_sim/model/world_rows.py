@@ -74,9 +74,7 @@ class WorldRows:
         self.counts[index], self.moving[index] = len(before.obstacles), world.obstacles.has_movers
         self.known[index] = np.nan
         self.reachable[index] = world.floor.sweep.reachable
-        cliff = world.config.cliff
-        self.cliff_distances[index] = cliff.distance
-        self.cliff_angles[index] = cliff.outer_angle, cliff.inner_angle, -cliff.inner_angle, -cliff.outer_angle
+        self.cliff_distances[index], self.cliff_angles[index] = world.config.cliff.distance, world.config.cliff.angles
         alone = slice(index, index + 1)
         after = WorldArrays(
             self.robots[alone], self.constants[alone], _begin_of(self.obstacles[index], before.obstacles),

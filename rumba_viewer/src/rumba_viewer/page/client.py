@@ -173,7 +173,7 @@ class Client(WebSocketHandler):
         return True
 
     def _write(self, frames: bytes) -> None:
-        """Send whole frames: tornado would make each anew for each client, in a task of its own."""
+        """Send whole frames: tornado would make each again for each client, in a task of its own."""
         try:
             self.ws_connection.stream.write(frames)  # type: ignore[union-attr]
         except (AttributeError, StreamClosedError):

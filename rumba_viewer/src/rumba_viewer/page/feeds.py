@@ -8,7 +8,7 @@ from typing import Any, Callable, Deque, Dict, NamedTuple, Optional, Tuple
 
 MOST_ARRIVALS = 100  # messages of a topic between two ticks; of more, the oldest are dropped
 MOST_KEPT = 20  # messages of a topic that wait for a slow client
-SHARE = 0.05  # of a core that making the texts of one topic may take, if its listeners accept fewer messages
+SHARE = 0.1  # of a core that making the texts of one topic may take, if its listeners accept fewer messages
 
 
 class Arrival(NamedTuple):
@@ -165,7 +165,7 @@ class Feed:
                 listener.seen = self._number
                 listener.due = max(listener.due, now - demand.throttle / 2) + demand.throttle
         if made:
-            self._affordable = now + (self._clock() - begin) / SHARE * 0.5
+            self._affordable = now + (self._clock() - begin) / SHARE
 
     def _push(self, listener: Listener, frame: Optional[bytes]) -> None:
         if frame is not None:

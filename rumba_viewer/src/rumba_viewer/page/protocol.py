@@ -3,6 +3,7 @@
 What is asked of ROS goes to a `Ros`; this module knows names, rights and bounds.
 """
 
+import abc
 import json
 import re
 from typing import Any, Callable, Dict, List, Optional, Set
@@ -24,32 +25,32 @@ Reply = Callable[[Dict[str, Any]], None]
 Operation = Dict[str, Any]
 
 
-class Ros:
+class Ros(abc.ABC):
     """What a session asks of ROS; each method may raise a Refusal. `client` identifies the client."""
 
+    @abc.abstractmethod
     def subscribe(self, client: Any, topic: str, reason: Any, demand: Demand) -> None:
         """Send the messages of a topic to a client."""
-        raise NotImplementedError
 
+    @abc.abstractmethod
     def unsubscribe(self, client: Any, topic: str, reason: Any) -> None:
         """No longer send them; reason None: for no reason."""
-        raise NotImplementedError
 
+    @abc.abstractmethod
     def advertise(self, client: Any, topic: str, kind: Optional[str], latch: bool) -> None:
         """Prepare to publish messages of a type; None: that which the topic has."""
-        raise NotImplementedError
 
+    @abc.abstractmethod
     def unadvertise(self, client: Any, topic: str) -> None:
         """The client no longer publishes."""
-        raise NotImplementedError
 
+    @abc.abstractmethod
     def publish(self, client: Any, topic: str, values: Any) -> None:
         """Publish a message with these values on a topic that the client has advertised."""
-        raise NotImplementedError
 
+    @abc.abstractmethod
     def call(self, client: Any, service: str, values: Any, done: Callable[[bool, Any], None]) -> None:
         """Call a service; `done` gets whether it worked, and the values of the answer or a line that says why not."""
-        raise NotImplementedError
 
 
 class Session:

@@ -45,7 +45,7 @@ class Hub:
         """Serve names of a namespace; `encode` makes the frame of an arrival on a topic."""
         self.origins, self.bounds = origins, bounds
         self.feeds: Dict[str, Feed] = {}
-        self.ros: Ros = Ros()
+        self.ros: Ros  # set before the first client comes
         self._namespace, self._allowed, self._encode = namespace, allowed, encode
         self._clients: Set[Client] = set()
         self._with_mail: Set[Client] = set()

@@ -3,12 +3,12 @@
 import math
 from typing import Callable, Optional
 
-import rosgraph
 import rospy
 from geometry_msgs.msg import PoseWithCovarianceStamped
 
 from rumba_cleaning.behaviour import CERTAIN, UNKNOWN, Covariance
 from rumba_cleaning.ros.cleaner.location import QUEUE
+from rumba_sim.ros.common import peers
 
 TOPIC = 'amcl_pose'
 STALE = 2.0  # [s] of the robot's time without a pose: the laser, or the localisation, is silent
@@ -56,6 +56,6 @@ class Certainty:
 def _has_publisher(topic: str) -> bool:
     """Whether the master knows a publisher of a topic, given by its full name."""
     try:
-        return any(name == topic for name, _ in rosgraph.Master(rospy.get_name()).getSystemState()[0])
-    except (rosgraph.MasterException, OSError):  # it is being restarted
+        return bool(peers.publishers(topic))
+    except peers.NO_ANSWER:  # it is being restarted
         return False

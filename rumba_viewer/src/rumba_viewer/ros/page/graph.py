@@ -1,20 +1,17 @@
 """What the master knows, looked at once a second while there are clients, and what `/rosapi` tells of it."""
 
-import http.client
 import threading
 import time
-import xmlrpc.client
 from typing import Any, Callable, Dict, FrozenSet, List, NamedTuple
 
 import rosgraph
 import rospy
 import rosservice
 
+from rumba_sim.ros.common.peers import NO_ANSWER
 from rumba_viewer.page.allow_list import AllowList
 from rumba_viewer.page.errors import Refusal
 
-# What is raised if the master ends during a call.
-GONE = (rosgraph.MasterException, xmlrpc.client.Error, http.client.HTTPException, OSError)
 PERIOD = 1.0  # [s] between two looks
 
 
@@ -39,7 +36,7 @@ def look() -> Known:
     try:
         types = dict(master.getTopicTypes())
         published, _, services = master.getSystemState()
-    except GONE:
+    except NO_ANSWER:  # it ended during a call
         return Known()
     return Known(True, types, frozenset(name for name, _ in published), frozenset(name for name, _ in services))
 
