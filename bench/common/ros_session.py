@@ -101,6 +101,10 @@ class Node:
             wall, cpu, simulated = self._next_state()
         return simulated - from_simulated, wall - from_wall, cpu - from_cpu
 
+    def simulated(self):
+        """The simulated time that the next state tells [s]."""
+        return self._next_state()[2]
+
     @property
     def resident(self):
         """Its memory [MB]."""

@@ -100,6 +100,50 @@ def test_whoever_leaves_is_waited_for_no_longer():
     assert begun(members)
 
 
+def resting():
+    """Members of whom one rests since the tick before."""
+    members = Participants(['/a'], PATIENCE)
+    members.begin(rospy.Time(1))
+    members.take(answer('/a', 1, LockstepAnswer.RESTS))
+    members.begin(rospy.Time(2))
+    return members
+
+
+def test_whoever_rests_is_not_waited_for_and_never_given_up(clock):
+    members = resting()
+    clock.now += 1000.0 * PATIENCE
+    assert members.missing() == set() and members.give_up(lambda _: True) == []
+    members.take(answer('/a', 1, LockstepAnswer.RESTS))  # the world is ahead: it rests all the same
+    assert begun(members)
+
+
+@pytest.mark.parametrize('state', [LockstepAnswer.DONE, LockstepAnswer.BUSY])
+def test_whoever_rested_and_answers_is_waited_for(state):
+    members = resting()
+    members.take(answer('/a', 1, state))
+    assert begun(members, '/a')
+
+
+def test_whoever_rested_and_is_woken_is_waited_for_until_it_answers_the_tick_after_that():
+    members = resting()
+    members.wake()
+    assert begun(members, '/a')
+    members.begin(rospy.Time(3))
+    members.take(answer('/a', 2, LockstepAnswer.RESTS))  # of before it was woken
+    assert members.missing() == {'/a'}
+    members.take(answer('/a', 3, LockstepAnswer.RESTS))
+    assert members.missing() == set() and begun(members)
+
+
+def test_whoever_rests_is_waited_for_until_the_command_has_come_that_it_announced():
+    members = Participants(['/a'], PATIENCE)
+    members.begin(rospy.Time(1))
+    members.take(answer('/a', 1, LockstepAnswer.RESTS, TOPIC))
+    assert members.missing() == {'/a'}
+    members.commanded(TOPIC)
+    assert members.missing() == set() and begun(members)
+
+
 def silent(name):
     """Members of whom one was heard in the tick before, and is not heard now."""
     members = Participants([name], PATIENCE)

@@ -182,7 +182,7 @@ class Cleaner:
                 self._run.read()
                 self._forget_closed()
         finally:
-            self._robot.answer()
+            self._robot.answer(rests=self._run is None)
 
     def _read_postponed(self) -> None:
         """The planners may have done what the world waits for."""
@@ -206,6 +206,7 @@ class Cleaner:
         if handle.get_goal_status().status == GoalStatus.RECALLING:
             handle.set_canceled(self._result(name, Outcome.CANCELLED, 'cancelled'), 'cancelled')
             return
+        self._robot.participant.wake()
         handle.set_accepted()
         try:
             self._begin(name, handle)

@@ -40,11 +40,11 @@ class Robot:
         self.participant = Participant(self.senses.on_tick, is_busy)
         self._lockstep = lockstep
 
-    def answer(self) -> None:
-        """In lockstep, tell that everything is done for the newest reading."""
+    def answer(self, rests: bool) -> None:
+        """In lockstep, tell that everything is done for the newest reading, and whether there is nothing more to do."""
         if self._lockstep() is not None and self.senses.stamp is not None:
             self.brushes.settle()
-            self.participant.answer(self.senses.stamp, self.wheels.commanded())
+            self.participant.answer(self.senses.stamp, self.wheels.commanded(), rests)
 
     def look_after(self) -> None:
         """Have no world wait if nothing can be sensed: the robot was removed, or its simulator has ended."""

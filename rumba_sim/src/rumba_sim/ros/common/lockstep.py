@@ -54,15 +54,23 @@ class Participant:
         if not is_repeated:
             self._on_tick(tick)
 
-    def answer(self, stamp: rospy.Time, command: str = '') -> None:
+    def answer(self, stamp: rospy.Time, command: str = '', rests: bool = False) -> None:
         """Say that everything is done for a control tick.
 
         Args:
             stamp: of the tick.
             command: name of the topic on which this node has sent a velocity for it; empty if it has not.
+            rests: whether the world need not wait for the next answer, since there is nothing to do; see `wake`.
         """
-        self._last.message = self._message(stamp, LockstepAnswer.DONE, rospy.resolve_name(command) if command else '')
+        state = LockstepAnswer.RESTS if rests else LockstepAnswer.DONE
+        self._last.message = self._message(stamp, state, rospy.resolve_name(command) if command else '')
         self._publisher.publish(self._last.message)
+
+    def wake(self) -> None:
+        """Say that there is something to do again: the world waits for the answer to the next tick."""
+        if self._last.message is not None and self._last.message.state == LockstepAnswer.RESTS:
+            self._last.message = self._message(rospy.Time(), LockstepAnswer.BUSY)
+            self._publisher.publish(self._last.message)
 
     def leave(self) -> None:
         """Take part no longer."""

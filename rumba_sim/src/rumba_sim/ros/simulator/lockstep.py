@@ -59,6 +59,10 @@ class Lockstep:
             if self._publisher.get_num_connections():
                 self._publisher.publish(tick)
 
+    def wake(self) -> None:
+        """Wait for those who rest too after the next tick: while the world stood, they may have got something to do."""
+        self._participants.wake()
+
     def reset(self) -> None:
         """The world was reset: what was published before belongs to another one."""
         self._tick.odom = self._tick.scan = self._tick.cleaning = rospy.Time()

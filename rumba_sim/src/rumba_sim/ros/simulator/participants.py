@@ -19,6 +19,7 @@ class Member:
         patience: how long the world waits for a sign of it [s] of the wall clock.
         heard: when it gave the last sign, as a time of `time.monotonic`.
         command: the topic whose command it has announced, and that has not come yet; empty if there is none.
+        rests: whether it has nothing to do, so that the world does not wait for it.
         first_until: time of `time.monotonic` until which the world waits for a first command that may be lost.
     """
 
@@ -27,6 +28,7 @@ class Member:
         self.patience = patience
         self.heard = time.monotonic()
         self.command = ''
+        self.rests = False
         self.first_until: Optional[float] = None
 
 
@@ -56,11 +58,16 @@ class Participants:
     def begin(self, stamp: rospy.Time) -> None:
         """A control tick was published."""
         self._stamp = stamp
-        self._missing = set(self._members)
+        self._missing = {name for name, member in self._members.items() if not member.rests}
         self._commanded.clear()
         now = time.monotonic()
         for member in self._members.values():
             member.heard, member.command = now, ''
+
+    def wake(self) -> None:
+        """Wait for those who rest too at the next tick: they may have got something to do."""
+        for member in self._members.values():
+            member.rests = False
 
     def missing(self, but: str = '') -> Set[str]:
         """Whose answer is missing; `but` is the name of someone who does not count."""
@@ -81,7 +88,10 @@ class Participants:
             self._missing.discard(answer.node)
             return
         member = self._hear(answer.node)
-        if answer.state == LockstepAnswer.DONE and answer.header.stamp == self._stamp:
+        if answer.state != LockstepAnswer.RESTS:
+            member.rests = False
+        if answer.state != LockstepAnswer.BUSY and answer.header.stamp == self._stamp:
+            member.rests = answer.state == LockstepAnswer.RESTS
             member.command = answer.command
             if not answer.command or answer.command in self._commanded:
                 self._missing.discard(answer.node)

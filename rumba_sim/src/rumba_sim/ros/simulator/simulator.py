@@ -199,6 +199,10 @@ class Simulator:
         return Lockstep(self._requests, self._run, settings.wait_for, settings.lockstep_patience,
                         lambda topic: self._fleet.is_commanded(topic))
 
+    def _wake_participants(self) -> None:
+        if self._lockstep is not None:
+            self._lockstep.wake()
+
     def _on_command(self, topic: str) -> None:
         """Called in threads of rospy."""
         if self._lockstep is not None:
@@ -211,6 +215,7 @@ class Simulator:
 
     def _pause(self, is_paused: bool) -> Tuple[str]:
         self._is_paused = is_paused
+        self._wake_participants()
         self._fleet.publish_transforms()
         self._pace.hurry()
         self._publish_state()
@@ -232,6 +237,7 @@ class Simulator:
             raise WorldError('the simulation is running: pause it first')
         if not 1 <= ticks <= MAX_STEP:
             raise WorldError(f'ticks is {ticks}: must be 1 to {MAX_STEP}')
+        self._wake_participants()
         for _ in range(ticks):
             if rospy.is_shutdown():
                 raise WorldError('the simulator ends')
