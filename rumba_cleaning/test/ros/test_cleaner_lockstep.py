@@ -94,6 +94,21 @@ class CleanerLockstepTest(unittest.TestCase):
         simulator.does('resume')
         self.ends_as_in_process(simulator, cleaner, CONTROL_TICKS - (simulator.ticks - 1) % CONTROL_TICKS)
 
+    def test_the_world_does_not_wait_for_a_cleaner_without_a_goal(self):
+        simulator, log = Simulator(self, *SIMULATOR, f'_lockstep_patience:={PATIENCE}'), Heard(self, '/rosout')
+        cleaner = Cleaner(self).connect()
+        cleaner.send('go_to', go_to(2.5, 2.0)).ends(Outcome.SUCCEEDED)
+        cleaner.process.send_signal(signal.SIGSTOP)
+        self.addCleanup(cleaner.process.send_signal, signal.SIGCONT)
+        _, tick = simulator.digest()
+        wait(self, lambda: simulator.digest()[1] > tick + 100 * CONTROL_TICKS, 'the world to go on', period=0.1)
+        time.sleep(1.5 * PATIENCE)
+        self.assertEqual([message.msg for message in log.messages if 'lockstep: nothing' in message.msg], [])
+        cleaner.process.send_signal(signal.SIGCONT)
+        cleaner.send('go_to', go_to(2.0, 2.0)).is_active()
+        cleaner.process.send_signal(signal.SIGSTOP)
+        log.find(lambda message: message.msg.startswith('lockstep: nothing was heard of /cleaner'))
+
     def test_the_world_goes_on_without_a_cleaner_that_was_killed_and_takes_in_the_next_one(self):
         simulator = Simulator(self, *SIMULATOR, f'_lockstep_patience:={PATIENCE}')
         cleaner, log = Cleaner(self).connect(), Heard(self, '/rosout')

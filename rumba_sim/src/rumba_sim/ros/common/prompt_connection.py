@@ -6,7 +6,6 @@ hundreds of small messages in a second, that takes longer than all the rest.
 
 import contextlib
 import socket
-import threading
 from typing import Any
 
 from rospy import topics
