@@ -12,6 +12,7 @@ from rumba_sim.model.constants import constants
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.reachability import stands
 from rumba_sim.model.obstacle import Obstacle, walk
+from rumba_sim.model.robot_config import CliffConfig
 from rumba_sim.model.world import World
 
 DOCK = Pose(3.8, 1.0, 0.0)
@@ -24,6 +25,7 @@ OBSTACLES = [
     Obstacle('crate', Pose(0.5, 2.0, 0.0), height=0.3, length=0.2, width=0.1, stops=walk(
         [Pose(0.5, 2.0, 0.0), Pose(0.5, 0.4, 1.0)], 0.3, False, 0.0, 0.5))]
 ROUNDING = 1e-12
+CLIFF = CliffConfig()
 
 
 class Copy:
@@ -55,7 +57,7 @@ class Copy:
             functions.advance(*self.ground, now, 1)
 
     def run(self, functions, ticks):
-        """Drive around; returns the states after each command, the infrared readings and the scans."""
+        """Drive around; returns the states after each command, what infrared and cliff sensors saw, and the scans."""
         rng = np.random.default_rng(1)
         states, seen = [], []
         for tick in range(0, ticks, 10):
@@ -64,11 +66,15 @@ class Copy:
                 robot.command_tick = tick
             self.advance(functions, tick, 10)
             states.append(np.array([[float(robot[name]) for name in kernel.ROBOT.names] for robot in self.robots]))
-            for robot in self.robots:
-                seen.append(functions.infrared(robot, self.constants[0], self.plan.skips, self.floor.cells))
+            for me in range(len(STARTS)):
+                cliffs = np.zeros(len(CLIFF.angles), np.bool_)
+                functions.cliffs(self.robots, me, self.constants, self.floor.cells, CLIFF.distance,
+                                 np.array(CLIFF.angles), cliffs)
+                seen.append((*functions.infrared(self.robots, me, self.constants, self.plan.skips, self.floor.cells),
+                             *cliffs))
         ranges = np.empty((len(STARTS), len(self.fan)))
         for me in range(len(STARTS)):
-            functions.scan(self.robots, me, self.constants[0], self.obstacles, self.plan.skips, self.floor.cells,
+            functions.scan(self.robots, me, self.constants, self.obstacles, self.plan.skips, self.floor.cells,
                            self.fan, self.noise.reshape(-1)[:len(self.fan)], ranges[me])
         return np.array(states), seen, ranges
 

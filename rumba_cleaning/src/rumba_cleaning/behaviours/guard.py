@@ -11,14 +11,12 @@ from typing import Callable, List, Optional, Tuple
 import numpy as np
 
 from rumba_cleaning.behaviour import Command, Observation
+from rumba_cleaning.behaviours.compiled_guard import path
 from rumba_cleaning.belief.context import Context
-from rumba_cleaning.belief.limits import limited
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.kernel import Array
 
 SHARES = (0.6, 0.3)  # of a command that are tried, after the whole and a slow one, before the robot stops; our choice
-STEP = 0.02  # [s] of the simulation: one tick at 50 Hz
-HOLD_STEPS = 5  # for which a command holds: the control period
 LONGEST = 0.3  # [s] the same, at most, by the time since the last one: in a longer step the node was busy
 SPARE = 0.01  # [m] from a wheel to an edge: half a cell of a fine map
 SLIP = 0.02  # [m/s] sideways: the robot slides along a wall
@@ -171,22 +169,9 @@ class Guard:
             return not is_known[:half].all(), not is_known[half:].all()
         return NONE
 
-    def _path(self, pose: Pose, wanted: Wheels, slip: float) -> Tuple[Array, Array, Array]:
-        """Where the robot and its wheels are after a command, from now until it has stopped: each float64 (any, 2)."""
-        held = [_ramp(speed, goal, self._drive.acceleration) for speed, goal in zip(self._speeds, wanted)]
-        steps = math.ceil(max(abs(speeds[-1]) for speeds in held) / (self._drive.acceleration * STEP)) + 1
-        left, right = (np.concatenate([speeds, _ramp(speeds[-1], 0.0, self._drive.acceleration, steps)])
-                       for speeds in held)
-        turns = (right - left) / (2.0 * self._half) * STEP
-        along = pose.theta + np.cumsum(turns) - 0.5 * turns
-        driven, fastest = 0.5 * (left + right) * STEP, max(abs(speed) for speed in self._speeds + wanted)
-        slid = slip * STEP * np.maximum(abs(left), abs(right)) / fastest
-        steps_along = np.stack([driven * np.cos(along) - slid * np.sin(along),
-                                driven * np.sin(along) + slid * np.cos(along)], axis=1)
-        middle = np.concatenate([[[0.0, 0.0]], np.cumsum(steps_along, axis=0)]) + pose[:2]
-        theta = pose.theta + np.concatenate([[0.0], np.cumsum(turns)])
-        aside = self._half * np.stack([-np.sin(theta), np.cos(theta)], axis=1)
-        return middle, middle + aside, middle - aside
+    def _path(self, pose: Pose, wanted: Wheels, slip: float) -> Array:
+        """Where the robot, its left and its right wheel are after a command, until it has stopped: see `path`."""
+        return path(tuple(pose), self._speeds, wanted, slip, self._half, self._drive.acceleration)
 
     def _wanted(self, command: Command) -> Wheels:
         """The speeds of the wheels that a command asks for, within the limits of the drive [m/s]."""
@@ -202,9 +187,3 @@ def _curvature(speeds: Wheels, half: float) -> float:
     """Curvature of the path of a robot whose wheels are so fast [m/s], and `half` [m] off its middle [1/m]."""
     left, right = speeds
     return abs(right - left) / (half * max(abs(left + right), ROUNDING))
-
-
-def _ramp(speed: float, goal: float, acceleration: float, steps: int = HOLD_STEPS) -> Array:
-    """Speeds of a wheel in each of the next steps, while it accelerates toward a goal: float64 (steps) [m/s]."""
-    change = acceleration * STEP * np.arange(1, steps + 1)
-    return limited(goal, speed - change, speed + change)

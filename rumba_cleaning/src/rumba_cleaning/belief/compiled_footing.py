@@ -8,6 +8,7 @@ import numpy as np
 from rumba_sim.model.jit import compiled
 
 Array = Any  # numpy.ndarray
+Triple = Tuple[float, float, float]
 
 
 @compiled
@@ -25,17 +26,22 @@ def cell_at(shape: Tuple[int, int], left: float, bottom: float, size: float, x: 
 
 
 @compiled
-def stamp(floor: Array, left: float, bottom: float, size: float, poses: Array, points: Array) -> None:
-    """Mark the cells that hold points in the frame of a robot at each of its poses.
+def stamp(floor: Array, left: float, bottom: float, size: float, start: Triple, change: Triple, count: int,
+          points: Array) -> None:
+    """Mark the cells that hold points in the frame of a robot, at some of its poses on a way.
 
     Args:
         floor: bool (rows, columns), changed.
         left, bottom, size: see `cell_at`.
-        poses: float64 (any, 3): x, y [m], theta [rad].
+        start: x, y [m], theta [rad] at which the way begins.
+        change: of them, from there to its end.
+        count: poses that count: the last one, and others at equal distances after the first.
         points: float64 (any, 2) [m].
     """
-    for index in range(len(poses)):
-        x, y, cos, sin = poses[index, 0], poses[index, 1], math.cos(poses[index, 2]), math.sin(poses[index, 2])
+    for index in range(1, count + 1):
+        share = index / count
+        x, y, theta = start[0] + share * change[0], start[1] + share * change[1], start[2] + share * change[2]
+        cos, sin = math.cos(theta), math.sin(theta)
         for number in range(len(points)):
             ahead, aside = points[number, 0], points[number, 1]
             floor[cell_at(floor.shape, left, bottom, size, x + ahead * cos - aside * sin,

@@ -62,29 +62,36 @@ class Footing:
         last = None if self._noted is None else self._noted[0]
         self._noted = noted
         if is_docked:
-            self._stamp([pose], self._before_dock)
+            self._stamp(self._before_dock, pose)
         if last is None or math.hypot(pose.x - last.x, pose.y - last.y) > JUMP:
-            self._stamp([pose], self._body)
+            self._stamp(self._body, pose)
             last = pose
         turn = wrap_angle(pose.theta - last.theta)
         count = int((math.hypot(pose.x - last.x, pose.y - last.y) + self._far * abs(turn)) / STEP) + 1
-        between = [Pose(last.x + share * (pose.x - last.x), last.y + share * (pose.y - last.y),
-                        last.theta + share * turn) for share in np.arange(1, count + 1) / count]
+        change = pose.x - last.x, pose.y - last.y, turn
         if not any(cliffs):
-            self._stamp(between, self._everywhere)
+            self._stamp(self._everywhere, last, change, count)
             return
-        self._stamp(between, self._axle)
+        self._stamp(self._axle, last, change, count)
         for line, is_over, is_next_over in zip(self._between, cliffs, cliffs[1:]):
             if not (is_over or is_next_over):
-                self._stamp([pose], line)
+                self._stamp(line, pose)
         for (ahead, aside), is_over in zip(self._sensors, cliffs):
             if is_over:
                 cos, sin = math.cos(pose.theta), math.sin(pose.theta)
                 self._see(pose.x + ahead * cos - aside * sin, pose.y + ahead * sin + aside * cos)
 
-    def _stamp(self, poses: Sequence[Pose], points: Array) -> None:
-        """Remember floor at points (any, 2) [m] in the frame of a robot at each of the poses."""
-        stamp(self._floor, *self._plan.origin, CELL, np.array(poses), points)
+    def _stamp(self, points: Array, pose: Pose, change: Tuple[float, float, float] = (0.0, 0.0, 0.0),
+               count: int = 1) -> None:
+        """Remember floor under points of a robot that moves.
+
+        Args:
+            points: float64 (any, 2) [m], in the frame of the robot.
+            pose: where it began.
+            change: of its pose.
+            count: poses that count: the last one, and others at equal distances after the first.
+        """
+        stamp(self._floor, *self._plan.origin, CELL, tuple(pose), change, count, points)
 
     def _see(self, x: float, y: float) -> None:
         """Remember a cliff, unless it is a known one."""
@@ -113,7 +120,9 @@ class Footing:
 
     def clearances(self, points: Array) -> Array:
         """As `clearance_at`, for many points (any, 2) [m]: float64 (any)."""
-        return np.array([self.clearance_at(x, y) for x, y in points.tolist()])
+        if self._edges is None:
+            return np.full(len(points), FAR)
+        return np.asarray(fast.interpolated_at(self._edges, *self._plan.origin, self._plan.resolution, points))
 
     def are_known(self, points: Array, cells: int) -> Array:
         """Whether wheels or sensors found floor at each point (any, 2) [m], or so many cells beside it: bool (any)."""

@@ -73,8 +73,9 @@ def scan(first: int, last: int, order: Array, rows: Array, robots: Array, consta
     for index in range(first, last):
         world, row = order[index], rows[index]
         floor, skip = floor_of(plans[world], plans[world], shapes[world], cells, skips)
-        kernel.scan(robots[world:world + 1], 0, constants[world], obstacles[world, :counts[world]], skip, floor, fan,
-                    noise[row], ranges[row])
+        alone = slice(world, world + 1)
+        kernel.scan(robots[alone], 0, constants[alone], obstacles[world, :counts[world]], skip, floor, fan, noise[row],
+                    ranges[row])
 
 
 def infrared(first: int, last: int, order: Array, rows: Array, robots: Array, constants: Array, plans: Array,
@@ -83,7 +84,8 @@ def infrared(first: int, last: int, order: Array, rows: Array, robots: Array, co
     for index in range(first, last):
         world, row = order[index], rows[index]
         floor, skip = floor_of(plans[world], plans[world], shapes[world], cells, skips)
-        beams[row, 0], beams[row, 1], beams[row, 2] = kernel.infrared(robots[world], constants[world], skip, floor)
+        beams[row, 0], beams[row, 1], beams[row, 2] = kernel.infrared(
+            robots, world, constants[world:world + 1], skip, floor)
 
 
 def cliffs(first: int, last: int, order: Array, rows: Array, robots: Array, constants: Array, plans: Array,
@@ -98,12 +100,7 @@ def cliffs(first: int, last: int, order: Array, rows: Array, robots: Array, cons
     for index in range(first, last):
         world, row = order[index], rows[index]
         floor, _ = floor_of(plans[world], plans[world], shapes[world], cells, cells)
-        robot, k = robots[world], constants[world]
-        for sensor in range(angles.shape[1]):
-            along = robot.theta + angles[world, sensor]
-            seen[row, sensor] = k.has_layers and kernel.cell_bits(
-                k, floor, robot.x + distances[world] * math.cos(along),
-                robot.y + distances[world] * math.sin(along)) & kernel.CLIFF != 0
+        kernel.cliffs(robots, world, constants[world:world + 1], floor, distances[world], angles[world], seen[row])
 
 
 def surroundings(first: int, last: int, order: Array, rows: Array, robots: Array, constants: Array, plans: Array,

@@ -141,6 +141,25 @@ def interpolated(field: Array, u: float, v: float) -> Triple:
     return field[row, column] + u * along_u + v * left, along_u, left + u * (upper - lower)
 
 
+def interpolated_at(field: Array, left: float, bottom: float, resolution: float, points: Array) -> Array:
+    """The values of `interpolated` at points [m], map frame.
+
+    Args:
+        field: float64 (rows + 1, columns + 1).
+        left, bottom: of the grid [m], map frame.
+        resolution: of the grid [m].
+        points: float64 (any, 2) [m].
+
+    Returns:
+        float64 (any)
+    """
+    values = np.empty(len(points))
+    for index in range(len(points)):
+        values[index] = interpolated(field, (points[index, 0] - left) / resolution,
+                                     (points[index, 1] - bottom) / resolution)[0]
+    return values
+
+
 def clearance(k: Record, field: Array, x: float, y: float) -> Triple:
     """Distance to the nearest wall, and its gradient along x and y."""
     gap, along_u, along_v = interpolated(field, (x - k.origin_x) / k.resolution, (y - k.origin_y) / k.resolution)
@@ -505,6 +524,11 @@ def is_reversing(robot: Record) -> bool:
     return along * (robot.left_speed + robot.right_speed) < 0.0
 
 
+def sweep_between(constants: Array, samples: Array, dirt: Array, tallies: Array, start: Triple, end: Triple) -> None:
+    """As `sweep`, for callers that are not compiled: for them, records take longer than the sweeping."""
+    sweep(constants[0], samples, dirt, tallies[0], start, end)
+
+
 def sweep(k: Record, samples: Array, dirt: Array, tally: Record, start: Triple, end: Triple) -> None:
     """Clean what the brush, a segment across the middle of the robot, passes over from one pose to another.
 
@@ -690,11 +714,12 @@ def at_contacts(robot: Record, k: Record) -> bool:
     return distance <= k.contact_distance and angle <= k.contact_angle
 
 
-def infrared(robot: Record, k: Record, skips: Array, cells: Array) -> Tuple[int, int, int]:
+def infrared(robots: Array, me: int, constants: Array, skips: Array, cells: Array) -> Tuple[int, int, int]:
     """Sums of the dock's beams that the three receivers get: omnidirectional, front left, front right.
 
     The dock sends from the wall in front of a docked robot, opposite to the heading of that robot.
     """
+    robot, k = robots[me], constants[0]
     if not k.has_dock:
         return NO_BEAM, NO_BEAM, NO_BEAM
     from_x = k.dock_x + k.radius * math.cos(k.dock_theta)
@@ -715,6 +740,24 @@ def infrared(robot: Record, k: Record, skips: Array, cells: Array) -> Tuple[int,
     left = beams if -INNER <= bearing <= OUTER else NO_BEAM
     right = beams if -OUTER <= bearing <= INNER else NO_BEAM
     return beams, left, right
+
+
+# --- cliff sensors --------------------------------------------------------------------------------------------------
+
+def cliffs(robots: Array, me: int, constants: Array, cells: Array, distance: float, angles: Array,
+           seen: Array) -> None:
+    """Whether there is no floor under each cliff sensor of the robot with index `me`.
+
+    Args, apart from those above:
+        distance: of the sensors from the centre of the robot [m].
+        angles: float64 (sensors), from straight ahead [rad].
+        seen: bool (sensors), receives the answer.
+    """
+    robot, k = robots[me], constants[0]
+    for sensor in range(len(angles)):
+        along = robot.theta + angles[sensor]
+        seen[sensor] = k.has_layers and cell_bits(
+            k, cells, robot.x + distance * math.cos(along), robot.y + distance * math.sin(along)) & CLIFF != 0
 
 
 # --- laser --------------------------------------------------------------------------------------------------------
@@ -754,8 +797,8 @@ def to_border(position: float, along: float) -> float:
     return math.inf
 
 
-def scan(robots: Array, me: int, k: Record, obstacles: Array, skips: Array, cells: Array, fan: Array, noise: Array,
-         ranges: Array) -> None:
+def scan(robots: Array, me: int, constants: Array, obstacles: Array, skips: Array, cells: Array, fan: Array,
+         noise: Array, ranges: Array) -> None:
     """Measure with the laser of the robot with index `me`.
 
     Args, apart from those above:
@@ -763,7 +806,7 @@ def scan(robots: Array, me: int, k: Record, obstacles: Array, skips: Array, cell
         noise: float64 (beams), standard normal.
         ranges: float64 (beams), receives the measured distances.
     """
-    robot = robots[me]
+    robot, k = robots[me], constants[0]
     cos, sin = math.cos(robot.theta), math.sin(robot.theta)
     for beam in range(len(ranges)):
         along_x = cos * fan[beam, 0] - sin * fan[beam, 1]

@@ -44,7 +44,7 @@ class Sweep:
         """
         self._plan = plan
         self._config = config
-        self._constants = constants(config, plan, ANY_RATE)[0]
+        self._constants = constants(config, plan, ANY_RATE)
         self._no_dirt = np.zeros((plan.rows, plan.columns), np.float32)
         self.tally = np.zeros(1, kernel.TALLY)
         size = plan.sample_squares
@@ -70,7 +70,7 @@ class Sweep:
 
     def pass_over(self, start: Pose, end: Pose) -> None:
         """Let a brush pass from one pose to another that is near, map frame."""
-        fast.sweep(self._constants, self.samples, self._no_dirt, self.tally[0], tuple(start), tuple(end))
+        fast.sweep_between(self._constants, self.samples, self._no_dirt, self.tally, tuple(start), tuple(end))
 
     @property
     def reachable_area(self) -> float:

@@ -345,7 +345,7 @@ class World:
         """
         index = self._index(name)
         ranges = np.empty(len(self.fan))
-        fast.scan(self._states, index, self.constants[0], self.obstacles.records, self.terrain.skips, self.floor.cells,
+        fast.scan(self._states, index, self.constants, self.obstacles.records, self.terrain.skips, self.floor.cells,
                   self.fan, self._lasers[index].standard_normal(len(self.fan)), ranges)
         return ranges
 
@@ -355,18 +355,18 @@ class World:
         Raises:
             WorldError: there is no robot of that name.
         """
-        return Infrared(*fast.infrared(self._states[self._index(name)], self.constants[0], self.terrain.skips,
+        return Infrared(*fast.infrared(self._states, self._index(name), self.constants, self.terrain.skips,
                                        self.floor.cells))
 
     def cliffs(self, name: str) -> List[bool]:
         """Whether there is no floor under the left, front left, front right and right sensor of a robot."""
-        pose, config = self.robots[name].pose, self._config.cliff
-        if self.terrain.cliff is None:
-            return 4 * [False]
-        return [bool(fast.cell_bits(self.constants[0], self.floor.cells,
-                                    pose.x + config.distance * math.cos(pose.theta + angle),
-                                    pose.y + config.distance * math.sin(pose.theta + angle)) & kernel.CLIFF)
-                for angle in config.angles]
+        config = self._config.cliff
+        seen = np.zeros(len(config.angles), np.bool_)
+        if self.terrain.cliff is not None:
+            fast.cliffs(self._states, self._index(name), self.constants, self.floor.cells, config.distance,
+                        np.array(config.angles), seen)
+        found: List[bool] = seen.tolist()
+        return found
 
     # --- state ----------------------------------------------------------------------------------------------------
 
