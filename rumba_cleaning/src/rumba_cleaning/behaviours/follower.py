@@ -14,6 +14,7 @@ from typing import List, NamedTuple, Optional, Tuple
 
 import numpy as np
 
+from rumba_cleaning.behaviours.compiled_follower import nearest
 from rumba_sim.model.geometry import Pose, wrap_angle
 from rumba_sim.model.kernel import Array
 from rumba_sim.model.robot_config import DriveConfig
@@ -63,7 +64,8 @@ class _Piece:
         self.speeds = speeds
         self.legs = [math.hypot(end[0] - start[0], end[1] - start[1]) for start, end in zip(waypoints, waypoints[1:])]
         self.lengths = [0.0, *itertools.accumulate(self.legs)]
-        self._limits = _limits(np.array(self.waypoints), np.array(speeds), np.array(self.lengths), drive)
+        self._corners, self._legs, self._lengths = np.array(waypoints), np.array(self.legs), np.array(self.lengths)
+        self._limits = _limits(self._corners, np.array(speeds), self._lengths, drive)
 
     def speed_at(self, distance: float) -> float:
         """The speed at a distance along the piece [m] from which the robot can still slow down for the bends ahead."""
@@ -87,18 +89,7 @@ class _Piece:
 
     def nearest(self, pose: Pose, since: float) -> Tuple[float, float]:
         """Distance along the piece to the point nearest to a pose, not long after `since`, and how far off it is."""
-        best, least = since, math.inf
-        for index in range(self.index(since), len(self.legs)):
-            if self.lengths[index] > since + WINDOW:
-                break
-            (x, y), (to_x, to_y) = self.waypoints[index], self.waypoints[index + 1]
-            leg = self.legs[index]
-            share = ((pose.x - x) * (to_x - x) + (pose.y - y) * (to_y - y)) / (leg * leg)
-            share = min(max(share, (since - self.lengths[index]) / leg, 0.0), 1.0)
-            off = math.hypot(x + share * (to_x - x) - pose.x, y + share * (to_y - y) - pose.y)
-            if off < least - 1e-9:
-                best, least = self.lengths[index] + share * leg, off
-        return best, least
+        return nearest(self._corners, self._legs, self._lengths, self.index(since), pose.x, pose.y, since, WINDOW)
 
 
 class Follower:

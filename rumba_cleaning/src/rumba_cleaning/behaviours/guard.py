@@ -171,7 +171,7 @@ class Guard:
 
     def _path(self, pose: Pose, wanted: Wheels, slip: float) -> Array:
         """Where the robot, its left and its right wheel are after a command, until it has stopped: see `path`."""
-        return path(tuple(pose), self._speeds, wanted, slip, self._half, self._drive.acceleration)
+        return path(pose, self._speeds, wanted, slip, self._half, self._drive.acceleration)
 
     def _wanted(self, command: Command) -> Wheels:
         """The speeds of the wheels that a command asks for, within the limits of the drive [m/s]."""

@@ -91,7 +91,7 @@ class Footing:
             change: of its pose.
             count: poses that count: the last one, and others at equal distances after the first.
         """
-        stamp(self._floor, *self._plan.origin, CELL, tuple(pose), change, count, points)
+        stamp(self._floor, *self._plan.origin, CELL, pose, change, count, points)
 
     def _see(self, x: float, y: float) -> None:
         """Remember a cliff, unless it is a known one."""

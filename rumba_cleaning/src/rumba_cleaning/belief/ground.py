@@ -167,14 +167,19 @@ class Ground:
 
     def standing(self, nodes: Array) -> Array:
         """For each node (any, 2), the nearest node at which the robot can stand: int (any, 2)."""
+        return np.asarray(self._standing()[:, nodes[:, 0], nodes[:, 1]].T)
+
+    def _standing(self) -> Array:
+        """Row and column of what `standing` answers for each node: int (2, rows + 1, columns + 1)."""
         if self._nearest is None:
             self._nearest = ndimage.distance_transform_edt(~self.fits, return_distances=False, return_indices=True)
-        return np.asarray(self._nearest[:, nodes[:, 0], nodes[:, 1]].T)
+        return self._nearest
 
     def standing_at(self, x: float, y: float) -> Tuple[int, int]:
         """The node nearest to a point [m] at which the robot can stand."""
-        row, column = self.standing(np.array([self.node(x, y)]))[0]
-        return int(row), int(column)
+        rows, columns = self._standing()
+        row, column = self.node(x, y)
+        return int(rows[row, column]), int(columns[row, column])
 
     def within(self, distance: float) -> Array:
         """Cells that lie within a distance [m], or one cell more, of a node at which the robot can stand.

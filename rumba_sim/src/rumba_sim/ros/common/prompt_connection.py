@@ -6,7 +6,7 @@ hundreds of small messages in a second, that takes longer than all the rest.
 
 import contextlib
 import socket
-from typing import Any
+from typing import Any, List, Optional
 
 from rospy import topics
 from rospy.impl.tcpros_pubsub import QueuedConnection
@@ -17,11 +17,14 @@ def use() -> None:
     setattr(topics, 'QueuedConnection', PromptConnection)
 
 
-class PromptConnection(QueuedConnection):  # type: ignore[misc] # rospy has no types
+class PromptConnection(QueuedConnection):
     """Sends a message at once as far as the socket takes it; what it does not take waits, as in a QueuedConnection.
 
     So a subscriber that does not read loses the oldest messages of its queue, and nobody waits for it.
     """
+
+    _queue: List[bytes]  # what waits behind that
+    _error: Optional[Exception]
 
     def __init__(self, connection: Any, queue_size: int) -> None:
         """Wrap a connection; `queue_size` messages may wait, 0: any number."""
