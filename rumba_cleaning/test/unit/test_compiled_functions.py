@@ -1,12 +1,14 @@
-"""The compiled parts of the planner do what plain formulas do."""
+"""The compiled parts of behaviours and the planner do what plain formulas do."""
 
 import math
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
+from rumba_cleaning.behaviours.compiled_follower import nearest
+from rumba_cleaning.behaviours.compiled_guard import STEP, path
 from rumba_cleaning.belief.compiled_footing import are_marked, stamp
 from rumba_cleaning.belief.search import is_clear
 from rumba_cleaning.planning.compiled_lanes import NO_ROW, lowest, runs
@@ -63,9 +65,55 @@ def test_a_line_is_clear_if_all_nodes_along_it_are(ends, seed):
 
 def test_floor_is_marked_where_a_robot_has_its_points_and_found_beside_them():
     floor = np.zeros((6, 8), np.bool_)
-    stamp(floor, *ORIGIN, RESOLUTION, np.array([[-0.5, 2.25, 0.5 * math.pi]]), np.array([[0.1, 0.15], [9.0, -0.05]]))
+    stamp(floor, *ORIGIN, RESOLUTION, (-0.5, 2.25, 0.5 * math.pi), (0.0, 0.0, 0.0), 1,
+          np.array([[0.1, 0.15], [9.0, -0.05]]))
     assert np.argwhere(floor).tolist() == [[3, 3], [5, 5]]  # the second point is off the floor, above its edge
     points = np.array([[-0.65, 2.35], [-0.55, 2.25], [-0.35, 2.35], [-9.0, 2.35]])
     for cells, found in ((0, [True, False, False, False]), (1, [True, True, False, False]),
                          (2, [True, True, True, False]), (3, [True, True, True, True])):
         assert are_marked(floor, *ORIGIN, RESOLUTION, points, cells).tolist() == found
+
+
+def test_floor_is_marked_along_the_way_of_a_robot_but_not_where_it_began():
+    floor = np.zeros((6, 8), np.bool_)
+    stamp(floor, *ORIGIN, RESOLUTION, (ORIGIN[0] + 0.05, ORIGIN[1] + 0.05, 0.0), (0.3, 0.0, 0.0), 3,
+          np.array([[0.0, 0.0]]))
+    assert np.argwhere(floor).tolist() == [[0, 1], [0, 2], [0, 3]]
+
+
+@settings(deadline=None, max_examples=100)
+@given(st.lists(st.tuples(st.floats(-1.0, 1.0), st.floats(-1.0, 1.0)), min_size=2, max_size=8, unique=True),
+       st.floats(-1.5, 1.5), st.floats(-1.5, 1.5))
+def test_the_nearest_point_of_a_route_is_nearer_than_all_its_others(corners, x, y):
+    waypoints = np.array(corners)
+    legs = np.hypot(*np.diff(waypoints, axis=0).T)
+    assume(legs.min() > 1e-3)
+    lengths = np.concatenate([[0.0], np.cumsum(legs)])
+    distance, off = nearest(waypoints, legs, lengths, 0, x, y, 0.0, 100.0)
+    along = np.append(np.linspace(0.0, lengths[-1], 2000), distance)
+    offs = np.hypot(np.interp(along, lengths, waypoints[:, 0]) - x, np.interp(along, lengths, waypoints[:, 1]) - y)
+    assert off == pytest.approx(offs[-1], abs=1e-9) and off <= offs.min() + 1e-8
+
+
+def test_only_a_part_of_a_route_is_looked_at():
+    waypoints, legs, lengths = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]), np.ones(3), np.arange(4.0)
+    assert nearest(waypoints, legs, lengths, 0, 0.1, 0.9, 0.0, 0.5) == pytest.approx((0.1, 0.9))
+    assert nearest(waypoints, legs, lengths, 1, 0.1, 0.2, 1.5, 0.5) == pytest.approx((2.9, 0.8))
+
+
+def test_a_command_leads_as_far_as_the_wheels_take_to_change_their_speed_and_to_stop():
+    middle, left, right = path((1.0, 2.0, 0.5 * math.pi), (0.2, 0.2), (0.2, 0.2), 0.0, 0.1, 1.0)
+    held, braked = 0.1 * 0.2, 0.5 * 0.2 ** 2 / 1.0
+    assert middle[-1] == pytest.approx([1.0, 2.0 + held + braked], abs=0.2 * STEP)
+    assert (left - middle)[-1] == pytest.approx([-0.1, 0.0]) and (right - middle)[-1] == pytest.approx([0.1, 0.0])
+    middle, left, _ = path((0.0, 0.0, 0.0), (0.0, 0.0), (-0.1, 0.1), 0.0, 0.1, 1.0)
+    assert np.abs(middle).max() < 1e-12
+    assert np.hypot(*left.T) == pytest.approx(np.full(len(left), 0.1))
+    assert left[-1][0] == pytest.approx(-0.1 * math.sin(0.1), abs=0.002)  # 0.1 s to full speed, and as long to stop
+
+
+def test_a_robot_that_slides_moves_aside():
+    middle, _, _ = path((0.0, 0.0, 0.0), (0.3, 0.3), (0.3, 0.3), 0.1, 0.1, 1.0)
+    straight, _, _ = path((0.0, 0.0, 0.0), (0.3, 0.3), (0.3, 0.3), 0.0, 0.1, 1.0)
+    assert middle[:, 0] == pytest.approx(straight[:, 0])
+    assert middle[-1, 1] == pytest.approx(straight[-1, 0] / 3.0)
