@@ -4,9 +4,9 @@ import math
 
 import pytest
 
+from rumba_evaluation.verdicts.conditions import Battery, Collisions, Condition, Coverage, Docked, Field, Reach
 from rumba_evaluation.verdicts.mission_requirements import Requirements
-from rumba_evaluation.verdicts.mission_verdict import (Battery, Collisions, Condition, Coverage, Docked, Field, Judge,
-                                                       Reach)
+from rumba_evaluation.verdicts.mission_verdict import Judge
 from rumba_sim.model.errors import ConfigError
 from rumba_sim.model.geometry import Pose
 
@@ -21,7 +21,7 @@ def judged(*conditions):
 
 def verdicts(judge):
     """Whether each condition is met, and the words of the verdict, by the name of the condition."""
-    return {name: (is_met, words) for name, is_met, words in judge.verdicts(lambda condition: f'/{condition.name}')}
+    return {name: (is_met, words) for name, is_met, words, _ in judge.verdicts(lambda condition: f'/{condition.name}')}
 
 
 def met(condition, *values):
@@ -120,14 +120,18 @@ def test_a_run_ends_when_all_goals_are_met_at_the_same_time():
 def test_a_violated_guard_fails_but_does_not_end_the_run():
     coverage, collisions = Coverage(0.5), Collisions(0)
     judge = judged(coverage, collisions)
-    judge.update(collisions, True, 0.0)
+    judge.update(collisions, False, 0.0)
+    judge.locate(Pose(3.0, 1.5, 0.0))
+    judge.update(collisions, True, 0.5)
+    judge.locate(Pose(4.0, 1.5, 0.0))
     judge.update(coverage, 0.4, 1.0)
     assert not judge.is_over
     judge.update(coverage, 0.5, 2.0)
     assert judge.is_over
     assert verdicts(judge)['coverage'][0]
     assert verdicts(judge)['collisions'] == (
-        False, 'collisions: required at most 0 collisions; measured 1 after 2.0 s of 100 s')
+        False, 'collisions: required at most 0 collisions; measured 1 after 2.0 s of 100 s; violated first after '
+               '0.5 s, at (3.00, 1.50) m')
 
 
 def test_a_run_does_not_end_before_every_guard_has_a_value():

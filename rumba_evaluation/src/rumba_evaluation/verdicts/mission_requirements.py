@@ -4,7 +4,7 @@ import dataclasses
 import math
 from typing import List
 
-from rumba_evaluation.verdicts.mission_verdict import Battery, Collisions, Condition, Coverage, Docked, Field, Reach
+from rumba_evaluation.verdicts.conditions import Battery, Collisions, Condition, Coverage, Docked, Field, Reach
 from rumba_sim.model.config import setting
 from rumba_sim.model.errors import ConfigError
 from rumba_sim.model.geometry import Pose
@@ -26,6 +26,9 @@ class Requirements:
                               NOT_REQUIRED, 1_000_000)
     fields: str = setting('', 'ranges of fields of topics, as in "rumba/battery_state/voltage 13 inf; '
                               'rumba/odom/twist/twist/linear/x -0.3 0.3"')
+    points: str = setting('', 'points for each condition, as in "coverage 8; collisions 2"; empty: one for each')
+    partial: str = setting('', 'partial credit: the figure that is worth nothing, from which points grow to the required '
+                               'one, and the exponent of the curve if it is not 1, as in "coverage 0.1; collisions 20 2"')
     time_limit: float = setting(60.0, 'for the whole run, in the time of the robots', 's', 0.01, 1e7)
 
     def conditions(self) -> List[Condition]:

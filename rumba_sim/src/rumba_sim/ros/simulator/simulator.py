@@ -136,6 +136,8 @@ class Simulator:
         """Simulate until ROS shuts down."""
         wake_on_time()
         gc.freeze()  # what there is now remains: collections of garbage need not look at it, and take no time
+        if self._lockstep is not None:
+            self._lockstep.wait_for_commanders(self._report_and_hold)
         while not rospy.is_shutdown():
             if self._is_paused:
                 self._pace.hold()
