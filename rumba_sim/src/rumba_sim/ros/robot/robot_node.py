@@ -72,7 +72,8 @@ class RobotNode:
         refuse_twin(name)
         self._publishers = {
             topic: rospy.Publisher(f'{name}/{topic}', message,
-                                   Latecomers(requests, functools.partial(self._missed, topic)),
+                                   Latecomers(requests, functools.partial(self._missed, topic),
+                                              functools.partial(self._newest.get, topic)),
                                    queue_size=2 if message is OccupancyGrid else QUEUE)
             for topic, message in (
                 ('battery_status', BatteryStatus), ('battery_state', BatteryState), ('odom', Odometry),
