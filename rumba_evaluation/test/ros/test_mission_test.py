@@ -138,7 +138,7 @@ class MissionTestTest(unittest.TestCase):
         cases, errors = run.ends(1)
         for name, words in (
                 ('coverage', r'^coverage: required at least 50\.0 % of the floor swept; measured 40\.0 % after 30\.0 s '
-                             r'of 30 s: the time limit is reached\n'),
+                             r'of 30 s: the time limit is reached; the robot was at \(3\.00, 3\.00\) m\n'),
                 ('reach', r'measured a smallest distance of 2\.00 m'),
                 ('docked', r'measured on the dock, which it never left'),
                 ('battery', r'measured a lowest charge of 19\.0 %'),

@@ -4,7 +4,8 @@ import math
 
 import pytest
 
-from rumba_evaluation.verdicts.conditions import Battery, Collisions, Condition, Coverage, Docked, Field, Reach
+from rumba_evaluation.verdicts.conditions import Battery, Collisions, Condition, Coverage, Docked, Reach
+from rumba_evaluation.verdicts.field_conditions import Field, FieldCondition
 from rumba_evaluation.verdicts.mission_requirements import Requirements
 from rumba_evaluation.verdicts.mission_verdict import Judge
 from rumba_sim.model.errors import ConfigError
@@ -249,12 +250,14 @@ def test_settings_become_conditions():
     (Requirements(fields='a/b 2 1'), r"^fields has 'a/b 2 1': "),
     (Requirements(fields='a/b low high'), r"^fields has 'a/b low high': "),
     (Requirements(fields='a/b nan 1'), r"^fields has 'a/b nan 1': "),
-    (Requirements(fields='a/b 0 1; /a/b 0 2'), r'^field_a_b occurs twice: give one range')])
+    (Requirements(fields='a/b 0 1; /a/b 0 2'), r'^field_a_b occurs twice: require one thing of each')])
 def test_requirements_that_cannot_be_understood_are_refused(requirements, message):
     with pytest.raises(ConfigError, match=message):
         requirements.conditions()
 
 
 def test_every_kind_of_condition_is_either_goal_or_guard():
-    assert {kind.__name__: kind.is_guard for kind in Condition.__subclasses__()} == {
-        'Coverage': False, 'Reach': False, 'Docked': False, 'Battery': True, 'Collisions': True, 'Field': True}
+    kinds = [*Condition.__subclasses__(), *FieldCondition.__subclasses__()]
+    assert {kind.__name__: kind.is_guard for kind in kinds if kind is not FieldCondition} == {
+        'Coverage': False, 'Reach': False, 'Docked': False, 'Battery': True, 'Collisions': True, 'Field': True,
+        'Agreement': True, 'Rate': True}

@@ -10,6 +10,7 @@ from typing import List, Sequence
 from rumba_evaluation.marks.scheme import Mark, number
 
 VISIBLE = 'visible'
+VISIBILITIES = (VISIBLE, 'hidden', 'after_due_date', 'after_published')
 
 
 def document(marks: Sequence[Mark], visibility: str = VISIBLE, words: str = '') -> str:

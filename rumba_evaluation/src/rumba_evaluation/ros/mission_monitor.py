@@ -16,7 +16,9 @@ from nav_msgs.msg import Odometry
 from sensor_msgs.msg import BatteryState
 
 from rumba_evaluation.verdicts import conditions
-from rumba_evaluation.verdicts.conditions import Condition, Field
+from rumba_evaluation.verdicts.awaited import Awaited
+from rumba_evaluation.verdicts.conditions import Condition
+from rumba_evaluation.verdicts.field_conditions import FieldCondition
 from rumba_evaluation.verdicts.mission_verdict import Judge, Verdict
 from rumba_evaluation.verdicts.origins import Origins
 from rumba_evaluation.verdicts.tick_readings import TickReadings
@@ -47,7 +49,8 @@ SENT_WITH_TICKS = (Odometry, DockStatus, Bumper, BatteryState)  # all of these t
 class MissionMonitor:
     """Judges a run by the messages of a robot's topics."""
 
-    def __init__(self, found: List[Condition], robot: str, time_limit: float, patience: float, publisher: str) -> None:
+    def __init__(self, found: List[Condition], robot: str, time_limit: float, patience: float, publisher: str,
+                 awaited: Sequence[str]) -> None:
         """Subscribe to the topics that the conditions need.
 
         Args:
@@ -56,13 +59,16 @@ class MissionMonitor:
             time_limit: of the run [s], in the time of the robot.
             patience: of the wall clock without any message [s], after which the run is aborted.
             publisher: full name of the node that publishes the robot's topics; empty: the one that the state names.
+            awaited: topics of the node under test: in lockstep, the world waits for a message on each after a tick.
         """
         self._robot = robot
         self._patience = patience
         self._judge = Judge(found, time_limit)
         self._lock = threading.RLock()  # held while judge, origins or readings change
         self._last_message = self._last_look = time.monotonic()
-        self._unpublished = [condition for condition in found if isinstance(condition, Field)]
+        self._unpublished = [(condition, number) for condition in found if isinstance(condition, FieldCondition)
+                             for number in range(len(condition.paths))]
+        self._awaited = Awaited(str(rospy.resolve_name(topic)) for topic in awaited)
         readings = {self._full(PLACE): (Odometry, [])}
         for condition in found:
             for topic, kind, value in TOPICS.get(type(condition), []):
@@ -101,6 +107,7 @@ class MissionMonitor:
                 stamp = message.header.stamp.to_sec() if kind in SENT_WITH_TICKS or kind is CleaningStatus else 0.0
                 self._first_message = min(self._first_message, time.monotonic())
                 self._readings.take(key or topic, stamp, lambda: act(message))
+                self._awaited.hear(topic)
                 self._settle()
         rospy.Subscriber(topic, kind, take)
 
@@ -127,7 +134,7 @@ class MissionMonitor:
         """Judge what has come, in lockstep once everything of a tick is there, and answer for it."""
         if self._is_lockstep is None and time.monotonic() < self._first_message + MODE_PATIENCE:
             return
-        if self._is_lockstep and (self._tick is None or self._readings.missing):
+        if self._is_lockstep and (self._tick is None or self._readings.missing or self._awaited.silent):
             return
         for _, act in self._readings.release():
             act()
@@ -135,6 +142,7 @@ class MissionMonitor:
             self._judge.check_time(self._now())
             if not self._judge.is_over:  # otherwise the world stands still until there is a verdict
                 tick, self._tick = self._tick, None
+                self._awaited.begin()
                 self._participant.answer(tick.header.stamp)
 
     def _go_on(self) -> None:
@@ -145,6 +153,8 @@ class MissionMonitor:
                           'goes on without waiting for it')
             self._expected = [topic for topic in self._expected if topic not in missing]
             self._readings.expect({})
+        if self._tick is not None:
+            self._awaited.give_up(self._tick_came, time.monotonic())
         self._settle()
 
     def _now(self) -> float:
@@ -204,17 +214,23 @@ class MissionMonitor:
 
     def _subscribe_to_fields(self) -> None:
         """Subscribe to the topics of those fields that have a publisher since the last call."""
-        for field in self._unpublished[:]:
+        for condition, number in self._unpublished[:]:
+            path = rospy.resolve_name(condition.paths[number])
             try:
-                kind, topic, value = rostopic.get_topic_class(rospy.resolve_name(field.path))
+                kind, topic, value = rostopic.get_topic_class(path)
             except rostopic.ROSTopicException as error:  # no master, or a type that this workspace does not have
-                rospy.logwarn_throttle(self._patience, f'{field.path}: {error}')
+                rospy.logwarn_throttle(self._patience, f'{path}: {error}')
                 continue
             if kind is not None:
-                self._unpublished.remove(field)
+                self._unpublished.remove((condition, number))
                 with self._lock:
                     self._origins.watch(topic)
-                self._subscribe(topic, kind, [(field, value or (lambda message: message))], field.path)
+                    self._awaited.publishes(topic, time.monotonic())
+                self._subscribe_to_field(condition, number, topic, kind, value or (lambda message: message))
+
+    def _subscribe_to_field(self, condition: FieldCondition, number: int, topic: str, kind: Any, value: Value) -> None:
+        self._subscribe(topic, kind, [(condition, lambda message: condition.reading(number, value(message)))],
+                        f'{topic} for {condition.name}')
 
     def verdicts(self) -> List[Verdict]:
         """The verdict on each condition."""
@@ -222,6 +238,6 @@ class MissionMonitor:
             return self._judge.verdicts(self._source)
 
     def _source(self, condition: Condition) -> str:
-        topics = [condition.path] if isinstance(condition, Field) else [
+        topics = condition.paths if isinstance(condition, FieldCondition) else [
             f'{self._robot}/{topic}' for topic, _, _ in TOPICS[type(condition)]]
         return ' or '.join(map(rospy.resolve_name, topics))

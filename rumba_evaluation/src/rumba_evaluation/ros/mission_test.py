@@ -64,9 +64,11 @@ class Settings(Requirements):
                               0.1, 1e6)
     publisher: str = setting('', 'full name of the node that publishes the topics of the robot; empty: the one that '
                                  'simulator/state names')
+    wait_for: str = setting('', 'topics of the node that is judged, with spaces between: in lockstep, the world waits for '
+                                'a message on each after each control tick')
     results: str = setting('', 'path of results.json for Gradescope; empty: beside the file that rostest asks for, if any')
-    visibility: str = setting('visible', 'when Gradescope shows students the marks',
-                              choices=('visible', 'hidden', 'after_due_date', 'after_published'))
+    visibility: str = setting(gradescope.VISIBLE, 'when Gradescope shows students the marks',
+                              choices=gradescope.VISIBILITIES)
 
     def __post_init__(self) -> None:
         """The robot's name is a part of names of topics."""
@@ -87,7 +89,8 @@ def judge(settings: Settings) -> None:
     """
     conditions = settings.conditions()
     scheme = Scheme(conditions, settings.points, settings.partial)
-    monitor = MissionMonitor(conditions, settings.robot, settings.time_limit, settings.patience, settings.publisher)
+    monitor = MissionMonitor(conditions, settings.robot, settings.time_limit, settings.patience, settings.publisher,
+                             settings.wait_for.split())
     monitor.run()
     verdicts = monitor.verdicts()
     marks = scheme.marks(verdicts)

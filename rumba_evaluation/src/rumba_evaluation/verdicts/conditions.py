@@ -13,7 +13,6 @@ For partial credit, a condition of degrees has a figure, and tells how far that 
 
 import abc
 import math
-import reprlib
 from typing import Any, Tuple
 
 from rumba_sim.model.geometry import Pose, wrap_angle
@@ -54,6 +53,9 @@ class Condition(abc.ABC):
     def measured(self) -> str:
         """The measured values, in words."""
         return self._measured() if self.is_measured else 'nothing'
+
+    def finish(self, duration: float) -> None:
+        """The run has ended after a time [s]."""
 
     def share(self, worthless: float) -> float:
         """How far it is met: 0 with a worthless figure or without any value, 1 if it is met."""
@@ -226,38 +228,3 @@ class Collisions(Condition):
 
     def _measured(self) -> str:
         return str(self._count)
-
-
-class Field(Condition):
-    """A field of a topic stays within a range, both ends allowed; the values are those of the field."""
-
-    is_guard = True
-
-    def __init__(self, path: str, low: float, high: float) -> None:
-        """Require a range of the field at a path such as `rumba/battery_state/voltage`."""
-        super().__init__('field_' + ''.join(letter if letter.isalnum() else '_' for letter in path.strip('/')),
-                         f'{path} always within {low:g} to {high:g}')
-        self.path = path
-        self._low, self._high = low, high
-        self._lowest, self._highest = math.inf, -math.inf
-        self._count = self._inside = 0
-        self._problem = ''
-
-    def _update(self, value: Any) -> None:
-        is_number = isinstance(value, (bool, int, float)) and not math.isnan(value)
-        if is_number:
-            self._lowest, self._highest = min(self._lowest, value), max(self._highest, value)
-            self._inside += self._low <= value <= self._high
-        elif not self._problem:
-            self._problem = f'{reprlib.repr(value)}, which is not a number'
-        self._count += 1
-
-    def _is_met(self) -> bool:
-        return not self._problem and self._low <= self._lowest and self._highest <= self._high
-
-    def figures(self) -> Tuple[float, float]:
-        """The share of the values that are in the range."""
-        return self._inside / max(self._count, 1), 1.0
-
-    def _measured(self) -> str:
-        return self._problem or f'{self._lowest:g} to {self._highest:g}'

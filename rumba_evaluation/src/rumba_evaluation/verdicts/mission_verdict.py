@@ -87,6 +87,8 @@ class Judge:
 
     def _end(self, reason: str, is_complete: bool) -> None:
         self.is_over, self._reason, self._is_complete = True, reason, is_complete
+        for condition in self.conditions:
+            condition.finish(self._passed)
 
     def verdicts(self, source: Callable[[Condition], str]) -> List[Verdict]:
         """The verdict on each condition; `source` gives the topics from which its values come."""
@@ -97,7 +99,7 @@ class Judge:
         is_met = condition.is_met and counts
         topics = '' if condition.is_measured else f' on {source(condition)}'
         reason = f': {self._reason}' if self._reason else ''
-        where = '' if is_met else self._violations.get(condition.name, '') if condition.is_guard else self._where('; then')
+        where = '' if is_met else self._violations.get(condition.name, '') if condition.is_guard else self._where('; the robot was')
         return Verdict(condition.name, is_met,
                        f'{condition.name}: required {condition.required}; measured {condition.measured()}{topics} '
                        f'after {self._passed:.1f} s of {self._time_limit:g} s{reason}{where}', counts)
