@@ -31,8 +31,8 @@ def marked(points, partial, *readings, void=''):
 def test_without_partial_credit_a_condition_earns_all_or_nothing():
     marks = marked('coverage 8; docked 2', '', (Coverage(0.5), 0.49), (Docked(), False))
     assert [mark.score for mark in marks.values()] == [0.0, 0.0]
-    assert marks['coverage'].reason.startswith('8 of 8 points lost: coverage: required at least 50.0 % of the floor swept; '
-                                               'measured 49.0 % after ')
+    assert marks['coverage'].reason.startswith('8 of 8 points lost: coverage: required at least 50.0 % of the floor '
+                                               'swept; measured 49.0 % after ')
 
 
 def test_without_points_each_condition_earns_one():

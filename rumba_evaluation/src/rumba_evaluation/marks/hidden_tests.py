@@ -1,4 +1,4 @@
-"""What the hidden .test files of a teacher ask, read before anything runs: a submission that breaks loses those points."""
+"""What hidden .test files ask, read before anything runs: a submission that breaks loses those points."""
 
 import pathlib
 import re

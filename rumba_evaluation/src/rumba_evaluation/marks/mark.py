@@ -1,8 +1,8 @@
 """mark: marks submissions by hidden .test files, each against a world and a master of its own, and prints the points.
 
 Each test runs in the time of its world: with lockstep, the same submission gets the same marks on any machine. Beside
-the table, results.json is for Gradescope, and a log of each test for the teacher. With --all, each folder in FOLDER is a
-submission; they are marked in parallel, marks.csv lists them, and after an interruption the same command goes on.
+the table, results.json is for Gradescope, and a log of each test for the teacher. With --all, each folder in FOLDER is
+a submission; they are marked in parallel, marks.csv lists them, and after an interruption the same command goes on.
 docs/teaching.md shows a course.
 
 NAME:=VALUE is an argument that the .test files declare.
@@ -81,7 +81,7 @@ class _Marking:
     """What the command line wants."""
 
     def __init__(self, options: argparse.Namespace, given: Dict[str, str], recorder: str, examine: Examine) -> None:
-        for folder in filter(None, (options.submission, options.all, options.tests)):
+        for folder in (options.submission or options.all, options.tests):
             if not os.path.isdir(folder):
                 raise ConfigError(f'{folder}: is no folder')
         self._options = options

@@ -1,12 +1,12 @@
 """Points for the conditions of a run, and why they were lost.
 
-A condition that is met earns its points, and one that is met in part earns a part if there is partial credit for it. The
-points of guards count only by the share of points that the goals have earned: a robot that stands still breaks no guard,
-and deserves nothing for it.
+A condition that is met earns its points, and one that is met in part earns a part if there is partial credit for it.
+The points of guards count only by the share of points that the goals have earned: a robot that stands still breaks no
+guard, and deserves nothing for it.
 """
 
 import math
-from typing import Dict, List, NamedTuple, Sequence
+from typing import Dict, List, NamedTuple, Optional, Sequence
 
 from rumba_evaluation.verdicts.conditions import Condition
 from rumba_evaluation.verdicts.mission_verdict import Verdict
@@ -51,7 +51,7 @@ class Scheme:
         """
         self._conditions = {condition.name: condition for condition in conditions}
         given = self._named('points', points)
-        self.points = {name: _points(name, given.pop(name, None if points else ['1'])) for name in self._conditions}
+        self.points = {name: _points(name, given.get(name) if points else ['1']) for name in self._conditions}
         self._credits = {name: _credit(self._conditions[name], words)
                          for name, words in self._named('partial', partial).items()}
         if not sum(self.points.values()) > 0.0:
@@ -104,7 +104,7 @@ def number(points: float) -> str:
     return f'{round(points, DIGITS):g}'
 
 
-def _points(name: str, words: Sequence[str]) -> float:
+def _points(name: str, words: Optional[Sequence[str]]) -> float:
     if words is None:
         raise ConfigError(f'points does not name {name}: give its points, which may be 0')
     numbers = _numbers(words)

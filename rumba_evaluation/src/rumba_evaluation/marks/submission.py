@@ -14,7 +14,8 @@ from rumba_evaluation.marks.gradescope import beside, marks_of
 from rumba_evaluation.marks.hidden_tests import HiddenTest
 from rumba_evaluation.marks.scheme import Mark, nothing
 
-BUILT = re.compile(r'^\s*(add_executable|add_library|add_(message|service|action)_files|catkin_python_setup)\s*\(', re.M)
+BUILT = re.compile(r'^\s*(add_executable|add_library|add_(message|service|action)_files|catkin_python_setup)\s*\(',
+                   re.MULTILINE)
 BUILD_PATIENCE = 900.0  # [s] of the wall clock
 ENDS_WITHIN = 20.0  # [s] of the wall clock, after SIGINT
 QUIET = ('ROSInterruptException', 'KeyboardInterrupt', 'ROSException: publish()')  # how nodes end with the world

@@ -18,6 +18,7 @@ from sensor_msgs.msg import BatteryState
 from rumba_evaluation.verdicts import conditions
 from rumba_evaluation.verdicts.awaited import Awaited
 from rumba_evaluation.verdicts.conditions import Condition
+from rumba_evaluation.verdicts.examination import Examination
 from rumba_evaluation.verdicts.field_conditions import FieldCondition
 from rumba_evaluation.verdicts.mission_verdict import Judge, Verdict
 from rumba_evaluation.verdicts.origins import Origins
@@ -25,6 +26,7 @@ from rumba_evaluation.verdicts.tick_readings import TickReadings
 from rumba_msg.msg import BatteryStatus, Bumper, CleaningStatus, DockStatus, Lockstep, SimulatorState
 from rumba_sim.ros.common import conversions, peers, simulator_client
 from rumba_sim.ros.common.lockstep import Participant
+from rumba_sim.ros.common.names import EXAMINER
 
 PERIOD = 0.05  # [s] of the wall clock
 LOOK_PERIOD = 0.5  # [s] of the wall clock from one look at the master to the next
@@ -43,14 +45,14 @@ TOPICS: Dict[Type[Condition], List[Tuple[str, Any, Value]]] = {
         ('battery_state', BatteryState, lambda message: 100.0 * message.percentage),
         ('battery_status', BatteryStatus, lambda message: float(message.percentage_battery))],
 }
-SENT_WITH_TICKS = (Odometry, DockStatus, Bumper, BatteryState)  # all of these that are measured
+WITH_TICKS = (PLACE, 'dock_status', 'bumper', 'cliff', 'battery_state')  # sent with each control tick
 
 
 class MissionMonitor:
     """Judges a run by the messages of a robot's topics."""
 
     def __init__(self, found: List[Condition], robot: str, time_limit: float, patience: float, publisher: str,
-                 awaited: Sequence[str]) -> None:
+                 awaited: Sequence[str], is_exam: bool) -> None:
         """Subscribe to the topics that the conditions need.
 
         Args:
@@ -60,8 +62,10 @@ class MissionMonitor:
             patience: of the wall clock without any message [s], after which the run is aborted.
             publisher: full name of the node that publishes the robot's topics; empty: the one that the state names.
             awaited: topics of the node under test: in lockstep, the world waits for a message on each after a tick.
+            is_exam: whether nobody else may hear the truth, or set a parameter of the simulator.
         """
         self._robot = robot
+        self._exam = Examination(rospy.get_name()) if is_exam else None
         self._patience = patience
         self._judge = Judge(found, time_limit)
         self._lock = threading.RLock()  # held while judge, origins or readings change
@@ -69,7 +73,7 @@ class MissionMonitor:
         self._unpublished = [(condition, number) for condition in found if isinstance(condition, FieldCondition)
                              for number in range(len(condition.paths))]
         self._awaited = Awaited(str(rospy.resolve_name(topic)) for topic in awaited)
-        readings = {self._full(PLACE): (Odometry, [])}
+        readings: Dict[str, Tuple[Any, List[Tuple[Condition, Value]]]] = {self._full(PLACE): (Odometry, [])}
         for condition in found:
             for topic, kind, value in TOPICS.get(type(condition), []):
                 readings.setdefault(self._full(topic), (kind, []))[1].append((condition, value))
@@ -77,7 +81,7 @@ class MissionMonitor:
         self._is_lockstep: Optional[bool] = None  # not known yet
         self._first_message = self._tick_came = math.inf  # times of time.monotonic
         self._tick: Optional[Lockstep] = None  # that is not answered
-        self._expected = [topic for topic, (kind, _) in readings.items() if kind in SENT_WITH_TICKS]
+        self._expected = {topic: topic for topic in readings}  # topics by the key of what is taken from them
         self._measured = [topic for topic, (_, values) in readings.items() if values]
         state = rospy.resolve_name(simulator_client.TOPIC)
         self._origins = Origins(self._measured, state, publisher)
@@ -87,7 +91,8 @@ class MissionMonitor:
         self._participant = Participant(self._on_tick)
 
     def _full(self, topic: str) -> str:
-        return str(rospy.resolve_name(f'{self._robot}/{topic}'))
+        is_secret = self._exam is not None and topic == PLACE
+        return str(rospy.resolve_name(f'{EXAMINER}/{self._robot}/{topic}' if is_secret else f'{self._robot}/{topic}'))
 
     # --- messages -------------------------------------------------------------------------------------------------
 
@@ -104,7 +109,7 @@ class MissionMonitor:
                 if values:
                     self._last_message = time.monotonic()
                     self._origins.publishes(topic, peers.caller(message))
-                stamp = message.header.stamp.to_sec() if kind in SENT_WITH_TICKS or kind is CleaningStatus else 0.0
+                stamp = message.header.stamp.to_sec() if getattr(message, '_has_header', False) else 0.0
                 self._first_message = min(self._first_message, time.monotonic())
                 self._readings.take(key or topic, stamp, lambda: act(message))
                 self._awaited.hear(topic)
@@ -124,10 +129,9 @@ class MissionMonitor:
     def _on_tick(self, tick: Lockstep) -> None:
         with self._lock:
             self._is_lockstep, self._tick, self._tick_came = True, tick, time.monotonic()
-            now = tick.header.stamp.to_sec()
-            self._readings.expect({**dict.fromkeys(self._expected, now),
-                                   **{topic: tick.cleaning.to_sec() for topic in self._measured
-                                      if topic == self._full(CLEANING)}})
+            due = {**dict.fromkeys(map(self._full, WITH_TICKS), tick.header.stamp), self._full(CLEANING): tick.cleaning,
+                   self._full('odom'): tick.odom, self._full('scan'): tick.scan}
+            self._readings.expect({key: due[topic].to_sec() for key, topic in self._expected.items() if topic in due})
             self._settle()
 
     def _settle(self) -> None:
@@ -151,7 +155,8 @@ class MissionMonitor:
             missing = self._readings.missing
             rospy.logwarn(f'{" and ".join(missing)}: no message for a control tick in {TICK_PATIENCE:g} s: the test '
                           'goes on without waiting for it')
-            self._expected = [topic for topic in self._expected if topic not in missing]
+            for key in missing:
+                del self._expected[key]
             self._readings.expect({})
         if self._tick is not None:
             self._awaited.give_up(self._tick_came, time.monotonic())
@@ -200,7 +205,9 @@ class MissionMonitor:
         if time.monotonic() - self._last_look >= period:
             self._last_look = time.monotonic()
             try:
-                publishers = rosgraph.Master(rospy.get_name()).getSystemState()[0]
+                publishers, subscribers, _ = rosgraph.Master(rospy.get_name()).getSystemState()
+                if self._exam is not None and self._first_message < math.inf:
+                    self._exam.look(subscribers, rospy.get_param('/', {}))
             except (rosgraph.MasterException, OSError):  # it ends, or is busy: messages tell their senders too
                 publishers = []
             with self._lock:
@@ -208,7 +215,7 @@ class MissionMonitor:
                     for name in nodes:
                         self._origins.publishes(topic, name)
         with self._lock:
-            problem = self._origins.problem()
+            problem = self._origins.problem() or (self._exam.problem if self._exam is not None else '')
             if problem:
                 self._judge.annul(problem)
 
@@ -229,8 +236,10 @@ class MissionMonitor:
                 self._subscribe_to_field(condition, number, topic, kind, value or (lambda message: message))
 
     def _subscribe_to_field(self, condition: FieldCondition, number: int, topic: str, kind: Any, value: Value) -> None:
+        key = f'{topic} for {condition.name}'
+        self._expected[key] = topic
         self._subscribe(topic, kind, [(condition, lambda message: condition.reading(number, value(message)))],
-                        f'{topic} for {condition.name}')
+                        key)
 
     def verdicts(self) -> List[Verdict]:
         """The verdict on each condition."""

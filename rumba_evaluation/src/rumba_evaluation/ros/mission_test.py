@@ -64,9 +64,12 @@ class Settings(Requirements):
                               0.1, 1e6)
     publisher: str = setting('', 'full name of the node that publishes the topics of the robot; empty: the one that '
                                  'simulator/state names')
-    wait_for: str = setting('', 'topics of the node that is judged, with spaces between: in lockstep, the world waits for '
-                                'a message on each after each control tick')
-    results: str = setting('', 'path of results.json for Gradescope; empty: beside the file that rostest asks for, if any')
+    wait_for: str = setting('', 'topics of the node that is judged, with spaces between, of those that the conditions '
+                                'name: in lockstep, the world waits for a message on each after each control tick')
+    exam: bool = setting(False, 'an examination, as of the simulator: the run is void if another node hears '
+                                'ground_truth or sets a parameter of the simulator')
+    results: str = setting('', 'path of results.json for Gradescope; empty: beside the file that rostest asks for, '
+                               'if any')
     visibility: str = setting(gradescope.VISIBLE, 'when Gradescope shows students the marks',
                               choices=gradescope.VISIBILITIES)
 
@@ -90,7 +93,7 @@ def judge(settings: Settings) -> None:
     conditions = settings.conditions()
     scheme = Scheme(conditions, settings.points, settings.partial)
     monitor = MissionMonitor(conditions, settings.robot, settings.time_limit, settings.patience, settings.publisher,
-                             settings.wait_for.split())
+                             settings.wait_for.split(), settings.exam)
     monitor.run()
     verdicts = monitor.verdicts()
     marks = scheme.marks(verdicts)

@@ -1,4 +1,4 @@
-"""The topics of the node that is marked, on each of which the judge of a world in lockstep awaits an answer to a tick."""
+"""The topics of the node that is marked: in lockstep, the judge awaits a message on each of them after each tick."""
 
 from typing import Dict, Iterable, List, Set
 

@@ -18,7 +18,8 @@ class FieldCondition(Condition):
 
     def __init__(self, kind: str, paths: List[str], required: str) -> None:
         """Require something of the fields at these paths."""
-        super().__init__(kind + ''.join(letter if letter.isalnum() else '_' for letter in paths[0].strip('/')), required)
+        name = ''.join(letter if letter.isalnum() else '_' for letter in paths[0].strip('/'))
+        super().__init__(f'{kind}{name}', required)
         self.paths = paths
 
     def reading(self, number: int, value: Any) -> Any:

@@ -27,12 +27,13 @@ class Requirements:
                               NOT_REQUIRED, 1_000_000)
     fields: str = setting('', 'ranges of fields of topics, as in "rumba/battery_state/voltage 13 inf; '
                               'rumba/odom/twist/twist/linear/x -0.3 0.3"')
-    agree: str = setting('', 'fields that agree, each value of the first with the newest of the second, and by how much '
-                             'they may differ, as in "student/status/level rumba/battery_state/charge 0.1"')
+    agree: str = setting('', 'fields that agree, each value of the first with the newest of the second, and by how '
+                             'much they may differ, as in "student/status/level rumba/battery_state/charge 0.1"')
     rates: str = setting('', 'how often messages come, on average over the run, as in "student/status 9 11" [Hz]')
     points: str = setting('', 'points for each condition, as in "coverage 8; collisions 2"; empty: one for each')
-    partial: str = setting('', 'partial credit: the figure that is worth nothing, from which points grow to the required '
-                               'one, and the exponent of the curve if it is not 1, as in "coverage 0.1; collisions 20 2"')
+    partial: str = setting('', 'partial credit: the figure that is worth nothing, from which points grow to the '
+                               'required one, and the exponent of the curve if it is not 1, as in "coverage 0.1; '
+                               'collisions 20 2"')
     time_limit: float = setting(60.0, 'for the whole run, in the time of the robots', 's', 0.01, 1e7)
 
     def conditions(self) -> List[Condition]:
@@ -96,8 +97,8 @@ def _agreement(text: str) -> Agreement:
     path, *others = text.split()
     numbers = _numbers(others[1:])
     if len(numbers) != 1 or not 0.0 <= numbers[0] < math.inf:
-        raise ConfigError(f'agree has {text!r}: must be TOPIC/FIELD TOPIC/FIELD TOLERANCE, a number of at least 0, "; " '
-                          'between pairs')
+        raise ConfigError(f'agree has {text!r}: must be TOPIC/FIELD TOPIC/FIELD TOLERANCE, a number of at least 0, '
+                          '"; " between pairs')
     return Agreement(path, others[0], *numbers)
 
 
@@ -105,8 +106,8 @@ def _rate(text: str) -> Rate:
     topic, *limits = text.split()
     numbers = _numbers(limits)
     if len(numbers) != 2 or not 0.0 < numbers[0] <= numbers[1]:
-        raise ConfigError(f'rates has {text!r}: must be TOPIC LOW HIGH [Hz], LOW above 0 and not above HIGH, "; " between '
-                          'topics')
+        raise ConfigError(f'rates has {text!r}: must be TOPIC LOW HIGH [Hz], LOW above 0 and not above HIGH, "; " '
+                          'between topics')
     return Rate(topic, *numbers)
 
 

@@ -57,7 +57,8 @@ class Judge:
             self._began = now
         condition.update(value)
         if condition.is_guard and condition.is_measured and not condition.is_met:
-            self._violations.setdefault(condition.name, f'; violated first after {self._passed:.1f} s{self._where(",")}')
+            self._violations.setdefault(condition.name,
+                                        f'; violated first after {self._passed:.1f} s{self._where(",")}')
         goals = [one for one in self.conditions if not one.is_guard]
         if goals and all(one.is_met for one in goals) and all(one.is_measured for one in self.conditions):
             self._end('', is_complete=True)
@@ -99,7 +100,9 @@ class Judge:
         is_met = condition.is_met and counts
         topics = '' if condition.is_measured else f' on {source(condition)}'
         reason = f': {self._reason}' if self._reason else ''
-        where = '' if is_met else self._violations.get(condition.name, '') if condition.is_guard else self._where('; the robot was')
+        where = ''
+        if not is_met:
+            where = self._violations.get(condition.name, '') if condition.is_guard else self._where('; the robot was')
         return Verdict(condition.name, is_met,
                        f'{condition.name}: required {condition.required}; measured {condition.measured()}{topics} '
                        f'after {self._passed:.1f} s of {self._time_limit:g} s{reason}{where}', counts)

@@ -9,7 +9,7 @@ class TickReadings:
     """Keeps what comes until everything is there that was sent for a tick."""
 
     def __init__(self, order: Sequence[str]) -> None:
-        """Nothing has come yet; `order` is that in which the topics of a tick count, others come after them."""
+        """Nothing has come yet; `order` is that in which the topics of a tick count; others follow, by their names."""
         self._order = list(order)
         self._newest = dict.fromkeys(order, NEVER)
         self._pending: List[Tuple[str, Any]] = []
@@ -21,8 +21,11 @@ class TickReadings:
         self._pending.append((topic, reading))
 
     def expect(self, due: Dict[str, float]) -> None:
-        """A tick was sent, and with it or before it messages with these stamps [s], by their topics."""
-        self._due = dict(due)
+        """A tick was sent, and with it or before it messages with these stamps [s], by their topics.
+
+        A topic that is not in the order does not count before something has come on it.
+        """
+        self._due = {topic: stamp for topic, stamp in due.items() if topic in self._newest}
 
     @property
     def missing(self) -> List[str]:
@@ -32,6 +35,6 @@ class TickReadings:
     def release(self) -> List[Tuple[str, Any]]:
         """Everything that has come, as topic and reading, in the order in which it counts."""
         rank = {topic: number for number, topic in enumerate(self._order)}
-        pending = sorted(self._pending, key=lambda each: rank.get(each[0], len(rank)))
+        pending = sorted(self._pending, key=lambda each: (rank.get(each[0], len(rank)), each[0]))
         self._pending.clear()
         return pending

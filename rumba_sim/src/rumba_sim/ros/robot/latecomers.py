@@ -11,7 +11,8 @@ from rumba_sim.ros.common.requests import Requests
 class Latecomers(rospy.SubscribeListener):
     """Sends a message to each new subscriber, as a latched topic does, but as it is at that time."""
 
-    def __init__(self, requests: Requests, message: Callable[[], Any], newest: Callable[[], Any] = lambda: None) -> None:
+    def __init__(self, requests: Requests, message: Callable[[], Any],
+                 newest: Callable[[], Any] = lambda: None) -> None:
         """Have the owner of `requests` make each message.
 
         Args:
