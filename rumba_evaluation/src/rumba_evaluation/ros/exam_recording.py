@@ -36,10 +36,15 @@ def findings(bag: str, commanders: int = 1) -> List[str]:
 
 def _commands(recording: rosbag.Bag, commanders: int) -> List[str]:
     publishers: Dict[str, Set[str]] = {}
-    for connection in recording._get_connections(COMMANDS):
-        publishers.setdefault(connection.topic, set()).add(connection.header.get('callerid', 'a node without a name'))
+    for topic, _, _, header in recording.read_messages(COMMANDS, raw=True, return_connection_header=True):
+        publishers.setdefault(topic, set()).add(_text(header.get('callerid', 'a node without a name')))
     return [f'{topic} was published by {" and ".join(sorted(nodes))}' for topic, nodes in sorted(publishers.items())
             if len(nodes) > commanders or topic != COMMANDS[0]]
+
+
+def _text(value: Any) -> str:
+    """A value of a header of a connection, which rosbag reads as bytes."""
+    return value.decode(errors='replace') if isinstance(value, bytes) else str(value)
 
 
 def _jumps(recording: rosbag.Bag) -> List[str]:
