@@ -42,7 +42,8 @@ def tests(tmp_path):
 def test_points_are_known_before_a_test_runs(tests):
     tests('b', value='coverage 1; docked 1')
     first, second = hidden_tests.load(tests('a'), {'least': '0.3'})
-    assert (first.name, first.points, first.arguments) == ('a', {'a': {'coverage': 8.0, 'docked': 2.0}}, {'least': '0.3'})
+    assert first.name == 'a' and first.arguments == {'least': '0.3'}
+    assert first.points == {'a': {'coverage': 8.0, 'docked': 2.0}}
     assert first.patience == hidden_tests.START + 30.0
     assert hidden_tests.all_points([first, second]) == {
         'a.coverage': 8.0, 'a.docked': 2.0, 'b.coverage': 1.0, 'b.docked': 1.0}
@@ -70,8 +71,8 @@ def test_a_submission_without_a_package_gets_nothing_and_the_reason(tests, tmp_p
     prepared = submission.prepare(str(tmp_path / 'own'), tests(), tmp_path / 'scratch')
     [test] = hidden_tests.load(tests(), {})
     outcome, _ = submission.run(test, prepared, tmp_path / 'scratch')
-    assert outcome.marks[0] == Mark('sweeps.coverage', 0.0, 8.0, '8 of 8 points lost: the submission has no package.xml: '
-                                                                 'it must hold a catkin package')
+    assert outcome.marks[0] == Mark('sweeps.coverage', 0.0, 8.0, '8 of 8 points lost: the submission has no '
+                                                                 'package.xml: it must hold a catkin package')
 
 
 def test_a_submission_is_found_after_the_packages_of_the_tests_and_its_scripts_can_run(tests, tmp_path):
