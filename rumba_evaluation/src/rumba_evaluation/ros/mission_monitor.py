@@ -30,7 +30,7 @@ from rumba_sim.ros.common.names import EXAMINER
 
 PERIOD = 0.05  # [s] of the wall clock
 LOOK_PERIOD = 0.5  # [s] of the wall clock from one look at the master to the next
-MODE_PATIENCE = 1.0  # [s] of the wall clock from the first message until it is assumed that there is no lockstep
+MODE_PATIENCE = 3.0  # [s] of the wall clock from the first message until it is assumed that there is no lockstep
 TICK_PATIENCE = 5.0  # [s] of the wall clock to wait for the messages of a tick
 REST = 0.2  # [s] of the wall clock for what is on its way at the end
 PLACE, CLEANING = 'ground_truth', 'cleaning_status'

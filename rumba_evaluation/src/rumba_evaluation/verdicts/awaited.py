@@ -2,7 +2,7 @@
 
 from typing import Dict, Iterable, List, Set
 
-START = 20.0  # [s] for a node that does not publish yet
+START = 25.0  # [s] for a node that does not publish yet: a world waits 30 s for those who start
 PATIENCE = 1.0  # [s] for a message, once there is a publisher
 TRIES = 3  # ticks without an answer, after which a topic is awaited no longer
 
