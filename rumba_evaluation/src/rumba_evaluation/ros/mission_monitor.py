@@ -237,9 +237,9 @@ class MissionMonitor:
 
     def _subscribe_to_field(self, condition: FieldCondition, number: int, topic: str, kind: Any, value: Value) -> None:
         key = f'{topic} for {condition.name}'
-        self._expected[key] = topic
-        self._subscribe(topic, kind, [(condition, lambda message: condition.reading(number, value(message)))],
-                        key)
+        with self._lock:
+            self._expected[key] = topic
+        self._subscribe(topic, kind, [(condition, lambda message: condition.reading(number, value(message)))], key)
 
     def verdicts(self) -> List[Verdict]:
         """The verdict on each condition."""

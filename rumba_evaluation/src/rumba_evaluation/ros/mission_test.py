@@ -13,8 +13,15 @@ message of a topic that a condition needs.
 Goals must be met at the end: coverage (the newest value counts), reach (each waypoint once), docked (the contacts are
 closed after they were open: a robot that never left its dock has not docked). The run ends as soon as all goals are met
 at the same time, or when the time limit is reached. Guards must hold in every message until then: battery, collisions
-(a bumper that stays pressed is one), fields. Without goals the run lasts until the time limit. A condition without any
-message has failed, and so has a guard if the run was aborted: no message came for `patience`, or the test was stopped.
+(a bumper that stays pressed is one), fields, agree, rates. Without goals the run lasts until the time limit. A
+condition without any message has failed, and so has a guard if the run was aborted: no message came for `patience`, or
+the test was stopped.
+
+Each condition earns points, also in part; the points of guards count by the share of points that the goals have earned.
+Beside the results for rostest, a file .json has the points, and why some were lost, as Gradescope reads them.
+
+In lockstep the test takes part: the world waits until it has taken all that belongs to a control tick. Name it in
+wait_for of the simulator.
 
 A run counts only if one node alone publishes the topics of the robot: the one that simulator/state names, so the
 simulator or turtlesim_body, or the one that the parameter `publisher` names. Otherwise all conditions have failed.
@@ -24,7 +31,9 @@ It subscribes to simulator/state (rumba_msg/SimulatorState), and to those topics
   cleaning_status  rumba_msg/CleaningStatus   ground_truth    nav_msgs/Odometry
   dock_status      rumba_msg/DockStatus       bumper          rumba_msg/Bumper
   battery_state    sensor_msgs/BatteryState   battery_status  rumba_msg/BatteryStatus
-and to the topics of `fields`, of any type. The lower charge of the two topics counts.
+and to the topics of `fields`, `agree` and `rates`, of any type. In an examination ground_truth is below
+simulator/examiner. It subscribes to simulator/lockstep (rumba_msg/Lockstep), and answers on simulator/lockstep_answers
+(rumba_msg/LockstepAnswer). The lower charge of the two topics counts.
 
 Parameters:
 """
@@ -40,6 +49,8 @@ import rosunit
 from rumba_evaluation.marks import gradescope
 from rumba_evaluation.ros.mission_monitor import MissionMonitor
 from rumba_evaluation.marks.scheme import Mark, Scheme
+from rumba_evaluation.verdicts.conditions import Condition
+from rumba_evaluation.verdicts.field_conditions import FieldCondition
 from rumba_evaluation.verdicts.mission_requirements import Requirements
 from rumba_evaluation.verdicts.mission_verdict import Verdict
 from rumba_sim.model.config import setting
@@ -91,6 +102,7 @@ def judge(settings: Settings) -> None:
         ConfigError: there is no requirement, or one cannot be understood, or the results cannot be written.
     """
     conditions = settings.conditions()
+    _check_awaited(settings.wait_for.split(), conditions)
     scheme = Scheme(conditions, settings.points, settings.partial)
     monitor = MissionMonitor(conditions, settings.robot, settings.time_limit, settings.patience, settings.publisher,
                              settings.wait_for.split(), settings.exam)
@@ -102,6 +114,13 @@ def judge(settings: Settings) -> None:
         _write(path, gradescope.document(marks, settings.visibility))
     if not report(verdicts, marks):
         sys.exit(FAILED)
+
+
+def _check_awaited(topics: Sequence[str], conditions: Sequence[Condition]) -> None:
+    paths = [path for condition in conditions if isinstance(condition, FieldCondition) for path in condition.paths]
+    for topic in topics:
+        if not any(f'{path}/'.startswith(f'{topic}/') for path in paths):
+            raise ConfigError(f'wait_for has {topic!r}: must be topics of fields, agree and rates')
 
 
 def _write(path: str, text: str) -> None:
