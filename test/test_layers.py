@@ -22,8 +22,9 @@ FOLDERS = {
         'strategies': {'', 'belief', 'behaviours', 'planning'}, 'mission': {'', 'belief', 'behaviours', 'strategies'},
         'ros/cleaner': {'', 'belief', 'behaviours', 'strategies', 'mission'}},
     'rumba_evaluation': {
-        'scoring': set(), 'trials': {'scoring'}, 'report': set(), 'verdicts': set(), 'ros/mission_report': {'report'},
-        'learning': {'trials'}, 'ros': {'scoring', 'trials', 'verdicts'}},
+        'scoring': set(), 'trials': {'scoring'}, 'report': set(), 'verdicts': set(),
+        'marks': {'trials', 'verdicts'}, 'ros/mission_report': {'report'},
+        'learning': {'trials'}, 'ros': {'scoring', 'trials', 'verdicts', 'marks'}},
     'rumba_viewer': {
         'scene': set(), 'painting': {'scene'}, 'window': {'scene', 'painting'}, 'ros': {'scene', 'window'},
         'page': set(), 'ros/page': {'page'}}}

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """mission_test judges a robot and reports to rostest; this test publishes the robot's topics and its clock."""
 
+import json
 import math
 import os
 import pathlib
@@ -62,6 +63,11 @@ class Run:
         self._test.assertEqual(int(suite.attrib['failures']), len([words for words in cases.values() if words]))
         return cases, errors
 
+    def marks(self):
+        """What was written for Gradescope, by the name of the condition."""
+        content = json.loads(self._results.with_suffix('.json').read_text())
+        return {test['name']: test for test in content['tests']}
+
 
 class MissionTestTest(unittest.TestCase):
     """Verdicts, one after another; time goes on from each test to the next.
@@ -120,6 +126,9 @@ class MissionTestTest(unittest.TestCase):
         self.assertEqual(cases, dict.fromkeys(
             ['test_coverage', 'test_reach', 'test_docked', 'test_battery', 'test_collisions',
              f'test_field_{self.robot}_level_data'], ''))
+        self.assertEqual({name: mark['score'] for name, mark in run.marks().items()}, {
+            'coverage': 1.0, 'reach': 1.0, 'docked': 1.0, 'battery': 1.0, 'collisions': 1.0,
+            f'field_{self.robot}_level_data': 1.0})
 
     def test_failures_are_reported_at_the_time_limit_of_the_robots_clock(self):
         run = Run(self, '_coverage:=0.5', '_reach:=3 1', '_docked:=true', '_battery:=20', '_collisions:=1',
@@ -138,7 +147,7 @@ class MissionTestTest(unittest.TestCase):
         cases, errors = run.ends(1)
         for name, words in (
                 ('coverage', r'^coverage: required at least 50\.0 % of the floor swept; measured 40\.0 % after 30\.0 s '
-                             r'of 30 s: the time limit is reached\n'),
+                             r'of 30 s: the time limit is reached; the robot was at \(3\.00, 3\.00\) m\n'),
                 ('reach', r'measured a smallest distance of 2\.00 m'),
                 ('docked', r'measured on the dock, which it never left'),
                 ('battery', r'measured a lowest charge of 19\.0 %'),
@@ -146,6 +155,21 @@ class MissionTestTest(unittest.TestCase):
                 (f'field_{self.robot}_level_data', r'level/data always within 0 to 5; measured 1 to 9')):
             self.assertRegex(cases[f'test_{name}'], words)
         self.assertEqual(errors, '')
+
+    def test_points_are_earned_in_part_and_it_is_told_when_they_were_lost(self):
+        run = Run(self, '_coverage:=0.5', '_collisions:=0', '_points:=coverage 8; collisions 2',
+                  '_partial:=coverage 0.1', '_visibility:=hidden', '_time_limit:=30')
+        self.passes(0.0)
+        self.tell('bumper', Bumper(Header(), False, False))
+        self.tell('cleaning_status', CleaningStatus(coverage=0.3))
+        self.time_goes_on()
+        self.tell('bumper', Bumper(Header(), True, False))
+        wait(self, lambda: run.process.poll() is not None or self.time_goes_on(), 'the end')
+        run.ends(1)
+        marks = run.marks()
+        self.assertEqual([(marks[name]['score'], marks[name]['visibility']) for name in ('coverage', 'collisions')],
+                         [(4.0, 'hidden'), (0.0, 'hidden')])
+        self.assertRegex(marks['collisions']['output'], r'^2 of 2 points lost: .*; violated first after \d+\.\d s')
 
     def forges(self, topic, kind, message):
         """A node publishes a message on a topic of the robot, and goes on publishing it."""
@@ -227,6 +251,8 @@ class MissionTestTest(unittest.TestCase):
                 (['_coverage:=1.5'], 'parameter of /mission_test: coverage is 1.5: must be 0 to 1'),
                 (['_covrage:=0.5'], "parameter of /mission_test: covrage is unknown: did you mean 'coverage'?"),
                 (['_reach:=here'], "reach has 'here': must be x y or x y theta"),
+                (['_coverage:=0.5', '_points:=docked 1'], "points names 'docked': must be one of coverage"),
+                (['_coverage:=0.5', '_wait_for:=a/b'], "wait_for has 'a/b': must be topics of fields, agree and rates"),
                 (['_coverage:=0.5', 'nonsense'], "unknown argument 'nonsense'"),
                 (['_coverage:=0.5', '_robot:=a/b'], "robot is 'a/b': must be letters")):
             with self.subTest(arguments):

@@ -3,7 +3,7 @@
 import odd_messages
 import pytest
 
-from rumba_evaluation.ros.mission_test import TOPICS
+from rumba_evaluation.ros.mission_monitor import TOPICS
 from rumba_evaluation.verdicts.mission_requirements import Requirements
 from rumba_evaluation.verdicts.mission_verdict import Judge
 

@@ -4,9 +4,10 @@ import math
 
 import pytest
 
+from rumba_evaluation.verdicts.conditions import Battery, Collisions, Condition, Coverage, Docked, Reach
+from rumba_evaluation.verdicts.field_conditions import Field, FieldCondition
 from rumba_evaluation.verdicts.mission_requirements import Requirements
-from rumba_evaluation.verdicts.mission_verdict import (Battery, Collisions, Condition, Coverage, Docked, Field, Judge,
-                                                       Reach)
+from rumba_evaluation.verdicts.mission_verdict import Judge
 from rumba_sim.model.errors import ConfigError
 from rumba_sim.model.geometry import Pose
 
@@ -21,7 +22,7 @@ def judged(*conditions):
 
 def verdicts(judge):
     """Whether each condition is met, and the words of the verdict, by the name of the condition."""
-    return {name: (is_met, words) for name, is_met, words in judge.verdicts(lambda condition: f'/{condition.name}')}
+    return {name: (is_met, words) for name, is_met, words, _ in judge.verdicts(lambda condition: f'/{condition.name}')}
 
 
 def met(condition, *values):
@@ -120,14 +121,18 @@ def test_a_run_ends_when_all_goals_are_met_at_the_same_time():
 def test_a_violated_guard_fails_but_does_not_end_the_run():
     coverage, collisions = Coverage(0.5), Collisions(0)
     judge = judged(coverage, collisions)
-    judge.update(collisions, True, 0.0)
+    judge.update(collisions, False, 0.0)
+    judge.locate(Pose(3.0, 1.5, 0.0))
+    judge.update(collisions, True, 0.5)
+    judge.locate(Pose(4.0, 1.5, 0.0))
     judge.update(coverage, 0.4, 1.0)
     assert not judge.is_over
     judge.update(coverage, 0.5, 2.0)
     assert judge.is_over
     assert verdicts(judge)['coverage'][0]
     assert verdicts(judge)['collisions'] == (
-        False, 'collisions: required at most 0 collisions; measured 1 after 2.0 s of 100 s')
+        False, 'collisions: required at most 0 collisions; measured 1 after 2.0 s of 100 s; violated first after '
+               '0.5 s, at (3.00, 1.50) m')
 
 
 def test_a_run_does_not_end_before_every_guard_has_a_value():
@@ -245,12 +250,14 @@ def test_settings_become_conditions():
     (Requirements(fields='a/b 2 1'), r"^fields has 'a/b 2 1': "),
     (Requirements(fields='a/b low high'), r"^fields has 'a/b low high': "),
     (Requirements(fields='a/b nan 1'), r"^fields has 'a/b nan 1': "),
-    (Requirements(fields='a/b 0 1; /a/b 0 2'), r'^field_a_b occurs twice: give one range')])
+    (Requirements(fields='a/b 0 1; /a/b 0 2'), r'^field_a_b occurs twice: require one thing of each')])
 def test_requirements_that_cannot_be_understood_are_refused(requirements, message):
     with pytest.raises(ConfigError, match=message):
         requirements.conditions()
 
 
 def test_every_kind_of_condition_is_either_goal_or_guard():
-    assert {kind.__name__: kind.is_guard for kind in Condition.__subclasses__()} == {
-        'Coverage': False, 'Reach': False, 'Docked': False, 'Battery': True, 'Collisions': True, 'Field': True}
+    kinds = [*Condition.__subclasses__(), *FieldCondition.__subclasses__()]
+    assert {kind.__name__: kind.is_guard for kind in kinds if kind is not FieldCondition} == {
+        'Coverage': False, 'Reach': False, 'Docked': False, 'Battery': True, 'Collisions': True, 'Field': True,
+        'Agreement': True, 'Rate': True}

@@ -93,6 +93,13 @@ class SimulatorLockstepTest(unittest.TestCase):
         wait(self, lambda: len(ticks.messages) > count + 10, 'the world to go on')
         simulator.end()
 
+    def test_a_world_begins_once_those_who_command_are_there_so_that_no_command_is_lost(self):
+        simulator = Simulator(self, '_map:=field', '_speed:=0', '_wait_for:=rumba/cmd_vel', '_lockstep_patience:=60')
+        ticks = Heard(self, '/simulator/lockstep', Lockstep)
+        self.assertEqual(simulator.digest()[1], 0)
+        Commands(self)
+        self.assertEqual(ticks.find().header.stamp.to_nsec(), TICK)
+
     def test_without_lockstep_nobody_is_waited_for(self):
         self.start('_wait_for:=rumba/cmd_vel', '_lockstep:=false')
         clock = Heard(self, '/clock')

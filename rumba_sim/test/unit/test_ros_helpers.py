@@ -77,6 +77,18 @@ def test_latecomers_are_sent_what_there_is_at_that_time_if_there_is_anything():
     assert sent == ['newest']
 
 
+def test_latecomers_are_not_sent_again_what_was_published_since_they_came():
+    requests, sent, published = Requests(), [], ['first']
+    latecomers = Latecomers(requests, lambda: published[-1], lambda: published[-1])
+    latecomers.peer_subscribe('scan', None, sent.append)
+    requests.serve(time.monotonic())
+    assert sent == ['first']
+    latecomers.peer_subscribe('scan', None, sent.append)
+    published.append('second')  # and sent to all connections, of which this is one
+    requests.serve(time.monotonic())
+    assert sent == ['first']
+
+
 def test_serving_ends_after_the_call_that_was_enough():
     requests, called = Requests(), []
     for number in range(3):

@@ -57,6 +57,16 @@ def received(there):
     return struct.unpack('<I', found[:4])[0]
 
 
+def test_a_small_message_is_not_kept_back_until_an_earlier_one_is_acknowledged():
+    with socket.create_server(('localhost', 0)) as server, socket.create_connection(server.getsockname()):
+        here, _ = server.accept()
+        transport = TCPROSTransport(TCPROSPub('/topic', String), '/topic')
+        transport.set_socket(here, 'subscriber')
+        PromptConnection(transport, QUEUE)
+        assert here.getsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY)
+        transport.close()
+
+
 def test_a_message_is_sent_before_the_publisher_goes_on(ends):
     connection, there = ends
     there.setblocking(False)

@@ -4,7 +4,8 @@ import dataclasses
 import math
 from typing import List
 
-from rumba_evaluation.verdicts.mission_verdict import Battery, Collisions, Condition, Coverage, Docked, Field, Reach
+from rumba_evaluation.verdicts.conditions import Battery, Collisions, Condition, Coverage, Docked, Reach
+from rumba_evaluation.verdicts.field_conditions import Agreement, Field, Rate
 from rumba_sim.model.config import setting
 from rumba_sim.model.errors import ConfigError
 from rumba_sim.model.geometry import Pose
@@ -26,6 +27,13 @@ class Requirements:
                               NOT_REQUIRED, 1_000_000)
     fields: str = setting('', 'ranges of fields of topics, as in "rumba/battery_state/voltage 13 inf; '
                               'rumba/odom/twist/twist/linear/x -0.3 0.3"')
+    agree: str = setting('', 'fields that agree, each value of the first with the newest of the second, and by how '
+                             'much they may differ, as in "student/status/level rumba/battery_state/charge 0.1"')
+    rates: str = setting('', 'how often messages come, on average over the run, as in "student/status 9 11" [Hz]')
+    points: str = setting('', 'points for each condition, as in "coverage 8; collisions 2"; empty: one for each')
+    partial: str = setting('', 'partial credit: the figure that is worth nothing, from which points grow to the '
+                               'required one, and the exponent of the curve if it is not 1, as in "coverage 0.1; '
+                               'collisions 20 2"')
     time_limit: float = setting(60.0, 'for the whole run, in the time of the robots', 's', 0.01, 1e7)
 
     def conditions(self) -> List[Condition]:
@@ -48,6 +56,8 @@ class Requirements:
         if self.collisions != NOT_REQUIRED:
             found.append(Collisions(self.collisions))
         found.extend(_field(part) for part in _parts(self.fields))
+        found.extend(_agreement(part) for part in _parts(self.agree))
+        found.extend(_rate(part) for part in _parts(self.rates))
         _check(found)
         return found
 
@@ -59,11 +69,11 @@ def _parts(text: str) -> List[str]:
 def _check(conditions: List[Condition]) -> None:
     if not conditions:
         raise ConfigError('there is no requirement: set one or more of coverage, reach, docked, battery, collisions, '
-                          'fields')
+                          'fields, agree, rates')
     names = [condition.name for condition in conditions]
     for name in names:
         if names.count(name) > 1:
-            raise ConfigError(f'{name} occurs twice: give one range for each field')
+            raise ConfigError(f'{name} occurs twice: require one thing of each')
 
 
 def _pose(text: str) -> Pose:
@@ -81,6 +91,24 @@ def _field(text: str) -> Field:
         raise ConfigError(f'fields has {text!r}: must be TOPIC/FIELD LOW HIGH, numbers or inf, LOW not above HIGH, '
                           '"; " between fields')
     return Field(path, *numbers)
+
+
+def _agreement(text: str) -> Agreement:
+    path, *others = text.split()
+    numbers = _numbers(others[1:])
+    if len(numbers) != 1 or not 0.0 <= numbers[0] < math.inf:
+        raise ConfigError(f'agree has {text!r}: must be TOPIC/FIELD TOPIC/FIELD TOLERANCE, a number of at least 0, '
+                          '"; " between pairs')
+    return Agreement(path, others[0], *numbers)
+
+
+def _rate(text: str) -> Rate:
+    topic, *limits = text.split()
+    numbers = _numbers(limits)
+    if len(numbers) != 2 or not 0.0 < numbers[0] <= numbers[1]:
+        raise ConfigError(f'rates has {text!r}: must be TOPIC LOW HIGH [Hz], LOW above 0 and not above HIGH, "; " '
+                          'between topics')
+    return Rate(topic, *numbers)
 
 
 def _numbers(words: List[str]) -> List[float]:

@@ -1,7 +1,8 @@
 """Connections of publishers that send at once, in the thread that publishes.
 
 rospy hands each message to a thread of its connection, and gives the processor away for it: where a node publishes
-hundreds of small messages in a second, that takes longer than all the rest.
+hundreds of small messages in a second, that takes longer than all the rest. And the system keeps a small message back
+until an earlier one is acknowledged, for up to 40 ms: seconds of simulated time.
 """
 
 import contextlib
@@ -30,6 +31,8 @@ class PromptConnection(QueuedConnection):
         """Wrap a connection; `queue_size` messages may wait, 0: any number."""
         self._begun = b''  # the rest of a message of which a part was sent
         self._is_relaying = False
+        with contextlib.suppress(OSError, AttributeError):  # it was closed already
+            connection.socket.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
         super().__init__(connection, queue_size)
 
     def write_data(self, data: bytes) -> bool:

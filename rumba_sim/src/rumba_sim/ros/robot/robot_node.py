@@ -21,6 +21,7 @@ from rumba_sim.model.robot import Robot
 from rumba_sim.model.world import World
 from rumba_sim.ros.common import conversions, peers, teleop
 from rumba_sim.ros.common.frames import MAP, frames
+from rumba_sim.ros.common.names import EXAMINER
 from rumba_sim.ros.common.requests import Requests
 from rumba_sim.ros.robot.latecomers import Latecomers
 from rumba_sim.ros.robot.packed import OdometryPacker, TransformPacker
@@ -29,6 +30,7 @@ from rumba_sim.ros.robot.velocity_mux import Input, VelocityMux
 
 COMPLAINT_PERIOD = 1.0  # [s]
 QUEUE = 100  # messages that a subscriber may be behind, at speed 0 too, before it misses one
+SECRET = ('ground_truth', 'coverage')  # in an examination, below EXAMINER
 # Who may drive, below the robot's name; times are those of the wall clock.
 INPUTS = (Input(teleop.TOPIC, 100, teleop.TIMEOUT), Input('cmd_vel', 10, 0.5))
 
@@ -38,7 +40,7 @@ class RobotNode:
 
     def __init__(self, world: World, name: str, requests: Requests, has_localisation: bool,
                  stamp: rospy.Time, has_laser: bool = True, is_held: Callable[[], bool] = lambda: False,
-                 on_command: Callable[[str], None] = lambda _: None) -> None:
+                 on_command: Callable[[str], None] = lambda _: None, is_exam: bool = False) -> None:
         """Open the robot's topics and services below its name.
 
         Args:
@@ -50,6 +52,7 @@ class RobotNode:
             has_laser: whether there is a scan.
             is_held: whether the world waits for those who come late: they are sent what they have missed.
             on_command: called after each command, with the full name of its topic, in a thread of rospy.
+            is_exam: whether to keep from others what only the world can know, and to let nobody teleport the robot.
 
         Raises:
             WorldError: another node has a robot of that name.
@@ -67,12 +70,15 @@ class RobotNode:
         self._requests = requests
         self._is_held = is_held
         self._report_command = on_command
+        self._is_exam = is_exam
         self._newest: Dict[str, Callable[[], Any]] = {'coverage': self._coverage_message}  # makes a message of a topic
         self._inputs = {each.name: rospy.resolve_name(f'{name}/{each.name}') for each in INPUTS}  # full names
         refuse_twin(name)
         self._publishers = {
-            topic: rospy.Publisher(f'{name}/{topic}', message,
-                                   Latecomers(requests, functools.partial(self._missed, topic)),
+            topic: rospy.Publisher(f'{EXAMINER}/{name}/{topic}' if is_exam and topic in SECRET else f'{name}/{topic}',
+                                   message,
+                                   Latecomers(requests, functools.partial(self._missed, topic),
+                                              functools.partial(self._newest.get, topic)),
                                    queue_size=2 if message is OccupancyGrid else QUEUE)
             for topic, message in (
                 ('battery_status', BatteryStatus), ('battery_state', BatteryState), ('odom', Odometry),
@@ -84,7 +90,7 @@ class RobotNode:
             for each in INPUTS]
         self._services = [
             rospy.Service(f'{name}/set_brushes_up', SetBool, self._on_brushes),
-            rospy.Service(f'{name}/teleport', Teleport, self._on_teleport)]
+            *([] if is_exam else [rospy.Service(f'{name}/teleport', Teleport, self._on_teleport)])]
 
     @property
     def _robot(self) -> Robot:
@@ -158,8 +164,9 @@ class RobotNode:
         if due.sensors:
             self._publish_sensors()
         if due.battery:
+            pose = robot.odometry if self._is_exam else robot.pose
             self._tell('battery_status', lambda: conversions.battery_status(
-                robot.battery, robot.pose, robot.brushes_up, conversions.trouble(robot)))
+                robot.battery, pose, robot.brushes_up, conversions.trouble(robot)))
         if due.cleaning:
             self._tell('cleaning_status', lambda: conversions.cleaning_status(
                 robot, self._world.floor, self._header(MAP)))

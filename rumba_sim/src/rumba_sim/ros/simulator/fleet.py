@@ -142,7 +142,8 @@ class Fleet:
 
     def _open(self, name: str) -> None:
         self._robots[name] = RobotNode(self._world, name, self._requests, self.settings.localisation == TRUTH,
-                                       self._stamp(), is_held=self._is_held, on_command=self._on_command)
+                                       self._stamp(), is_held=self._is_held, on_command=self._on_command,
+                                       is_exam=self.settings.exam)
         self._diagnostics.add(name, lambda: self._world.robots[name])
         self._tell_static()
 

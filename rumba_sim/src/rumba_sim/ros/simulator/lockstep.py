@@ -82,6 +82,22 @@ class Lockstep:
             if self._participants.missing(but):
                 meanwhile()
 
+    def wait_for_commanders(self, meanwhile: Callable[[], None]) -> None:
+        """Serve requests until each topic that is waited for from the first tick on has a publisher, for its patience.
+
+        Otherwise the first command might be lost or not, as its publisher connects before or after it.
+
+        Args:
+            meanwhile: called from time to time.
+        """
+        end = time.monotonic() + self._participants.patience
+
+        def are_all_here() -> bool:
+            return all(map(self._has_publisher, self._participants.topics))
+        while not are_all_here() and time.monotonic() < end and not rospy.is_shutdown():
+            self._requests.serve(time.monotonic() + LOOK_PERIOD, are_all_here)
+            meanwhile()
+
     def on_command(self, topic: str) -> None:
         """A command came on a topic, given by its full name; may be called from any thread."""
         self._requests.post(lambda: self._participants.commanded(topic))

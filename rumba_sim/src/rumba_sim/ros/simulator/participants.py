@@ -39,6 +39,7 @@ class Participants:
 
     Attributes:
         patience: how long to wait for someone who was heard before [s] of the wall clock.
+        topics: full names of the topics of commands that are waited for from the first tick on.
     """
 
     def __init__(self, awaited: List[str], patience: float) -> None:
@@ -49,7 +50,7 @@ class Participants:
             patience: how long to wait for someone who was heard before [s] of the wall clock.
         """
         self.patience = patience
-        self._topics = [name for name in awaited if name.endswith(COMMANDS)]
+        self.topics = [name for name in awaited if name.endswith(COMMANDS)]
         self._members = {name: Member(STARTING * patience) for name in awaited}
         self._missing: Set[str] = set()
         self._commanded: Set[str] = set()  # topics on which a command came since the tick
@@ -76,7 +77,7 @@ class Participants:
     def commanded(self, topic: str) -> None:
         """A command came on a topic, given by its full name."""
         self._commanded.add(topic)
-        if topic in self._topics:
+        if topic in self.topics:
             self._hear(topic)
         for name in [name for name in self._missing if topic in (name, self._members[name].command)]:
             self._missing.discard(name)
@@ -117,7 +118,7 @@ class Participants:
         late = []
         for name in sorted(self._missing):
             member = self._members[name]
-            if member.patience > self.patience and name in self._topics and has_publisher(name):
+            if member.patience > self.patience and name in self.topics and has_publisher(name):
                 member.patience, member.first_until = self.patience, time.monotonic() + FIRST_COMMAND
             if member.first_until is not None:
                 if time.monotonic() > member.first_until:

@@ -7,7 +7,7 @@ import rosgraph
 from rumba_sim.model.config import names, part, section, setting
 from rumba_sim.model.errors import ConfigError, quoted
 from rumba_sim.model.robot_config import RobotConfig
-from rumba_sim.ros.robot.localisation import localisation_setting
+from rumba_sim.ros.robot.localisation import TRUTH, localisation_setting
 from rumba_sim.ros.robot.rates import MAX_RATE, Rates
 
 LOWEST_SPEED = 0.001  # [times real time] with the default step rate, a tick takes 20 s
@@ -48,6 +48,8 @@ class Settings(RobotConfig):
                                              'goes on without it', 's', 0.1, 1e6)
     wait_for: str = setting('', 'who takes part from the first tick on, with spaces between: names of nodes that '
                                 'answer, and topics of commands of others, for example `cleaner` or `rumba/cmd_vel`')
+    exam: bool = setting(False, 'an examination: no perfect localisation, no coverage grid, ground_truth only below '
+                                'simulator/examiner, and neither services that change the world nor tuning')
     rates: Rates = section(Rates, 'how often messages are published; each divides step_rate')
 
     def __post_init__(self) -> None:
@@ -59,6 +61,8 @@ class Settings(RobotConfig):
                 raise ConfigError(f'wait_for has {quoted(name)}: must be names of nodes and topics, with spaces '
                                   'between')
         self.rates.check(self.step_rate)
+        if self.exam and self.localisation == TRUTH:
+            raise ConfigError('localisation is truth: in an examination (exam) it must be mcl or none')
 
     @property
     def robot(self) -> RobotConfig:

@@ -101,9 +101,10 @@ class Simulator:
                                      self._lockstep is not None)
         self._serve()
         self._publish_state()
-        master_watch.after_return(lambda: self._tuning.update_configuration({}))
 
     def _serve(self) -> None:
+        if self._settings.exam:
+            return  # nobody pauses, changes or tunes the world
         for name, service, response, act in (
                 ('pause', Trigger, TriggerResponse, lambda _: self._pause(True)),
                 ('resume', Trigger, TriggerResponse, lambda _: self._pause(False)),
@@ -115,7 +116,8 @@ class Simulator:
                 ('add_obstacle', AddObstacle, AddObstacleResponse, self._obstacles.add),
                 ('remove_obstacle', RemoveObstacle, RemoveObstacleResponse, self._obstacles.remove)):
             rospy.Service(f'~{name}', service, self._handler(response, act))
-        self._tuning = reconfigure.serve(self._settings, TUNABLE, TUNING, self._on_tuning)
+        tuning = reconfigure.serve(self._settings, TUNABLE, TUNING, self._on_tuning)
+        master_watch.after_return(lambda: tuning.update_configuration({}))
 
     def _handler(self, response: Any, act: Callable[[Any], Tuple[Any, ...]]) -> Callable[[Any], Any]:
         """A service that has the loop act; an error becomes its answer."""
@@ -136,6 +138,8 @@ class Simulator:
         """Simulate until ROS shuts down."""
         wake_on_time()
         gc.freeze()  # what there is now remains: collections of garbage need not look at it, and take no time
+        if self._lockstep is not None:
+            self._lockstep.wait_for_commanders(self._report_and_hold)
         while not rospy.is_shutdown():
             if self._is_paused:
                 self._pace.hold()

@@ -1,0 +1,1 @@
+"""Marks for submissions: what graders read, tables, and a class that is marked piece by piece."""

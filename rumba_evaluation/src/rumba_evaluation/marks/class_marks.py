@@ -1,0 +1,76 @@
+"""The marks of a class: a folder with one folder for each submission, marked in parallel, and again only if need be."""
+
+import csv
+import hashlib
+import io
+import json
+import os
+import pathlib
+from typing import Callable, Dict, Iterable, List, NamedTuple, Optional, Sequence
+
+from rumba_evaluation.marks.gradescope import most, score
+from rumba_evaluation.marks.hidden_tests import HiddenTest
+from rumba_evaluation.marks.scheme import Mark, number
+from rumba_evaluation.marks.submission import Outcome
+
+DIGEST = '.digest'  # file beside results.json: of what was marked
+
+
+class Row(NamedTuple):
+    """A submission in the tables."""
+
+    name: str
+    outcome: Outcome
+
+
+def submissions(folder: str) -> List[str]:
+    """The paths of the submissions of a class, by name."""
+    return sorted(entry.path for entry in os.scandir(folder) if entry.is_dir() and not entry.name.startswith('.'))
+
+
+def digest(source: str, tests: Sequence[HiddenTest]) -> str:
+    """Identifies a submission and the tests that mark it, by their contents."""
+    found = hashlib.sha256()
+    for test in tests:
+        found.update(json.dumps([test.arguments, pathlib.Path(test.path).read_text(errors='replace')]).encode())
+    for path in sorted(pathlib.Path(source).rglob('*')):
+        if path.is_file() and '.git' not in path.parts and '__pycache__' not in path.parts:
+            found.update(f'{path.relative_to(source)}\0'.encode() + hashlib.sha256(path.read_bytes()).digest())
+    return found.hexdigest()
+
+
+def table(marks: Iterable[Mark]) -> str:
+    """The marks of one submission, and why points were lost."""
+    marks = list(marks)
+    rows = [(mark.name, f'{number(mark.score)} of {number(mark.max_score)}',
+             '' if mark.score == mark.max_score else mark.reason) for mark in marks]
+    rows.append(('total', f'{number(score(marks))} of {number(most(marks))}', ''))
+    widths = [max(len(row[column]) for row in rows) for column in range(2)]
+    return '\n'.join(f'{name.ljust(widths[0])}  {points.rjust(widths[1])}  {reason}'.rstrip()
+                     for name, points, reason in rows)
+
+
+def sheet(rows: Sequence[Row], points: Dict[str, float]) -> str:
+    """The marks of a class as CSV: points in all and for each condition, and what went wrong."""
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator='\n')
+    writer.writerow(['submission', 'points', 'of', *points, 'notes'])
+    for row in rows:
+        each = {mark.name: mark.score for mark in row.outcome.marks}
+        writer.writerow([_harmless(row.name), number(score(row.outcome.marks)), number(sum(points.values())),
+                         *(number(each.get(name, 0.0)) for name in points), _harmless('; '.join(row.outcome.notes))])
+    return text.getvalue()
+
+
+def _harmless(text: str) -> str:
+    """A cell that no spreadsheet takes for a formula: students choose what is in it."""
+    return f"'{text}" if text[:1] in ('=', '+', '-', '@', '\t', '\r') else text
+
+
+def stored(folder: str, wanted: str, read: Callable[[str], Outcome]) -> Optional[Outcome]:
+    """The outcome of an earlier run in a folder, if it is of the same submission and tests."""
+    try:
+        with open(os.path.join(folder, DIGEST), encoding='utf-8') as file:
+            return read(folder) if file.read() == wanted else None
+    except (OSError, ValueError):
+        return None

@@ -1,0 +1,252 @@
+"""Judges a run by the messages of a robot's topics.
+
+In lockstep, the monitor takes part: the world waits until all that it sent for a control tick has come, so that what
+counts, and in which order, does not depend on the machine.
+"""
+
+import math
+import threading
+import time
+from typing import Any, Callable, Dict, List, Optional, Sequence, Tuple, Type
+
+import rosgraph
+import rospy
+import rostopic
+from nav_msgs.msg import Odometry
+from sensor_msgs.msg import BatteryState
+
+from rumba_evaluation.verdicts import conditions
+from rumba_evaluation.verdicts.awaited import Awaited
+from rumba_evaluation.verdicts.conditions import Condition
+from rumba_evaluation.verdicts.examination import Examination
+from rumba_evaluation.verdicts.field_conditions import FieldCondition
+from rumba_evaluation.verdicts.mission_verdict import Judge, Verdict
+from rumba_evaluation.verdicts.origins import Origins
+from rumba_evaluation.verdicts.tick_readings import TickReadings
+from rumba_msg.msg import BatteryStatus, Bumper, CleaningStatus, DockStatus, Lockstep, SimulatorState
+from rumba_sim.ros.common import conversions, peers, simulator_client
+from rumba_sim.ros.common.lockstep import Participant
+from rumba_sim.ros.common.names import EXAMINER
+
+PERIOD = 0.05  # [s] of the wall clock
+LOOK_PERIOD = 0.5  # [s] of the wall clock from one look at the master to the next
+MODE_PATIENCE = 3.0  # [s] of the wall clock from the first message until it is assumed that there is no lockstep
+TICK_PATIENCE = 5.0  # [s] of the wall clock to wait for the messages of a tick
+REST = 0.2  # [s] of the wall clock for what is on its way at the end
+PLACE, CLEANING = 'ground_truth', 'cleaning_status'
+Value = Callable[[Any], Any]
+TOPICS: Dict[Type[Condition], List[Tuple[str, Any, Value]]] = {
+    conditions.Coverage: [(CLEANING, CleaningStatus, lambda message: message.coverage)],
+    conditions.Reach: [(PLACE, Odometry, lambda message: conversions.plane_pose(message.pose.pose))],
+    conditions.Docked: [('dock_status', DockStatus, lambda message: message.is_docked)],
+    conditions.Collisions: [
+        ('bumper', Bumper, lambda message: message.is_left_pressed or message.is_right_pressed)],
+    conditions.Battery: [
+        ('battery_state', BatteryState, lambda message: 100.0 * message.percentage),
+        ('battery_status', BatteryStatus, lambda message: float(message.percentage_battery))],
+}
+WITH_TICKS = (PLACE, 'dock_status', 'bumper', 'cliff', 'battery_state')  # sent with each control tick
+
+
+class MissionMonitor:
+    """Judges a run by the messages of a robot's topics."""
+
+    def __init__(self, found: List[Condition], robot: str, time_limit: float, patience: float, publisher: str,
+                 awaited: Sequence[str], is_exam: bool) -> None:
+        """Subscribe to the topics that the conditions need.
+
+        Args:
+            found: the conditions.
+            robot: its name.
+            time_limit: of the run [s], in the time of the robot.
+            patience: of the wall clock without any message [s], after which the run is aborted.
+            publisher: full name of the node that publishes the robot's topics; empty: the one that the state names.
+            awaited: topics of the node under test: in lockstep, the world waits for a message on each after a tick.
+            is_exam: whether nobody else may hear the truth, or set a parameter of the simulator.
+        """
+        self._robot = robot
+        self._exam = Examination(rospy.get_name()) if is_exam else None
+        self._patience = patience
+        self._judge = Judge(found, time_limit)
+        self._lock = threading.RLock()  # held while judge, origins or readings change
+        self._last_message = self._last_look = time.monotonic()
+        self._unpublished = [(condition, number) for condition in found if isinstance(condition, FieldCondition)
+                             for number in range(len(condition.paths))]
+        self._awaited = Awaited(str(rospy.resolve_name(topic)) for topic in awaited)
+        readings: Dict[str, Tuple[Any, List[Tuple[Condition, Value]]]] = {self._full(PLACE): (Odometry, [])}
+        for condition in found:
+            for topic, kind, value in TOPICS.get(type(condition), []):
+                readings.setdefault(self._full(topic), (kind, []))[1].append((condition, value))
+        self._readings = TickReadings(list(readings))
+        self._is_lockstep: Optional[bool] = None  # not known yet
+        self._first_message = self._tick_came = math.inf  # times of time.monotonic
+        self._tick: Optional[Lockstep] = None  # that is not answered
+        self._expected = {topic: topic for topic in readings}  # topics by the key of what is taken from them
+        self._measured = [topic for topic, (_, values) in readings.items() if values]
+        state = rospy.resolve_name(simulator_client.TOPIC)
+        self._origins = Origins(self._measured, state, publisher)
+        rospy.Subscriber(state, SimulatorState, self._on_state)
+        for topic, (kind, values) in readings.items():
+            self._subscribe(topic, kind, values)
+        self._participant = Participant(self._on_tick)
+
+    def _full(self, topic: str) -> str:
+        is_secret = self._exam is not None and topic == PLACE
+        return str(rospy.resolve_name(f'{EXAMINER}/{self._robot}/{topic}' if is_secret else f'{self._robot}/{topic}'))
+
+    # --- messages -------------------------------------------------------------------------------------------------
+
+    def _subscribe(self, topic: str, kind: Any, values: Sequence[Tuple[Condition, Value]], key: str = '') -> None:
+        """Subscribe to a topic from which conditions take values; `key` tells apart what is taken from one topic."""
+        def act(message: Any) -> None:
+            if kind is Odometry and not key:
+                self._judge.locate(conversions.plane_pose(message.pose.pose))
+            for condition, value in values:
+                self._judge.update(condition, value(message), self._now())
+
+        def take(message: Any) -> None:
+            with self._lock:
+                if values:
+                    self._last_message = time.monotonic()
+                    self._origins.publishes(topic, peers.caller(message))
+                stamp = message.header.stamp.to_sec() if getattr(message, '_has_header', False) else 0.0
+                self._first_message = min(self._first_message, time.monotonic())
+                self._readings.take(key or topic, stamp, lambda: act(message))
+                self._awaited.hear(topic)
+                self._settle()
+        rospy.Subscriber(topic, kind, take)
+
+    def _on_state(self, message: SimulatorState) -> None:
+        with self._lock:
+            self._origins.publishes(rospy.resolve_name(simulator_client.TOPIC), peers.caller(message))
+            self._origins.names(message.node)
+            if self._is_lockstep is None:
+                self._is_lockstep = message.is_lockstep
+            self._settle()
+
+    # --- lockstep -------------------------------------------------------------------------------------------------
+
+    def _on_tick(self, tick: Lockstep) -> None:
+        with self._lock:
+            self._is_lockstep, self._tick, self._tick_came = True, tick, time.monotonic()
+            due = {**dict.fromkeys(map(self._full, WITH_TICKS), tick.header.stamp), self._full(CLEANING): tick.cleaning,
+                   self._full('odom'): tick.odom, self._full('scan'): tick.scan}
+            self._readings.expect({key: due[topic].to_sec() for key, topic in self._expected.items() if topic in due})
+            self._settle()
+
+    def _settle(self) -> None:
+        """Judge what has come, in lockstep once everything of a tick is there, and answer for it."""
+        if self._is_lockstep is None and time.monotonic() < self._first_message + MODE_PATIENCE:
+            return
+        if self._is_lockstep and (self._tick is None or self._readings.missing or self._awaited.silent):
+            return
+        for _, act in self._readings.release():
+            act()
+        if self._tick is not None:
+            self._judge.check_time(self._now())
+            if not self._judge.is_over:  # otherwise the world stands still until there is a verdict
+                tick, self._tick = self._tick, None
+                self._awaited.begin()
+                self._participant.answer(tick.header.stamp)
+
+    def _go_on(self) -> None:
+        """Wait no longer for what does not come."""
+        if self._tick is not None and time.monotonic() > self._tick_came + TICK_PATIENCE and self._readings.missing:
+            missing = self._readings.missing
+            rospy.logwarn(f'{" and ".join(missing)}: no message for a control tick in {TICK_PATIENCE:g} s: the test '
+                          'goes on without waiting for it')
+            for key in missing:
+                del self._expected[key]
+            self._readings.expect({})
+        if self._tick is not None:
+            self._awaited.give_up(self._tick_came, time.monotonic())
+        self._settle()
+
+    def _now(self) -> float:
+        """Time of the robots [s]; in real time one that nobody can set."""
+        if self._tick is not None:
+            return float(self._tick.header.stamp.to_sec())
+        return time.monotonic() if rospy.rostime.is_wallclock() else float(rospy.get_time())
+
+    # --- the run --------------------------------------------------------------------------------------------------
+
+    def run(self) -> None:
+        """Wait until the run is over."""
+        while not self._judge.is_over:
+            self._subscribe_to_fields()
+            self._look_at_publishers(LOOK_PERIOD)
+            time.sleep(PERIOD)  # rospy.sleep would wait for the clock of a simulator, which may have ended
+            with self._lock:
+                self._go_on()
+                if not self._is_lockstep:
+                    self._judge.check_time(self._now())
+                if time.monotonic() - self._last_message > self._patience:
+                    self._judge.abort(f'no message came for {self._patience:g} s of the wall clock')
+                if rospy.is_shutdown():
+                    self._judge.abort('the test was stopped')
+        self._complete()
+
+    def _complete(self) -> None:
+        """Wait until it is known who must publish: the run may end before the state of the simulator comes."""
+        if self._tick is not None:
+            time.sleep(REST)  # the origins of what is on its way count too
+        end = time.monotonic() + self._patience
+        self._look_at_publishers()
+        while not self._origins.is_complete and time.monotonic() < end and not rospy.is_shutdown():
+            time.sleep(PERIOD)
+        self._look_at_publishers()
+        with self._lock:
+            if not self._origins.is_complete:
+                self._judge.annul(self._origins.unknown())
+        self._participant.leave()
+
+    def _look_at_publishers(self, period: float = 0.0) -> None:
+        """Ask the master who publishes, not more often than in a period [s]; the run is void if a wrong node does."""
+        if time.monotonic() - self._last_look >= period:
+            self._last_look = time.monotonic()
+            try:
+                publishers, subscribers, _ = rosgraph.Master(rospy.get_name()).getSystemState()
+                if self._exam is not None and self._first_message < math.inf:
+                    self._exam.look(subscribers, rospy.get_param('/', {}))
+            except (rosgraph.MasterException, OSError):  # it ends, or is busy: messages tell their senders too
+                publishers = []
+            with self._lock:
+                for topic, nodes in publishers:
+                    for name in nodes:
+                        self._origins.publishes(topic, name)
+        with self._lock:
+            problem = self._origins.problem() or (self._exam.problem if self._exam is not None else '')
+            if problem:
+                self._judge.annul(problem)
+
+    def _subscribe_to_fields(self) -> None:
+        """Subscribe to the topics of those fields that have a publisher since the last call."""
+        for condition, number in self._unpublished[:]:
+            path = rospy.resolve_name(condition.paths[number])
+            try:
+                kind, topic, value = rostopic.get_topic_class(path)
+            except rostopic.ROSTopicException as error:  # no master, or a type that this workspace does not have
+                rospy.logwarn_throttle(self._patience, f'{path}: {error}')
+                continue
+            if kind is not None:
+                self._unpublished.remove((condition, number))
+                with self._lock:
+                    self._origins.watch(topic)
+                    self._awaited.publishes(topic, time.monotonic())
+                self._subscribe_to_field(condition, number, topic, kind, value or (lambda message: message))
+
+    def _subscribe_to_field(self, condition: FieldCondition, number: int, topic: str, kind: Any, value: Value) -> None:
+        key = f'{topic} for {condition.name}'
+        with self._lock:
+            self._expected[key] = topic
+        self._subscribe(topic, kind, [(condition, lambda message: condition.reading(number, value(message)))], key)
+
+    def verdicts(self) -> List[Verdict]:
+        """The verdict on each condition."""
+        with self._lock:
+            return self._judge.verdicts(self._source)
+
+    def _source(self, condition: Condition) -> str:
+        topics = condition.paths if isinstance(condition, FieldCondition) else [
+            f'{self._robot}/{topic}' for topic, _, _ in TOPICS[type(condition)]]
+        return ' or '.join(map(rospy.resolve_name, topics))

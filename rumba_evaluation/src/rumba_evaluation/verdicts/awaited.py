@@ -1,0 +1,45 @@
+"""The topics of the node that is marked: in lockstep, the judge awaits a message on each of them after each tick."""
+
+from typing import Dict, Iterable, List, Set
+
+START = 25.0  # [s] for a node that does not publish yet: a world waits 30 s for those who start
+PATIENCE = 1.0  # [s] for a message, once there is a publisher
+TRIES = 3  # ticks without an answer, after which a topic is awaited no longer
+
+
+class Awaited:
+    """Who has answered since the last tick; the caller supplies the time of the wall clock [s]."""
+
+    def __init__(self, topics: Iterable[str]) -> None:
+        """Nobody has answered yet."""
+        self._tries = dict.fromkeys(topics, TRIES)
+        self._published: Dict[str, float] = {}  # since when
+        self._heard: Set[str] = set()
+
+    def publishes(self, topic: str, now: float) -> None:
+        """There is a publisher, whose messages come from now on."""
+        self._published.setdefault(topic, now)
+
+    def hear(self, topic: str) -> None:
+        """A message came."""
+        self._heard.add(topic)
+
+    def begin(self) -> None:
+        """The next tick is awaited."""
+        self._heard.clear()
+
+    @property
+    def silent(self) -> List[str]:
+        """Topics without an answer, that are still awaited."""
+        return [topic for topic, tries in self._tries.items() if tries > 0 and topic not in self._heard]
+
+    def give_up(self, tick: float, now: float) -> None:
+        """Wait no longer in this tick, which came at a time, for those who had time enough."""
+        for topic in self.silent:
+            if topic in self._published:
+                end = max(tick, self._published[topic]) + PATIENCE
+            else:
+                end = tick + START
+            if now > end:
+                self._heard.add(topic)
+                self._tries[topic] -= 1 if topic in self._published else TRIES

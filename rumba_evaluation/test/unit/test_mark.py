@@ -1,0 +1,183 @@
+"""Marking: what hidden tests ask, what becomes of submissions that break, and the sheet of a class."""
+
+import json
+import pathlib
+import textwrap
+
+import pytest
+
+from rumba_evaluation.marks import class_marks, hidden_tests, mark, submission
+from rumba_evaluation.marks.class_marks import Row
+from rumba_evaluation.marks.scheme import Mark
+from rumba_evaluation.marks.submission import Outcome, Prepared
+from rumba_evaluation.verdicts.examination import Examination
+from rumba_sim.model.errors import ConfigError
+
+TEST = '''
+    <launch>
+      <arg name="student" default="sweeper" />
+      <arg name="least" default="0.5" />
+      <test test-name="{name}" pkg="rumba_evaluation" type="mission_test" time-limit="30">
+        <param name="coverage" value="$(arg least)" />
+        <param name="docked" value="true" />
+        <param name="{setting}" value="{value}" />
+        <param name="robot" value="rumba" />
+      </test>
+    </launch>
+'''
+
+
+@pytest.fixture
+def tests(tmp_path):
+    """A folder of hidden tests, and a function that writes a test into it."""
+    folder = tmp_path / 'hidden'
+    folder.mkdir()
+
+    def write(name='sweeps', setting='points', value='coverage 8; docked 2', text=TEST):
+        (folder / f'{name}.test').write_text(textwrap.dedent(text.format(name=name, setting=setting, value=value)))
+        return str(folder)
+    return write
+
+
+def test_points_are_known_before_a_test_runs(tests):
+    tests('b', value='coverage 1; docked 1')
+    first, second = hidden_tests.load(tests('a'), {'least': '0.3'})
+    assert first.name == 'a' and first.arguments == {'least': '0.3'}
+    assert first.points == {'a': {'coverage': 8.0, 'docked': 2.0}}
+    assert first.patience == hidden_tests.START + 30.0
+    assert hidden_tests.all_points([first, second]) == {
+        'a.coverage': 8.0, 'a.docked': 2.0, 'b.coverage': 1.0, 'b.docked': 1.0}
+
+
+@pytest.mark.parametrize('setting, value, text, message', [
+    ('points', 'coverage 8', TEST, r'sweeps\.test: sweeps: points does not name docked'),
+    ('battery', 'full', TEST, r'sweeps\.test: sweeps: battery is '),
+    ('points', '', '<launch></launch>', r'has no <test pkg="rumba_evaluation" type="mission_test">: nothing earns'),
+    ('points', '', '<launch>', r'sweeps\.test: no element found')])
+def test_a_hidden_test_that_cannot_be_understood_is_refused(tests, setting, value, text, message):
+    with pytest.raises(ConfigError, match=message):
+        hidden_tests.load(tests('sweeps', setting, value, text), {})
+
+
+def test_an_argument_that_no_test_declares_is_refused(tests, tmp_path):
+    with pytest.raises(ConfigError, match=r'^lest:= is no argument of any \.test file in '):
+        hidden_tests.load(tests(), {'lest': '1'})
+    with pytest.raises(ConfigError, match=r'has no \.test file: give the folder'):
+        hidden_tests.load(str(tmp_path), {})
+
+
+def test_a_submission_without_a_package_gets_nothing_and_the_reason(tests, tmp_path):
+    (tmp_path / 'own').mkdir()
+    prepared = submission.prepare(str(tmp_path / 'own'), tests(), tmp_path / 'scratch')
+    [test] = hidden_tests.load(tests(), {})
+    outcome, _ = submission.run(test, prepared, tmp_path / 'scratch')
+    assert outcome.marks[0] == Mark('sweeps.coverage', 0.0, 8.0, '8 of 8 points lost: the submission has no '
+                                                                 'package.xml: it must hold a catkin package')
+
+
+def test_a_submission_is_found_after_the_packages_of_the_tests_and_its_scripts_can_run(tests, tmp_path):
+    script = tmp_path / 'own' / 'scripts' / 'node'
+    script.parent.mkdir(parents=True)
+    (tmp_path / 'own' / 'package.xml').write_text('<package/>')
+    script.write_text('#!/bin/sh\n')
+    prepared = submission.prepare(str(tmp_path / 'own'), tests(), tmp_path / 'scratch')
+    first, second = prepared.environment['ROS_PACKAGE_PATH'].split(':')[:2]
+    assert (first, prepared.problem) == (str(tmp_path / 'hidden'), '')
+    assert (pathlib.Path(second) / 'scripts' / 'node').stat().st_mode & 0o111 and not script.stat().st_mode & 0o111
+
+
+def test_a_test_without_a_verdict_earns_nothing_and_tells_what_the_nodes_printed(tests, tmp_path, monkeypatch):
+    printed = ('ERROR: cannot launch node of type [homework/sweper]: no such file\n'
+               'Traceback (most recent call last):\n  File "a", line 1\n    x\nZeroDivisionError: division by zero\n'
+               'Traceback (most recent call last):\n  File "a", line 1\nrospy.exceptions.ROSInterruptException: end\n')
+    monkeypatch.setattr(submission, '_run', lambda *_: (1, printed))
+    [test] = hidden_tests.load(tests(), {})
+    outcome, log = submission.run(test, Prepared({}, ''), tmp_path)
+    assert [mark.score for mark in outcome.marks] == [0.0, 0.0] and log == printed
+    assert outcome.marks[1].reason == '2 of 2 points lost: the test gave no verdict: see the log'
+    assert outcome.notes == ['sweeps: cannot launch node of type [homework/sweper]: no such file',
+                             'sweeps: a node ended with ZeroDivisionError: division by zero']
+
+
+def test_the_launch_file_of_a_run_passes_arguments_on_and_quotes_them(tests, tmp_path, monkeypatch):
+    monkeypatch.setattr(submission, '_run', lambda *_: (0, ''))
+    [test] = hidden_tests.load(tests(), {'student': 'a "b" & c'})
+    submission.run(test, Prepared({}, ''), tmp_path, '  <node />\n')
+    assert (tmp_path / 'sweeps.test').read_text() == (
+        f'<launch>\n  <node />\n  <include file="{tmp_path}/hidden/sweeps.test">\n'
+        "    <arg name=\"student\" value='a \"b\" &amp; c' />\n  </include>\n</launch>\n")
+
+
+ROWS = [Row('anna', Outcome([Mark('a.coverage', 2.5, 8.0, 'too little')], [])),
+        Row('=berta', Outcome([Mark('a.coverage', 8.0, 8.0, 'well')], ['a: a node, which "failed"']))]
+
+
+def test_the_sheet_of_a_class_has_a_row_for_each_and_no_formulas():
+    assert class_marks.sheet(ROWS, {'a.coverage': 8.0}) == (
+        'submission,points,of,a.coverage,notes\nanna,2.5,8,2.5,\n'
+        '\'=berta,8,8,8,"a: a node, which ""failed"""\n')
+
+
+def test_the_table_of_a_submission_tells_why_points_were_lost():
+    assert class_marks.table(ROWS[0].outcome.marks) == 'a.coverage  2.5 of 8  too little\ntotal       2.5 of 8'
+
+
+def test_a_class_is_marked_again_only_where_something_has_changed(tests, tmp_path, monkeypatch, capsys):
+    for name in ('anna', 'berta'):
+        (tmp_path / 'class' / name).mkdir(parents=True)
+        (tmp_path / 'class' / name / 'package.xml').write_text('<package/>')
+    marked = []
+
+    def run(test, prepared, scratch, extra):
+        marked.append((scratch / 'src' / 'submission' / 'package.xml').read_text())
+        return Outcome([Mark('sweeps.coverage', 8.0, 8.0, ''), Mark('sweeps.docked', 0.0, 2.0, 'away')], ['note']), ''
+    monkeypatch.setattr(submission, 'run', run)
+    arguments = ['--all', str(tmp_path / 'class'), '--tests', tests(), '--output', str(tmp_path / 'out'), '--jobs', '2']
+
+    def sheet():
+        assert mark.main(arguments, '', lambda *_: []) == 0
+        return (tmp_path / 'out' / 'marks.csv').read_text()
+    first = sheet()
+    assert len(marked) == 2 and first.splitlines()[1] == 'anna,8,10,8,0,note'
+    assert sheet() == first and len(marked) == 2
+    (tmp_path / 'class' / 'anna' / 'package.xml').write_text('<package></package>')
+    assert sheet() == first and marked[2:] == ['<package></package>']
+    tests(value='coverage 8; docked 3')
+    sheet()
+    assert len(marked) == 5
+    assert json.loads((tmp_path / 'out' / 'anna' / 'results.json').read_text())['output'] == '8 of 10 points\nnote'
+    assert 'anna: 8 of 10 points; note' in capsys.readouterr().out
+
+
+@pytest.mark.parametrize('arguments, message', [
+    (['--tests', '.'], 'mark: give the folder of one submission, or --all FOLDER; see --help\n'),
+    (['a', '--all', 'b', '--tests', '.'], 'mark: give the folder of one submission, or '),
+    (['.', '--tests', '/nowhere'], 'mark: /nowhere: is no folder\n'),
+    (['.', '--tests', '.', '--jobs', '0'], 'mark: --jobs is 0: must be at least 1')])
+def test_a_command_line_that_cannot_be_understood_is_refused_in_one_line(arguments, message, capsys):
+    try:
+        code = mark.main(arguments, '', lambda *_: [])
+    except SystemExit as exit_:
+        code = exit_.code
+    error = capsys.readouterr().err
+    assert code == 2 and error.startswith(message) and error.count('\n') == 1
+
+
+TRUTH = '/simulator/examiner/rumba/ground_truth'
+
+
+def test_in_an_examination_nobody_else_hears_the_truth():
+    exam = Examination('/judge')
+    exam.look([(TRUTH, ['/judge', '/recorder']), ('/rumba/scan', ['/student'])], {})
+    assert exam.problem == ''
+    exam.look([(TRUTH, ['/judge', '/student'])], {})
+    assert exam.problem == f'{TRUTH} is heard by /student: in an examination nobody may do that'
+
+
+def test_in_an_examination_nobody_sets_a_parameter_of_the_simulator():
+    exam = Examination('/judge')
+    exam.look([], {'simulator': {'seed': 1, 'battery': {'drain': 60}}, 'student': 1})
+    exam.look([], {'simulator': {'seed': 1, 'battery': {'drain': 60}}, 'student': 2})
+    assert exam.problem == ''
+    exam.look([], {'simulator': {'seed': 1, 'battery': {'drain': 0}}, 'student': 2})
+    assert exam.problem == 'the parameter /simulator/battery/drain was changed: in an examination nobody may do that'
