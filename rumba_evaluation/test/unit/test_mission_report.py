@@ -12,7 +12,7 @@ import mission_bags
 import numpy as np
 import pytest
 import rosbag
-from mission_bags import ALL, recorded_by_the_wall, write
+from mission_bags import ALL, recorded, recorded_by_the_wall, write
 from pytest import approx
 from std_msgs.msg import String
 
@@ -53,6 +53,41 @@ def test_the_figures_are_those_of_the_mission_on_any_clock_of_the_recorder(tmp_p
     assert record.floor.cells.tolist() == mission_bags.FLOOR.tolist()
     assert record.floor[1:] == (0.5, -1.0, 2.0)
     assert contacts(record) == [approx((1.0, 1.0))]
+
+
+@pytest.mark.parametrize('step', [1.5, 5.4, 7.0])
+@pytest.mark.parametrize('begin', [recorded, recorded_by_the_wall])
+def test_a_recorder_whose_clock_advances_in_steps_moves_nobody(tmp_path, step, begin):
+    """At a high speed the recorder gets the messages of many seconds between two readings of its clock."""
+    record = mission_bag.read(write(tmp_path / 'a.bag', when=lambda t: begin(step * math.floor(t / step))))
+    told = summary(record)
+    assert told.jumps == 0 and not any(event.kind == 'jump' for event in events(record))
+    assert (told.duration, told.busy, told.distance, told.driving_time) == approx((36.0, 34.0, 12.0, 24.0))
+
+
+@pytest.mark.parametrize('lag', [lambda t: 5.4, lambda t: 4.0 - 4.0 * math.cos(0.2 * t), lambda t: 0.25 * t])
+def test_a_recorder_that_is_late_moves_nobody(tmp_path, lag):
+    record = mission_bag.read(write(tmp_path / 'a.bag', when=lambda t: recorded(t + lag(t))))
+    told = summary(record)
+    assert (told.jumps, told.duration, told.distance) == (0, approx(36.0), approx(12.0))
+    assert told.charging_time == approx(10.0)
+
+
+@pytest.mark.parametrize('step', [1.5, 5.4])
+def test_messages_without_stamps_are_spread_over_the_steps_of_the_recorders_clock(tmp_path, step):
+    path = write(tmp_path / 'a.bag', ['battery_status'], when=lambda t: recorded(step * math.floor(t / step)))
+    told = summary(mission_bag.read(path))
+    assert (told.jumps, told.distance) == (0, approx(12.0))
+    assert told.driving_time == approx(24.0, abs=0.1 * step)
+
+
+def test_a_robot_that_somebody_puts_elsewhere_is_told_although_the_recorder_is_late(tmp_path):
+    def put(name, message, t):
+        if name == 'ground_truth' and t >= 12.0:
+            message.pose.pose.position.y += 1.0
+    path = write(tmp_path / 'a.bag', change=put, when=lambda t: recorded(5.4 * math.floor(t / 5.4)))
+    found = [event for event in events(mission_bag.read(path)) if event.kind == 'jump']
+    assert [event.time for event in found] == approx([12.0])
 
 
 EVENTS = [

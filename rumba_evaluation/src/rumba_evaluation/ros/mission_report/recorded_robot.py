@@ -11,7 +11,7 @@ from sensor_msgs.msg import BatteryState
 from rumba_evaluation.report.mission_record import NOTHING, Grid, MissionRecord, MissionState, Series, series
 
 FAR = 1e7  # [m] larger coordinates are not valid
-LATE = 5.0  # [s] a stamp farther from the time of recording is of another clock, or of a latched message
+FAR_OFF = 60.0  # [s] a stamp so long before or after all of the robot's clock is of another clock, or latched
 BACK = 1.0  # [s] if stamps go back farther, the clock was reset
 FINEST = 1e-4  # [m] smallest edge of a cell
 GRIDS = 200  # about as many are read for the curve of the coverage
@@ -96,20 +96,30 @@ class RecordedRobot:
 
     def _on_clock(self, recorded: Sequence[float]) -> Any:
         """Times of recording [s] as times of the robot's clock, by the stamps that were recorded before and after."""
-        times = np.asarray(recorded, float)
+        times = _spread(recorded)
         if self._clock is not NONE:
-            marks, stamps = np.array(self._clock.recorded), np.maximum.accumulate(self._clock.stamps)
+            marks, stamps = _spread(self._clock.recorded), np.maximum.accumulate(self._clock.stamps)
             span = marks[-1] - marks[0]
             rate = (stamps[-1] - stamps[0]) / span if span > 0.0 else 1.0
             beyond = np.minimum(times - marks[0], 0.0) + np.maximum(times - marks[-1], 0.0)
             times = np.interp(times, marks, stamps) + rate * beyond
         return times - self._began
 
+    def _on_time(self, recorded: Sequence[float], stamps: Sequence[float]) -> Any:
+        """Times of messages: their stamps, if these are of the robot's clock, else as _on_clock.
+
+        How late a message was recorded says nothing about its stamp: the recorder's own clock can be seconds behind.
+        """
+        times, own = self._on_clock(recorded), np.array(stamps)
+        if self._clock is NONE:
+            return times
+        first, last = min(self._clock.stamps), max(self._clock.stamps)
+        is_own = (own > 0.0) & (first - FAR_OFF < own) & (own < last + FAR_OFF)
+        return np.where(is_own, own - self._began, times)
+
     def _times(self, topic: str) -> Any:
-        """Times of the messages of a topic: their stamps, if these are of the robot's clock, else as _on_clock."""
         recorded, stamps, _ = self._samples[topic]
-        times, own = self._on_clock(recorded), np.array(stamps) - self._began
-        return np.where((np.array(stamps) > 0.0) & (np.abs(own - times) < LATE), own, times)
+        return self._on_time(recorded, stamps)
 
     # --- values -----------------------------------------------------------------------------------------------------
 
@@ -144,7 +154,7 @@ class RecordedRobot:
                 message.deserialize(raw[1])
                 cells = _grid(message)
                 if cells is not None:
-                    yield float(self._on_clock([time.to_sec()])[0]), cells
+                    yield float(self._on_time([time.to_sec()], [message.header.stamp.to_sec()])[0]), cells
 
     def record(self, source: str, name: str, map_topics: Sequence[str], remarks: Sequence[str]) -> MissionRecord:
         """The record of the mission with the last map of `map_topics`; path and charge can be empty."""
@@ -178,6 +188,19 @@ class RecordedRobot:
         coverage = series([time for time, _ in grids], [part / max(whole, 1) for part, whole in counts])
         area = last.resolution ** 2
         return coverage, (counts[-1][0] * area, counts[-1][1] * area), last
+
+
+def _spread(recorded: Sequence[float]) -> Any:
+    """Times of recording [s], in order; messages with the same time are spread evenly until the next one.
+
+    A recorder whose clock advances in steps gives one time to all that it gets in between.
+    """
+    times = np.asarray(recorded, float)
+    steps, firsts = np.unique(times, return_index=True)
+    if not 1 < len(steps) < len(times):
+        return times
+    last = steps[-1] + (len(times) - firsts[-1]) * (steps[-1] - steps[0]) / firsts[-1]
+    return np.interp(np.arange(len(times)), [*firsts, len(times)], [*steps, last])
 
 
 def _first(*choices: Series) -> Series:
