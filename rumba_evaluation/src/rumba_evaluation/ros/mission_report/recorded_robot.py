@@ -8,6 +8,7 @@ import rosbag
 from nav_msgs.msg import OccupancyGrid
 from sensor_msgs.msg import BatteryState
 
+from rumba_cleaning.cleaning_config import CleaningConfig
 from rumba_evaluation.report.mission_record import NOTHING, Grid, MissionRecord, MissionState, Series, series
 
 FAR = 1e7  # [m] larger coordinates are not valid
@@ -44,8 +45,10 @@ ROWS: Dict[str, Tuple[str, Callable[[Any], Sequence[Any]]]] = {
     'bumper': ('rumba_msg/Bumper', lambda m: (m.is_left_pressed or m.is_right_pressed,)),
     'cliff': ('rumba_msg/Cliff', lambda m: (m.is_wheel_dropped,)),
     'dock_status': ('rumba_msg/DockStatus', lambda m: (m.is_docked,)),
-    'cleaning_status': ('rumba_msg/CleaningStatus', lambda m: (m.coverage, m.cleaned_area, m.reachable_area)),
-    'mission_status': ('rumba_msg/MissionStatus', lambda m: (m.state, m.strategy, m.message))}
+    'cleaning_status': ('rumba_msg/CleaningStatus', lambda m: (
+        m.coverage, m.cleaned_area, m.reachable_area, m.dirt)),
+    'mission_status': ('rumba_msg/MissionStatus', lambda m: (m.state, m.strategy, m.message)),
+    'clean/goal': ('rumba_msg/CleanActionGoal', lambda m: (m.goal.target_coverage,))}
 TYPES = {**{name: kind for name, (kind, _) in ROWS.items()}, 'coverage': GRID}
 CLOCKS = ('ground_truth', 'battery_state', 'bumper', 'cliff', 'dock_status', 'cleaning_status')  # never latched
 STARTS = ('ground_truth', 'battery_status', 'battery_state')
@@ -156,8 +159,12 @@ class RecordedRobot:
                 if cells is not None:
                     yield float(self._on_time([time.to_sec()], [message.header.stamp.to_sec()])[0]), cells
 
-    def record(self, source: str, name: str, map_topics: Sequence[str], remarks: Sequence[str]) -> MissionRecord:
-        """The record of the mission with the last map of `map_topics`; path and charge can be empty."""
+    def record(self, source: str, name: str, map_topics: Sequence[str], remarks: Sequence[str],
+               target: float) -> MissionRecord:
+        """The record of the mission with the last map of `map_topics`; path and charge can be empty.
+
+        A target of 0 is that of the last goal that names one, or else the cleaner's default.
+        """
         remarks = list(remarks)
         remarks += [f'{topic} was published by {" and ".join(sorted(nodes))}: the figures mix what they told.'
                     for topic, nodes in self._publishers.items() if len(nodes) > 1]
@@ -167,12 +174,20 @@ class RecordedRobot:
         if map_topics and not maps:
             remarks.append('The map is not drawn: it is damaged, or rotated against the axes.')
         coverage, areas, swept = self._cleaning()
+        dirt = self._column('cleaning_status', 3).values
         return MissionRecord(
             source=source, robot=name, path=self._path(), charge=self._charge(), began=self._began,
             power=self._column('battery_state', 1), charging=self._column('battery_state', 2),
             docked=_first(self._column('dock_status', 0), self._column('battery_state', 3)),
             pressed=self._column('bumper', 0), fallen=self._column('cliff', 0), coverage=coverage,
-            areas=areas, states=self._states(), floor=maps[-1] if maps else None, swept=swept, remarks=remarks)
+            areas=areas, dirt=float(dirt[-1]) if len(dirt) else None, target=target or self._target(),
+            states=self._states(), floor=maps[-1] if maps else None, swept=swept,
+            remarks=remarks)
+
+    def _target(self) -> float:
+        """The share of the floor that the last goal asked for [0..1]."""
+        goals = [target for target, in self._samples.get('clean/goal', NONE).rows if 0.0 < target <= 1.0]
+        return float(goals[-1]) if goals else CleaningConfig().target_coverage
 
     def _cleaning(self) -> Tuple[Series, Optional[Tuple[float, float]], Optional[Grid]]:
         """Coverage [0..1], areas swept and within reach [m^2], last grid; without cleaning_status from the grids."""
