@@ -121,7 +121,7 @@ def battery(message: BatteryState) -> Battery:
 def cleaning(message: CleaningStatus) -> Cleaning:
     """How much of the floor is clean."""
     return Cleaning(_share(message.coverage), _amount(message.cleaned_area), _amount(message.reachable_area),
-                    _share(message.dirt), _amount(message.distance))
+                    _share(message.dirt), _amount(message.distance), message.header.stamp.to_sec())
 
 
 def mission(message: MissionStatus) -> Mission:

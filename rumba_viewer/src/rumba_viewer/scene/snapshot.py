@@ -1,6 +1,7 @@
 """What the window shows at one moment, as plain values: no ROS, no Qt."""
 
 import dataclasses
+import math
 from typing import Any, FrozenSet, NamedTuple, Optional, Tuple
 
 from rumba_sim.model.geometry import Pose
@@ -122,13 +123,14 @@ class Battery(NamedTuple):
 
 
 class Cleaning(NamedTuple):
-    """How much of the floor is clean: shares 0..1, areas [m^2], and the distance driven [m]; NaN: unknown."""
+    """How much of the floor is clean: shares 0..1, areas [m^2], distance driven [m], when [s]; NaN: unknown."""
 
     coverage: float
     cleaned_area: float
     reachable_area: float
     dirt: float
     distance: float
+    time: float = math.nan
 
 
 class Mission(NamedTuple):
