@@ -32,6 +32,11 @@ def about(seconds: float) -> str:
     return f'about {minutes} min' if minutes < 120 else f'about {minutes / 60.0:.1f} h'
 
 
+def taken(elapsed: float, left: Optional[float]) -> str:
+    """How long a mission takes already, and still [s]."""
+    return span(elapsed) + (f', {about(left)} left' if left is not None else '')
+
+
 def doing(mission: Optional[Mission]) -> str:
     """What a robot does."""
     if mission is None:
@@ -40,13 +45,13 @@ def doing(mission: Optional[Mission]) -> str:
     return f'{mission.state}{strategy}'
 
 
-def live_line(mission: Optional[Mission], cleaning: Optional[Cleaning], battery: Battery, elapsed: float,
-              left: Optional[float]) -> str:
+def live_line(mission: Optional[Mission], cleaning: Optional[Cleaning], battery: Battery,
+              elapsed: Optional[float], left: Optional[float]) -> str:
     """A mission in one line, the most important first, since a narrow terminal shows its beginning."""
     parts = [f'{percent(cleaning.coverage, 1):>6} swept' if cleaning is not None else 'no floor', doing(mission),
              f'battery {percent(battery.share)}']
-    if mission is not None and mission.is_active:
-        parts.append(span(elapsed) + (f', {about(left)} left' if left is not None else ''))
+    if elapsed is not None:
+        parts.append(taken(elapsed, left))
     return '   '.join(parts)
 
 

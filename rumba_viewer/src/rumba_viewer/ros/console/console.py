@@ -11,11 +11,10 @@ Parameters, as in `rosrun rumba_viewer console _robot:=rumba2`:
 """
 
 import dataclasses
-import math
 import os
 import sys
 import threading
-from typing import List, Optional
+from typing import Any, Callable, List, Tuple, Type
 
 import rospy
 from sensor_msgs.msg import BatteryState
@@ -29,8 +28,7 @@ from rumba_viewer.ros import readings
 from rumba_viewer.ros.console.bottom_line import BottomLine
 from rumba_viewer.ros.subscription import Subscription
 from rumba_viewer.scene import wording
-from rumba_viewer.scene.forecast import Forecast
-from rumba_viewer.scene.snapshot import Battery, Cleaning, Mission
+from rumba_viewer.scene.mission_watch import UNKNOWN, MissionWatch
 
 PERIOD = 0.2  # [s] of the wall clock from one live line to the next
 PIPE_PERIOD = 2.0  # [s] of the wall clock from one line into a pipe to the next
@@ -85,53 +83,31 @@ class Console:
     def __init__(self, robot: str, target: float) -> None:
         """Listen to a robot whose missions have a target [0..1]."""
         self._robot = robot
-        self._lock = threading.Lock()  # held while anything of the next six changes
-        self._forecast = Forecast(target)
-        self._cleaning: Optional[Cleaning] = None
-        self._began: Optional[Cleaning] = None  # when the mission began
-        self._battery = Battery(math.nan, math.nan, math.nan, '')
-        self._mission: Optional[Mission] = None
-        self._ended: Optional[float] = None  # time of the last figures before the mission ended [s]
-        self._report: List[str] = []
+        self._lock = threading.Lock()  # held while the watch is used
+        self._watch = MissionWatch(robot, target)
+        self._told: Tuple[str, ...] = ()
         self._topics = [
-            Subscription(f'{robot}/battery_state', BatteryState, readings.battery, self._on_battery),
-            Subscription(f'{robot}/mission_status', MissionStatus, readings.mission, self._on_mission, queue_size=10),
-            Subscription(f'{robot}/cleaning_status', CleaningStatus, readings.cleaning, self._on_cleaning)]
+            self._topic('battery_state', BatteryState, readings.battery, self._watch.take_battery),
+            self._topic('mission_status', MissionStatus, readings.mission, self._watch.take_mission),
+            self._topic('cleaning_status', CleaningStatus, readings.cleaning, self._watch.take_cleaning)]
 
-    def _on_battery(self, battery: Battery) -> None:
-        with self._lock:
-            self._battery = battery
-
-    def _on_mission(self, mission: Mission) -> None:
-        with self._lock:
-            last, self._mission = self._mission, mission
-            was_active = last is not None and last.is_active
-            if mission.is_cleaning and not was_active:
-                self._began = self._cleaning
-            if was_active and last is not None and last.strategy and not mission.is_active:
-                self._ended = self._cleaning.time if self._cleaning is not None else -math.inf
-
-    def _on_cleaning(self, cleaning: Cleaning) -> None:
-        with self._lock:
-            self._cleaning = cleaning
-            if self._mission is None:
-                return
-            self._forecast.add(cleaning, self._battery, self._mission)
-            if self._ended is not None and cleaning.time > self._ended:
-                self._ended = None
-                self._report = wording.closing(self._robot, self._mission, cleaning, self._began, self._battery,
-                                               self._forecast) + NEXT
+    def _topic(self, name: str, kind: Type[Any], read: Callable[[Any], Any],
+               take: Callable[[Any], None]) -> 'Subscription[Any]':
+        def take_alone(value: Any) -> None:
+            with self._lock:
+                take(value)
+        return Subscription(f'{self._robot}/{name}', kind, read, take_alone, queue_size=10)
 
     def report(self) -> List[str]:
         """The report of a mission that has just ended, once; else no lines."""
         with self._lock:
-            report, self._report = self._report, []
-        return report
+            told, self._told = self._told, self._watch.report
+        return [*self._told, *NEXT] if self._told and self._told != told else []
 
     def line(self) -> str:
         """The live line."""
         with self._lock:
-            if self._cleaning is None:
+            watch = self._watch
+            if watch.cleaning is None:
                 return f'waiting for {rospy.resolve_name(self._robot)}/cleaning_status'
-            return wording.live_line(self._mission, self._cleaning, self._battery, self._forecast.elapsed,
-                                     self._forecast.left)
+            return wording.live_line(watch.mission, watch.cleaning, watch.battery or UNKNOWN, watch.elapsed, watch.left)
