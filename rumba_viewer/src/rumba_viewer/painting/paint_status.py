@@ -17,6 +17,7 @@ FALLEN = 'fallen'
 EDGE, TOP = 12.0, 8.0  # [pixels] from the edges of the card to its text
 PILL_GAP = 8.0  # [pixels] from the name to the pill
 LINES = 12  # of small text
+TWO_LINES = 1.8  # times the width of one, since lines end between words
 LOW, CRITICAL = 0.25, 0.10  # charge, below which the bar is yellow, red
 STATES = {'cleaning': 'good', 'charging': 'good', 'charged': 'good', YIELDING: 'warning', 'stranded': 'bad',
           FALLEN: 'bad'}
@@ -131,12 +132,10 @@ class _Card:
         metrics = QFontMetricsF(self._small)
         height = metrics.height() + 1.0
         area = QRectF(self._area.left(), self._y, self._area.width(), 2.0 * height)
-        wrapped = Qt.AlignLeft | Qt.AlignTop | Qt.TextWordWrap
-        while text and metrics.boundingRect(area, wrapped, text).height() > area.height() + 1.0:
-            text = text.rstrip('\u2026')[:-1].rstrip() + '\u2026'
+        fitting = metrics.elidedText(text, Qt.ElideRight, TWO_LINES * area.width())
         self._painter.setFont(self._small)
         self._painter.setPen(QColor(colour or self._theme.faint_text))
-        self._painter.drawText(area, wrapped, text)
+        self._painter.drawText(area, Qt.AlignLeft | Qt.AlignTop | Qt.TextWordWrap, fitting)
         self._y += 2.0 * height
 
     def _text(self, area: QRectF, text: str, font: QFont, colour: str, align: int = Qt.AlignLeft) -> None:
