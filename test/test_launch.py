@@ -8,10 +8,18 @@ import pytest
 from sockets import wait_for
 from workspaces import OURS, ROOT, TIMEOUT, last_of, lines
 
+from rumba_viewer.scene.snapshot import Battery, Cleaning, Mission
+from rumba_viewer.scene.wording import live_line
+
 PACKAGE = ROOT / 'rumba_sim'
 LAUNCH_FILES = sorted(path for package in OURS for path in package.glob('launch/*.launch'))
 DEMO = 'roslaunch rumba_bringup demo.launch speed:=10 map:=studio'
-LINE = re.compile(r'battery +(\d+) %   at \((-?[\d.]+), (-?[\d.]+)\) m')
+BATTERY = re.compile(r'battery +(\d+) %   at \((-?[\d.]+), (-?[\d.]+)\) m')
+README = (ROOT / 'README.md').read_text()
+LIVE = re.search(r'^.* % swept .* left$', README, re.MULTILINE).group(0)
+REPORT = re.search(r'^```\n(rumba: .*?)^```$', README, re.MULTILINE | re.DOTALL).group(1)
+LINE = re.compile(r'[ \d.]+ % swept   ')
+NUMBER = re.compile(r'[\d.:]+')
 
 
 @pytest.mark.parametrize('path', LAUNCH_FILES, ids=lambda path: path.name)
@@ -28,11 +36,13 @@ def test_the_page_of_interfaces_names_its_arguments(path):
 
 
 def test_the_robot_in_the_demo_moves_bumps_and_drains(workspace):
-    with workspace.space('devel').running(f'{DEMO} drain:=100 strategy:=bounce') as demo:
+    here = workspace.space('devel')
+    with here.running(f'{DEMO} drain:=100 strategy:=bounce'), \
+            here.running('rosrun rumba_sim battery_status_listener') as listener:
         seen, bumped = [], False
-        for line in lines(demo):
-            if LINE.match(line):
-                seen.append([float(figure) for figure in LINE.match(line).groups()])
+        for line in lines(listener):
+            if BATTERY.match(line):
+                seen.append([float(figure) for figure in BATTERY.match(line).groups()])
                 bumped = bumped or 'bumper pressed' in line
                 places = {(round(x), round(y)) for _, x, y in seen}
                 if bumped and len(places) > 3 and seen[-1][0] < seen[0][0] - 2:
@@ -44,7 +54,19 @@ def test_the_demo_shows_a_mission_from_dock_to_dock_and_reports(workspace):
     with workspace.space('devel').running(f'{DEMO} target_coverage:=0.1') as demo:
         report = last_of(demo, 'rumba: undocking', 'rumba: cleaning by boustrophedon', 'rumba: going home',
                          'rumba: docking', 'rumba: done after ')
+        first, *rest = REPORT.splitlines()
+        told = next(line for line in lines(demo) if line.startswith('rumba: '))
+        for line in [first, *rest]:
+            assert NUMBER.sub('#', told).rstrip('\n').replace('charges', 'charge') == NUMBER.sub('#', line).replace(
+                'charges', 'charge')
+            told = next(lines(demo), '')
     assert re.search(r'm, 0 charges; the floor is 1\d\.\d % clean: 10\.\d % swept$', report), report
+
+
+def test_the_live_line_of_the_readme_is_one_of_a_mission():
+    """Whether the node prints such lines is tested with the others of the demo."""
+    cleaning, battery = Cleaning(0.546, 15.3, 28.0, 0.5, 120.0, 438.0), Battery(0.256, 15.0, -1.5, 'on battery')
+    assert LIVE == live_line(Mission('cleaning', True, 'boustrophedon', ''), cleaning, battery, 438.0, 1310.0)
 
 
 @pytest.mark.parametrize('gui, line', [
@@ -71,7 +93,7 @@ def test_the_demo_opens_the_window_if_it_can_and_goes_on_when_the_window_is_clos
 def test_what_the_demo_starts_cannot_be_reached_from_other_machines_unless_an_address_is_given(workspace):
     for address, reachable in (('', 0), ('ROS_IP=127.0.0.1', 0), ('ROS_IP=0.0.0.0', 2)):
         with workspace.space('devel').running(f'env -u ROS_HOSTNAME {address} {DEMO} gui:=false') as demo:
-            wait_for(demo, {'simulator': reachable, 'cleaner': reachable, 'battery_status_listener': reachable,
+            wait_for(demo, {'simulator': reachable, 'cleaner': reachable, 'console': reachable,
                             'robot_state_publisher': max(1, reachable)})
 
 

@@ -27,7 +27,7 @@ FOLDERS = {
         'learning': {'trials'}, 'ros': {'scoring', 'trials', 'verdicts', 'marks'}},
     'rumba_viewer': {
         'scene': set(), 'painting': {'scene'}, 'window': {'scene', 'painting'}, 'ros': {'scene', 'window'},
-        'page': set(), 'ros/page': {'page'}}}
+        'page': set(), 'ros/page': {'page'}, 'ros/console': {'scene', 'ros'}}}
 # Which packages each may import, and which of their folders are there for others.
 BELOW = {'rumba_sim': set(), 'rumba_localisation': {'rumba_sim'}, 'rumba_cleaning': {'rumba_sim', 'rumba_localisation'},
          'rumba_evaluation': {'rumba_sim', 'rumba_cleaning'}, 'rumba_viewer': {'rumba_sim', 'rumba_cleaning'}}

@@ -119,15 +119,6 @@ def test_what_echo_prints_in_the_readme_is_what_it_prints(workspace):
         assert here.run('rostopic echo -n1 /rumba/battery_status') == shown
 
 
-def test_the_live_line_in_the_readme_is_what_the_listener_prints(workspace):
-    here = workspace.space('devel')
-    shown = re.search(r'^battery .*$', README, re.MULTILINE).group(0)
-    with here.running('rosrun rumba_sim battery_status_publisher __ns:=/live _percentage:=97 _drain:=0'), \
-            here.running('rosrun rumba_sim battery_status_listener __ns:=/live') as listener:
-        listener.stdout.readline()
-        assert listener.stdout.readline() == shown + '\n'
-
-
 def test_a_clone_in_another_workspace_brings_the_packages_and_nothing_of_its_own_workspace_and_tests():
     assert sorted(catkin_pkg.packages.find_package_paths(str(ROOT))) == sorted(
         str(path.relative_to(ROOT)) for path in OURS + TUTORIALS)

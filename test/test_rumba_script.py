@@ -243,6 +243,30 @@ def test_lessons_are_built_once_they_are_asked_for_and_remain(checkout, tmp_path
     write_package(checkout / 'rumba_tutorials' / '01_first' / 'a_lesson')
     cache = {'XDG_CACHE_HOME': str(tmp_path / 'cache')}
     find = ('shell', 'rospack', 'find', 'a_lesson')
-    assert rumba(checkout, *find, **cache)[0] != 0
+    code, _, error = rumba(checkout, *find, **cache)
+    assert (code, error.splitlines()[-1]) == (
+        2, 'rumba: a_lesson belongs to a lesson, and the lessons are not built yet: ./rumba build')
+    typed = subprocess.run(['sh', '-c', f'printf "rosrun a_lesson node\nexit 3\n" | "{checkout}/rumba" shell'],
+                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT, universal_newlines=True,
+                           env={**clean_environment(), **cache})
+    assert 'a_lesson belongs to a lesson, and the lessons are not built yet: ./rumba build\n' in typed.stdout
+    assert typed.returncode == 3
     assert rumba(checkout, 'build', **cache)[0] == 0
     assert rumba(checkout, *find, **cache)[1].endswith('/src/a_lesson\n')
+
+
+def test_a_shell_builds_again_only_if_something_changed(checkout, tmp_path):
+    def has_built():
+        code, out, error = rumba(checkout, 'shell', 'rospack', 'find', 'sample', XDG_CACHE_HOME=str(tmp_path / 'cache'))
+        assert (code, out.endswith('/src/sample\n')) == (0, True), error
+        return 'rumba: building\n' in error
+
+    assert has_built() and not has_built()
+    os.utime(checkout / 'sample' / 'CMakeLists.txt', (1.0, 1.0))  # older, but another file
+    assert has_built() and not has_built()
+    (checkout / 'sample' / 'test_unit.py').unlink()
+    assert has_built() and not has_built()
+    write_package(checkout / 'another')
+    assert has_built() and not has_built()
+    shutil.rmtree((checkout / '.ws').resolve() / 'devel')
+    assert has_built()

@@ -1,35 +1,60 @@
 #!/bin/sh
-# Makes the pictures of the documentation: ./rumba shell docs/pictures/make.sh
-# A mission in the apartment at ten times the speed, in a roscore of its own, without a display.
+# Makes the pictures of the documentation, about three minutes: ./rumba shell docs/pictures/make.sh
+# A mission in the apartment at twenty times the speed, in a roscore of its own, without a display: the window light and
+# dark, a GIF of it, the page in a phone and on a desk, and the report of the mission. Needs chromium, chromium-driver and
+# python3-selenium for page and report.
 set -eu
 cd "$(dirname -- "$0")"
-export ROS_MASTER_URI="http://localhost:${PORT:-11399}" ROS_HOSTNAME=localhost QT_QPA_PLATFORM=offscreen
+port=${PORT:-11399}
+export ROS_MASTER_URI="http://localhost:$port" ROS_HOSTNAME=localhost QT_QPA_PLATFORM=offscreen
+folder=$(mktemp -d)
 
 pids=
 start() { # COMMAND ...: until this script ends
-    "$@" >/dev/null 2>&1 &
+    "$@" >"$folder/log" 2>&1 &
     pids="$! $pids"
 }
 # shellcheck disable=SC2086 # several numbers
-trap 'kill -INT $pids; wait' EXIT
+trap 'kill -INT $pids; wait; rm -rf "$folder"' EXIT
 
-swept() { rostopic echo -n1 /rumba/cleaning_status/coverage | head -n1; }
-until_swept() { while ! swept | awk "{ exit !(\$1 >= $1) }"; do sleep 0.5; done; }
-picture() { # VIEWER NAME
-    made=$(rosservice call "/$1/save_png" | sed -n 's/^message: "\(.*\)"$/\1/p')
-    mv "$made" "$2.png"
-    python3 -c 'import sys; from PIL import Image; Image.open(sys.argv[1]).convert("RGB").quantize(
-    256, Image.MEDIANCUT, kmeans=4, dither=0).save(sys.argv[1], optimize=True)' \
-        "$2.png"
+value() { rostopic echo -n1 "/rumba/$1" | head -n1; } # TOPIC/FIELD
+until_swept() { until value cleaning_status/coverage | awk "{ exit !(\$1 >= $1) }"; do sleep 0.5; done; }
+save() { rosservice call "/$1/save_png" | sed -n 's/^message: "\(.*\)"$/\1/p'; } # VIEWER: prints the path
+viewer() { start rosrun rumba_viewer viewer __name:="$1" _style:="$1" _folder:="$folder" _width:=1100 _height:=700; }
+shoot() { python3 shoot.py "$@"; } # see there
+frames() { # a picture of the window every second, as long as the mission goes on
+    number=1000
+    until value mission_status/state | grep -qx 0; do
+        number=$((number + 1))
+        mv "$(save light)" "$folder/frame$number.png"
+    done
 }
 
-start roscore -p "${PORT:-11399}"
+start roscore -p "$port"
 until rosparam get /run_id >/dev/null 2>&1; do sleep 0.2; done
-start roslaunch rumba_bringup demo.launch speed:=10 gui:=false
-start rosrun rumba_viewer viewer __name:=light _style:=light _laser:=true _folder:=/tmp _width:=1100 _height:=660
-start rosrun rumba_viewer viewer __name:=dark _style:=dark _folder:=/tmp _width:=1100 _height:=660
-rosservice call --wait /simulator/spawn '{pose: {x: 2.0, y: 4.6, theta: 2.0}}' >/dev/null
+viewer light
+viewer dark
+start rosrun rumba_viewer page _port:=$((port + 1))
+start roslaunch rumba_bringup demo.launch speed:=20 drain:=4 gui:=false
+start rosbag record -O "$folder/mission.bag" /map /rumba/ground_truth /rumba/battery_state /rumba/cleaning_status \
+    /rumba/bumper /rumba/dock_status /rumba/mission_status /rumba/coverage
+recorder=$!
+until_swept 0.02
+frames &
+filming=$!
 until_swept 0.45
-picture light window
-until_swept 0.7
-picture dark dark
+mv "$(save light)" window.png
+shoot page "http://127.0.0.1:$((port + 1))" page.png 1100x700
+shoot page "http://127.0.0.1:$((port + 1))" phone.png 360x740
+rosservice call /simulator/spawn '{pose: {x: 5.6, y: 3.9, theta: 2.0}}' >/dev/null
+sleep 1
+mv "$(save dark)" dark.png
+rosservice call /simulator/kill '{name: rumba2}' >/dev/null
+wait "$filming"
+sleep 2
+kill -INT "$recorder"
+while [ ! -e "$folder/mission.bag" ]; do sleep 0.2; done
+rosrun rumba_evaluation mission_report "$folder/mission.bag"
+shoot report "file://$folder/mission.html" report.png 1100x1250
+shoot gif "$folder"/frame*.png mission.gif
+shoot shrink window.png dark.png page.png phone.png report.png

@@ -90,7 +90,8 @@ TOPICS = {  # by topic: period [s], and a function that makes the message of a t
     'ground_truth': (0.1, ground_truth), 'battery_state': (0.1, battery_state), 'battery_status': (0.2, battery_status),
     'bumper': (0.1, bumper), 'cliff': (0.1, lambda t: Cliff(is_wheel_dropped=15.0 <= t < 16.0)),
     'dock_status': (0.1, lambda t: DockStatus(is_docked=not OFF <= t < HOME)),
-    'cleaning_status': (1.0, lambda t: CleaningStatus(coverage=t / 40.0, cleaned_area=t / 2.0, reachable_area=20.0)),
+    'cleaning_status': (1.0, lambda t: CleaningStatus(
+        coverage=t / 40.0, cleaned_area=t / 2.0, reachable_area=20.0, dirt=1.0 - t / 48.0)),
     'mission_status': (1.0, mission_status),
     'coverage': (1.0, lambda t: grid(SWEPT if t >= END else np.where(SWEPT == 100, 0, SWEPT)))}
 ALL = tuple(TOPICS)

@@ -12,14 +12,14 @@ import mission_bags
 import numpy as np
 import pytest
 import rosbag
-from mission_bags import ALL, recorded_by_the_wall, write
+from mission_bags import ALL, recorded, recorded_by_the_wall, write
 from pytest import approx
 from std_msgs.msg import String
 
 from rumba_evaluation.report.mission_events import contacts, events
-from rumba_evaluation.report.mission_record import summary
+from rumba_evaluation.report.mission_summary import summary
 from rumba_evaluation.ros.mission_report import mission_bag, mission_report
-from rumba_msg.msg import CleaningStatus
+from rumba_msg.msg import CleanActionGoal, CleanGoal, CleaningStatus
 
 SCRIPT = pathlib.Path(__file__).resolve().parents[2] / 'scripts' / 'mission_report'
 LEAST = ('ground_truth', 'battery_state')  # enough for a report
@@ -47,7 +47,7 @@ def test_the_figures_are_those_of_the_mission_on_any_clock_of_the_recorder(tmp_p
     assert told.charge == approx((100.0, 58.0, 8.0))
     assert told.energy == approx((24.0 * 30.0 / 3600.0, 10.0 * 15.0 / 3600.0), rel=0.01)
     assert (told.bumps, told.jumps) == (3, 0)
-    assert told.outcome == 'ended: 90.0 % swept <&>'
+    assert told.outcome.endswith('less than the target of 99 %: 90.0 % swept <&>.') and record.dirt == approx(0.25)
     assert record.began == approx(100.0)
     assert record.swept.cells.tolist() == mission_bags.SWEPT.tolist()
     assert record.floor.cells.tolist() == mission_bags.FLOOR.tolist()
@@ -55,23 +55,53 @@ def test_the_figures_are_those_of_the_mission_on_any_clock_of_the_recorder(tmp_p
     assert contacts(record) == [approx((1.0, 1.0))]
 
 
+@pytest.mark.parametrize('step', [1.5, 5.4, 7.0])
+@pytest.mark.parametrize('begin', [recorded, recorded_by_the_wall])
+def test_a_recorder_whose_clock_advances_in_steps_moves_nobody(tmp_path, step, begin):
+    """At a high speed the recorder gets the messages of many seconds between two readings of its clock."""
+    record = mission_bag.read(write(tmp_path / 'a.bag', when=lambda t: begin(step * math.floor(t / step))))
+    told = summary(record)
+    assert told.jumps == 0 and not any(event.kind == 'jump' for event in events(record))
+    assert (told.duration, told.busy, told.distance, told.driving_time) == approx((36.0, 34.0, 12.0, 24.0))
+
+
+@pytest.mark.parametrize('lag', [lambda t: 5.4, lambda t: 4.0 - 4.0 * math.cos(0.2 * t), lambda t: 0.25 * t])
+def test_a_recorder_that_is_late_moves_nobody(tmp_path, lag):
+    record = mission_bag.read(write(tmp_path / 'a.bag', when=lambda t: recorded(t + lag(t))))
+    told = summary(record)
+    assert (told.jumps, told.duration, told.distance) == (0, approx(36.0), approx(12.0))
+    assert told.charging_time == approx(10.0)
+
+
+@pytest.mark.parametrize('step', [1.5, 5.4])
+def test_messages_without_stamps_are_spread_over_the_steps_of_the_recorders_clock(tmp_path, step):
+    path = write(tmp_path / 'a.bag', ['battery_status'], when=lambda t: recorded(step * math.floor(t / step)))
+    told = summary(mission_bag.read(path))
+    assert (told.jumps, told.distance) == (0, approx(12.0))
+    assert told.driving_time == approx(24.0, abs=0.1 * step)
+
+
+def test_a_robot_that_somebody_puts_elsewhere_is_told_although_the_recorder_is_late(tmp_path):
+    def put(name, message, t):
+        if name == 'ground_truth' and t >= 12.0:
+            message.pose.pose.position.y += 1.0
+    path = write(tmp_path / 'a.bag', change=put, when=lambda t: recorded(5.4 * math.floor(t / 5.4)))
+    found = [event for event in events(mission_bag.read(path)) if event.kind == 'jump']
+    assert [event.time for event in found] == approx([12.0])
+
+
 EVENTS = [
     (0.0, 'The recording begins at (1.00, 1.00) m, battery 100 %.'),
-    (0.0, 'Mission: idle'),
-    (2.0, 'Undocked, battery 100 %.'),
-    (2.0, 'Mission: undocking'),
+    (2.0, 'Left the dock, battery 100 %.'),
     (3.0, 'Mission: cleaning (spiral)'),
     (5.0, 'Bump at (2.50, 1.00) m.'),
     (10.0, 'Bump at (5.00, 1.00) m.'),
     (15.0, 'A wheel hangs over a cliff at (4.50, 3.00) m.'),
     (20.0, 'Mission: returning'),
     (20.0, 'Bump at (2.00, 3.00) m.'),
-    (24.0, 'Mission: docking'),
     (25.5, 'Battery below 10 %.'),
-    (26.0, 'Docked, battery 8 %.'),
-    (26.0, 'Charging began, battery 8 %.'),
-    (26.0, 'Mission: charging'),
-    (36.0, 'Mission: idle: 90.0 % swept <&>'),
+    (26.0, 'Docked and charging, battery 8 %.'),
+    (36.0, 'The mission ends: 90.0 % swept <&>'),
     (36.0, 'The recording ends at (1.00, 1.00) m, battery 58 %.')]
 
 
@@ -102,7 +132,7 @@ def test_without_battery_state_the_battery_is_charged_while_docked(tmp_path):
 
 def test_without_dock_status_the_robot_is_docked_while_its_battery_is_charged(tmp_path):
     texts = [event.text for event in events(mission_bag.read(write(tmp_path / 'a.bag', LEAST)))]
-    assert texts.index('Undocked, battery 100 %.') < texts.index('Docked, battery 8 %.')
+    assert texts.index('Left the dock, battery 100 %.') < texts.index('Docked and charging, battery 8 %.')
 
 
 @pytest.mark.parametrize('when', [mission_bags.recorded, recorded_by_the_wall])
@@ -138,8 +168,9 @@ def test_values_that_are_not_finite_are_ignored(tmp_path):
 def test_one_message_of_each_topic_is_a_mission_of_0_seconds(tmp_path, capsys):
     mission_report.main([write(tmp_path / 'a.bag', until=0.0)])
     assert capsys.readouterr().out.splitlines()[1:] == [
-        'rumba: 0.0 % swept in 0:00:00, 0.0 m driven, bumps: 0',
-        'battery: 100 % to 100 %, lowest 100 %, charges: 0, 0:00:00 in all', 'outcome: idle']
+        'The robot had no mission while this was recorded.',
+        'rumba: 0.0 % swept, 100.0 % of the dirt left, 0.0 m driven, bumps: 0',
+        'battery: 100 % to 100 %, lowest 100 %, charges: 0, 0:00:00 of charging in all']
 
 
 def test_stamps_that_were_never_set_and_a_rotated_map(tmp_path):
@@ -248,19 +279,22 @@ def test_the_command_writes_beside_the_bag_and_needs_no_master(bag):
                           stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True)
     assert (done.returncode, done.stderr) == (0, '')
     assert done.stdout.splitlines() == [
-        output, 'rumba: 90.0 % swept in 0:00:36, 12.0 m driven at 0.50 m/s, bumps: 3',
-        'battery: 100 % to 58 %, lowest 8 %, charges: 1, 0:00:10 in all', 'outcome: ended: 90.0 % swept <&>']
+        output, 'The robot cleaned 90.0 % of the floor in 0:00:34 and is back on its dock, less than the target of '
+                '99 %: 90.0 % swept <&>.',
+        'rumba: 90.0 % swept, 25.0 % of the dirt left, 12.0 m driven at 0.50 m/s, bumps: 3',
+        'battery: 100 % to 58 %, lowest 8 %, charges: 1, 0:00:10 of charging in all']
     page = pathlib.Path(output).read_text(encoding='utf-8')
     assert '<title>Mission of rumba: a &lt;b&gt; &amp; c.bag</title>' in page
     assert '90.0 % swept &lt;&amp;&gt;' in page and '<&>' not in page
-    for text in ('>90.0 %<', '>18.0 of 20.0 m²<', '>0:00:36<', '>simulated time, 0:00:34 not idle<',
-                 '>12.0 m<', '>0.50 m/s while driving<', '>0:00:10<', '>1 time<', '>0.20 Wh<',
+    for text in ('>90.0 %<', '>18.0 of 20.0 m², target 99 %<', '>0:00:34<', '>ideal: 0:06:32, recorded: 0:00:36<',
+                 '>12.0 m<', '>0.50 m/s while driving<', '>0:00:10 of charging in all<', '<dt>Charges</dt><dd>1<',
+                 '>0.20 Wh<', '<dt>Dirt left</dt><dd>25.0 %<',
                  '>from 100 %, lowest 8 %<', '<dt>Bumps</dt><dd>3<', '2.0 m × 1.5 m, cells of 50 cm',
                  'cleaning 0:00:17', '100.0 s after the simulation began'):
         assert text in page, text
     told = re.findall(r'<td>(\d:\d\d:\d\d)</td><td>(.*?)</td>', page)
     assert [text for _, text in told] == [text.replace('<&>', '&lt;&amp;&gt;') for _, text in EVENTS]
-    assert told[5][0] == '0:00:05'
+    assert told[3][0] == '0:00:05'
 
 
 def test_the_command_writes_to_the_given_path(bag, tmp_path, capsys):
@@ -287,7 +321,16 @@ def test_help_names_every_option(capsys):
     with pytest.raises(SystemExit) as end:
         mission_report.main(['--help'])
     told = capsys.readouterr().out
-    assert end.value.code == 0 and all(word in told for word in ('FILE.bag', '--output', '--robot'))
+    assert end.value.code == 0 and all(word in told for word in ('FILE.bag', '--output', '--robot', '--target'))
+
+
+def test_the_target_is_that_of_the_recorded_goal_unless_it_is_given(tmp_path):
+    path = write(tmp_path / 'a.bag')
+    assert mission_bag.read(path).target == 0.99
+    with rosbag.Bag(path, 'a') as bag:
+        for target in (0.8, 0.9, 0.0):
+            bag.write('/rumba/clean/goal', CleanActionGoal(goal=CleanGoal(target_coverage=target)), genpy.Time(101))
+    assert mission_bag.read(path).target == 0.9 and mission_bag.read(path, target=0.5).target == 0.5
 
 
 def test_topics_with_several_publishers_are_named(tmp_path):

@@ -14,8 +14,9 @@ from rumba_evaluation.report.mission_events import events
 from rumba_evaluation.report.mission_record import Grid, MissionRecord, MissionState, Series, series
 from rumba_evaluation.report.report_figures import figures
 from rumba_evaluation.report.report_page import page
+from rumba_evaluation.report.report_slider import track
 
-VOID = ('meta', 'br', 'img')
+VOID = ('meta', 'br', 'img', 'input')
 
 
 class Checker(html.parser.HTMLParser):
@@ -77,7 +78,7 @@ def test_a_page_is_complete_and_needs_no_other_file(changes):
     text = page(record(**changes))
     checker = check(text)
     tags = [tag for tag, _ in checker.found]
-    assert not {'script', 'link', 'iframe', 'object', 'base'} & set(tags)
+    assert not {'link', 'iframe', 'object', 'base'} & set(tags)
     for tag, attributes in checker.found:
         for name in ('href', 'xlink:href', 'src', 'srcset', 'action'):
             assert attributes.get(name, '#').startswith(('#', 'data:image/png;base64,')), (tag, name)
@@ -109,12 +110,13 @@ def test_names_and_messages_are_escaped():
 def test_the_page_says_what_was_not_recorded():
     bare = MissionRecord('a.bag', 'rumba', series([0.0], [[0.0, 0.0]]), series([0.0], [50.0]))
     text = check(page(bare)).text
-    assert text.count('not recorded') == 6 and text.count('Not recorded.') == 1  # five figures, map, strategy, outcome
+    # Five figures, map, strategy, outcome.
+    assert text.count('not recorded') == 8 and text.count('Not recorded.') == 1
     assert 'at rest' in text
 
 
 def test_a_long_list_of_events_is_cut():
-    states = [MissionState(0.1 * number, number % 2, '', '') for number in range(300)]
+    states = [MissionState(0.1 * number, 2 + number % 2, '', '') for number in range(300)]
     text = page(record(states=states))
     assert text.count('</td></tr>') - text.count('</th><td>') == 201
     assert f'... and {len(events(record(states=states))) - 200} more' in text
@@ -137,6 +139,37 @@ def test_the_page_of_an_hour_is_small():
     assert text == page(long)
 
 
+# --- the slider -----------------------------------------------------------------------------------------------------
+
+def test_the_track_of_the_slider_lies_on_the_drawn_path():
+    points, _ = group(figures(record()).path, 'map-path')
+    found = track(record())
+    assert np.array([found['x'], found['y']]).T / 10.0 == approx(points, abs=0.06)
+    assert found['t'] == [0.0, 40.0, 60.0, 100.0] and found['duration'] == 100.0
+    scale = (points[1, 0] - points[0, 0]) / 4.0
+    assert (found['brush'], found['radius']) == approx((0.17 * scale, 0.1743 * scale), rel=0.01)
+
+
+def test_the_track_tells_where_the_robot_cleaned_and_what_it_had_done():
+    found = track(record())
+    assert found['clean'] == [1, 1, 1, 0]  # stranded after 80 s
+    assert found['bumps'] == [50.0, 70.0] and found['states'] == [[0.0, 'cleaning'], [80.0, 'stranded']]
+    assert (found['charge'][0], found['charge'][-1], found['swept'][249:251]) == (100.0, 50.0, [10.0, 30.0])
+
+
+def test_the_track_breaks_at_a_jump_and_is_never_long():
+    times = np.arange(0.0, 40000.0)
+    path = Series(times, np.stack([0.3 * times, np.where(times < 20000.0, 0.0, 50.0)], axis=1))
+    found = track(record(path=path))
+    assert len(found['t']) <= 8010 and len(found['breaks']) == 1
+    assert found['t'][found['breaks'][0] - 1:found['breaks'][0] + 1] == [19999.0, 20000.0]
+
+
+def test_a_map_that_is_a_picture_has_no_slider(monkeypatch):
+    monkeypatch.setattr(report_figures, 'LARGE', 1000)
+    assert '<script' not in page(record()) and 'type="range"' not in page(record())
+
+
 # --- the figures ----------------------------------------------------------------------------------------------------
 
 def test_the_map_has_equal_axes_and_y_goes_up():
@@ -154,7 +187,7 @@ def test_axes_are_equal_also_if_the_floor_is_wide_or_high(corners):
     scale = np.ptp(points, axis=0).max() / 9.0
     assert (points - points[0]) / (scale, -scale) == approx(np.array(corners), abs=2e-3)
     width, height = (float(size) for size in re.search(r'viewBox="0 0 (\S+) (\S+)"', figure).groups())
-    assert 0.25 < width / height < 4.0 and max(width, height) < 500.0
+    assert 0.25 < width / height < 4.0 and max(width, height) < 700.0
 
 
 def test_the_path_has_a_gap_at_a_jump():

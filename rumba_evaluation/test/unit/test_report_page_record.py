@@ -7,8 +7,8 @@ from pytest import approx
 
 from rumba_cleaning.mission.mission import State
 from rumba_evaluation.report.mission_events import events
-from rumba_evaluation.report.mission_record import (MissionState, Series, charging_spans, clock, rises, series, spans,
-                                                    summary)
+from rumba_evaluation.report.mission_record import MissionState, Series, charging_spans, clock, rises, series, spans
+from rumba_evaluation.report.mission_summary import summary
 
 
 def test_a_jump_is_no_driven_distance():
@@ -56,22 +56,69 @@ def test_a_low_battery_is_one_event_until_it_has_recovered():
     assert [event.time for event in events(record(charge=charge)) if event.kind == 'battery'] == [1.0, 5.0]
 
 
-def test_many_bumps_are_counted():
-    times = np.arange(40.0)
-    found = [event.text for event in events(record(pressed=Series(times, times % 2))) if event.kind == 'bump']
-    assert len(found) == 1 and found[0].startswith('The first of 20 bumps, at (0.00, 0.00) m')
+def test_many_bumps_of_one_state_are_one_event():
+    times = np.arange(100.0)
+    states = [MissionState(0.0, State.CLEANING, '', ''), MissionState(60.0, State.RETURNING, '', ''),
+              MissionState(66.0, State.IDLE, '', '')]
+    bumpy = record(pressed=Series(times, times % 2), states=states)
+    found = [event.text for event in events(bumpy) if event.kind == 'bump']
+    assert [text[:37] for text in found] == ['The first of 30 bumps until 0:00:59, '] + [
+        'Bump at (4.00, 1.00) m.'] * 3 + ['The first of 17 bumps until 0:01:39, ']
+
+
+def test_a_stay_on_the_dock_is_one_event_at_each_end():
+    docked = series([0, 10, 50, 90], [0, 1, 0, 0])
+    charging = series([0, 11, 49, 90], [0, 1, 0, 0])
+    states = [MissionState(time, state, '', '') for time, state in (
+        (0.0, State.CLEANING), (4.0, State.RETURNING), (7.0, State.DOCKING), (10.0, State.CHARGING),
+        (48.0, State.UNDOCKING), (52.0, State.CLEANING))]
+    found = events(record(docked=docked, charging=charging, states=states, pressed=series([], [])))
+    assert [event.text for event in found[1:-1]] == [
+        'Mission: cleaning', 'Mission: returning', 'Docked and charging, battery 100 %.',
+        'Left the dock after 0:00:38 of charging, battery 100 %.', 'Mission: cleaning']
 
 
 @pytest.mark.parametrize('states, told', [
-    ([], ''), ([(State.IDLE, '')], 'idle'),
-    ([(State.CLEANING, 'working')], 'not ended when the recording ended, cleaning: working'),
-    ([(State.CLEANING, 'working'), (State.IDLE, 'done')], 'ended: done'),
-    ([(State.CLEANING, 'working'), (State.STRANDED, 'stuck')], 'stranded: stuck'),
-    ([(State.GOING_TO, '')], 'not ended when the recording ended, going to'),
-    ([(len(State), '')], f'not ended when the recording ended, state {len(State)}')])
+    ([], ''), ([(State.IDLE, '')], 'The robot had no mission while this was recorded.'),
+    ([(State.CLEANING, 'working')], 'The recording ends before the mission, after 0:01:40: '
+                                    '90.0 % of the floor is swept, the robot is cleaning.'),
+    ([(State.CLEANING, 'working'), (State.IDLE, '90.0 % swept')],
+     'The robot cleaned 90.0 % of the floor in 0:00:01, less than the target of 99 %: 90.0 % swept.'),
+    ([(State.CLEANING, 'working'), (State.STRANDED, 'stuck')], 'The robot is stranded after 0:01:40: stuck.'),
+    ([(State.STRANDED, '')], 'The robot is stranded after 0:01:40: it does not say why.'),
+    ([(len(State), '')], 'The recording ends before the mission, after 0:01:40: 90.0 % of the floor is swept, '
+                         f'the robot is state {len(State)}.')])
 def test_outcomes(states, told):
     said = [MissionState(float(time), state, '', message) for time, (state, message) in enumerate(states)]
     assert summary(record(states=said)).outcome == told
+
+
+@pytest.mark.parametrize('target, docked, told', [
+    (0.9, [0, 1, 1], 'The robot cleaned 90.0 % of the floor in 0:00:01 and is back on its dock: the target was 90 %.'),
+    (0.9004, [0, 1, 0], 'The robot cleaned 90.0 % of the floor in 0:00:01: the target was 90.04 %.')])
+def test_a_mission_that_met_its_target(target, docked, told):
+    said = [MissionState(0.0, State.CLEANING, '', ''), MissionState(1.0, State.IDLE, '', 'done')]
+    assert summary(record(states=said, target=target, docked=series([0, 10, 100], docked))).outcome == told
+
+
+def test_the_end_of_a_mission_without_coverage_is_told_in_its_own_words():
+    said = [MissionState(0.0, State.CLEANING, '', ''), MissionState(1.0, State.IDLE, '', 'done')]
+    assert summary(record(states=said, coverage=series([], []))).outcome == 'The mission ended after 0:00:01: done.'
+
+
+def test_charges_are_those_of_the_mission_and_not_its_last_return_to_the_dock():
+    """A person who drives does not make two charges of one."""
+    order = (State.CLEANING, State.CHARGING, State.YIELDING, State.CHARGING, State.CLEANING, State.CHARGING,
+             State.CLEANING, State.DOCKING, State.IDLE)
+    said = [MissionState(10.0 * number, state, '', '') for number, state in enumerate(order)]
+    charging = series(range(0, 100, 5), [0, 0, 1, 1, 1, 1, 1, 1, 0, 0, 1, 1, 0, 0, 0, 0, 1, 1, 1, 1])
+    assert summary(record(states=said, charging=charging)).charges == 2
+    assert summary(record(states=(), charging=charging)).charges == 3
+
+
+def test_the_ideal_time_is_that_of_one_brush_without_overlap():
+    assert summary(record(areas=(9.0, 10.2))).ideal_time == approx(10.2 / (0.17 * 0.3))
+    assert summary(record(areas=None)).ideal_time is None
 
 
 def test_energy_and_speed_follow_from_power_and_path():

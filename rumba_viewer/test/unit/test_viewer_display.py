@@ -28,3 +28,12 @@ def test_without_a_display_no_process_is_started(monkeypatch):
     monkeypatch.setattr(display, 'TRY', 'print(flush=True)')
     with display.reached() as trouble:
         assert trouble == 'there is no display: neither DISPLAY nor WAYLAND_DISPLAY is set'
+
+
+@pytest.mark.parametrize('arguments, style', [
+    (['_style:=dark'], 'dark'), (['_robot:=rumba2', '_style:=light'], 'light'), ([], 'auto'),
+    (['_style:=pink'], 'auto')])
+def test_before_there_is_a_master_the_style_of_the_command_line_counts(monkeypatch, arguments, style):
+    from rumba_viewer.ros import application
+    monkeypatch.setattr('sys.argv', ['viewer', *arguments])
+    assert application._given_style() == style

@@ -5,12 +5,15 @@ from __future__ import annotations
 import math
 from typing import Iterator, List, NamedTuple, Tuple
 
+import numpy as np
+
 from rumba_cleaning.mission.mission import State
-from rumba_evaluation.report.mission_record import (MissionRecord, Series, charging_spans, jumps, rises, spans,
-                                                    state_spans)
+from rumba_evaluation.report.mission_record import (MissionRecord, MissionState, Series, charging_spans, clock, jumps,
+                                                    rises, spans, state_spans)
 
 LOW, RECOVERED = 10.0, 12.0  # [%] a charge below LOW is an event; the next one needs a charge of RECOVERED before
-FEW_BUMPS = 12  # more bumps are counted in one event
+FEW_BUMPS = 3  # more bumps of one state of the mission are counted in one event
+TOGETHER = 3.0  # [s] what happens within this time is one event: to dock and to charge, to undock and to say so
 NEAR = 0.15  # [m] contacts that are farther apart belong to different docks
 
 
@@ -25,7 +28,7 @@ class Event(NamedTuple):
 def events(record: MissionRecord) -> List[Event]:
     """All events from the beginning to the end of a recording."""
     found = [Event(0.0, 'recording', f'The recording begins at {_position(record, 0.0)}, {_charge(record, 0.0)}.')]
-    for part in (_dock, _charges, _states, _bumps, _jumps, _low, _falls):
+    for part in (_stays, _charges, _states, _bumps, _jumps, _low, _falls):
         found += part(record)
     found.sort(key=lambda event: event.time)
     end = record.duration
@@ -41,38 +44,68 @@ def _charge(record: MissionRecord, time: float) -> str:
     return f'battery {record.charge.at(time):.0f} %'
 
 
-def _dock(record: MissionRecord) -> Iterator[Event]:
+def _stays(record: MissionRecord) -> Iterator[Event]:
+    """Each stay on the dock, with the charge that began or ended with it."""
     last = record.docked.times[-1] if len(record.docked.times) else 0.0
+    charges = charging_spans(record)
     for number, (begin, end) in enumerate(spans(record.docked)):
         if number > 0 or begin > record.docked.times[0]:
-            yield Event(begin, 'dock', f'Docked, {_charge(record, begin)}.')
+            is_charged = any(_are_together(begin, start) for start, _ in charges)
+            yield Event(begin, 'dock', f'Docked{" and charging" if is_charged else ""}, {_charge(record, begin)}.')
         if end < last:
-            yield Event(end, 'dock', f'Undocked, {_charge(record, end)}.')
+            charged = sum(stop - start for start, stop in charges if _are_together(stop, end))
+            yield Event(end, 'dock', f'Left the dock{f" after {clock(charged)} of charging" if charged else ""}, '
+                                     f'{_charge(record, end)}.')
 
 
 def _charges(record: MissionRecord) -> Iterator[Event]:
+    """Charges that neither begin nor end with a stay on the dock."""
+    edges = [edge for span in spans(record.docked) for edge in span]
     for begin, end in charging_spans(record):
-        yield Event(begin, 'charge', f'Charging began, {_charge(record, begin)}.')
-        if end < record.duration - 1.0:
+        if not any(_are_together(begin, edge) for edge in edges):
+            yield Event(begin, 'charge', f'Charging began, {_charge(record, begin)}.')
+        if end < record.duration - 1.0 and not any(_are_together(end, edge) for edge in edges):
             yield Event(end, 'charge', f'Charging ended, {_charge(record, end)}.')
 
 
+def _are_together(one: float, other: float) -> bool:
+    return abs(one - other) <= TOGETHER
+
+
 def _states(record: MissionRecord) -> Iterator[Event]:
-    for time, _, state in state_spans(record):
-        strategy = f' ({state.strategy})' if state.strategy and state.state == State.CLEANING else ''
-        # At a change of state the message still describes the state before, except at the end of a mission.
-        message = f': {state.message}' if state.message and state.state in (State.IDLE, State.STRANDED) else ''
-        yield Event(time, 'mission', f'Mission: {state.name}{strategy}{message}')
+    """The states of the mission, without those that a stay on the dock tells of, or that hardly last."""
+    found = state_spans(record)
+    edges = [edge for span in spans(record.docked) for edge in span]
+    for number, (time, end, state) in enumerate(found):
+        is_last = number == len(found) - 1
+        is_told = (state.state in (State.UNDOCKING, State.CHARGING) and any(time - TOGETHER <= edge <= end + TOGETHER
+                                                                            for edge in edges)
+                   or state.state == State.DOCKING and number > 0 and found[number - 1][2].state == State.RETURNING
+                   or state.state == State.IDLE and end - time <= TOGETHER)
+        if is_last or not is_told:
+            yield Event(time, 'mission', _told(state, is_last and number > 0))
+
+
+def _told(state: MissionState, is_end: bool) -> str:
+    # At a change of state the message still describes the state before, except at the end of a mission.
+    message = f': {state.message}' if state.message and state.state in (State.IDLE, State.STRANDED) else ''
+    if state.state == State.IDLE and is_end:
+        return f'The mission ends{message}'
+    strategy = f' ({state.strategy})' if state.strategy and state.state == State.CLEANING else ''
+    return f'Mission: {state.name}{strategy}{message}'
 
 
 def _bumps(record: MissionRecord) -> Iterator[Event]:
+    """The bumps of each state of the mission: each of them, or the first with their number."""
     times = rises(record.pressed)
-    if len(times) > FEW_BUMPS:
-        yield Event(float(times[0]), 'bump', f'The first of {len(times)} bumps, at {_position(record, times[0])}; '
-                                             'the map shows all of them.')
-    else:
-        for time in times.tolist():
-            yield Event(time, 'bump', f'Bump at {_position(record, time)}.')
+    edges = [time for time, _, _ in state_spans(record)]
+    for group in np.split(times, np.searchsorted(times, edges)):
+        if len(group) > FEW_BUMPS:
+            yield Event(float(group[0]), 'bump', f'The first of {len(group)} bumps until {clock(group[-1])}, at '
+                                                 f'{_position(record, group[0])}; the map shows all of them.')
+        else:
+            for time in group.tolist():
+                yield Event(time, 'bump', f'Bump at {_position(record, time)}.')
 
 
 def _jumps(record: MissionRecord) -> Iterator[Event]:

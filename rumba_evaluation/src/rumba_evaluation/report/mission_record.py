@@ -1,4 +1,4 @@
-"""The record of a mission as plain arrays, and the figures that follow from it."""
+"""The record of a mission as plain arrays, and the parts of its time."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, Dict, List, NamedTuple, Optional, Sequenc
 
 import numpy as np
 
+from rumba_cleaning.cleaning_config import CleaningConfig
 from rumba_cleaning.mission.mission import State
 
 if TYPE_CHECKING:  # NumPy 1.17 of Ubuntu 20.04 has no numpy.typing
@@ -95,6 +96,8 @@ class MissionRecord:
         fallen: 1 while a wheel hangs over a cliff, else 0.
         coverage: share of the floor that is swept [0..1].
         areas: swept, and within reach [m^2], at the end.
+        dirt: share of the dirt that is left [0..1], at the end.
+        target: share of the floor that the mission was to sweep [0..1].
         states: the mission's states, in order of time.
         floor: the map: 0 free, 100 wall.
         swept: at the end: 100 swept, 0 missed, -1 out of reach.
@@ -113,6 +116,8 @@ class MissionRecord:
     fallen: Series = NOTHING
     coverage: Series = NOTHING
     areas: Optional[Tuple[float, float]] = None
+    dirt: Optional[float] = None
+    target: float = CleaningConfig().target_coverage
     states: Sequence[MissionState] = ()
     floor: Optional[Grid] = None
     swept: Optional[Grid] = None
@@ -178,81 +183,13 @@ def state_spans(record: MissionRecord) -> List[Tuple[float, float, MissionState]
 
 def jumps(path: Series) -> NDArray[np.intp]:
     """Indices of the poses that the robot cannot have reached by driving from the pose before."""
-    step, gap = _steps(path)
+    step, gap = steps(path)
     return np.flatnonzero((step > JUMP) & (step > FASTEST * gap)) + 1
 
 
-def _steps(path: Series) -> Tuple[Floats, Floats]:
+def steps(path: Series) -> Tuple[Floats, Floats]:
     """Distance [m] and time [s] from each pose to the next."""
     return np.hypot(*np.diff(path.values, axis=0).T), np.diff(path.times)
-
-
-# --- figures --------------------------------------------------------------------------------------------------------
-
-@dataclass(frozen=True)
-class Summary:
-    """A mission in figures; None: not recorded."""
-
-    duration: float  # [s]
-    busy: Optional[float]  # [s] during which the mission was not idle
-    distance: float  # [m]
-    driving_time: float  # [s]
-    mean_speed: Optional[float]  # [m/s] while it drove
-    coverage: Optional[float]  # [0..1]
-    areas: Optional[Tuple[float, float]]  # swept, and within reach [m^2]
-    charges: int
-    charging_time: float  # [s]
-    charge: Tuple[float, float, float]  # at the beginning, at the end, lowest [%]
-    energy: Optional[Tuple[float, float]]  # used, and charged [Wh]
-    bumps: Optional[int]
-    jumps: int
-    outcome: str
-
-
-def summary(record: MissionRecord) -> Summary:
-    """The figures of a mission."""
-    step, gap = _steps(record.path)
-    driven = np.ones(len(step), bool)
-    driven[jumps(record.path) - 1] = False
-    moving = driven & (step > MOVING * gap)
-    distance, driving_time = float(step[driven].sum()), float(gap[moving].sum())
-    charging = charging_spans(record)
-    charge = record.charge.values
-    return Summary(
-        record.duration, _busy(record), distance, driving_time, distance / driving_time if driving_time > 0.0 else None,
-        float(record.coverage.values[-1]) if len(record.coverage.times) else None, record.areas,
-        len(charging), sum(end - begin for begin, end in charging),
-        (float(charge[0]), float(charge[-1]), float(charge.min())), _energy(record.power),
-        len(rises(record.pressed)) if len(record.pressed.times) else None, len(step) - int(driven.sum()),
-        _outcome(record))
-
-
-def _busy(record: MissionRecord) -> Optional[float]:
-    found = state_spans(record)
-    return sum(end - begin for begin, end, state in found if state.state != State.IDLE) if found else None
-
-
-def _energy(power: Series) -> Optional[Tuple[float, float]]:
-    """Used, and charged [Wh], by the trapezoidal rule."""
-    if not len(power.times):
-        return None
-    used, charged = (float(np.sum(0.5 * (part[1:] + part[:-1]) * np.diff(power.times))) / 3600.0
-                     for part in (np.maximum(-power.values, 0.0), np.maximum(power.values, 0.0)))
-    return used, charged
-
-
-def _outcome(record: MissionRecord) -> str:
-    """How the mission ended, in words; empty if no state was recorded."""
-    if not record.states:
-        return ''
-    last = record.states[-1]
-    was_busy = any(state.state != State.IDLE for state in record.states)
-    message = next((state.message for state in reversed(record.states) if state.message), '')
-    if last.state == State.IDLE:
-        outcome = 'ended' if was_busy else last.name
-    else:
-        outcome = last.name if last.state == State.STRANDED else f'not ended when the recording ended, {last.name}'
-    return f'{outcome}: {message}' if message else outcome
 
 
 def clock(seconds: float) -> str:

@@ -17,6 +17,7 @@ from matplotlib.ticker import MaxNLocator, MultipleLocator
 from rumba_cleaning.mission.mission import State
 from rumba_evaluation.report.mission_events import LOW, bump_positions, contacts
 from rumba_evaluation.report.mission_record import Grid, MissionRecord, charging_spans, jumps, state_spans
+from rumba_evaluation.report.mission_summary import ideal_time
 
 # Colours of the page by name, on a light and on a dark screen. matplotlib draws with the light ones; _inline replaces
 # them by their names, so that no two may be equal.
@@ -35,7 +36,7 @@ STYLE = {'svg.fonttype': 'none', 'svg.hashsalt': 'report', 'image.composite_imag
          'axes.linewidth': 0.6, 'path.simplify': True, 'path.simplify_threshold': 0.25, 'agg.path.chunksize': 10000}
 MARGINS = (36.0, 31.0, 8.0, 6.0)  # left, bottom, right, top of the axes [1/72 inch]
 WIDTH, HEIGHT = 245.0, 130.0  # of the axes of a curve [1/72 inch]
-MAP_WIDTH, MAP_HEIGHT = 265.0, 340.0  # at most, of the axes of the map [1/72 inch]
+MAP_WIDTH, MAP_HEIGHT = 560.0, 420.0  # at most, of the axes of the map [1/72 inch]
 LARGE = 500_000  # characters of SVG; above that a PNG picture is smaller
 DOTS = 180  # per inch of such a picture
 MARGIN = 0.15  # [m] around the map
@@ -63,7 +64,7 @@ def figures(record: MissionRecord) -> Figures:
 def _path_over_map(record: MissionRecord) -> str:
     """The path over the map, with swept and missed floor; both axes have the same scale, y is up."""
     left, bottom, right, top = _view(record)
-    scale = min(MAP_WIDTH / (right - left), MAP_HEIGHT / (top - bottom))
+    scale = map_scale(record)
     figure, axes = _canvas((right - left) * scale, (top - bottom) * scale)
     axes.set(xlim=(left, right), ylim=(bottom, top), xlabel='x [m]', ylabel='y [m]')
     step = MultipleLocator(_round_step(max(right - left, top - bottom)))
@@ -74,9 +75,9 @@ def _path_over_map(record: MissionRecord) -> str:
     if record.floor is not None:
         _show(axes, record.floor, (('wall', 255, OCCUPIED_PERCENT),))
     points = np.insert(record.path.values, jumps(record.path), math.nan, axis=0)  # NaN makes a gap in the line
-    axes.plot(*points.T, color=_colour('path'), linewidth=0.55, gid='path')
-    axes.plot(*bump_positions(record).values.reshape(-1, 2).T, 'x', color=_colour('bump'), markersize=3.2,
-              markeredgewidth=0.7, gid='bumps')
+    axes.plot(*points.T, color=_colour('path'), linewidth=0.8, gid='path')
+    axes.plot(*bump_positions(record).values.reshape(-1, 2).T, 'o', color=_colour('bump'), markersize=2.6,
+              markeredgewidth=0.0, gid='bumps')
     for x, y in contacts(record):
         axes.plot(x, y, 'D', color=_colour('dock'), markersize=8.0, fillstyle='none', markeredgewidth=1.3)
     for (x, y), marker, size, fill in ((record.path.values[0], '^', 6.5, 'none'),
@@ -87,10 +88,14 @@ def _path_over_map(record: MissionRecord) -> str:
 
 
 def _coverage_over_time(record: MissionRecord) -> str:
-    """The share of the floor that was swept, and below it the states of the mission."""
+    """The share of the floor that was swept, the target and the ideal, and below it the states of the mission."""
     states = state_spans(record)
     figure, axes = _canvas(WIDTH, HEIGHT)
     unit = _time_axis(axes, record.duration)
+    axes.axhline(100.0 * record.target, color=_colour('ink'), linewidth=0.8, linestyle='--', gid='target')
+    ideal = ideal_time(record)
+    if ideal is not None:
+        axes.plot([0.0, ideal / unit], [0.0, 100.0], color=_colour('faint'), linewidth=0.8, linestyle=':', gid='ideal')
     axes.plot(record.coverage.times / unit, 100.0 * record.coverage.values, color=_colour('swept'), linewidth=1.3,
               gid='coverage')
     axes.set(ylim=(-9.0 if states else 0.0, 102.0), ylabel='swept [%]')
@@ -167,6 +172,18 @@ def _view(record: MissionRecord) -> Tuple[float, float, float, float]:
     (left, bottom), (right, top) = points.min(axis=0) - MARGIN, points.max(axis=0) + MARGIN
     lack = 0.5 * np.maximum(0.25 * max(right - left, top - bottom) - (right - left, top - bottom), 0.0)
     return left - lack[0], bottom - lack[1], right + lack[0], top + lack[1]  # nothing is narrower than 1 : 4
+
+
+def map_scale(record: MissionRecord) -> float:
+    """The scale of the map [1/72 inch per m]."""
+    left, bottom, right, top = _view(record)
+    return min(MAP_WIDTH / (right - left), MAP_HEIGHT / (top - bottom))
+
+
+def on_map(record: MissionRecord, points: Any) -> Any:
+    """Where points (n, 2) [m] are on the map: from its upper left corner, y down (n, 2) [1/72 inch]."""
+    left, _, _, top = _view(record)
+    return (np.asarray(points) - (left, top)) * map_scale(record) * (1.0, -1.0) + (MARGINS[0], MARGINS[3])
 
 
 def _round_step(length: float) -> float:

@@ -1,61 +1,23 @@
-"""A report of one mission as an HTML page that needs no other file, no script and no network."""
+"""A report of one mission as an HTML page that needs no other file and no network."""
 
 from __future__ import annotations
 
 import datetime
 import html
 import os
-from typing import Dict, Iterable, Sequence, Tuple
+from typing import Dict, Iterable, Optional, Sequence, Tuple
 
 from rumba_cleaning.mission.mission import State
 from rumba_evaluation.report.mission_events import LOW, Event, bump_positions, contacts, events
-from rumba_evaluation.report.mission_record import MissionRecord, Summary, charging_spans, clock, state_spans, summary
+from rumba_evaluation.report.mission_record import MissionRecord, charging_spans, clock, state_spans
+from rumba_evaluation.report.mission_summary import Summary, summary
 from rumba_evaluation.report.report_figures import COLOURS, figures, state_colour
+from rumba_evaluation.report.report_slider import SLIDER, scripts
+from rumba_evaluation.report.report_style import PAGE, STYLE
 
 MOST_EVENTS = 200  # rows of the table; further events are counted
 CALENDAR = 1e9  # [s] later stamps are dates, earlier ones count from the start of a simulation
 NOT_RECORDED = 'not recorded'
-
-STYLE = '''
-*{box-sizing:border-box}
-body{margin:0 auto;padding:1rem;max-width:66rem;font:1rem/1.5 system-ui,-apple-system,"Segoe UI",sans-serif;
-color:var(--ink);background:var(--page)}
-h1{font-size:1.5rem;margin:0;overflow-wrap:anywhere}
-h2{font-size:1.1rem;margin:0 0 .5rem}
-header p,footer,.note{color:var(--soft);margin:.25rem 0 0;overflow-wrap:anywhere}
-.tiles{display:grid;grid-template-columns:repeat(2,1fr);gap:.75rem;margin:1rem 0;padding:0}
-.tiles div,section{background:var(--card);border:1px solid var(--rule);border-radius:.5rem;padding:.75rem 1rem}
-.tiles dt{color:var(--soft);font-size:.85rem}
-.tiles dd{margin:0;font-size:1.5rem;line-height:1.3}
-.tiles dd small{display:block;color:var(--soft);font-size:.85rem}
-.outcome{border-left:.3rem solid;background:var(--card);padding:.5rem 1rem;margin:1rem 0;
-overflow-wrap:anywhere}
-.columns{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(100%,26rem),1fr));gap:.75rem;align-items:start;
-margin-bottom:.75rem}
-.columns>div{display:grid;gap:.75rem}
-section{min-width:0}
-figure{margin:0}
-svg,img{display:block;width:100%;height:auto;max-height:90vh}
-svg *{stroke-linejoin:round;stroke-linecap:butt}
-svg text{font-family:inherit!important}
-img{background:#fff}
-.legend{list-style:none;display:flex;flex-wrap:wrap;gap:.1rem 1rem;margin:.5rem 0 0;padding:0;font-size:.85rem}
-.legend b{font-weight:400}
-.legend i{display:inline-block;width:.8em;height:.8em;border-radius:.15em;margin-right:.35em}
-.legend .line{height:.2em;vertical-align:.25em;width:1.2em}
-table{border-collapse:collapse;width:100%;font-size:.9rem}
-th,td{text-align:left;vertical-align:top;padding:.25rem .5rem .25rem 0;border-bottom:1px solid var(--rule)}
-td:first-child,th[scope=row]{white-space:nowrap}
-th[scope=row]{font-weight:400;color:var(--soft)}
-td{overflow-wrap:anywhere}
-.events td:first-child{font-variant-numeric:tabular-nums;color:var(--soft)}
-@media (max-width:30rem){body{padding:.5rem}section,.tiles div{padding:.5rem .6rem}}
-@media (min-width:44rem),print{.tiles{grid-template-columns:repeat(4,1fr)}}
-@media print{body{background:none;padding:0;max-width:none;font-size:10pt}section,.tiles div,tr{break-inside:avoid}
-.columns{grid-template-columns:1fr 1fr}.events{break-inside:auto}svg{max-height:16cm}
-*{-webkit-print-color-adjust:exact;print-color-adjust:exact}}
-'''
-PAGE = {'page': ('#f5f7fa', '#14181c'), 'card': ('#ffffff', '#1d2329'), 'soft': ('#5b6773', '#a3afbb')}
 
 
 def page(record: MissionRecord) -> str:
@@ -76,22 +38,18 @@ def page(record: MissionRecord) -> str:
 <body>
 <header><h1>Mission of {robot}</h1><p>{name}</p></header>
 <main>
-{_tiles(totals)}
 {_outcome(record, totals)}
+{_tiles(record, totals)}
+{_map(record, drawn.path)}
 <div class="columns">
-<div>
-{_section('Path', drawn.path, _map_legend(record))}
-{_details(record)}
-</div>
-<div>
-{_section('Coverage', drawn.coverage, _state_legend(record))}
+{_section('Coverage', drawn.coverage, _coverage_legend(record))}
 {_section('Battery', drawn.battery, _battery_legend(record))}
 </div>
-</div>
 {_event_table(events(record))}
+{_details(record)}
 </main>
 <footer>{_remarks(record)}</footer>
-</body>
+{scripts(record) if drawn.path.startswith('<svg') else ''}</body>
 </html>
 '''
 
@@ -111,19 +69,21 @@ def _began(record: MissionRecord) -> str:
     return datetime.datetime.fromtimestamp(record.began, datetime.timezone.utc).strftime('%Y-%m-%d %H:%M:%S UTC')
 
 
-def _tiles(totals: Summary) -> str:
+def _tiles(record: MissionRecord, totals: Summary) -> str:
     """The most important figures in large print."""
-    area = f'{totals.areas[0]:.1f} of {totals.areas[1]:.1f} m²' if totals.areas else ''
+    area = f'{totals.areas[0]:.1f} of {totals.areas[1]:.1f} m², ' if totals.areas else ''
     speed = f'{totals.mean_speed:.2f} m/s while driving' if totals.mean_speed is not None else 'at rest'
+    ideal = f'ideal: {clock(totals.ideal_time)}, ' if totals.ideal_time is not None else ''
     first, last, lowest = totals.charge
     used, charged = totals.energy or (0.0, 0.0)
     tiles = [
-        ('Coverage', f'{100.0 * totals.coverage:.1f} %' if totals.coverage is not None else NOT_RECORDED, area),
-        ('Duration', clock(totals.duration),
-         'simulated time' + (f', {clock(totals.busy)} not idle' if totals.busy is not None else '')),
-        ('Distance', f'{totals.distance:.1f} m', speed),
-        ('Driving', clock(totals.driving_time), _times(totals.jumps, 'moved without driving ') if totals.jumps else ''),
-        ('Charging', clock(totals.charging_time), _times(totals.charges)),
+        ('Coverage', _percent(totals.coverage), f'{area}target {100.0 * record.target:g} %'),
+        ('Mission', clock(totals.busy) if totals.busy is not None else NOT_RECORDED,
+         f'{ideal}recorded: {clock(totals.duration)}'),
+        ('Dirt left', _percent(record.dirt), ''),
+        ('Distance', f'{totals.distance:.1f} m', speed
+         + (_times(totals.jumps, ', moved without driving ') if totals.jumps else '')),
+        ('Charges', str(totals.charges), f'{clock(totals.charging_time)} of charging in all'),
         ('Battery', f'{last:.0f} %', f'from {first:.0f} %, lowest {lowest:.0f} %'),
         ('Energy', *((f'{used:.2f} Wh', f'used; {charged:.2f} Wh charged') if totals.energy else (NOT_RECORDED, ''))),
         ('Bumps', str(totals.bumps) if totals.bumps is not None else NOT_RECORDED, '')]
@@ -132,11 +92,15 @@ def _tiles(totals: Summary) -> str:
     ) + '</dl>'
 
 
+def _percent(share: Optional[float]) -> str:
+    return f'{100.0 * share:.1f} %' if share is not None else NOT_RECORDED
+
+
 def _outcome(record: MissionRecord, totals: Summary) -> str:
     is_stranded = bool(record.states) and record.states[-1].state == State.STRANDED
     colour = 'bump' if is_stranded else 'swept' if totals.outcome else 'rule'
-    return (f'<p class="outcome" style="border-color:var(--{colour})"><strong>Outcome:</strong> '
-            f'{html.escape(totals.outcome or NOT_RECORDED)}</p>')
+    told = totals.outcome or 'How the mission ended was not recorded.'
+    return f'<p class="outcome" style="border-color:var(--{colour})">{html.escape(told)}</p>'
 
 
 def _times(count: int, what: str = '') -> str:
@@ -147,6 +111,16 @@ def _section(title: str, drawn: str, legend: str) -> str:
     if not drawn:
         return f'<section><h2>{title}</h2><p class="note">{NOT_RECORDED.capitalize()}.</p></section>'
     return f'<section><h2>{title}</h2><figure>{drawn}<figcaption>{legend}</figcaption></figure></section>'
+
+
+def _map(record: MissionRecord, drawn: str) -> str:
+    """The map with its legend, a switch for the bumps, and a slider for the time if the map is made of lines."""
+    switch = ''
+    if drawn.startswith('<svg') and len(bump_positions(record).times):
+        switch = '<input type="checkbox" id="bumps" checked><label for="bumps">show bumps</label>'
+    moving = SLIDER if drawn.startswith('<svg') else ''
+    return (f'<section class="path"><h2>Path</h2>{switch}<figure>{drawn}<figcaption>{_map_legend(record)}</figcaption>'
+            f'</figure>{moving}</section>')
 
 
 def _legend(entries: Iterable[Tuple[str, str]]) -> str:
@@ -172,18 +146,22 @@ def _map_legend(record: MissionRecord) -> str:
     if contacts(record):
         entries.append((_sign('◇', 'dock'), 'dock'))
     if len(bump_positions(record).times):
-        entries.append((_sign('✕', 'bump'), 'bump'))
+        entries.append((_sign('•', 'bump'), 'bump'))
     return _legend(entries)
 
 
-def _state_legend(record: MissionRecord) -> str:
-    """The states that occurred, in the order of their first occurrence, with the time spent in each."""
+def _coverage_legend(record: MissionRecord) -> str:
+    """Target and ideal, and the states in the order of their first occurrence, with the time spent in each."""
     spent: Dict[int, float] = {}
     names: Dict[int, str] = {}
     for begin, end, state in state_spans(record):
         spent[state.state] = spent.get(state.state, 0.0) + end - begin
         names[state.state] = state.name
-    return _legend((_patch(state_colour(state)), f'{names[state]} {clock(time)}') for state, time in spent.items())
+    entries = [(_patch('var(--swept)', 'line'), 'swept'), (_sign('╌', 'ink'), f'target {100.0 * record.target:g} %')]
+    if record.areas is not None:
+        entries.append((_sign('┈', 'faint'), 'ideal: without overlap and charging'))
+    return _legend(entries + [(_patch(state_colour(state)), f'{names[state]} {clock(time)}')
+                              for state, time in spent.items()])
 
 
 def _battery_legend(record: MissionRecord) -> str:

@@ -10,6 +10,7 @@ from rumba_sim.model.geometry import Pose
 from rumba_viewer.painting import paint_robot
 from rumba_viewer.painting.paint_belief import paint_believed, paint_particles
 from rumba_viewer.painting.paint_floor import FloorPainter, PathPainter
+from rumba_viewer.painting.paint_key import paint_key
 from rumba_viewer.painting.paint_obstacles import paint_obstacles
 from rumba_viewer.scene.snapshot import Snapshot
 from rumba_viewer.scene.theme import Theme, robot_colour
@@ -50,7 +51,9 @@ class ScenePainter:
             self._paint_things(painter, snapshot, view, theme, ghost)
             _paint_names(painter, snapshot, view, theme)
             _paint_target(painter, snapshot, view, theme)
-            _paint_scale_bar(painter, view, theme)
+            right = _paint_scale_bar(painter, view, theme)
+            if snapshot.coverage is not None:
+                paint_key(painter, right + 8.0, view.width, view.height, theme)
         if snapshot.missing:
             _paint_missing(painter, snapshot, view, theme)
 
@@ -116,22 +119,33 @@ def _paint_names(painter: QPainter, snapshot: Snapshot, view: ViewTransform, the
 
 
 def _paint_target(painter: QPainter, snapshot: Snapshot, view: ViewTransform, theme: Theme) -> None:
-    """A ring with cross hairs around the target, in the colour of the robot that would go there."""
-    if snapshot.target is None:
-        return
-    across, down = view.to_pixel(*snapshot.target)
+    """Cross hairs where robots go, in their colours, with a ring around the one that is chosen and not sent yet."""
+    for robot in snapshot.robots:
+        if robot.going_to is not None:
+            here = QPointF(*view.to_pixel(robot.pose.x, robot.pose.y))
+            there = QPointF(*view.to_pixel(*robot.going_to))
+            painter.setPen(QPen(QColor(robot_colour(theme, robot.name)), 1.5, Qt.DashLine))
+            painter.drawLine(here, there)
+            _paint_mark(painter, there, theme, robot_colour(theme, robot.name), has_ring=False)
+    if snapshot.target is not None:
+        _paint_mark(painter, QPointF(*view.to_pixel(*snapshot.target)), theme,
+                    robot_colour(theme, snapshot.selected), has_ring=True)
+
+
+def _paint_mark(painter: QPainter, at: QPointF, theme: Theme, colour: str, has_ring: bool) -> None:
     painter.save()
     painter.setBrush(Qt.NoBrush)
-    for colour, width in ((theme.card, 6.0), (robot_colour(theme, snapshot.selected), 2.5)):
-        painter.setPen(QPen(QColor(colour), width, Qt.SolidLine, Qt.RoundCap))
-        painter.drawEllipse(QPointF(across, down), TARGET, TARGET)
+    for stroke, width in ((theme.card, 6.0), (colour, 2.5)):
+        painter.setPen(QPen(QColor(stroke), width, Qt.SolidLine, Qt.RoundCap))
+        if has_ring:
+            painter.drawEllipse(at, TARGET, TARGET)
         for x, y in ((TARGET, 0.0), (-TARGET, 0.0), (0.0, TARGET), (0.0, -TARGET)):
-            painter.drawLine(QPointF(across + 0.4 * x, down + 0.4 * y), QPointF(across + 1.7 * x, down + 1.7 * y))
+            painter.drawLine(QPointF(at.x() + 0.4 * x, at.y() + 0.4 * y), QPointF(at.x() + 1.7 * x, at.y() + 1.7 * y))
     painter.restore()
 
 
-def _paint_scale_bar(painter: QPainter, view: ViewTransform, theme: Theme) -> None:
-    """A bar whose length is a round number of metres, in the lower left corner."""
+def _paint_scale_bar(painter: QPainter, view: ViewTransform, theme: Theme) -> float:
+    """A bar whose length is a round number of metres, in the lower left corner; returns its right edge [pixels]."""
     most = SCALE_BAR / view.scale
     power = 10.0 ** math.floor(math.log10(most))
     length = next(step * power for step in (5.0, 2.0, 1.0) if step * power <= most)
@@ -146,6 +160,7 @@ def _paint_scale_bar(painter: QPainter, view: ViewTransform, theme: Theme) -> No
     left, bottom = box.left() + 8.0, box.bottom() - 6.0
     painter.drawLine(QPointF(left, bottom), QPointF(left + length * view.scale, bottom))
     painter.drawText(box.adjusted(8.0, 2.0, -8.0, -8.0), Qt.AlignLeft | Qt.AlignTop, text)
+    return box.right()
 
 
 def _paint_missing(painter: QPainter, snapshot: Snapshot, view: ViewTransform, theme: Theme) -> None:

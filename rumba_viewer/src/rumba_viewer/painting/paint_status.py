@@ -1,6 +1,7 @@
 """Paints the card of the selected robot: mission, battery, coverage, pose, time."""
 
 import math
+import re
 from typing import Callable, List, Optional, Tuple
 
 from PyQt5.QtCore import QPointF, QRectF, Qt
@@ -9,14 +10,19 @@ from PyQt5.QtGui import QColor, QFont, QFontMetricsF, QPainter
 from rumba_sim.model.geometry import Pose
 from rumba_viewer.scene.snapshot import YIELDING, Battery, Cleaning, Robot, Simulation, Snapshot
 from rumba_viewer.scene.theme import Theme, robot_colour
+from rumba_viewer.scene.wording import taken
 
 BAR = 14.0  # [pixels] height of a bar
 FALLEN = 'fallen'
 EDGE, TOP = 12.0, 8.0  # [pixels] from the edges of the card to its text
 PILL_GAP = 8.0  # [pixels] from the name to the pill
-LINES = 9  # of small text
+LINES = 12  # of small text
+TWO_LINES = 1.8  # times the width of one, since lines end between words
 LOW, CRITICAL = 0.25, 0.10  # charge, below which the bar is yellow, red
-STATES = {'cleaning': 'good', 'charging': 'good', YIELDING: 'warning', 'stranded': 'bad', FALLEN: 'bad'}
+STATES = {'cleaning': 'good', 'charging': 'good', 'charged': 'good', YIELDING: 'warning', 'stranded': 'bad',
+          FALLEN: 'bad'}
+FIGURES = re.compile(r'[\d.]+ V, [\d.]+ A, ')
+FAR = 100.0  # [m] from which on a distance has no digits behind the point
 UNKNOWN, MINUS = '-', '\u2212'
 SLOW = 0.1  # [times real time] a lower speed is too few ticks to be measured in a second
 
@@ -55,7 +61,7 @@ class _Card:
     def paint(self, snapshot: Snapshot) -> None:
         robot = snapshot.robot
         self._title(snapshot.selected, robot)
-        self._small_line(_mission_text(robot))
+        self._small_lines(_mission_text(robot))
         battery, cleaning = (robot.battery, robot.cleaning) if robot is not None else (None, None)
         # Charge is rounded up, as in battery_status: 0 % is empty. Coverage is rounded down: 100 % is everything.
         self._bar('Battery', battery and battery.share, math.ceil, _battery_colour(battery, self._theme))
@@ -65,7 +71,7 @@ class _Card:
         self._y += 3.0
         for name, value in _rows(robot, snapshot.simulation):
             self._row(name, value)
-        self._small_line(robot.message if robot is not None else '')
+        self._small_lines(_trouble_text(robot), self._theme.bad)
 
     def _title(self, name: str, robot: Optional[Robot]) -> None:
         """The name on the left, the state in a pill on the right."""
@@ -121,6 +127,17 @@ class _Card:
         self._text(row, text, self._small, self._theme.faint_text)
         self._y += height
 
+    def _small_lines(self, text: str, colour: str = '') -> None:
+        """Two lines; what does not fit into them is cut off."""
+        metrics = QFontMetricsF(self._small)
+        height = metrics.height() + 1.0
+        area = QRectF(self._area.left(), self._y, self._area.width(), 2.0 * height)
+        fitting = metrics.elidedText(text, Qt.ElideRight, TWO_LINES * area.width())
+        self._painter.setFont(self._small)
+        self._painter.setPen(QColor(colour or self._theme.faint_text))
+        self._painter.drawText(area, Qt.AlignLeft | Qt.AlignTop | Qt.TextWordWrap, fitting)
+        self._y += 2.0 * height
+
     def _text(self, area: QRectF, text: str, font: QFont, colour: str, align: int = Qt.AlignLeft) -> None:
         """One line, cut off with an ellipsis if it is too long."""
         self._painter.setFont(font)
@@ -138,6 +155,9 @@ def _state_text(robot: Optional[Robot]) -> str:
         return 'absent'
     if robot.has_fallen:
         return FALLEN
+    is_idle = robot.mission is None or robot.mission.state == 'idle'
+    if is_idle and robot.battery is not None and robot.battery.state in ('charging', 'full'):
+        return 'charging' if robot.battery.state == 'charging' else 'charged'
     return robot.mission.state if robot.mission is not None else ''
 
 
@@ -149,6 +169,17 @@ def _mission_text(robot: Optional[Robot]) -> str:
     if robot.mission is None:
         return 'no cleaner'
     return 'yielding to a person' if robot.mission.state == YIELDING else robot.mission.message
+
+
+def _mission_time(robot: Optional[Robot]) -> str:
+    if robot is None or robot.elapsed is None:
+        return UNKNOWN
+    return taken(robot.elapsed, robot.left).replace('about ', '~')
+
+
+def _trouble_text(robot: Optional[Robot]) -> str:
+    """What battery_status says, unless that is the voltage and current that stand below the battery already."""
+    return '' if robot is None or FIGURES.match(robot.message) else robot.message
 
 
 def _battery_colour(battery: Optional[Battery], theme: Theme) -> str:
@@ -177,9 +208,10 @@ def _known(value: float) -> str:
 
 def _rows(robot: Optional[Robot], simulation: Simulation) -> List[Tuple[str, str]]:
     return [('Strategy', robot.mission.strategy or UNKNOWN if robot and robot.mission else UNKNOWN),
-            ('Pose', _pose_text(robot.pose) if robot else UNKNOWN),
-            ('Driven', _driven_text(robot) if robot else UNKNOWN),
-            ('Time', _time_text(simulation)), ('Speed', _speed_text(simulation))]
+            ('Mission', _mission_time(robot)),
+            ('Position', _pose_text(robot.pose) if robot else UNKNOWN),
+            ('Distance', _driven_text(robot) if robot else UNKNOWN),
+            ('Sim time', _time_text(simulation)), ('Speed', _speed_text(simulation))]
 
 
 def _pose_text(pose: Pose) -> str:
@@ -187,7 +219,8 @@ def _pose_text(pose: Pose) -> str:
 
 
 def _driven_text(robot: Robot) -> str:
-    distance = UNKNOWN if robot.cleaning is None else f'{_known(robot.cleaning.distance)} m'
+    driven = robot.cleaning.distance if robot.cleaning is not None else math.nan
+    distance = f'{driven:.0f} m' if driven >= FAR else f'{_known(driven)} m'
     brushes = {None: UNKNOWN, True: 'up', False: 'down'}[robot.brushes_up]
     return f'{distance}, brushes {brushes}'
 
@@ -199,7 +232,7 @@ def _time_text(simulation: Simulation) -> str:
         return 'wall clock'
     minutes, seconds = divmod(int(simulation.time), 60)
     hours, minutes = divmod(minutes, 60)
-    return f'{hours}:{minutes:02}:{seconds:02} simulated'
+    return f'{hours}:{minutes:02}:{seconds:02}'
 
 
 def _speed_text(simulation: Simulation) -> str:

@@ -27,6 +27,7 @@ from rumba_viewer.window.window import Options, Window
 
 PERIOD = 50  # [ms] from one check for requests and for the end of ROS to the next
 SETTLE = 0.5  # [s] from a complete snapshot until a picture is saved
+AUTO, LIGHT_STYLE, DARK_STYLE = 'auto', 'light', 'dark'
 STRATEGIES = sorted(strategies.OWN)  # that every cleaner knows
 
 
@@ -55,6 +56,7 @@ class Application:
         """Show a window that tells what it waits for, until a master answers; exits if it is closed."""
         if rosgraph.is_master_online():
             return
+        _set_style(self._qt, _given_style())
         window = Window(_Nobody(), _Nobody(), Options(0.0, 0.0, '', STRATEGIES, False),
                         Snapshot(missing=missing_master()))
         window.resize(1180, 720)
@@ -159,11 +161,17 @@ def _save(requests: Requests, window: Window) -> TriggerResponse:
         return TriggerResponse(False, str(error))
 
 
+def _given_style() -> str:
+    """The style on the command line, before there is a master with the parameters; else that of the desktop."""
+    given = [argument.partition(':=')[2] for argument in sys.argv if argument.startswith('_style:=')]
+    return given[-1] if given and given[-1] in (DARK_STYLE, LIGHT_STYLE) else AUTO
+
+
 def _set_style(qt: QApplication, style: str) -> None:
     """Set a light or dark style; `auto` keeps that of the desktop."""
-    if style == 'auto':
+    if style == AUTO:
         return
-    theme = DARK if style == 'dark' else LIGHT
+    theme = DARK if style == DARK_STYLE else LIGHT
     qt.setStyle('Fusion')
     palette = QPalette(QColor(theme.line if theme.is_dark else theme.background), QColor(theme.background))
     for role, colour in ((QPalette.WindowText, theme.text), (QPalette.Text, theme.text),

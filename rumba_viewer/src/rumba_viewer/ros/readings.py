@@ -15,13 +15,13 @@ from nav_msgs.msg import Odometry
 from sensor_msgs.msg import BatteryState
 from visualization_msgs.msg import Marker, MarkerArray
 
-from rumba_msg.msg import CleaningStatus, MissionStatus, SimulatorState
+from rumba_msg.msg import CleaningStatus, GoToActionGoal, MissionStatus, SimulatorState
 from rumba_sim.model.errors import RumbaError, one_line, quoted
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.map_image import MAX_PIXELS
 from rumba_sim.model.obstacle import LASER_HEIGHT
 from rumba_sim.ros.common.conversions import plane_pose
-from rumba_viewer.scene.snapshot import YIELDING, Array, Battery, Cleaning, Grid, Mission, Obstacle
+from rumba_viewer.scene.snapshot import GOING_TO, YIELDING, Array, Battery, Cleaning, Grid, Mission, Obstacle, Point
 
 FAR = 1e7  # [m] larger coordinates are not valid
 FINEST = 1e-4  # [m] smallest side of a cell
@@ -32,8 +32,8 @@ MOST_PARTICLES = 1000  # that are shown
 MOST_TURNS = 1e3  # [rad] largest angle of a beam
 ROUNDING = 1e-6  # by which a share may exceed 1
 STATES = {**{getattr(MissionStatus, name): name.lower().replace('_', ' ') for name in (
-    'IDLE', 'UNDOCKING', 'CLEANING', 'RETURNING', 'DOCKING', 'CHARGING', 'GOING_TO', 'STRANDED')},
-    MissionStatus.YIELDING: YIELDING}
+    'IDLE', 'UNDOCKING', 'CLEANING', 'RETURNING', 'DOCKING', 'CHARGING', 'STRANDED')},
+    MissionStatus.YIELDING: YIELDING, MissionStatus.GOING_TO: GOING_TO}
 SUPPLIES = {BatteryState.POWER_SUPPLY_STATUS_CHARGING: 'charging', BatteryState.POWER_SUPPLY_STATUS_FULL: 'full',
             BatteryState.POWER_SUPPLY_STATUS_DISCHARGING: 'on battery'}
 WITHOUT_GOAL = (MissionStatus.IDLE, MissionStatus.STRANDED)
@@ -121,13 +121,25 @@ def battery(message: BatteryState) -> Battery:
 def cleaning(message: CleaningStatus) -> Cleaning:
     """How much of the floor is clean."""
     return Cleaning(_share(message.coverage), _amount(message.cleaned_area), _amount(message.reachable_area),
-                    _share(message.dirt), _amount(message.distance))
+                    _share(message.dirt), _amount(message.distance), message.header.stamp.to_sec())
 
 
 def mission(message: MissionStatus) -> Mission:
     """What the cleaner makes a robot do."""
     return Mission(STATES.get(message.state, '?'), message.state not in WITHOUT_GOAL, one_line(message.strategy),
                    one_line(message.message))
+
+
+def destination(message: GoToActionGoal) -> Point:
+    """Where a robot is sent.
+
+    Raises:
+        OddMessage: it is not finite, or is too far away.
+    """
+    target = message.goal.target
+    if not (abs(target.x) < FAR and abs(target.y) < FAR):
+        raise OddMessage(f'the target is {target.x:g}, {target.y:g} m: must be finite, within {FAR:g} m')
+    return Point(target.x, target.y)
 
 
 def scan(message: Any) -> Scan:

@@ -11,13 +11,15 @@ from nav_msgs.msg import OccupancyGrid, Odometry
 from rospy.numpy_msg import numpy_msg
 from sensor_msgs.msg import BatteryState, LaserScan
 
-from rumba_msg.msg import BatteryStatus, Bumper, CleanActionResult, CleaningStatus, Cliff, MissionStatus, Outcome
+from rumba_msg.msg import (BatteryStatus, Bumper, CleanActionResult, CleaningStatus, Cliff, GoToActionGoal,
+                           MissionStatus, Outcome)
 from rumba_sim.model.errors import one_line
 from rumba_sim.model.geometry import Pose
 from rumba_viewer.ros import readings
 from rumba_viewer.ros.readings import Reading, Scan
 from rumba_viewer.ros.subscription import Subscription
-from rumba_viewer.scene.snapshot import Array, Battery, Cleaning, Grid, Mission, Robot, Size
+from rumba_viewer.scene.mission_watch import MissionWatch
+from rumba_viewer.scene.snapshot import GOING_TO, Array, Battery, Cleaning, Grid, Mission, Point, Robot, Size
 from rumba_viewer.scene.track import Glide, Trail
 
 RECENT = 32  # poses that are kept, to find that of a scan
@@ -54,6 +56,7 @@ class Known:
         stamp: of the newest ground_truth [s]; None before the first.
         came: when that came, on the wall clock [s].
         recent: the last poses with their stamps.
+        destination: where it was sent last by go_to.
         coverage: the newest picture of the swept floor.
     """
 
@@ -68,6 +71,7 @@ class Known:
     cleaning: Optional[Cleaning] = None
     mission: Optional[Mission] = None
     can_resume: Optional[bool] = None
+    destination: Optional[Point] = None
     coverage: Optional[Grid] = None
     scan: Optional[Scan] = None
     believed: Optional[Pose] = None
@@ -89,8 +93,9 @@ class RobotListener:
         """Listen to a robot by its name; `on_news` is called when there is something new to show."""
         self._name = name
         self._on_news = on_news
-        self._lock = threading.Lock()  # held while something of the next four changes
+        self._lock = threading.Lock()  # held while something of the next five changes
         self._known = Known()
+        self._watch = MissionWatch(name)
         self._wanted: FrozenSet[str] = frozenset(ALWAYS)  # topics whose messages count
         self._trail, self._glide = Trail(), Glide()
         self._subscriptions: Dict[str, Subscription[Any]] = {}
@@ -99,10 +104,13 @@ class RobotListener:
         self._truth = Subscription(f'{name}/ground_truth', Odometry, readings.reading, self._on_truth, queue_size=10)
         self._results = Subscription(f'{name}/clean/result', CleanActionResult,
                                      lambda message: int(message.result.outcome.code), self._on_result, queue_size=10)
+        self._goals = Subscription(f'{name}/go_to/goal', GoToActionGoal, readings.destination,
+                                   lambda point: self._learn(destination=point), queue_size=10)
 
     def close(self) -> None:
         """Stop listening."""
-        subscriptions: List[Subscription[Any]] = [self._truth, self._results, *self._subscriptions.values()]
+        subscriptions: List[Subscription[Any]] = [self._truth, self._results, self._goals,
+                                                  *self._subscriptions.values()]
         for subscription in subscriptions:
             subscription.close()
 
@@ -129,9 +137,19 @@ class RobotListener:
             if topic not in self._wanted:
                 return
             before, self._known = self._known, dataclasses.replace(self._known, **changes)
+            self._follow(changes)
             if _was_reset(before.cleaning, self._known.cleaning):
                 self._trail.clear()
         self._on_news()
+
+    def _follow(self, changes: Dict[str, Any]) -> None:
+        """Have the watch of the mission know what it needs."""
+        if 'battery' in changes:
+            self._watch.take_battery(changes['battery'])
+        if 'mission' in changes:
+            self._watch.take_mission(changes['mission'])
+        if 'cleaning' in changes:
+            self._watch.take_cleaning(changes['cleaning'])
 
     def _on_truth(self, new: Reading) -> None:
         with self._lock:
@@ -188,6 +206,7 @@ class RobotListener:
             self._learn(can_resume=None)
         with self._lock:
             known, glide, path = self._known, self._glide, self._trail.path
+            elapsed, left, report = self._watch.elapsed, self._watch.left, self._watch.report
         pose = glide.at(now)
         if pose is None:
             return None
@@ -196,6 +215,8 @@ class RobotListener:
             message=known.message, battery=known.battery, cleaning=known.cleaning,
             mission=known.mission if has_cleaner else None, path=path, beams=known.beams(),
             believed=known.believed if is_localised else None, particles=known.particles if is_localised else None,
+            going_to=known.destination if has_cleaner and known.mission and known.mission.state == GOING_TO else None,
+            elapsed=elapsed if has_cleaner else None, left=left if has_cleaner else None, report=report,
             has_cleaner=has_cleaner, can_resume=known.can_resume)
 
 

@@ -1,7 +1,7 @@
 """What a person can do in the window: keys, buttons, and why one of them is not available. No ROS, no Qt."""
 
 import math
-from typing import Callable, Dict, NamedTuple, Tuple
+from typing import Callable, Dict, List, NamedTuple, Optional, Tuple
 
 from rumba_sim.model.robot import FIRST
 from rumba_viewer.scene.snapshot import Snapshot
@@ -128,7 +128,7 @@ ACTS = (
     Act('fit', 'Fit', 'Home', 'show the whole map', nothing),
     Act('next_robot', 'Next robot', 'Tab', 'select the next robot', another_robot),
     Act('save', 'Save PNG', 'Ctrl+S', 'save a picture of the window', nothing),
-    Act('record', 'Record GIF', 'Ctrl+G', 'start or stop recording the floor', nothing),
+    Act('record', 'Record', 'Ctrl+G', 'start or stop recording the floor as a GIF', nothing),
     Act('legend', 'Keys', 'F1', 'show or hide this list', nothing),
 )
 BY_NAME: Dict[str, Act] = {act.name: act for act in ACTS}
@@ -152,6 +152,12 @@ def next_speed(wanted: float, direction: int) -> float:
         return speed or math.inf
     beyond = [speed for speed in SPEEDS if direction * rank(speed) > direction * rank(wanted)]
     return min(beyond, key=lambda speed: direction * rank(speed)) if beyond else wanted
+
+
+def speeds_with(wanted: Optional[float]) -> List[float]:
+    """The offered speeds, and the wanted one if it is another; the slowest first."""
+    more = [] if wanted is None or wanted in SPEEDS else [wanted]
+    return sorted([*SPEEDS, *more], key=lambda speed: speed or math.inf)
 
 
 def legend() -> Tuple[Tuple[str, str], ...]:

@@ -1,13 +1,14 @@
 """What the window shows at one moment, as plain values: no ROS, no Qt."""
 
 import dataclasses
+import math
 from typing import Any, FrozenSet, NamedTuple, Optional, Tuple
 
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.robot_config import BrushConfig, DriveConfig
 
 Array = Any  # numpy.ndarray
-YIELDING = 'yielding'  # state of a mission
+YIELDING, GOING_TO = 'yielding', 'going to'  # states of a mission
 
 
 class Point(NamedTuple):
@@ -122,13 +123,14 @@ class Battery(NamedTuple):
 
 
 class Cleaning(NamedTuple):
-    """How much of the floor is clean: shares 0..1, areas [m^2], and the distance driven [m]; NaN: unknown."""
+    """How much of the floor is clean: shares 0..1, areas [m^2], distance driven [m], when [s]; NaN: unknown."""
 
     coverage: float
     cleaned_area: float
     reachable_area: float
     dirt: float
     distance: float
+    time: float = math.nan
 
 
 class Mission(NamedTuple):
@@ -171,6 +173,9 @@ class Robot:
         beams: ends (n, 2) of the laser's beams [m]; None while they are not shown.
         believed: where its localisation believes it to be; None if none tells.
         particles: positions (n, 2) where that holds it possible to be [m]; None likewise.
+        going_to: where its cleaner brings it at the moment; None if to no point.
+        elapsed, left: how long its mission takes already, and probably still [s]; None: unknown, or it has none.
+        report: lines about its last cleaning, since that ended.
         has_cleaner: whether a cleaner takes goals for it.
         can_resume: whether its cleaner has an interrupted cleaning to resume; None: unknown.
     """
@@ -189,6 +194,10 @@ class Robot:
     beams: Optional[Array] = None
     believed: Optional[Pose] = None
     particles: Optional[Array] = None
+    going_to: Optional[Point] = None
+    elapsed: Optional[float] = None
+    left: Optional[float] = None
+    report: Tuple[str, ...] = ()
     has_cleaner: bool = False
     can_resume: Optional[bool] = None
 

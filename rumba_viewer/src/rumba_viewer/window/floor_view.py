@@ -9,6 +9,7 @@ from PyQt5.QtWidgets import QApplication, QWidget
 
 from rumba_sim.model.geometry import Pose, wrap_angle
 from rumba_viewer.painting.paint_legend import paint_legend
+from rumba_viewer.painting.paint_report import paint_report
 from rumba_viewer.painting.paint_scene import ScenePainter
 from rumba_viewer.scene.snapshot import Box, Robot, Snapshot
 from rumba_viewer.scene.theme import DARK, LIGHT, Theme
@@ -53,6 +54,8 @@ class FloorView(QWidget):
         self._pressed: Optional[Tuple[QPoint, Optional[Robot]]] = None  # the left button, and on which robot
         self._ghost: Optional[Tuple[str, Pose]] = None
         self._pan_from: Optional[QPoint] = None
+        self._card = QRectF()  # where the report of a mission is painted
+        self._dismissed: Tuple[str, ...] = ()
         self.setMinimumSize(240, 200)
         self.setMouseTracking(True)
         self.setAttribute(Qt.WA_OpaquePaintEvent)
@@ -107,6 +110,8 @@ class FloorView(QWidget):
         painter = QPainter(self)
         painter.setFont(self.font())
         self.scene.paint(painter, self._snapshot, self.view, theme, self._ghost)
+        if self._report:
+            self._card = paint_report(painter, self._report, self.width(), theme)
         if self.notice:
             _paint_notice(painter, self.notice, self.width(), self.height(), theme)
         if self.shows_legend:
@@ -129,7 +134,9 @@ class FloorView(QWidget):
 
     def mousePressEvent(self, event: Any) -> None:  # noqa: N802
         """A click or a drag may begin."""
-        if event.button() == Qt.LeftButton:
+        if event.button() == Qt.LeftButton and self._report and self._card.contains(event.pos()):
+            self.dismiss()
+        elif event.button() == Qt.LeftButton:
             self._pressed = event.pos(), self._robot_at(event.pos())
         elif event.button() in (Qt.MiddleButton, Qt.RightButton):
             self._pan_from = event.pos()
@@ -170,6 +177,21 @@ class FloorView(QWidget):
         elif pressed is not None and self.rect().contains(event.pos()) and self._snapshot.plan is not None:
             self.clicked.emit(*self.view.to_map(event.pos().x(), event.pos().y()))
         self.update()
+
+    @property
+    def _report(self) -> Tuple[str, ...]:
+        """The report of the last mission of the selected robot, until it is dismissed."""
+        robot = self._snapshot.robot
+        report = robot.report if robot is not None else ()
+        return report if report != self._dismissed else ()
+
+    def dismiss(self) -> bool:
+        """Hide the report of the last mission; returns whether it was shown."""
+        report = self._report
+        if report:
+            self._dismissed = report
+            self.update()
+        return bool(report)
 
     def let_go(self) -> bool:
         """Stop dragging; returns whether a robot was being dragged."""

@@ -1,22 +1,30 @@
 """The panel beside the floor: the card of the selected robot, and buttons."""
 
-from typing import Any, Callable, Dict, List, Sequence
+from typing import Any, Callable, Dict, List, Optional, Sequence
 
-from PyQt5.QtCore import QRectF, QSize, Qt
-from PyQt5.QtGui import QPainter
-from PyQt5.QtWidgets import QComboBox, QGridLayout, QPushButton, QScrollArea, QVBoxLayout, QWidget
+from PyQt5.QtCore import QEvent, QRectF, QSize, Qt
+from PyQt5.QtGui import QIcon, QPainter, QPalette
+from PyQt5.QtWidgets import QComboBox, QGridLayout, QLabel, QPushButton, QScrollArea, QVBoxLayout, QWidget
 
 from rumba_viewer.painting.paint_status import paint_status, status_height
-from rumba_viewer.scene.acts import BY_NAME, SPEEDS, simulated
+from rumba_viewer.scene.acts import BY_NAME, simulated, speeds_with
 from rumba_viewer.scene.snapshot import Snapshot
+from rumba_viewer.scene.wording import span
 from rumba_viewer.window.floor_view import theme_of
+from rumba_viewer.window.icons import icon
 
-WIDTH = 276  # [pixels]
+WIDTH = 322  # [pixels]
 EDGE = 8  # [pixels]
-LONG = 12  # letters of a label that needs a wider button
-ROWS = (  # of buttons, by name; an empty name stands for a list
-    ('clean', ''), ('resume_cleaning', 'go_there'), ('dock', 'undock', 'cancel'), ('pause', 'step', ''),
-    ('brushes', 'reset'), ('laser', 'path', 'field'), ('fit', 'next_robot'), ('save', 'record'), ('legend',))
+ICON = 12  # [pixels] side of an icon
+FRAME = 3  # letters that are as wide as the frame of a button
+LIST = 7  # letters in a list
+LETTERS = {'pause': 10, 'step': 6, 'record': 8}  # as wide as the icon and the longest text
+STRATEGIES, SPEED = 'strategies', 'speeds'  # lists among the buttons
+GROUPS = (  # of buttons, by name, with their headings
+    ('Mission', (('clean', STRATEGIES), ('resume_cleaning', 'go_there'), ('dock', 'undock', 'cancel'))),
+    ('Time and robot', (('pause', 'step', SPEED), ('brushes', 'next_robot', 'reset'))),
+    ('View and save', (('laser', 'path', 'field', 'fit'), ('save', 'record', 'legend'))))
+MAIN = 'clean'  # the most prominent button
 SWITCHES = ('laser', 'path', 'field', 'record', 'legend')  # buttons that stay pressed
 
 
@@ -32,6 +40,8 @@ class StatusCard(QWidget):
     def show_snapshot(self, snapshot: Snapshot) -> None:
         """Show a new snapshot."""
         self._snapshot = snapshot
+        robot = snapshot.robot
+        self.setToolTip(robot.mission.message if robot is not None and robot.mission is not None else '')
         self.update()
 
     def paintEvent(self, _: Any) -> None:  # noqa: N802 (Qt's name)
@@ -58,15 +68,18 @@ class Panel(QScrollArea):
         self.card = StatusCard(snapshot)
         self.buttons: Dict[str, QPushButton] = {}
         self.strategies = _list(['default', *strategies])
-        self.speeds = _list([_speed_text(speed) for speed in SPEEDS])
-        self.speeds.activated.connect(lambda index: set_speed(SPEEDS[index]))
+        self.speeds = _list([])
+        self._speeds: List[float] = []  # that the list offers
+        self._icons: Dict[str, str] = {}
+        self.speeds.activated.connect(lambda index: set_speed(self._speeds[index]))
         column = QVBoxLayout(inside)
         column.setContentsMargins(EDGE, EDGE, EDGE, EDGE)
-        column.setSpacing(6)
+        column.setSpacing(5)
         column.addWidget(self.card)
-        lists = [self.strategies, self.speeds]
-        for row in ROWS:
-            column.addLayout(self._row(row, lists, act))
+        for heading, rows in GROUPS:
+            column.addWidget(_heading(heading))
+            for row in rows:
+                column.addLayout(self._row(row, act))
         column.addStretch(1)
         self.setWidget(inside)
         self.setWidgetResizable(True)
@@ -74,18 +87,21 @@ class Panel(QScrollArea):
         self.setHorizontalScrollBarPolicy(Qt.ScrollBarAlwaysOff)
         self.setFocusPolicy(Qt.NoFocus)
         self.setFixedWidth(WIDTH + 2 * EDGE)
+        self._emphasise()
 
     def sizeHint(self) -> QSize:  # noqa: N802 (Qt's name)
         """High enough not to scroll."""
         size: QSize = self.widget().sizeHint()
         return size
 
-    def _row(self, names: Sequence[str], lists: List[QComboBox], act: Callable[[str], None]) -> QGridLayout:
+    def _row(self, names: Sequence[str], act: Callable[[str], None]) -> QGridLayout:
         row = QGridLayout()
         row.setSpacing(6)
+        lists = {STRATEGIES: self.strategies, SPEED: self.speeds}
         for index, name in enumerate(names):
-            row.addWidget(self._button(name, act) if name else lists.pop(0), 0, index)
-            row.setColumnStretch(index, 3 if name and len(BY_NAME[name].label) > LONG else 2)
+            row.addWidget(lists[name] if name in lists else self._button(name, act), 0, index)
+            letters = LIST if name in lists else LETTERS.get(name, len(BY_NAME[name].label))
+            row.setColumnStretch(index, FRAME + letters)
         return row
 
     def _button(self, name: str, act: Callable[[str], None]) -> QPushButton:
@@ -94,15 +110,38 @@ class Panel(QScrollArea):
         button.setCheckable(name in SWITCHES)
         button.setMinimumWidth(40)
         button.clicked.connect(lambda: act(name))
+        button.setIconSize(QSize(ICON, ICON))
         self.buttons[name] = button
         return button
 
-    def show_snapshot(self, snapshot: Snapshot, checked: Dict[str, bool]) -> None:
+    def changeEvent(self, event: Any) -> None:  # noqa: N802 (Qt's name)
+        """Colour the main button and the icons as the palette is."""
+        super().changeEvent(event)
+        if event.type() == QEvent.PaletteChange:
+            self._icons = {}
+            self._emphasise()
+
+    def _emphasise(self) -> None:
+        theme = theme_of(self.palette())
+        self.buttons[MAIN].setStyleSheet(
+            f'QPushButton {{ background: {theme.robots[0]}; color: {theme.card}; font-weight: bold; border: none; '
+            f'border-radius: 4px; padding: 6px; }} QPushButton:disabled {{ background: {theme.trough}; '
+            f'color: {theme.faint_text}; }} QPushButton:pressed {{ background: {theme.text}; }}')
+
+    def _show_icon(self, button: str, name: str) -> None:
+        """Show an icon on a button; empty: none."""
+        if self._icons.get(button) != name:
+            self._icons[button] = name
+            shown = self.buttons[button]
+            shown.setIcon(icon(name, shown.palette().color(QPalette.ButtonText)) if name else QIcon())
+
+    def show_snapshot(self, snapshot: Snapshot, checked: Dict[str, bool], recorded: float = 0.0) -> None:
         """Show a new snapshot.
 
         Args:
             snapshot: what to show.
             checked: whether a switch is on, by its name.
+            recorded: how long the record is by now [s].
         """
         self.card.show_snapshot(snapshot)
         for name, button in self.buttons.items():
@@ -112,15 +151,27 @@ class Panel(QScrollArea):
             button.setToolTip(f'{act.label}: {lacks}' if lacks else f'{act.tip} [{act.key}]')
             if button.isCheckable():
                 button.setChecked(checked[name])
-                button.setText(f'\u2713 {act.label}' if checked[name] else act.label)
-        self.buttons['pause'].setText('Unpause' if snapshot.simulation.is_paused else 'Pause')
+        is_paused = snapshot.simulation.is_paused
+        self.buttons['pause'].setText('Unpause' if is_paused else 'Pause')
+        self._show_icon('pause', 'play' if is_paused else 'pause')
+        self._show_icon('step', 'step')
+        self.buttons['record'].setText(span(recorded) if checked['record'] else BY_NAME['record'].label)
+        self._show_icon('record', 'stop' if checked['record'] else 'record')
         self.strategies.setEnabled(self.buttons['clean'].isEnabled())
         self.strategies.setToolTip('cleaning strategy')
         lacks = simulated(snapshot)
         self.speeds.setEnabled(not lacks)
         self.speeds.setToolTip(f'speed: {lacks}' if lacks else 'times real time [- +]')
-        wanted = snapshot.simulation.wanted
-        self.speeds.setCurrentIndex(SPEEDS.index(wanted) if wanted in SPEEDS else -1)
+        self._show_speed(snapshot.simulation.wanted)
+
+    def _show_speed(self, wanted: Optional[float]) -> None:
+        """Offer the usual speeds and the present one, and show that."""
+        offered = speeds_with(wanted)
+        if offered != self._speeds:
+            self._speeds = offered
+            self.speeds.clear()
+            self.speeds.addItems([_speed_text(speed) for speed in offered])
+        self.speeds.setCurrentIndex(offered.index(wanted) if wanted is not None else -1)
 
     @property
     def strategy(self) -> str:
@@ -134,6 +185,14 @@ def _list(texts: Sequence[str]) -> QComboBox:
     box.setFocusPolicy(Qt.NoFocus)
     box.setMinimumWidth(40)
     return box
+
+
+def _heading(text: str) -> QLabel:
+    label = QLabel(text)
+    font = label.font()
+    font.setPointSizeF(0.85 * font.pointSizeF())
+    label.setFont(font)
+    return label
 
 
 def _speed_text(speed: float) -> str:

@@ -33,6 +33,11 @@ class Pictures:
         """Whether a record was started."""
         return self._recorder is not None
 
+    @property
+    def recorded(self) -> float:
+        """How long the record is by now [s]."""
+        return self._recorder.duration if self._recorder is not None else 0.0
+
     def save(self) -> None:
         """Save a picture under a new name, and tell its path or what went wrong."""
         try:

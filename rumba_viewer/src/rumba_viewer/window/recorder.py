@@ -25,6 +25,11 @@ class Recorder:
         """Whether it takes no more pictures."""
         return len(self._frames) >= MAX_FRAMES
 
+    @property
+    def duration(self) -> float:
+        """How long the record is [s]."""
+        return len(self._frames) / RATE
+
     def add(self, picture: QImage) -> None:
         """Add a picture."""
         if self._frames:

@@ -106,6 +106,8 @@ class Window(QWidget):
         while not self._actor.notices.empty():
             self.tell(self._actor.notices.get())
         self._notices.expire()
+        if self.pictures.is_recording:  # while nothing else happens, its time goes on
+            self._show()
         if self._source.has_news(now):
             new = self._source.snapshot(now)
             is_same_map = _map_number(new) == _map_number(self.snapshot)
@@ -116,7 +118,7 @@ class Window(QWidget):
         self.floor.show_snapshot(self.snapshot)
         self.panel.show_snapshot(self.snapshot, {
             'laser': self._shows_laser, 'path': self.floor.scene.shows_path, 'field': self.floor.scene.shows_field,
-            'record': self.pictures.is_recording, 'legend': self.floor.shows_legend})
+            'record': self.pictures.is_recording, 'legend': self.floor.shows_legend}, self.pictures.recorded)
 
     # --- what is done -------------------------------------------------------------------------------------------------
 
@@ -241,7 +243,7 @@ class Window(QWidget):
         if not robot(self.snapshot) and self._steering.press(key):
             self._tell_who_drives()
             self._command()
-        elif key == 'Esc' and (self.floor.let_go() or self._clear_target()):
+        elif key == 'Esc' and (self.floor.let_go() or self._clear_target() or self.floor.dismiss()):
             return
         elif key in CLOSE:
             self.close()

@@ -22,19 +22,20 @@ class ReportError(RumbaError):
         Exception.__init__(self, one_line(message, LONGEST))
 
 
-def read(path: str, robot: str = '') -> MissionRecord:
+def read(path: str, robot: str = '', target: float = 0.0) -> MissionRecord:
     """Read the record of one robot.
 
     Args:
         path: the bag.
         robot: name of the robot, with or without its namespace; empty: the only one, or the one named rumba.
+        target: share of the floor that was to be swept [0..1]; 0: that of the recorded goal, or the cleaner's default.
 
     Raises:
         ReportError: the bag cannot be read, or lacks needed topics.
     """
     try:
         with rosbag.Bag(path) as bag:
-            return _read(bag, path, robot)
+            return _read(bag, path, robot, target)
     except ReportError:
         raise
     except rosbag.ROSBagUnindexedException:
@@ -47,14 +48,14 @@ def read(path: str, robot: str = '') -> MissionRecord:
                           f'rosbag reindex {path} repairs what it can') from error
 
 
-def _read(bag: rosbag.Bag, path: str, wanted: str) -> MissionRecord:
+def _read(bag: rosbag.Bag, path: str, wanted: str, target: float) -> MissionRecord:
     kinds = {topic: info.msg_type for topic, info in sorted(bag.get_type_and_topic_info().topics.items())
              if info.message_count}
     robots = _robots(kinds)
     name = _choose(path, robots, wanted)
     _check(path, name, robots.get(name, {}), kinds)
     remarks = [f'Also in the bag: {_listed(other for other in robots if other != name)}.'] if len(robots) > 1 else []
-    record = RecordedRobot(bag, robots[name]).record(path, _shown(name), _map_topics(kinds, name), remarks)
+    record = RecordedRobot(bag, robots[name]).record(path, _shown(name), _map_topics(kinds, name), remarks, target)
     for what, part in (('position', record.path), ('charge', record.charge)):
         if not len(part.times):
             raise ReportError(f'{path}: robot {record.robot}: no {what} is a finite number')
@@ -65,8 +66,10 @@ def _robots(kinds: Dict[str, str]) -> Dict[str, Topics]:
     """The topics of each robot by its namespace, from the types of all topics."""
     robots: Dict[str, Topics] = {}
     for topic, kind in kinds.items():  # rosbag writes names as they were given: relative ones begin without a slash
-        namespace, _, name = f'/{topic.strip("/")}'.rpartition('/')
-        if TYPES.get(name) == kind:
+        path = f'/{topic.strip("/")}'
+        name = next((name for name, its_kind in TYPES.items() if its_kind == kind and path.endswith(f'/{name}')), '')
+        namespace = path[:-len(name) - 1]
+        if name:
             robots.setdefault(namespace, {}).setdefault(name, []).append(topic)
     return robots
 

@@ -8,10 +8,11 @@ import rosbag
 from nav_msgs.msg import OccupancyGrid
 from sensor_msgs.msg import BatteryState
 
+from rumba_cleaning.cleaning_config import CleaningConfig
 from rumba_evaluation.report.mission_record import NOTHING, Grid, MissionRecord, MissionState, Series, series
 
 FAR = 1e7  # [m] larger coordinates are not valid
-LATE = 5.0  # [s] a stamp farther from the time of recording is of another clock, or of a latched message
+FAR_OFF = 60.0  # [s] a stamp so long before or after all of the robot's clock is of another clock, or latched
 BACK = 1.0  # [s] if stamps go back farther, the clock was reset
 FINEST = 1e-4  # [m] smallest edge of a cell
 GRIDS = 200  # about as many are read for the curve of the coverage
@@ -44,8 +45,10 @@ ROWS: Dict[str, Tuple[str, Callable[[Any], Sequence[Any]]]] = {
     'bumper': ('rumba_msg/Bumper', lambda m: (m.is_left_pressed or m.is_right_pressed,)),
     'cliff': ('rumba_msg/Cliff', lambda m: (m.is_wheel_dropped,)),
     'dock_status': ('rumba_msg/DockStatus', lambda m: (m.is_docked,)),
-    'cleaning_status': ('rumba_msg/CleaningStatus', lambda m: (m.coverage, m.cleaned_area, m.reachable_area)),
-    'mission_status': ('rumba_msg/MissionStatus', lambda m: (m.state, m.strategy, m.message))}
+    'cleaning_status': ('rumba_msg/CleaningStatus', lambda m: (
+        m.coverage, m.cleaned_area, m.reachable_area, m.dirt)),
+    'mission_status': ('rumba_msg/MissionStatus', lambda m: (m.state, m.strategy, m.message)),
+    'clean/goal': ('rumba_msg/CleanActionGoal', lambda m: (m.goal.target_coverage,))}
 TYPES = {**{name: kind for name, (kind, _) in ROWS.items()}, 'coverage': GRID}
 CLOCKS = ('ground_truth', 'battery_state', 'bumper', 'cliff', 'dock_status', 'cleaning_status')  # never latched
 STARTS = ('ground_truth', 'battery_status', 'battery_state')
@@ -96,20 +99,30 @@ class RecordedRobot:
 
     def _on_clock(self, recorded: Sequence[float]) -> Any:
         """Times of recording [s] as times of the robot's clock, by the stamps that were recorded before and after."""
-        times = np.asarray(recorded, float)
+        times = _spread(recorded)
         if self._clock is not NONE:
-            marks, stamps = np.array(self._clock.recorded), np.maximum.accumulate(self._clock.stamps)
+            marks, stamps = _spread(self._clock.recorded), np.maximum.accumulate(self._clock.stamps)
             span = marks[-1] - marks[0]
             rate = (stamps[-1] - stamps[0]) / span if span > 0.0 else 1.0
             beyond = np.minimum(times - marks[0], 0.0) + np.maximum(times - marks[-1], 0.0)
             times = np.interp(times, marks, stamps) + rate * beyond
         return times - self._began
 
+    def _on_time(self, recorded: Sequence[float], stamps: Sequence[float]) -> Any:
+        """Times of messages: their stamps, if these are of the robot's clock, else as _on_clock.
+
+        How late a message was recorded says nothing about its stamp: the recorder's own clock can be seconds behind.
+        """
+        times, own = self._on_clock(recorded), np.array(stamps)
+        if self._clock is NONE:
+            return times
+        first, last = min(self._clock.stamps), max(self._clock.stamps)
+        is_own = (own > 0.0) & (first - FAR_OFF < own) & (own < last + FAR_OFF)
+        return np.where(is_own, own - self._began, times)
+
     def _times(self, topic: str) -> Any:
-        """Times of the messages of a topic: their stamps, if these are of the robot's clock, else as _on_clock."""
         recorded, stamps, _ = self._samples[topic]
-        times, own = self._on_clock(recorded), np.array(stamps) - self._began
-        return np.where((np.array(stamps) > 0.0) & (np.abs(own - times) < LATE), own, times)
+        return self._on_time(recorded, stamps)
 
     # --- values -----------------------------------------------------------------------------------------------------
 
@@ -144,10 +157,14 @@ class RecordedRobot:
                 message.deserialize(raw[1])
                 cells = _grid(message)
                 if cells is not None:
-                    yield float(self._on_clock([time.to_sec()])[0]), cells
+                    yield float(self._on_time([time.to_sec()], [message.header.stamp.to_sec()])[0]), cells
 
-    def record(self, source: str, name: str, map_topics: Sequence[str], remarks: Sequence[str]) -> MissionRecord:
-        """The record of the mission with the last map of `map_topics`; path and charge can be empty."""
+    def record(self, source: str, name: str, map_topics: Sequence[str], remarks: Sequence[str],
+               target: float) -> MissionRecord:
+        """The record of the mission with the last map of `map_topics`; path and charge can be empty.
+
+        A target of 0 is that of the last goal that names one, or else the cleaner's default.
+        """
         remarks = list(remarks)
         remarks += [f'{topic} was published by {" and ".join(sorted(nodes))}: the figures mix what they told.'
                     for topic, nodes in self._publishers.items() if len(nodes) > 1]
@@ -157,12 +174,20 @@ class RecordedRobot:
         if map_topics and not maps:
             remarks.append('The map is not drawn: it is damaged, or rotated against the axes.')
         coverage, areas, swept = self._cleaning()
+        dirt = self._column('cleaning_status', 3).values
         return MissionRecord(
             source=source, robot=name, path=self._path(), charge=self._charge(), began=self._began,
             power=self._column('battery_state', 1), charging=self._column('battery_state', 2),
             docked=_first(self._column('dock_status', 0), self._column('battery_state', 3)),
             pressed=self._column('bumper', 0), fallen=self._column('cliff', 0), coverage=coverage,
-            areas=areas, states=self._states(), floor=maps[-1] if maps else None, swept=swept, remarks=remarks)
+            areas=areas, dirt=float(dirt[-1]) if len(dirt) else None, target=target or self._target(),
+            states=self._states(), floor=maps[-1] if maps else None, swept=swept,
+            remarks=remarks)
+
+    def _target(self) -> float:
+        """The share of the floor that the last goal asked for [0..1]."""
+        goals = [target for target, in self._samples.get('clean/goal', NONE).rows if 0.0 < target <= 1.0]
+        return float(goals[-1]) if goals else CleaningConfig().target_coverage
 
     def _cleaning(self) -> Tuple[Series, Optional[Tuple[float, float]], Optional[Grid]]:
         """Coverage [0..1], areas swept and within reach [m^2], last grid; without cleaning_status from the grids."""
@@ -178,6 +203,19 @@ class RecordedRobot:
         coverage = series([time for time, _ in grids], [part / max(whole, 1) for part, whole in counts])
         area = last.resolution ** 2
         return coverage, (counts[-1][0] * area, counts[-1][1] * area), last
+
+
+def _spread(recorded: Sequence[float]) -> Any:
+    """Times of recording [s], in order; messages with the same time are spread evenly until the next one.
+
+    A recorder whose clock advances in steps gives one time to all that it gets in between.
+    """
+    times = np.asarray(recorded, float)
+    steps, firsts = np.unique(times, return_index=True)
+    if not 1 < len(steps) < len(times):
+        return times
+    last = steps[-1] + (len(times) - firsts[-1]) * (steps[-1] - steps[0]) / firsts[-1]
+    return np.interp(np.arange(len(times)), [*firsts, len(times)], [*steps, last])
 
 
 def _first(*choices: Series) -> Series:

@@ -1,0 +1,53 @@
+"""The report in Chromium: the slider shows the mission until a time, and all of it at the end."""
+
+import importlib.util
+import shutil
+
+import pytest
+from mission_bags import record
+
+from rumba_evaluation.report.report_page import page
+
+HAS_BROWSER = all(map(shutil.which, ('chromium', 'chromedriver'))) and importlib.util.find_spec('selenium')
+pytestmark = pytest.mark.skipif(not HAS_BROWSER, reason='needs chromium, chromium-driver and python3-selenium')
+AT = """
+const [input, output] = ['input[type=range]', 'output'].map(name => document.querySelector(name));
+input.value = arguments[0];
+input.oninput();
+const path = document.querySelector('#map-path path').getAttribute('d');
+const shown = query => [...document.querySelectorAll(query)].filter(
+    one => getComputedStyle(one).visibility === 'visible').length;
+return [path.match(/[ML]/g).length, shown('#map-bumps use'), shown('svg.map image'), shown('svg line'),
+        output.textContent];
+"""
+
+
+@pytest.fixture(scope='module')
+def browser(tmp_path_factory):
+    """Chromium with the page of a mission of 100 s."""
+    from selenium import webdriver
+    from selenium.webdriver.chrome.service import Service
+    path = tmp_path_factory.mktemp('page') / 'report.html'
+    path.write_text(page(record()), encoding='utf-8')
+    options = webdriver.ChromeOptions()
+    for argument in ('--headless=new', '--no-sandbox', '--disable-gpu', '--disable-dev-shm-usage'):
+        options.add_argument(argument)
+    options.set_capability('goog:loggingPrefs', {'browser': 'ALL'})
+    driver = webdriver.Chrome(service=Service('/usr/bin/chromedriver'), options=options)
+    driver.get(path.as_uri())
+    yield driver
+    driver.quit()
+
+
+@pytest.mark.parametrize('place, points, bumps, pictures, cursors, told', [
+    (1000, 4, 2, 2, 0, '0:01:40 · stranded · battery 50 % · 90.0 % swept'),
+    (0, 1, 0, 1, 2, '0:00:00 · cleaning · battery 100 % · 10.0 % swept'),
+    (550, 2, 1, 1, 2, '0:00:55 · cleaning · battery 100 % · 30.0 % swept')])
+def test_the_slider_shows_the_mission_until_a_time(browser, place, points, bumps, pictures, cursors, told):
+    assert browser.execute_script(AT, place) == [points, bumps, pictures, cursors, told]
+    assert browser.get_log('browser') == []
+
+
+def test_bumps_can_be_hidden(browser):
+    browser.find_element('css selector', 'label[for=bumps]').click()
+    assert not browser.find_element('css selector', '#map-bumps').is_displayed()

@@ -1,0 +1,1 @@
+"""The node console: a mission in the terminal."""

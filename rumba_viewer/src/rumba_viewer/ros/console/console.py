@@ -1,0 +1,113 @@
+"""console: one live line about a mission in the terminal, and a small report at its end.
+
+The line stays in the last row of the terminal, and is cut to its width; what others print scrolls above it. Into a pipe
+or a file it prints a line from time to time.
+
+Subscribes, below the name of the robot:
+  cleaning_status  rumba_msg/CleaningStatus   battery_state    sensor_msgs/BatteryState
+  mission_status   rumba_msg/MissionStatus
+
+Parameters, as in `rosrun rumba_viewer console _robot:=rumba2`:
+"""
+
+import dataclasses
+import os
+import sys
+import threading
+from typing import Any, Callable, List, Tuple, Type
+
+import rospy
+from sensor_msgs.msg import BatteryState
+
+from rumba_cleaning.cleaning_config import CleaningConfig
+from rumba_msg.msg import CleaningStatus, MissionStatus
+from rumba_sim.model.config import setting
+from rumba_sim.ros.common import node
+from rumba_sim.ros.common.names import check_names
+from rumba_viewer.ros import readings
+from rumba_viewer.ros.console.bottom_line import BottomLine
+from rumba_viewer.ros.subscription import Subscription
+from rumba_viewer.scene import wording
+from rumba_viewer.scene.mission_watch import UNKNOWN, MissionWatch
+
+PERIOD = 0.2  # [s] of the wall clock from one live line to the next
+PIPE_PERIOD = 2.0  # [s] of the wall clock from one line into a pipe to the next
+NEXT = ['next, in a second terminal of ./rumba shell:',
+        '  rosrun rumba_viewer viewer    a window',
+        '  rosrun rumba_viewer page      a page for browsers',
+        '  docs/mission_report.md        a report of what was recorded']
+
+
+@dataclasses.dataclass(frozen=True)
+class Settings:
+    """The node's private parameters."""
+
+    robot: str = setting('rumba', 'name of the robot')
+    target_coverage: float = setting(CleaningConfig().target_coverage, 'share of the floor that missions sweep, by '
+                                     'which the time left is estimated', '0..1', 0.0, 1.0)
+
+    def __post_init__(self) -> None:
+        """Check the name of the robot, of which names of topics are made."""
+        check_names(self, 'robot')
+
+
+def main() -> None:
+    """Run the node."""
+    node.run('console', Settings, show)
+
+
+def show(settings: Settings) -> None:
+    """Show the mission of a robot, until ROS shuts down."""
+    console = Console(settings.robot, settings.target_coverage)
+    is_terminal = sys.stdout.isatty() and os.environ.get('TERM', 'dumb') != 'dumb'
+    bottom = BottomLine(sys.stdout.fileno()) if is_terminal else None
+    ended = threading.Event()
+    rospy.on_shutdown(ended.set)
+    try:
+        while not ended.wait(PERIOD if bottom is not None else PIPE_PERIOD):
+            report, line = console.report(), console.line()
+            if bottom is not None:
+                if report:
+                    bottom.say(report)
+                bottom.show(line)
+            else:
+                print(*report, line, sep='\n', flush=True)
+    finally:
+        if bottom is not None:
+            bottom.close()
+
+
+class Console:
+    """Listens to a robot, and puts its mission into words."""
+
+    def __init__(self, robot: str, target: float) -> None:
+        """Listen to a robot whose missions have a target [0..1]."""
+        self._robot = robot
+        self._lock = threading.Lock()  # held while the watch is used
+        self._watch = MissionWatch(robot, target)
+        self._told: Tuple[str, ...] = ()
+        self._topics = [
+            self._topic('battery_state', BatteryState, readings.battery, self._watch.take_battery),
+            self._topic('mission_status', MissionStatus, readings.mission, self._watch.take_mission),
+            self._topic('cleaning_status', CleaningStatus, readings.cleaning, self._watch.take_cleaning)]
+
+    def _topic(self, name: str, kind: Type[Any], read: Callable[[Any], Any],
+               take: Callable[[Any], None]) -> 'Subscription[Any]':
+        def take_alone(value: Any) -> None:
+            with self._lock:
+                take(value)
+        return Subscription(f'{self._robot}/{name}', kind, read, take_alone, queue_size=10)
+
+    def report(self) -> List[str]:
+        """The report of a mission that has just ended, once; else no lines."""
+        with self._lock:
+            told, self._told = self._told, self._watch.report
+        return [*self._told, *NEXT] if self._told and self._told != told else []
+
+    def line(self) -> str:
+        """The live line."""
+        with self._lock:
+            watch = self._watch
+            if watch.cleaning is None:
+                return f'waiting for {rospy.resolve_name(self._robot)}/cleaning_status'
+            return wording.live_line(watch.mission, watch.cleaning, watch.battery or UNKNOWN, watch.elapsed, watch.left)
