@@ -15,7 +15,7 @@ start() { # COMMAND ...: until this script ends
     pids="$! $pids"
 }
 # shellcheck disable=SC2086 # several numbers
-trap 'kill -INT $pids; wait; rm -rf "$folder"' EXIT
+trap 'kill -INT $pids 2>/dev/null || true; wait; rm -rf "$folder"' EXIT
 
 value() { rostopic echo -n1 "/rumba/$1" | head -n1; } # TOPIC/FIELD
 until_swept() { until value cleaning_status/coverage | awk "{ exit !(\$1 >= $1) }"; do sleep 0.5; done; }

@@ -15,7 +15,7 @@ from PIL import Image
 SETTLE = 5.0  # [s] until the page has got map, coverage and robot
 HALF = 'const input = document.querySelector("#slider input"); input.value = 420; input.oninput()'
 COLOURS, GIF_COLOURS = 128, 48
-FRAMES, GIF_WIDTH, PERIOD = 36, 560, 180  # most frames of a GIF; its width [pixels]; time for which each is shown [ms]
+FRAMES, GIF_WIDTH, PERIOD = 24, 480, 250  # most frames of a GIF; its width [pixels]; time for which each is shown [ms]
 
 
 def shoot(kind, url, path, size):
@@ -46,8 +46,11 @@ def animate(frames, path):
     chosen = frames[::-(-len(frames) // FRAMES)] + frames[-1:]
     pictures = [Image.open(frame).convert('RGB') for frame in chosen]
     height = round(GIF_WIDTH * pictures[0].height / pictures[0].width)
-    small = [picture.resize((GIF_WIDTH, height), Image.LANCZOS) for picture in pictures]
-    palette = small[len(small) // 2].quantize(GIF_COLOURS, Image.MEDIANCUT)
+    small = [picture.resize((GIF_WIDTH, height), Image.BOX) for picture in pictures]
+    samples = Image.new('RGB', (GIF_WIDTH, 3 * height))
+    for row, picture in enumerate((small[0], small[len(small) // 2], small[-1])):
+        samples.paste(picture, (0, row * height))
+    palette = samples.quantize(GIF_COLOURS, Image.MAXCOVERAGE)
     first, *rest = [picture.quantize(palette=palette, dither=0) for picture in small]
     first.save(path, save_all=True, append_images=rest, duration=[PERIOD] * len(rest) + [10 * PERIOD], loop=0,
                optimize=True)
