@@ -29,7 +29,7 @@ MD5 = {
     'Cliff.msg': ['f4f281313287b2b493f1c4188d2a65ac'],
     'DockStatus.msg': ['c48de8dbe236629249e0a17b3210e4b8'],
     'Lockstep.msg': ['0ee5539633c36786a042805782056911'],
-    'LockstepAnswer.msg': ['fa246e5f451b61e13a5bc6fdb57db664'],
+    'LockstepAnswer.msg': ['ee9cc01718c8f4146b76ccc28498b21b'],
     'MissionStatus.msg': ['b5dc28a8c8d879395d4353c7e03795b4'],
     'Outcome.msg': ['a70673e9425e07411f8380f0a44dbf9b'],
     'SimulatorState.msg': ['f9b4dcc49d5285d3df3d11c9d29d19b5'],
