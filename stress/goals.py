@@ -78,10 +78,11 @@ def client(ground, action):
     """
     prefix = f'/rumba/{action}'
     with ground.listen(f'{prefix}/result', kind(action, 'ActionResult'), ground.cleaner) as results, \
-            ground.publishers.publish(ground.uri, f'{prefix}/goal', kind(action, 'ActionGoal')) as connections:
-        if not connections:
+            ground.publishers.publish(ground.uri, f'{prefix}/goal', kind(action, 'ActionGoal'),
+                                      wanted=ground.cleaner.name) as connections:
+        connection = dict(connections).get(ground.cleaner.name)  # others, such as a viewer, may listen too
+        if connection is None:
             raise Failure('goal', ground.cleaner.name, f'does not subscribe to {prefix}/goal')
-        _, connection = connections[0]
         connection.sendall(wire.greeting(kind(action, 'ActionGoal')))
         yield Client(ground, action, results, connection)
 

@@ -62,7 +62,7 @@ class Publishers:
             connection.close()
 
     @contextlib.contextmanager
-    def publish(self, master_uri, topic, kind, at_least=1, patience=wire.PATIENCE):
+    def publish(self, master_uri, topic, kind, at_least=1, patience=wire.PATIENCE, wanted=None):
         """Register as a publisher; yields a list of pairs of a subscriber's name and a socket.
 
         Args:
@@ -71,13 +71,14 @@ class Publishers:
             kind: class of the messages, or what subscribers are to be told that it is.
             at_least: how many subscribers to wait for.
             patience: how long [s]; fewer may have come then.
+            wanted: name of a subscriber to wait for, too.
         """
         came = self._came[topic] = queue.Queue()
         connections, uri = [], next(self._uris)
         try:
             wire.ask(master_uri, 'registerPublisher', topic, kind._type, uri)
             end = time.monotonic() + patience
-            while len(connections) < at_least:
+            while len(connections) < at_least or wanted and wanted not in dict(connections):
                 try:
                     connections.append(came.get(timeout=max(end - time.monotonic(), 0.01)))
                 except queue.Empty:
