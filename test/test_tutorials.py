@@ -2,6 +2,7 @@
 
 import pathlib
 import re
+import shutil
 import xml.etree.ElementTree
 
 import consoles
@@ -27,8 +28,9 @@ def test_the_terminals_show_what_the_page_shows(workspace, lesson):
 def test_a_workspace_grows_from_nothing(tmp_path):
     # Without a workspace below it, as in an ordinary terminal; ~ is an empty folder.
     space = Space(UNDERLAY, {**clean_environment(), 'HOME': str(tmp_path)})
-    for page in (FROM_NOTHING / 'README.md', ROOT / 'docs' / 'building.md'):
-        consoles.play(page, space)
+    consoles.play(FROM_NOTHING / 'README.md', space)
+    if shutil.which('catkin'):  # a distribution may have no catkin-tools
+        consoles.play(ROOT / 'docs' / 'building.md', space)
 
 
 def test_a_library_and_its_header_serve_from_the_install_space(workspace, environment, tmp_path):

@@ -1,4 +1,4 @@
-"""Every page of the documentation links to files and headings that exist, and the page of questions answers each one."""
+"""Links of pages lead to files and headings that exist; every question has an answer; the index names every page."""
 
 import functools
 import re
@@ -51,3 +51,8 @@ def test_every_question_has_an_answer():
 def test_the_page_leads_to_every_lesson():
     linked = set(re.findall(r'rumba_tutorials/(\w+)/README.md', QUESTIONS.read_text()))
     assert linked == {path.parent.name for path in ROOT.glob('rumba_tutorials/[0-9]*/README.md')}
+
+
+def test_the_index_names_every_page():
+    linked = {link for link in LINK.findall((ROOT / 'docs' / 'index.md').read_text()) if '/' not in link}
+    assert linked == {path.name for path in ROOT.glob('docs/*.md')} - {'index.md'}
