@@ -9,5 +9,3 @@ html_theme_options = {'description': 'a Roomba for ROS 1', 'page_width': '70em',
 myst_heading_anchors = 4  # links to headings
 autodoc_mock_imports = ['distributed', 'gymnasium']  # optional
 autodoc_default_options = {'members': True, 'show-inheritance': True}
-# Links to folders and sources stay links to files; pages need not be in the tree of another one.
-suppress_warnings = ['myst.xref_missing', 'toc.not_included']
