@@ -20,13 +20,14 @@ import signal
 import threading
 from typing import Callable, List, NamedTuple
 
-from workspaces import ROOT, TIMEOUT, Space
+from workspaces import BUILD_TIMEOUT, ROOT, TIMEOUT, Space
 
 FENCE = re.compile(r'^```console\n(.*?)^```$', re.MULTILINE | re.DOTALL)
 MARK = '\x1d'  # no program prints it: on both sides of the last exit code, it is the shell's prompt
 PROMPT = re.compile(f'{MARK}(\\d+){MARK}')
 OF_TERMINALS = re.compile('\x1b\\][^\x07]*\x07|\x1b\\[[0-9;?]*[A-Za-z]')  # titles and colours
 REPORTED = 40  # lines at the beginning, and at the end
+BUILDS = re.compile('catkin_make|catkin build|pip install')  # commands that take longer than others
 ANY_LINES, CTRL_C, ANSWER = '...', '^C', '> '
 
 
@@ -170,8 +171,9 @@ class Terminal:
         assert compiled.match(self._shown()), self._report('what the README shows')
 
     def _wait_until(self, condition: Callable[[], object], what: str) -> None:
+        limit = BUILD_TIMEOUT if BUILDS.search(self._command.text) else TIMEOUT
         with self._news:
-            assert self._news.wait_for(condition, TIMEOUT), self._report(what)
+            assert self._news.wait_for(condition, limit), self._report(what)
 
     def _check_end(self) -> None:
         """See that a command that has ended has printed no more than it should, and ended well."""

@@ -8,7 +8,7 @@ import time
 
 import catkin_pkg.packages
 import pytest
-from workspaces import OURS, ROOT, TIMEOUT, TUTORIALS, Space, clean_environment, roscore
+from workspaces import OURS, ROOT, TIMEOUT, Space, clean_environment, roscore
 
 README = (ROOT / 'README.md').read_text()
 INTERFACES = (ROOT / 'docs' / 'interfaces.md').read_text()
@@ -119,9 +119,9 @@ def test_what_echo_prints_in_the_readme_is_what_it_prints(workspace):
         assert here.run('rostopic echo -n1 /rumba/battery_status') == shown
 
 
-def test_a_clone_in_another_workspace_brings_the_packages_and_nothing_of_its_own_workspace_and_tests():
+def test_a_clone_in_another_workspace_brings_the_packages_and_no_lesson_and_no_test():
     assert sorted(catkin_pkg.packages.find_package_paths(str(ROOT))) == sorted(
-        str(path.relative_to(ROOT)) for path in OURS + TUTORIALS)
+        str(path.relative_to(ROOT)) for path in OURS)
     assert [path.name for path in OURS] == [
         'rumba_bringup', 'rumba_cleaning', 'rumba_evaluation', 'rumba_localisation', 'rumba_msg', 'rumba_sim',
         'rumba_viewer']

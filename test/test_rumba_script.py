@@ -100,12 +100,12 @@ def test_help_names_every_command():
     code, out, _ = rumba(ROOT, 'help')
     assert code == 0
     assert [line.split()[0] for line in out.splitlines() if line.startswith('  ')] == [
-        'run', 'test', 'build', 'shell', 'lint', 'bench', 'stress', 'help']
+        'run', 'test', 'build', 'shell', 'lint', 'bench', 'docs', 'stress', 'help']
 
 
 def test_an_unknown_command_is_refused():
     assert rumba(ROOT, 'biuld') == (
-        2, '', "rumba: unknown command 'biuld': run, test, build, shell, lint, bench, stress or help\n")
+        2, '', "rumba: unknown command 'biuld': run, test, build, shell, lint, bench, docs, stress or help\n")
 
 
 @pytest.mark.parametrize('argument', ['drian:=5', 'drain', '--screen'])
@@ -241,6 +241,7 @@ def test_a_package_of_compat_is_built_only_if_the_system_has_none(checkout, tmp_
 
 def test_lessons_are_built_once_they_are_asked_for_and_remain(checkout, tmp_path):
     write_package(checkout / 'rumba_tutorials' / '01_first' / 'a_lesson')
+    (checkout / 'rumba_tutorials' / 'CATKIN_IGNORE').touch()
     cache = {'XDG_CACHE_HOME': str(tmp_path / 'cache')}
     find = ('shell', 'rospack', 'find', 'a_lesson')
     code, _, error = rumba(checkout, *find, **cache)

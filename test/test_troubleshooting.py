@@ -28,7 +28,8 @@ OTHER_WORLD = ('...: was saved with ... ..., which is ... now: start with what i
                'another file')
 
 # These need another system, two workspaces, or two nodes that start at the same moment.
-ELSEWHERE = ["/usr/bin/env: 'python': No such file or directory",
+ELSEWHERE = ['Compatibility with CMake < 3.5 has been removed from CMake.',
+             "/usr/bin/env: 'python': No such file or directory",
              'another simulator starts at the same moment: only one of them can',
              "AttributeError: 'Thread' object has no attribute 'isAlive'",
              'to have datatype/md5sum [...], but our version has [...]. Dropping connection.',

@@ -2,25 +2,35 @@
 
 import pathlib
 import re
+import shutil
 import xml.etree.ElementTree
 
 import consoles
 import pytest
-from workspaces import ROOT, TUTORIALS, Workspace, clean_environment
+from workspaces import ROOT, TUTORIALS, UNDERLAY, Space, Workspace, clean_environment
 
 FOLDER = ROOT / 'rumba_tutorials'
 METAPACKAGE = FOLDER / 'rumba_tutorials'
 PACKAGES = [path for path in TUTORIALS if path != METAPACKAGE]
 LESSONS = sorted(path.parent for path in FOLDER.glob('[0-9]*/README.md'))
 HEADINGS = ['Files', 'Run', 'What you see', 'What goes wrong', 'Why it works']
+FROM_NOTHING = FOLDER / '13_from_nothing'  # its page makes a workspace, with which docs/building.md goes on
 OF_LESSON = pytest.mark.parametrize('lesson', LESSONS, ids=lambda path: path.name)
 OF_PACKAGE = pytest.mark.parametrize('package', PACKAGES, ids=lambda path: path.name)
 
 
-@OF_LESSON
+@pytest.mark.parametrize('lesson', [path for path in LESSONS if path != FROM_NOTHING], ids=lambda path: path.name)
 def test_the_terminals_show_what_the_page_shows(workspace, lesson):
     # A master of its own: the first roslaunch, or roscore, starts it, as at the reader's.
     consoles.play(lesson / 'README.md', workspace.space('devel', clean_environment()))
+
+
+def test_a_workspace_grows_from_nothing(tmp_path):
+    # Without a workspace below it, as in an ordinary terminal; ~ is an empty folder.
+    space = Space(UNDERLAY, {**clean_environment(), 'HOME': str(tmp_path)})
+    consoles.play(FROM_NOTHING / 'README.md', space)
+    if shutil.which('catkin'):  # a distribution may have no catkin-tools
+        consoles.play(ROOT / 'docs' / 'building.md', space)
 
 
 def test_a_library_and_its_header_serve_from_the_install_space(workspace, environment, tmp_path):

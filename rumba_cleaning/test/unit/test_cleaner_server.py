@@ -1,5 +1,6 @@
 """The servers of the cleaner's actions, without a master: goals of a time that is over, and those still open."""
 
+import contextlib
 import time
 import types
 
@@ -9,7 +10,7 @@ from actionlib_msgs.msg import GoalID, GoalStatus
 
 from rumba_cleaning.outcome import Outcome
 from rumba_cleaning.ros.cleaner import action_server, conversions
-from rumba_cleaning.ros.cleaner.action_server import LONGEST_ID, MOST
+from rumba_cleaning.ros.cleaner.action_server import LONGEST_ID, MOST, Outlet
 from rumba_msg.msg import GoToAction, GoToActionGoal, GoToResult
 
 
@@ -32,9 +33,9 @@ class Topics:
         self.now = 100.0
         self.accepted, self.statuses = [], []
         self.results = {}
+        monkeypatch.setattr(action_server, 'Outlet', self._publisher)
         for name, stand_in in (
-                ('Publisher', self._publisher), ('Subscriber', lambda *_, **__: None), ('is_shutdown', lambda: False),
-                ('Time', rospy.Time)):
+                ('Subscriber', lambda *_, **__: None), ('is_shutdown', lambda: False), ('Time', rospy.Time)):
             monkeypatch.setattr(action_server.rospy, name, stand_in)
         monkeypatch.setattr(rospy.Time, 'now', lambda: rospy.Time.from_sec(self.now))
         self.server = action_server.Server('rumba/go_to', GoToAction, self.accepted.append, lambda _: None, result)
@@ -176,3 +177,12 @@ def test_an_id_that_every_status_would_carry_is_refused_if_it_is_long(topics):
     name = 'x' * (LONGEST_ID + 1)
     assert topics.goal(name) is None
     assert topics.results[name] == (GoalStatus.REJECTED, f'the id has {LONGEST_ID + 1} characters: must be at most 300')
+
+
+@pytest.mark.parametrize('is_over', [False, True])
+def test_a_topic_that_the_end_of_the_node_has_closed_is_no_error(monkeypatch, is_over):
+    monkeypatch.setattr(action_server.rospy, 'is_shutdown', lambda: is_over)
+    outlet = object.__new__(Outlet)
+    outlet.impl = None  # as Publisher.unregister leaves it
+    with contextlib.nullcontext() if is_over else pytest.raises(rospy.ROSException, match='unregistered'):
+        outlet.publish(GoalStatus())

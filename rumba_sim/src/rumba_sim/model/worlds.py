@@ -1,6 +1,6 @@
 """Many worlds, advanced by one compiled call, each of them as if it were alone, bit for bit.
 
-    plan = map_file.load('studio.yaml')
+    plan = map_file.load(named_maps.path('studio'))
     worlds = Worlds([world_with_a_robot(plan, seed=seed) for seed in range(1000)])
     worlds.command(np.full(1000, 0.3), np.zeros(1000))
     worlds.step(5)

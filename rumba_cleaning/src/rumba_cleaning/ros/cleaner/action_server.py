@@ -20,6 +20,18 @@ LONGEST_ID = 300  # [characters]
 WAITING, STARTED = (GoalStatus.PENDING, GoalStatus.RECALLING), (GoalStatus.ACTIVE, GoalStatus.PREEMPTING)
 
 
+class Outlet(rospy.Publisher):
+    """A publisher that drops what other threads publish while the node ends, which closes its topics."""
+
+    def publish(self, *args: Any, **fields: Any) -> None:
+        """Publish a message, as the base class does; raise ROSException if the topic is closed in a node that runs."""
+        try:
+            super().publish(*args, **fields)
+        except rospy.ROSException:
+            if not rospy.is_shutdown():
+                raise
+
+
 class Server(ActionServer):
     """An action server that outlives a simulator and floods, and leaves no goal open at the end of its node.
 
@@ -52,11 +64,11 @@ class Server(ActionServer):
 
     def initialize(self) -> None:
         """Open the topics, and publish the status from now on."""
-        self.status_pub = rospy.Publisher(f'{self.ns}/status', GoalStatusArray, queue_size=QUEUE, latch=True)
-        self.feedback_pub = rospy.Publisher(f'{self.ns}/feedback', self.ActionFeedback, queue_size=QUEUE)
+        self.status_pub = Outlet(f'{self.ns}/status', GoalStatusArray, queue_size=QUEUE, latch=True)
+        self.feedback_pub = Outlet(f'{self.ns}/feedback', self.ActionFeedback, queue_size=QUEUE)
         with warnings.catch_warnings():
             warnings.simplefilter('ignore')  # Without a queue, a result is on its way when `publish` returns.
-            self.result_pub = rospy.Publisher(f'{self.ns}/result', self.ActionResult, queue_size=None)
+            self.result_pub = Outlet(f'{self.ns}/result', self.ActionResult, queue_size=None)
         self.goal_sub = rospy.Subscriber(f'{self.ns}/goal', self.ActionGoal, self.internal_goal_callback)
         self.cancel_sub = rospy.Subscriber(f'{self.ns}/cancel', GoalID, self.internal_cancel_callback)
         self.status_list_timeout = rospy.Duration(REMEMBERED)

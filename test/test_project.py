@@ -1,0 +1,52 @@
+"""What others expect of a project: hosted CI tests systems that are supported, and rosdep knows the keys."""
+
+import re
+import xml.etree.ElementTree
+
+import pytest
+import yaml
+from workspaces import OURS, ROOT, TUTORIALS
+
+KEYS = yaml.safe_load((ROOT / 'test' / 'rosdep_keys.yaml').read_text())
+WORKFLOW = yaml.safe_load((ROOT / '.github' / 'workflows' / 'test.yml').read_text())
+INSTALLED = [line.split()[1:] for line in (ROOT / 'packages.txt').read_text().splitlines() if re.match(r'\w', line)]
+OF_PACKAGE = pytest.mark.parametrize('package', OURS + TUTORIALS, ids=lambda path: path.name)
+# Packages of ROS have no entry in the lists: rosdep knows them by their release for Noetic.
+OF_ROS = {name[len('ros-noetic-'):].replace('-', '_') for _, name in INSTALLED if name.startswith('ros-noetic-')}
+
+
+def depends(package):
+    """The keys of a package.xml, without those of this repository."""
+    tags = xml.etree.ElementTree.parse(str(package / 'package.xml')).iter()
+    keys = {tag.text for tag in tags if tag.tag == 'depend' or tag.tag.endswith('_depend')}
+    return keys - {path.name for path in OURS + TUTORIALS}
+
+
+@OF_PACKAGE
+def test_rosdep_knows_each_key(package):
+    optional = {'rviz', 'turtlesim'}  # of ROS too; ./rumba installs neither
+    of_base = {'genmsg', 'roslib'}  # of ROS too, and installed with the others
+    known = OF_ROS | optional | of_base | {*KEYS['read'], *KEYS['assumed']}
+    assert depends(package) - known == set()
+
+
+def test_what_rosdep_installs_is_what_rumba_installs_and_no_key_is_left_over():
+    every = {**KEYS['read'], **KEYS['assumed']}
+    # python3-rospkg brings its modules.
+    assert {debian for debian in every.values()} <= {debian for debian, _ in INSTALLED}
+    assert {*every} == {key for package in OURS + TUTORIALS for key in depends(package)} & {*every}
+
+
+def test_hosted_ci_does_what_the_local_one_does_on_systems_that_are_supported():
+    job = WORKFLOW['jobs']['test']
+    assert '.ci/run' in [step.get('run') for step in job['steps']]
+    supported = re.search(r'^ +(\w+(?: \| \w+)+)\) ;;$', (ROOT / 'rumba').read_text(), re.MULTILINE).group(1)
+    names = {'debian:12': 'bookworm', 'debian:13': 'trixie', 'ubuntu:22.04': 'jammy'}
+    assert {names[image] for image in job['strategy']['matrix']['image']} <= set(supported.split(' | '))
+
+
+@OF_PACKAGE
+def test_one_version_and_no_address_that_was_made_up(package):
+    root = xml.etree.ElementTree.parse(str(package / 'package.xml')).getroot()
+    assert root.find('version').text == '0.1.0'
+    assert root.find('url') is None, 'an address: then say it in CONTRIBUTING.md too, and give a .rosinstall'
