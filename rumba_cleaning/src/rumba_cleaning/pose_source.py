@@ -8,6 +8,7 @@ import numpy as np
 from rumba_cleaning.behaviour import CERTAIN, UNKNOWN, Covariance
 from rumba_localisation.localiser import Localiser, Seed, points
 from rumba_localisation.mapping.believed_plan import believed_plan
+from rumba_localisation.mapping.findings import Findings
 from rumba_localisation.mapping.mapper import Mapper, scan_of
 from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.model.geometry import Pose, as_told, compose, inverse
@@ -73,11 +74,13 @@ class Mapped:
 
     Attributes:
         mapper: the map, and what it believes.
+        findings: what bumper and cliff sensors found.
     """
 
     def __init__(self, world: World, name: str, dock: Optional[Pose] = None) -> None:
         """Begin with a first scan of a robot of a world; its true pose defines the map frame, in which the dock is."""
         self.mapper = Mapper(world.robots[name].pose)
+        self.findings = Findings(world.config)
         self._dock = dock
         self._known: Optional[Tuple[int, FloorPlan]] = None  # the newest plan, after its version
         self(world, name)
@@ -87,8 +90,9 @@ class Mapped:
         odometry = as_told(world.robots[name].odometry)
         ranges = world.scan(name).astype(np.float32)
         self.mapper.observe(odometry, scan_of(ranges, *_angles(len(ranges)), world.config.laser.range_max))
-        estimate = self.mapper.estimate
-        return Belief(self.mapper.pose(odometry), UNKNOWN if estimate is None else _rows(estimate.covariance))
+        estimate, pose = self.mapper.estimate, self.mapper.pose(odometry)
+        self.findings.note(self.mapper.grid, pose, world.robots[name].bumper, world.cliffs(name))
+        return Belief(pose, UNKNOWN if estimate is None else _rows(estimate.covariance))
 
     def plan(self) -> FloorPlan:
         """The map so far; the same object as long as the map is the same."""

@@ -68,6 +68,12 @@ class Grid:
         """Share of the beams of a scan, as `add` gets it, that end on cells of which nothing is known [0..1]."""
         return compiled_grid.unknown(self.odds, self.cells(placed(pose, points))) / max(len(points), 1)
 
+    def distance_at(self, x: float, y: float) -> float:
+        """Distance from a point [m] to the nearest wall [m], to the nearest node; large if none is near."""
+        rows, columns = self.field.shape
+        column, row = (round(cells) for cells in self.cells(np.array([x, y])).tolist())
+        return abs(float(self.field[row, column])) if 0 <= row < rows and 0 <= column < columns else math.inf
+
     def _cover(self, points: Array) -> None:
         """Grow until points (any, 2) [m] lie on the grid."""
         if not self.odds.size:
