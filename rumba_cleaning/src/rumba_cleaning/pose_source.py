@@ -79,8 +79,9 @@ class Mapped:
 
     def __init__(self, world: World, name: str, dock: Optional[Pose] = None) -> None:
         """Begin with a first scan of a robot of a world; its true pose defines the map frame, in which the dock is."""
-        self.mapper = Mapper(world.robots[name].pose)
-        self.findings = Findings(world.config)
+        config = world.config
+        self.mapper = Mapper(world.robots[name].pose, radius=config.drive.radius, range_max=config.laser.range_max)
+        self.findings = Findings(config)
         self._dock = dock
         self._known: Optional[Tuple[int, FloorPlan]] = None  # the newest plan, after its version
         self(world, name)
@@ -96,8 +97,9 @@ class Mapped:
 
     def plan(self) -> FloorPlan:
         """The map so far; the same object as long as the map is the same."""
-        if self._known is None or self._known[0] != self.mapper.version:
-            self._known = self.mapper.version, believed_plan(self.mapper.grid, 'the map so far', self._dock)
+        version = self.mapper.version + self.findings.version
+        if self._known is None or self._known[0] != version:
+            self._known = version, believed_plan(self.mapper.grid, 'the map so far', self._dock, self.findings)
         return self._known[1]
 
 

@@ -42,7 +42,7 @@ def test_a_slanting_beam_passes_each_cell_that_it_crosses():
     compiled_grid.add_beams(odds, hits, 0.1, 0.5, np.array([[3.1, 2.5]]), False)
     passed = {(int(row), int(column)) for row, column in np.argwhere(odds < 0.0)}
     along = np.linspace(0.0, 1.0, 5000)[:-1]
-    crossed = set(zip(np.floor(0.5 + 2.0 * along).astype(int).tolist(), np.floor(0.1 + 3.0 * along).astype(int).tolist()))
+    crossed = {(int(0.5 + 2.0 * share), int(0.1 + 3.0 * share)) for share in along}
     assert passed == crossed - {(2, 3)}
 
 

@@ -123,6 +123,34 @@ def test_a_loop_that_dead_reckoning_leaves_open_closes():
     assert np.mean(off_walls(mapper, plan) <= 0.1) > 0.98
 
 
+def test_wheels_that_slip_do_not_move_the_robot():
+    start = Pose(0.6, 1.2, 0.0)
+    world, mapper = world_of(crooked(0.02), start), Mapper(start)
+    robot = world.robots['rumba']
+    for _ in range(100):
+        robot.command(0.4, 0.0, world.tick)  # against the wall on the right, after 3 m
+        world.step(5)
+        mapper.observe(robot.odometry, scan(world))
+    assert error(reckoned(world, start), robot.pose)[0] > 0.5
+    assert error(mapper.estimate.pose, robot.pose)[0] < 0.02
+
+
+def test_a_robot_that_is_carried_away_finds_its_place_on_its_own_map():
+    start = Pose(0.6, 1.2, 0.0)
+    world, mapper = world_of(crooked(0.02), start), Mapper(start)
+    robot = world.robots['rumba']
+    around = [(2.0, 1.3), (2.2, 2.6), (1.0, 2.6), (0.6, 1.2), (3.4, 1.2)]
+    for _ in drive(world, mapper, around):
+        pass
+    before = mapper.grid.odds.copy()
+    world.teleport('rumba', Pose(1.0, 2.5, 2.0))
+    is_sure = [mapper.estimate.is_sure for _ in drive(world, mapper, [(2.2, 2.6), (1.0, 2.6), (2.2, 2.6)])]
+    assert not all(is_sure) and is_sure[-1]
+    assert error(mapper.pose(robot.odometry), robot.pose)[0] < 0.05
+    is_wall = before > 1.0
+    assert np.mean(mapper.grid.odds[is_wall] > 0.0) > 0.97  # it did not draw the map over at the wrong place
+
+
 def test_a_mirrored_laser_does_not_fit():
     start = Pose(0.6, 1.2, 0.0)
     world, mapper = world_of(crooked(0.02), start), Mapper(start)

@@ -7,6 +7,7 @@ import pytest
 from rooms import crooked
 
 from rumba_localisation.mapping import saving
+from rumba_localisation.mapping.believed_plan import believed_plan
 from rumba_localisation.mapping.findings import Findings
 from rumba_localisation.mapping.grid import Grid
 from rumba_sim.model import map_file
@@ -62,23 +63,30 @@ def test_a_cliff_is_where_the_sensor_is():
                                            2.0 + cliff.distance * math.sin(angle)))]
 
 
-def test_a_map_that_is_saved_is_read_again_with_what_was_found(tmp_path):
+def test_a_plan_shows_what_was_found():
+    found = findings()
+    found.touched, found.cliffs = [(0.5, 0.01)], [(0.7, 0.01)]
+    plan = believed_plan(grid_with_wall(2.0), 'found', None, found)
+    assert plan.occupancy[plan.cell(0.5, 0.01)] == OCCUPIED
+    assert plan.cliff[plan.cell(0.7, 0.01)] and plan.occupancy[plan.cell(0.7, 0.01)] == FREE
+    assert plan.occupancy[plan.cell(0.6, 0.01)] == FREE and not plan.cliff[plan.cell(0.6, 0.01)]
+
+
+def test_a_map_that_is_saved_is_read_again(tmp_path):
     cells = crooked(0.02).occupancy.copy()
     cells[:40, :40] = UNKNOWN
-    plan = FloorPlan('crooked', cells, 0.02, (-1.23, 0.5), dock=Pose(2.0, 1.25, -0.7))
-    found = findings()
-    found.touched, found.cliffs = [(1.0, 2.0)], [(1.5, 2.5)]
-    saving.save(str(tmp_path / 'home.yaml'), plan, found)
+    cliff = np.zeros(cells.shape, np.bool_)
+    cliff[100, 120:124] = True
+    plan = FloorPlan('crooked', cells, 0.02, (-1.23, 0.5), cliff=cliff, dock=Pose(1.0, 1.75, -0.7))
+    saving.save(str(tmp_path / 'home.yaml'), plan)
     read = map_file.load(str(tmp_path / 'home.yaml'))
     assert read.dock == pytest.approx(plan.dock, abs=1e-6)
     assert read.resolution == plan.resolution
-    for x, y in ((0.3, 2.9), (1.0, 2.0), (1.5, 2.5), (2.1, 1.3)):
-        if plan.contains(x, y) and read.contains(x, y):
-            expected = OCCUPIED if (x, y) == (1.0, 2.0) else plan.occupancy[plan.cell(x, y)]
-            assert read.occupancy[read.cell(x, y)] == expected
-    assert read.occupancy[read.cell(1.0, 2.0)] == OCCUPIED
-    assert read.cliff[read.cell(1.5, 2.5)] and not read.cliff[read.cell(1.0, 2.0)]
-    assert np.count_nonzero(read.occupancy == FREE) == pytest.approx(np.count_nonzero(cells == FREE), abs=12)
+    for row, column in ((20, 60), (0, 80), (100, 121), (60, 20)):
+        x, y = plan.centre(row, column)
+        assert read.occupancy[read.cell(x, y)] == cells[row, column]
+        assert read.cliff[read.cell(x, y)] == cliff[row, column]
+    assert np.count_nonzero(read.free) == np.count_nonzero(plan.free)
 
 
 @pytest.mark.parametrize('path, pattern', [
@@ -87,4 +95,4 @@ def test_a_map_that_is_saved_is_read_again_with_what_was_found(tmp_path):
     ('no/such/folder/home.yaml', 'cannot be written: No such file or directory')])
 def test_a_path_that_cannot_be_written_is_refused(tmp_path, path, pattern):
     with pytest.raises(MapError, match=pattern):
-        saving.save(str(tmp_path / path), crooked(), findings())
+        saving.save(str(tmp_path / path), crooked())

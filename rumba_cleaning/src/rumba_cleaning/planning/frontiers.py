@@ -12,7 +12,7 @@ from rumba_sim.model.floor_plan import OCCUPIED, FloorPlan
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.kernel import Array
 
-LEAST = 0.03  # [m^2] of positions behind a frontier: smaller ones are seen when the robot cleans there; our choice
+LEAST = 0.1  # [m^2] of positions behind a frontier: smaller ones are seen when the robot cleans there; our choice
 SEEN = 0.4  # [m] around a point to which the robot went to look; what is unknown there then stays unknown
 EIGHT = np.ones((3, 3), np.bool_)  # neighbours
 

@@ -31,6 +31,11 @@ class Findings:
         self.touched: List[Point] = []
         self.cliffs: List[Point] = []
 
+    @property
+    def version(self) -> int:
+        """Number of points that were found."""
+        return len(self.touched) + len(self.cliffs)
+
     def note(self, grid: Grid, pose: Pose, bumper: Tuple[bool, bool], cliffs: Sequence[bool]) -> None:
         """Remember what the sensors tell at a pose, unless the grid shows it.
 

@@ -6,7 +6,8 @@ from typing import Dict, NamedTuple, Optional, Tuple
 import numpy as np
 
 from rumba_localisation import compiled_matching
-from rumba_localisation.localiser import Estimate, is_blind, points, thinned
+from rumba_localisation.localiser import Estimate, Localiser, is_blind, points, thinned
+from rumba_localisation.mapping.believed_plan import believed_plan
 from rumba_localisation.mapping.grid import RESOLUTION, Grid
 from rumba_localisation.mapping.mapper_config import MapperConfig
 from rumba_sim.model.geometry import Pose, compose, inverse, wrap_angle
@@ -19,6 +20,12 @@ SPACING, VISITS = 0.25, 4  # [m] side of a square of the floor, and scans from t
 UNSEEN = 0.05  # share of the beams that end on unknown floor, from which on a scan from anywhere is added
 AT_ONCE = 4  # scans that are added before distances are measured again
 LEAST = np.array([0.005, 0.005, 0.005]) ** 2  # variances of any movement [m^2, m^2, rad^2]
+GOOD = 0.75  # a fit below which other starts of a match are tried ...
+BETTER = 0.1  # ... whose fit must be better by so much: in a corridor all fit alike
+SLIPPED = np.diag([0.1, 0.1, 0.05]) ** 2  # covariance of these
+LOST_FIT, LOST_AFTER = 0.6, 5  # the robot was carried away if, of the beams that end on known floor, so few fit in so
+#                                many scans, one after the other; meanwhile the map stays as it is
+FOUND_FIT = 0.6  # from which on a place that was looked for is believed
 CERTAIN = np.diag(LEAST)
 
 
@@ -42,21 +49,26 @@ class Mapper:
         version: how many scans it shows.
     """
 
-    def __init__(self, start: Pose = Pose(0.0, 0.0, 0.0), config: MapperConfig = MapperConfig()) -> None:
+    def __init__(self, start: Pose = Pose(0.0, 0.0, 0.0), config: MapperConfig = MapperConfig(),
+                 radius: float = 0.17425, range_max: float = 8.0) -> None:
         """Begin a map.
 
         Args:
             start: where the robot is at the first scan; this defines the map frame [m, rad].
             config: parameters.
+            radius: of the robot [m].
+            range_max: of its laser [m].
         """
         self.config = config
-        self._start = start
+        self._start, self._radius, self._range_max = start, radius, range_max
         self.grid = Grid()
         self.correction = Pose(0.0, 0.0, 0.0)
         self.estimate: Optional[Estimate] = None
         self.version = 0
         self._visits: Dict[Tuple[int, int], int] = {}  # scans by the square of the floor in which they were taken
         self._added = 0  # scans since the distances on the grid were measured
+        self._misfits = 0  # scans, one after the other
+        self._search: Optional[Localiser] = None  # for the place of a robot that was carried away
         self._last: Optional[Pose] = None  # odometry at the newest scan that was used
 
     def pose(self, odometry: Pose) -> Pose:
@@ -76,19 +88,41 @@ class Mapper:
         last = self._last
         if last is None:
             self.estimate = Estimate(self._start, CERTAIN, 1.0, True)
-        elif self._has_moved(last, odometry):
-            self.estimate = self._matched(last, odometry, scan.points)
-        else:
+        elif not self._has_moved(last, odometry):
             return False
+        elif self._search is not None:
+            return self._find(self._search, odometry, scan.points)
+        else:
+            self.estimate = self._matched(last, odometry, scan.points)
         self._last = odometry
         self.correction = compose(self.estimate.pose, inverse(odometry))
-        if self._is_news(self.estimate.pose, scan.points):
+        if self._is_carried_away(self.estimate, scan.points):
+            self._search = Localiser(believed_plan(self.grid, 'the map so far'), self._radius, self._range_max)
+            return True
+        if self._misfits == 0 and self._is_news(self.estimate.pose, scan.points):
             self.grid.add(self.estimate.pose, scan.points, scan.beyond)
             self.version += 1
             self._added += 1
         if self._added >= AT_ONCE or self.version == 1:
             self.grid.measure()
             self._added = 0
+        return True
+
+    def _is_carried_away(self, estimate: Estimate, ends: Array) -> bool:
+        """Whether scans have not fitted for some time."""
+        known = 1.0 - self.grid.share_unknown(estimate.pose, ends)
+        is_misfit = estimate.fit < LOST_FIT * known and not is_blind(ends)
+        self._misfits = self._misfits + 1 if is_misfit else 0
+        return self._misfits >= LOST_AFTER
+
+    def _find(self, search: Localiser, odometry: Pose, ends: Array) -> bool:
+        """Look for the place all over the map so far, which stays as it is meanwhile."""
+        if not search.observe(odometry, ends):
+            return False
+        assert search.estimate is not None
+        self._last, self.estimate, self.correction = odometry, search.estimate, search.correction
+        if search.estimate.is_sure and search.estimate.fit > FOUND_FIT:
+            self._search, self._misfits = None, 0
         return True
 
     def _is_news(self, pose: Pose, ends: Array) -> bool:
@@ -102,13 +136,26 @@ class Mapper:
                 or abs(wrap_angle(odometry.theta - last.theta)) >= self.config.update_min_a)
 
     def _matched(self, last: Pose, odometry: Pose, ends: Array) -> Estimate:
-        """Where a scan fits, near where the odometry has the robot."""
-        supposed = self.pose(odometry)
-        prior = self._spread(last, odometry)
+        """Where a scan fits, near where the odometry has the robot.
+
+        If it does not fit there, perhaps the wheels slipped, or the robot was pushed: it may fit better near the place
+        where the robot was before, or farther away from where the odometry has it.
+        """
+        supposed, spread = self.pose(odometry), self._spread(last, odometry)
         if is_blind(ends):
-            return Estimate(supposed, prior, 0.0, True)
+            return Estimate(supposed, spread, 0.0, True)
+        best = self._match(supposed, spread, ends)
+        if best.fit < GOOD:
+            before = self.pose(last)._replace(theta=supposed.theta)
+            others = [self._match(start, SLIPPED, ends) for start in (supposed, before)]
+            better = max(others, key=lambda each: each.fit)
+            best = better if better.fit > best.fit + BETTER else best
+        return best
+
+    def _match(self, start: Pose, prior: Array, ends: Array) -> Estimate:
+        """Where a scan fits near a pose, which has a covariance (3, 3)."""
         found, covariance = np.empty(3), np.empty((3, 3))
-        fit = compiled_matching.match(np.array(supposed), prior, thinned(ends, MATCHED), self.grid.field,
+        fit = compiled_matching.match(np.array(start), prior, thinned(ends, MATCHED), self.grid.field,
                                       *self.grid.origin, RESOLUTION, STEPS, INDEPENDENT, found, covariance)
         x, y, theta = found.tolist()
         return Estimate(Pose(x, y, wrap_angle(theta)), covariance, fit, True)

@@ -23,6 +23,7 @@ Parameters, those of amcl and gmapping with their meaning, as in `rosrun rumba_l
 import dataclasses
 from typing import Optional
 
+import numpy as np
 import rospy
 from geometry_msgs.msg import PoseStamped, PoseWithCovarianceStamped
 from nav_msgs.msg import OccupancyGrid
@@ -40,7 +41,7 @@ from rumba_localisation.ros.scan_loop import COMPLAINT_PERIOD, QUEUE, ScanLoop
 from rumba_msg.msg import Bumper, Cliff, DockStatus
 from rumba_sim.model.config import part, setting
 from rumba_sim.model.errors import MapError
-from rumba_sim.model.floor_plan import FloorPlan
+from rumba_sim.model.floor_plan import OCCUPIED, FloorPlan
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.robot_config import RobotConfig
 from rumba_sim.ros.common import node
@@ -130,21 +131,26 @@ class MapperNode(ScanLoop):
         """Publish the map, if there is a newer one and the last one was published long enough ago."""
         is_due = self._told is None or not (
             rospy.Duration(0) <= stamp - self._told < rospy.Duration(self._settings.map_update_interval))
-        if not is_due or self._mapper.version == self._told_version:
+        if not is_due or self._version == self._told_version:
             return
-        self._told, self._told_version = stamp, self._mapper.version
+        self._told, self._told_version = stamp, self._version
         plan = self._plan()
-        self._map.publish(grid(plan, plan.occupancy, stamp))
+        cells = plan.occupancy if plan.cliff is None else np.where(plan.cliff, np.int8(OCCUPIED), plan.occupancy)
+        self._map.publish(grid(plan, cells, stamp))
+
+    @property
+    def _version(self) -> int:
+        return self._mapper.version + self._findings.version
 
     def _plan(self) -> FloorPlan:
-        return believed_plan(self._mapper.grid, 'the map so far', self._dock)
+        return believed_plan(self._mapper.grid, 'the map so far', self._dock, self._findings)
 
     def _save(self) -> TriggerResponse:
         path = absolute(self._settings.map_file)
         try:
             if self._mapper.estimate is None:
                 raise MapError('there is no map yet: no scan came')
-            saving.save(path, self._plan(), self._findings)
+            saving.save(path, self._plan())
         except MapError as error:
             return TriggerResponse(False, str(error))
         return TriggerResponse(True, path)
