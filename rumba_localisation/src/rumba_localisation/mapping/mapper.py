@@ -6,7 +6,7 @@ from typing import Dict, NamedTuple, Optional, Tuple
 import numpy as np
 
 from rumba_localisation import compiled_matching
-from rumba_localisation.localiser import Estimate, Localiser, is_blind, points, thinned
+from rumba_localisation.localiser import START, Estimate, Localiser, is_blind, points, thinned
 from rumba_localisation.mapping.believed_plan import believed_plan
 from rumba_localisation.mapping.grid import RESOLUTION, Grid
 from rumba_localisation.mapping.mapper_config import MapperConfig
@@ -98,6 +98,7 @@ class Mapper:
         self.correction = compose(self.estimate.pose, inverse(odometry))
         if self._is_carried_away(self.estimate, scan.points):
             self._search = Localiser(believed_plan(self.grid, 'the map so far'), self._radius, self._range_max)
+            self.estimate = self.estimate._replace(covariance=START, is_sure=False)
             return True
         if self._misfits == 0 and self._is_news(self.estimate.pose, scan.points):
             self.grid.add(self.estimate.pose, scan.points, scan.beyond)
