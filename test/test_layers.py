@@ -16,7 +16,7 @@ FOLDERS = {
         'ros/simulator': {'model', 'ros/common', 'ros/robot'},
         'ros/turtlesim_body': {'model', 'ros/common', 'ros/robot'},
         'ros/teleop_key': {'model', 'ros/common'}, 'ros': {'model', 'ros/common'}},
-    'rumba_localisation': {'': set(), 'ros': {''}},
+    'rumba_localisation': {'': set(), 'mapping': {''}, 'ros': {'', 'mapping'}},
     'rumba_cleaning': {
         '': set(), 'belief': {''}, 'behaviours': {'', 'belief'}, 'planning': {'', 'belief', 'behaviours'},
         'strategies': {'', 'belief', 'behaviours', 'planning'}, 'mission': {'', 'belief', 'behaviours', 'strategies'},
@@ -31,7 +31,7 @@ FOLDERS = {
 # Which packages each may import, and which of their folders are there for others.
 BELOW = {'rumba_sim': set(), 'rumba_localisation': {'rumba_sim'}, 'rumba_cleaning': {'rumba_sim', 'rumba_localisation'},
          'rumba_evaluation': {'rumba_sim', 'rumba_cleaning'}, 'rumba_viewer': {'rumba_sim', 'rumba_cleaning'}}
-OFFERED = {'rumba_sim': {'model', 'ros/common'}, 'rumba_localisation': {''},
+OFFERED = {'rumba_sim': {'model', 'ros/common'}, 'rumba_localisation': {'', 'mapping'},
            'rumba_cleaning': {'', 'belief', 'behaviours', 'strategies', 'mission'}}
 ROS = ('rospy', 'roslib', 'rospkg', 'rosgraph', 'rosservice', 'actionlib', 'rosbag', 'rostopic', 'rosunit', 'tf',
        'tf2', 'turtlesim')

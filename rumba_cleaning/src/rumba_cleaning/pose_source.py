@@ -1,12 +1,15 @@
 """Where a robot in process believes to be: by the truth, by its odometry alone, or by a localisation."""
 
 import math
-from typing import Any, Callable, Dict, NamedTuple
+from typing import Any, Callable, Dict, NamedTuple, Optional, Tuple
 
 import numpy as np
 
 from rumba_cleaning.behaviour import CERTAIN, UNKNOWN, Covariance
 from rumba_localisation.localiser import Localiser, Seed, points
+from rumba_localisation.mapping.believed_plan import believed_plan
+from rumba_localisation.mapping.findings import Findings
+from rumba_localisation.mapping.mapper import Mapper, scan_of
 from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.model.geometry import Pose, as_told, compose, inverse
 from rumba_sim.model.robot_config import TURN
@@ -64,6 +67,40 @@ class Localised:
         estimate = self.localiser.estimate
         pose = compose(as_told(self.localiser.correction), odometry)
         return Belief(pose, UNKNOWN if estimate is None else _rows(estimate.covariance))
+
+
+class Mapped:
+    """A robot that makes a map by its laser, as the node `mapper` does, from the place where it is at first.
+
+    Attributes:
+        mapper: the map, and what it believes.
+        findings: what bumper and cliff sensors found.
+    """
+
+    def __init__(self, world: World, name: str, dock: Optional[Pose] = None) -> None:
+        """Begin with a first scan of a robot of a world; its true pose defines the map frame, in which the dock is."""
+        config = world.config
+        self.mapper = Mapper(world.robots[name].pose, radius=config.drive.radius, range_max=config.laser.range_max)
+        self.findings = Findings(config)
+        self._dock = dock
+        self._known: Optional[Tuple[int, FloorPlan]] = None  # the newest plan, after its version
+        self(world, name)
+
+    def __call__(self, world: World, name: str) -> Belief:
+        """Scan, and see where that fits on the map."""
+        odometry = as_told(world.robots[name].odometry)
+        ranges = world.scan(name).astype(np.float32)
+        self.mapper.observe(odometry, scan_of(ranges, *_angles(len(ranges)), world.config.laser.range_max))
+        estimate, pose = self.mapper.estimate, self.mapper.pose(odometry)
+        self.findings.note(self.mapper.grid, pose, world.robots[name].bumper, world.cliffs(name))
+        return Belief(pose, UNKNOWN if estimate is None else _rows(estimate.covariance))
+
+    def plan(self) -> FloorPlan:
+        """The map so far; the same object as long as the map is the same."""
+        version = self.mapper.version + self.findings.version
+        if self._known is None or self._known[0] != version:
+            self._known = version, believed_plan(self.mapper.grid, 'the map so far', self._dock, self.findings)
+        return self._known[1]
 
 
 def _angles(beams: int) -> Any:

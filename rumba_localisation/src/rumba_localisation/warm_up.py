@@ -5,17 +5,21 @@ import math
 import numpy as np
 
 from rumba_localisation.localiser import Localiser, points
+from rumba_localisation.mapping.mapper import Mapper, scan_of
 from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.model.geometry import Pose
 
 
 def main() -> None:
-    """Look for a scan on the map of a room."""
+    """Look for a scan on the map of a room, and make a map of it."""
     plan = FloorPlan('a room of 4 m', np.zeros((40, 40), np.int8), 0.1, (0.0, 0.0))
     angles = np.linspace(-math.pi, math.pi, 90, endpoint=False)
     ranges = 2.0 / np.maximum(np.abs(np.cos(angles)), np.abs(np.sin(angles)))
     localiser = Localiser(plan, 0.17, 8.0)
     localiser.observe(Pose(0.0, 0.0, 0.0), points(ranges, -math.pi, math.pi / 45.0))
+    mapper = Mapper()
+    for x in (0.0, 0.2):
+        mapper.observe(Pose(x, 0.0, 0.0), scan_of(ranges, -math.pi, math.pi / 45.0, 8.0))
 
 
 if __name__ == '__main__':

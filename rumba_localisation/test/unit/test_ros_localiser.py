@@ -16,6 +16,7 @@ from rumba_localisation.ros.odometries import KEPT, Odometries
 from rumba_sim.model.errors import ConfigError, MapError
 from rumba_sim.model.geometry import Pose
 from rumba_sim.ros.common.conversions import grid, quaternion
+from rumba_sim.ros.common.maps import floor_plan
 
 
 def message_of(plan):
@@ -27,7 +28,7 @@ def test_a_map_comes_through_a_message_unchanged():
     plan = crooked(0.02)
     message = message_of(plan)
     message.info.resolution = float(np.float32(message.info.resolution))  # as it is received
-    found = conversions.floor_plan(message)
+    found = floor_plan(message)
     assert (found.resolution, found.origin) == (plan.resolution, plan.origin)
     assert np.array_equal(found.occupancy, plan.occupancy)
 
@@ -42,7 +43,7 @@ def test_a_map_that_makes_no_sense_is_refused(spoil, reason):
     message = message_of(crooked(0.05))
     spoil(message)
     with pytest.raises(MapError, match=reason):
-        conversions.floor_plan(message)
+        floor_plan(message)
 
 
 def test_a_scan_ends_at_points():

@@ -11,11 +11,13 @@ from rumba_cleaning.belief.ground import Ground
 from rumba_cleaning.belief.swept import Swept
 from rumba_cleaning.cleaning_config import CleaningConfig
 from rumba_sim.model.floor_plan import FloorPlan
+from rumba_sim.model.geometry import Pose
 from rumba_sim.model.robot_config import RobotConfig
 from rumba_sim.model.sweep import Part
 
 Result = TypeVar('Result')
 Seed = Union[int, Sequence[int]]
+Survey = Callable[[], FloorPlan]  # the same object as long as the plan is the same
 
 
 class InPlace(Executor):
@@ -65,7 +67,7 @@ class Context:
     """One robot's knowledge, shared by all its behaviours.
 
     Attributes:
-        plan: the refined floor plan.
+        survey: tells the newest plan of a floor that is being mapped; None if the plan does not change.
         robot: what the robot is like.
         config: speeds and thresholds for its work.
         target_coverage: share of the reachable floor to sweep [0..1].
@@ -77,20 +79,43 @@ class Context:
     """
 
     def __init__(self, plan: FloorPlan, robot: RobotConfig, config: CleaningConfig, seed: Seed = 0,
-                 executor: Optional[Executor] = None) -> None:
+                 executor: Optional[Executor] = None, survey: Optional[Survey] = None) -> None:
         """Know a floor plan, with nothing met or swept yet.
 
         Without an executor, what is submitted runs at once in the calling thread, so that a run can be repeated.
         """
-        self.plan = plan.refined()
+        plan = plan.refined()
         self.robot = robot
         self.config = config
         self.target_coverage = config.target_coverage
         self.generator = np.random.default_rng(seed)
         self.executor = executor if executor is not None else InPlace()
-        self.ground = Ground(self.plan, robot)
-        self.swept = Swept(self.plan, robot)
-        self.footing = Footing(self.plan, robot)
+        self.survey = survey
+        self.ground = Ground(plan, robot)
+        self.swept = Swept(plan, robot)
+        self.footing = Footing(plan, robot)
+
+    @property
+    def plan(self) -> FloorPlan:
+        """The refined floor plan, as it is known now."""
+        return self.ground.plan
+
+    def learn(self, pose: Pose) -> bool:
+        """Take the newest plan of a floor that is being mapped; returns whether there is one.
+
+        Args:
+            pose: of the robot, from which what can be reached is counted.
+        """
+        if self.survey is None:
+            return False
+        plan = self.survey()
+        if plan is self.plan:
+            return False
+        self.ground.learn(plan)
+        self.footing.learn(plan)
+        (x, y), = self.ground.points(np.array([self.ground.standing_at(pose.x, pose.y)])).tolist()
+        self.swept.learn(plan, x, y)
+        return True
 
     def with_target(self, target_coverage: float) -> 'Context':
         """A context with another target that shares everything else, ground and swept included, with this one."""

@@ -43,14 +43,34 @@ class Footing:
         square = np.stack(np.meshgrid(side, side), axis=-1).reshape(-1, 2)
         self._body = square[np.hypot(*square.T) <= radius]
         self._before_dock = np.concatenate([self._body - (back, 0.0) for back in np.arange(0.0, BEHIND_DOCK, STEP)])
-        self._mapped = None if plan.cliff is None else _distances_to(plan.cliff) * plan.resolution
         self.forget()
+
+    def learn(self, plan: FloorPlan) -> None:
+        """Go on with a newer plan of the same floor, and with what was seen of it."""
+        (old_left, old_bottom), (left, bottom, right, top) = self._origin, plan.bounds
+        self._know(plan)
+        before = [max(math.ceil(by / CELL), 0) for by in (old_bottom - bottom, old_left - left)]
+        self._origin = (old_left - before[1] * CELL, old_bottom - before[0] * CELL)
+        needed = int((top - self._origin[1]) / CELL) + 1, int((right - self._origin[0]) / CELL) + 1
+        after = [max(cells - low - size, 0) for cells, low, size in zip(needed, before, self._floor.shape)]
+        self._floor = np.pad(self._floor, list(zip(before, after)))
+        seen, self.seen = self.seen, []
+        for x, y in seen:
+            self._see(x, y)
+
+    def _know(self, plan: FloorPlan) -> None:
+        """Know the cliffs of a plan alone."""
+        self._plan = plan
+        self._edges: Optional[Array] = None
+        if plan.cliff is not None:
+            self._edges = _distances_to(plan.cliff) * plan.resolution
 
     def forget(self) -> None:
         """Know no more than the plan."""
         self.seen: List[Tuple[float, float]] = []
-        self._edges: Optional[Array] = None if self._mapped is None else self._mapped.copy()
+        self._know(self._plan)
         left, bottom, right, top = self._plan.bounds
+        self._origin: Tuple[float, float] = (left, bottom)  # of what follows [m]
         self._floor: Array = np.zeros((int((top - bottom) / CELL) + 1, int((right - left) / CELL) + 1), np.bool_)
         self._noted: Optional[Tuple[Pose, Tuple[bool, ...], bool]] = None  # the last that was
 
@@ -91,7 +111,7 @@ class Footing:
             change: of its pose.
             count: poses that count: the last one, and others at equal distances after the first.
         """
-        stamp(self._floor, *self._plan.origin, CELL, pose, change, count, points)
+        stamp(self._floor, *self._origin, CELL, pose, change, count, points)
 
     def _see(self, x: float, y: float) -> None:
         """Remember a cliff, unless it is a known one."""
@@ -126,7 +146,7 @@ class Footing:
 
     def are_known(self, points: Array, cells: int) -> Array:
         """Whether wheels or sensors found floor at each point (any, 2) [m], or so many cells beside it: bool (any)."""
-        return np.asarray(are_marked(self._floor, *self._plan.origin, CELL, points, cells))
+        return np.asarray(are_marked(self._floor, *self._origin, CELL, points, cells))
 
 
 def _line(start: Tuple[float, float], end: Tuple[float, float]) -> Array:

@@ -68,6 +68,14 @@ class Ground:
         other._unsure, other._former, other._lasting = list(self._unsure), list(self._former), list(self._lasting)
         return other
 
+    def learn(self, plan: FloorPlan) -> None:
+        """Go on with a newer plan of the same floor, and the obstacles that were met."""
+        self.plan = plan
+        self.clearance = plan.safe_clearance.copy()
+        for mark in self._unsure + self._lasting:
+            self._keep_clear(self.clearance, mark)
+        self._update()
+
     def forget(self) -> None:
         """Forget all obstacles that the robot has met."""
         self.clearance = self.plan.safe_clearance.copy()

@@ -22,6 +22,7 @@ class Swept:
 
     def __init__(self, plan: FloorPlan, config: RobotConfig) -> None:
         """Remember a floor by its refined plan."""
+        self._config = config
         self._sweep = Sweep(plan, config)
         self._last: Optional[Pose] = None
         self._start = math.nan, math.nan  # [m], map frame
@@ -34,6 +35,18 @@ class Swept:
         """
         self._sweep.begin(x, y)
         self._last = None
+        self._start = x, y
+
+    def learn(self, plan: FloorPlan, x: float, y: float) -> None:
+        """Go on with a newer plan of the same floor, and find out what can be reached from (x, y) [m] on that.
+
+        Args:
+            plan: its cells are those of the plan before, or lie beside them.
+            x, y: where the robot fits, map frame [m].
+        """
+        before, self._sweep = self._sweep, Sweep(plan, self._config)
+        self._sweep.begin(x, y)
+        self._sweep.take_over(before)
         self._start = x, y
 
     def copy(self) -> 'Swept':

@@ -33,18 +33,25 @@ class BatteryWatch:
         self._rate = self._usual
         self._since: Optional[float] = None  # state of charge when it began to fall
         self._time = 0.0  # [s] since then
+        self._measure_ways()
+
+    def _measure_ways(self) -> None:
+        """Have the lengths of the paths to the dock computed, on the plan as it is now."""
         self._lengths: 'Optional[Future[Array]]' = None
+        self._plan = self._context.plan
         try:
-            goal = approach(context)
+            goal = approach(self._context)
         except MapError:
             self.has_home = False
         else:
             self.has_home = True
-            self._lengths = context.submit(_lengths_to, goal)
+            self._lengths = self._context.submit(_lengths_to, goal)
 
     @property
     def is_ready(self) -> bool:
-        """Whether the lengths of the paths are computed, so that `needed` can answer."""
+        """Whether the lengths of the paths are computed, so that `needed` can answer; on a newer plan, anew."""
+        if self._plan is not self._context.plan:
+            self._measure_ways()
         return self._lengths is None or self._lengths.done()
 
     def measure(self, observation: Observation) -> None:

@@ -17,7 +17,7 @@ from rumba_sim.model.errors import StrategyError, quoted
 
 Factory = Callable[[Context], Behaviour]
 Made = TypeVar('Made', bound=Factory)
-OWN = ('bounce', 'spiral', 'wall_follow', 'boustrophedon')  # modules of rumba_cleaning.strategies
+OWN = ('bounce', 'spiral', 'wall_follow', 'boustrophedon', 'explore_and_clean')  # modules of rumba_cleaning.strategies
 
 _factories: Dict[str, Factory] = {}
 

@@ -75,7 +75,9 @@ class Boustrophedon(Behaviour):
 
     def _plan_round(self, pose: Pose) -> None:
         """Plan for what was missed, unless another round is not worth it; then forget what may have gone."""
-        context, coverage = self._context, self._context.swept.coverage
+        context = self._context
+        context.learn(pose)
+        coverage = context.swept.coverage
         is_worth = coverage > self._before + WORTH and self._rounds < ROUNDS
         may_forget = context.ground.has_marks and self._vain < VAIN
         self._before = coverage

@@ -10,7 +10,7 @@ from rumba_cleaning.outcome import Outcome
 from rumba_sim.model.config import setting
 from rumba_sim.model.errors import ConfigError
 
-TRUTH, LOCALISED, ODOMETRY = POSES = 'truth', 'localised', 'odometry'
+TRUTH, LOCALISED, ODOMETRY, SLAM = POSES = 'truth', 'localised', 'odometry', 'slam'
 DOCK, ANYWHERE = 'dock', 'anywhere'
 LEVELS = (80, 90, 95, 98, 99)  # [%] of coverage; the time to each is reported
 SEVERITY = {Outcome.SUCCEEDED: 0, Outcome.INCOMPLETE: 1, Outcome.TIMED_OUT: 3, Outcome.FALLEN: 4}
@@ -33,7 +33,8 @@ class Conditions:
 
     start: str = setting(DOCK, f'where robots start: {DOCK} (the start of the map) or {ANYWHERE} (drawn from the seed)')
     pose: str = setting(TRUTH, f'by what robots know where they are: {TRUTH}, {LOCALISED} (by laser and odometry, from '
-                               f'a start that is told roughly) or {ODOMETRY} (alone, from a start that is told)')
+                               f'a start that is told roughly), {ODOMETRY} (alone, from a start that is told) or '
+                               f'{SLAM} (by a map that they make themselves, from the dock on)')
     drain: float = setting(1.0, 'how many times faster than a real one the battery discharges and charges', '', 0.0,
                            1e4)
     target: float = setting(CleaningConfig().target_coverage, 'share of the reachable floor at which a mission ends',
@@ -47,6 +48,9 @@ class Conditions:
             raise ConfigError(f'pose is {self.pose!r}: must be one of {", ".join(POSES)}')
         if self.start not in (DOCK, ANYWHERE):
             raise ConfigError(f'start is {self.start!r}: must be {DOCK} or {ANYWHERE}')
+        if self.pose == SLAM and self.start != DOCK:
+            raise ConfigError(f'start is {self.start!r}: must be {DOCK} with pose {SLAM}, or robots do not know where '
+                              'their dock is')
 
 
 @dataclasses.dataclass(frozen=True)

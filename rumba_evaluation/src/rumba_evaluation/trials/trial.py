@@ -6,21 +6,22 @@
     print(trial.result())
 """
 
+from concurrent.futures import Executor
 from typing import Callable, Dict, List, Optional, Sequence
 
 import numpy as np
 
 from rumba_cleaning.behaviour import Status
-from rumba_cleaning.belief.context import BeforeNextStep, Context, own_seed
+from rumba_cleaning.belief.context import BeforeNextStep, Context, Seed, own_seed
 from rumba_cleaning.cleaning_config import CleaningConfig
 from rumba_cleaning.control import CONTROL_DT, CONTROL_TICKS, STEP_RATE, act
 from rumba_cleaning.mission.duration import longest
 from rumba_cleaning.mission.mission import Mission, State
 from rumba_cleaning.outcome import Outcome
-from rumba_cleaning.pose_source import DeadReckoning, Localised, PoseSource, truth
+from rumba_cleaning.pose_source import DeadReckoning, Localised, Mapped, PoseSource, truth
 from rumba_evaluation.scoring.meter import Meter
 from rumba_evaluation.trials import starts
-from rumba_evaluation.trials.cases import ANYWHERE, LOCALISED, ODOMETRY, Conditions, Result, severity
+from rumba_evaluation.trials.cases import ANYWHERE, LOCALISED, ODOMETRY, SLAM, Conditions, Result, severity
 from rumba_sim.model.config import updated
 from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.model.geometry import Pose
@@ -71,9 +72,9 @@ class Trial:
             self.world.spawn(nth_name(number), pose, brushes_up=True)
         self.sources = {name: _source(plan, self.world, name, conditions.pose, seed) for name in self.world.robots}
         self._planners = BeforeNextStep()
-        self.contexts = [Context(plan, config, cleaning, own_seed(seed, name), self._planners)
-                         for name in self.world.robots]
-        self._time_limit = longest(self.contexts[0])
+        self.contexts = [_context(plan, source, config, cleaning, own_seed(seed, name), self._planners)
+                         for name, source in self.sources.items()]
+        self._time_limit = longest(self.contexts[0] if conditions.pose != SLAM else Context(plan, config, cleaning))
         self.missions = [Mission(context, strategy, conditions.target) for context in self.contexts]
         self.ideal_time = self.world.floor.reachable_area / (config.brush.width * cleaning.speed)
         self.curve: List[float] = []
@@ -149,10 +150,20 @@ class Trial:
         return '; '.join(f'{name}: {message}' for name, message in messages.items())
 
 
+def _context(plan: FloorPlan, source: PoseSource, config: RobotConfig, cleaning: CleaningConfig, seed: Seed,
+             executor: Executor) -> Context:
+    """What a robot knows at first: the floor plan, or only what it has mapped itself so far."""
+    if isinstance(source, Mapped):
+        return Context(source.plan(), config, cleaning, seed, executor, source.plan)
+    return Context(plan, config, cleaning, seed, executor)
+
+
 def _source(plan: FloorPlan, world: World, name: str, pose: str, seed: int) -> PoseSource:
     """By what a robot knows where it is."""
     if pose == LOCALISED:
         return Localised(plan, world, name, own_seed(seed, name))
     if pose == ODOMETRY:
         return DeadReckoning()
+    if pose == SLAM:
+        return Mapped(world, name, plan.dock)
     return truth

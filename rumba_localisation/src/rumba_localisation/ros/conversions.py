@@ -1,44 +1,21 @@
 """Converts between messages and what the localisation knows: pure functions."""
 
 import math
-from typing import Any, List
+from typing import Any, List, Optional
 
 import numpy as np
 from geometry_msgs.msg import Point, PoseArray, PoseWithCovariance, PoseWithCovarianceStamped
 from geometry_msgs.msg import Pose as PoseMessage
-from nav_msgs.msg import OccupancyGrid
 from sensor_msgs.msg import LaserScan
 from std_msgs.msg import Header
 
 from rumba_localisation.localiser import points
-from rumba_sim.model.errors import MapError
-from rumba_sim.model.floor_plan import FloorPlan
+from rumba_localisation.mapping.mapper import Scan, scan_of
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.kernel import Array
-from rumba_sim.ros.common.conversions import heading, quaternion
+from rumba_sim.ros.common.conversions import quaternion
 
 PLANE = (0, 1, 5)  # rows and columns of x, y and the rotation about z in a covariance of ROS
-FARTHEST = 1e6  # [m] of a coordinate, at most
-
-
-def floor_plan(message: OccupancyGrid) -> FloorPlan:
-    """The map of a message.
-
-    Raises:
-        MapError: its size disagrees with its data, it is turned, or its resolution is no length.
-    """
-    info = message.info
-    # A float32 in the message: the shortest decimal that gives it is what map_server read.
-    resolution = float(str(np.float32(info.resolution)))
-    left, bottom = info.origin.position.x, info.origin.position.y
-    if len(message.data) != info.width * info.height or not message.data:
-        raise MapError(f'map: {len(message.data)} cells: must be width * height, {info.width} * {info.height}')
-    if not (math.isfinite(resolution) and resolution > 0.0 and abs(left) <= FARTHEST and abs(bottom) <= FARTHEST):
-        raise MapError(f'map: resolution {resolution} m, origin ({left}, {bottom}) m: must be a length and a place')
-    if abs(heading(info.origin.orientation)) > 1e-6:
-        raise MapError('map: its origin is turned: must have yaw 0')
-    cells = np.array(message.data, np.int8).reshape(info.height, info.width)
-    return FloorPlan('map', cells, resolution, (left, bottom))
 
 
 def scan_points(scan: LaserScan) -> Array:
@@ -46,6 +23,14 @@ def scan_points(scan: LaserScan) -> Array:
     if not (math.isfinite(scan.angle_min) and math.isfinite(scan.angle_increment)):
         return np.empty((0, 2))
     return points(np.asarray(scan.ranges, np.float32), scan.angle_min, scan.angle_increment)
+
+
+def whole_scan(message: LaserScan) -> Optional[Scan]:
+    """A scan with the beams that have no echo; None if its angles or its range are no numbers."""
+    if not all(map(math.isfinite, (message.angle_min, message.angle_increment, message.range_max))):
+        return None
+    return scan_of(np.asarray(message.ranges, np.float32), message.angle_min, message.angle_increment,
+                   message.range_max)
 
 
 def covariance_of(message: PoseWithCovariance) -> Array:

@@ -23,36 +23,28 @@ Parameters, those of amcl with the same meaning, as in `rosrun rumba_localisatio
 
 import dataclasses
 import math
-import time
-from typing import Any, Optional
+from typing import Optional
 
 import rospy
 from geometry_msgs.msg import PoseArray, PoseWithCovarianceStamped
-from nav_msgs.msg import OccupancyGrid, Odometry
+from nav_msgs.msg import OccupancyGrid
 from sensor_msgs.msg import LaserScan
 from std_msgs.msg import Header
 from std_srvs.srv import Empty, EmptyResponse
-from tf2_msgs.msg import TFMessage
 
 from rumba_localisation.localiser import Localiser
 from rumba_localisation.localiser_config import LocaliserConfig
 from rumba_localisation.ros import conversions
-from rumba_localisation.ros.odometries import Odometries
-from rumba_msg.msg import Lockstep
+from rumba_localisation.ros.scan_loop import COMPLAINT_PERIOD, QUEUE, ScanLoop
 from rumba_sim.model.config import part, setting
 from rumba_sim.model.errors import ConfigError, MapError
 from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.model.geometry import Pose
 from rumba_sim.ros.common import node
-from rumba_sim.ros.common.conversions import plane_pose, transform
-from rumba_sim.ros.common.frames import MAP, frames
-from rumba_sim.ros.common.lockstep import Participant, Resent
+from rumba_sim.ros.common.conversions import plane_pose
+from rumba_sim.ros.common.frames import MAP
+from rumba_sim.ros.common.maps import floor_plan
 from rumba_sim.ros.common.names import check_names
-from rumba_sim.ros.common.requests import Requests
-
-PERIOD = 0.1  # [s] of the wall clock between two looks whether ROS shuts down
-QUEUE = 100  # messages that may wait to be read
-COMPLAINT_PERIOD = 10.0  # [s]
 
 
 @dataclasses.dataclass(frozen=True)
@@ -86,66 +78,33 @@ def main() -> None:
     node.run('localiser', Settings, lambda settings: LocaliserNode(settings).run(), is_single=True)
 
 
-class LocaliserNode:
-    """The loop that owns the localiser; callbacks only queue what it is to do."""
+class LocaliserNode(ScanLoop):
+    """The loop that owns the localiser."""
 
     def __init__(self, settings: Settings) -> None:
         """Open all topics and services."""
         self._settings = settings
-        self._frames = frames(settings.robot)
-        self._requests = Requests()
         self._plan: Optional[FloorPlan] = None
         self._localiser: Optional[Localiser] = None  # None until there are a map and a scan
-        self._odometries = Odometries()
-        self._waiting: Optional[LaserScan] = None  # for its odometry
-        self._tick: Optional[Lockstep] = None  # that was not answered yet
-        self._scanned = rospy.Time()  # stamp of the newest scan that was dealt with
         self._is_forced = False
         self._was_sure: Optional[bool] = None
         name = settings.robot
-        self._newest = Resent()
-        self._tf = rospy.Publisher('/tf', TFMessage, self._newest, queue_size=QUEUE)
         self._pose = rospy.Publisher(f'{name}/amcl_pose', PoseWithCovarianceStamped, queue_size=QUEUE, latch=True)
         self._cloud = rospy.Publisher(f'{name}/particlecloud', PoseArray, queue_size=2)
-        self._participant = Participant(lambda tick: self._requests.post(lambda: self._take_tick(tick)))
-        for topic, kind, take in (('/map', OccupancyGrid, self._take_map), (f'{name}/odom', Odometry, self._take_odom),
-                                  (f'{name}/scan', LaserScan, self._take_scan),
-                                  (f'{name}/initialpose', PoseWithCovarianceStamped, self._take_start)):
-            rospy.Subscriber(topic, kind, self._post, take, queue_size=QUEUE)
+        super().__init__(name)
+        self._subscribe('/map', OccupancyGrid, self._take_map)
+        self._subscribe(f'{name}/initialpose', PoseWithCovarianceStamped, self._take_start)
         rospy.Service(f'{name}/global_localization', Empty, lambda _: self._requests.call(self._search_anywhere))
         rospy.Service(f'{name}/request_nomotion_update', Empty, lambda _: self._requests.call(self._force))
-
-    def _post(self, message: Any, take: Any) -> None:
-        self._requests.post(lambda: take(message))
-
-    def run(self) -> None:
-        """Localise until ROS shuts down."""
-        while not rospy.is_shutdown():
-            self._requests.serve(time.monotonic() + PERIOD)
-        self._participant.leave()
 
     # --- what comes -------------------------------------------------------------------------------------------------
 
     def _take_map(self, message: OccupancyGrid) -> None:
         try:
-            self._plan, self._localiser = conversions.floor_plan(message), None
+            self._plan, self._localiser = floor_plan(message), None
         except MapError as error:
             rospy.logerr_throttle(COMPLAINT_PERIOD, f'{error}; ignored')
         self._look()
-
-    def _take_odom(self, message: Odometry) -> None:
-        pose = plane_pose(message.pose.pose)
-        if all(math.isfinite(number) and abs(number) <= conversions.FARTHEST for number in pose):
-            self._odometries.add(message.header.stamp, pose)
-            self._look()
-
-    def _take_scan(self, message: LaserScan) -> None:
-        self._waiting = message
-        self._look()
-
-    def _take_tick(self, tick: Lockstep) -> None:
-        self._tick = tick
-        self._answer()
 
     def _take_start(self, message: PoseWithCovarianceStamped) -> None:
         """Believe a person, if that makes sense."""
@@ -171,19 +130,13 @@ class LocaliserNode:
 
     # --- scans ------------------------------------------------------------------------------------------------------
 
-    def _look(self) -> None:
-        """Use the newest scan as soon as it is known where the robot was by odometry when it was taken."""
-        scan = self._waiting
-        if scan is None or self._plan is None:
-            return
-        odometry = self._odometries.at(scan.header.stamp)
-        if odometry is None and not self._odometries.is_before(scan.header.stamp):
-            return
-        self._waiting = None
-        if odometry is not None:
-            self._localise(self._known(self._plan, scan), odometry, scan)
-        self._scanned = scan.header.stamp
-        self._answer()
+    @property
+    def _is_ready(self) -> bool:
+        return self._plan is not None
+
+    def _use(self, scan: LaserScan, odometry: Pose) -> None:
+        assert self._plan is not None
+        self._localise(self._known(self._plan, scan), odometry, scan)
 
     def _known(self, plan: FloorPlan, scan: LaserScan) -> Localiser:
         """The localiser, made with the first scan."""
@@ -202,8 +155,7 @@ class LocaliserNode:
             return
         stamp = scan.header.stamp
         self._is_forced = self._is_forced and not is_used
-        self._newest.message = TFMessage([transform(MAP, self._frames.odom, localiser.correction, stamp)])
-        self._tf.publish(self._newest.message)
+        self._correct(localiser.correction, stamp)
         header = Header(stamp=stamp, frame_id=MAP)
         self._pose.publish(conversions.pose_with_covariance(
             localiser.pose(odometry), localiser.estimate.covariance, header))
@@ -224,10 +176,3 @@ class LocaliserNode:
             rospy.logwarn(f'{self._settings.robot}: does not know where it is; {100.0 * estimate.fit:.0f} % of the '
                           'beams fit at the best place')
         self._was_sure = estimate.is_sure
-
-    def _answer(self) -> None:
-        """In lockstep, tell that everything is done for the newest tick."""
-        tick = self._tick
-        if tick is not None and self._scanned >= tick.scan and not tick.scan.is_zero():
-            self._tick = None
-            self._participant.answer(tick.header.stamp)

@@ -68,6 +68,17 @@ class Sweep:
         other.samples, other.tally, other.reachable = self.samples.copy(), self.tally.copy(), self.reachable
         return other
 
+    def take_over(self, other: 'Sweep') -> None:
+        """Count what was swept on another plan of the same floor, whose cells are those of this one, or lie beside."""
+        pitch = self._plan.sample_pitch
+        across, up = (round((theirs - ours) / pitch) for theirs, ours in zip(other._plan.origin, self._plan.origin))
+        ours, theirs = _common(self.samples.shape, other.samples.shape, (up, across))
+        passes = other.samples[theirs] & ~np.uint8(kernel.PASS - 1)
+        window = self.samples[ours]
+        window += np.where(window & kernel.SWEEPABLE, passes, 0).astype(np.uint8)
+        self.tally[0]['swept'] = np.count_nonzero(
+            (self.samples & kernel.REACHABLE > 0) & (self.samples >= kernel.PASS))
+
     def pass_over(self, start: Pose, end: Pose) -> None:
         """Let a brush pass from one pose to another that is near, map frame."""
         fast.sweep_between(self._constants, self.samples, self._no_dirt, self.tally, tuple(start), tuple(end))
@@ -120,6 +131,14 @@ class Sweep:
         is_missing = self.samples & kernel.REACHABLE > 0
         is_missing &= self.samples < kernel.PASS
         return _sums(is_missing, squares) / np.float32(squares ** 2)
+
+
+def _common(ours: Tuple[int, ...], theirs: Tuple[int, ...],
+            offset: Tuple[int, int]) -> Tuple[Tuple[slice, ...], Tuple[slice, ...]]:
+    """What two grids have in common, the corner of one of which lies at an offset (rows, columns) of the other."""
+    starts = [(max(by, 0), min(mine, by + other)) for mine, other, by in zip(ours, theirs, offset)]
+    return (tuple(slice(low, max(high, low)) for low, high in starts),
+            tuple(slice(low - by, max(high, low) - by) for (low, high), by in zip(starts, offset)))
 
 
 def _sums(samples: Array, squares: int) -> Array:

@@ -24,6 +24,8 @@ class Settings(CleaningConfig):
     robot: str = setting('rumba', 'name of the robot, below which its topics are')
     map: str = setting('', 'name of a map of rumba_sim, or path of a map_server YAML file; empty: that of the '
                            'simulator')
+    mapping: bool = setting(False, 'whether the floor is being mapped: its plan is that of the topic map, as it grows, '
+                                   'and not that of a file')
     seed: int = setting(1, 'of all that is random', '', 0, 2 ** 31 - 1)
     strategies: str = setting('', 'Python modules to import for further strategies, with commas between them')
     autostart: bool = setting(False, 'whether to begin with a goal of clean, without waiting for one')

@@ -4,6 +4,7 @@ from typing import Callable, NamedTuple, Optional, Tuple
 
 import rospy
 
+from rumba_cleaning.ros.cleaner.survey import Survey
 from rumba_msg.msg import SimulatorState
 from rumba_sim.model import map_file
 from rumba_sim.model.errors import ConfigError
@@ -27,24 +28,30 @@ class Workplace:
 
     Attributes:
         world: the newest one; None until a simulator tells its state.
+        survey: of a floor that is being mapped; None if its plan is that of a file.
     """
 
-    def __init__(self, name: str, on_new_world: Callable[[], None] = lambda: None) -> None:
+    def __init__(self, name: str, on_new_world: Callable[[], None] = lambda: None,
+                 survey: Optional[Survey] = None) -> None:
         """Take the map of this name or path, or, if `name` is empty, that of the simulator, and wait for it.
 
         Args:
             name: of the map, or empty.
             on_new_world: called after each change of `world`, in a thread of rospy.
+            survey: tells the plan instead, of a floor that is being mapped.
 
         Raises:
             MapError: the map cannot be read, or there is no simulator.
         """
         self.world: Optional[World] = None
+        self.survey = survey
         self._on_new_world = on_new_world
         self._named = map_path(name) if name else ''
         self._loaded: Optional[Tuple[str, str, FloorPlan]] = None  # after its path, and the simulator's run
         self._robot: Optional[Tuple[str, RobotConfig]] = None  # after the simulator's run
         self._simulator = SimulatorClient(self._on_state)
+        if survey is not None:
+            survey.wait()
         self.look()
 
     def look(self) -> Tuple[FloorPlan, RobotConfig]:
@@ -56,6 +63,8 @@ class Workplace:
             MapError: the map cannot be read, or no simulator tells one.
             ConfigError: the settings of the simulator were changed to invalid ones.
         """
+        if self.survey is not None:
+            return self.survey(), self._newest_robot()
         path = self._named or self._simulator.wait().map
         state = self._simulator.state
         wanted = path, state.run if state is not None else ''

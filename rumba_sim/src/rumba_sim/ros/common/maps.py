@@ -1,16 +1,20 @@
-"""Where maps are, by name or path; and how a simulator publishes its own."""
+"""Where maps are, by name or path; what a message of a map shows; and how a simulator publishes its own."""
 
 import atexit
+import math
 
+import numpy as np
 import rospy
 from nav_msgs.msg import OccupancyGrid
 from nav_msgs.srv import GetMap, GetMapResponse
 
 from rumba_sim.model import named_maps
-from rumba_sim.model.errors import WorldError
+from rumba_sim.model.errors import MapError, WorldError
 from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.ros.common import conversions, master_watch, peers
 from rumba_sim.ros.common.paths import absolute
+
+FARTHEST = 1e6  # [m] of a coordinate, at most
 
 
 def map_path(name: str) -> str:
@@ -20,6 +24,26 @@ def map_path(name: str) -> str:
         MapError: no map of this package has that name.
     """
     return absolute(name) if named_maps.is_path(name) else named_maps.path(name)
+
+
+def floor_plan(message: OccupancyGrid) -> FloorPlan:
+    """The map of a message.
+
+    Raises:
+        MapError: its size disagrees with its data, it is turned, or its resolution is no length.
+    """
+    info = message.info
+    # A float32 in the message: the shortest decimal that gives it is what map_server read.
+    resolution = float(str(np.float32(info.resolution)))
+    left, bottom = info.origin.position.x, info.origin.position.y
+    if len(message.data) != info.width * info.height or not message.data:
+        raise MapError(f'map: {len(message.data)} cells: must be width * height, {info.width} * {info.height}')
+    if not (math.isfinite(resolution) and resolution > 0.0 and abs(left) <= FARTHEST and abs(bottom) <= FARTHEST):
+        raise MapError(f'map: resolution {resolution} m, origin ({left}, {bottom}) m: must be a length and a place')
+    if abs(conversions.heading(info.origin.orientation)) > 1e-6:
+        raise MapError('map: its origin is turned: must have yaw 0')
+    cells = np.array(message.data, np.int8).reshape(info.height, info.width)
+    return FloorPlan('map', cells, resolution, (left, bottom))
 
 
 # --- for a node that is a simulator -----------------------------------------------------------------------------------
@@ -42,10 +66,17 @@ def refuse_second() -> None:
                          'one a master of its own with ROS_MASTER_URI')
 
 
-def tell_map(plan: FloorPlan, stamp: rospy.Time) -> None:
-    """Publish a map as map_server does, also at a master that is started later."""
+def tell_map(plan: FloorPlan, stamp: rospy.Time, is_shown: bool = True) -> None:
+    """Publish a map as map_server does, also at a master that is started later.
+
+    Args:
+        plan: the map.
+        stamp: of the message.
+        is_shown: whether to publish it on /map; else a node that makes a map does so. The service is there anyway.
+    """
     message = conversions.grid(plan, plan.occupancy, stamp)
-    rospy.Publisher('/map', OccupancyGrid, queue_size=1, latch=True).publish(message)
+    if is_shown:
+        rospy.Publisher('/map', OccupancyGrid, queue_size=1, latch=True).publish(message)
     rospy.Service(SERVICE, GetMap, lambda _: GetMapResponse(message))
     _reservation.release()
     master_watch.before_return(refuse_second)

@@ -46,6 +46,7 @@ from rumba_sim.ros.common.paths import absolute
 from rumba_sim.ros.common.peers import NO_ANSWER
 from rumba_sim.ros.common.requests import Requests
 from rumba_sim.ros.common.simulator_client import SETTINGS
+from rumba_sim.ros.robot.localisation import SLAM
 from rumba_sim.ros.robot.state_publisher import StatePublisher, tell_settings
 from rumba_sim.ros.simulator import reconfigure
 from rumba_sim.ros.simulator.diagnostics import Diagnostics
@@ -96,7 +97,7 @@ class Simulator:
         for _ in range(0 if saved else settings.robots):
             self._fleet.spawn()
         self._file.begin(self._world, self._ticks)
-        tell_map(self._world.plan, self._pace.stamp)
+        tell_map(self._world.plan, self._pace.stamp, is_shown=settings.localisation != SLAM)
         self._state = StatePublisher(settings, path, settings.step_rate, self._pace.is_simulated, self._run,
                                      self._lockstep is not None)
         self._serve()

@@ -1,0 +1,108 @@
+"""What a robot knows goes on when the plan of its floor grows; frontiers; and a whole floor that it was not shown."""
+
+import math
+
+import numpy as np
+import pytest
+from rooms import room
+
+from rumba_cleaning.behaviour import Status
+from rumba_cleaning.belief.context import Context
+from rumba_cleaning.cleaning_config import CleaningConfig
+from rumba_cleaning.control import act
+from rumba_cleaning.mission.mission import Mission
+from rumba_cleaning.planning.frontiers import frontiers, route_to_frontier
+from rumba_cleaning.pose_source import Mapped
+from rumba_sim.model.floor_plan import UNKNOWN, FloorPlan
+from rumba_sim.model.geometry import Pose
+from rumba_sim.model.robot_config import RobotConfig
+from rumba_sim.model.world import World
+
+WHOLE = room(6.0, 3.0, 0.02, boxes=[(2.9, 0.0, 3.1, 2.0)])
+HERE = Pose(1.0, 1.0, 0.0)
+
+
+def part(left, right):
+    """What a robot knows of a floor if it knows it from one x to another [m]."""
+    first, last = round((left - WHOLE.origin[0]) / 0.02), round((right - WHOLE.origin[0]) / 0.02)
+    return FloorPlan('a part', WHOLE.occupancy[:, first:last], 0.02, (WHOLE.origin[0] + first * 0.02, WHOLE.origin[1]))
+
+
+def context_of(*plans):
+    """What a robot knows that learns plan after plan."""
+    rest = list(plans)
+    return Context(plans[0], RobotConfig(), CleaningConfig(),
+                   survey=lambda: rest.pop(0) if len(rest) > 1 else rest[0])
+
+
+def test_without_a_survey_the_plan_stays():
+    context = Context(WHOLE, RobotConfig(), CleaningConfig())
+    before = context.plan
+    assert not context.learn(HERE)
+    assert context.plan is before
+
+
+def test_what_was_swept_met_and_felt_is_known_on_a_larger_plan():
+    small, large = part(0.5, 2.0), part(-0.02, 6.02)
+    context = context_of(small, large)
+    context.learn(HERE)
+    context.swept.begin(1.0, 1.0)
+    context.swept.sweep(HERE, Pose(1.3, 1.0, 0.0))
+    area = context.swept.coverage * context.swept.reachable_area
+    context.ground.mark(1.5, 2.0, 0.05)
+    context.footing.note(HERE, (False, True, False, False), False)
+    seen = context.footing.seen[0]
+    assert context.learn(HERE)
+    assert context.plan is large
+    assert context.swept.reachable_area > 3.0 * area
+    assert context.swept.coverage * context.swept.reachable_area == pytest.approx(area, rel=0.01)
+    assert context.ground.clearance[context.ground.node(1.5, 2.0)] == 0.0
+    assert context.ground.fits.shape == (large.rows + 1, large.columns + 1)
+    assert context.footing.clearance_at(*seen) < 0.02 < context.footing.clearance_at(4.0, 1.0)
+    assert context.footing.are_known(np.array([[1.0, 1.0], [4.0, 1.0]]), 2).tolist() == [True, False]
+    assert not context.learn(HERE)
+
+
+def test_a_frontier_is_where_known_floor_ends_that_goes_on():
+    cells = WHOLE.occupancy.copy()
+    cells[:, 170:] = UNKNOWN  # beyond x = 3.38
+    context = Context(FloorPlan('known', cells, 0.02, WHOLE.origin), RobotConfig(), CleaningConfig())
+    found = context.ground.points(frontiers(context.ground, HERE))
+    reach = RobotConfig().drive.radius
+    assert len(found) and found[:, 0] == pytest.approx(3.38 - reach, abs=0.06)
+    route = route_to_frontier(context, HERE, [])
+    assert route.waypoints[0].tolist() == [1.0, 1.0]
+    assert route.waypoints[-1][0] == pytest.approx(3.38 - reach, abs=0.06)
+    assert route_to_frontier(context, HERE, [point for point in found]) is None
+
+
+def test_a_floor_that_is_known_has_no_frontier():
+    context = Context(WHOLE, RobotConfig(), CleaningConfig())
+    assert not len(frontiers(context.ground, HERE))
+    assert route_to_frontier(context, HERE, []) is None
+
+
+def test_a_gap_through_which_no_robot_fits_is_no_frontier():
+    plan = room(3.0, 2.0, 0.02)
+    cells = plan.occupancy.copy()
+    cells[40:55, -1] = UNKNOWN  # 0.3 m
+    context = Context(FloorPlan('a gap', cells, 0.02, plan.origin), RobotConfig(), CleaningConfig())
+    assert not len(frontiers(context.ground, HERE))
+
+
+def test_a_floor_that_the_robot_was_not_shown_is_mapped_cleaned_and_left_for_the_dock():
+    plan = room(4.0, 2.2, 0.02, boxes=[(2.0, 0.0, 2.1, 1.3)], dock=Pose(0.21, 1.1, math.pi))
+    world = World(plan, RobotConfig(), seed=2)
+    world.spawn('rumba', plan.dock, brushes_up=True)
+    world.step()
+    source = Mapped(world, 'rumba', plan.dock)
+    context = Context(source.plan(), RobotConfig(), CleaningConfig(), survey=source.plan)
+    assert np.count_nonzero(context.plan.free) < 0.9 * np.count_nonzero(plan.free)
+    mission, dt = Mission(context, 'explore_and_clean', 0.95), 0.0
+    while mission.status is Status.RUNNING and world.time < 400.0:
+        act(mission, world, 'rumba', dt, source)
+        world.step(5)
+        dt = 0.1
+    assert mission.status is Status.SUCCEEDED, mission.message
+    assert world.floor.coverage > 0.92
+    assert world.robots['rumba'].is_docked

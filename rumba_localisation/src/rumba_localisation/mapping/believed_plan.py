@@ -1,0 +1,82 @@
+"""The floor plan that a grid shows."""
+
+from typing import List, Optional, Tuple
+
+import numpy as np
+from scipy import ndimage
+
+from rumba_localisation.mapping.findings import Findings, Point
+from rumba_localisation.mapping.grid import RESOLUTION, Grid
+from rumba_sim.model.floor_plan import FREE, OCCUPIED, UNKNOWN, FloorPlan
+from rumba_sim.model.geometry import Pose
+from rumba_sim.model.kernel import Array
+
+GAPS = 4  # [cells] half the width of what lies unseen between two beams, and is free if all around it is
+BEFORE = 0.002  # [m] before a wall, and more, a cell does not belong to it
+RADIUS = 0.03  # [m] of what bumper and cliff sensors found at a point
+RIM = 2  # [cells] around all that is known
+
+
+def believed_plan(grid: Grid, name: str, dock: Optional[Pose] = None,
+                  findings: Optional[Findings] = None) -> FloorPlan:
+    """The plan of a grid, without the cells around it of which nothing is known.
+
+    Args:
+        grid: with some free cells.
+        name: of the plan.
+        dock: where the dock is, map frame; None if that is not known.
+        findings: what the laser did not see; None if there is nothing.
+
+    Raises:
+        MapError: no cell is free.
+    """
+    rows, columns = (np.flatnonzero((grid.odds != 0.0).any(axis=axis)) for axis in (1, 0))
+    top, left = max(int(rows[0]) - RIM, 0), max(int(columns[0]) - RIM, 0)
+    bottom, right = (min(int(used[-1]) + 1 + RIM, size) for used, size in zip((rows, columns), grid.odds.shape))
+    cells = occupancy(grid.odds[top:bottom, left:right], grid.field[top:bottom + 1, left:right + 1])
+    origin = grid.origin[0] + left * RESOLUTION, grid.origin[1] + top * RESOLUTION
+    cliff = None
+    if findings is not None:
+        cells[around(findings.touched, cells.shape, origin)] = OCCUPIED
+        cliff = around(findings.cliffs, cells.shape, origin) if findings.cliffs else None
+    return FloorPlan(name, cells, RESOLUTION, origin, cliff=cliff, dock=dock)
+
+
+def occupancy(odds: Array, field: Array) -> Array:
+    """OCCUPIED, FREE or UNKNOWN: int8 (rows, columns).
+
+    A beam that errs ends in the cell before a wall. If the centre of that is clearly before the wall, and another cell
+    shows the wall, it is free: or robots would stay away from walls by half a cell.
+
+    Args:
+        odds: logarithms (rows, columns); 0 tells nothing.
+        field: of the grid (rows + 1, columns + 1).
+    """
+    free, occupied = odds < 0.0, odds > 0.0
+    centre = 0.25 * (field[:-1, :-1] + field[1:, :-1] + field[:-1, 1:] + field[1:, 1:])
+    before = occupied & (centre > BEFORE)
+    before &= ndimage.binary_dilation(occupied & ~before, np.ones((3, 3), np.bool_))
+    free, occupied = free | before, occupied & ~before
+    closed = ndimage.binary_closing(np.pad(free, GAPS), np.ones((3, 3), np.bool_), iterations=GAPS)[
+        GAPS:-GAPS, GAPS:-GAPS]
+    cells = np.full(odds.shape, UNKNOWN, np.int8)
+    cells[free | closed & ~ndimage.binary_dilation(occupied, iterations=2)] = FREE
+    cells[occupied] = OCCUPIED
+    return cells
+
+
+def around(points: List[Point], shape: Tuple[int, ...], origin: Tuple[float, float]) -> Array:
+    """The cells around points: bool (rows, columns).
+
+    Args:
+        points: [m], map frame.
+        shape: rows and columns.
+        origin: of the cells [m].
+    """
+    rows, columns = shape
+    x = origin[0] + (np.arange(columns) + 0.5) * RESOLUTION
+    y = (origin[1] + (np.arange(rows) + 0.5) * RESOLUTION)[:, np.newaxis]
+    cells = np.zeros((rows, columns), np.bool_)
+    for point_x, point_y in points:
+        cells |= np.hypot(x - point_x, y - point_y) < RADIUS
+    return cells

@@ -1,0 +1,62 @@
+"""What bumper and cliff sensors found where the laser saw nothing."""
+
+import math
+from typing import List, Sequence, Tuple
+
+from rumba_localisation.mapping.grid import Grid
+from rumba_sim.model.geometry import Pose
+from rumba_sim.model.robot_config import RobotConfig
+
+Point = Tuple[float, float]  # [m], map frame
+
+SIDES = {(True, True): 0.0, (True, False): 0.74, (False, True): -0.74}  # [rad] of a contact, by what is pressed
+ARC = (-0.7, -0.35, 0.0, 0.35, 0.7)  # [rad] from there: a switch tells no more of the direction
+KNOWN = 0.06  # [m] from a wall of the map, a contact is one with that
+DEPTH = 0.02  # [m] from the body to the middle of what it touched
+SAME = 0.03  # [m] between two points that tell the same
+
+
+class Findings:
+    """Points at which the robot touched something that the laser does not see, and at which the floor ends.
+
+    Attributes:
+        touched: points of obstacles.
+        cliffs: points without floor.
+    """
+
+    def __init__(self, robot: RobotConfig) -> None:
+        """Know nothing."""
+        self._away = robot.drive.radius + DEPTH
+        self._sensors = [(robot.cliff.distance, angle) for angle in robot.cliff.angles]
+        self.touched: List[Point] = []
+        self.cliffs: List[Point] = []
+
+    @property
+    def version(self) -> int:
+        """Number of points that were found."""
+        return len(self.touched) + len(self.cliffs)
+
+    def note(self, grid: Grid, pose: Pose, bumper: Tuple[bool, bool], cliffs: Sequence[bool]) -> None:
+        """Remember what the sensors tell at a pose, unless the grid shows it.
+
+        Args:
+            grid: the map.
+            pose: of the robot, map frame.
+            bumper: whether it is pressed on the left and on the right.
+            cliffs: whether there is no floor under each sensor, from left to right.
+        """
+        side = SIDES.get(bumper)
+        if side is not None and all(grid.distance_at(*_ahead(pose, side + off, self._away)) > KNOWN for off in ARC):
+            _remember(self.touched, _ahead(pose, side, self._away))
+        for is_over, (distance, angle) in zip(cliffs, self._sensors):
+            if is_over:
+                _remember(self.cliffs, _ahead(pose, angle, distance))
+
+
+def _ahead(pose: Pose, angle: float, distance: float) -> Point:
+    return (pose.x + distance * math.cos(pose.theta + angle), pose.y + distance * math.sin(pose.theta + angle))
+
+
+def _remember(points: List[Point], found: Point) -> None:
+    if all(math.hypot(x - found[0], y - found[1]) > SAME for x, y in points):
+        points.append(found)

@@ -1,0 +1,183 @@
+"""Makes a map of a floor that a robot has never seen, by its odometry and its laser, and finds its place on that."""
+
+import math
+from typing import Dict, NamedTuple, Optional, Tuple
+
+import numpy as np
+
+from rumba_localisation import compiled_matching
+from rumba_localisation.localiser import START, Estimate, Localiser, is_blind, points, thinned
+from rumba_localisation.mapping.believed_plan import believed_plan
+from rumba_localisation.mapping.grid import RESOLUTION, Grid
+from rumba_localisation.mapping.mapper_config import MapperConfig
+from rumba_sim.model.geometry import Pose, compose, inverse, wrap_angle
+from rumba_sim.model.kernel import Array
+
+STEPS = np.geomspace(0.1, 0.02, 6)  # [m] sigmas of `match`
+MATCHED = 180  # beams, at most, by which a pose is found
+INDEPENDENT = 0.2  # share of the beams of a match that err independently
+SPACING, VISITS = 0.25, 4  # [m] side of a square of the floor, and scans from there that the map shows
+UNSEEN = 0.05  # share of the beams that end on unknown floor, from which on a scan from anywhere is added
+AT_ONCE = 4  # scans that are added before distances are measured again
+LEAST = np.array([0.005, 0.005, 0.005]) ** 2  # variances of any movement [m^2, m^2, rad^2]
+GOOD = 0.75  # a fit below which other starts of a match are tried ...
+BETTER = 0.1  # ... whose fit must be better by so much: in a corridor all fit alike
+SLIPPED = np.diag([0.1, 0.1, 0.05]) ** 2  # covariance of these
+LOST_FIT, LOST_AFTER = 0.6, 5  # the robot was carried away if, of the beams that end on known floor, so few fit in so
+#                                many scans, one after the other; meanwhile the map stays as it is
+FOUND_FIT = 0.6  # from which on a place that was looked for is believed
+CERTAIN = np.diag(LEAST)
+
+
+class Scan(NamedTuple):
+    """What a laser tells at one moment, in its own frame [m]."""
+
+    points: Array  # float64 (any, 2), where beams with an echo end
+    beyond: Array  # float64 (any, 2), as far as beams without an echo reach
+
+
+class Mapper:
+    """Matches each scan with the map of those before it, and adds it.
+
+    The laser is in the centre of the robot and looks forward, as a Rumba's.
+
+    Attributes:
+        config: parameters.
+        correction: pose of the frame of the odometry in the map frame.
+        estimate: where the robot was at the newest scan that was used; None before the first.
+        grid: the map so far.
+        version: how many scans it shows.
+    """
+
+    def __init__(self, start: Pose = Pose(0.0, 0.0, 0.0), config: MapperConfig = MapperConfig(),
+                 radius: float = 0.17425, range_max: float = 8.0) -> None:
+        """Begin a map.
+
+        Args:
+            start: where the robot is at the first scan; this defines the map frame [m, rad].
+            config: parameters.
+            radius: of the robot [m].
+            range_max: of its laser [m].
+        """
+        self.config = config
+        self._start, self._radius, self._range_max = start, radius, range_max
+        self.grid = Grid()
+        self.correction = Pose(0.0, 0.0, 0.0)
+        self.estimate: Optional[Estimate] = None
+        self.version = 0
+        self._visits: Dict[Tuple[int, int], int] = {}  # scans by the square of the floor in which they were taken
+        self._added = 0  # scans since the distances on the grid were measured
+        self._misfits = 0  # scans, one after the other
+        self._search: Optional[Localiser] = None  # for the place of a robot that was carried away
+        self._last: Optional[Pose] = None  # odometry at the newest scan that was used
+
+    def pose(self, odometry: Pose) -> Pose:
+        """Where the robot is, from its odometry, by the newest correction."""
+        return compose(self.correction, odometry)
+
+    def observe(self, odometry: Pose, scan: Scan) -> bool:
+        """Take a scan into account, if the robot has moved enough since the last one.
+
+        Args:
+            odometry: pose by odometry when the scan was taken.
+            scan: what the laser told.
+
+        Returns:
+            Whether it was used: there is a new estimate and a new correction.
+        """
+        last = self._last
+        if last is None:
+            self.estimate = Estimate(self._start, CERTAIN, 1.0, True)
+        elif not self._has_moved(last, odometry):
+            return False
+        elif self._search is not None:
+            return self._find(self._search, odometry, scan.points)
+        else:
+            self.estimate = self._matched(last, odometry, scan.points)
+        self._last = odometry
+        self.correction = compose(self.estimate.pose, inverse(odometry))
+        if self._is_carried_away(self.estimate, scan.points):
+            self._search = Localiser(believed_plan(self.grid, 'the map so far'), self._radius, self._range_max)
+            self.estimate = self.estimate._replace(covariance=START, is_sure=False)
+            return True
+        if self._misfits == 0 and self._is_news(self.estimate.pose, scan.points):
+            self.grid.add(self.estimate.pose, scan.points, scan.beyond)
+            self.version += 1
+            self._added += 1
+        if self._added >= AT_ONCE or self.version == 1:
+            self.grid.measure()
+            self._added = 0
+        return True
+
+    def _is_carried_away(self, estimate: Estimate, ends: Array) -> bool:
+        """Whether scans have not fitted for some time."""
+        known = 1.0 - self.grid.share_unknown(estimate.pose, ends)
+        is_misfit = estimate.fit < LOST_FIT * known and not is_blind(ends)
+        self._misfits = self._misfits + 1 if is_misfit else 0
+        return self._misfits >= LOST_AFTER
+
+    def _find(self, search: Localiser, odometry: Pose, ends: Array) -> bool:
+        """Look for the place all over the map so far, which stays as it is meanwhile."""
+        if not search.observe(odometry, ends):
+            return False
+        assert search.estimate is not None
+        self._last, self.estimate, self.correction = odometry, search.estimate, search.correction
+        if search.estimate.is_sure and search.estimate.fit > FOUND_FIT:
+            self._search, self._misfits = None, 0
+        return True
+
+    def _is_news(self, pose: Pose, ends: Array) -> bool:
+        """Whether a scan tells something new: it was taken where few were, or sees unknown floor."""
+        place = (math.floor(pose.x / SPACING), math.floor(pose.y / SPACING))
+        count = self._visits[place] = self._visits.get(place, 0) + 1
+        return count <= VISITS or self.grid.share_unknown(pose, ends) > UNSEEN
+
+    def _has_moved(self, last: Pose, odometry: Pose) -> bool:
+        return (math.hypot(odometry.x - last.x, odometry.y - last.y) >= self.config.update_min_d
+                or abs(wrap_angle(odometry.theta - last.theta)) >= self.config.update_min_a)
+
+    def _matched(self, last: Pose, odometry: Pose, ends: Array) -> Estimate:
+        """Where a scan fits, near where the odometry has the robot.
+
+        If it does not fit there, perhaps the wheels slipped, or the robot was pushed: it may fit better near the place
+        where the robot was before, or farther away from where the odometry has it.
+        """
+        supposed, spread = self.pose(odometry), self._spread(last, odometry)
+        if is_blind(ends):
+            return Estimate(supposed, spread, 0.0, True)
+        best = self._match(supposed, spread, ends)
+        if best.fit < GOOD:
+            before = self.pose(last)._replace(theta=supposed.theta)
+            others = [self._match(start, SLIPPED, ends) for start in (supposed, before)]
+            better = max(others, key=lambda each: each.fit)
+            best = better if better.fit > best.fit + BETTER else best
+        return best
+
+    def _match(self, start: Pose, prior: Array, ends: Array) -> Estimate:
+        """Where a scan fits near a pose, which has a covariance (3, 3)."""
+        found, covariance = np.empty(3), np.empty((3, 3))
+        fit = compiled_matching.match(np.array(start), prior, thinned(ends, MATCHED), self.grid.field,
+                                      *self.grid.origin, RESOLUTION, STEPS, INDEPENDENT, found, covariance)
+        x, y, theta = found.tolist()
+        return Estimate(Pose(x, y, wrap_angle(theta)), covariance, fit, True)
+
+    def _spread(self, last: Pose, odometry: Pose) -> Array:
+        """Covariance of a movement (3, 3): Probabilistic Robotics (Thrun, Burgard, Fox 2005), table 5.6."""
+        config = self.config
+        way = (odometry.x - last.x) ** 2 + (odometry.y - last.y) ** 2
+        turn = wrap_angle(odometry.theta - last.theta) ** 2
+        place = config.odom_alpha3 * way + config.odom_alpha4 * turn
+        return np.diag(LEAST + (place, place, config.odom_alpha1 * turn + config.odom_alpha2 * way))
+
+
+def scan_of(ranges: Array, angle_min: float, angle_increment: float, range_max: float) -> Scan:
+    """A scan, by its ranges.
+
+    Args:
+        ranges: float (beams) [m]; +inf has no echo, -inf one that is too near (REP 117).
+        angle_min: direction of the first beam [rad].
+        angle_increment: from beam to beam [rad].
+        range_max: up to which a beam without an echo met nothing [m].
+    """
+    free = np.where(np.isposinf(ranges), range_max, np.nan)
+    return Scan(points(ranges, angle_min, angle_increment), points(free, angle_min, angle_increment))

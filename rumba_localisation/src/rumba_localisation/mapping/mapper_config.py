@@ -1,0 +1,17 @@
+"""Parameters of the mapper. Those that gmapping or amcl have too have their names, and mean the same."""
+
+import dataclasses
+
+from rumba_sim.model.config import setting
+
+
+@dataclasses.dataclass(frozen=True)
+class MapperConfig:
+    """When a scan is used, how wheels err, and when the robot counts as lost."""
+
+    update_min_d: float = setting(0.1, 'distance after which the next scan is used', 'm', 0.0, 10.0)
+    update_min_a: float = setting(0.1, 'turn after which the next scan is used', 'rad', 0.0, 6.3)
+    odom_alpha1: float = setting(0.01, 'variance of a turn that comes from turning', 'rad^2/rad^2', 0.0, 10.0)
+    odom_alpha2: float = setting(0.02, 'variance of a turn that comes from driving', 'rad^2/m^2', 0.0, 10.0)
+    odom_alpha3: float = setting(0.01, 'variance of a distance that comes from driving', 'm^2/m^2', 0.0, 10.0)
+    odom_alpha4: float = setting(0.0005, 'variance of a distance that comes from turning', 'm^2/rad^2', 0.0, 10.0)

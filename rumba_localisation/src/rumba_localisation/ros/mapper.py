@@ -1,0 +1,156 @@
+"""mapper: makes a map of a floor that the robot has never seen, and finds its place on that (SLAM).
+
+It publishes
+  /map            nav_msgs/OccupancyGrid: latched, as the map grows
+  /tf             tf2_msgs/TFMessage: map -> odom, with the stamp of each scan
+and below the robot's name
+  amcl_pose       geometry_msgs/PoseWithCovarianceStamped: latched; the pose at each scan
+  dock_pose       geometry_msgs/PoseStamped: latched; where the robot stood on the contacts of its dock
+It subscribes, below the robot's name, to
+  scan            sensor_msgs/LaserScan: of a laser in the centre of the robot that looks forward
+  odom            nav_msgs/Odometry
+  bumper, cliff   rumba_msg/Bumper, Cliff: for what the laser does not see
+  dock_status     rumba_msg/DockStatus
+and serves
+  ~save_map       std_srvs/Trigger: writes the map, with the dock, to the file of the parameter map_file
+It takes part in a lockstep by simulator/lockstep and simulator/lockstep_answers (rumba_msg/Lockstep, LockstepAnswer).
+
+A simulator must leave map -> odom and /map to it: `rosrun rumba_sim simulator _localisation:=slam`.
+
+Parameters, those of amcl and gmapping with their meaning, as in `rosrun rumba_localisation mapper _map_file:=a.yaml`:
+"""
+
+import dataclasses
+from typing import Optional
+
+import numpy as np
+import rospy
+from geometry_msgs.msg import PoseStamped, PoseWithCovarianceStamped
+from nav_msgs.msg import OccupancyGrid
+from sensor_msgs.msg import LaserScan
+from std_msgs.msg import Header
+from std_srvs.srv import Trigger, TriggerResponse
+
+from rumba_localisation.mapping import saving
+from rumba_localisation.mapping.believed_plan import believed_plan
+from rumba_localisation.mapping.findings import Findings
+from rumba_localisation.mapping.mapper import Mapper
+from rumba_localisation.mapping.mapper_config import MapperConfig
+from rumba_localisation.ros import conversions
+from rumba_localisation.ros.scan_loop import COMPLAINT_PERIOD, QUEUE, ScanLoop
+from rumba_msg.msg import Bumper, Cliff, DockStatus
+from rumba_sim.model.config import part, setting
+from rumba_sim.model.errors import MapError
+from rumba_sim.model.floor_plan import OCCUPIED, FloorPlan
+from rumba_sim.model.geometry import Pose
+from rumba_sim.model.robot_config import RobotConfig
+from rumba_sim.ros.common import node
+from rumba_sim.ros.common.conversions import grid
+from rumba_sim.ros.common.frames import MAP
+from rumba_sim.ros.common.names import check_names
+from rumba_sim.ros.common.paths import absolute
+
+CALM = (False, False), (False,) * 4  # bumper and cliff sensors
+
+
+@dataclasses.dataclass(frozen=True)
+class Settings(MapperConfig):
+    """The node's private parameters."""
+
+    robot: str = setting('rumba', 'name of the robot, below which its topics are')
+    initial_pose_x: float = setting(0.0, 'where the robot is at the first scan; this defines the map frame', 'm')
+    initial_pose_y: float = setting(0.0, 'the same', 'm')
+    initial_pose_a: float = setting(0.0, 'the same', 'rad')
+    map_update_interval: float = setting(2.0, 'time between two publications of the map, at least', 's', 0.0, 3600.0)
+    map_file: str = setting('rumba_map.yaml', 'path of the file to which ~save_map writes; its images go beside it')
+
+    def __post_init__(self) -> None:
+        """Check the robot's name."""
+        check_names(self, 'robot')
+
+
+def main() -> None:
+    """Run the node."""
+    node.run('mapper', Settings, lambda settings: MapperNode(settings).run(), is_single=True)
+
+
+class MapperNode(ScanLoop):
+    """The loop that owns the mapper."""
+
+    def __init__(self, settings: Settings) -> None:
+        """Open all topics and the service."""
+        self._settings = settings
+        self._mapper = Mapper(Pose(settings.initial_pose_x, settings.initial_pose_y, settings.initial_pose_a),
+                              part(settings, MapperConfig))
+        self._findings = Findings(RobotConfig())
+        self._bumper, self._cliffs = CALM
+        self._is_docked = False
+        self._dock: Optional[Pose] = None
+        self._told: Optional[rospy.Time] = None  # stamp of the newest map that was published, and its version
+        self._told_version = 0
+        name = settings.robot
+        self._map = rospy.Publisher('/map', OccupancyGrid, queue_size=1, latch=True)
+        self._pose = rospy.Publisher(f'{name}/amcl_pose', PoseWithCovarianceStamped, queue_size=QUEUE, latch=True)
+        self._docked = rospy.Publisher(f'{name}/dock_pose', PoseStamped, queue_size=1, latch=True)
+        super().__init__(name)
+        self._subscribe(f'{name}/bumper', Bumper, self._take_bumper)
+        self._subscribe(f'{name}/cliff', Cliff, self._take_cliff)
+        self._subscribe(f'{name}/dock_status', DockStatus, self._take_dock)
+        rospy.Service('~save_map', Trigger, lambda _: self._requests.call(self._save))
+
+    def _take_bumper(self, message: Bumper) -> None:
+        self._bumper = message.is_left_pressed, message.is_right_pressed
+
+    def _take_cliff(self, message: Cliff) -> None:
+        self._cliffs = (message.is_cliff_left, message.is_cliff_front_left, message.is_cliff_front_right,
+                        message.is_cliff_right)
+
+    def _take_dock(self, message: DockStatus) -> None:
+        self._is_docked = message.is_docked
+
+    def _use(self, scan: LaserScan, odometry: Pose) -> None:
+        seen = conversions.whole_scan(scan)
+        if seen is None:
+            rospy.logerr_throttle(COMPLAINT_PERIOD, 'scan: its angles and its range must be numbers; ignored')
+            return
+        mapper, stamp = self._mapper, scan.header.stamp
+        mapper.observe(odometry, seen)
+        if mapper.estimate is None:
+            return
+        pose = mapper.pose(odometry)
+        self._findings.note(mapper.grid, pose, self._bumper, self._cliffs)
+        self._correct(mapper.correction, stamp)
+        header = Header(stamp=stamp, frame_id=MAP)
+        self._pose.publish(conversions.pose_with_covariance(pose, mapper.estimate.covariance, header))
+        if self._is_docked and self._dock is None:
+            self._dock = pose
+            self._docked.publish(PoseStamped(header, conversions.pose_message(*pose)))
+        self._tell_map(stamp)
+
+    def _tell_map(self, stamp: rospy.Time) -> None:
+        """Publish the map, if there is a newer one and the last one was published long enough ago."""
+        is_due = self._told is None or not (
+            rospy.Duration(0) <= stamp - self._told < rospy.Duration(self._settings.map_update_interval))
+        if not is_due or self._version == self._told_version:
+            return
+        self._told, self._told_version = stamp, self._version
+        plan = self._plan()
+        cells = plan.occupancy if plan.cliff is None else np.where(plan.cliff, np.int8(OCCUPIED), plan.occupancy)
+        self._map.publish(grid(plan, cells, stamp))
+
+    @property
+    def _version(self) -> int:
+        return self._mapper.version + self._findings.version
+
+    def _plan(self) -> FloorPlan:
+        return believed_plan(self._mapper.grid, 'the map so far', self._dock, self._findings)
+
+    def _save(self) -> TriggerResponse:
+        path = absolute(self._settings.map_file)
+        try:
+            if self._mapper.estimate is None:
+                raise MapError('there is no map yet: no scan came')
+            saving.save(path, self._plan())
+        except MapError as error:
+            return TriggerResponse(False, str(error))
+        return TriggerResponse(True, path)

@@ -1,0 +1,104 @@
+"""What the nodes that look at scans share: each scan meets the odometry of its moment; lockstep is answered."""
+
+import abc
+import math
+import time
+from typing import Any, Optional
+
+import rospy
+from nav_msgs.msg import Odometry
+from sensor_msgs.msg import LaserScan
+from tf2_msgs.msg import TFMessage
+
+from rumba_localisation.ros.odometries import Odometries
+from rumba_msg.msg import Lockstep
+from rumba_sim.model.geometry import Pose
+from rumba_sim.ros.common.conversions import plane_pose, transform
+from rumba_sim.ros.common.frames import MAP, frames
+from rumba_sim.ros.common.lockstep import Participant, Resent
+from rumba_sim.ros.common.maps import FARTHEST
+from rumba_sim.ros.common.requests import Requests
+
+PERIOD = 0.1  # [s] of the wall clock between two looks whether ROS shuts down
+QUEUE = 100  # messages that may wait to be read
+COMPLAINT_PERIOD = 10.0  # [s]
+
+
+class ScanLoop(abc.ABC):
+    """A loop that owns all state; callbacks only queue what it is to do."""
+
+    def __init__(self, robot: str) -> None:
+        """Listen to scans and odometry of a robot, by its name."""
+        self._frames = frames(robot)
+        self._requests = Requests()
+        self._odometries = Odometries()
+        self._waiting: Optional[LaserScan] = None  # for its odometry
+        self._tick: Optional[Lockstep] = None  # that was not answered yet
+        self._scanned = rospy.Time()  # stamp of the newest scan that was dealt with
+        self._newest = Resent()
+        self._tf = rospy.Publisher('/tf', TFMessage, self._newest, queue_size=QUEUE)
+        self._participant = Participant(lambda tick: self._requests.post(lambda: self._take_tick(tick)))
+        self._subscribe(f'{robot}/odom', Odometry, self._take_odom)
+        self._subscribe(f'{robot}/scan', LaserScan, self._take_scan)
+
+    def _subscribe(self, topic: str, kind: Any, take: Any) -> None:
+        """Have the loop call `take` with each message of a topic."""
+        rospy.Subscriber(topic, kind, self._post, take, queue_size=QUEUE)
+
+    def _post(self, message: Any, take: Any) -> None:
+        self._requests.post(lambda: take(message))
+
+    def run(self) -> None:
+        """Work until ROS shuts down."""
+        while not rospy.is_shutdown():
+            self._requests.serve(time.monotonic() + PERIOD)
+        self._participant.leave()
+
+    @property
+    def _is_ready(self) -> bool:
+        """Whether scans can be used."""
+        return True
+
+    @abc.abstractmethod
+    def _use(self, scan: LaserScan, odometry: Pose) -> None:
+        """Called with each scan, and where the robot was then by its odometry."""
+
+    def _take_odom(self, message: Odometry) -> None:
+        pose = plane_pose(message.pose.pose)
+        if all(math.isfinite(number) and abs(number) <= FARTHEST for number in pose):
+            self._odometries.add(message.header.stamp, pose)
+            self._look()
+
+    def _take_scan(self, message: LaserScan) -> None:
+        self._waiting = message
+        self._look()
+
+    def _take_tick(self, tick: Lockstep) -> None:
+        self._tick = tick
+        self._answer()
+
+    def _look(self) -> None:
+        """Use the newest scan as soon as it is known where the robot was by odometry when it was taken."""
+        scan = self._waiting
+        if scan is None or not self._is_ready:
+            return
+        odometry = self._odometries.at(scan.header.stamp)
+        if odometry is None and not self._odometries.is_before(scan.header.stamp):
+            return
+        self._waiting = None
+        if odometry is not None:
+            self._use(scan, odometry)
+        self._scanned = scan.header.stamp
+        self._answer()
+
+    def _correct(self, correction: Pose, stamp: rospy.Time) -> None:
+        """Publish map -> odom."""
+        self._newest.message = TFMessage([transform(MAP, self._frames.odom, correction, stamp)])
+        self._tf.publish(self._newest.message)
+
+    def _answer(self) -> None:
+        """In lockstep, tell that everything is done for the newest tick."""
+        tick = self._tick
+        if tick is not None and self._scanned >= tick.scan and not tick.scan.is_zero():
+            self._tick = None
+            self._participant.answer(tick.header.stamp)

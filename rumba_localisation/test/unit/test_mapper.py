@@ -1,0 +1,174 @@
+"""The mapper on floors of which it knows nothing, and where dead reckoning fails."""
+
+import math
+
+import numpy as np
+import pytest
+from rooms import crooked, room
+from scans import error
+
+from rumba_localisation.mapping.believed_plan import believed_plan
+from rumba_localisation.mapping.mapper import Mapper, scan_of
+from rumba_sim.model.config import updated
+from rumba_sim.model.floor_plan import OCCUPIED
+from rumba_sim.model.geometry import Pose, compose, wrap_angle
+from rumba_sim.model.robot_config import RobotConfig
+from rumba_sim.model.world import World
+
+BAD = updated(RobotConfig(), {'odometry': {'scale_error': 0.03}}, 'wheels that err more than those of a Rumba')
+
+
+def scan(world):
+    """What the laser of the robot tells."""
+    ranges = world.scan('rumba')
+    return scan_of(ranges, -math.pi, 2.0 * math.pi / len(ranges), world.config.laser.range_max)
+
+
+def world_of(plan, start, seed=1):
+    """A world with a robot whose wheels err."""
+    world = World(plan, BAD, 50, seed)
+    world.spawn('rumba', start)
+    return world
+
+
+def drive(world, mapper, corners, speed=0.4):
+    """Drive straight from corner to corner, by the true pose; scans ten times a second. Yields after each scan."""
+    robot = world.robots['rumba']
+    for x, y in corners:
+        while math.hypot(x - robot.pose.x, y - robot.pose.y) > 0.15:
+            off = wrap_angle(math.atan2(y - robot.pose.y, x - robot.pose.x) - robot.pose.theta)
+            robot.command(0.0 if abs(off) > 0.3 else speed, max(min(3.0 * off, 1.5), -1.5), world.tick)
+            world.step(5)
+            mapper.observe(robot.odometry, scan(world))
+            yield
+
+
+def reckoned(world, start):
+    """Where the robot would believe to be by its wheels alone."""
+    return compose(start, world.robots['rumba'].odometry)
+
+
+def walls(plan):
+    """Centres of the occupied cells of a plan: float64 (any, 2) [m]."""
+    return (np.argwhere(plan.occupancy == OCCUPIED)[:, ::-1] + 0.5) * plan.resolution + plan.origin
+
+
+def off_walls(mapper, plan):
+    """Distance from each wall cell of the map to the nearest true wall [m]: float64 (any)."""
+    true = walls(plan)
+    return np.array([np.hypot(*(true - point).T).min() for point in walls(believed_plan(mapper.grid, 'map'))])
+
+
+def test_the_start_defines_the_map_frame():
+    start = Pose(2.0, 1.3, 0.7)
+    world, mapper = world_of(crooked(), Pose(1.9, 1.3, 0.5)), Mapper(start)
+    assert mapper.estimate is None
+    assert mapper.observe(world.robots['rumba'].odometry, scan(world))
+    assert mapper.estimate.pose == start
+    assert mapper.pose(world.robots['rumba'].odometry) == pytest.approx(start)
+
+
+def test_a_robot_that_stands_still_learns_nothing_new():
+    world, mapper = world_of(crooked(), Pose(2.0, 1.3, 0.7)), Mapper()
+    mapper.observe(world.robots['rumba'].odometry, scan(world))
+    assert not mapper.observe(world.robots['rumba'].odometry, scan(world))
+    assert mapper.version == 1
+
+
+def test_a_map_does_not_grow_while_a_robot_drives_where_it_was_before():
+    start = Pose(0.6, 1.2, 0.0)
+    world, mapper = world_of(crooked(), start), Mapper(start)
+    around = [(2.0, 1.3), (2.2, 2.2), (1.0, 1.4)]
+    for _ in drive(world, mapper, around * 4):
+        pass
+    before, size = mapper.version, mapper.grid.odds.size
+    for _ in drive(world, mapper, around * 4):
+        pass
+    assert mapper.version < 1.15 * before
+    assert mapper.grid.odds.size == size
+
+
+def test_the_map_of_a_room_is_exact_and_so_is_the_pose():
+    start = Pose(0.6, 1.2, 0.0)
+    world, mapper = world_of(crooked(0.02), start), Mapper(start)
+    errors = [error(mapper.pose(world.robots['rumba'].odometry), world.robots['rumba'].pose)
+              for _ in drive(world, mapper, [(2.0, 1.3), (2.2, 2.6), (1.0, 2.6), (0.6, 1.2), (2.0, 1.2), (3.4, 1.2)])]
+    assert np.sqrt(np.mean(np.square(errors), axis=0)) == pytest.approx([0.0, 0.0], abs=0.02)
+    off = off_walls(mapper, crooked(0.02))
+    assert np.mean(off <= 0.03) > 0.99 and off.max() <= 0.06
+
+
+def test_a_long_corridor_that_dead_reckoning_bends_is_straight():
+    plan, start = room(20.0, 1.6, boxes=[(6.0, 0.0, 6.3, 0.2), (13.0, 1.4, 13.4, 1.6)]), Pose(0.5, 0.8, 0.0)
+    world, mapper = world_of(plan, start, seed=3), Mapper(start)
+    for _ in drive(world, mapper, [(19.3, 0.8), (0.7, 0.8)]):
+        pass
+    robot = world.robots['rumba']
+    off, turned = error(mapper.pose(robot.odometry), robot.pose)
+    assert error(reckoned(world, start), robot.pose)[0] > 1.0
+    assert off < 0.1 and turned < 0.02
+    # Its length is what the wheels say, which are wrong by 3 %, where the laser sees no end and nothing at the sides.
+    assert off_walls(mapper, plan).max() < 0.2
+
+
+def test_a_loop_that_dead_reckoning_leaves_open_closes():
+    plan, start = room(10.0, 8.0, boxes=[(1.6, 1.6, 8.4, 6.4)]), Pose(0.8, 0.8, 0.0)
+    world, mapper = world_of(plan, start, seed=3), Mapper(start)
+    for _ in drive(world, mapper, [(9.2, 0.8), (9.2, 7.2), (0.8, 7.2), (0.8, 0.8), (3.0, 0.8)]):
+        pass
+    robot = world.robots['rumba']
+    off, turned = error(mapper.pose(robot.odometry), robot.pose)
+    assert error(reckoned(world, start), robot.pose)[0] > 0.5
+    assert off < 0.1 and turned < 0.02
+    assert np.mean(off_walls(mapper, plan) <= 0.1) > 0.98
+
+
+def test_wheels_that_slip_do_not_move_the_robot():
+    start = Pose(0.6, 1.2, 0.0)
+    world, mapper = world_of(crooked(0.02), start), Mapper(start)
+    robot = world.robots['rumba']
+    for _ in range(100):
+        robot.command(0.4, 0.0, world.tick)  # against the wall on the right, after 3 m
+        world.step(5)
+        mapper.observe(robot.odometry, scan(world))
+    assert error(reckoned(world, start), robot.pose)[0] > 0.5
+    assert error(mapper.estimate.pose, robot.pose)[0] < 0.02
+
+
+def test_a_robot_that_is_carried_away_finds_its_place_on_its_own_map():
+    start = Pose(0.6, 1.2, 0.0)
+    world, mapper = world_of(crooked(0.02), start), Mapper(start)
+    robot = world.robots['rumba']
+    around = [(2.0, 1.3), (2.2, 2.6), (1.0, 2.6), (0.6, 1.2), (3.4, 1.2)]
+    for _ in drive(world, mapper, around):
+        pass
+    before = mapper.grid.odds.copy()
+    world.teleport('rumba', Pose(1.0, 2.5, 2.0))
+    is_sure = [mapper.estimate.is_sure for _ in drive(world, mapper, [(2.2, 2.6), (1.0, 2.6), (2.2, 2.6)])]
+    assert not all(is_sure) and is_sure[-1]
+    assert error(mapper.pose(robot.odometry), robot.pose)[0] < 0.05
+    is_wall = before > 1.0
+    assert np.mean(mapper.grid.odds[is_wall] > 0.0) > 0.97  # it did not draw the map over at the wrong place
+
+
+def test_a_mirrored_laser_does_not_fit():
+    start = Pose(0.6, 1.2, 0.0)
+    world, mapper = world_of(crooked(0.02), start), Mapper(start)
+    robot = world.robots['rumba']
+    fits = []
+    for _ in range(60):
+        robot.command(0.2, 0.5, world.tick)
+        world.step(5)
+        seen = scan(world)
+        mapper.observe(robot.odometry, seen._replace(points=seen.points * (1.0, -1.0)))
+        fits.append(mapper.estimate.fit)
+    assert np.mean(fits) < 0.8
+
+
+def test_scans_without_an_echo_leave_the_pose_to_the_odometry():
+    mapper = Mapper()
+    nothing = scan_of(np.full(360, np.inf), -math.pi, math.pi / 180.0, 2.0)
+    mapper.observe(Pose(0.0, 0.0, 0.0), nothing)
+    mapper.observe(Pose(0.5, 0.0, 0.1), nothing)
+    assert mapper.estimate.pose == pytest.approx(Pose(0.5, 0.0, 0.1))
+    assert not len(walls(believed_plan(mapper.grid, 'a field')))
