@@ -57,6 +57,7 @@ class Footing:
         seen, self.seen = self.seen, []
         for x, y in seen:
             self._see(x, y)
+        self.seen = seen  # although the plan may show some of them: it need not show all cliffs
 
     def _know(self, plan: FloorPlan) -> None:
         """Know the cliffs of a plan alone."""
