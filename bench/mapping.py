@@ -1,7 +1,7 @@
 """How a robot maps, cleans and comes home on a floor that it has never seen, and how exact its map is.
 
-`mapping.py [--seeds N] [--jobs N] [--floors NAME ...] [--strategy NAME]` runs seeds 1 to N, 20 by default, on all cores;
-times are simulated, but for the cost.
+`mapping.py [--seeds N] [--jobs N] [--floors NAME ...] [--strategy NAME]` runs seeds 1 to N, 20 by default, on all
+cores; times are simulated, but for the cost.
 """
 
 import argparse
