@@ -45,6 +45,15 @@ class Footing:
         self._before_dock = np.concatenate([self._body - (back, 0.0) for back in np.arange(0.0, BEHIND_DOCK, STEP)])
         self.forget()
 
+    def forget(self) -> None:
+        """Know no more than the plan."""
+        self.seen: List[Tuple[float, float]] = []
+        self._know(self._plan)
+        left, bottom, right, top = self._plan.bounds
+        self._origin: Tuple[float, float] = (left, bottom)  # of what follows [m]
+        self._floor: Array = np.zeros((int((top - bottom) / CELL) + 1, int((right - left) / CELL) + 1), np.bool_)
+        self._noted: Optional[Tuple[Pose, Tuple[bool, ...], bool]] = None  # the last that was
+
     def learn(self, plan: FloorPlan) -> None:
         """Go on with a newer plan of the same floor, and with what was seen of it."""
         (old_left, old_bottom), (left, bottom, right, top) = self._origin, plan.bounds
@@ -57,6 +66,7 @@ class Footing:
         seen, self.seen = self.seen, []
         for x, y in seen:
             self._see(x, y)
+        self.seen = seen  # although the plan may show some of them: it need not show all cliffs
 
     def _know(self, plan: FloorPlan) -> None:
         """Know the cliffs of a plan alone."""
@@ -64,15 +74,6 @@ class Footing:
         self._edges: Optional[Array] = None
         if plan.cliff is not None:
             self._edges = _distances_to(plan.cliff) * plan.resolution
-
-    def forget(self) -> None:
-        """Know no more than the plan."""
-        self.seen: List[Tuple[float, float]] = []
-        self._know(self._plan)
-        left, bottom, right, top = self._plan.bounds
-        self._origin: Tuple[float, float] = (left, bottom)  # of what follows [m]
-        self._floor: Array = np.zeros((int((top - bottom) / CELL) + 1, int((right - left) / CELL) + 1), np.bool_)
-        self._noted: Optional[Tuple[Pose, Tuple[bool, ...], bool]] = None  # the last that was
 
     def note(self, pose: Pose, cliffs: Sequence[bool], is_docked: bool) -> None:
         """Remember what the cliff sensors see at a pose, and that there is floor under the wheels."""

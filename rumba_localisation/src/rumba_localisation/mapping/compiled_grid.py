@@ -176,7 +176,7 @@ def signed_distance(wall: Array, x: float, y: float, distance: float, is_free: b
         is_free: whether it is on free floor, as far as is known.
     """
     by_x, by_y = x - wall[2], y - wall[3]
-    off = by_x * wall[4] + by_y * wall[5]
+    off: float = by_x * wall[4] + by_y * wall[5]
     if wall[6] > 0.0:
         aside = abs((x - wall[0]) * wall[5] - (y - wall[1]) * wall[4]) - 1.0
         if aside <= 0.0:
