@@ -90,7 +90,7 @@ class Mapped:
         """Scan, and see where that fits on the map."""
         odometry = as_told(world.robots[name].odometry)
         ranges = world.scan(name).astype(np.float32)
-        self.mapper.observe(odometry, scan_of(ranges, *_angles(len(ranges)), range_max=world.config.laser.range_max))
+        self.mapper.observe(odometry, scan_of(ranges, *_angles(len(ranges)), world.config.laser.range_max))
         estimate, pose = self.mapper.estimate, self.mapper.pose(odometry)
         self.findings.note(self.mapper.grid, pose, world.robots[name].bumper, world.cliffs(name))
         return Belief(pose, UNKNOWN if estimate is None else _rows(estimate.covariance))
@@ -103,7 +103,7 @@ class Mapped:
         return self._known[1]
 
 
-def _angles(beams: int) -> Any:
+def _angles(beams: int) -> Tuple[float, float]:
     """Direction of the first beam, and from beam to beam [rad], as a sensor_msgs/LaserScan tells them."""
     return float(np.float32(-math.pi)), float(np.float32(TURN / beams))
 

@@ -6,7 +6,7 @@ import programs
 import rospy
 from simulators import TIMEOUT, wait_for_service
 
-programs.LIBRARIES += ['rumba_localisation.warm_up']
+programs.LIBRARIES += ['rumba_localisation.mapping.warm_up']
 
 
 class Localiser:

@@ -21,7 +21,7 @@ from rumba_sim.ros.common.conversions import heading, plane_pose
 
 CLOSE = 0.05  # [m], [rad]
 
-programs.LIBRARIES += ['rumba_localisation.warm_up']
+programs.LIBRARIES += ['rumba_localisation.mapping.warm_up']
 
 
 class MapperNodeTest(unittest.TestCase):

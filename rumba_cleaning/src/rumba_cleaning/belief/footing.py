@@ -29,11 +29,6 @@ class Footing:
         seen: points (x, y) [m], map frame, at which the sensors saw cliffs that the map does not show.
     """
 
-    seen: List[Tuple[float, float]]
-    _edges: Optional[Array]  # as those of `FloorPlan`, distance to the nearest cliff [m]
-    _floor: Array  # bool (any, any), cells in which floor was found
-    _origin: Tuple[float, float]  # of these cells [m], map frame
-
     def __init__(self, plan: FloorPlan, robot: RobotConfig) -> None:
         """Know the cliffs of a plan."""
         self._plan = plan
@@ -52,11 +47,11 @@ class Footing:
 
     def forget(self) -> None:
         """Know no more than the plan."""
-        self.seen = []
+        self.seen: List[Tuple[float, float]] = []
         self._know(self._plan)
         left, bottom, right, top = self._plan.bounds
-        self._origin = left, bottom
-        self._floor = np.zeros((int((top - bottom) / CELL) + 1, int((right - left) / CELL) + 1), np.bool_)
+        self._origin: Tuple[float, float] = (left, bottom)  # of what follows [m]
+        self._floor: Array = np.zeros((int((top - bottom) / CELL) + 1, int((right - left) / CELL) + 1), np.bool_)
         self._noted: Optional[Tuple[Pose, Tuple[bool, ...], bool]] = None  # the last that was
 
     def learn(self, plan: FloorPlan) -> None:
@@ -76,7 +71,7 @@ class Footing:
     def _know(self, plan: FloorPlan) -> None:
         """Know the cliffs of a plan alone."""
         self._plan = plan
-        self._edges = None
+        self._edges: Optional[Array] = None
         if plan.cliff is not None:
             self._edges = _distances_to(plan.cliff) * plan.resolution
 

@@ -1,4 +1,4 @@
-"""Compiles the localisation before its first use; the build runs `python3 -m rumba_localisation.warm_up`."""
+"""Compiles the localisation before its first use; the build runs `python3 -m rumba_localisation.mapping.warm_up`."""
 
 import math
 
