@@ -71,6 +71,6 @@ def test_the_error_names_a_file_that_cannot_be_read(read_bag, tmp_path):
     (tmp_path / 'text.bag').write_text('no bag')
     for arguments, wrong in ((['/no/such.bag'], '/no/such.bag: '), ([tmp_path / 'text.bag'], 'text.bag: '),
                              ([tmp_path / 'other.bag'], 'other.bag: no message on /rumba/battery_status'),
-                             ([], 'read_bag FILE.bag: ')):
+                             ([], 'read_bag BAG: ')):
         process = read_bag(*arguments)
         assert process.returncode == 1 and wrong in process.stderr and 'Traceback' not in process.stderr
