@@ -7,7 +7,7 @@ import rospy
 import rostest
 from cleaners import Cleaner
 from geometry_msgs.msg import PoseWithCovarianceStamped
-from localisers import Localiser
+from localisers import Localiser, Mapper
 from simulators import Heard, Simulator
 
 from rumba_cleaning.behaviour import Status
@@ -17,7 +17,7 @@ from rumba_cleaning.cleaning_config import CleaningConfig
 from rumba_cleaning.control import CONTROL_DT, CONTROL_TICKS, STEP_RATE, act
 from rumba_cleaning.mission.mission import Mission
 from rumba_cleaning.pose_source import Localised
-from rumba_msg.msg import CleanGoal, MissionStatus
+from rumba_msg.msg import CleanGoal, DockStatus, MissionStatus
 from rumba_sim.model import map_file
 from rumba_sim.model.robot import FIRST
 from rumba_sim.model.robot_config import RobotConfig
@@ -75,6 +75,18 @@ class CleanerLocalisedTest(unittest.TestCase):
         Localiser(self)
         cleaner.status.fresh(lambda status: status.state == MissionStatus.CLEANING and 'swept' in status.message)
         self.assertFalse(goal.has_ended)
+
+    def test_a_floor_that_nobody_shows_is_explored_and_cleaned(self):
+        simulator = Simulator(self, '_map:=studio', f'_seed:={SEED}', '_speed:=0', '_brushes_up:=true',
+                              '_localisation:=slam', '_wait_for:=mapper', '_lockstep_patience:=60')
+        Mapper(self)
+        cleaner = Cleaner(self, '_mapping:=true', '_strategy:=explore_and_clean', f'_target_coverage:={TARGET}',
+                          '_autostart:=true').connect()
+        cleaner.status.find(lambda status: status.message.endswith('exploring'))
+        ended = cleaner.status.find(lambda status: status.state == MissionStatus.IDLE and 'swept' in status.message)
+        self.assertRegex(ended.message, r'^5\.\d % swept$')
+        self.assertTrue(Heard(self, '/rumba/dock_status', DockStatus).find().is_docked)
+        self.assertIsNone(simulator.process.poll())
 
 
 if __name__ == '__main__':

@@ -270,6 +270,19 @@ def test_a_mission_by_a_pose_that_is_localised_meets_its_target_and_one_by_odome
     assert outcomes['odometry'].coverage < outcomes['localised'].coverage
 
 
+def test_a_robot_that_makes_its_map_must_start_at_its_dock():
+    with pytest.raises(ConfigError, match='^start is .anywhere.: must be dock with pose slam, or robots do not know '
+                                          'where their dock is$'):
+        Conditions(start=ANYWHERE, pose='slam')
+
+
+def test_a_robot_that_makes_its_map_is_not_shown_the_floor():
+    plan = room(3.0, 2.0, 0.02, boxes=[(1.5, 0.0, 1.6, 1.2)], dock=Pose(0.21, 1.0, math.pi))
+    known = Trial(plan, 'explore_and_clean', Conditions(pose='slam')).contexts[0].plan
+    assert known is not plan
+    assert 0.3 < known.free.sum() / plan.free.sum() < 0.95
+
+
 def test_a_pose_of_no_known_kind_is_refused():
-    with pytest.raises(ConfigError, match='^pose is .dreamt.: must be one of truth, localised, odometry$'):
+    with pytest.raises(ConfigError, match='^pose is .dreamt.: must be one of truth, localised, odometry, slam$'):
         Conditions(pose='dreamt')

@@ -1,4 +1,4 @@
-"""What the tests of the localiser share: a localiser as a user starts it."""
+"""What the tests of the localisation share: a localiser or a mapper as a user starts it."""
 
 import signal
 
@@ -12,14 +12,16 @@ programs.LIBRARIES += ['rumba_localisation.mapping.warm_up']
 class Localiser:
     """A localiser for one test."""
 
-    def __init__(self, test, *arguments, name='/localiser', robot='/rumba'):
+    program, service = 'localiser', '/rumba/request_nomotion_update'
+
+    def __init__(self, test, *arguments):
         self._test = test
-        if rospy.has_param(name):
-            rospy.delete_param(name)
+        if rospy.has_param(f'/{self.program}'):
+            rospy.delete_param(f'/{self.program}')
         rospy.set_param('/use_sim_time', True)
-        self.process = programs.start('rumba_localisation', 'localiser', *arguments)
+        self.process = programs.start('rumba_localisation', self.program, *arguments)
         test.addCleanup(self.end)
-        wait_for_service(test, f'{robot}/request_nomotion_update', self.process)
+        wait_for_service(test, self.service, self.process)
 
     def end(self):
         """End it, cleanly."""
@@ -30,3 +32,9 @@ class Localiser:
             finally:
                 self.process.kill()
                 self.process.wait()
+
+
+class Mapper(Localiser):
+    """A mapper for one test."""
+
+    program, service = 'mapper', '/mapper/save_map'

@@ -5,13 +5,13 @@ import math
 import os
 import unittest
 
-import programs
 import rospy
 import rostest
 from geometry_msgs.msg import PoseStamped, PoseWithCovarianceStamped, Twist
+from localisers import Mapper
 from nav_msgs.msg import OccupancyGrid
 from sensor_msgs.msg import LaserScan
-from simulators import Heard, Simulator, folder_of, shared, wait, wait_for_service
+from simulators import Heard, Simulator, folder_of, shared, wait
 from std_srvs.srv import Trigger
 from tf2_msgs.msg import TFMessage
 
@@ -20,8 +20,6 @@ from rumba_sim.model.geometry import Pose, compose, inverse
 from rumba_sim.ros.common.conversions import heading, plane_pose
 
 CLOSE = 0.05  # [m], [rad]
-
-programs.LIBRARIES += ['rumba_localisation.mapping.warm_up']
 
 
 class MapperNodeTest(unittest.TestCase):
@@ -35,11 +33,7 @@ class MapperNodeTest(unittest.TestCase):
         cls.simulator = Simulator(test, '_map:=studio', '_speed:=5', '_localisation:=slam', '_seed:=2')
         cls.truth, cls.odom = Heard(test, '/rumba/ground_truth'), Heard(test, '/rumba/odom')
         cls.start = plane_pose(cls.truth.find().pose.pose)
-        rospy.set_param('/use_sim_time', True)
-        process = programs.start('rumba_localisation', 'mapper', f'_map_file:={cls.path}')
-        test.addCleanup(process.wait)
-        test.addCleanup(process.terminate)
-        wait_for_service(test, '/mapper/save_map', process)
+        Mapper(test, f'_map_file:={cls.path}')
         cls.map, cls.tf = Heard(test, '/map', OccupancyGrid), Heard(test, '/tf', TFMessage)
         cls.pose = Heard(test, '/rumba/amcl_pose', PoseWithCovarianceStamped)
         cls.dock = Heard(test, '/rumba/dock_pose', PoseStamped)

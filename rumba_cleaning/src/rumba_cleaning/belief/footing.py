@@ -31,7 +31,6 @@ class Footing:
 
     def __init__(self, plan: FloorPlan, robot: RobotConfig) -> None:
         """Know the cliffs of a plan."""
-        self._plan = plan
         self._far = robot.cliff.distance
         half, radius, sensors = 0.5 * robot.drive.wheel_base, robot.drive.radius, robot.cliff
         self._sensors = [(sensors.distance * math.cos(angle), sensors.distance * math.sin(angle))
@@ -43,12 +42,13 @@ class Footing:
         square = np.stack(np.meshgrid(side, side), axis=-1).reshape(-1, 2)
         self._body = square[np.hypot(*square.T) <= radius]
         self._before_dock = np.concatenate([self._body - (back, 0.0) for back in np.arange(0.0, BEHIND_DOCK, STEP)])
+        self._know(plan)
         self.forget()
 
     def forget(self) -> None:
         """Know no more than the plan."""
         self.seen: List[Tuple[float, float]] = []
-        self._know(self._plan)
+        self._edges: Optional[Array] = None if self._mapped is None else self._mapped.copy()
         left, bottom, right, top = self._plan.bounds
         self._origin: Tuple[float, float] = (left, bottom)  # of what follows [m]
         self._floor: Array = np.zeros((int((top - bottom) / CELL) + 1, int((right - left) / CELL) + 1), np.bool_)
@@ -58,6 +58,7 @@ class Footing:
         """Go on with a newer plan of the same floor, and with what was seen of it."""
         (old_left, old_bottom), (left, bottom, right, top) = self._origin, plan.bounds
         self._know(plan)
+        self._edges = None if self._mapped is None else self._mapped.copy()
         before = [max(math.ceil(by / CELL), 0) for by in (old_bottom - bottom, old_left - left)]
         self._origin = (old_left - before[1] * CELL, old_bottom - before[0] * CELL)
         needed = int((top - self._origin[1]) / CELL) + 1, int((right - self._origin[0]) / CELL) + 1
@@ -69,11 +70,9 @@ class Footing:
         self.seen = seen  # although the plan may show some of them: it need not show all cliffs
 
     def _know(self, plan: FloorPlan) -> None:
-        """Know the cliffs of a plan alone."""
+        """Measure the distances to the cliffs of a plan."""
         self._plan = plan
-        self._edges: Optional[Array] = None
-        if plan.cliff is not None:
-            self._edges = _distances_to(plan.cliff) * plan.resolution
+        self._mapped: Optional[Array] = None if plan.cliff is None else _distances_to(plan.cliff) * plan.resolution
 
     def note(self, pose: Pose, cliffs: Sequence[bool], is_docked: bool) -> None:
         """Remember what the cliff sensors see at a pose, and that there is floor under the wheels."""
