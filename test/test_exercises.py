@@ -56,8 +56,9 @@ def test_an_examination_is_passed_by_what_a_robot_knows_and_void_for_who_looks_a
     script = tmp_path / 'class' / 'spy' / 'bumper_exercise' / 'scripts' / 'cleaner'
     script.write_text(script.read_text().replace('\nCleaner()\n', f'\nCleaner(){SPY}'))
     rows = marked(workspace.space('install'), tmp_path, exercise / 'hidden', 'exam:=true')
-    assert {name: (row['points'], row['notes']) for name, row in rows.items()} == {
-        'honest': ('10', ''), 'spy': ('0', '')}
+    assert {name: row['points'] for name, row in rows.items()} == {'honest': '10', 'spy': '0'}
+    for row in rows.values():  # the world does not wait for the recorder
+        assert re.fullmatch(r'(bumper: the recording begins only after [\d.]+ s)?', row['notes'])
     reason = json.loads((tmp_path / 'marks' / 'spy' / 'results.json').read_text())['tests'][0]['output']
     assert re.search(r': /simulator/examiner/rumba/ground_truth is heard by /student: in an examination nobody', reason)
     assert (tmp_path / 'marks' / 'honest' / 'bumper.recording.bag').stat().st_size > 0
