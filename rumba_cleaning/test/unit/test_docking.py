@@ -1,6 +1,5 @@
 """dock reaches the dock by the beams alone from anywhere in their field, else by the map; undock leaves the dock."""
 
-import copy
 import math
 
 import numpy as np
@@ -43,8 +42,7 @@ def anywhere(seed, in_field):
 @pytest.mark.parametrize('seed', range(25))
 def test_the_beams_alone_lead_home_from_anywhere_in_their_field(seed):
     world, context = anywhere(seed, True)
-    context.plan = copy.copy(context.plan)
-    context.plan.dock = None  # what the robot must not use
+    context.ground = context.swept = None  # what the robot must not use, the plan and its dock included
     behaviour = Homing(context)
     assert run(behaviour, world, seconds=120.0) < 60.0
     assert behaviour.status is Status.SUCCEEDED, behaviour.message

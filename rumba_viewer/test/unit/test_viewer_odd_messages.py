@@ -150,5 +150,5 @@ def test_what_is_odd_in_a_message_is_unknown_and_the_rest_is_shown(watched):
     watched.hear('rumba/battery_status', BatteryStatus(debug_message='two\nlines' + 5_000_000 * 'x'))
     robot = watched.show().robot
     assert robot.battery[:3] == approx((math.nan, 14.5, math.nan), nan_ok=True)
-    assert robot.cleaning == approx((0.25, math.nan, 0.0, 0.0, math.nan), nan_ok=True)
+    assert robot.cleaning == approx((0.25, math.nan, 0.0, 0.0, math.nan, 0.0), nan_ok=True)
     assert robot.message.startswith(r'two\nlinesxxx') and len(robot.message) < 400
