@@ -170,7 +170,7 @@ def test_one_message_of_each_topic_is_a_mission_of_0_seconds(tmp_path, capsys):
     assert capsys.readouterr().out.splitlines()[1:] == [
         'The robot had no mission while this was recorded.',
         'rumba: 0.0 % swept, 100.0 % of the dirt left, 0.0 m driven, bumps: 0',
-        'battery: 100 % to 100 %, lowest 100 %, charges: 0, 0:00:00 of charging in all']
+        'battery: 100 % to 100 %, lowest 100 %, charges during the mission: 0, on the charger for 0:00:00 in all']
 
 
 def test_stamps_that_were_never_set_and_a_rotated_map(tmp_path):
@@ -282,14 +282,13 @@ def test_the_command_writes_beside_the_bag_and_needs_no_master(bag):
         output, 'The robot cleaned 90.0 % of the floor in 0:00:34 and is back on its dock, less than the target of '
                 '99 %: 90.0 % swept <&>.',
         'rumba: 90.0 % swept, 25.0 % of the dirt left, 12.0 m driven at 0.50 m/s, bumps: 3',
-        'battery: 100 % to 58 %, lowest 8 %, charges: 1, 0:00:10 of charging in all']
+        'battery: 100 % to 58 %, lowest 8 %, charges during the mission: 1, on the charger for 0:00:10 in all']
     page = pathlib.Path(output).read_text(encoding='utf-8')
     assert '<title>Mission of rumba: a &lt;b&gt; &amp; c.bag</title>' in page
     assert '90.0 % swept &lt;&amp;&gt;' in page and '<&>' not in page
     for text in ('>90.0 %<', '>18.0 of 20.0 m², target 99 %<', '>0:00:34<', '>ideal: 0:06:32, recorded: 0:00:36<',
-                 '>12.0 m<', '>0.50 m/s while driving<', '>0:00:10 of charging in all<', '<dt>Charges</dt><dd>1<',
-                 '>0.20 Wh<', '<dt>Dirt left</dt><dd>25.0 %<',
-                 '>from 100 %, lowest 8 %<', '<dt>Bumps</dt><dd>3<', '2.0 m × 1.5 m, cells of 50 cm',
+                 '>12.0 m<', '>0.50 m/s while driving<', '>during the mission; on the charger for 0:00:10 in all<',
+                 '<dt>Charges</dt><dd>1<', '>0.20 Wh<', '<dt>Dirt left</dt><dd>25.0 %<', '>from 100 %, lowest 8 %<', '<dt>Bumps</dt><dd>3<', '2.0 m × 1.5 m, cells of 50 cm',
                  'cleaning 0:00:17', '100.0 s after the simulation began'):
         assert text in page, text
     told = re.findall(r'<td>(\d:\d\d:\d\d)</td><td>(.*?)</td>', page)

@@ -100,4 +100,4 @@ def _lines(record: MissionRecord) -> List[str]:
         ' '.join(totals.outcome.split()) or 'How the mission ended was not recorded (mission_status).',
         f'{record.robot}: {coverage}{dirt}, {totals.distance:.1f} m driven{speed}{bumps}',
         f'battery: {totals.charge[0]:.0f} % to {totals.charge[1]:.0f} %, lowest {totals.charge[2]:.0f} %, '
-        f'charges: {totals.charges}, {clock(totals.charging_time)} of charging in all']
+        f'charges during the mission: {totals.charges}, on the charger for {clock(totals.charging_time)} in all']
