@@ -14,11 +14,12 @@ from simulators import LOOK_PERIOD, TIMEOUT, wait
 from std_srvs.srv import Trigger
 
 from rumba_msg.msg import CleanActionGoal, CleanActionResult, CleanResult, GoToActionGoal, MissionStatus, Outcome
+from rumba_viewer.window.panel import EDGE, WIDTH
 
 programs.LIBRARIES += ['PyQt5.QtWidgets', 'actionlib_msgs.msg']
 BETWEEN = 0.5  # [s] from one press of a key to the next
 ROBOT, CARD, CLIFF = (31, 111, 214), (255, 255, 255), (232, 143, 134)  # colours of the light style
-PANEL = 300  # [pixels] on the right that are not floor
+PANEL = WIDTH + 2 * EDGE  # [pixels] on the right that are not floor
 
 
 def of_colour(picture, colour):
