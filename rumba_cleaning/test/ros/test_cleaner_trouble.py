@@ -18,7 +18,7 @@ from simulators import TIMEOUT, Heard, Simulator, folder_of, shared
 from rumba_msg.msg import CleanGoal, MissionStatus, Outcome, UndockGoal
 
 BAD_STARTS = (
-    (r"^cleaner: unknown strategy 'zigzag': known are bounce, boustrophedon, spiral, wall_follow\n$",
+    (r"^cleaner: unknown strategy 'zigzag': known are bounce, boustrophedon, explore_and_clean, spiral, wall_follow\n$",
      '_strategy:=zigzag'),
     (r"^cleaner: strategies of 'no\.such': No module named 'no'; a module is named as in Python, ",
      '_strategies:=no.such'),
