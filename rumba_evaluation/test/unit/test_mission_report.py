@@ -288,7 +288,8 @@ def test_the_command_writes_beside_the_bag_and_needs_no_master(bag):
     assert '90.0 % swept &lt;&amp;&gt;' in page and '<&>' not in page
     for text in ('>90.0 %<', '>18.0 of 20.0 m², target 99 %<', '>0:00:34<', '>ideal: 0:06:32, recorded: 0:00:36<',
                  '>12.0 m<', '>0.50 m/s while driving<', '>during the mission; on the charger for 0:00:10 in all<',
-                 '<dt>Charges</dt><dd>1<', '>0.20 Wh<', '<dt>Dirt left</dt><dd>25.0 %<', '>from 100 %, lowest 8 %<', '<dt>Bumps</dt><dd>3<', '2.0 m × 1.5 m, cells of 50 cm',
+                 '<dt>Charges</dt><dd>1<', '>0.20 Wh<', '<dt>Dirt left</dt><dd>25.0 %<', '>from 100 %, lowest 8 %<',
+                 '<dt>Bumps</dt><dd>3<', '2.0 m × 1.5 m, cells of 50 cm',
                  'cleaning 0:00:17', '100.0 s after the simulation began'):
         assert text in page, text
     told = re.findall(r'<td>(\d:\d\d:\d\d)</td><td>(.*?)</td>', page)

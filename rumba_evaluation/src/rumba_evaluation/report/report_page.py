@@ -83,7 +83,8 @@ def _tiles(record: MissionRecord, totals: Summary) -> str:
         ('Dirt left', _percent(record.dirt), ''),
         ('Distance', f'{totals.distance:.1f} m', speed
          + (_times(totals.jumps, ', moved without driving ') if totals.jumps else '')),
-        ('Charges', str(totals.charges), f'during the mission; on the charger for {clock(totals.charging_time)} in all'),
+        ('Charges', str(totals.charges),
+         f'during the mission; on the charger for {clock(totals.charging_time)} in all'),
         ('Battery', f'{last:.0f} %', f'from {first:.0f} %, lowest {lowest:.0f} %'),
         ('Energy', *((f'{used:.2f} Wh', f'used; {charged:.2f} Wh charged') if totals.energy else (NOT_RECORDED, ''))),
         ('Bumps', str(totals.bumps) if totals.bumps is not None else NOT_RECORDED, '')]
