@@ -77,7 +77,7 @@ function choose(event) {
 
 async function call(service, args) {
   try {
-    const answer = await link.call(`${scene.state.node}/${service}`, args);
+    const answer = await link.call(service.startsWith('/') ? service : `${scene.state.node}/${service}`, args);
     if (answer.message) notice(answer.message, answer.success !== false);
   } catch (error) {
     onStatus(error.message);
@@ -86,6 +86,8 @@ async function call(service, args) {
 
 at('clean').onclick = () => send('clean', 'Clean', {});
 at('dock').onclick = () => send('dock', 'Dock', {});
+at('undock').onclick = () => send('undock', 'Undock', {});
+at('brushes').onclick = () => call(`${scene.selected.name}/set_brushes_up`, {data: !scene.selected.brushesUp});
 at('stop').onclick = () => {
   driving.stop();
   for (const action of ACTIONS) link.publish(`${scene.selected.name}/${action}/cancel`, 'actionlib_msgs/GoalID', {});
@@ -170,7 +172,9 @@ function showControls() {
   const {state, hasSimulator, selected} = scene;
   text('pause', state?.is_paused ? 'Resume' : 'Pause');
   for (const id of ['pause', 'reset', 'speed']) at(id).disabled = !link.isOpen || !hasSimulator;
-  for (const id of ['clean', 'dock', 'stop', 'go-to', 'x', 'y']) at(id).disabled = !canClean();
+  for (const id of ['clean', 'dock', 'undock', 'stop', 'go-to', 'x', 'y']) at(id).disabled = !canClean();
+  text('brushes', selected?.brushesUp ? 'Brushes down' : 'Brushes up');
+  at('brushes').disabled = !link.isOpen || (selected?.brushesUp ?? null) === null;
   for (const button of document.querySelectorAll('#drive button')) button.disabled = !link.isOpen || !selected;
   if (document.activeElement !== at('speed') && Number.isFinite(state?.speed)) showSpeed(state.speed);
 }

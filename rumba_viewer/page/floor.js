@@ -90,6 +90,7 @@ export class Floor {
     context.imageSmoothingEnabled = view.scale * this.map.info.resolution < 3;
     context.drawImage(cells, view.left, view.top, cells.width * this.map.info.resolution * view.scale, view.height);
     for (const marker of scene.obstacles) this.paintObstacle(view, marker);
+    if (scene.selected) this.paintPlan(view, scene.selected);
     if (scene.selected) this.paintTrail(view, scene.selected);
     if (scene.selected) this.paintLaser(view, scene.selected);
     if (scene.target) this.paintTarget(view, scene.target);
@@ -109,6 +110,17 @@ export class Floor {
     else context.ellipse(0, 0, width / 2, height / 2, 0, 0, 2 * Math.PI);
     context.fill();
     context.restore();
+  }
+
+  paintPlan(view, robot) {
+    const {context} = this;
+    context.beginPath();
+    for (const point of robot.plan) context.lineTo(...this.toPixel(view, point.x, point.y));
+    context.strokeStyle = this.colour('plan');
+    context.lineWidth = view.ratio;
+    context.setLineDash([view.ratio, 3 * view.ratio]);
+    context.stroke();
+    context.setLineDash([]);
   }
 
   paintTrail(view, robot) {

@@ -11,8 +11,9 @@ const SMALL = {  // topic -> what it changes
   dock_status: (robot, msg) => { robot.isDocked = msg.is_docked; },
   cleaning_status: (robot, msg) => robot.learnCleaning(msg),
   mission_status: (robot, msg) => { robot.mission = msg; },
+  plan: (robot, msg) => { robot.plan = msg.poses.map(({pose}) => pose.position); },
 };
-const RATES = {battery_status: 500, battery_state: 1000, dock_status: 500, cleaning_status: 1000, mission_status: 0};
+const RATES = {battery_status: 500, battery_state: 1000, dock_status: 500, cleaning_status: 1000, mission_status: 0, plan: 500};
 const LARGE = {scan: {throttle_rate: 200}, coverage: {throttle_rate: 500, compression: 'png'}};
 const LEARN = {
   coverage: (robot, msg) => { robot.coverage = msg; },
@@ -30,8 +31,8 @@ export class Robot {
   }
 
   forget() {
-    Object.assign(this, {pose: null, before: null, came: 0, stamp: null, trail: [], recent: [], scan: null, arrived: null, coverage: null,
-      battery: null, cleaning: null, mission: null, isDocked: false, brushesUp: null, target: null});
+    Object.assign(this, {pose: null, before: null, came: 0, stamp: null, trail: [], plan: [], recent: [], scan: null,
+      arrived: null, coverage: null, battery: null, cleaning: null, mission: null, isDocked: false, brushesUp: null, target: null});
   }
 
   close() {
@@ -51,7 +52,7 @@ export class Robot {
       if (isSelected) this.hear(name, {...options, newest: true}, LEARN[topic]);
       else this.link.unsubscribe(name);
     }
-    if (!isSelected) this.scan = this.arrived = this.coverage = null;
+    if (!isSelected) Object.assign(this, {scan: null, arrived: null, coverage: null, plan: []});
   }
 
   hear(topic, options, learn) {

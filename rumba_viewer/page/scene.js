@@ -79,14 +79,14 @@ export class Scene {
   select(robot) {
     if (robot === this.selected) return;
     if (this.selected) {
-      for (const action of ['clean', 'dock', 'go_to']) this.link.unsubscribe(`${this.selected.name}/${action}/result`);
+      for (const action of ['clean', 'dock', 'undock', 'go_to']) this.link.unsubscribe(`${this.selected.name}/${action}/result`);
       this.selected.select(false);
     }
     this.selected = robot;
     if (robot) {
       sessionStorage.robot = this.wanted = robot.name;
       robot.select(true);
-      for (const action of ['clean', 'dock', 'go_to'])
+      for (const action of ['clean', 'dock', 'undock', 'go_to'])
         this.link.subscribe(`${robot.name}/${action}/result`, {queue_length: 5}, msg => {
           if (action === 'go_to') robot.target = null;
           this.onResult(`${robot.label}: ${msg.result.outcome.message}`);

@@ -3,12 +3,12 @@
 import abc
 import enum
 import math
-from typing import Any, NamedTuple, Sequence, Tuple, final
+from typing import Any, NamedTuple, Optional, Sequence, Tuple, final
 
 from rumba_cleaning.outcome import Outcome
 from rumba_sim.model.errors import CommandError, quoted
 from rumba_sim.model.geometry import Pose
-from rumba_sim.model.kernel import NO_BEAM
+from rumba_sim.model.kernel import NO_BEAM, Array
 from rumba_sim.model.robot import Infrared
 
 Row = Tuple[float, float, float]
@@ -71,8 +71,8 @@ class Behaviour(abc.ABC):
     """Something that a robot can do. No method blocks; the caller owns time.
 
     Callers use `step`, `stand_by`, `stop` and `restart`; subclasses write the hooks `initialise`, `update`, `terminate`
-    and `take_note`, which only the methods above call. A run of a behaviour begins with the first step and ends when
-    the behaviour succeeds or fails, or when somebody stops or restarts it:
+    and `take_note`, which only the methods above call, and `planned_path` for those who watch. A run of a behaviour
+    begins with the first step and ends when the behaviour succeeds or fails, or when somebody stops or restarts it:
 
         initialise, update, update, ..., update, terminate
 
@@ -173,6 +173,13 @@ class Behaviour(abc.ABC):
 
     def take_note(self, observation: Observation) -> None:
         """Remember what is needed to go on after a person drove the robot; called in place of `update` meanwhile."""
+
+    def planned_path(self) -> Optional[Array]:
+        """The corners (n, 2) [m] of the path that it follows now, map frame; None if it has no plan.
+
+        For those who watch: nothing that a robot does depends on it. A new plan is a new array.
+        """
+        return None
 
 
 def _is_command(value: Any) -> bool:

@@ -7,6 +7,7 @@ import unittest
 import rospy
 import rostest
 from cleaners import Cleaner, go_to
+from nav_msgs.msg import Path
 from simulators import Commands, Heard, Simulator, shared, wait
 
 from rumba_msg.msg import CleanGoal, DockGoal, GoToActionFeedback, MissionStatus, Outcome, UndockGoal
@@ -60,6 +61,16 @@ class CleanerActionsTest(unittest.TestCase):
         remaining = [feedback.distance_remaining for feedback in goal.feedback
                      if not math.isnan(feedback.distance_remaining)]  # NaN until a path is planned
         self.assertGreater(remaining[0], remaining[-1])
+
+    def test_the_plan_is_shown_as_long_as_it_is_followed(self):
+        plan = Heard(self, '/rumba/plan', Path)
+        plan.find(lambda message: not message.poses)
+        goal = self.cleaner.send('go_to', go_to(1.0, 2.5, 0.0))
+        last = plan.find(lambda message: message.poses).poses[-1].pose.position
+        self.assertLess(math.hypot(last.x - 1.0, last.y - 2.5), 0.03)
+        self.assertFalse(goal.has_ended)
+        goal.ends(Outcome.SUCCEEDED)
+        plan.last(lambda message: not message.poses)
 
     def test_any_heading_will_do_if_none_is_named(self):
         self.cleaner.send('go_to', go_to(2.0, 2.4)).ends(Outcome.SUCCEEDED)

@@ -107,6 +107,8 @@ class Robot:
         self.wheels = types.SimpleNamespace(drive=lambda command: self.told.append(command[:2]))
         self.brushes = types.SimpleNamespace(
             want=lambda are_up: self.told.append('up' if are_up else 'down'), forget=lambda: self.told.append('forget'))
+        self.shown = []  # of the plan
+        self.plan = types.SimpleNamespace(show=lambda path, stamp: self.shown.append(path))
         self.announcer = types.SimpleNamespace(tell=self._tell, say=self.told.append, status='status')
         monkeypatch.setattr(module.time, 'monotonic', lambda: self.now)
         monkeypatch.setattr(module.rospy, 'logerr', lambda _: None)

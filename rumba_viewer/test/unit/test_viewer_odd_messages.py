@@ -9,8 +9,8 @@ import odd_messages
 import pytest
 import rospy
 from fake_topics import Topic
-from geometry_msgs.msg import PoseArray, PoseWithCovarianceStamped
-from nav_msgs.msg import MapMetaData, OccupancyGrid, Odometry
+from geometry_msgs.msg import PoseArray, PoseStamped, PoseWithCovarianceStamped
+from nav_msgs.msg import MapMetaData, OccupancyGrid, Odometry, Path
 from pytest import approx
 from rospy.numpy_msg import numpy_msg
 from sensor_msgs.msg import BatteryState, LaserScan
@@ -57,6 +57,7 @@ GOOD = {
     'rumba/mission_status': MissionStatus(state=MissionStatus.CLEANING, strategy='bounce', message='cleans'),
     'rumba/amcl_pose': PoseWithCovarianceStamped(pose=odometry(1.1, 2.1).pose),
     'rumba/particlecloud': PoseArray(poses=[odometry(1.2, 2.2).pose.pose]),
+    'rumba/plan': Path(poses=[PoseStamped(pose=odometry(1.3, 2.3).pose.pose) for _ in range(3)]),
     'rumba/clean/result': CleanActionResult(result=CleanResult(outcome=Outcome(Outcome.CANCELLED, 'cancelled'))),
     'simulator/obstacles': MarkerArray([CUBE]),
     'simulator/state': SimulatorState(node=NODE, map='/nowhere.yaml', speed=2.0, real_time_factor=2.0,
@@ -127,6 +128,8 @@ def test_after_any_messages_the_window_shows_a_good_one(watched, monkeypatch, to
 
 @pytest.mark.parametrize('topic, change, line', [
     ('/map', {'data': np.zeros(7, np.int8)}, '/map: a message is ignored: 40 x 30 cells with 7 values: '),
+    ('rumba/plan', {'poses': [PoseStamped(pose=odometry(math.nan, 1.0).pose.pose)]},
+     'rumba/plan: a message is ignored: a pose of the path is not finite, or not within 1e+07 m'),
     ('rumba/scan', {'range_max': math.nan}, 'rumba/scan: a message is ignored: 61 ranges up to nan m'),
     ('rumba/ground_truth', {'pose': odometry(math.inf, 1.0).pose},
      'rumba/ground_truth: a message is ignored: the pose is inf, 1 m, 0 rad: must be finite, within 1e+07 m'),

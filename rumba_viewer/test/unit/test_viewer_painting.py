@@ -216,6 +216,20 @@ def test_the_beams_of_the_laser_are_tinted(theme):
 
 
 @THEMES
+def test_a_planned_path_is_dotted_from_corner_to_corner(theme):
+    planned = np.array([(0.6, 3.0), (2.6, 3.0), (2.6, 1.0)])
+    image = picture(snapshot(robot(pose=Pose(0.3, 4.0, 0.0), planned=planned)), WHOLE, theme)
+    plain = picture(snapshot(robot(pose=Pose(0.3, 4.0, 0.0))), WHOLE, theme)
+    changed = np.abs(pixels(image) - pixels(plain)).max(axis=2) > 20
+    for left, bottom, right, top in ((0.6, 2.95, 2.6, 3.05), (2.55, 1.0, 2.65, 3.0)):
+        (first, low), (last, high) = (
+            np.round(WHOLE.to_pixel(*at)).astype(int) for at in ((left, top), (right, bottom)))
+        part = changed[low:high, first:last]
+        assert 0.2 < part.any(axis=0 if right - left > top - bottom else 1).mean() < 0.95
+    assert changed.sum() < 4 * WHOLE.scale
+
+
+@THEMES
 def test_particles_and_the_believed_robot_are_painted_where_they_are_beside_the_true_one(theme):
     true, believed = Pose(0.0, 4.0, 0.0), Pose(1.5, 4.0, 0.5 * math.pi)
     cloud = np.array([(0.6, 3.2), (0.7, 3.2)])

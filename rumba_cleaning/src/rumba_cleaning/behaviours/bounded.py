@@ -7,6 +7,7 @@ from rumba_cleaning.behaviours import relocation
 from rumba_cleaning.behaviours.guard import Guard
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.outcome import Outcome
+from rumba_sim.model.kernel import Array
 
 
 class Bounded(Behaviour):
@@ -73,3 +74,7 @@ class Bounded(Behaviour):
         if self._guard is not None:
             self._guard.stand_by(observation)
         self.behaviour.stand_by(observation)
+
+    def planned_path(self) -> Optional[Array]:
+        """The path of the other one."""
+        return self.behaviour.planned_path()

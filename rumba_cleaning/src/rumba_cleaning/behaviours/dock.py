@@ -9,6 +9,7 @@ from rumba_cleaning.behaviours.homing import BUOYS, Homing
 from rumba_cleaning.belief.context import Context
 from rumba_sim.model.errors import MapError
 from rumba_sim.model.geometry import Pose
+from rumba_sim.model.kernel import Array
 
 STEP = 0.05  # [m]
 BEFORE = (16, 14, 12, 10, 8, 6)  # steps from the dock to the point on its axis at which homing begins: the most that
@@ -78,6 +79,10 @@ class Dock(Behaviour):
         if self._part is not None:
             self._part.stop()
         self._part = None
+
+    def planned_path(self) -> Optional[Array]:
+        """The path of the part that is under way."""
+        return None if self._part is None else self._part.planned_path()
 
 
 def approach(context: Context) -> Pose:

@@ -72,6 +72,10 @@ class GoTo(Behaviour):
         """Look for a path again, from wherever the robot will be."""
         self._leave()
 
+    def planned_path(self) -> Optional[Array]:
+        """The corners of its path [m]."""
+        return None if self._travel is None else self._travel.path
+
     def _leave(self) -> None:
         """Drop the path, or the search for it."""
         self._travel = self._turn = None

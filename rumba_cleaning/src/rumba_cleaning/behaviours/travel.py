@@ -38,12 +38,14 @@ class Travel:
 
     Attributes:
         going: how it goes; what `command` answers is of use only while it is ON.
+        path: the corners (n, 2) of the route [m].
     """
 
     def __init__(self, context: Context, route: Route) -> None:
         """Follow a route."""
         self._context = context
         self._follower = Follower(route, context.robot.drive)
+        self.path = route.waypoints
         self._back = 0.0  # [s] still to back off
         self._leaves = False  # the route, after that
         self._nearest = math.inf  # [m] least distance that was left

@@ -18,6 +18,7 @@ from rumba_cleaning.mission.wording import percent, swept
 from rumba_cleaning.outcome import Outcome
 from rumba_sim.model.errors import CommandError, ConfigError
 from rumba_sim.model.geometry import Pose
+from rumba_sim.model.kernel import Array
 
 JUMP = 0.5  # [m] from one observation to the next: the robot did not drive there, somebody moved it; as in `Swept`
 OFF = 1.0  # [s] off the contacts while charging: the robot was moved; contacts that bounce are closed again sooner
@@ -164,6 +165,10 @@ class Mission(Behaviour):
         self._track(observation)
         if self._part is not None:
             self._part.stand_by(observation)
+
+    def planned_path(self) -> Optional[Array]:
+        """The path of the part that is under way."""
+        return None if self._part is None else self._part.planned_path()
 
     def _track(self, observation: Observation) -> None:
         pose, last = observation.pose, self._last

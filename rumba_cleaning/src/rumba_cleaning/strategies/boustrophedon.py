@@ -10,6 +10,7 @@ from rumba_cleaning.behaviours.travel import Going, Travel
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.strategies import strategy
 from rumba_sim.model.geometry import Pose
+from rumba_sim.model.kernel import Array
 
 WORTH = 0.0005  # of coverage: a round that gains less is the last: a round for the last spots gains little more
 HELPED = 0.01  # of coverage: forgetting obstacles that gained less was in vain: to touch them all again takes long
@@ -29,6 +30,7 @@ class Boustrophedon(Behaviour):
     """
 
     _planning: 'Optional[Future[Planned]]' = None
+    _travel: Optional[Travel] = None
 
     def __init__(self, context: Context) -> None:
         """Clean the floor plan of a context."""
@@ -37,7 +39,7 @@ class Boustrophedon(Behaviour):
     def initialise(self) -> None:
         """Begin with a plan for what was missed so far."""
         self._drop_plan()
-        self._travel: Optional[Travel] = None
+        self._travel = None
         self._is_round = False  # what is planned: a round, or a detour
         self._rounds = 0
         self._forgot_at = -1.0  # coverage when obstacles that were met were forgotten
@@ -70,6 +72,10 @@ class Boustrophedon(Behaviour):
     def terminate(self) -> None:
         """Ignore what is being planned."""
         self._drop_plan()
+
+    def planned_path(self) -> Optional[Array]:
+        """The corners of its path [m]."""
+        return None if self._travel is None else self._travel.path
 
     # --- planning -------------------------------------------------------------------------------------------------
 

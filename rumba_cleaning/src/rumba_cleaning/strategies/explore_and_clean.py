@@ -26,6 +26,8 @@ class ExploreAndClean(Behaviour):
     """
 
     _planning: 'Optional[Future[Optional[Route]]]' = None
+    _travel: Optional[Travel] = None
+    _is_exploring = False
 
     def __init__(self, context: Context) -> None:
         """Explore and clean the floor of a context."""
@@ -35,7 +37,7 @@ class ExploreAndClean(Behaviour):
     def initialise(self) -> None:
         """Begin with a look at what is known."""
         self._drop_plan()
-        self._travel: Optional[Travel] = None
+        self._travel = None
         self._goal: Optional[Array] = None  # (2) [m]
         self._driven = 0.0  # [s] since the plan
         self._seen: List[Array] = []  # frontiers at which the robot was
@@ -66,6 +68,12 @@ class ExploreAndClean(Behaviour):
         self._drop_plan()
         self._travel = None
         self._cleaning.stand_by(observation)
+
+    def planned_path(self) -> Optional[Array]:
+        """The corners of the path to a frontier, or to clean [m]."""
+        if not self._is_exploring:
+            return self._cleaning.planned_path()
+        return None if self._travel is None else self._travel.path
 
     # --- exploring ------------------------------------------------------------------------------------------------
 

@@ -18,6 +18,8 @@ CRISP = 4.0  # [pixels] side of a cell; larger cells are drawn with sharp edges
 COARSE = 0.5  # [pixels] side of a cell; smaller cells are averaged
 PATH_WIDTH = 1.4  # [pixels]
 PATH_ALPHA = 150
+PLAN_WIDTH = 1.0  # [pixels]
+PLAN_ALPHA = 170
 MIN_SEGMENT = 4.0  # [pixels] from one corner of a path to the next
 STRIPES = 0.12  # [m] from one stripe of a cliff to the next, along an axis
 SHADES = 101  # of a cell, from 0 to 100 % swept
@@ -141,6 +143,19 @@ class PathPainter:
         for line in _lines(path.points[first:], view):
             painter.drawPolyline(QPolygonF([QPointF(x, y) for x, y in line.tolist()]))
         painter.end()
+
+
+def paint_plans(painter: QPainter, snapshot: Snapshot, view: ViewTransform, theme: Theme) -> None:
+    """Paint the planned paths of all robots, faint and dotted; the unit of the painter is the pixel."""
+    painter.setBrush(Qt.NoBrush)
+    for robot in snapshot.robots:
+        if robot.planned is None:
+            continue
+        colour = QColor(robot_colour(theme, robot.name))
+        colour.setAlpha(PLAN_ALPHA)
+        painter.setPen(QPen(colour, PLAN_WIDTH, Qt.DotLine))
+        for line in _lines(robot.planned, view):
+            painter.drawPolyline(QPolygonF([QPointF(x, y) for x, y in line.tolist()]))
 
 
 def _lines(points: Array, view: ViewTransform) -> Iterator[Array]:

@@ -9,7 +9,7 @@ from PyQt5.QtGui import QColor, QFont, QImage, QPainter, QPen
 from rumba_sim.model.geometry import Pose
 from rumba_viewer.painting import paint_robot
 from rumba_viewer.painting.paint_belief import paint_believed, paint_particles
-from rumba_viewer.painting.paint_floor import FloorPainter, PathPainter
+from rumba_viewer.painting.paint_floor import FloorPainter, PathPainter, paint_plans
 from rumba_viewer.painting.paint_key import paint_key
 from rumba_viewer.painting.paint_obstacles import paint_obstacles
 from rumba_viewer.scene.snapshot import Snapshot
@@ -25,7 +25,8 @@ class ScenePainter:
     """Paints one snapshot after another; what did not change is not painted again.
 
     Attributes:
-        shows_path, shows_field: whether to paint the paths of robots, and the area in which the dock is received.
+        shows_path: whether to paint the paths of robots, driven and planned.
+        shows_field: whether to paint the area in which the dock is received.
     """
 
     def __init__(self) -> None:
@@ -66,6 +67,7 @@ class ScenePainter:
             paint_robot.paint_dock_field(painter, dock, theme)
             painter.restore()
         if self.shows_path:
+            paint_plans(painter, snapshot, view, theme)
             self._paths.paint(painter, snapshot, view, theme)
         painter.save()
         paint_robot.in_metres(painter, view)

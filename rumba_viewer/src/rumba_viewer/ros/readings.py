@@ -11,7 +11,7 @@ from typing import Any, NamedTuple, Tuple, Union
 import numpy as np
 import rosgraph
 from geometry_msgs.msg import PoseArray, PoseWithCovarianceStamped
-from nav_msgs.msg import Odometry
+from nav_msgs.msg import Odometry, Path
 from sensor_msgs.msg import BatteryState
 from visualization_msgs.msg import Marker, MarkerArray
 
@@ -29,6 +29,7 @@ MOST = 1e9  # larger voltages, currents, areas, distances and speeds are not val
 MOST_BEAMS = 3600  # of a scan that are shown
 MOST_OBSTACLES = 1000  # that are shown
 MOST_PARTICLES = 1000  # that are shown
+MOST_CORNERS = 100_000  # of a planned path
 MOST_TURNS = 1e3  # [rad] largest angle of a beam
 ROUNDING = 1e-6  # by which a share may exceed 1
 STATES = {**{getattr(MissionStatus, name): name.lower().replace('_', ' ') for name in (
@@ -110,6 +111,20 @@ def particles(message: PoseArray) -> Array:
     step = max(-(-len(message.poses) // MOST_PARTICLES), 1)
     points = np.array([(pose.position.x, pose.position.y) for pose in message.poses[::step]], float).reshape(-1, 2)
     return np.asarray(points[(np.abs(points) < FAR).all(axis=1)])
+
+
+def planned(message: Path) -> Array:
+    """The corners (n, 2) [m] of a planned path, which may have none.
+
+    Raises:
+        OddMessage: one is not finite, or is too far away, or there are too many.
+    """
+    if len(message.poses) > MOST_CORNERS:
+        raise OddMessage(f'a path of {len(message.poses)} poses: must be at most {MOST_CORNERS}')
+    corners = np.array([(one.pose.position.x, one.pose.position.y) for one in message.poses], float).reshape(-1, 2)
+    if not (np.abs(corners) < FAR).all():
+        raise OddMessage(f'a pose of the path is not finite, or not within {FAR:g} m')
+    return corners
 
 
 def battery(message: BatteryState) -> Battery:

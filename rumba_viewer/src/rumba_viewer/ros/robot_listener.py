@@ -7,7 +7,7 @@ import time
 from typing import Any, Callable, Dict, FrozenSet, Iterable, List, NamedTuple, Optional, Tuple
 
 from geometry_msgs.msg import PoseArray, PoseWithCovarianceStamped
-from nav_msgs.msg import OccupancyGrid, Odometry
+from nav_msgs.msg import OccupancyGrid, Odometry, Path
 from rospy.numpy_msg import numpy_msg
 from sensor_msgs.msg import BatteryState, LaserScan
 
@@ -42,7 +42,8 @@ ALWAYS = {
     'cleaning_status': Topic(CleaningStatus, lambda message: {'cleaning': readings.cleaning(message)}),
     'amcl_pose': Topic(PoseWithCovarianceStamped, lambda message: {'believed': readings.believed(message)}),
     'particlecloud': Topic(PoseArray, lambda message: {'particles': readings.particles(message)}),
-    'mission_status': Topic(MissionStatus, lambda message: {'mission': readings.mission(message)})}
+    'mission_status': Topic(MissionStatus, lambda message: {'mission': readings.mission(message)}),
+    'plan': Topic(Path, lambda message: {'planned': readings.planned(message)})}
 LARGE = {  # only while they are shown
     'coverage': Topic(numpy_msg(OccupancyGrid), lambda message: {'coverage': readings.grid(message)}),
     'scan': Topic(numpy_msg(LaserScan), lambda message: {'scan': readings.scan(message)})}
@@ -76,6 +77,7 @@ class Known:
     scan: Optional[Scan] = None
     believed: Optional[Pose] = None
     particles: Optional[Array] = None
+    planned: Optional[Array] = None
 
     def beams(self) -> Optional[Array]:
         """Ends of the laser's beams (n, 2) [m], seen from where the robot was when it measured them."""
@@ -214,6 +216,7 @@ class RobotListener:
             self._name, pose, size, bumper=known.bumper, has_fallen=known.has_fallen, brushes_up=known.brushes_up,
             message=known.message, battery=known.battery, cleaning=known.cleaning,
             mission=known.mission if has_cleaner else None, path=path, beams=known.beams(),
+            planned=known.planned if has_cleaner else None,
             believed=known.believed if is_localised else None, particles=known.particles if is_localised else None,
             going_to=known.destination if has_cleaner and known.mission and known.mission.state == GOING_TO else None,
             elapsed=elapsed if has_cleaner else None, left=left if has_cleaner else None, report=report,

@@ -173,6 +173,7 @@ class Robot:
         beams: ends (n, 2) of the laser's beams [m]; None while they are not shown.
         believed: where its localisation believes it to be; None if none tells.
         particles: positions (n, 2) where that holds it possible to be [m]; None likewise.
+        planned: corners (n, 2) of the path that its cleaner follows [m]; None if none tells.
         going_to: where its cleaner brings it at the moment; None if to no point.
         elapsed, left: how long its mission takes already, and probably still [s]; None: unknown, or it has none.
         report: lines about its last cleaning, since that ended.
@@ -194,6 +195,7 @@ class Robot:
     beams: Optional[Array] = None
     believed: Optional[Pose] = None
     particles: Optional[Array] = None
+    planned: Optional[Array] = None
     going_to: Optional[Point] = None
     elapsed: Optional[float] = None
     left: Optional[float] = None

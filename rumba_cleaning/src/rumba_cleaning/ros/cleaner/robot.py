@@ -4,6 +4,7 @@ from typing import Callable, Optional, Tuple
 
 from rumba_cleaning.ros.cleaner.actuators import Brushes, Wheels
 from rumba_cleaning.ros.cleaner.announcer import Announcer
+from rumba_cleaning.ros.cleaner.plan_topic import PlanTopic
 from rumba_cleaning.ros.cleaner.senses import Senses
 from rumba_cleaning.ros.cleaner.teleop import Teleop
 from rumba_sim.ros.common.lockstep import Participant
@@ -14,6 +15,7 @@ class Robot:
 
     Attributes:
         announcer: tells what the robot does.
+        plan: shows where it plans to drive.
         teleop: whether a person drives it.
         wheels: drive it.
         brushes: its brushes.
@@ -33,6 +35,7 @@ class Robot:
             is_busy: as for `Participant`.
         """
         self.announcer = Announcer(name)
+        self.plan = PlanTopic(name)
         self.teleop = Teleop(name)
         self.wheels = Wheels(name)
         self.brushes = Brushes(name)

@@ -97,6 +97,7 @@ class Run:
                 return
             self._robot.wheels.drive(command)
             self._robot.brushes.want(bool(command.brushes_up))
+            self._robot.plan.show(behaviour.planned_path(), self._senses.stamp)
             if self.activity.state is not State.IDLE:  # else it still prepares to begin
                 self._tell(self.activity.state, one_line(behaviour.message))
 
@@ -162,6 +163,7 @@ class Run:
         """Stop and answer the client."""
         if self.outcome is Outcome.UNKNOWN:
             self._robot.rest()
+        self._robot.plan.show(None, self._senses.stamp)
         last_words: List[Callable[[], None]] = [self.activity.behaviour.stop, lambda: self._announce(outcome, message)]
         for say in last_words:
             try:
