@@ -9,6 +9,7 @@ import unittest
 
 import numpy as np
 import programs
+import rosgraph
 import rosnode
 import rospy
 import rostest
@@ -26,6 +27,11 @@ def middle(shown):
     """Column and row of the centre of all true pixels: bool (rows, columns)."""
     rows, columns = np.nonzero(shown)
     return columns.mean(), rows.mean()
+
+
+def subscribers(topic):
+    """Names of the nodes that listen to a topic."""
+    return dict(rosgraph.Master('/test').getSystemState()[1]).get(topic, [])
 
 
 class Node:
@@ -81,6 +87,25 @@ class ViewerTest(unittest.TestCase):
         cleaner.tell(MissionStatus.IDLE)
         cleaner.goals.clear()
         self.assertTrue(viewer.key_until('r', lambda: cleaner.goals, 'a goal')[0].goal.resume)
+
+    def test_a_mission_is_recorded_and_a_page_made_of_it_when_it_has_ended(self):
+        Simulator(self, '_map:=studio', '_speed:=10')
+        viewer = Viewer(self, display=Display(self)).is_there()
+        cleaner = Cleaner(self)
+        cleaner.tell(MissionStatus.IDLE)
+        viewer.wait_to_see(ROBOT, 20)
+        viewer.front()
+        viewer.key('key', 'ctrl+b')
+        truth = Heard(self, '/rumba/ground_truth')
+        wait(self, lambda: any(name.startswith('/record') for name in subscribers('/rumba/ground_truth')), 'rosbag')
+        cleaner.tell(MissionStatus.CLEANING, 'bounce')
+        begun = truth.fresh().header.stamp
+        truth.find(lambda message: (message.header.stamp - begun).to_sec() > 5.0)
+        cleaner.tell(MissionStatus.IDLE)
+        folder = pathlib.Path(viewer.folder.name)
+        page = wait(self, lambda: [path for path in folder.glob('*.html') if path.stat().st_size], 'the page')[0]
+        self.assertTrue(page.with_suffix('.bag').exists())
+        self.assertIn('Mission of rumba', wait(self, page.read_text, 'its content'))
 
     def test_a_click_shows_a_target_and_only_a_double_click_sends_a_goal(self):
         Simulator(self, '_map:=studio')

@@ -113,6 +113,13 @@ class Actor:
     def __init__(self):
         self.done = []
         self.notices = queue.SimpleQueue()
+        self.report = ''
+        self.can_record = True
+
+    def record_mission(self, *what):
+        """Whether it records."""
+        self.done.append(('record_mission', *what))
+        return self.can_record
 
     def __getattr__(self, name):
         return lambda *arguments: self.done.append((name, *arguments))

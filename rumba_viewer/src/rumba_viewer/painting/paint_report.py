@@ -9,19 +9,18 @@ from rumba_viewer.scene.theme import Theme
 
 MOST = 520.0  # [pixels] width of the text
 EDGE = 14.0  # [pixels] around it
-NEXT = ('docs/mission_report.md tells how to record a mission and make a report of it.',
-        'Click here, or Esc: hide this.')
+HIDE = 'Click here, or Esc: hide this.'
 
 
-def paint_report(painter: QPainter, lines: Sequence[str], width: float, theme: Theme) -> QRectF:
-    """Paint a card at the upper edge of a picture of a width; returns where it is [pixels]."""
+def paint_report(painter: QPainter, lines: Sequence[str], hint: str, width: float, theme: Theme) -> QRectF:
+    """Paint a card at the upper edge of a picture of a width, with a hint at its end; returns where it is [pixels]."""
     painter.save()
     plain, bold = QFont(painter.font()), QFont(painter.font())
     bold.setBold(True)
     inside = QRectF(0.0, 0.0, min(width - 24.0 - 2.0 * EDGE, MOST), 1000.0)
     wrapped = Qt.AlignLeft | Qt.AlignTop | Qt.TextWordWrap
     parts = [(bold, theme.text, lines[0]), (plain, theme.text, '\n'.join(lines[1:])),
-             (plain, theme.faint_text, '\n'.join(NEXT))]
+             (plain, theme.faint_text, f'{hint}\n{HIDE}')]
     heights = []
     for font, _, text in parts:
         painter.setFont(font)

@@ -1,5 +1,6 @@
 """Does what keys and buttons ask for: commands, goals and services; the window waits for none of them."""
 
+import functools
 import pathlib
 import queue
 import threading
@@ -13,6 +14,7 @@ from std_srvs.srv import SetBool, Trigger
 
 from rumba_msg.srv import Step, Teleport
 from rumba_sim.model.geometry import Pose
+from rumba_viewer.ros.mission_record import MissionRecord, RecordError
 from rumba_viewer.ros.robot_client import RobotClient
 
 STEP_TICKS = 5  # of one step: at the usual rates, until the next ground_truth
@@ -23,11 +25,14 @@ class Actor:
 
     Attributes:
         notices: lines about the results, for a person.
+        report: where the report of the last recorded mission is, or why there is none; empty before there was one.
     """
 
     def __init__(self, robot: str) -> None:
         """Act on a robot by its name, once `connect` was called."""
         self.notices: 'queue.SimpleQueue[str]' = queue.SimpleQueue()
+        self.report = ''
+        self._record: Optional[MissionRecord] = None
         self._robot = robot
         self._client: Optional[RobotClient] = None
         self._lock = threading.Lock()  # held while another client is made
@@ -139,6 +144,36 @@ class Actor:
             record.write(path)
             return str(path)
         self._call('saved', call)
+
+    def record_mission(self, robot: str, bag: pathlib.Path) -> bool:
+        """Begin to record a robot into a bag; returns whether that is possible. Only the main thread may call it."""
+        self.report = ''
+        try:
+            self._record = MissionRecord(robot, bag)
+        except RecordError as error:
+            self.notices.put(f'report: {error}')
+            return False
+        self.notices.put(f'report: {robot} is recorded until its mission ends')
+        return True
+
+    def make_report(self) -> None:
+        """End the recording, and make a report of it."""
+        record, self._record = self._record, None
+        if record is not None:
+            self.report = f'The report of {record.bag.name} is being made.'
+            self._call(f'report of {record.bag.name}', functools.partial(self._make_report, record))
+
+    def _make_report(self, record: MissionRecord) -> str:
+        try:
+            self.report = f'The report is {record.report()}'
+        except RecordError as error:
+            self.report = f'No report: {error}'
+        return self.report
+
+    def close(self) -> None:
+        """End a recording that is under way; its bag stays."""
+        if self._record is not None:
+            self._record.close()
 
     def _call(self, what: str, act: Callable[[], str]) -> None:
         """Call something in a thread, and tell its answer or what went wrong."""

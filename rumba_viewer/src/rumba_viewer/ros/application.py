@@ -108,6 +108,7 @@ class Application:
         self._qt.exec_()
         timer.stop()
         window.close()
+        actor.close()
         if isinstance(self._error, OSError):
             raise WorldError(f'save_png: {self._error}')
         if self._error is not None:
@@ -137,6 +138,8 @@ class Application:
 
 class _Nobody:
     """A source without news and an actor that does nothing."""
+
+    report = ''
 
     class notices:  # noqa: N801 (stands for a queue)
         """Always empty."""

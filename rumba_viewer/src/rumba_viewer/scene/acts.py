@@ -129,6 +129,7 @@ ACTS = (
     Act('next_robot', 'Next robot', 'Tab', 'select the next robot', another_robot),
     Act('save', 'Save PNG', 'Ctrl+S', 'save a picture of the window', nothing),
     Act('record', 'Record', 'Ctrl+G', 'start or stop recording the floor as a GIF', nothing),
+    Act('report', 'Report', 'Ctrl+B', 'record a mission; at its end, or pressed again, make a report of it', robot),
     Act('legend', 'Keys', 'F1', 'show or hide this list', nothing),
 )
 BY_NAME: Dict[str, Act] = {act.name: act for act in ACTS}

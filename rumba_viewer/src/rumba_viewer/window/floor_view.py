@@ -35,6 +35,12 @@ class FloorView(QWidget):
         double_clicked: a point of the floor [m].
         robot_clicked: name of a robot.
         robot_put: name of a robot, and the pose to which it was dragged.
+
+    Attributes:
+        scene: paints the floor.
+        notice: a line over the floor; empty: none.
+        hint: a line at the end of the card of a mission that has ended.
+        shows_legend: whether the list of keys is shown.
     """
 
     clicked = pyqtSignal(float, float)
@@ -46,7 +52,7 @@ class FloorView(QWidget):
         """Show a snapshot."""
         super().__init__()
         self.scene = ScenePainter()
-        self.notice = ''
+        self.notice = self.hint = ''
         self.shows_legend = False
         self._snapshot = snapshot
         self._transform: Optional[ViewTransform] = None
@@ -111,7 +117,7 @@ class FloorView(QWidget):
         painter.setFont(self.font())
         self.scene.paint(painter, self._snapshot, self.view, theme, self._ghost)
         if self._report:
-            self._card = paint_report(painter, self._report, self.width(), theme)
+            self._card = paint_report(painter, self._report, self.hint, self.width(), theme)
         if self.notice:
             _paint_notice(painter, self.notice, self.width(), self.height(), theme)
         if self.shows_legend:

@@ -18,14 +18,15 @@ EDGE = 8  # [pixels]
 ICON = 12  # [pixels] side of an icon
 FRAME = 3  # letters that are as wide as the frame of a button
 LIST = 7  # letters in a list
-LETTERS = {'pause': 10, 'step': 6, 'record': 8}  # as wide as the icon and the longest text
+LETTERS = {'pause': 10, 'step': 6, 'record': 8, 'report': 8}  # as wide as the icon and the longest text
 STRATEGIES, SPEED = 'strategies', 'speeds'  # lists among the buttons
 GROUPS = (  # of buttons, by name, with their headings
     ('Mission', (('clean', STRATEGIES), ('resume_cleaning', 'go_there'), ('dock', 'undock', 'cancel'))),
     ('Time and robot', (('pause', 'step', SPEED), ('brushes', 'next_robot', 'reset'))),
-    ('View and save', (('laser', 'path', 'field', 'fit'), ('save', 'record', 'legend'))))
+    ('View and save', (('laser', 'path', 'field', 'fit', 'legend'), ('save', 'record', 'report'))))
 MAIN = 'clean'  # the most prominent button
-SWITCHES = ('laser', 'path', 'field', 'record', 'legend')  # buttons that stay pressed
+RECORDS = ('record', 'report')  # buttons that show how long they are pressed
+SWITCHES = ('laser', 'path', 'field', *RECORDS, 'legend')  # buttons that stay pressed
 
 
 class StatusCard(QWidget):
@@ -135,13 +136,14 @@ class Panel(QScrollArea):
             shown = self.buttons[button]
             shown.setIcon(icon(name, shown.palette().color(QPalette.ButtonText)) if name else QIcon())
 
-    def show_snapshot(self, snapshot: Snapshot, checked: Dict[str, bool], recorded: float = 0.0) -> None:
+    def show_snapshot(self, snapshot: Snapshot, checked: Dict[str, bool],
+                      recorded: Dict[str, float] = {}) -> None:
         """Show a new snapshot.
 
         Args:
             snapshot: what to show.
             checked: whether a switch is on, by its name.
-            recorded: how long the record is by now [s].
+            recorded: how long each of RECORDS is by now [s].
         """
         self.card.show_snapshot(snapshot)
         for name, button in self.buttons.items():
@@ -155,8 +157,9 @@ class Panel(QScrollArea):
         self.buttons['pause'].setText('Unpause' if is_paused else 'Pause')
         self._show_icon('pause', 'play' if is_paused else 'pause')
         self._show_icon('step', 'step')
-        self.buttons['record'].setText(span(recorded) if checked['record'] else BY_NAME['record'].label)
-        self._show_icon('record', 'stop' if checked['record'] else 'record')
+        for name in RECORDS:
+            self.buttons[name].setText(span(recorded[name]) if checked[name] else BY_NAME[name].label)
+            self._show_icon(name, 'stop' if checked[name] else 'record')
         self.strategies.setEnabled(self.buttons['clean'].isEnabled())
         self.strategies.setToolTip('cleaning strategy')
         lacks = simulated(snapshot)

@@ -17,6 +17,7 @@ from rumba_viewer.window.notices import Notices
 from rumba_viewer.window.panel import Panel
 from rumba_viewer.window.pictures import Pictures
 from rumba_viewer.window.recorder import RATE
+from rumba_viewer.window.reports import Reports
 
 PERIOD = 33  # [ms] from one picture to the next, at least
 COMMAND_PERIODS = (0.02, 0.1)  # [s] of the wall clock from one command to the next: least, usual
@@ -51,6 +52,7 @@ class Window(QWidget):
     Attributes:
         snapshot: what is shown.
         pictures: saves what is shown.
+        reports: records missions.
         tell: shows a line for a while.
     """
 
@@ -75,6 +77,7 @@ class Window(QWidget):
         self.tell = self._notices.tell
         self.panel = Panel(snapshot, options.strategies, self.act, self._set_speed)
         self.pictures = Pictures(self, self.floor, options.folder, self.tell, actor.write)
+        self.reports = Reports(options.folder, actor)
         row = QHBoxLayout(self)
         row.setContentsMargins(0, 0, 0, 0)
         row.setSpacing(0)
@@ -106,7 +109,8 @@ class Window(QWidget):
         while not self._actor.notices.empty():
             self.tell(self._actor.notices.get())
         self._notices.expire()
-        if self.pictures.is_recording:  # while nothing else happens, its time goes on
+        self.reports.follow(self.snapshot)
+        if self.pictures.is_recording or self.reports.is_recording:  # while nothing else happens, its time goes on
             self._show()
         if self._source.has_news(now):
             new = self._source.snapshot(now)
@@ -115,10 +119,13 @@ class Window(QWidget):
             self._show()
 
     def _show(self) -> None:
+        self.floor.hint = self.reports.hint
         self.floor.show_snapshot(self.snapshot)
         self.panel.show_snapshot(self.snapshot, {
             'laser': self._shows_laser, 'path': self.floor.scene.shows_path, 'field': self.floor.scene.shows_field,
-            'record': self.pictures.is_recording, 'legend': self.floor.shows_legend}, self.pictures.recorded)
+            'record': self.pictures.is_recording, 'report': self.reports.is_recording,
+            'legend': self.floor.shows_legend},
+            {'record': self.pictures.recorded, 'report': self.reports.recorded})
 
     # --- what is done -------------------------------------------------------------------------------------------------
 
@@ -160,7 +167,8 @@ class Window(QWidget):
             'slower': lambda: self._change_speed(-1), 'faster': lambda: self._change_speed(1),
             'laser': self._laser, 'path': self.floor.switch_path, 'field': self.floor.switch_field,
             'legend': self.floor.switch_legend, 'fit': self.floor.fit, 'next_robot': self._next_robot,
-            'save': self.pictures.save, 'record': self.pictures.switch_record}
+            'save': self.pictures.save, 'record': self.pictures.switch_record,
+            'report': lambda: self.reports.switch(snapshot.selected)}
 
     def _interrupt(self, name: str, act: Callable[[], Any]) -> None:
         """Do what interrupts a cleaning, and tell how to continue that."""
