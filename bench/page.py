@@ -20,7 +20,7 @@ from tornado.websocket import websocket_connect
 SHARED = ({'topic': '/map', 'compression': 'png'}, {'topic': '/simulator/state'},
           {'topic': '/simulator/obstacles', 'throttle_rate': 200})
 OWN = {'ground_truth': 100, 'battery_status': 500, 'battery_state': 1000, 'dock_status': 500, 'cleaning_status': 1000,
-       'mission_status': 0, 'scan': 200, 'coverage': 500}  # [ms] of a robot
+       'mission_status': 0, 'plan': 500, 'scan': 200, 'coverage': 500}  # [ms] of a robot
 FILES = ('', 'style.css', 'app.js', 'driving.js', 'floor.js', 'link.js', 'robot.js', 'scene.js')
 CASES = ((30, 1, 5.0, 80.0), (100, 10, 40.0, None))  # clients, robots, share of a core [%] and memory [MB] at most
 FIRST_PICTURE = 1.0  # [s] from opening to all that is needed for it, at most
