@@ -87,6 +87,21 @@ def test_what_was_cached_of_a_source_that_has_changed_is_not_used(source, tmp_pa
     assert run(source, ANGLE, **home) == ('True\n', '')
 
 
+def test_what_was_cached_of_the_batch_does_not_outlive_a_change_of_the_kernel_that_it_calls(source, tmp_path):
+    model, home = source / 'rumba_sim' / 'model', {'HOME': str(tmp_path / 'home')}
+    kernel_file = model / 'kernel.py'
+    for name, text in (('kernel', 'def twice(x):\n    return 2.0 * x\n'),
+                       ('batch', 'from rumba_sim.model import kernel\n\n\ndef four_times(x):\n'
+                                 '    return kernel.twice(kernel.twice(x))\n')):  # small: the real ones take a minute
+        (model / f'{name}.py').write_text(text)
+    code = 'from rumba_sim.model.compiled import many; print(many.four_times(1.5))'
+    for _ in range(2):  # the second time from the cache
+        assert run(source, code, **home) == ('6.0\n', '')
+    kernel_file.write_text(kernel_file.read_text().replace('2.0 * x', '3.0 * x'))
+    os.utime(str(kernel_file), ns=(0, 1_000_000_000))  # as of an installation at another time
+    assert run(source, code, **home) == ('13.5\n', '')
+
+
 def test_a_full_disk_does_no_harm(source, tmp_path):
     out, error = run(source, SMALL_FILES + TURN, HOME=str(tmp_path / 'home'))
     assert out == 'True\n'

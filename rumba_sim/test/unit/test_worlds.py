@@ -1,11 +1,6 @@
 """Many worlds in one call: each of them is what it would be alone, bit for bit."""
 
 import math
-import os
-import pathlib
-import shutil
-import subprocess
-import sys
 
 import numpy as np
 import pytest
@@ -13,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from rooms import PLANS, crooked, gaps, room
 
-from rumba_sim.model import batch, kernel
+from rumba_sim.model import batch
 from rumba_sim.model.compiled import many
 from rumba_sim.model.config import updated
 from rumba_sim.model.errors import CommandError, WorldError
@@ -201,25 +196,6 @@ def test_every_function_of_the_batch_is_compiled():
     for name, function in vars(batch).items():
         if callable(function) and getattr(function, '__module__', '') == batch.__name__:
             assert getattr(many, name).py_func.__name__ == name, name
-
-
-def test_compiled_code_of_the_batch_does_not_outlive_a_change_of_the_kernel(tmp_path):
-    shutil.copytree(os.path.dirname(kernel.__file__), str(tmp_path / 'rumba_sim' / 'model'),
-                    ignore=shutil.ignore_patterns('__pycache__'))
-    (tmp_path / 'rumba_sim' / '__init__.py').touch()
-    code = ('from rumba_sim.model.worlds import Worlds, world_with_a_robot; from rooms import room; import numpy as np;'
-            'w = Worlds([world_with_a_robot(room(2.0, 1.5, 0.1))]); w.command(np.full(1, 0.3), np.zeros(1));'
-            'w.step(20); print(w.robots["left_speed"][0])')
-    environment = {**os.environ, 'PYTHONPATH': os.pathsep.join([str(tmp_path), str(pathlib.Path(__file__).parent)]),
-                   'NUMBA_CACHE_DIR': str(tmp_path / 'cache')}
-
-    def speed():
-        return float(subprocess.run([sys.executable, '-c', code], env=environment, check=True,
-                                    stdout=subprocess.PIPE, universal_newlines=True).stdout)
-    assert speed() == 0.3
-    source = tmp_path / 'rumba_sim' / 'model' / 'kernel.py'
-    source.write_text(source.read_text().replace('change = k.acceleration * k.dt', 'change = 0.1 * k.dt'))
-    assert speed() == pytest.approx(0.04)
 
 
 def test_a_step_over_the_end_of_the_drawn_noise_draws_more_for_each_world_at_its_own_time():
