@@ -7,6 +7,7 @@ import struct
 import zlib
 from typing import Any, Callable, Dict, Optional
 
+import numpy as np
 import roslib.message
 
 from rumba_sim.model.errors import one_line
@@ -41,7 +42,7 @@ class Encoder:
         trouble = self._trouble(arrival)
         if not trouble:
             try:
-                values = conversion.to_text(self.find(arrival.type)().deserialize(arrival.data))
+                values = conversion.to_text(self.find(arrival.type)().deserialize_numpy(arrival.data, np))
             except Exception as error:  # whatever a publisher sent
                 trouble = f'{type(error).__name__}: {error}'
         if trouble:
