@@ -40,8 +40,10 @@ class DebianNames:
             raise ValueError(f'{package.filename}: no Debian package is known for {exc.args[0]}: add it to '
                              'packages.txt if it belongs to ROS, else to packaging/rosdep_keys.yaml') from exc
         role = package.name.partition('_')[2]
-        found = {'Depends': depends, 'Recommends': {name for named, name, _ in self._lines if named == role} - depends,
-                 'Suggests': {name for key in optional for _, name, _ in self._of_ros(key)} - {'-'}}
+        recommended = {name for named, name, _ in self._lines if named == role}
+        suggested = {name for key in optional for _, name, _ in self._of_ros(key)} - {'-'}
+        # python3 brings py3compile.
+        found = {'Depends': depends | {'python3'}, 'Recommends': recommended - depends, 'Suggests': suggested}
         return {field: sorted(names) for field, names in found.items() if names}
 
     def _needed(self, key: str, with_headers: bool) -> Set[str]:
