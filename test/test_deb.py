@@ -83,10 +83,10 @@ def test_packages_need_what_they_declare_under_its_name_in_debian(debs):
         'libactionlib-msgs-dev', 'libgeometry-msgs-dev', 'libstd-msgs-dev', 'python3', 'python3-actionlib-msgs',
         'python3-geometry-msgs', 'python3-std-msgs', 'ros-actionlib-msgs', 'ros-geometry-msgs', 'ros-message-runtime',
         'ros-std-msgs']
-    assert control(debs['rumba_bringup'])['Depends'] == (
-        'python3, python3-roslaunch, ros-robot-state-publisher, ros-rumba-cleaning (= 0.1.0), '
-        'ros-rumba-evaluation (= 0.1.0), ros-rumba-localisation (= 0.1.0), ros-rumba-msg (= 0.1.0), '
-        'ros-rumba-sim (= 0.1.0), ros-rumba-viewer (= 0.1.0)')
+    versions = {name: control(deb)['Version'] for name, deb in debs.items()}
+    assert control(debs['rumba_bringup'])['Depends'] == ', '.join([
+        'python3', 'python3-roslaunch', 'ros-robot-state-publisher',
+        *(f'ros-{name.replace("_", "-")} (= {versions[name]})' for name in sorted(versions) if name != 'rumba_bringup')])
     # What users type, beside what the nodes import; what is optional.
     assert {'rosbash', 'python3-rostopic', 'python3-rosmsg'} <= {*names(control(debs['rumba_sim'])['Recommends'])}
     assert {control(deb).get('Suggests', '') for deb in debs.values()} == {'', 'rviz'}
