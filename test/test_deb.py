@@ -86,7 +86,8 @@ def test_packages_need_what_they_declare_under_its_name_in_debian(debs):
     versions = {name: control(deb)['Version'] for name, deb in debs.items()}
     assert control(debs['rumba_bringup'])['Depends'] == ', '.join([
         'python3', 'python3-roslaunch', 'ros-robot-state-publisher',
-        *(f'ros-{name.replace("_", "-")} (= {versions[name]})' for name in sorted(versions) if name != 'rumba_bringup')])
+        *(f'ros-{name.replace("_", "-")} (= {version})' for name, version in sorted(versions.items())
+          if name != 'rumba_bringup')])
     # What users type, beside what the nodes import; what is optional.
     assert {'rosbash', 'python3-rostopic', 'python3-rosmsg'} <= {*names(control(debs['rumba_sim'])['Recommends'])}
     assert {control(deb).get('Suggests', '') for deb in debs.values()} == {'', 'rviz'}
