@@ -7,7 +7,7 @@ import pytest
 import yaml
 from workspaces import OURS, ROOT, TUTORIALS
 
-KEYS = yaml.safe_load((ROOT / 'test' / 'rosdep_keys.yaml').read_text())
+KEYS = yaml.safe_load((ROOT / 'packaging' / 'rosdep_keys.yaml').read_text())
 WORKFLOW = yaml.safe_load((ROOT / '.github' / 'workflows' / 'test.yml').read_text())
 INSTALLED = [line.split()[1:] for line in (ROOT / 'packages.txt').read_text().splitlines() if re.match(r'\w', line)]
 OF_PACKAGE = pytest.mark.parametrize('package', OURS + TUTORIALS, ids=lambda path: path.name)
@@ -24,9 +24,8 @@ def depends(package):
 
 @OF_PACKAGE
 def test_rosdep_knows_each_key(package):
-    optional = {'rviz', 'turtlesim'}  # of ROS too; ./rumba installs neither
-    of_base = {'genmsg', 'roslib'}  # of ROS too, and installed with the others
-    known = OF_ROS | optional | of_base | {*KEYS['read'], *KEYS['assumed']}
+    of_base = {'genmsg'}  # of ROS too, and installed with the others
+    known = OF_ROS | of_base | {*KEYS['read'], *KEYS['assumed']}
     assert depends(package) - known == set()
 
 

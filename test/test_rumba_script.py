@@ -100,12 +100,12 @@ def test_help_names_every_command():
     code, out, _ = rumba(ROOT, 'help')
     assert code == 0
     assert [line.split()[0] for line in out.splitlines() if line.startswith('  ')] == [
-        'run', 'test', 'build', 'shell', 'lint', 'bench', 'docs', 'stress', 'help']
+        'run', 'test', 'build', 'shell', 'lint', 'bench', 'deb', 'docs', 'stress', 'help']
 
 
 def test_an_unknown_command_is_refused():
     assert rumba(ROOT, 'biuld') == (
-        2, '', "rumba: unknown command 'biuld': run, test, build, shell, lint, bench, docs, stress or help\n")
+        2, '', "rumba: unknown command 'biuld': run, test, build, shell, lint, bench, deb, docs, stress or help\n")
 
 
 @pytest.mark.parametrize('argument', ['drian:=5', 'drain', '--screen'])
@@ -155,6 +155,7 @@ def test_no_root_and_no_sudo_says_what_an_administrator_must_do(checkout, tmp_pa
     (['shell'], '', ['python3-matplotlib', 'python3-venv'], ['python3-pyqt5', 'xvfb']),
     (['build'], ':0', ['python3-matplotlib', 'python3-venv'], ['python3-pyqt5', 'xvfb', 'mypy']),
     (['test'], '', ['python3-pyqt5', 'python3-matplotlib', 'python3-venv', 'xvfb', 'python3-rosidl'], ['mypy']),
+    (['deb'], '', ['catkin', 'python3-yaml'], ['python3-skimage', 'python3-pyqt5', 'rviz']),
     (['lint'], '', ['mypy', 'python3-skimage'], ['python3-pyqt5', 'xvfb'])], ids=str)
 def test_a_command_installs_what_its_roles_need_and_no_more(checkout, tmp_path, command, display, wanted, unwanted):
     (checkout / 'rumba_bringup' / 'launch').mkdir(parents=True)

@@ -12,7 +12,11 @@ endfunction()
 
 # Compiles what numba compiles, by running a module of this package, when the package is built or installed: otherwise
 # the first start of a node takes some seconds longer. The other arguments are the source files that are compiled.
+# With -DRUMBA_WARM_UP=OFF nothing is compiled: for packages that go to other machines.
 function(rumba_warm_up module)
+  if(DEFINED RUMBA_WARM_UP AND NOT RUMBA_WARM_UP)
+    return()
+  endif()
   safe_execute_process(COMMAND ${GENERATE_ENVIRONMENT_CACHE_COMMAND})  # as above
   set(done ${CMAKE_CURRENT_BINARY_DIR}/warm_up.done)
   add_custom_command(
