@@ -12,6 +12,7 @@ from rumba_sim.model.geometry import Pose
 
 SOURCE = pathlib.Path(module_of_behaviour.__file__).parent
 HOOKS = ('initialise', 'update', 'terminate', 'take_note')
+FOR_WATCHERS = ('planned_path',)
 SEEN = Observation(0.1, Pose(1.0, 2.0, 3.0))
 AHEAD = Command(0.2, 0.1)
 
@@ -166,7 +167,7 @@ def test_a_subclass_that_overrides_what_callers_use_is_refused(name):
 
 def test_all_that_callers_use_is_final():
     methods = {name for name, value in vars(Behaviour).items() if callable(value) and not name.startswith('_')}
-    assert methods == {*FINAL, *HOOKS}
+    assert methods == {*FINAL, *HOOKS, *FOR_WATCHERS}
 
 
 @pytest.mark.parametrize('path', [path for folder in ('', 'behaviours', 'strategies', 'mission', 'ros/cleaner')

