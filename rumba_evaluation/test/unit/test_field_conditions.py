@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from rumba_evaluation.verdicts.awaited import PATIENCE, START, TRIES, Awaited
+from rumba_evaluation.verdicts.awaited import PATIENCE, START, STEADY, TRIES, Awaited
 from rumba_evaluation.verdicts.field_conditions import Agreement, Rate
 from rumba_evaluation.verdicts.mission_requirements import Requirements
 from rumba_evaluation.verdicts.mission_verdict import Judge
@@ -97,3 +97,17 @@ def test_a_node_that_answers_is_awaited_in_each_tick_and_is_given_up_if_it_often
         awaited.give_up(10.0 * number, 10.0 * number + PATIENCE + 0.1)
         awaited.begin()
     assert awaited.silent == []
+
+
+@pytest.mark.parametrize('between, is_given_up', [(STEADY, False), (STEADY - 1, True)])
+def test_a_machine_that_stands_still_now_and_then_is_no_reason_to_give_a_node_up(between, is_given_up):
+    awaited = Awaited(['status'])
+    awaited.publishes('status', 0.0)
+    for _ in range(2 * TRIES):
+        awaited.give_up(0.0, PATIENCE + 0.1)
+        awaited.begin()
+        for _ in range(between):
+            awaited.hear('status')
+            awaited.hear('status')  # counts once in a tick
+            awaited.begin()
+    assert (awaited.silent == []) is is_given_up

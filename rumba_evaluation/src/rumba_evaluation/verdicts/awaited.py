@@ -3,8 +3,9 @@
 from typing import Dict, Iterable, List, Set
 
 START = 25.0  # [s] for a node that does not publish yet: a world waits 30 s for those who start
-PATIENCE = 1.0  # [s] for a message, once there is a publisher
+PATIENCE = 5.0  # [s] for a message, once there is a publisher: a busy machine may let a node wait for seconds
 TRIES = 3  # ticks without an answer, after which a topic is awaited no longer
+STEADY = 10  # ticks with an answer, one after the other, that bring back one of these
 
 
 class Awaited:
@@ -13,6 +14,7 @@ class Awaited:
     def __init__(self, topics: Iterable[str]) -> None:
         """Nobody has answered yet."""
         self._tries = dict.fromkeys(topics, TRIES)
+        self._steady = dict.fromkeys(self._tries, 0)  # ticks with an answer since the last one without
         self._published: Dict[str, float] = {}  # since when
         self._heard: Set[str] = set()
 
@@ -22,6 +24,10 @@ class Awaited:
 
     def hear(self, topic: str) -> None:
         """A message came."""
+        if topic in self.silent:
+            self._steady[topic] += 1
+            if self._steady[topic] % STEADY == 0:
+                self._tries[topic] = min(self._tries[topic] + 1, TRIES)
         self._heard.add(topic)
 
     def begin(self) -> None:
@@ -42,4 +48,5 @@ class Awaited:
                 end = tick + START
             if now > end:
                 self._heard.add(topic)
+                self._steady[topic] = 0
                 self._tries[topic] -= 1 if topic in self._published else TRIES
