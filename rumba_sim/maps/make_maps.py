@@ -28,7 +28,11 @@ def apartment(folder: pathlib.Path) -> None:
     hall(plan)
     bath(plan)
     bedroom(plan)
-    plan.save(folder, 'apartment', 'An apartment of 52 m2, furnished' + BY, {'dock': (4.8 - ROBOT_AT_WALL, 3.24, 0.0)})
+    dock = 4.8 - ROBOT_AT_WALL, 3.24, 0.0
+    plan.save(folder, 'apartment', 'An apartment of 52 m2, furnished' + BY, {'dock': dock})
+    plan.save_with_docks(
+        folder, 'apartment_docks', 'apartment', 'The apartment with docks in living room, hall and bedroom' + BY,
+        [dock, (6.08 - ROBOT_AT_WALL, 4.2, 0.0), (6.1, 3.3 - ROBOT_AT_WALL, 0.5 * math.pi)])
 
 
 def doors(plan: Drawing) -> None:

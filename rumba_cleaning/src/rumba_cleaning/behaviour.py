@@ -6,6 +6,7 @@ import math
 from typing import Any, NamedTuple, Optional, Sequence, Tuple, final
 
 from rumba_cleaning.outcome import Outcome
+from rumba_cleaning.route import Ahead
 from rumba_sim.model.errors import CommandError, quoted
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.kernel import NO_BEAM, Array
@@ -18,7 +19,8 @@ UNKNOWN: Covariance = ((math.inf, 0.0, 0.0), (0.0, math.inf, 0.0), (0.0, 0.0, ma
 LOST_AT, LOST_TURNED = 0.3, 0.5  # [m], [rad] standard deviations of a pose from which on the robot is lost; our choice
 NO_CLIFFS = (False, False, False, False)
 FALLEN = 'a wheel hangs over a cliff: the robot must be put elsewhere'
-FINAL = ('step', 'stand_by', 'stop', 'restart', 'succeed', 'fail')  # methods of Behaviour that no subclass overrides
+# Methods of Behaviour that no subclass overrides.
+FINAL = ('step', 'stand_by', 'stop', 'restart', 'succeed', 'fail', 'planned_path')
 
 
 class Observation(NamedTuple):
@@ -71,7 +73,7 @@ class Behaviour(abc.ABC):
     """Something that a robot can do. No method blocks; the caller owns time.
 
     Callers use `step`, `stand_by`, `stop` and `restart`; subclasses write the hooks `initialise`, `update`, `terminate`
-    and `take_note`, which only the methods above call, and `planned_path` for those who watch. A run of a behaviour
+    and `take_note`, which only the methods above call, and `plan_ahead` for those who watch. A run of a behaviour
     begins with the first step and ends when the behaviour succeeds or fails, or when somebody stops or restarts it:
 
         initialise, update, update, ..., update, terminate
@@ -159,6 +161,12 @@ class Behaviour(abc.ABC):
         self.status, self.message, self.outcome = Status.FAILED, message, outcome
         return STOP
 
+    @final
+    def planned_path(self) -> Optional[Array]:
+        """The corners (n, 2) [m] of the path that it follows now, map frame; None if it has no plan."""
+        ahead = self.plan_ahead()
+        return None if ahead is None else ahead.route.waypoints
+
     # --- hooks for subclasses -------------------------------------------------------------------------------------
 
     def initialise(self) -> None:
@@ -174,10 +182,10 @@ class Behaviour(abc.ABC):
     def take_note(self, observation: Observation) -> None:
         """Remember what is needed to go on after a person drove the robot; called in place of `update` meanwhile."""
 
-    def planned_path(self) -> Optional[Array]:
-        """The corners (n, 2) [m] of the path that it follows now, map frame; None if it has no plan.
+    def plan_ahead(self) -> Optional[Ahead]:
+        """The route that it follows now, and how far it has come; None if it has no plan.
 
-        For those who watch: nothing that a robot does depends on it. A new plan is a new array.
+        For those who watch, and for mates. A new plan is a new route with a new array of waypoints.
         """
         return None
 

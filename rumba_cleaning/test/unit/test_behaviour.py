@@ -12,7 +12,7 @@ from rumba_sim.model.geometry import Pose
 
 SOURCE = pathlib.Path(module_of_behaviour.__file__).parent
 HOOKS = ('initialise', 'update', 'terminate', 'take_note')
-FOR_WATCHERS = ('planned_path',)
+FOR_WATCHERS = ('plan_ahead',)
 SEEN = Observation(0.1, Pose(1.0, 2.0, 3.0))
 AHEAD = Command(0.2, 0.1)
 

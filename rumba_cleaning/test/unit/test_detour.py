@@ -9,7 +9,7 @@ from pytest import approx
 from rooms import distances, room
 
 from rumba_cleaning.behaviours.detour import HORIZON, detour
-from rumba_cleaning.behaviours.follower import Route
+from rumba_cleaning.route import Route
 from rumba_sim.model.geometry import Pose
 
 POST = np.array([2.0, 1.5])

@@ -5,7 +5,7 @@ import pytest
 from floors import knowing, length, wiped_but
 from rooms import room
 
-from rumba_cleaning.behaviours.follower import Route
+from rumba_cleaning.route import Route
 from rumba_cleaning.planning.detours import APART, DEAREST, FARTHEST, SURPLUS, with_crumbs
 from rumba_cleaning.planning.paper import drive
 from rumba_cleaning.planning.regions import regions

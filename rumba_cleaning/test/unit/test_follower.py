@@ -9,7 +9,8 @@ from floors import length, off
 from pytest import approx
 from rooms import alone, quiet
 
-from rumba_cleaning.behaviours.follower import Follower, Route
+from rumba_cleaning.behaviours.follower import Follower
+from rumba_cleaning.route import Route
 from rumba_sim.model.geometry import Pose
 
 DRIVE = quiet().drive

@@ -9,7 +9,7 @@ from rooms import RADIUS, inside, quiet, room
 
 from rumba_cleaning.behaviour import Behaviour, Command
 from rumba_cleaning.behaviours.bounded import Bounded
-from rumba_cleaning.behaviours.follower import Route
+from rumba_cleaning.route import Route
 from rumba_cleaning.behaviours.guard import Guard
 from rumba_cleaning.behaviours.travel import Going, Travel
 from rumba_cleaning.control import CONTROL_DT, CONTROL_TICKS, observe, steps

@@ -42,12 +42,13 @@ class Copy:
         self.obstacles, self.stops = world.obstacles.records, world.obstacles.stops
         angles = np.linspace(-math.pi, math.pi, 360, endpoint=False)
         self.fan = np.stack([np.cos(angles), np.sin(angles)], axis=1)
+        self.docks = np.array([DOCK, (0.6, 2.2, 2.0)])
         self.noise = np.random.default_rng(2).standard_normal((len(STARTS), 64, 2))
 
     @property
     def ground(self):
         """What all robots stand on and what has the same place in the arguments of the kernel."""
-        return (self.robots, self.constants, self.obstacles, self.plan.clearance, self.floor.cells,
+        return (self.robots, self.constants, self.obstacles, self.docks, self.plan.clearance, self.floor.cells,
                 self.floor.sweep.samples, self.floor.dirt, self.floor.sweep.tally, self.noise)
 
     def advance(self, functions, tick, ticks):
@@ -70,7 +71,8 @@ class Copy:
                 cliffs = np.zeros(len(CLIFF.angles), np.bool_)
                 functions.cliffs(self.robots, me, self.constants, self.floor.cells, CLIFF.distance,
                                  np.array(CLIFF.angles), cliffs)
-                seen.append((*functions.infrared(self.robots, me, self.constants, self.plan.skips, self.floor.cells),
+                seen.append((*functions.infrared(self.robots, me, self.constants, self.docks, self.plan.skips,
+                                                 self.floor.cells),
                              *cliffs))
         ranges = np.empty((len(STARTS), len(self.fan)))
         for me in range(len(STARTS)):

@@ -9,7 +9,7 @@ from rumba_sim.model.errors import MapError
 
 
 def test_the_maps_of_the_package_are_found_here():
-    assert list(named_maps.known()) == ['apartment', 'field', 'studio']
+    assert list(named_maps.known()) == ['apartment', 'apartment_docks', 'field', 'studio']
     assert named_maps.path('studio').endswith('/maps/studio.yaml') and os.path.isfile(named_maps.path('studio'))
 
 
@@ -32,7 +32,7 @@ def test_a_path_is_no_name(tmp_path, monkeypatch):
 
 
 def test_unknown_names_and_missing_maps(monkeypatch):
-    with pytest.raises(MapError, match="^there is no map 'moon': give the path of .*, or one of apartment, field, "):
+    with pytest.raises(MapError, match="^there is no map 'moon': give the path of .*, or one of apartment, apartment_docks, "):
         named_maps.path('moon')
     monkeypatch.setattr(named_maps, 'FOLDERS', ())
     with pytest.raises(MapError, match='or one of none: the maps are not installed$'):

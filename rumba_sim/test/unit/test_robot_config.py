@@ -109,7 +109,6 @@ def test_the_constants_have_the_values_of_the_configuration_and_of_the_plan():
     k = constants(config, crooked(dock=Pose(3.8, 1.0, 0.5)), 40)[0]
     assert (k.wheel_base, k.dead_band, k.drain, k.taper_start) == (0.3, 0.02, 3.0, 0.7)
     assert (k.dt, k.timeout_ticks, k.resolution, k.origin_x) == (0.025, 20, 0.05, -0.05)
-    assert (k.has_dock, k.dock_x, k.dock_y, k.dock_theta) == (True, 3.8, 1.0, 0.5)
     assert k.ticks_per_metre == approx(508.8 / (math.pi * 0.072))
     assert (k.pickup, k.kept, k.sample_pitch) == approx((0.9, 0.1, 0.01))
     for name in k.dtype.names:
@@ -131,12 +130,10 @@ def test_every_setting_changes_the_constants_or_is_used_elsewhere(section):
             assert any(before[name] != after[name] for name in Constants._fields), path
 
 
-def test_a_plan_tells_the_constants_whether_it_has_a_dock_and_layers():
-    for plan, has_dock, has_layers in ((crooked(), False, False), (crooked(dock=Pose(3.8, 1.0, 0.5)), True, False),
-                                       (crooked(cliff=(0.0, 0.0, 1.0, 1.0)), False, True),
-                                       (crooked(carpet=(0.0, 0.0, 1.0, 1.0)), False, True)):
-        k = constants(RobotConfig(), plan, 50)[0]
-        assert (bool(k.has_dock), bool(k.has_layers)) == (has_dock, has_layers)
+def test_a_plan_tells_the_constants_whether_it_has_layers():
+    for plan, has_layers in ((crooked(), False), (crooked(cliff=(0.0, 0.0, 1.0, 1.0)), True),
+                             (crooked(carpet=(0.0, 0.0, 1.0, 1.0)), True)):
+        assert bool(constants(RobotConfig(), plan, 50)[0].has_layers) == has_layers
 
 
 @pytest.mark.parametrize('resolution', [0.02, 0.05, 0.1])

@@ -7,7 +7,7 @@ from rumba_cleaning.behaviours import relocation
 from rumba_cleaning.behaviours.guard import Guard
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.outcome import Outcome
-from rumba_sim.model.kernel import Array
+from rumba_cleaning.route import Ahead
 
 
 class Bounded(Behaviour):
@@ -75,6 +75,6 @@ class Bounded(Behaviour):
             self._guard.stand_by(observation)
         self.behaviour.stand_by(observation)
 
-    def planned_path(self) -> Optional[Array]:
-        """The path of the other one."""
-        return self.behaviour.planned_path()
+    def plan_ahead(self) -> Optional[Ahead]:
+        """The plan of the other one."""
+        return self.behaviour.plan_ahead()

@@ -7,9 +7,9 @@ from rumba_cleaning.behaviour import Behaviour, Command, Observation, Status
 from rumba_cleaning.behaviours.go_to import GoTo
 from rumba_cleaning.behaviours.homing import BUOYS, Homing
 from rumba_cleaning.belief.context import Context
+from rumba_cleaning.route import Ahead
 from rumba_sim.model.errors import MapError
 from rumba_sim.model.geometry import Pose
-from rumba_sim.model.kernel import Array
 
 STEP = 0.05  # [m]
 BEFORE = (16, 14, 12, 10, 8, 6)  # steps from the dock to the point on its axis at which homing begins: the most that
@@ -23,7 +23,7 @@ class Dock(Behaviour):
     _part: Optional[Behaviour] = None
 
     def __init__(self, context: Context) -> None:
-        """Go to the dock of the plan.
+        """Go to the dock that is the robot's home.
 
         Raises:
             MapError: the plan has no dock, or the robot fits nowhere before it.
@@ -80,9 +80,9 @@ class Dock(Behaviour):
             self._part.stop()
         self._part = None
 
-    def planned_path(self) -> Optional[Array]:
-        """The path of the part that is under way."""
-        return None if self._part is None else self._part.planned_path()
+    def plan_ahead(self) -> Optional[Ahead]:
+        """The plan of the part that is under way."""
+        return None if self._part is None else self._part.plan_ahead()
 
 
 def approach(context: Context) -> Pose:
@@ -91,7 +91,7 @@ def approach(context: Context) -> Pose:
     Raises:
         MapError: the plan has no dock, or the robot fits nowhere before it.
     """
-    dock = context.plan.dock
+    dock = context.home
     if dock is None:
         raise MapError(f'{context.plan.name}: no dock on the map: its YAML file may name one, dock: [x, y, theta]')
     for steps in BEFORE:

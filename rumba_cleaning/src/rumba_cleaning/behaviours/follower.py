@@ -10,11 +10,12 @@ a pose, and is thrown away at the end.
 import bisect
 import itertools
 import math
-from typing import List, NamedTuple, Optional, Tuple
+from typing import List, Optional, Tuple
 
 import numpy as np
 
 from rumba_cleaning.behaviours.compiled_follower import nearest
+from rumba_cleaning.route import Route
 from rumba_sim.model.geometry import Pose, wrap_angle
 from rumba_sim.model.kernel import Array
 from rumba_sim.model.robot_config import DriveConfig
@@ -47,13 +48,6 @@ AT_REST = 0.005  # [rad] ... if the robot turned by less since the last look
 SLOWEST = 2.5  # times the rate at which wheels begin to move: well clear of the dead band
 
 Point = Tuple[float, float]
-
-
-class Route(NamedTuple):
-    """Where to drive."""
-
-    waypoints: Array  # float64 (any, 2) [m], map frame
-    speeds: Array  # float64 (any - 1) [m/s] from waypoint to waypoint
 
 
 class _Piece:

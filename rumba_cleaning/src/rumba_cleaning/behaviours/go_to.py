@@ -7,7 +7,8 @@ from typing import Optional, Tuple
 import numpy as np
 
 from rumba_cleaning.behaviour import STOP, Behaviour, Command, Observation
-from rumba_cleaning.behaviours.follower import Route, Turn
+from rumba_cleaning.behaviours.follower import Turn
+from rumba_cleaning.route import Ahead, Route
 from rumba_cleaning.behaviours.travel import Going, Travel
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.outcome import Outcome
@@ -72,9 +73,9 @@ class GoTo(Behaviour):
         """Look for a path again, from wherever the robot will be."""
         self._leave()
 
-    def planned_path(self) -> Optional[Array]:
-        """The corners of its path [m]."""
-        return None if self._travel is None else self._travel.path
+    def plan_ahead(self) -> Optional[Ahead]:
+        """The route to the target."""
+        return None if self._travel is None else self._travel.ahead
 
     def _leave(self) -> None:
         """Drop the path, or the search for it."""

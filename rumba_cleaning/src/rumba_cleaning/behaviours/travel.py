@@ -10,7 +10,8 @@ from typing import Optional
 
 from rumba_cleaning.behaviour import Command, Observation
 from rumba_cleaning.behaviours import recoil
-from rumba_cleaning.behaviours.follower import Follower, Route
+from rumba_cleaning.behaviours.follower import Follower
+from rumba_cleaning.route import Ahead, Route
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.belief.ground import Ground
 from rumba_sim.model.geometry import Pose
@@ -38,14 +39,14 @@ class Travel:
 
     Attributes:
         going: how it goes; what `command` answers is of use only while it is ON.
-        path: the corners (n, 2) of the route [m].
+        route: what it follows.
     """
 
     def __init__(self, context: Context, route: Route) -> None:
         """Follow a route."""
         self._context = context
         self._follower = Follower(route, context.robot.drive)
-        self.path = route.waypoints
+        self.route = route
         self._back = 0.0  # [s] still to back off
         self._leaves = False  # the route, after that
         self._nearest = math.inf  # [m] least distance that was left
@@ -58,6 +59,11 @@ class Travel:
     def remaining(self) -> float:
         """Distance left [m]."""
         return self._follower.remaining
+
+    @property
+    def ahead(self) -> Ahead:
+        """The route, and how far the robot has come."""
+        return Ahead(self.route, self.remaining)
 
     def rest(self) -> Optional[Route]:
         """What is left of the route, if it has to be left; None if nothing is.

@@ -1,6 +1,7 @@
 """What a behaviour knows of the floor that it works on, and what it remembers of it."""
 
 import copy
+import math
 from concurrent.futures import Executor, Future
 from typing import Any, Callable, List, Optional, Sequence, Tuple, TypeVar, Union
 
@@ -8,6 +9,7 @@ import numpy as np
 
 from rumba_cleaning.belief.footing import Footing
 from rumba_cleaning.belief.ground import Ground
+from rumba_cleaning.belief.mates import Mates, Report
 from rumba_cleaning.belief.swept import Swept
 from rumba_cleaning.cleaning_config import CleaningConfig
 from rumba_sim.model.floor_plan import FloorPlan
@@ -74,12 +76,14 @@ class Context:
         generator: what random choices are drawn from.
         executor: what runs long computations, as `submit` does.
         ground: where the robot can go, with the obstacles that it met.
-        swept: what its brush passed over.
+        mates: the robots with which it shares the floor.
+        swept: what its brush passed over, and those of its mates.
         footing: where the floor ends.
     """
 
     def __init__(self, plan: FloorPlan, robot: RobotConfig, config: CleaningConfig, seed: Seed = 0,
-                 executor: Optional[Executor] = None, survey: Optional[Survey] = None) -> None:
+                 executor: Optional[Executor] = None, survey: Optional[Survey] = None,
+                 mates: Optional[Mates] = None) -> None:
         """Know a floor plan, with nothing met or swept yet.
 
         Without an executor, what is submitted runs at once in the calling thread, so that a run can be repeated.
@@ -91,6 +95,8 @@ class Context:
         self.generator = np.random.default_rng(seed)
         self.executor = executor if executor is not None else InPlace()
         self.survey = survey
+        self.mates = mates if mates is not None else Mates()
+        self._berth = self.mates.rank  # number of the dock to which the robot returns; past the last, from the first on
         self.ground = Ground(plan, robot)
         self.swept = Swept(plan, robot)
         self.footing = Footing(plan, robot)
@@ -117,6 +123,22 @@ class Context:
         self.swept.learn(plan, x, y)
         return True
 
+    def moor(self, pose: Pose) -> None:
+        """The robot is docked at a pose: that dock is its home."""
+        away = [math.hypot(dock.x - pose.x, dock.y - pose.y) for dock in self.plan.docks]
+        self._berth = away.index(min(away)) if away else self._berth
+
+    @property
+    def home(self) -> Optional[Pose]:
+        """The dock to which the robot returns: where it began, or by its place among its mates; None without docks."""
+        docks = self.plan.docks
+        return docks[self._berth % len(docks)] if docks else None
+
+    def hear(self, name: str, report: Report) -> None:
+        """Take note of what a mate tells: what it sweeps is swept."""
+        self.mates.hear(name, report)
+        self.swept.follow(report.pose, report.brushes_up, name)
+
     def with_target(self, target_coverage: float) -> 'Context':
         """A context with another target that shares everything else, ground and swept included, with this one."""
         other = copy.copy(self)
@@ -135,5 +157,5 @@ class Context:
         The function may run in another thread. It must not draw from the generator, whose state the copy shares.
         """
         snapshot = copy.copy(self)
-        snapshot.ground, snapshot.swept = self.ground.copy(), self.swept.copy()
+        snapshot.ground, snapshot.swept, snapshot.mates = self.ground.copy(), self.swept.copy(), self.mates.copy()
         return self.executor.submit(function, snapshot, *args)

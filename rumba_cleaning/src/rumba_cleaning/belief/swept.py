@@ -1,8 +1,8 @@
-"""The floor that the brush of one robot has swept, computed from the poses that the robot knows."""
+"""The floor that the brushes of a robot and its mates have swept, computed from the poses that the robot knows."""
 
 import copy
 import math
-from typing import Optional
+from typing import Dict
 
 import numpy as np
 
@@ -24,7 +24,7 @@ class Swept:
         """Remember a floor by its refined plan."""
         self._config = config
         self._sweep = Sweep(plan, config)
-        self._last: Optional[Pose] = None
+        self._last: Dict[str, Pose] = {}  # by the name of the robot
         self._start = math.nan, math.nan  # [m], map frame
 
     def begin(self, x: float, y: float) -> None:
@@ -34,7 +34,7 @@ class Swept:
             MapError: the robot does not fit there.
         """
         self._sweep.begin(x, y)
-        self._last = None
+        self._last = {}
         self._start = x, y
 
     def learn(self, plan: FloorPlan, x: float, y: float) -> None:
@@ -52,17 +52,19 @@ class Swept:
     def copy(self) -> 'Swept':
         """A memory of the same floor, which stays as it is if this one changes, and has no last pose."""
         other = copy.copy(self)
-        other._sweep, other._last = self._sweep.copy(), None
+        other._sweep, other._last = self._sweep.copy(), {}
         return other
 
-    def follow(self, pose: Pose, brushes_up: bool) -> None:
-        """Take note of a new pose of the robot, and sweep from the pose before to this one.
+    def follow(self, pose: Pose, brushes_up: bool, mate: str = '') -> None:
+        """Take note of a new pose of the robot or of a mate, and sweep from the pose before to this one.
 
         Args:
-            pose: where the robot is now, map frame.
-            brushes_up: whether the brushes were up since the pose before: then nothing is swept.
+            pose: where it is now, map frame.
+            brushes_up: whether its brushes were up since the pose before: then nothing is swept.
+            mate: its name; empty: the robot itself.
         """
-        last, self._last = self._last, pose
+        last = self._last.get(mate)
+        self._last[mate] = pose
         if last is not None and not brushes_up and abs(pose.x - last.x) + abs(pose.y - last.y) < JUMP:
             self.sweep(last, pose)
 

@@ -38,7 +38,7 @@ class BatteryWatch:
     def _measure_ways(self) -> None:
         """Have the lengths of the paths to the dock computed, on the plan as it is now."""
         self._lengths: 'Optional[Future[Array]]' = None
-        self._plan = self._context.plan
+        self._plan, self._home = self._context.plan, self._context.home
         try:
             goal = approach(self._context)
         except MapError:
@@ -49,8 +49,10 @@ class BatteryWatch:
 
     @property
     def is_ready(self) -> bool:
-        """Whether the lengths of the paths are computed, so that `needed` can answer; on a newer plan, anew."""
-        if self._plan is not self._context.plan:
+        """Whether the lengths of the paths are computed, so that `needed` can answer; on a newer plan, or with another
+        home, anew.
+        """
+        if self._plan is not self._context.plan or self._home is not self._context.home:
             self._measure_ways()
         return self._lengths is None or self._lengths.done()
 

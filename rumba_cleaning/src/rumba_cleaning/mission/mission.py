@@ -11,14 +11,16 @@ from rumba_cleaning.behaviour import CERTAIN, STOP, Behaviour, Command, Observat
 from rumba_cleaning.behaviours import relocation
 from rumba_cleaning.behaviours.dock import Dock
 from rumba_cleaning.behaviours.guard import Guard
+from rumba_cleaning.behaviours.right_of_way import RightOfWay
 from rumba_cleaning.behaviours.undock import Undock
 from rumba_cleaning.belief.context import Context
+from rumba_cleaning.belief.mates import Report, Task
 from rumba_cleaning.mission.battery_watch import BatteryWatch
 from rumba_cleaning.mission.wording import percent, swept
 from rumba_cleaning.outcome import Outcome
+from rumba_cleaning.route import Ahead
 from rumba_sim.model.errors import CommandError, ConfigError
 from rumba_sim.model.geometry import Pose
-from rumba_sim.model.kernel import Array
 
 JUMP = 0.5  # [m] from one observation to the next: the robot did not drive there, somebody moved it; as in `Swept`
 OFF = 1.0  # [s] off the contacts while charging: the robot was moved; contacts that bounce are closed again sooner
@@ -27,6 +29,7 @@ INEXACT = 0.0008  # the same by a pose that is not certain: twice what an error 
 GAIN = 0.002  # of coverage: a charge that brings less brings nothing; as boustrophedon judges its rounds
 VAIN = 3  # charges, one after the other, that brought nothing: the mission is given up; our choice
 HOMES = 2  # attempts to return to the dock, each with the tries of `Dock`; our choice
+WAITING = 'waiting for mates, which clean what is left'
 START = 0.1  # charge beyond what the way to the dock needs, without which a mission begins with charging; our choice
 
 
@@ -77,6 +80,7 @@ class Mission(Behaviour):
         self._cleaning = strategies.make(strategy, self._context)
         self._guard = Guard(self._context)
         self._relocation = relocation.Relocation(self._context)
+        self._right_of_way = RightOfWay(self._context)
         self.strategy = strategy
 
     def resume(self) -> None:
@@ -98,7 +102,8 @@ class Mission(Behaviour):
         self.state = State.IDLE
         self._part = None
         self._last = None
-        self._brushes_up = True
+        self._brushes_up = self._had_brushes_up = True  # now, and on the way to the last pose
+        self._waits = False  # for mates that may leave something to it
         self._closing: Optional[Tuple[Status, str, Outcome]] = None  # how the mission ends once the robot is back
         self._off = 0.0  # [s] off the contacts
         self._homes = 0  # failed attempts to return to the dock
@@ -115,6 +120,7 @@ class Mission(Behaviour):
         self._resumes = False
         self._guard.rest()
         self._relocation.rest()
+        self._right_of_way.rest()
 
     def update(self, observation: Observation) -> Command:
         """Do what the state asks for."""
@@ -145,6 +151,11 @@ class Mission(Behaviour):
         return self._guard.step(self._relocation.command, observation)
 
     def _decide(self, observation: Observation) -> Command:
+        if self.state in (State.CLEANING, State.RETURNING):
+            command = self._right_of_way.command(observation, self.plan_ahead())
+            if command is not None:
+                self.message = 'giving way to a mate'
+                return command
         return {
             State.IDLE: self._begin, State.UNDOCKING: self._undock, State.CLEANING: self._clean,
             State.RETURNING: self._return, State.DOCKING: self._return, State.CHARGING: self._charge,
@@ -166,22 +177,38 @@ class Mission(Behaviour):
         if self._part is not None:
             self._part.stand_by(observation)
 
-    def planned_path(self) -> Optional[Array]:
-        """The path of the part that is under way."""
-        return None if self._part is None else self._part.planned_path()
+    def plan_ahead(self) -> Optional[Ahead]:
+        """The plan of the part that is under way."""
+        return None if self._part is None else self._part.plan_ahead()
 
     def _track(self, observation: Observation) -> None:
         pose, last = observation.pose, self._last
         if not self._has_memory:
             self._begin_floor(pose)
+            if observation.is_docked:
+                self._context.moor(pose)
         if last is not None and math.hypot(pose.x - last.x, pose.y - last.y) > JUMP and self._part is not None:
             self._is_undisturbed = False
             self._part.restart()
         if self.state is State.CHARGING:
             self.charging_time += observation.dt
-        self._last = pose
+        self._last, self._had_brushes_up = pose, self._brushes_up
         self._context.swept.follow(pose, self._brushes_up)
         self._watch.measure(observation)
+
+    def report(self) -> Optional[Report]:
+        """What its mates need to know; None before its first step."""
+        if self._last is None:
+            return None
+        return Report(self._last, self._had_brushes_up, self._task(), self.plan_ahead())
+
+    def _task(self) -> Task:
+        if self.status is not Status.RUNNING:
+            return Task.OFF
+        if self.state is State.CLEANING:
+            return Task.SEEKING if self.plan_ahead() is None else Task.SWEEPING
+        return {State.RETURNING: Task.RETURNING, State.DOCKING: Task.DOCKING, State.CHARGING: Task.DOCKED}.get(
+            self.state, Task.SEEKING)
 
     def _begin_floor(self, pose: Pose) -> None:
         """Forget what was swept; what can be reached is counted from the robot, or from the nearest free node."""
@@ -221,9 +248,8 @@ class Mission(Behaviour):
     def _clean(self, observation: Observation) -> Command:
         coverage = self._context.swept.coverage
         target = self._context.target_coverage
-        margin = EXACT if observation.covariance == CERTAIN else INEXACT
-        if coverage >= min(target + margin, 1.0):
-            return self._close(Status.SUCCEEDED, f'{percent(coverage)} swept', Outcome.SUCCEEDED)
+        if self._is_target_met(observation):
+            return self._succeed()
         needed = self._watch.needed(observation.pose)
         if observation.state_of_charge < needed:
             if math.isfinite(needed):
@@ -236,12 +262,25 @@ class Mission(Behaviour):
         self.message = '; '.join(filter(None, [f'{percent(coverage)} swept', cleaning.message]))
         if cleaning.status is Status.FAILED:
             return self._close(Status.FAILED, f'{percent(coverage)} swept: {cleaning.message}', cleaning.outcome)
+        if cleaning.status is Status.SUCCEEDED and self._context.mates.are_busy:
+            return self._wait_for_mates(observation)
+        if cleaning.status is Status.SUCCEEDED and self._waits:
+            self._waits = False
+            return self._enter(State.CLEANING, cleaning)
         if cleaning.status is Status.SUCCEEDED:
             if coverage >= target:
-                return self._close(Status.SUCCEEDED, f'{percent(coverage)} swept', Outcome.SUCCEEDED)
+                return self._succeed()
             return self._close(Status.FAILED, f'{swept(self._context)}, the target is {percent(target)}: '
                                               f'{cleaning.message}', Outcome.INCOMPLETE)
         return command
+
+    def _wait_for_mates(self, observation: Observation) -> Command:
+        """Go home, since mates clean what is left; nobody knows yet whether they leave anything."""
+        self._waits = True
+        self.message = WAITING
+        if math.isfinite(self._watch.needed(observation.pose)):
+            return self._enter(State.RETURNING, Dock(self._context))
+        return STOP
 
     def _return(self, observation: Observation) -> Command:
         assert isinstance(self._part, Dock)
@@ -256,7 +295,8 @@ class Mission(Behaviour):
             self._part.restart()
         elif self._part.status is Status.SUCCEEDED:
             self._homes = 0
-            return self._end() if self._closing else self._arrive()
+            return self._end() if self._closing else self._enter(State.CHARGING, None) if self._waits else (
+                self._arrive())
         return command
 
     def _arrive(self) -> Command:
@@ -274,17 +314,30 @@ class Mission(Behaviour):
         return self._enter(State.CHARGING, None)
 
     def _charge(self, observation: Observation) -> Command:
+        if self._is_target_met(observation):
+            return self._succeed()
+        if self._waits and self._context.mates.are_busy:
+            self.message = WAITING
+            return STOP
         self.message = f'charging, {percent(observation.state_of_charge)}'
         self._off = 0.0 if observation.is_docked else self._off + observation.dt
         if self._off > OFF:
             self._is_undisturbed = False
             return self._enter(State.CLEANING, self._cleaning)
-        if observation.state_of_charge >= self._context.config.charge_to:
-            self._is_undisturbed = True
+        if self._waits and observation.state_of_charge >= self._watch.needed(observation.pose) + START or (
+                observation.state_of_charge >= self._context.config.charge_to):
+            self._is_undisturbed, self._waits = True, False
             return self._enter(State.UNDOCKING, Undock(self._context, turns=False))
         return STOP
 
     # --- the end --------------------------------------------------------------------------------------------------
+
+    def _is_target_met(self, observation: Observation) -> bool:
+        margin = EXACT if observation.covariance == CERTAIN else INEXACT
+        return self._context.swept.coverage >= min(self._context.target_coverage + margin, 1.0)
+
+    def _succeed(self) -> Command:
+        return self._close(Status.SUCCEEDED, f'{percent(self._context.swept.coverage)} swept', Outcome.SUCCEEDED)
 
     def _close(self, status: Status, message: str, outcome: Outcome) -> Command:
         """Return to the dock, if a path leads there, and end then."""

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from rumba_cleaning.belief.context import Context
 from rumba_cleaning.belief.swept import Swept
 from rumba_cleaning.planning import compiled_ways
 from rumba_sim.model.geometry import Pose, wrap_angle
@@ -22,6 +23,17 @@ def drive(swept: Swept, path: Array) -> None:
             swept.sweep(Pose(x, y, last), Pose(x, y, heading))
         swept.sweep(Pose(x, y, heading), Pose(to_x, to_y, heading))
         last = heading
+
+
+def leave_to_mates(context: Context) -> None:
+    """Count as swept what the mates of a context will sweep by their plans; the memory of the context is changed."""
+    for ahead in context.mates.sweeping().values():
+        waypoints, speeds = ahead.rest()
+        sweeps = speeds <= context.config.speed
+        ends = np.flatnonzero(np.diff(sweeps)) + 1
+        for first, last in zip([0, *ends], [*ends, len(speeds)]):
+            if sweeps[first]:
+                drive(context.swept, waypoints[first:last + 1])
 
 
 def strides(path: Array, longest: float) -> Array:

@@ -4,7 +4,7 @@ from typing import Dict, List, Optional, Tuple
 
 import numpy as np
 
-from rumba_cleaning.behaviours.follower import Route
+from rumba_cleaning.route import Route
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.belief.ground import Ground
 from rumba_cleaning.belief.swept import Swept

@@ -1,36 +1,46 @@
 """boustrophedon: plans on the map, then drives in lanes, to and fro, as an ox ploughs."""
 
 from concurrent.futures import Future
-from typing import Optional, Tuple
+from typing import NamedTuple, Optional
 
 from rumba_cleaning.behaviour import STOP, Behaviour, Command, Observation
 from rumba_cleaning.behaviours.detour import detour
-from rumba_cleaning.behaviours.follower import Route
+from rumba_cleaning.behaviours.helping import help_mate
+from rumba_cleaning.route import Ahead, Relief, Route
 from rumba_cleaning.behaviours.travel import Going, Travel
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.strategies import strategy
 from rumba_sim.model.geometry import Pose
-from rumba_sim.model.kernel import Array
 
 WORTH = 0.0005  # of coverage: a round that gains less is the last: a round for the last spots gains little more
 HELPED = 0.01  # of coverage: forgetting obstacles that gained less was in vain: to touch them all again takes long
 VAIN = 3  # times that obstacles are forgotten in vain, after which it ends
 PAUSE = 10.0  # [s] after the first of these times, twice that after the second ...: who stands there may walk on
 OPEN = 0.9  # of the floor: what lies beside obstacles must be more to be all that is cleaned, or a door may be closed
+TURN = 20.0  # [s] that a mate may take to plan, before it is the turn of the robot all the same; our choice
 ROUNDS = 20  # at most, each with what was missed before: far more than the maps of rumba_sim need
 
-Planned = Tuple[Optional[Route], bool]  # a route, and whether obstacles that were met had to be forgotten for it
+
+class Planned(NamedTuple):
+    """What was planned."""
+
+    route: Optional[Route]
+    has_forgotten: bool = False  # obstacles that were met, since there was no route beside them
+    relief: Optional[Relief] = None  # what it takes over from a mate
 
 
 @strategy('boustrophedon')
 class Boustrophedon(Behaviour):
     """Cleans what was missed, round by round, until a round gains nothing more.
 
-    Then it forgets the obstacles that it met once, since they may be gone, as long as that helps.
+    Then it forgets the obstacles that it met once, since they may be gone, as long as that helps. With mates, each
+    plans in its turn for what nobody has planned, and takes its share of that.
     """
 
     _planning: 'Optional[Future[Planned]]' = None
     _travel: Optional[Travel] = None
+    _plan = 0  # number of the plan
+    _rest: Optional[Route] = None  # of the route that a detour leads back to; None while a round is planned
 
     def __init__(self, context: Context) -> None:
         """Clean the floor plan of a context."""
@@ -40,7 +50,9 @@ class Boustrophedon(Behaviour):
         """Begin with a plan for what was missed so far."""
         self._drop_plan()
         self._travel = None
-        self._is_round = False  # what is planned: a round, or a detour
+        self._rest = None
+        self._relief: Optional[Relief] = None  # what the plan takes over from a mate
+        self._waited = 0.0  # [s] for the turn to plan
         self._rounds = 0
         self._forgot_at = -1.0  # coverage when obstacles that were met were forgotten
         self._vain = 0  # times, one after the other, that this did not help
@@ -50,12 +62,15 @@ class Boustrophedon(Behaviour):
 
     def update(self, observation: Observation) -> Command:
         """Follow the plan, once there is one."""
+        self._leave_to_mate()
         if self._travel is None:
             if self._planning is None:
+                if self._is_turn_of_mate(observation.dt):
+                    return self._wait()
                 self._plan_round(observation.pose)
             self._take_plan()
             if self._travel is None:
-                if self._planning is not None or not self._is_round:
+                if self._planning is not None or self._rest is not None:
                     return self._wait()
                 return self.succeed('nothing more can be reached')
         if self._pause > 0.0:
@@ -73,11 +88,23 @@ class Boustrophedon(Behaviour):
         """Ignore what is being planned."""
         self._drop_plan()
 
-    def planned_path(self) -> Optional[Array]:
-        """The corners of its path [m]."""
-        return None if self._travel is None else self._travel.path
+    def plan_ahead(self) -> Optional[Ahead]:
+        """Its route; while a detour is planned, what that leads back to."""
+        if self._travel is not None:
+            route, remaining = self._travel.route, self._travel.remaining
+        elif self._rest is not None:
+            route, remaining = self._rest, self._rest.length
+        else:
+            return None
+        return Ahead(route, remaining, self._plan, self._relief)
 
     # --- planning -------------------------------------------------------------------------------------------------
+
+    def _is_turn_of_mate(self, dt: float) -> bool:
+        """Whether a mate that comes before plans, and it is worth waiting for its plan."""
+        self._waited = self._waited + dt if self._context.mates.plan_before else 0.0
+        self.message = 'waiting for the plan of a mate'
+        return 0.0 < self._waited < TURN
 
     def _plan_round(self, pose: Pose) -> None:
         """Plan for what was missed, unless another round is not worth it; then forget what may have gone."""
@@ -88,30 +115,41 @@ class Boustrophedon(Behaviour):
         may_forget = context.ground.has_marks and self._vain < VAIN
         self._before = coverage
         self._rounds += 1
-        self._is_round = True
+        self._rest = None
         self._planning = context.submit(_round, pose, is_worth, may_forget)
 
     def _leave_route(self, travel: Travel, pose: Pose) -> None:
         """Plan the way back onto the route if the robot had to leave it."""
         self._travel = None
-        rest = None if travel.going is Going.ARRIVED else travel.rest()
-        if rest is not None:
-            self._is_round = False
-            self._planning = self._context.submit(_detour, pose, rest)
+        self._rest = None if travel.going is Going.ARRIVED else travel.rest()
+        if self._rest is not None:
+            self._planning = self._context.submit(_detour, pose, self._rest)
             self._take_plan()
 
     def _take_plan(self) -> None:
         """Follow what was planned, if that is done."""
         if self._planning is None or not self._planning.done():
             return
-        route, has_forgotten = self._planning.result()
-        self._planning = None
-        if has_forgotten:
+        planned, self._planning = self._planning.result(), None
+        if self._rest is None:
+            self._plan, self._relief = self._plan + 1, planned.relief
+        if planned.has_forgotten:
             self._vain = 0 if self._before > self._forgot_at + HELPED else self._vain + 1
             self._pause = PAUSE * self._vain
             self._forgot_at = self._before
             self._context.ground.forget_doubtful()
-        self._travel = None if route is None else Travel(self._context, route)
+        self._travel = None if planned.route is None else Travel(self._context, planned.route)
+
+    def _leave_to_mate(self) -> None:
+        """Leave the end of the plan to a mate that drives it."""
+        length = self._context.mates.relief(self._plan)
+        ahead = self.plan_ahead()
+        if length > 0.0 and ahead is not None:
+            self._plan += 1
+            route = ahead.without_end(length)
+            self._drop_plan()
+            self._rest = None
+            self._travel = None if route is None else Travel(self._context, route)
 
     def _drop_plan(self) -> None:
         if self._planning is not None:
@@ -130,18 +168,36 @@ def plan(context: Context, pose: Pose) -> Optional[Route]:
     return planner.plan(context, pose)
 
 
+def leave_to_mates(context: Context) -> None:
+    """As `paper.leave_to_mates`, imported where it is needed, for the same reason."""
+    from rumba_cleaning.planning import paper
+    paper.leave_to_mates(context)
+
+
 def _round(context: Context, pose: Pose, is_worth: bool, may_forget: bool) -> Planned:
     """A route that cleans what was missed; if there is none, one without the obstacles that may have gone."""
     part = context.beside_obstacles()
     if part.coverage >= context.target_coverage and part.share > OPEN:
-        return None, False
+        return Planned(None)
+    leave_to_mates(context)
+    share = 1.0 / (1 + context.mates.seeking)
     route = plan(context, pose) if is_worth else None
-    if route is not None or not may_forget:
-        return route, False
+    if route is not None:
+        return Planned(_part_of(route, share))
+    helping = help_mate(context, pose)
+    if helping is not None:
+        return Planned(helping[0], relief=helping[1])
+    if not may_forget:
+        return Planned(None)
     context.ground.forget_doubtful()
-    return plan(context, pose), True
+    return Planned(_part_of(plan(context, pose), share), has_forgotten=True)
+
+
+def _part_of(route: Optional[Route], share: float) -> Optional[Route]:
+    """The share of a route that the robot drives itself."""
+    return route if route is None or share == 1.0 else route.beginning(share)
 
 
 def _detour(context: Context, pose: Pose, rest: Route) -> Planned:
     """A route around the obstacles that were met, onto the rest of another one."""
-    return detour(context, pose, rest), False
+    return Planned(detour(context, pose, rest))

@@ -6,7 +6,7 @@ from typing import List, Optional
 import numpy as np
 
 from rumba_cleaning.behaviour import STOP, Behaviour, Command, Observation, Status
-from rumba_cleaning.behaviours.follower import Route
+from rumba_cleaning.route import Ahead, Route
 from rumba_cleaning.behaviours.travel import Going, Travel
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.strategies import strategy
@@ -69,11 +69,11 @@ class ExploreAndClean(Behaviour):
         self._travel = None
         self._cleaning.stand_by(observation)
 
-    def planned_path(self) -> Optional[Array]:
-        """The corners of the path to a frontier, or to clean [m]."""
+    def plan_ahead(self) -> Optional[Ahead]:
+        """The route to a frontier, or to clean."""
         if not self._is_exploring:
-            return self._cleaning.planned_path()
-        return None if self._travel is None else self._travel.path
+            return self._cleaning.plan_ahead()
+        return None if self._travel is None else self._travel.ahead
 
     # --- exploring ------------------------------------------------------------------------------------------------
 

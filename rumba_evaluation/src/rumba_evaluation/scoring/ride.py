@@ -7,7 +7,8 @@ from typing import List, Sequence
 import numpy as np
 
 from rumba_cleaning.behaviour import Behaviour, Command, Observation, Status
-from rumba_cleaning.behaviours.follower import Follower, Route
+from rumba_cleaning.behaviours.follower import Follower
+from rumba_cleaning.route import Route
 from rumba_cleaning.cleaning_config import CleaningConfig
 from rumba_cleaning.control import CONTROL_DT, CONTROL_TICKS, STEP_RATE, act
 from rumba_cleaning.outcome import Outcome

@@ -13,6 +13,7 @@ import numpy as np
 
 from rumba_cleaning.behaviour import Status
 from rumba_cleaning.belief.context import BeforeNextStep, Context, Seed, own_seed
+from rumba_cleaning.belief.mates import Mates
 from rumba_cleaning.cleaning_config import CleaningConfig
 from rumba_cleaning.control import CONTROL_DT, CONTROL_TICKS, STEP_RATE, act
 from rumba_cleaning.mission.duration import longest
@@ -72,7 +73,8 @@ class Trial:
             self.world.spawn(nth_name(number), pose, brushes_up=True)
         self.sources = {name: _source(plan, self.world, name, conditions.pose, seed) for name in self.world.robots}
         self._planners = BeforeNextStep()
-        self.contexts = [_context(plan, source, config, cleaning, own_seed(seed, name), self._planners)
+        self.contexts = [_context(plan, source, config, cleaning, own_seed(seed, name), self._planners,
+                                  _mates(name, list(self.sources), conditions.pose))
                          for name, source in self.sources.items()]
         self._time_limit = longest(self.contexts[0] if conditions.pose != SLAM else Context(plan, config, cleaning))
         self.missions = [Mission(context, strategy, conditions.target) for context in self.contexts]
@@ -107,6 +109,7 @@ class Trial:
         self._planners.work()
         for name, mission in self._running.items():
             act(mission, self.world, name, self._dt, self.sources[name])
+            self._tell_mates(name, mission)
         self._dt = CONTROL_DT
         running = self._running.values()
         if running and all(mission.state is State.CHARGING for mission in running):
@@ -118,6 +121,13 @@ class Trial:
         coverage = self.world.floor.coverage
         while len(self.curve) < 100 and coverage >= (len(self.curve) + 1) / 100:
             self.curve.append(self.working_time)
+
+    def _tell_mates(self, name: str, mission: Mission) -> None:
+        report = mission.report() if len(self.missions) > 1 else None
+        if report is not None:
+            for other, context in zip(self.world.robots, self.contexts):
+                if other != name:
+                    context.hear(name, report)
 
     def result(self) -> Result:
         """The result so far."""
@@ -150,12 +160,17 @@ class Trial:
         return '; '.join(f'{name}: {message}' for name, message in messages.items())
 
 
+def _mates(name: str, names: List[str], pose: str) -> Mates:
+    """The mates of a robot; with maps that robots make themselves, each in a frame of its own, there are none."""
+    return Mates() if pose == SLAM else Mates(name, names)
+
+
 def _context(plan: FloorPlan, source: PoseSource, config: RobotConfig, cleaning: CleaningConfig, seed: Seed,
-             executor: Executor) -> Context:
+             executor: Executor, mates: Mates) -> Context:
     """What a robot knows at first: the floor plan, or only what it has mapped itself so far."""
     if isinstance(source, Mapped):
-        return Context(source.plan(), config, cleaning, seed, executor, source.plan)
-    return Context(plan, config, cleaning, seed, executor)
+        return Context(source.plan(), config, cleaning, seed, executor, source.plan, mates)
+    return Context(plan, config, cleaning, seed, executor, mates=mates)
 
 
 def _source(plan: FloorPlan, world: World, name: str, pose: str, seed: int) -> PoseSource:

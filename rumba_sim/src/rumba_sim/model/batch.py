@@ -11,7 +11,8 @@ Arguments that the functions share. Each row belongs to one world; it may be lon
     robots: (worlds) records of type ROBOT: each world has one robot.
     constants: (worlds) records `constants.Constants`.
     obstacles: (worlds, any) records of type OBSTACLE, of which the first `counts[world]` are there.
-    plans: int64 (worlds), which row of `fields`, `cells` and `skips` belongs to a world; worlds on one plan share it.
+    plans: int64 (worlds), which row of what belongs to a floor plan belongs to a world; worlds on one plan share it.
+    docks: float64 (plans, any, 3), of which the first `dock_counts[plan]` are there.
     shapes: int64 (worlds, 3), rows and columns of the cells, and the squares of samples along the side of a cell.
     fields, cells, skips, samples, dirt: what the kernel calls so, row by row, in one row of a world or of a plan.
 """
@@ -30,8 +31,9 @@ ANY_BUT_SWEEPABLE = 0xFF - kernel.SWEEPABLE  # bits of a sample: REACHABLE and t
 
 
 def advance(first: int, last: int, order: Array, ticks: Array, spans: Array, robots: Array, constants: Array,
-            obstacles: Array, counts: Array, stops: Array, moving: Array, plans: Array, shapes: Array, fields: Array,
-            cells: Array, samples: Array, dirt: Array, tallies: Array, noise: Array) -> None:
+            obstacles: Array, counts: Array, stops: Array, moving: Array, plans: Array, docks: Array,
+            dock_counts: Array, shapes: Array, fields: Array, cells: Array, samples: Array, dirt: Array, tallies: Array,
+            noise: Array) -> None:
     """Advance each world by a number of ticks of its own.
 
     Args, apart from those above:
@@ -51,13 +53,14 @@ def advance(first: int, last: int, order: Array, ticks: Array, spans: Array, rob
         dirty = dirt[world, :rows * columns].reshape((rows, columns))
         robot, k, tally = robots[world:world + 1], constants[world:world + 1], tallies[world:world + 1]
         things = obstacles[world, :counts[world]]
+        stations = docks[plans[world], :dock_counts[plans[world]]]
         if not moving[world]:
-            kernel.advance(robot, k, things, field, floor, sample, dirty, tally, noise[world], ticks[world],
+            kernel.advance(robot, k, things, stations, field, floor, sample, dirty, tally, noise[world], ticks[world],
                            spans[world])
             continue
         for tick in range(ticks[world], ticks[world] + spans[world]):
             kernel.go(things, stops[world], robot, k[0])
-            kernel.advance(robot, k, things, field, floor, sample, dirty, tally, noise[world], tick, 1)
+            kernel.advance(robot, k, things, stations, field, floor, sample, dirty, tally, noise[world], tick, 1)
 
 
 def scan(first: int, last: int, order: Array, rows: Array, robots: Array, constants: Array, obstacles: Array,
@@ -79,13 +82,13 @@ def scan(first: int, last: int, order: Array, rows: Array, robots: Array, consta
 
 
 def infrared(first: int, last: int, order: Array, rows: Array, robots: Array, constants: Array, plans: Array,
-             shapes: Array, cells: Array, skips: Array, beams: Array) -> None:
-    """What the receivers of each robot get from the dock: `beams`, uint8 (any, 3), receives omni, left, right."""
+             docks: Array, dock_counts: Array, shapes: Array, cells: Array, skips: Array, beams: Array) -> None:
+    """What the receivers of each robot get from the docks: `beams`, uint8 (any, 3), receives omni, left, right."""
     for index in range(first, last):
         world, row = order[index], rows[index]
         floor, skip = floor_of(plans[world], plans[world], shapes[world], cells, skips)
         beams[row, 0], beams[row, 1], beams[row, 2] = kernel.infrared(
-            robots, world, constants[world:world + 1], skip, floor)
+            robots, world, constants[world:world + 1], docks[plans[world], :dock_counts[plans[world]]], skip, floor)
 
 
 def cliffs(first: int, last: int, order: Array, rows: Array, robots: Array, constants: Array, plans: Array,

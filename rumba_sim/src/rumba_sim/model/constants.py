@@ -8,11 +8,9 @@ import numpy as np
 
 from rumba_sim.model.errors import ConfigError, MapError
 from rumba_sim.model.floor_plan import FloorPlan
-from rumba_sim.model.geometry import Pose
 from rumba_sim.model.kernel import Array
 from rumba_sim.model.robot_config import RobotConfig
 
-NO_DOCK = Pose(math.nan, math.nan, math.nan)
 FORMATS: Dict[Any, str] = {float: 'f8', int: 'i8', bool: '?'}
 
 
@@ -45,10 +43,6 @@ class Constants(NamedTuple):
     range_max: float  # [m]
     range_noise: float  # standard deviation of a range [m]
     # dock
-    has_dock: bool
-    dock_x: float  # pose of a docked robot, map frame [m, rad]; NaN without a dock
-    dock_y: float
-    dock_theta: float
     contact_distance: float  # the contacts close at or below [m]
     contact_angle: float  # and [rad]
     release_distance: float  # the contacts open above [m]
@@ -106,7 +100,6 @@ def check_speed(config: RobotConfig, step_rate: float) -> None:
 def _values(config: RobotConfig, plan: FloorPlan, step_rate: float) -> Constants:
     drive, odometry, bumper, laser = config.drive, config.odometry, config.bumper, config.laser
     dock, brush, battery = config.dock, config.brush, config.battery
-    docked = plan.dock or NO_DOCK
     return Constants(
         dt=1.0 / step_rate, origin_x=plan.origin[0], origin_y=plan.origin[1], resolution=plan.resolution,
         has_layers=plan.cliff is not None or plan.carpet is not None,
@@ -117,7 +110,6 @@ def _values(config: RobotConfig, plan: FloorPlan, step_rate: float) -> Constants
         floor_traction=odometry.floor_traction, carpet_traction=odometry.carpet_traction,
         bumper_half=0.5 * bumper.field, overlap_half=0.5 * bumper.overlap,
         range_min=laser.range_min, range_max=laser.range_max, range_noise=laser.noise,
-        has_dock=plan.dock is not None, dock_x=docked.x, dock_y=docked.y, dock_theta=docked.theta,
         contact_distance=dock.contact_distance, contact_angle=dock.contact_angle,
         release_distance=dock.release_distance, release_angle=dock.release_angle, buoy_range=dock.buoy_range,
         buoy_half=0.5 * dock.buoy_field, buoy_overlap_half=0.5 * dock.buoy_overlap, halo=dock.halo,

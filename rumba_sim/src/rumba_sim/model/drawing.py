@@ -6,7 +6,7 @@ every version of the libraries draws the same cells.
 
 import math
 import pathlib
-from typing import Any, Dict, Tuple
+from typing import Any, Dict, List, Sequence, Tuple
 
 import numpy as np
 from PIL import Image
@@ -64,14 +64,31 @@ class Drawing:
 
     def save(self, folder: pathlib.Path, name: str, title: str, poses: Dict[str, Pose]) -> None:
         """Write the YAML file, which begins with the title, and the images of the floor and the layers."""
+        self._describe(folder, name, name, [f'# {title}'], [f'{key}: {_listed(pose)}' for key, pose in poses.items()])
+        for file, pixels in self._images(name).values():
+            Image.fromarray(np.ascontiguousarray(pixels[::-1])).save(str(folder / file), optimize=True)
+
+    def save_with_docks(self, folder: pathlib.Path, name: str, images: str, title: str, docks: Sequence[Pose]) -> None:
+        """Write another YAML file, with several docks, for the images that were saved under a name."""
+        self._describe(folder, name, images, [f'# {title}'],
+                       ['docks:', *(f'  - {_listed(dock)}' for dock in docks)])
+
+    def _images(self, name: str) -> Dict[str, Tuple[str, Any]]:
+        """File and pixels of each image, by its key in the YAML file."""
         images = {'image': (f'{name}.png', self.floor)}
         for layer, mask in self.layers.items():
             images[layer] = (f'{name}_{layer}.png', np.where(mask, 0, 255).astype(np.uint8))
-        lines = [f'# {title}']
-        lines += [f'{key}: {file}' for key, (file, _) in images.items()]
+        return images
+
+    def _describe(self, folder: pathlib.Path, name: str, images: str, lines: List[str], poses: List[str]) -> None:
+        """Write a YAML file."""
+        lines += [f'{key}: {file}' for key, (file, _) in self._images(images).items()]
         lines += [f'resolution: {self.resolution}', f'origin: [{self.origin[0]}, {self.origin[1]}, 0.0]', 'negate: 0',
                   'occupied_thresh: 0.65', 'free_thresh: 0.196']
-        lines += [f'{key}: [{x:.6f}, {y:.6f}, {theta:.6f}]' for key, (x, y, theta) in poses.items()]
-        for file, pixels in images.values():
-            Image.fromarray(np.ascontiguousarray(pixels[::-1])).save(str(folder / file), optimize=True)
-        (folder / f'{name}.yaml').write_text('\n'.join(lines) + '\n')
+        (folder / f'{name}.yaml').write_text('\n'.join(lines + poses) + '\n')
+
+
+def _listed(pose: Pose) -> str:
+    """A pose as YAML."""
+    x, y, theta = pose
+    return f'[{x:.6f}, {y:.6f}, {theta:.6f}]'

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import copy
 import math
-from typing import TYPE_CHECKING, Any, NamedTuple, Optional, Tuple
+from typing import TYPE_CHECKING, Any, NamedTuple, Optional, Sequence, Tuple
 
 import numpy as np
 from scipy import ndimage
@@ -47,7 +47,9 @@ class FloorPlan:
         origin: x and y of the lower left corner of cell (0, 0) in the map frame [m].
         cliff: bool (rows, columns), cells over which there is no floor; None without cliffs.
         carpet: bool (rows, columns), cells with a carpet; None without carpets.
-        dock: pose of a robot that stands at the contacts of the dock and faces it; None without a dock.
+        dock: pose of a robot that stands at the contacts of the dock and faces it; None without a dock. If there are
+            several, the first one.
+        further_docks: the same of the others.
         start: pose in which a robot begins; None if the map does not say.
         clearance: float64 (rows + 1, columns + 1), exact distance from each node to the nearest obstacle [m],
             0 inside an obstacle and on its border. C-contiguous.
@@ -58,7 +60,8 @@ class FloorPlan:
 
     def __init__(self, name: str, occupancy: NDArray[np.int8], resolution: float, origin: Tuple[float, float], *,
                  cliff: Optional[NDArray[np.bool_]] = None, carpet: Optional[NDArray[np.bool_]] = None,
-                 dock: Optional[Pose] = None, start: Optional[Pose] = None) -> None:
+                 dock: Optional[Pose] = None, further_docks: Sequence[Pose] = (),
+                 start: Optional[Pose] = None) -> None:
         """Copy the grid and its layers, and compute the distances.
 
         Raises:
@@ -72,6 +75,7 @@ class FloorPlan:
         self.cliff = self._layer(cliff, 'cliff')
         self.carpet = self._layer(carpet, 'carpet')
         self.dock = dock
+        self.further_docks = tuple(further_docks)
         self.start = start
         free = self.free
         if not free.any():
@@ -91,6 +95,11 @@ class FloorPlan:
             raise MapError(f'{self.name}: {what} layer has (rows, columns) {layer.shape}, '
                            f'the map has {self.occupancy.shape}')
         return np.array(layer, dtype=np.bool_, order='C')
+
+    @property
+    def docks(self) -> Tuple[Pose, ...]:
+        """All docks."""
+        return self.further_docks if self.dock is None else (self.dock, *self.further_docks)
 
     @property
     def free(self) -> NDArray[np.bool_]:
@@ -177,7 +186,8 @@ class FloorPlan:
         if self._refined is None:
             cliff, carpet = (None if layer is None else _enlarged(layer, parts) for layer in (self.cliff, self.carpet))
             self._refined = FloorPlan(self.name, _enlarged(self.occupancy, parts), self.resolution / parts, self.origin,
-                                      cliff=cliff, carpet=carpet, dock=self.dock, start=self.start)
+                                      cliff=cliff, carpet=carpet, dock=self.dock,
+                                      further_docks=self.further_docks, start=self.start)
         return self._refined
 
     def with_safe_clearance(self, safe_clearance: NDArray[np.float64]) -> FloorPlan:

@@ -13,6 +13,7 @@ Units: [m], [rad], [s], [A], [Ah]. Arguments that many functions share:
     dirt: float32 (rows, columns), dirt on the samples of each cell in the beginning.
     skips: uint8 (rows, columns), how many cells a beam may skip from anywhere in a cell (`FloorPlan.skips`).
     obstacles: array of records of type OBSTACLE, which the map does not show.
+    docks: float64 (docks, 3), pose of a robot that stands at the contacts of each and faces it [m, rad].
     stops: float64 (all stops of all movers, 6), the columns X, Y, THETA, TRAVEL, LEAST and MOST of each stop.
 In arrays of cells row 0 lies at the lowest y.
 """
@@ -54,7 +55,7 @@ OBSTACLE = np.dtype((np.record, np.dtype([(name, 'f8') for name in (
     'x', 'y', 'theta', 'cos', 'sin', 'half_length', 'half_width', 'radius', 'reach', 'moved')] + [
         (name, 'i8') for name in ('first', 'stops', 'stop', 'rest', 'visits', 'waited', 'key')] + [
             (name, 'u1') for name in ('is_back', 'is_seen')], align=True)))
-X, Y, THETA = 0, 1, 2  # columns of a stop: its pose [m, rad]
+X, Y, THETA = 0, 1, 2  # columns of a stop and of a dock: its pose [m, rad]
 TRAVEL = 3  # [ticks] that the way from the stop before takes
 LEAST, MOST = 4, 5  # [ticks] shortest and longest pause
 PATIENCE = 5.0  # [s] that a mover waits for a robot before it turns back: it shall not hold a robot for ever
@@ -62,8 +63,8 @@ HALVINGS = 10  # of the last step of a mover before a contact, which is then kno
 TALLY = np.dtype((np.record, np.dtype([('swept', 'i8'), ('dirt', 'f8')], align=True)))
 
 
-def advance(robots: Array, constants: Array, obstacles: Array, field: Array, cells: Array, samples: Array, dirt: Array,
-            tallies: Array, noise: Array, tick: int, ticks: int) -> None:
+def advance(robots: Array, constants: Array, obstacles: Array, docks: Array, field: Array, cells: Array,
+            samples: Array, dirt: Array, tallies: Array, noise: Array, tick: int, ticks: int) -> None:
     """Simulate `ticks` ticks; the first of them has the number `tick`.
 
     Args, apart from those above:
@@ -81,11 +82,11 @@ def advance(robots: Array, constants: Array, obstacles: Array, field: Array, cel
             traction = stand(robot, k, cells) if k.has_layers else k.floor_traction
             count(robot, k, traction, noise[me, now % noise.shape[1]])
             touch(robots, me, k, obstacles, field, now, toward_x, toward_y)
-            work(robot, k, samples, dirt, tally, start)
+            work(robot, k, docks, samples, dirt, tally, start)
 
 
-def follow(robots: Array, constants: Array, obstacles: Array, field: Array, cells: Array, samples: Array, dirt: Array,
-           tallies: Array, noise: Array, tick: int, led: Array) -> None:
+def follow(robots: Array, constants: Array, obstacles: Array, docks: Array, field: Array, cells: Array, samples: Array,
+           dirt: Array, tallies: Array, noise: Array, tick: int, led: Array) -> None:
     """Simulate one tick in which something else moves the robots.
 
     Args, apart from those of `advance`:
@@ -99,14 +100,13 @@ def follow(robots: Array, constants: Array, obstacles: Array, field: Array, cell
         traction = stand(robot, k, cells) if k.has_layers else k.floor_traction
         count(robot, k, traction, noise[me, tick % noise.shape[1]])
         touch(robots, me, k, obstacles, field, tick, 0.0, 0.0)
-        work(robot, k, samples, dirt, tally, start)
+        work(robot, k, docks, samples, dirt, tally, start)
 
 
-def work(robot: Record, k: Record, samples: Array, dirt: Array, tally: Record, start: Triple) -> None:
+def work(robot: Record, k: Record, docks: Array, samples: Array, dirt: Array, tally: Record, start: Triple) -> None:
     """Sweep, dock and use energy in a tick that began with the pose `start`."""
     brush(robot, k, samples, dirt, tally, start)
-    if k.has_dock:
-        robot.docked = at_contacts(robot, k)
+    robot.docked = at_contacts(robot, k, docks)
     robot.current = battery_current(robot.charge, k, load(robot, k), robot.docked)
     robot.charge = charge_after(robot.charge, k, robot.current, k.dt)
 
@@ -705,32 +705,41 @@ def charge_after(charge: float, k: Record, current: float, dt: float) -> float:
 
 # --- dock ---------------------------------------------------------------------------------------------------------
 
-def at_contacts(robot: Record, k: Record) -> bool:
-    """Whether the charging contacts are closed: they open at a larger distance than they close."""
-    distance = math.hypot(robot.x - k.dock_x, robot.y - k.dock_y)
-    angle = abs(wrap(robot.theta - k.dock_theta))
-    if robot.docked:
-        return distance <= k.release_distance and angle <= k.release_angle
-    return distance <= k.contact_distance and angle <= k.contact_angle
+def at_contacts(robot: Record, k: Record, docks: Array) -> bool:
+    """Whether charging contacts are closed: they open at a larger distance than they close."""
+    farthest = k.release_distance if robot.docked else k.contact_distance
+    widest = k.release_angle if robot.docked else k.contact_angle
+    for dock in range(len(docks)):
+        if math.hypot(robot.x - docks[dock, X], robot.y - docks[dock, Y]) <= farthest and (
+                abs(wrap(robot.theta - docks[dock, THETA])) <= widest):
+            return True
+    return False
 
 
-def infrared(robots: Array, me: int, constants: Array, skips: Array, cells: Array) -> Tuple[int, int, int]:
-    """Sums of the dock's beams that the three receivers get: omnidirectional, front left, front right.
+def infrared(robots: Array, me: int, constants: Array, docks: Array, skips: Array, cells: Array) -> Tuple[
+        int, int, int]:
+    """Sums of the beams of all docks that the three receivers get: omnidirectional, front left, front right."""
+    omni, left, right = NO_BEAM, NO_BEAM, NO_BEAM
+    for dock in range(len(docks)):
+        beams = beams_of(docks[dock], robots[me], constants[0], skips, cells)
+        omni, left, right = omni | beams[0], left | beams[1], right | beams[2]
+    return omni, left, right
 
-    The dock sends from the wall in front of a docked robot, opposite to the heading of that robot.
+
+def beams_of(dock: Array, robot: Record, k: Record, skips: Array, cells: Array) -> Tuple[int, int, int]:
+    """The same of one dock, a row of `docks`.
+
+    It sends from the wall in front of a docked robot, opposite to the heading of that robot.
     """
-    robot, k = robots[me], constants[0]
-    if not k.has_dock:
-        return NO_BEAM, NO_BEAM, NO_BEAM
-    from_x = k.dock_x + k.radius * math.cos(k.dock_theta)
-    from_y = k.dock_y + k.radius * math.sin(k.dock_theta)
+    from_x = dock[X] + k.radius * math.cos(dock[THETA])
+    from_y = dock[Y] + k.radius * math.sin(dock[THETA])
     dx, dy = robot.x - from_x, robot.y - from_y
     distance = math.hypot(dx, dy)
     if distance < 1e-6 or cast(k, skips, cells, from_x, from_y, dx / distance, dy / distance, distance) < distance:
         return NO_BEAM, NO_BEAM, NO_BEAM
     beams = FORCE_FIELD if distance <= k.halo else NO_BEAM
     # Positive if a robot that faces the dock is to the right of its axis.
-    off_axis = wrap(math.atan2(dy, dx) - k.dock_theta - math.pi)
+    off_axis = wrap(math.atan2(dy, dx) - dock[THETA] - math.pi)
     if distance <= k.buoy_range:
         if -k.buoy_overlap_half <= off_axis <= k.buoy_half:
             beams |= GREEN_BUOY

@@ -2,7 +2,8 @@
 
 Keys of map_server: image, resolution [m/pixel], origin [x, y, yaw] of the lower left corner, negate,
 occupied_thresh, free_thresh, mode (trinary, scale or raw). Optional keys of Rumba: dock and start, each
-[x, y, theta], and cliff and carpet, images of the same size whose dark pixels mark the cells.
+[x, y, theta], or docks, a list of these, in place of dock; and cliff and carpet, images of the same size whose dark
+pixels mark the cells.
 """
 
 from __future__ import annotations
@@ -26,8 +27,9 @@ if TYPE_CHECKING:  # NumPy 1.17 of Ubuntu 20.04 has no numpy.typing
     from numpy.typing import NDArray
 
 REQUIRED = ('image', 'resolution', 'origin', 'negate', 'occupied_thresh', 'free_thresh')
-OPTIONAL = ('mode', 'dock', 'start', 'cliff', 'carpet')
+OPTIONAL = ('mode', 'dock', 'docks', 'start', 'cliff', 'carpet')
 MODES = ('trinary', 'scale', 'raw')
+MOST_DOCKS = 100  # each costs time in each tick
 FAR = 1e9  # [m] the largest coordinate; those of national grids reach 1e7
 RESOLUTIONS = (1e-4, 10.0)  # [m]
 ROUNDING = 1e-6  # [cells] so that a quarter turn does not add a row
@@ -46,7 +48,7 @@ class Header(NamedTuple):
     occupied_thresh: float
     free_thresh: float
     mode: str
-    dock: Optional[Pose]
+    docks: Tuple[Pose, ...]
     start: Optional[Pose]
     cliff: Optional[str]
     carpet: Optional[str]
@@ -80,7 +82,7 @@ def load(path: Union[str, os.PathLike[str]]) -> FloorPlan:
         cliff = None if cliff is None else _turned(cliff, header.origin.theta, box, 0)
         carpet = None if carpet is None else _turned(carpet, header.origin.theta, box, 0)
     return FloorPlan(header.path, occupancy, header.resolution, (origin.x, origin.y), cliff=cliff, carpet=carpet,
-                     dock=header.dock, start=header.start)
+                     dock=header.docks[0] if header.docks else None, further_docks=header.docks[1:], start=header.start)
 
 
 def read_header(path: str) -> Header:
@@ -95,7 +97,7 @@ def read_header(path: str) -> Header:
         origin=entries.pose('origin') or Pose(0.0, 0.0, 0.0), negate=bool(entries.choice('negate', (0, 1))),
         occupied_thresh=entries.number('occupied_thresh', 0.0, 1.0),
         free_thresh=entries.number('free_thresh', 0.0, 1.0), mode=entries.choice('mode', MODES),
-        dock=entries.pose('dock'), start=entries.pose('start'),
+        docks=entries.docks(), start=entries.pose('start'),
         cliff=entries.file('cliff'), carpet=entries.file('carpet'))
     if header.free_thresh > header.occupied_thresh:
         raise MapError(f'{path}: free_thresh is {header.free_thresh:g}: '
@@ -130,11 +132,23 @@ class _Entries:
         values: Any = self._values.get(key)
         if values is None and key in OPTIONAL:
             return None
-        numbers = [_number(value) for value in values] if isinstance(values, list) else []
-        good = [number for number in numbers if number is not None and abs(number) <= FAR]
-        if not len(numbers) == len(good) == 3:
+        found = _pose(values)
+        if found is None:
             raise self._wrong(key, '[x, y, angle] in m, m, rad')
-        return Pose(good[0], good[1], wrap_angle(good[2]))
+        return found
+
+    def docks(self) -> Tuple[Pose, ...]:
+        several: Any = self._values.get('docks')
+        if several is None:
+            one = self.pose('dock')
+            return () if one is None else (one,)
+        if 'dock' in self._values:
+            raise MapError(f'{self._path}: dock and docks: must be one of them')
+        found = [_pose(values) for values in several] if isinstance(several, list) else []
+        poses = tuple(pose for pose in found if pose is not None)
+        if not 0 < len(poses) == len(found) <= MOST_DOCKS:
+            raise self._wrong('docks', f'a list of [x, y, angle] in m, m, rad, of {MOST_DOCKS} at most')
+        return poses
 
     def choice(self, key: str, allowed: Tuple[Any, ...]) -> Any:
         value = self._values[key]
@@ -149,6 +163,13 @@ class _Entries:
         if not isinstance(value, str) or not value:
             raise self._wrong(key, 'the path of an image')
         return os.path.join(os.path.dirname(self._path), value)
+
+
+def _pose(values: Any) -> Optional[Pose]:
+    """[x, y, angle] as a pose, else None."""
+    numbers = [_number(value) for value in values] if isinstance(values, list) else []
+    good = [number for number in numbers if number is not None and abs(number) <= FAR]
+    return Pose(good[0], good[1], wrap_angle(good[2])) if len(numbers) == len(good) == 3 else None
 
 
 def _number(value: Any) -> Optional[float]:

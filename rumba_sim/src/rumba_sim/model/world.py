@@ -87,6 +87,7 @@ class World:
         self._lasers: List[np.random.Generator] = []
         self._spawned = 0
         self.fan = _fan(self._config.laser.beams)
+        self._docks: Array = np.reshape(np.array(plan.docks, np.float64), (-1, 3))
         self._begin()
 
     def _begin(self) -> None:
@@ -94,23 +95,23 @@ class World:
         self.obstacles.begin()
         self.floor = Floor(self.reachable_plan, self._config, self.start, self._generator(FLOOR, 0))
         # Kept together, since finding them takes as long as a tenth of a tick.
-        self._ground = (self.terrain.clearance, self.floor.cells, self.floor.sweep.samples, self.floor.dirt,
-                        self.floor.sweep.tally)
+        sweep = self.floor.sweep
+        self._ground = (self._docks, self.terrain.clearance, self.floor.cells, sweep.samples, self.floor.dirt,
+                        sweep.tally)
         self.version += 1
 
     def _checked_start(self) -> Pose:
         """The start of the plan, else the dock, else the position with the largest clearance."""
         radius = float(self.constants[0]['reach'])
         start = self.plan.start or self.plan.dock or self.reachable_plan.most_open_pose()
-        for what, pose in (('dock', self.plan.dock), ('start', start)):
-            if pose is not None:
-                self.terrain.check_pose(pose, radius, what)
-                # The clearance is interpolated, and smaller than the distance near a corner of an obstacle.
-                is_free = self.reachable_plan.safe_clearance_at(pose.x, pose.y) >= radius
-                name = self.obstacles.near(pose.x, pose.y, radius + (0.0 if is_free else self.terrain.resolution))
-                if name:
-                    raise WorldError(f'{name!r} stands at the {what}, ({pose.x:.2f}, {pose.y:.2f}) m: no robot fits '
-                                     'there')
+        for what, pose in [*(('dock', dock) for dock in self.plan.docks), ('start', start)]:
+            self.terrain.check_pose(pose, radius, what)
+            # The clearance is interpolated, and smaller than the distance near a corner of an obstacle.
+            is_free = self.reachable_plan.safe_clearance_at(pose.x, pose.y) >= radius
+            name = self.obstacles.near(pose.x, pose.y, radius + (0.0 if is_free else self.terrain.resolution))
+            if name:
+                raise WorldError(f'{name!r} stands at the {what}, ({pose.x:.2f}, {pose.y:.2f}) m: no robot fits '
+                                 'there')
         return start
 
     def _generator(self, purpose: int, number: int) -> np.random.Generator:
@@ -192,7 +193,8 @@ class World:
 
         Args:
             name: name that no other robot has.
-            pose: where it stands [m, rad], map frame; None for the start, or the nearest free position.
+            pose: where it stands [m, rad], map frame; None for the start, or the next dock if robots start docked, or
+                the free position nearest to the start.
             state_of_charge: of its battery [0..1].
             brushes_up: whether its brushes are lifted.
 
@@ -280,12 +282,16 @@ class World:
         return list(self.robots).index(name)
 
     def _free_start(self) -> Pose:
-        """The free position nearest to the start that a robot can drive to from there; a little apart from others."""
+        """The start, or a dock if that is one, or the free position nearest to it that a robot can drive to from there.
+
+        The free position is a little apart from other robots.
+        """
         others = [member.pose for member in self.robots.values()]
         radius = self._config.drive.radius
-        if all(math.hypot(pose.x - self.start.x, pose.y - self.start.y) >= 2.0 * radius for pose in others) and (
-                not self.obstacles.near(*self.start[:2], radius)):
-            return self.check(self.start)
+        for place in (self.start, *(self.plan.further_docks if self.plan.start is None else ())):
+            if all(math.hypot(pose.x - place.x, pose.y - place.y) >= 2.0 * radius for pose in others) and (
+                    not self.obstacles.near(*place[:2], radius)):
+                return self.check(place)
         where = np.argwhere(stands(self.reachable_plan, float(self.constants[0]['reach']), self.start.x, self.start.y))
         points = 0.5 * self.terrain.resolution * where[:, ::-1] + self.terrain.origin
         points = points[np.argsort(np.hypot(*(points - self.start[:2]).T), kind='stable')]
@@ -350,13 +356,13 @@ class World:
         return ranges
 
     def infrared(self, name: str) -> Infrared:
-        """What the receivers of a robot get from the dock.
+        """What the receivers of a robot get from the docks.
 
         Raises:
             WorldError: there is no robot of that name.
         """
-        return Infrared(*fast.infrared(self._states, self._index(name), self.constants, self.terrain.skips,
-                                       self.floor.cells))
+        return Infrared(*fast.infrared(self._states, self._index(name), self.constants, self._docks,
+                                       self.terrain.skips, self.floor.cells))
 
     def cliffs(self, name: str) -> List[bool]:
         """Whether there is no floor under the left, front left, front right and right sensor of a robot."""
@@ -383,7 +389,7 @@ class World:
         self.obstacles.records, self.obstacles.stops = arrays.obstacles, arrays.stops
         floor.cells, sweep.samples, floor.dirt, sweep.tally = (
             arrays.cells, arrays.samples, arrays.dirt, arrays.tally)
-        self._ground = (self.terrain.clearance, floor.cells, sweep.samples, floor.dirt, sweep.tally)
+        self._ground = (self._docks, self.terrain.clearance, floor.cells, sweep.samples, floor.dirt, sweep.tally)
         self._take(arrays.robots)
 
     def draw_noise(self) -> None:

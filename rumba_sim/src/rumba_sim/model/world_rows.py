@@ -46,6 +46,8 @@ class WorldRows:
         self.cells, self.skips = np.zeros((2, len(plans), most), np.uint8)
         self.left: Array = np.zeros((number, most), np.uint8)
         self.known: Array = np.full((number, 3), np.nan)
+        self.docks: Array = np.zeros((len(plans), max(len(world.terrain.docks) for world in plans.values()), 3))
+        self.dock_counts = np.zeros(len(plans), np.int64)
         self.terrains: List[Optional[FloorPlan]] = [None] * len(plans)
         for index, world in enumerate(worlds):
             self.take(index, world, worlds)
@@ -56,6 +58,7 @@ class WorldRows:
         return (arrays.obstacles.size <= self.obstacles.shape[1] and len(arrays.stops) <= self.stops.shape[1]
                 and arrays.samples.size <= self.samples.shape[1] and arrays.dirt.size <= self.dirt.shape[1]
                 and terrain.clearance.size <= self.fields.shape[1] and terrain.skips.size <= self.cells.shape[1]
+                and len(terrain.docks) <= self.docks.shape[1]
                 and self._row_of(terrain, worlds) is not None)
 
     def _row_of(self, terrain: FloorPlan, worlds: Sequence[World]) -> Optional[int]:
@@ -92,6 +95,8 @@ class WorldRows:
             raise AssertionError('there are as many rows as plans')
         if self.terrains[row] is not terrain:
             self.terrains[row] = terrain
+            self.dock_counts[row] = len(terrain.docks)
+            self.docks[row, :len(terrain.docks)] = np.reshape(terrain.docks, (-1, 3))
             _begin_of(self.fields[row], terrain.clearance)[...] = terrain.clearance
             _begin_of(self.skips[row], terrain.skips)[...] = terrain.skips
         return row

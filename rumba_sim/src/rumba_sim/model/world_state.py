@@ -55,7 +55,7 @@ def origin(plan: FloorPlan, settings: Mapping[str, Any], step_rate: float, seed:
         seed: of the world.
         obstacles: that were there from the start.
     """
-    floor = hashlib.sha256(repr((plan.resolution, plan.origin, plan.dock, plan.start)).encode())
+    floor = hashlib.sha256(repr((plan.resolution, plan.origin, plan.dock, plan.start, *plan.further_docks)).encode())
     for layer in (plan.occupancy, plan.cliff, plan.carpet):
         floor.update(b'none' if layer is None else repr(layer.shape).encode() + np.ascontiguousarray(layer).tobytes())
     return {'map': plan.name, 'floor': floor.hexdigest(), 'seed': seed, 'step_rate': step_rate,

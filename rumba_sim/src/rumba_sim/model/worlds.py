@@ -132,8 +132,8 @@ class Worlds:
                 self._worlds[index].draw_noise()
             spans = np.minimum(left, NOISE_TICKS - rows)
             self._run(many.advance, self._by_plan, now, spans, here.robots, here.constants, here.obstacles, here.counts,
-                      here.stops, here.moving, here.plans, here.shapes, here.fields, here.cells, here.samples,
-                      here.dirt, here.tallies, here.noise)
+                      here.stops, here.moving, here.plans, here.docks, here.dock_counts, here.shapes, here.fields,
+                      here.cells, here.samples, here.dirt, here.tallies, here.noise)
             for world, span in zip(self._worlds, spans.tolist()):
                 world.tick += span
             left -= spans
@@ -156,12 +156,12 @@ class Worlds:
         return ranges
 
     def infrared(self, which: Optional[Array] = None) -> Array:
-        """Beams of the dock that each robot receives: uint8 (worlds, 3), omni, left and right as for `Infrared`."""
+        """Beams of the docks that each robot receives: uint8 (worlds, 3), omni, left and right as for `Infrared`."""
         order, rows = self._order(which)
         here = self._rows
         beams = np.empty((len(order), 3), np.uint8)
-        self._run(many.infrared, order, rows, here.robots, here.constants, here.plans, here.shapes, here.cells,
-                  here.skips, beams)
+        self._run(many.infrared, order, rows, here.robots, here.constants, here.plans, here.docks, here.dock_counts,
+                  here.shapes, here.cells, here.skips, beams)
         return beams
 
     def cliffs(self, which: Optional[Array] = None) -> Array:

@@ -1,0 +1,82 @@
+"""Where to drive: routes, how long they take, and parts of them."""
+
+import math
+from typing import NamedTuple, Optional
+
+import numpy as np
+
+from rumba_sim.model.kernel import Array
+
+TURN_RATE = 1.9  # [rad/s] of a robot in a corner, about, as `planning.tour` counts it
+SAME = 1e-3  # [m] lengths that differ by less are the same
+STOP = 0.5  # [s] to slow down and to start again at a corner by more than a right angle, the same
+BENT = 0.5  # [rad] a corner by less costs no time, the same
+
+
+class Route(NamedTuple):
+    """Where to drive."""
+
+    waypoints: Array  # float64 (any, 2) [m], map frame
+    speeds: Array  # float64 (any - 1) [m/s] from waypoint to waypoint
+
+    def times(self) -> Array:
+        """How long it takes from its first waypoint to each, about: float64 (any) [s]."""
+        along = np.diff(self.waypoints, axis=0)
+        legs = np.hypot(*along.T) / self.speeds
+        headings = np.arctan2(along[:, 1], along[:, 0])
+        turns = np.abs((np.diff(headings) + math.pi) % (2.0 * math.pi) - math.pi)
+        corners = np.maximum(turns - BENT, 0.0) / TURN_RATE + np.where(turns > 0.5 * math.pi, STOP, 0.0)
+        return np.concatenate([[0.0], np.cumsum(legs + np.append(corners, 0.0))])
+
+    def beginning(self, share: float) -> 'Route':
+        """Its first part, which takes about a share of its time, and one leg at least."""
+        count = self._leg_after(share)
+        return Route(self.waypoints[:count + 1], self.speeds[:count])
+
+    def end(self, share: float) -> 'Route':
+        """What `beginning` leaves; it may have no leg."""
+        count = self._leg_after(share)
+        return Route(self.waypoints[count:], self.speeds[count:])
+
+    def _leg_after(self, share: float) -> int:
+        times = self.times()
+        return max(int(np.searchsorted(times, share * times[-1])), 1)
+
+    @property
+    def length(self) -> float:
+        """[m]"""
+        return float(np.hypot(*np.diff(self.waypoints, axis=0).T).sum())
+
+
+class Relief(NamedTuple):
+    """The end of the plan of a mate, which another robot drives in its place."""
+
+    mate: str  # its name
+    plan: int  # the number of its plan
+    length: float  # [m] of it that are taken, up to its end
+
+
+class Ahead(NamedTuple):
+    """A route that a robot follows, and how far it has come."""
+
+    route: Route
+    remaining: float  # [m] of the route to its end
+    plan: int = 0  # counts the plans of a robot: those with one number end at the same place
+    relief: Optional[Relief] = None  # what it takes over from a mate
+
+    def rest(self) -> Route:
+        """What is left of it, from where the robot is."""
+        waypoints, speeds = self.route
+        legs = np.hypot(*np.diff(waypoints, axis=0).T)
+        after = np.append(np.cumsum(legs[::-1])[::-1], 0.0)  # [m] from each waypoint to the end
+        leg = max(int(np.searchsorted(-after, -self.remaining)) - 1, 0)
+        share = min((self.remaining - after[leg + 1]) / max(legs[leg], 1e-9), 1.0)
+        here = waypoints[leg + 1] + share * (waypoints[leg] - waypoints[leg + 1])
+        return Route(np.concatenate([[here], waypoints[leg + 1:]]), speeds[leg:])
+
+    def without_end(self, length: float) -> Optional[Route]:
+        """The rest of it without its last part [m]; None if nothing is left."""
+        waypoints, speeds = self.rest()
+        after = np.append(np.cumsum(np.hypot(*np.diff(waypoints, axis=0).T)[::-1])[::-1], 0.0)
+        count = int(np.count_nonzero(after[1:] > length - SAME))
+        return Route(waypoints[:count + 1], speeds[:count]) if count > 0 else None
