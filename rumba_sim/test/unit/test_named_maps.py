@@ -32,7 +32,7 @@ def test_a_path_is_no_name(tmp_path, monkeypatch):
 
 
 def test_unknown_names_and_missing_maps(monkeypatch):
-    with pytest.raises(MapError, match="^there is no map 'moon': give the path of .*, or one of apartment, apartment_docks, "):
+    with pytest.raises(MapError, match="^there is no map 'moon': give .*, or one of apartment, apartment_docks, "):
         named_maps.path('moon')
     monkeypatch.setattr(named_maps, 'FOLDERS', ())
     with pytest.raises(MapError, match='or one of none: the maps are not installed$'):

@@ -187,7 +187,7 @@ def test_a_map_is_given_by_its_name_or_its_path(monkeypatch, tmp_path):
     for path in ('some/where', 'x.yaml', './y.yml'):
         assert maps.map_path(path) == os.path.normpath(tmp_path / path)
     assert maps.map_path('/some/where.yaml') == '/some/where.yaml'
-    with pytest.raises(MapError, match=r"^there is no map 'moon': give the path of .*, or one of apartment, apartment_docks, "):
+    with pytest.raises(MapError, match=r"^there is no map 'moon': give .*, or one of apartment, apartment_docks, "):
         maps.map_path('moon')
 
 

@@ -1,12 +1,17 @@
 """dock: home, by the infrared beams if they are received, by the map from anywhere else."""
 
 import math
-from typing import Optional
+from typing import Dict, Optional
 
-from rumba_cleaning.behaviour import Behaviour, Command, Observation, Status
+import numpy as np
+
+from rumba_cleaning.behaviour import STOP, Behaviour, Command, Observation, Status
 from rumba_cleaning.behaviours.go_to import GoTo
 from rumba_cleaning.behaviours.homing import BUOYS, Homing
 from rumba_cleaning.belief.context import Context
+from rumba_cleaning.belief.mates import Task
+from rumba_cleaning.belief.places import places_apart
+from rumba_cleaning.outcome import Outcome
 from rumba_cleaning.route import Ahead
 from rumba_sim.model.errors import MapError
 from rumba_sim.model.geometry import Pose
@@ -14,6 +19,9 @@ from rumba_sim.model.geometry import Pose
 STEP = 0.05  # [m]
 BEFORE = (16, 14, 12, 10, 8, 6)  # steps from the dock to the point on its axis at which homing begins: the most that
 #                                  are free; bench/docking.py brings all robots home from there
+BERTH = 0.5  # [m] from the dock, within which a mate occupies it: our choice, more than a robot's width
+POLITE = 0.6  # [m] from the line on which robots drive up to the dock and leave it: our choice, they pass there
+FARTHEST = 4.0  # [m] to a place to wait for the dock; our choice
 TRIES = 3  # our choice: a robot that stands in the way has left after that, or stays
 
 
@@ -21,6 +29,7 @@ class Dock(Behaviour):
     """Drives onto the contacts with the brushes up."""
 
     _part: Optional[Behaviour] = None
+    is_taken = False  # by a mate that has ended its work there
 
     def __init__(self, context: Context) -> None:
         """Go to the dock that is the robot's home.
@@ -34,6 +43,7 @@ class Dock(Behaviour):
     def initialise(self) -> None:
         """Begin with what is received."""
         self._part = None
+        self._is_waiting = self.is_taken = False
         self._tries = 0
 
     @property
@@ -48,10 +58,15 @@ class Dock(Behaviour):
 
     def update(self, observation: Observation) -> Command:
         """Go to the point before the dock, then home; if that fails, try again."""
-        if observation.is_docked:
+        is_at_home = self._context.nearest_dock(observation.pose) == self._context.home
+        if observation.is_docked and is_at_home:
             return self.succeed('docked')
+        if not self.is_homing and self._occupants():
+            return self._wait(observation)
+        if self._is_waiting:
+            self._part, self._is_waiting = None, False
         if self._part is None:
-            self._part = Homing(self._context) if observation.infrared.omni & BUOYS else GoTo(
+            self._part = Homing(self._context) if is_at_home and observation.infrared.omni & BUOYS else GoTo(
                 self._context, self._approach)
         command = self._part.step(observation)
         self.message = self._part.message
@@ -68,6 +83,43 @@ class Dock(Behaviour):
             if self._tries >= TRIES:
                 return self.fail(f'{TRIES} attempts to dock failed: {self.message}', outcome)
         return Command(0.0, 0.0, brushes_up=True)
+
+    # --- the queue ------------------------------------------------------------------------------------------------
+
+    def _occupants(self) -> Dict[str, Task]:
+        """What the mates at the dock do, by their names."""
+        home = self._context.home
+        return {name: report.task for name, report in self._context.mates.reports.items()
+                if home is not None and math.hypot(report.pose.x - home.x, report.pose.y - home.y) < BERTH
+                or report.task is Task.DOCKING and self._context.nearest_dock(report.pose) == home}
+
+    def _wait(self, observation: Observation) -> Command:
+        """Stand where the robot is not in the way of those that drive up to the dock or leave it."""
+        if not self._is_waiting:
+            self._part, self._is_waiting = self._way_aside(observation.pose), True
+        if self._part is not None:
+            command = self._part.step(observation)
+            if self._part.status is Status.RUNNING:
+                return command
+            self._part = None
+        occupants = self._occupants()
+        self.message = f'waiting for the dock, where {" and ".join(occupants)} is'
+        if all(task is Task.OFF for task in occupants.values()):
+            self.is_taken = True
+            return self.fail(f'the dock is taken by {" and ".join(occupants)}', Outcome.BLOCKED)
+        return STOP
+
+    def _way_aside(self, pose: Pose) -> Optional[GoTo]:
+        """To a place to wait; None where the robot stands already, or if there is none."""
+        dock, begin = self._context.home, self._approach
+        assert dock is not None
+        shares = np.linspace(0.0, 1.5, 16)[:, np.newaxis]
+        line = np.array(dock[:2]) + shares * (np.array(begin[:2]) - dock[:2])
+        if np.hypot(*(line - pose[:2]).T).min() > POLITE:
+            return None
+        mates = [report.pose[:2] for report in self._context.mates.reports.values()]
+        places = places_apart(self._context.ground, pose, FARTHEST, np.concatenate([line, mates]), POLITE)
+        return GoTo(self._context, Pose(float(places[0][0]), float(places[0][1]), math.nan)) if len(places) else None
 
     def terminate(self) -> None:
         """Stop the part that is under way."""

@@ -14,20 +14,20 @@ from rumba_cleaning.behaviour import STOP, Command, Observation
 from rumba_cleaning.behaviours.follower import Follower
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.belief.mates import Report, Task
+from rumba_cleaning.belief.places import places_apart
 from rumba_cleaning.route import Ahead, Route
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.kernel import Array
 
 # All figures are our choice; each comment says what speaks for a larger and for a smaller value.
 NEAR = 2.0  # [m] of a mate that is looked at: large is careful, small is fast
-MINE, THEIRS = 0.8, 1.6  # [m] of the ways ahead that are compared: large waits early, small stops late
+MINE, THEIRS = 0.35, 0.6  # [m] of the ways ahead that are compared: large waits early, small stops late
 SPACING = 0.05  # [m] between the points that are compared: a fraction of GAP
 GAP = 0.08  # [m] between two bodies that pass: large waits more often, small touches
 CLOSER = 0.02  # [m] by which a way must come nearer to a robot to lead toward it: more than the noise of a pose
 STANDING = 0.4  # [m] of the way ahead on which a mate without precedence stands: it is waited for, since it gives way
 PATIENCE = 30.0  # [s] that a robot waits or stands aside for one mate, then it goes on: a plan takes shorter
 REFUGE = 2.5  # [m] to a place aside, at most: large finds one more often, small comes back sooner
-GRID = 0.1  # [m] between the places that are tried
 TRIES = 12  # of them to which a path is looked for: large finds one more often, small saves time
 MOVING = (Task.SEEKING, Task.SWEEPING, Task.RETURNING, Task.DOCKING)
 
@@ -100,12 +100,7 @@ class RightOfWay:
         ground, speed = self._context.ground, self._context.config.speed
         taken = np.concatenate([_points(mate.ahead, mate.pose, 2.0 * THEIRS), *(
             [report.pose[:2]] for report in self._context.mates.reports.values())])
-        steps = np.arange(-REFUGE, REFUGE + 0.5 * GRID, GRID)
-        places = np.stack(np.meshgrid(steps, steps), axis=-1).reshape(-1, 2)
-        places = np.array(pose[:2]) + places[np.hypot(*places.T) <= REFUGE]
-        places = places[ground.are_free(places) & (spatial.distance.cdist(places, taken).min(axis=1) > self._clear)]
-        order = np.argsort(np.hypot(*(places - pose[:2]).T), kind='stable')
-        for place in places[order[:TRIES]]:
+        for place in places_apart(ground, pose, REFUGE, taken, self._clear)[:TRIES]:
             path = ground.path(np.array(pose[:2]), place)
             if path is not None and not self._leads_to(_resampled(path, 2.0 * REFUGE), mate.pose):
                 return Route(path, np.full(len(path) - 1, speed))

@@ -284,9 +284,15 @@ class Mission(Behaviour):
 
     def _return(self, observation: Observation) -> Command:
         assert isinstance(self._part, Dock)
+        if self._closing is None and self._is_target_met(observation):
+            self._closing = self._success()
         command = self._part.step(observation)
         self.state = State.DOCKING if self._part.is_homing else State.RETURNING
         self.message = self._part.message
+        if self._part.status is Status.FAILED and self._part.is_taken and self._closing:
+            status, message, outcome = self._closing
+            self._closing = status, f'{message}; {self._part.message}', outcome
+            return self._end()
         if self._part.status is Status.FAILED:
             self._homes += 1
             if self._homes >= HOMES:
@@ -336,8 +342,11 @@ class Mission(Behaviour):
         margin = EXACT if observation.covariance == CERTAIN else INEXACT
         return self._context.swept.coverage >= min(self._context.target_coverage + margin, 1.0)
 
+    def _success(self) -> Tuple[Status, str, Outcome]:
+        return Status.SUCCEEDED, f'{percent(self._context.swept.coverage)} swept', Outcome.SUCCEEDED
+
     def _succeed(self) -> Command:
-        return self._close(Status.SUCCEEDED, f'{percent(self._context.swept.coverage)} swept', Outcome.SUCCEEDED)
+        return self._close(*self._success())
 
     def _close(self, status: Status, message: str, outcome: Outcome) -> Command:
         """Return to the dock, if a path leads there, and end then."""

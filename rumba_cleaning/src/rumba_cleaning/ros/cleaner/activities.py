@@ -10,6 +10,7 @@ from rumba_cleaning.behaviours.dock import Dock
 from rumba_cleaning.behaviours.go_to import GoTo
 from rumba_cleaning.behaviours.undock import Undock
 from rumba_cleaning.belief.context import Context
+from rumba_cleaning.belief.mates import Report, Task
 from rumba_cleaning.mission.duration import longest
 from rumba_cleaning.mission.mission import Mission, State
 from rumba_cleaning.ros.cleaner import conversions
@@ -53,6 +54,10 @@ class Activity(abc.ABC):
     def begin_again(self) -> None:
         """Forget what was done, and do all of it in another world, with all the time of its limit."""
         self.behaviour.restart()
+
+    def for_mates(self, pose: Pose) -> Optional[Report]:
+        """What the mates of the robot, which is at a pose, need to know: it goes where a client wants it."""
+        return Report(pose, True, Task.DOCKING, self.behaviour.plan_ahead())
 
     @property
     @abc.abstractmethod
@@ -120,6 +125,10 @@ class Cleaning(Activity):
         """Clean a floor of which nothing is swept."""
         self._mission.forget()
         super().begin_again()
+
+    def for_mates(self, pose: Pose) -> Optional[Report]:
+        """What the mission tells."""
+        return self._mission.report()
 
     @property
     def state(self) -> State:

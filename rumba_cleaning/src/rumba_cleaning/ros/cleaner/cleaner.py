@@ -10,12 +10,15 @@ cleaning can be resumed; a goal ends if the simulator is started again, or if th
                     it already keeps it
 publishes
   mission_status    rumba_msg/MissionStatus: latched; at each change, and at 1 Hz while a goal is active
+  team_report       rumba_msg/TeamReport: what it tells its mates
+  team_plan         rumba_msg/TeamPlan: latched; where it will drive, for its mates
   cmd_vel           geometry_msgs/Twist: while a goal is active, as often as dock_status comes
 subscribes to
   bumper            rumba_msg/Bumper        cliff             rumba_msg/Cliff
   dock_status       rumba_msg/DockStatus    battery_state     sensor_msgs/BatteryState
   cleaning_status   rumba_msg/CleaningStatus
   teleop/cmd_vel    geometry_msgs/Twist: while a person drives, and for 0.5 s after, the cleaner commands nothing
+to team_report and team_plan of its mates, the robots of its team,
 and to /tf and /tf_static for map -> odom -> base_footprint. It takes part in a lockstep by simulator/lockstep and
 simulator/lockstep_answers (rumba_msg/Lockstep, LockstepAnswer), and uses the service
   set_brushes_up    std_srvs/SetBool
@@ -36,6 +39,7 @@ from actionlib_msgs.msg import GoalStatus
 
 from rumba_cleaning import strategies
 from rumba_cleaning.belief.context import Context, own_seed
+from rumba_cleaning.belief.mates import Report, Task
 from rumba_cleaning.outcome import Outcome
 from rumba_cleaning.ros.cleaner import conversions
 from rumba_cleaning.ros.cleaner.action_server import Server
@@ -87,12 +91,13 @@ class Cleaner:
         self._world: Optional[World] = self._workplace.world  # that of the goal and of the cleaning below
         self._run: Optional[Run] = None
         self._interrupted: Optional[Cleaning] = None  # what a goal of clean with `resume` goes on with
+        self._context: Optional[Context] = None  # what the robot knows, for the newest goal
         self._read_stamp: Optional[rospy.Time] = None  # of the newest reading that was acted upon
         self._is_reading_postponed = False
         self._is_reading_queued = True  # by `run`, after the goal of autostart
         self._planners = Planners(DaemonExecutor(PLANNERS), lambda: self._workplace.lockstep is not None,
                                   lambda: self._events.put(self._read_postponed))
-        self._robot = Robot(settings.robot, self._on_reading, lambda: self._workplace.lockstep,
+        self._robot = Robot(settings.robot, self._on_reading, settings.team.split(), lambda: self._workplace.lockstep,
                             lambda: self._planners.are_at_work)
         GoToPosition(settings, self._workplace, self._robot.senses)
         self._servers = {name: self._serve(name) for name in ACTIONS}
@@ -179,12 +184,20 @@ class Cleaner:
         self._read_stamp = stamp
         self._planners.deliver()
         self._robot.wheels.forget()
+        self._robot.team.listen(self._context, stamp)
         try:
             if self._run is not None:
                 self._run.read()
                 self._forget_closed()
         finally:
+            self._tell_mates(stamp)
             self._robot.answer(rests=self._run is None)
+
+    def _tell_mates(self, stamp: rospy.Time) -> None:
+        pose = None if self._robot.team.is_alone else self._robot.senses.pose()
+        if pose is not None:
+            self._robot.team.tell(Report(pose, True, Task.OFF) if self._run is None else self._run.activity.for_mates(
+                pose), stamp)
 
     def _read_postponed(self) -> None:
         """The planners may have done what the world waits for."""
@@ -243,8 +256,12 @@ class Cleaner:
             return self._rest_of_cleaning(goal.time_limit)
         plan, robot = self._workplace.look()
         seed = own_seed(self._settings.seed, self._settings.robot)
-        context = Context(plan, robot, self._settings.cleaning, seed, self._planners, self._workplace.survey)
-        return ACTIONS[name].activity(context, goal)
+        self._context = Context(plan, robot, self._settings.cleaning, seed, self._planners, self._workplace.survey,
+                                self._robot.team.mates())
+        pose = self._robot.senses.pose()
+        if self._robot.team.is_alone and pose is not None:
+            self._context.moor(pose)
+        return ACTIONS[name].activity(self._context, goal)
 
     def _rest_of_cleaning(self, time_limit: float) -> Cleaning:
         """What is left of the cleaning that was interrupted, or is going on.

@@ -1,11 +1,12 @@
 """One robot, as the cleaner senses, moves and announces it."""
 
-from typing import Callable, Optional, Tuple
+from typing import Callable, Optional, Sequence, Tuple
 
 from rumba_cleaning.ros.cleaner.actuators import Brushes, Wheels
 from rumba_cleaning.ros.cleaner.announcer import Announcer
 from rumba_cleaning.ros.cleaner.plan_topic import PlanTopic
 from rumba_cleaning.ros.cleaner.senses import Senses
+from rumba_cleaning.ros.cleaner.team import Team
 from rumba_cleaning.ros.cleaner.teleop import Teleop
 from rumba_sim.ros.common.lockstep import Participant
 
@@ -20,10 +21,11 @@ class Robot:
         wheels: drive it.
         brushes: its brushes.
         senses: what it senses.
+        team: the robots with which it shares its floor.
         participant: the part that this node takes in that of the simulator, if there is one.
     """
 
-    def __init__(self, name: str, on_reading: Callable[[], None],
+    def __init__(self, name: str, on_reading: Callable[[], None], team: Sequence[str] = (),
                  lockstep: Callable[[], Optional[Tuple[str, int]]] = lambda: None,
                  is_busy: Callable[[], bool] = lambda: False) -> None:
         """Connect to a robot.
@@ -31,6 +33,7 @@ class Robot:
         Args:
             name: its name.
             on_reading: called after each complete reading, in a thread of rospy.
+            team: as for `Team`.
             lockstep: as for `Senses`.
             is_busy: as for `Participant`.
         """
@@ -39,6 +42,7 @@ class Robot:
         self.teleop = Teleop(name)
         self.wheels = Wheels(name)
         self.brushes = Brushes(name)
+        self.team = Team(name, team)
         self.senses = Senses(name, on_reading, lockstep)
         self.participant = Participant(self.senses.on_tick, is_busy)
         self._lockstep = lockstep

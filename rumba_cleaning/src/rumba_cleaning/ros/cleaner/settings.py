@@ -2,8 +2,11 @@
 
 import dataclasses
 
+from rosgraph.names import is_legal_base_name
+
 from rumba_cleaning.cleaning_config import CleaningConfig
 from rumba_sim.model.config import part, section, setting
+from rumba_sim.model.errors import ConfigError
 from rumba_sim.ros.common.names import check_names
 
 
@@ -22,6 +25,9 @@ class Settings(CleaningConfig):
     """The node's private parameters: which robot works, where and how."""
 
     robot: str = setting('rumba', 'name of the robot, below which its topics are')
+    team: str = setting('', 'names of all robots that share the floor and its work, its own among them, with spaces '
+                            'between them, in the order in which they give way: each to those before it; empty: it '
+                            'works alone')
     map: str = setting('', 'name of a map of rumba_sim, or path of a map_server YAML file; empty: that of the '
                            'simulator')
     mapping: bool = setting(False, 'whether the floor is being mapped: its plan is that of the topic map, as it grows, '
@@ -32,8 +38,13 @@ class Settings(CleaningConfig):
     go_to_position: GoToPositionSettings = section(GoToPositionSettings, 'what the service go_to_position answers')
 
     def __post_init__(self) -> None:
-        """Check the robot's name, which is part of the names of topics."""
+        """Check the names of robots, which are parts of the names of topics."""
         check_names(self, 'robot')
+        names = self.team.split()
+        if names and self.robot not in names or len(set(names)) < len(names) or not all(
+                map(is_legal_base_name, names)):
+            raise ConfigError(f'team is {self.team!r}: must be names of robots, each of them once, and {self.robot!r} '
+                              'among them')
 
     @property
     def cleaning(self) -> CleaningConfig:

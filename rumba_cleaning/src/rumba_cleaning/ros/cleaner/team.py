@@ -1,0 +1,160 @@
+"""Tells the mates of a robot what it does, and hears what they tell."""
+
+import queue
+import threading
+from typing import Dict, List, NamedTuple, Optional, Sequence, Tuple
+
+import numpy as np
+import rospy
+from std_msgs.msg import Header
+
+from rumba_cleaning.belief.context import Context
+from rumba_cleaning.belief.mates import Mates, Report, Task
+from rumba_cleaning.ros.cleaner import conversions
+from rumba_cleaning.route import Ahead, Relief, Route
+from rumba_msg.msg import TeamPlan, TeamReport
+from rumba_sim.model.geometry import Pose
+from rumba_sim.model.kernel import Array
+from rumba_sim.ros.common.frames import MAP
+
+REPORT, PLAN = 'team_report', 'team_plan'  # topics below the name of a robot
+SILENT = 5.0  # [s] by the stamps of the robot without a report of a mate: it takes no part any more; our choice
+MOST = 100  # reports that may wait to be heard: 10 s of one mate
+COMPLAINT_PERIOD = 10.0  # [s]
+
+
+class _Heard(NamedTuple):
+    """The newest report of a mate."""
+
+    report: Report
+    stamp: rospy.Time  # of the robot that heard it
+
+
+class Team:
+    """The topics by which a robot and its mates tell each other what they do; without mates there are none."""
+
+    def __init__(self, robot: str, names: Sequence[str]) -> None:
+        """Speak for a robot that shares its floor.
+
+        Args:
+            robot: its name.
+            names: of all robots of the team, in the order of precedence, its own among them; without others it is
+                alone.
+        """
+        self._robot, self._names = robot, tuple(names) if len(names) > 1 else ()
+        self._lock = threading.Lock()
+        self._plans: Dict[str, TeamPlan] = {}
+        self._news: 'queue.Queue[Tuple[str, TeamReport]]' = queue.Queue(MOST)
+        self._pending: List[Tuple[str, TeamReport]] = []  # reports of plans that have not come yet
+        self._heard: Dict[str, _Heard] = {}
+        self._shown: Optional[Array] = None  # the waypoints of the plan that was published last
+        self._number = 0  # of that plan
+        if self.is_alone:
+            return
+        self._reports = rospy.Publisher(f'{robot}/{REPORT}', TeamReport, queue_size=MOST)
+        self._routes = rospy.Publisher(f'{robot}/{PLAN}', TeamPlan, queue_size=1, latch=True)
+        for name in names:
+            if name != robot:
+                rospy.Subscriber(f'{name}/{PLAN}', TeamPlan, self._on_plan, name, queue_size=MOST)
+                rospy.Subscriber(f'{name}/{REPORT}', TeamReport, self._on_report, name, queue_size=MOST)
+
+    @property
+    def is_alone(self) -> bool:
+        """Whether the robot has no mates."""
+        return not self._names
+
+    def mates(self) -> Mates:
+        """What a robot knows of its mates at first: what they told last."""
+        mates = Mates(self._robot, self._names)
+        for name, heard in self._heard.items():
+            mates.hear(name, heard.report)
+        return mates
+
+    # --- hearing --------------------------------------------------------------------------------------------------
+
+    def _on_plan(self, plan: TeamPlan, name: str) -> None:
+        numbers = [*plan.x, *plan.y, *plan.speed]
+        if not len(plan.x) == len(plan.y) == len(plan.speed) + 1 > 1 or not np.isfinite(numbers).all() or (
+                min(plan.speed) <= 0.0):
+            rospy.logwarn_throttle(COMPLAINT_PERIOD, f'{name}/{PLAN} is no plan: ignored')
+            return
+        with self._lock:
+            self._plans[name] = plan
+
+    def _on_report(self, report: TeamReport, name: str) -> None:
+        pose = report.pose
+        if not np.isfinite([pose.x, pose.y, pose.theta, report.remaining, report.relieved_length]).all() or (
+                report.task not in list(Task)):
+            rospy.logwarn_throttle(COMPLAINT_PERIOD, f'{name}/{REPORT} is no report: ignored')
+            return
+        with self._lock:
+            if self._news.full():
+                self._news.get()
+            self._news.put((name, report))
+
+    def listen(self, context: Optional[Context], stamp: rospy.Time) -> None:
+        """Have a context hear what has been told, and who has fallen silent.
+
+        Args:
+            context: of the goal that is active; None without one.
+            stamp: of the newest reading of the robot.
+        """
+        for name, message in self._arrived():
+            self._take(context, name, self._read(name, message), stamp)
+        for name, heard in list(self._heard.items()):
+            if heard.report.task is not Task.OFF and (stamp - heard.stamp).to_sec() > SILENT:
+                rospy.logwarn(f'{self._robot}: nothing is heard of {name} any more: it is taken to have stopped')
+                self._take(context, name, heard.report._replace(task=Task.OFF, ahead=None), stamp)
+
+    def _take(self, context: Optional[Context], name: str, report: Report, stamp: rospy.Time) -> None:
+        self._heard[name] = _Heard(report, stamp)
+        if context is not None:
+            context.hear(name, report)
+
+    def _arrived(self) -> List[Tuple[str, TeamReport]]:
+        """The reports whose plans are known, in order; the others wait, and what the same mate told after them."""
+        with self._lock:
+            waiting, self._pending = self._pending, []
+            while not self._news.empty():
+                waiting.append(self._news.get())
+            ready: List[Tuple[str, TeamReport]] = []
+            late = set()
+            for name, message in waiting[-MOST:]:
+                known = self._plans.get(name)
+                if name in late or message.route > (known.route if known is not None else 0):
+                    late.add(name)
+                    self._pending.append((name, message))
+                else:
+                    ready.append((name, message))
+            return ready
+
+    def _read(self, name: str, message: TeamReport) -> Report:
+        plan = self._plans.get(name)
+        ahead = None
+        if plan is not None and message.route == plan.route:
+            relief = Relief(message.relieved, message.relieved_plan, message.relieved_length)
+            ahead = Ahead(_route(plan), message.remaining, message.plan, relief if message.relieved else None)
+        pose = Pose(message.pose.x, message.pose.y, message.pose.theta)
+        return Report(pose, message.brushes_up, Task(message.task), ahead)
+
+    # --- telling --------------------------------------------------------------------------------------------------
+
+    def tell(self, report: Optional[Report], stamp: Optional[rospy.Time]) -> None:
+        """Publish a report of the robot, and its plan if that is another one."""
+        if self.is_alone or report is None or stamp is None:
+            return
+        header = Header(stamp=stamp, frame_id=MAP)
+        ahead = report.ahead
+        if ahead is not None and ahead.route.waypoints is not self._shown:
+            self._shown, self._number = ahead.route.waypoints, self._number + 1
+            x, y = ahead.route.waypoints.T.tolist()
+            self._routes.publish(TeamPlan(header, self._number, x, y, ahead.route.speeds.tolist()))
+        relief = ahead.relief if ahead is not None and ahead.relief is not None else Relief('', 0, 0.0)
+        self._reports.publish(TeamReport(
+            header, int(report.task), conversions.pose_message(report.pose), report.brushes_up,
+            self._number if ahead is not None else 0, ahead.remaining if ahead is not None else 0.0,
+            ahead.plan if ahead is not None else 0, *relief))
+
+
+def _route(plan: TeamPlan) -> Route:
+    return Route(np.stack([plan.x, plan.y], axis=1).astype(np.float64), np.array(plan.speed, np.float64))
