@@ -117,7 +117,8 @@ def through_ros(case, speed, busy, is_heard):
         for name in names:
             stack.enter_context(ros_session.process([
                 'rosrun', 'rumba_cleaning', 'cleaner', f'__name:=cleaner_of_{name}', f'_robot:={name}',
-                f'_seed:={case.seed}', f'_strategy:={STRATEGY}', f'_target_coverage:={case.target}',
+                f'_team:={" ".join(names)}', f'_seed:={case.seed}', f'_strategy:={STRATEGY}',
+                f'_target_coverage:={case.target}',
                 '_autostart:=true']))
         begin = ends.wait_for_begin()
         ends.wait()

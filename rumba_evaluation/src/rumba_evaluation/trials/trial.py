@@ -109,7 +109,7 @@ class Trial:
         self._planners.work()
         for name, mission in self._running.items():
             act(mission, self.world, name, self._dt, self.sources[name])
-            self._tell_mates(name, mission)
+        self._tell_mates()
         self._dt = CONTROL_DT
         running = self._running.values()
         if running and all(mission.state is State.CHARGING for mission in running):
@@ -122,11 +122,12 @@ class Trial:
         while len(self.curve) < 100 and coverage >= (len(self.curve) + 1) / 100:
             self.curve.append(self.working_time)
 
-    def _tell_mates(self, name: str, mission: Mission) -> None:
-        report = mission.report() if len(self.missions) > 1 else None
-        if report is not None:
-            for other, context in zip(self.world.robots, self.contexts):
-                if other != name:
+    def _tell_mates(self) -> None:
+        """Have each robot hear what the others do, as the node `cleaner` does before the next step in lockstep."""
+        reports = {name: mission.report() for name, mission in zip(self.world.robots, self.missions)}
+        for listener, context in zip(self.world.robots, self.contexts):
+            for name, report in reports.items():
+                if name != listener and report is not None:
                     context.hear(name, report)
 
     def result(self) -> Result:

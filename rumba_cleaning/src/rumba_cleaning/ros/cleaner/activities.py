@@ -4,7 +4,7 @@ import abc
 import math
 from typing import Any, Callable, Dict, NamedTuple, Optional
 
-from rumba_cleaning.behaviour import Behaviour
+from rumba_cleaning.behaviour import Behaviour, Status
 from rumba_cleaning.behaviours.bounded import Bounded
 from rumba_cleaning.behaviours.dock import Dock
 from rumba_cleaning.behaviours.go_to import GoTo
@@ -56,7 +56,9 @@ class Activity(abc.ABC):
         self.behaviour.restart()
 
     def for_mates(self, pose: Pose) -> Optional[Report]:
-        """What the mates of the robot, which is at a pose, need to know: it goes where a client wants it."""
+        """What the mates of the robot, which is at a pose, need to know: it goes where a client wants it, or stands."""
+        if self.behaviour.status is not Status.RUNNING:
+            return Report(pose, True, Task.OFF)
         return Report(pose, True, Task.DOCKING, self.behaviour.plan_ahead())
 
     @property

@@ -97,7 +97,8 @@ class Cleaner:
         self._is_reading_queued = True  # by `run`, after the goal of autostart
         self._planners = Planners(DaemonExecutor(PLANNERS), lambda: self._workplace.lockstep is not None,
                                   lambda: self._events.put(self._read_postponed))
-        self._robot = Robot(settings.robot, self._on_reading, settings.team.split(), lambda: self._workplace.lockstep,
+        self._robot = Robot(settings.robot, self._on_reading, settings.team.split(),
+                            lambda: self._events.put(self._read_postponed), lambda: self._workplace.lockstep,
                             lambda: self._planners.are_at_work)
         GoToPosition(settings, self._workplace, self._robot.senses)
         self._servers = {name: self._serve(name) for name in ACTIONS}
@@ -178,13 +179,15 @@ class Cleaner:
         stamp = self._robot.senses.stamp
         if stamp is None or stamp == self._read_stamp:
             return
-        self._is_reading_postponed = self._planners.are_at_work
+        is_lockstep = self._workplace.lockstep is not None
+        self._is_reading_postponed = self._planners.are_at_work or is_lockstep and not self._robot.team.have_told(
+            self._read_stamp)
         if self._is_reading_postponed:
             return
         self._read_stamp = stamp
         self._planners.deliver()
         self._robot.wheels.forget()
-        self._robot.team.listen(self._context, stamp)
+        self._robot.team.listen(self._context, stamp, before=stamp if is_lockstep else None)
         try:
             if self._run is not None:
                 self._run.read()
@@ -200,7 +203,7 @@ class Cleaner:
                 pose), stamp)
 
     def _read_postponed(self) -> None:
-        """The planners may have done what the world waits for."""
+        """The planners, or the mates, may have done what the world waits for."""
         if self._is_reading_postponed:
             self._read()
 

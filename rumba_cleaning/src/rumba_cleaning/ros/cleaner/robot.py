@@ -26,6 +26,7 @@ class Robot:
     """
 
     def __init__(self, name: str, on_reading: Callable[[], None], team: Sequence[str] = (),
+                 on_news: Callable[[], None] = lambda: None,
                  lockstep: Callable[[], Optional[Tuple[str, int]]] = lambda: None,
                  is_busy: Callable[[], bool] = lambda: False) -> None:
         """Connect to a robot.
@@ -33,7 +34,7 @@ class Robot:
         Args:
             name: its name.
             on_reading: called after each complete reading, in a thread of rospy.
-            team: as for `Team`.
+            team, on_news: as for `Team`.
             lockstep: as for `Senses`.
             is_busy: as for `Participant`.
         """
@@ -42,7 +43,7 @@ class Robot:
         self.teleop = Teleop(name)
         self.wheels = Wheels(name)
         self.brushes = Brushes(name)
-        self.team = Team(name, team)
+        self.team = Team(name, team, on_news)
         self.senses = Senses(name, on_reading, lockstep)
         self.participant = Participant(self.senses.on_tick, is_busy)
         self._lockstep = lockstep

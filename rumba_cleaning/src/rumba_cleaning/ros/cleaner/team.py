@@ -2,7 +2,7 @@
 
 import queue
 import threading
-from typing import Dict, List, NamedTuple, Optional, Sequence, Tuple
+from typing import Callable, Dict, List, NamedTuple, Optional, Sequence, Tuple
 
 import numpy as np
 import rospy
@@ -33,19 +33,23 @@ class _Heard(NamedTuple):
 class Team:
     """The topics by which a robot and its mates tell each other what they do; without mates there are none."""
 
-    def __init__(self, robot: str, names: Sequence[str]) -> None:
+    def __init__(self, robot: str, names: Sequence[str], on_news: Callable[[], None] = lambda: None) -> None:
         """Speak for a robot that shares its floor.
 
         Args:
             robot: its name.
             names: of all robots of the team, in the order of precedence, its own among them; without others it is
                 alone.
+            on_news: called after each report of a mate, in a thread of rospy.
         """
+        self._on_news = on_news
         self._robot, self._names = robot, tuple(names) if len(names) > 1 else ()
         self._lock = threading.Lock()
         self._plans: Dict[str, TeamPlan] = {}
         self._news: 'queue.Queue[Tuple[str, TeamReport]]' = queue.Queue(MOST)
         self._pending: List[Tuple[str, TeamReport]] = []  # reports of plans that have not come yet
+        self._newest: Dict[str, rospy.Time] = {}  # stamp of the newest report of each mate
+        self._subscribers: Dict[str, rospy.Subscriber] = {}
         self._heard: Dict[str, _Heard] = {}
         self._shown: Optional[Array] = None  # the waypoints of the plan that was published last
         self._number = 0  # of that plan
@@ -56,7 +60,8 @@ class Team:
         for name in names:
             if name != robot:
                 rospy.Subscriber(f'{name}/{PLAN}', TeamPlan, self._on_plan, name, queue_size=MOST)
-                rospy.Subscriber(f'{name}/{REPORT}', TeamReport, self._on_report, name, queue_size=MOST)
+                self._subscribers[name] = rospy.Subscriber(f'{name}/{REPORT}', TeamReport, self._on_report, name,
+                                                           queue_size=MOST)
 
     @property
     def is_alone(self) -> bool:
@@ -80,6 +85,7 @@ class Team:
             return
         with self._lock:
             self._plans[name] = plan
+        self._on_news()
 
     def _on_report(self, report: TeamReport, name: str) -> None:
         pose = report.pose
@@ -91,15 +97,25 @@ class Team:
             if self._news.full():
                 self._news.get()
             self._news.put((name, report))
+            self._newest[name] = report.header.stamp
+        self._on_news()
 
-    def listen(self, context: Optional[Context], stamp: rospy.Time) -> None:
+    def have_told(self, stamp: Optional[rospy.Time]) -> bool:
+        """Whether all mates that are there have told what they do at a stamp, or after it, with their plans."""
+        with self._lock:
+            return stamp is None or all(
+                subscriber.get_num_connections() == 0 or self._newest.get(name, stamp) >= stamp
+                for name, subscriber in self._subscribers.items())
+
+    def listen(self, context: Optional[Context], stamp: rospy.Time, before: Optional[rospy.Time] = None) -> None:
         """Have a context hear what has been told, and who has fallen silent.
 
         Args:
             context: of the goal that is active; None without one.
             stamp: of the newest reading of the robot.
+            before: hear only what was told before this stamp; None: all that has come.
         """
-        for name, message in self._arrived():
+        for name, message in self._arrived(before):
             self._take(context, name, self._read(name, message), stamp)
         for name, heard in list(self._heard.items()):
             if heard.report.task is not Task.OFF and (stamp - heard.stamp).to_sec() > SILENT:
@@ -111,8 +127,8 @@ class Team:
         if context is not None:
             context.hear(name, report)
 
-    def _arrived(self) -> List[Tuple[str, TeamReport]]:
-        """The reports whose plans are known, in order; the others wait, and what the same mate told after them."""
+    def _arrived(self, before: Optional[rospy.Time]) -> List[Tuple[str, TeamReport]]:
+        """The reports to hear, mate by mate, whose plans are known; the others wait, and what is told after them."""
         with self._lock:
             waiting, self._pending = self._pending, []
             while not self._news.empty():
@@ -121,12 +137,13 @@ class Team:
             late = set()
             for name, message in waiting[-MOST:]:
                 known = self._plans.get(name)
-                if name in late or message.route > (known.route if known is not None else 0):
+                if name in late or message.route > (known.route if known is not None else 0) or (
+                        before is not None and message.header.stamp >= before):
                     late.add(name)
                     self._pending.append((name, message))
                 else:
                     ready.append((name, message))
-            return ready
+            return sorted(ready, key=lambda news: self._names.index(news[0]))
 
     def _read(self, name: str, message: TeamReport) -> Report:
         plan = self._plans.get(name)
