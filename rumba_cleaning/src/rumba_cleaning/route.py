@@ -75,8 +75,8 @@ class Ahead(NamedTuple):
         return Route(np.concatenate([[here], waypoints[leg + 1:]]), speeds[leg:])
 
     def without_end(self, length: float) -> Optional[Route]:
-        """The rest of it without its last part [m]; None if nothing is left."""
+        """The rest of it without its last part [m], to the end of the leg in which that begins; None: nothing is left."""
         waypoints, speeds = self.rest()
         after = np.append(np.cumsum(np.hypot(*np.diff(waypoints, axis=0).T)[::-1])[::-1], 0.0)
-        count = int(np.count_nonzero(after[1:] > length - SAME))
+        count = int(np.count_nonzero(after[:-1] > length + SAME))
         return Route(waypoints[:count + 1], speeds[:count]) if count > 0 else None

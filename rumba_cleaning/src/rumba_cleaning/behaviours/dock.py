@@ -7,12 +7,12 @@ import numpy as np
 
 from rumba_cleaning.behaviour import STOP, Behaviour, Command, Observation, Status
 from rumba_cleaning.behaviours.go_to import GoTo
-from rumba_cleaning.behaviours.homing import BUOYS, Homing
+from rumba_cleaning.behaviours.homing import BUOYS, FAR_SPEED, Homing
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.belief.mates import Task
 from rumba_cleaning.belief.places import places_apart
 from rumba_cleaning.outcome import Outcome
-from rumba_cleaning.route import Ahead
+from rumba_cleaning.route import Ahead, Route
 from rumba_sim.model.errors import MapError
 from rumba_sim.model.geometry import Pose
 
@@ -20,6 +20,7 @@ STEP = 0.05  # [m]
 BEFORE = (16, 14, 12, 10, 8, 6)  # steps from the dock to the point on its axis at which homing begins: the most that
 #                                  are free; bench/docking.py brings all robots home from there
 BERTH = 0.5  # [m] from the dock, within which a mate occupies it: our choice, more than a robot's width
+CLOSE = 1.0  # [m] from the dock, within which a robot with mates follows the beams: they cannot know where these lead it
 POLITE = 0.6  # [m] from the line on which robots drive up to the dock and leave it: our choice, they pass there
 FARTHEST = 4.0  # [m] to a place to wait for the dock; our choice
 TRIES = 3  # our choice: a robot that stands in the way has left after that, or stays
@@ -39,6 +40,9 @@ class Dock(Behaviour):
         """
         self._context = context
         self._approach = approach(context)
+        dock = context.home or self._approach
+        self._last_line = Route(np.array([self._approach[:2], dock[:2]]), np.array([FAR_SPEED]))
+        self._away = 0.0  # [m] from the dock
 
     def initialise(self) -> None:
         """Begin with what is received."""
@@ -58,6 +62,8 @@ class Dock(Behaviour):
 
     def update(self, observation: Observation) -> Command:
         """Go to the point before the dock, then home; if that fails, try again."""
+        x, y = self._last_line.waypoints[-1].tolist()
+        self._away = math.hypot(observation.pose.x - x, observation.pose.y - y)
         is_at_home = self._context.nearest_dock(observation.pose) == self._context.home
         if observation.is_docked and is_at_home:
             return self.succeed('docked')
@@ -66,8 +72,9 @@ class Dock(Behaviour):
         if self._is_waiting:
             self._part, self._is_waiting = None, False
         if self._part is None:
-            self._part = Homing(self._context) if is_at_home and observation.infrared.omni & BUOYS else GoTo(
-                self._context, self._approach)
+            homes = is_at_home and observation.infrared.omni & BUOYS and (
+                not self._context.mates.reports or self._away < CLOSE)
+            self._part = Homing(self._context) if homes else GoTo(self._context, self._approach)
         command = self._part.step(observation)
         self.message = self._part.message
         if self._part.status is Status.RUNNING:
@@ -133,7 +140,9 @@ class Dock(Behaviour):
         self._part = None
 
     def plan_ahead(self) -> Optional[Ahead]:
-        """The plan of the part that is under way."""
+        """The way to the point before the dock, and from there straight to its contacts."""
+        if self.is_homing:
+            return Ahead(self._last_line, self._away)
         return None if self._part is None else self._part.plan_ahead()
 
 

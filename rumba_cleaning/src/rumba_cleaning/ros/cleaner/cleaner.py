@@ -209,6 +209,7 @@ class Cleaner:
 
     def _look_after(self) -> None:
         self._robot.look_after()
+        self._read_postponed()
         if self._run is not None:
             self._run.look_after()
             self._forget_closed()

@@ -2,7 +2,8 @@
 
 import queue
 import threading
-from typing import Callable, Dict, List, NamedTuple, Optional, Sequence, Tuple
+import time
+from typing import Callable, Dict, List, NamedTuple, Optional, Sequence, Set, Tuple
 
 import numpy as np
 import rospy
@@ -19,6 +20,7 @@ from rumba_sim.ros.common.frames import MAP
 
 REPORT, PLAN = 'team_report', 'team_plan'  # topics below the name of a robot
 SILENT = 5.0  # [s] by the stamps of the robot without a report of a mate: it takes no part any more; our choice
+PATIENCE = 5.0  # [s] of the wall clock that a world in lockstep waits for a mate that tells nothing; our choice
 MOST = 100  # reports that may wait to be heard: 10 s of one mate
 COMPLAINT_PERIOD = 10.0  # [s]
 
@@ -49,6 +51,8 @@ class Team:
         self._news: 'queue.Queue[Tuple[str, TeamReport]]' = queue.Queue(MOST)
         self._pending: List[Tuple[str, TeamReport]] = []  # reports of plans that have not come yet
         self._newest: Dict[str, rospy.Time] = {}  # stamp of the newest report of each mate
+        self._given_up: Set[str] = set()
+        self._waits_since: Optional[float] = None  # a time of `time.monotonic`
         self._subscribers: Dict[str, rospy.Subscriber] = {}
         self._heard: Dict[str, _Heard] = {}
         self._shown: Optional[Array] = None  # the waypoints of the plan that was published last
@@ -98,14 +102,25 @@ class Team:
                 self._news.get()
             self._news.put((name, report))
             self._newest[name] = report.header.stamp
+            self._given_up.discard(name)
         self._on_news()
 
     def have_told(self, stamp: Optional[rospy.Time]) -> bool:
-        """Whether all mates that are there have told what they do at a stamp, or after it, with their plans."""
+        """Whether all mates that are there have told what they do at a stamp, or after it.
+
+        One for which the robot has waited for PATIENCE is not waited for again until it tells something.
+        """
+        now = time.monotonic()
         with self._lock:
-            return stamp is None or all(
-                subscriber.get_num_connections() == 0 or self._newest.get(name, stamp) >= stamp
-                for name, subscriber in self._subscribers.items())
+            missing = {name for name, subscriber in self._subscribers.items()
+                       if stamp is not None and name not in self._given_up and subscriber.get_num_connections() > 0
+                       and self._newest.get(name, stamp) < stamp}
+            self._waits_since = (self._waits_since or now) if missing else None
+            if self._waits_since is None or now - self._waits_since < PATIENCE:
+                return not missing
+            self._given_up |= missing
+            self._waits_since = None
+            return True
 
     def listen(self, context: Optional[Context], stamp: rospy.Time, before: Optional[rospy.Time] = None) -> None:
         """Have a context hear what has been told, and who has fallen silent.

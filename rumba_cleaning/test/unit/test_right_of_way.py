@@ -1,0 +1,89 @@
+"""Who gives way: the robot that comes later in the order, and only if the ways of both really meet."""
+
+import math
+
+import numpy as np
+import pytest
+from rooms import quiet, room
+
+from rumba_cleaning.behaviour import STOP, Observation
+from rumba_cleaning.behaviours.right_of_way import PATIENCE, RightOfWay
+from rumba_cleaning.belief.context import Context
+from rumba_cleaning.belief.mates import Mates, Report, Task
+from rumba_cleaning.cleaning_config import CleaningConfig
+from rumba_cleaning.route import Ahead, Route
+from rumba_sim.model.geometry import Pose
+
+PLAN = room(6.0, 4.0)
+CORRIDOR = room(6.0, 0.5)
+TEAM = ('rumba', 'rumba2')
+
+
+def along(*points):
+    """A way over points [m]."""
+    route = Route(np.array(points, float), np.full(len(points) - 1, 0.3))
+    return Ahead(route, route.length)
+
+
+def command(name, pose, ahead, mate, task=Task.SWEEPING, mates_way=None, plan=PLAN, steps=1):
+    """What a robot of the team does while its mate is at a pose; the last of some steps at one place."""
+    context = Context(plan, quiet(), CleaningConfig(), mates=Mates(name, TEAM))
+    other = TEAM[1 - TEAM.index(name)]
+    context.mates.hear(other, Report(mate, True, task, mates_way))
+    controller = RightOfWay(context)
+    return [controller.command(Observation(0.1, pose), ahead) for _ in range(steps)][-1]
+
+
+HERE, THERE = Pose(2.0, 2.0, 0.0), Pose(2.8, 2.0, math.pi)
+MINE, THEIRS = along((2.0, 2.0), (4.0, 2.0)), along((2.8, 2.0), (1.0, 2.0))
+
+
+def test_a_robot_without_mates_near_it_goes_on():
+    assert command('rumba2', HERE, MINE, Pose(5.5, 2.0, math.pi), mates_way=along((5.5, 2.0), (4.6, 2.0))) is None
+    context = Context(PLAN, quiet(), CleaningConfig())
+    assert RightOfWay(context).command(Observation(0.1, HERE), MINE) is None
+
+
+def test_of_two_that_drive_toward_each_other_the_second_moves_aside_and_the_first_goes_on():
+    aside = command('rumba2', HERE, MINE, THERE, mates_way=THEIRS)
+    assert aside is not None and aside.brushes_up and (aside.v, aside.w) != (0.0, 0.0)
+    assert command('rumba', HERE, MINE, THERE, mates_way=THEIRS) is None
+
+
+def test_in_a_corridor_without_a_place_aside_the_second_stands_or_drives_back():
+    aside = command('rumba2', Pose(2.0, 0.25, 0.0), along((2.0, 0.25), (4.0, 0.25)), Pose(2.8, 0.25, math.pi),
+                    mates_way=along((2.8, 0.25), (1.5, 0.25)), plan=CORRIDOR)
+    assert aside is not None and (aside == STOP or aside.w != 0.0)
+
+
+def test_who_crosses_the_way_of_the_first_waits_and_the_first_does_not():
+    crossing, mate = along((2.0, 2.0), (2.0, 3.5)), Pose(1.5, 2.5, 0.0)
+    way = along((1.5, 2.5), (4.0, 2.5))
+    assert command('rumba2', HERE, crossing, mate, mates_way=way) == STOP
+    assert command('rumba', HERE, crossing, mate, mates_way=way) is None
+
+
+def test_nobody_waits_for_a_mate_that_drives_away_or_beside():
+    assert command('rumba2', HERE, MINE, Pose(2.5, 2.6, 0.0), mates_way=along((2.5, 2.6), (4.0, 2.6))) is None
+    assert command('rumba2', HERE, MINE, Pose(1.5, 2.0, math.pi), mates_way=along((1.5, 2.0), (0.5, 2.0))) is None
+
+
+def test_the_first_waits_for_a_mate_that_stands_right_before_it():
+    assert command('rumba', HERE, MINE, Pose(2.45, 2.0, 0.0), Task.SEEKING) == STOP
+
+
+@pytest.mark.parametrize('task', [Task.OFF, Task.DOCKED])
+def test_a_mate_that_does_not_move_is_an_obstacle_like_any_other(task):
+    assert command('rumba2', HERE, MINE, Pose(2.45, 2.0, 0.0), task) is None
+
+
+def test_even_the_first_gives_way_to_one_that_docks():
+    assert command('rumba', HERE, MINE, Pose(2.5, 2.6, 0.0), Task.DOCKING, along((2.5, 2.6), (2.5, 1.5))) == STOP
+
+
+def test_patience_ends():
+    steps = round(PATIENCE / 0.1)
+    way = dict(mates_way=along((1.5, 2.5), (4.0, 2.5)))
+    crossing = along((2.0, 2.0), (2.0, 3.5))
+    assert command('rumba2', HERE, crossing, Pose(1.5, 2.5, 0.0), steps=steps - 1, **way) == STOP
+    assert command('rumba2', HERE, crossing, Pose(1.5, 2.5, 0.0), steps=steps + 1, **way) is None
