@@ -33,6 +33,8 @@ MD5 = {
     'MissionStatus.msg': ['b5dc28a8c8d879395d4353c7e03795b4'],
     'Outcome.msg': ['a70673e9425e07411f8380f0a44dbf9b'],
     'SimulatorState.msg': ['f9b4dcc49d5285d3df3d11c9d29d19b5'],
+    'TeamPlan.msg': ['2eed0994a800fa164588bb991605d45e'],
+    'TeamReport.msg': ['9b7a98c3683ee32acca6452e160dcb69'],
     'AddObstacle.srv': ['c0b79402098083bb719b5f6fb4d6ddb9'],
     'Kill.srv': ['d82dc6474dd88dad5e1615ab1b2ca74c'],
     'RemoveObstacle.srv': ['d82dc6474dd88dad5e1615ab1b2ca74c'],
@@ -42,7 +44,7 @@ MD5 = {
     'Teleport.srv': ['3bd059df70d5e80971945ad044457a3c'],
 }
 UNIT_OF_A_NUMBER = re.compile(r'\[(%|0\.\.1|m|m\^2|rad|s|m/s|rad/s|Hz|ticks|resets|times real time)\]'
-                              r'|constants? above|sum of the beams above|seed of')
+                              r'|constants? above|number of |sum of the beams above|seed of')
 PARTS = [part for path in FILES for part in parts(path)]
 ROSIDL_PARSERS = {'.msg': 'parse_message_string', '.srv': 'parse_service_string', '.action': 'parse_action_string'}
 

@@ -26,8 +26,9 @@ class Crew:
             self.world.spawn(nth_name(number + 1), poses[number] if poses else None, brushes_up=True)
         names = list(self.world.robots)
         self.planners = BeforeNextStep()
-        self.contexts = {name: Context(plan, config, CleaningConfig(), own_seed(seed, name), self.planners, mates=Mates(name, names))
-                         for name in names}
+        self.contexts = {
+            name: Context(plan, config, CleaningConfig(), own_seed(seed, name), self.planners, mates=Mates(name, names))
+            for name in names}
         self.missions = {name: Mission(context, 'boustrophedon', target) for name, context in self.contexts.items()}
         self.silent = set()
         self._dt = 0.0
@@ -52,6 +53,6 @@ class Crew:
         begin = self.world.time
         while any(mission.status is Status.RUNNING and name not in self.silent
                   for name, mission in self.missions.items()):
-            assert self.world.time < begin + seconds, {name: mission.message for name, mission in self.missions.items()}
+            assert self.world.time < begin + seconds, [mission.message for mission in self.missions.values()]
             self.step()
         return self.world.time - begin

@@ -49,6 +49,13 @@ def test_an_invalid_name_of_a_robot_is_refused(robot):
         Settings(robot=robot)
 
 
+@pytest.mark.parametrize('team', ['rumba2 rumba3', 'rumba rumba', 'rumba /rumba2', 'rumba 2'])
+def test_a_team_without_the_robot_or_with_wrong_names_is_refused(team):
+    with pytest.raises(ConfigError, match=r"^team is .*: must be names of robots, each of them once, and 'rumba' among "
+                                          'them$'):
+        Settings(team=team)
+
+
 def test_an_unknown_answer_of_go_to_position_is_refused():
     with pytest.raises(ConfigError, match="^it: go_to_position/answer is 'speed': must be velocity or heading$"):
         from_mapping(Settings, {'go_to_position': {'answer': 'speed'}}, 'it')

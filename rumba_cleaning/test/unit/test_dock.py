@@ -120,3 +120,42 @@ def test_a_robot_that_drives_against_the_dock_comes_to_its_contacts_and_stays():
 def test_a_dock_where_no_robot_fits_is_refused():
     with pytest.raises(MapError, match=r'^room: dock at \(4\.90, 1\.50\) m is 0\.100 m from the nearest wall'):
         World(room(5.0, 4.0, dock=Pose(4.9, 1.5, 0.0)))
+
+
+# --- several docks ------------------------------------------------------------------------------------------------
+
+@pytest.mark.parametrize('number', range(len(DOCKS)))
+def test_a_robot_charges_at_each_dock(number):
+    world = World(room(5.0, 4.0, dock=DOCKS[0], further_docks=DOCKS[1:]), quiet())
+    robot = world.spawn('rumba', DOCKS[number])
+    world.step()
+    assert robot.is_docked
+
+
+def test_robots_begin_at_docks_and_then_near_the_first():
+    world = World(room(5.0, 4.0, dock=DOCKS[0], further_docks=DOCKS[1:3]), quiet())
+    begins = [world.spawn(name).pose for name in 'abcd']
+    assert begins[:3] == DOCKS[:3]
+    assert math.hypot(begins[3].x - DOCKS[0].x, begins[3].y - DOCKS[0].y) < 0.7
+
+
+def test_on_a_map_with_a_start_further_robots_begin_beside_it():
+    world = World(room(5.0, 4.0, dock=DOCKS[0], further_docks=DOCKS[1:3], start=Pose(2.5, 2.0, 0.0)), quiet())
+    begins = [world.spawn(name).pose for name in 'ab']
+    assert begins[0] == Pose(2.5, 2.0, 0.0) and math.hypot(begins[1].x - 2.5, begins[1].y - 2.0) < 0.7
+
+
+@pytest.mark.parametrize('pose', [Pose(1.5, 2.0, 0.4), Pose(3.5, 1.5, 0.0), Pose(4.5, 1.5, 0.2), Pose(1.2, 3.0, 1.5)])
+def test_what_is_heard_of_several_docks_is_the_sum_of_what_is_heard_of_each(pose):
+    def beams(*docks):
+        world = World(room(5.0, 4.0, dock=docks[0], further_docks=docks[1:]), quiet())
+        world.spawn('rumba', pose)
+        return world.infrared('rumba')
+    each = [beams(dock) for dock in DOCKS]
+    assert beams(*DOCKS) == Infrared(*(first | second | third | fourth for first, second, third, fourth in zip(*each)))
+    assert any(any(seen) for seen in each)
+
+
+def test_each_dock_must_leave_room_for_a_robot():
+    with pytest.raises(MapError, match=r'dock at \(4\.95, 2\.00\) m is 0\.050 m from the nearest wall'):
+        World(room(5.0, 4.0, dock=DOCKS[0], further_docks=[Pose(4.95, 2.0, 0.0)]))

@@ -30,6 +30,14 @@ def test_a_map_that_is_free_to_its_edges_is_not_cropped(tmp_path):
     assert plan.occupancy.shape == (3, 4) and plan.free.all() and plan.origin == (-1.0, 2.0)
 
 
+def test_several_docks(tmp_path):
+    plan = map_file.load(write(tmp_path, docks='[[1, 2.5, 7.0], [3e-1, 1, 0]]'))
+    assert plan.docks == (approx((1.0, 2.5, 7.0 - 2.0 * math.pi)), approx((0.3, 1.0, 0.0)))
+    assert plan.dock == plan.docks[0] and plan.refined().docks == plan.docks
+    assert map_file.load(write(tmp_path, dock='[1, 2, 0]')).docks == ((1.0, 2.0, 0.0),)
+    assert map_file.load(write(tmp_path)).docks == ()
+
+
 def test_dock_start_and_layers(tmp_path):
     layer = np.full(PIXELS.shape, 255, np.uint8)
     layer[1, 3], layer[4, 2], layer[5, 2] = 0, 127, 128
@@ -133,6 +141,10 @@ def test_each_cell_of_a_turned_map_has_the_value_under_its_centre(tmp_path, yaw)
     ({'occupied_thresh': 1.1}, r'occupied_thresh is 1\.1: must be 0 to 1'),
     ({'free_thresh': -0.1}, r'free_thresh is -0\.1: must be 0 to 1'),
     ({'free_thresh': 0.7}, r'free_thresh is 0\.7: must not be above occupied_thresh, 0\.65'),
+    ({'docks': '[0, 0, 0]'}, r'docks is \[0, 0, 0\]: must be a list of \[x, y, angle\] in m, m, rad, of 100 at most'),
+    ({'docks': '[]'}, r'docks is \[\]: must be a list'), ({'docks': '7'}, 'docks is 7: must be a list'),
+    ({'docks': '[[0, 0, 0], [0, 0]]'}, r'docks is .*: must be a list'),
+    ({'docks': '[[0, 0, 0]]', 'dock': '[0, 0, 0]'}, 'dock and docks: must be one of them'),
     ({'dok': '[0, 0, 0]'}, "'dok' is unknown: did you mean 'dock'"),
     ({'DOCK': '[0, 0, 0]'}, "'DOCK' is unknown: did you mean 'dock'"),
     ({'Origin': '[0, 0, 0]'}, "'Origin' is unknown: did you mean 'origin'"),

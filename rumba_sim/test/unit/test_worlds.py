@@ -19,7 +19,7 @@ from rumba_sim.model.world import NOISE_TICKS, World
 from rumba_sim.model.worlds import Worlds, world_with_a_robot
 
 FLOORS = [crooked(dock=Pose(3.8, 1.0, 0.0), cliff=(3.6, 2.6, 4.0, 3.0), carpet=(0.0, 0.0, 1.0, 1.0)),
-          crooked(0.02), gaps(0.05), room(2.0, 1.5, 0.1, dock=Pose(1.8, 0.7, 0.0))]
+          crooked(0.02), gaps(0.05), room(2.0, 1.5, 0.1, dock=Pose(1.8, 0.7, 0.0), further_docks=[Pose(0.2, 0.7, 3.1)])]
 POST = Obstacle('post', Pose(1.0, 1.0, 0.0), height=0.3, radius=0.05)
 CAT = Obstacle('cat', Pose(0.3, 0.3, 0.0), height=0.3, radius=0.1, stops=walk(
     [Pose(0.3, 0.3, 0.0), Pose(1.5, 1.2, 0.0), Pose(0.5, 1.2, 0.0)], 0.5, True, 0.0, 1.0))

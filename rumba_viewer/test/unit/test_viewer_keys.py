@@ -215,7 +215,7 @@ def test_the_list_of_speeds_shows_the_wanted_speed_and_sets_another(opened):
 
 
 NO_DOCK = MapFeatures(is_known=True)
-DOCK = MapFeatures(Dock(Pose(0.0, 0.0, 0.0), np.zeros((3, 2)), np.zeros((3, 2))), is_known=True)
+DOCK = MapFeatures((Dock(Pose(0.0, 0.0, 0.0), np.zeros((3, 2)), np.zeros((3, 2))),), is_known=True)
 REAL = simulation(speed=1.0, wanted=1.0, is_simulated=False)
 TURTLE = simulation(node='/turtlesim_body', speed=1.0, wanted=None, services=frozenset({'reset'}))
 

@@ -252,7 +252,7 @@ def test_dock_carpet_and_cliff_are_painted_on_their_cells():
     carpet[8:12, 5:10] = cliff[20:28, 20:30] = True
     pose = Pose(0.0, 4.0, math.pi)  # faces the left
     field = np.array([(-0.2, 4.0), (0.8, 4.4), (0.8, 3.6)])
-    features = MapFeatures(Dock(pose, field, field), carpet, cliff, True)
+    features = MapFeatures((Dock(pose, field, field),), carpet, cliff, True)
     image, plain = (picture(snapshot(robot(pose=Pose(2.0, 2.6, 0.0)), features=features), WHOLE, LIGHT),
                     picture(snapshot(robot(pose=Pose(2.0, 2.6, 0.0))), WHOLE, LIGHT))
     assert at(image, WHOLE, -0.17, 4.0, LIGHT.dock)

@@ -33,8 +33,8 @@ def picture(world: World) -> Array:
     pitch, radius = plan.resolution / parts, world.config.drive.radius
     x = plan.origin[0] + (np.arange(colours.shape[1]) + 0.5) * pitch
     y = plan.origin[1] + (np.arange(colours.shape[0])[:, np.newaxis] + 0.5) * pitch
-    if plan.dock is not None:
-        front = _ahead(plan.dock, radius)
+    for dock in plan.docks:
+        front = _ahead(dock, radius)
         colours[np.hypot(x - front.x, y - front.y) < 0.4 * radius] = DOCK
     pose = world.robots[FIRST].pose
     colours[np.hypot(x - pose.x, y - pose.y) < radius] = BODY

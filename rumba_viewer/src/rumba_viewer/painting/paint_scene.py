@@ -60,11 +60,11 @@ class ScenePainter:
 
     def _paint_things(self, painter: QPainter, snapshot: Snapshot, view: ViewTransform, theme: Theme,
                       ghost: Optional[Tuple[str, Pose]]) -> None:
-        dock = snapshot.features.dock
-        if dock is not None and self.shows_field:
+        if self.shows_field:
             painter.save()
             paint_robot.in_metres(painter, view)
-            paint_robot.paint_dock_field(painter, dock, theme)
+            for dock in snapshot.features.docks:
+                paint_robot.paint_dock_field(painter, dock, theme)
             painter.restore()
         if self.shows_path:
             paint_plans(painter, snapshot, view, theme)
@@ -75,7 +75,7 @@ class ScenePainter:
         for robot in snapshot.robots:
             paint_robot.paint_beams(painter, robot, theme)
             paint_particles(painter, robot, theme)
-        if dock is not None:
+        for dock in snapshot.features.docks:
             paint_robot.paint_dock(painter, dock, _size(snapshot), theme)
         for robot in snapshot.robots:
             is_selected = robot.name == snapshot.selected and len(snapshot.robots) > 1

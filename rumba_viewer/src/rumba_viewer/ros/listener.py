@@ -23,7 +23,7 @@ from rumba_viewer.ros import readings, ros_graph
 from rumba_viewer.ros.readings import State
 from rumba_viewer.ros.robot_listener import RobotListener
 from rumba_viewer.ros.subscription import Subscription
-from rumba_viewer.scene.dock_field import dock
+from rumba_viewer.scene.dock_field import docks
 from rumba_viewer.scene.snapshot import Grid, MapFeatures, Obstacle, Robot, Simulation, Size, Snapshot
 
 # What is raised if the master or the simulator ends during a call.
@@ -145,7 +145,7 @@ class Listener:
         try:
             config = robot_config(state.node)
             floor = map_file.load(state.map)
-            features = MapFeatures(dock(floor, config) if floor.dock else None, floor.carpet, floor.cliff, True)
+            features = MapFeatures(docks(floor, config), floor.carpet, floor.cliff, True)
         except RumbaError:  # the simulator runs on another machine
             pass
         self._files = MapFiles(features, config, (state.node, state.map, plan))

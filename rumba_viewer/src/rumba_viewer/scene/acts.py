@@ -82,7 +82,7 @@ def target(now: Snapshot) -> str:
 
 def dock(now: Snapshot) -> str:
     """It needs a cleaner and a dock."""
-    lacks_dock = now.features.is_known and now.features.dock is None
+    lacks_dock = now.features.is_known and not now.features.docks
     return cleaner(now) or ('this map has no dock: `dock` in its YAML file' if lacks_dock else '')
 
 

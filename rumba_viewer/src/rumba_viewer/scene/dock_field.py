@@ -1,6 +1,7 @@
 """The areas in which the beams of a dock are received: sectors that walls cut off."""
 
 import math
+from typing import Tuple
 
 import numpy as np
 
@@ -13,10 +14,12 @@ BEAMS = 90  # of a sector
 CLEAR = 0.5  # [cells] from the dock, within which a wall is ignored: the dock itself stands at one
 
 
-def dock(plan: FloorPlan, config: RobotConfig) -> Dock:
-    """The dock of a floor plan that has one, with its force field around it and its buoys in front of it."""
-    pose = plan.dock
-    assert pose is not None
+def docks(plan: FloorPlan, config: RobotConfig) -> Tuple[Dock, ...]:
+    """The docks of a floor plan, each with its force field around it and its buoys in front of it."""
+    return tuple(_dock(plan, config, pose) for pose in plan.docks)
+
+
+def _dock(plan: FloorPlan, config: RobotConfig, pose: Pose) -> Dock:
     sender = Pose(pose.x + config.drive.radius * math.cos(pose.theta),
                   pose.y + config.drive.radius * math.sin(pose.theta), pose.theta + math.pi)
     return Dock(pose, _sector(plan, sender, 0.5 * math.pi, config.dock.halo),

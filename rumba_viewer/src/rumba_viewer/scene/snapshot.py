@@ -54,7 +54,7 @@ class Grid:
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Dock:
-    """The dock, and how far its infrared beams reach.
+    """A dock, and how far its infrared beams reach.
 
     Attributes:
         pose: of a robot that is docked and faces the dock.
@@ -72,12 +72,12 @@ class MapFeatures:
     """What the files of a map contain besides the cells of /map.
 
     Attributes:
-        dock: None if the map has none, or if its files cannot be read on this machine.
+        docks: none if the map has none, or if its files cannot be read on this machine.
         carpet, cliff: bool (rows, columns), a value for each cell of the map; None if the map has none.
         is_known: whether the files were read.
     """
 
-    dock: Optional[Dock] = None
+    docks: Tuple[Dock, ...] = ()
     carpet: Optional[Array] = None
     cliff: Optional[Array] = None
     is_known: bool = False
