@@ -133,3 +133,18 @@ def test_robots_charge_one_after_the_other_at_the_only_dock():
     assert [mission.outcome for mission in crew.missions.values()] == [Outcome.SUCCEEDED] * 2
     for name in crew.missions:
         assert State.CHARGING in [state for state, _ in itertools.groupby(states[name])]
+
+
+def test_a_mate_that_only_passes_a_dock_does_not_occupy_it():
+    plan = room(6.1, 3.0, dock=RIGHT, further_docks=[LEFT])
+    crew = Crew(plan, quiet(), target=0.5)
+    while not any(mission.state is State.RETURNING for mission in crew.missions.values()):
+        crew.step()
+    passing = crew.missions['rumba2'].report()._replace(pose=RIGHT, task=Task.RETURNING, ahead=None)
+    crew.silent.add('rumba2')
+    crew.contexts['rumba'].hear('rumba2', passing)
+    crew.step()
+    assert 'waiting for the dock' not in crew.missions['rumba'].message
+    crew.contexts['rumba'].hear('rumba2', passing._replace(task=Task.DOCKED))
+    crew.step()
+    assert crew.missions['rumba'].message == 'waiting for the dock, where rumba2 is'

@@ -21,6 +21,7 @@ BEFORE = (16, 14, 12, 10, 8, 6)  # steps from the dock to the point on its axis 
 #                                  are free; bench/docking.py brings all robots home from there
 BERTH = 0.5  # [m] from the dock, within which a mate occupies it: our choice, more than a robot's width
 CLOSE = 1.0  # [m] from the dock, within which a robot with mates follows the beams: they cannot know where these lead it
+STANDING = (Task.DOCKED, Task.OFF, Task.SEEKING)  # at a dock; others pass by
 POLITE = 0.6  # [m] from the line on which robots drive up to the dock and leave it: our choice, they pass there
 FARTHEST = 4.0  # [m] to a place to wait for the dock; our choice
 TRIES = 3  # our choice: a robot that stands in the way has left after that, or stays
@@ -97,7 +98,8 @@ class Dock(Behaviour):
         """What the mates at the dock do, by their names."""
         home = self._context.home
         return {name: report.task for name, report in self._context.mates.reports.items()
-                if home is not None and math.hypot(report.pose.x - home.x, report.pose.y - home.y) < BERTH
+                if report.task in STANDING and home is not None
+                and math.hypot(report.pose.x - home.x, report.pose.y - home.y) < BERTH
                 or report.task is Task.DOCKING and self._context.nearest_dock(report.pose) == home}
 
     def _wait(self, observation: Observation) -> Command:
@@ -125,7 +127,8 @@ class Dock(Behaviour):
         if np.hypot(*(line - pose[:2]).T).min() > POLITE:
             return None
         mates = [report.pose[:2] for report in self._context.mates.reports.values()]
-        places = places_apart(self._context.ground, pose, FARTHEST, np.concatenate([line, mates]), POLITE)
+        docks = [other[:2] for other in self._context.plan.docks]
+        places = places_apart(self._context.ground, pose, FARTHEST, np.concatenate([line, mates, docks]), POLITE)
         return GoTo(self._context, Pose(float(places[0][0]), float(places[0][1]), math.nan)) if len(places) else None
 
     def terminate(self) -> None:
