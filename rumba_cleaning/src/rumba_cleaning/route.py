@@ -75,7 +75,7 @@ class Ahead(NamedTuple):
         return Route(np.concatenate([[here], waypoints[leg + 1:]]), speeds[leg:])
 
     def without_end(self, length: float) -> Optional[Route]:
-        """The rest of it without its last part [m], to the end of the leg in which that begins; None: nothing is left."""
+        """The rest of it without its last part [m], up to the end of the leg in which that begins; None: nothing."""
         waypoints, speeds = self.rest()
         after = np.append(np.cumsum(np.hypot(*np.diff(waypoints, axis=0).T)[::-1])[::-1], 0.0)
         count = int(np.count_nonzero(after[:-1] > length + SAME))

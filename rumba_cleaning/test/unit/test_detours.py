@@ -5,10 +5,10 @@ import pytest
 from floors import knowing, length, wiped_but
 from rooms import room
 
-from rumba_cleaning.route import Route
 from rumba_cleaning.planning.detours import APART, DEAREST, FARTHEST, SURPLUS, with_crumbs
 from rumba_cleaning.planning.paper import drive
 from rumba_cleaning.planning.regions import regions
+from rumba_cleaning.route import Route
 from rumba_sim.model.geometry import Pose
 
 START = Pose(0.5, 1.5, 0.0)

@@ -9,11 +9,11 @@ from rooms import RADIUS, inside, quiet, room
 
 from rumba_cleaning.behaviour import Behaviour, Command
 from rumba_cleaning.behaviours.bounded import Bounded
-from rumba_cleaning.route import Route
 from rumba_cleaning.behaviours.guard import Guard
 from rumba_cleaning.behaviours.travel import Going, Travel
 from rumba_cleaning.control import CONTROL_DT, CONTROL_TICKS, observe, steps
 from rumba_cleaning.mission.mission import Mission
+from rumba_cleaning.route import Route
 from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.obstacle import Obstacle

@@ -10,8 +10,8 @@ from rumba_sim.model import kernel
 from rumba_sim.model.compiled import fast
 from rumba_sim.model.constants import constants
 from rumba_sim.model.geometry import Pose
-from rumba_sim.model.reachability import stands
 from rumba_sim.model.obstacle import Obstacle, walk
+from rumba_sim.model.reachability import stands
 from rumba_sim.model.robot_config import CliffConfig
 from rumba_sim.model.world import World
 

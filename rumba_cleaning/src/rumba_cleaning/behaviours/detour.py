@@ -4,8 +4,8 @@ from typing import List, Optional
 
 import numpy as np
 
-from rumba_cleaning.route import Route
 from rumba_cleaning.belief.context import Context
+from rumba_cleaning.route import Route
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.kernel import Array
 

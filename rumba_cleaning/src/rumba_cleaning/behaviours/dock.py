@@ -20,7 +20,7 @@ STEP = 0.05  # [m]
 BEFORE = (16, 14, 12, 10, 8, 6)  # steps from the dock to the point on its axis at which homing begins: the most that
 #                                  are free; bench/docking.py brings all robots home from there
 BERTH = 0.5  # [m] from the dock, within which a mate occupies it: our choice, more than a robot's width
-CLOSE = 1.0  # [m] from the dock, within which a robot with mates follows the beams: they cannot know where these lead it
+CLOSE = 1.0  # [m] from the dock, within which a robot with mates follows the beams: mates cannot know where to
 STANDING = (Task.DOCKED, Task.OFF, Task.SEEKING)  # at a dock; others pass by
 POLITE = 0.6  # [m] from the line on which robots drive up to the dock and leave it: our choice, they pass there
 FARTHEST = 4.0  # [m] to a place to wait for the dock; our choice

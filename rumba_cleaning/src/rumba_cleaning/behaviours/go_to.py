@@ -8,10 +8,10 @@ import numpy as np
 
 from rumba_cleaning.behaviour import STOP, Behaviour, Command, Observation
 from rumba_cleaning.behaviours.follower import Turn
-from rumba_cleaning.route import Ahead, Route
 from rumba_cleaning.behaviours.travel import Going, Travel
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.outcome import Outcome
+from rumba_cleaning.route import Ahead, Route
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.kernel import Array
 

@@ -22,7 +22,7 @@ def help_mate(context: Context, pose: Pose) -> Optional[Tuple[Route, Relief]]:
         A route to the end of that plan, and along it.
     """
     plans = context.mates.sweeping()
-    rests = {name: ahead.rest() for name, ahead in plans.items()}
+    rests = {name: ahead.rest() for name, ahead in plans.items() if context.mates.relief(name, ahead.plan) == 0.0}
     if not rests:
         return None
     name, rest = max(rests.items(), key=lambda item: float(item[1].times()[-1]))

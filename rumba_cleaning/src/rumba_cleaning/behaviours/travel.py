@@ -11,9 +11,9 @@ from typing import Optional
 from rumba_cleaning.behaviour import Command, Observation
 from rumba_cleaning.behaviours import recoil
 from rumba_cleaning.behaviours.follower import Follower
-from rumba_cleaning.route import Ahead, Route
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.belief.ground import Ground
+from rumba_cleaning.route import Ahead, Route
 from rumba_sim.model.geometry import Pose
 
 KNOWN = 0.03  # [m] if a known obstacle is so near to the body, a contact is a contact with that: three errors of a pose

@@ -80,11 +80,11 @@ class Mates:
         """How many of them need work."""
         return sum(report.task is Task.SEEKING for report in self.reports.values())
 
-    def relief(self, plan: int) -> float:
-        """Length [m] of the end of a plan of the robot, by its number, that mates drive in its place."""
+    def relief(self, name: str, plan: int) -> float:
+        """Length [m] of the end of a plan, by the name of a robot and its number, that mates drive in its place."""
         return max((report.ahead.relief.length for report in self.reports.values()
                     if report.ahead is not None and report.ahead.relief is not None
-                    and report.ahead.relief[:2] == (self.name, plan)), default=0.0)
+                    and report.ahead.relief[:2] == (name, plan)), default=0.0)
 
     def sweeping(self) -> Dict[str, Ahead]:
         """What those that sweep will drive, by their names."""

@@ -5,7 +5,6 @@ from typing import Dict, Iterator, List, NamedTuple, Optional
 import numpy as np
 from scipy import spatial
 
-from rumba_cleaning.route import Route
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.belief.ground import Ground
 from rumba_cleaning.belief.swept import Swept
@@ -13,6 +12,7 @@ from rumba_cleaning.planning.compiled_ways import cornered_length
 from rumba_cleaning.planning.crumbs import crumbs
 from rumba_cleaning.planning.paper import stride_counts, strides
 from rumba_cleaning.planning.stretches import Stretch
+from rumba_cleaning.route import Route
 from rumba_sim.model.kernel import Array
 
 # All figures are our choice; each comment says what speaks for a larger and for a smaller value.

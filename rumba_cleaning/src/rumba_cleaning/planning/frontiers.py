@@ -5,9 +5,9 @@ from typing import List, Optional
 import numpy as np
 from scipy import ndimage
 
-from rumba_cleaning.route import Route
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.belief.ground import Ground
+from rumba_cleaning.route import Route
 from rumba_sim.model.floor_plan import OCCUPIED, FloorPlan
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.kernel import Array

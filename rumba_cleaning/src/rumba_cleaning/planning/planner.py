@@ -4,7 +4,6 @@ from typing import Dict, List, Optional, Tuple
 
 import numpy as np
 
-from rumba_cleaning.route import Route
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.belief.ground import Ground
 from rumba_cleaning.belief.swept import Swept
@@ -19,6 +18,7 @@ from rumba_cleaning.planning.rings import chains, rings, stretch
 from rumba_cleaning.planning.stretches import Stretch
 from rumba_cleaning.planning.tour import Tour
 from rumba_cleaning.planning.turned_floor import main_direction
+from rumba_cleaning.route import Route
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.kernel import Array
 

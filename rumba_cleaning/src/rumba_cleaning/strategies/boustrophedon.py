@@ -6,9 +6,9 @@ from typing import NamedTuple, Optional
 from rumba_cleaning.behaviour import STOP, Behaviour, Command, Observation
 from rumba_cleaning.behaviours.detour import detour
 from rumba_cleaning.behaviours.helping import help_mate
-from rumba_cleaning.route import Ahead, Relief, Route
 from rumba_cleaning.behaviours.travel import Going, Travel
 from rumba_cleaning.belief.context import Context
+from rumba_cleaning.route import Ahead, Relief, Route
 from rumba_cleaning.strategies import strategy
 from rumba_sim.model.geometry import Pose
 
@@ -142,7 +142,8 @@ class Boustrophedon(Behaviour):
 
     def _leave_to_mate(self) -> None:
         """Leave the end of the plan to a mate that drives it."""
-        length = self._context.mates.relief(self._plan)
+        mates = self._context.mates
+        length = mates.relief(mates.name, self._plan)
         ahead = self.plan_ahead()
         if length > 0.0 and ahead is not None:
             self._plan += 1

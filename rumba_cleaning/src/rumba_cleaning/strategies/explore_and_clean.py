@@ -6,9 +6,9 @@ from typing import List, Optional
 import numpy as np
 
 from rumba_cleaning.behaviour import STOP, Behaviour, Command, Observation, Status
-from rumba_cleaning.route import Ahead, Route
 from rumba_cleaning.behaviours.travel import Going, Travel
 from rumba_cleaning.belief.context import Context
+from rumba_cleaning.route import Ahead, Route
 from rumba_cleaning.strategies import strategy
 from rumba_cleaning.strategies.boustrophedon import Boustrophedon
 from rumba_sim.model.geometry import Pose

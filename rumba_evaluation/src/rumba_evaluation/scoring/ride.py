@@ -8,10 +8,10 @@ import numpy as np
 
 from rumba_cleaning.behaviour import Behaviour, Command, Observation, Status
 from rumba_cleaning.behaviours.follower import Follower
-from rumba_cleaning.route import Route
 from rumba_cleaning.cleaning_config import CleaningConfig
 from rumba_cleaning.control import CONTROL_DT, CONTROL_TICKS, STEP_RATE, act
 from rumba_cleaning.outcome import Outcome
+from rumba_cleaning.route import Route
 from rumba_evaluation.scoring.drawn_path import DrawnPath, PathError, check_on_map
 from rumba_evaluation.scoring.measures import Observer
 from rumba_evaluation.scoring.meter import Meter

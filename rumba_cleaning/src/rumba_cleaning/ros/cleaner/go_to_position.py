@@ -8,11 +8,11 @@ import numpy as np
 import rospy
 
 from rumba_cleaning.behaviours.follower import HEADING, LEAST_AHEAD, Follower, turn_rate
-from rumba_cleaning.route import Route
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.ros.cleaner.senses import Senses
 from rumba_cleaning.ros.cleaner.settings import Settings
 from rumba_cleaning.ros.cleaner.workplace import Workplace
+from rumba_cleaning.route import Route
 from rumba_msg.srv import TargetPosition, TargetPositionResponse
 from rumba_sim.model.errors import MapError, RumbaError
 from rumba_sim.model.geometry import Pose, wrap_angle

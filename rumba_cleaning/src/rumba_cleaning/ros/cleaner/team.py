@@ -22,6 +22,7 @@ REPORT, PLAN = 'team_report', 'team_plan'  # topics below the name of a robot
 SILENT = 5.0  # [s] by the stamps of the robot without a report of a mate: it takes no part any more; our choice
 PATIENCE = 5.0  # [s] of the wall clock that a world in lockstep waits for a mate that tells nothing; our choice
 MOST = 100  # reports that may wait to be heard: 10 s of one mate
+LONGEST = 100_000  # corners of a plan
 COMPLAINT_PERIOD = 10.0  # [s]
 
 
@@ -47,10 +48,10 @@ class Team:
         self._on_news = on_news
         self._robot, self._names = robot, tuple(names) if len(names) > 1 else ()
         self._lock = threading.Lock()
-        self._plans: Dict[str, TeamPlan] = {}
+        self._plans: Dict[str, Dict[int, TeamPlan]] = {}  # by the name of the mate and their number; 0: none
         self._news: 'queue.Queue[Tuple[str, TeamReport]]' = queue.Queue(MOST)
         self._pending: List[Tuple[str, TeamReport]] = []  # reports of plans that have not come yet
-        self._newest: Dict[str, rospy.Time] = {}  # stamp of the newest report of each mate
+        self._newest: Dict[str, TeamReport] = {}  # report of each mate
         self._given_up: Set[str] = set()
         self._waits_since: Optional[float] = None  # a time of `time.monotonic`
         self._subscribers: Dict[str, rospy.Subscriber] = {}
@@ -63,6 +64,7 @@ class Team:
         self._routes = rospy.Publisher(f'{robot}/{PLAN}', TeamPlan, queue_size=1, latch=True)
         for name in names:
             if name != robot:
+                self._plans[name] = {}
                 rospy.Subscriber(f'{name}/{PLAN}', TeamPlan, self._on_plan, name, queue_size=MOST)
                 self._subscribers[name] = rospy.Subscriber(f'{name}/{REPORT}', TeamReport, self._on_report, name,
                                                            queue_size=MOST)
@@ -82,13 +84,11 @@ class Team:
     # --- hearing --------------------------------------------------------------------------------------------------
 
     def _on_plan(self, plan: TeamPlan, name: str) -> None:
-        numbers = [*plan.x, *plan.y, *plan.speed]
-        if not len(plan.x) == len(plan.y) == len(plan.speed) + 1 > 1 or not np.isfinite(numbers).all() or (
-                min(plan.speed) <= 0.0):
+        if not _is_route(plan):
             rospy.logwarn_throttle(COMPLAINT_PERIOD, f'{name}/{PLAN} is no plan: ignored')
             return
         with self._lock:
-            self._plans[name] = plan
+            self._plans[name][plan.route] = plan
         self._on_news()
 
     def _on_report(self, report: TeamReport, name: str) -> None:
@@ -101,7 +101,7 @@ class Team:
             if self._news.full():
                 self._news.get()
             self._news.put((name, report))
-            self._newest[name] = report.header.stamp
+            self._newest[name] = report
             self._given_up.discard(name)
         self._on_news()
 
@@ -112,9 +112,9 @@ class Team:
         """
         now = time.monotonic()
         with self._lock:
-            missing = {name for name, subscriber in self._subscribers.items()
-                       if stamp is not None and name not in self._given_up and subscriber.get_num_connections() > 0
-                       and self._newest.get(name, stamp) < stamp}
+            missing = {name for name, report in self._newest.items() if stamp is not None and (
+                report.header.stamp < stamp or not self._has_plan_of(name, report)
+                ) and name not in self._given_up and self._subscribers[name].get_num_connections() > 0}
             self._waits_since = (self._waits_since or now) if missing else None
             if self._waits_since is None or now - self._waits_since < PATIENCE:
                 return not missing
@@ -151,8 +151,7 @@ class Team:
             ready: List[Tuple[str, TeamReport]] = []
             late = set()
             for name, message in waiting[-MOST:]:
-                known = self._plans.get(name)
-                if name in late or message.route > (known.route if known is not None else 0) or (
+                if name in late or not self._has_plan_of(name, message) or (
                         before is not None and message.header.stamp >= before):
                     late.add(name)
                     self._pending.append((name, message))
@@ -160,12 +159,19 @@ class Team:
                     ready.append((name, message))
             return sorted(ready, key=lambda news: self._names.index(news[0]))
 
+    def _has_plan_of(self, name: str, report: TeamReport) -> bool:
+        """Whether the plan has come of which a report tells."""
+        return report.route == 0 or report.route in self._plans[name]
+
     def _read(self, name: str, message: TeamReport) -> Report:
-        plan = self._plans.get(name)
         ahead = None
-        if plan is not None and message.route == plan.route:
+        if message.route > 0:
+            with self._lock:
+                plan = self._plans[name][message.route]
+                self._plans[name] = {number: kept for number, kept in self._plans[name].items()
+                                     if number >= message.route}
             relief = Relief(message.relieved, message.relieved_plan, message.relieved_length)
-            ahead = Ahead(_route(plan), message.remaining, message.plan, relief if message.relieved else None)
+            ahead = Ahead(_route(plan), max(message.remaining, 0.0), message.plan, relief if message.relieved else None)
         pose = Pose(message.pose.x, message.pose.y, message.pose.theta)
         return Report(pose, message.brushes_up, Task(message.task), ahead)
 
@@ -186,6 +192,12 @@ class Team:
             header, int(report.task), conversions.pose_message(report.pose), report.brushes_up,
             self._number if ahead is not None else 0, ahead.remaining if ahead is not None else 0.0,
             ahead.plan if ahead is not None else 0, *relief))
+
+
+def _is_route(plan: TeamPlan) -> bool:
+    count = len(plan.x)
+    return 2 <= count <= LONGEST and count == len(plan.y) == len(plan.speed) + 1 and bool(
+        np.isfinite([*plan.x, *plan.y, *plan.speed]).all()) and min(plan.speed) > 0.0
 
 
 def _route(plan: TeamPlan) -> Route:
