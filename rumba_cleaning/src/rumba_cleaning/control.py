@@ -36,12 +36,12 @@ def act(behaviour: Behaviour, world: World, name: str, dt: float,
     return observation, command
 
 
-def steps(behaviour: Behaviour, world: World, name: str = FIRST,
-          seconds: float = 600.0) -> Iterator[Tuple[Observation, Command]]:
+def steps(behaviour: Behaviour, world: World, name: str = FIRST, seconds: float = 600.0,
+          source: PoseSource = truth) -> Iterator[Tuple[Observation, Command]]:
     """Have a robot follow a behaviour until that ends or the time [s] is up; yields what it sees, and what it does."""
     end = world.time + seconds
     dt = 0.0
     while behaviour.status is Status.RUNNING and world.time < end:
-        yield act(behaviour, world, name, dt)
+        yield act(behaviour, world, name, dt, source)
         world.step(CONTROL_TICKS)
         dt = CONTROL_DT
