@@ -1,8 +1,8 @@
 #!/bin/sh
 # Makes the pictures of the documentation, about three minutes: ./rumba shell docs/pictures/make.sh
 # A mission in the apartment at twenty times the speed, in a roscore of its own, without a display: the window light and
-# dark, a GIF of it, the page in a phone and on a desk, and the report of the mission. Needs chromium, chromium-driver and
-# python3-selenium for page and report.
+# dark, a GIF of it, the page in a phone and on a desk, and the report of the mission; and the paths of two robots that
+# share it. Needs chromium, chromium-driver and python3-selenium for page and report.
 set -eu
 cd "$(dirname -- "$0")"
 port=${PORT:-11399}
@@ -57,4 +57,7 @@ while [ ! -e "$folder/mission.bag" ]; do sleep 0.2; done
 rosrun rumba_evaluation mission_report "$folder/mission.bag"
 shoot report "file://$folder/mission.html" report.png 1100x1250
 shoot gif "$folder"/frame*.png mission.gif
-shoot shrink window.png dark.png page.png phone.png report.png
+rosrun rumba_evaluation evaluate --maps apartment_docks --strategies boustrophedon --robots 2 --seeds 1 \
+    --output "$folder/team"
+cp "$folder/team/path_apartment_docks_boustrophedon_2.png" fleet.png
+shoot shrink window.png dark.png page.png phone.png report.png fleet.png
