@@ -40,7 +40,8 @@ class PoseErrorTest(unittest.TestCase):
         for seconds, counted, believed in ((0, (0.0, 0.0), (1.0, 2.0)), (5, (1.0, 0.0), (9.0, 9.0)),
                                            (10, (2.3, 0.4), (3.0, 2.12))):
             stamp = begin + rospy.Duration(seconds)
-            for name, (x, y) in (('odom', counted), ('amcl_pose', believed), ('ground_truth', (1.0 + 0.2 * seconds, 2.0))):
+            poses = {'odom': counted, 'amcl_pose': believed, 'ground_truth': (1.0 + 0.2 * seconds, 2.0)}
+            for name, (x, y) in poses.items():
                 header, pose = at(x, y, stamp)
                 publishers[name].publish(topics[name](header=header, pose=pose))
         self.assertEqual(lines.get(timeout=TIMEOUT), 'off by: odometry 0.000 m, localisation 0.000 m\n')
