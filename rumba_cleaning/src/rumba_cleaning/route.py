@@ -7,10 +7,16 @@ import numpy as np
 
 from rumba_sim.model.kernel import Array
 
-TURN_RATE = 1.9  # [rad/s] of a robot in a corner, about, as `planning.tour` counts it
+# All figures are our choice.
+BENT = 0.5  # [rad] a corner by less costs no time, since the robot goes round it at full speed
+STOP = 0.5  # [s] to slow down and to start again at a corner by more than a right angle
+TURN_RATE = 1.9  # [rad/s] of the robot in a corner, about
 SAME = 1e-3  # [m] lengths that differ by less are the same
-STOP = 0.5  # [s] to slow down and to start again at a corner by more than a right angle, the same
-BENT = 0.5  # [rad] a corner by less costs no time, the same
+
+
+def lengths_along(path: Array) -> Array:
+    """Length of a path (any, 2) [m] from its first waypoint to each: float64 (any) [m]."""
+    return np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(path, axis=0).T))])
 
 
 class Route(NamedTuple):
@@ -45,7 +51,7 @@ class Route(NamedTuple):
     @property
     def length(self) -> float:
         """[m]"""
-        return float(np.hypot(*np.diff(self.waypoints, axis=0).T).sum())
+        return float(lengths_along(self.waypoints)[-1])
 
 
 class Relief(NamedTuple):
@@ -67,16 +73,15 @@ class Ahead(NamedTuple):
     def rest(self) -> Route:
         """What is left of it, from where the robot is."""
         waypoints, speeds = self.route
-        legs = np.hypot(*np.diff(waypoints, axis=0).T)
-        after = np.append(np.cumsum(legs[::-1])[::-1], 0.0)  # [m] from each waypoint to the end
-        leg = max(int(np.searchsorted(-after, -self.remaining)) - 1, 0)
-        share = min((self.remaining - after[leg + 1]) / max(legs[leg], 1e-9), 1.0)
-        here = waypoints[leg + 1] + share * (waypoints[leg] - waypoints[leg + 1])
+        lengths = lengths_along(waypoints)
+        driven = max(lengths[-1] - self.remaining, 0.0)
+        leg = min(int(np.count_nonzero(lengths[1:] <= driven)), len(speeds) - 1)
+        here = [np.interp(driven, lengths, waypoints[:, axis]) for axis in (0, 1)]
         return Route(np.concatenate([[here], waypoints[leg + 1:]]), speeds[leg:])
 
     def without_end(self, length: float) -> Optional[Route]:
         """The rest of it without its last part [m], up to the end of the leg in which that begins; None: nothing."""
         waypoints, speeds = self.rest()
-        after = np.append(np.cumsum(np.hypot(*np.diff(waypoints, axis=0).T)[::-1])[::-1], 0.0)
-        count = int(np.count_nonzero(after[:-1] > length + SAME))
+        lengths = lengths_along(waypoints)
+        count = int(np.count_nonzero(lengths[-1] - lengths[:-1] > length + SAME))
         return Route(waypoints[:count + 1], speeds[:count]) if count > 0 else None

@@ -14,6 +14,14 @@ from simulators import ENDS_WITHIN, TIMEOUT, Heard, wait, wait_for_service
 from rumba_msg.msg import CleanAction, DockAction, GoToAction, GoToGoal, MissionStatus, Outcome, UndockAction
 
 programs.LIBRARIES += ['actionlib_msgs.msg', 'rumba_cleaning.mission', 'rumba_cleaning.planning.warm_up']
+# A map file of cells of 5 cm, to which a test adds what stands on it.
+FLOOR = """image: floor.pgm
+resolution: 0.05
+origin: [0, 0, 0]
+negate: 0
+occupied_thresh: 0.65
+free_thresh: 0.196
+"""
 KEY_PERIOD = 0.1  # [s] from one command of a person to the next, as of teleop_key
 ACTIONS = {'clean': CleanAction, 'dock': DockAction, 'undock': UndockAction, 'go_to': GoToAction}
 # Statuses of actionlib by the code of the outcome; goals with any other code are aborted.

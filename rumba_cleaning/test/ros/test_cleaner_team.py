@@ -6,7 +6,7 @@ import unittest
 
 import rospy
 import rostest
-from cleaners import Cleaner
+from cleaners import FLOOR, Cleaner
 from simulators import Heard, Simulator, folder_of, wait
 from teams import Crew
 
@@ -14,14 +14,7 @@ from rumba_msg.msg import MissionStatus, TeamPlan, TeamReport
 from rumba_sim.model import map_file
 from rumba_sim.model.robot_config import RobotConfig
 
-FLOOR = """image: floor.pgm
-resolution: 0.05
-origin: [0, 0, 0]
-negate: 0
-occupied_thresh: 0.65
-free_thresh: 0.196
-docks: [[3.8, 1.0, 0.0], [0.2, 1.0, 3.14159]]
-"""
+MAP = FLOOR + 'docks: [[3.8, 1.0, 0.0], [0.2, 1.0, 3.14159]]\n'
 PICTURE = b'P5 80 40 255\n' + 80 * 40 * b'\xff'  # 4 m x 2 m
 SEED, TARGET = 5, 0.9
 TEAM = '_team:=rumba rumba2'
@@ -32,7 +25,7 @@ class CleanerTeamTest(unittest.TestCase):
 
     def started(self, *arguments):
         """A simulator with two robots, and their cleaners, which begin to clean."""
-        folder = folder_of(self, {'floor.yaml': FLOOR.encode(), 'floor.pgm': PICTURE})
+        folder = folder_of(self, {'floor.yaml': MAP.encode(), 'floor.pgm': PICTURE})
         self.path = f'{folder}/floor.yaml'
         simulator = Simulator(self, f'_map:={self.path}', '_robots:=2', f'_seed:={SEED}', '_speed:=0',
                               '_brushes_up:=true', *arguments)

@@ -7,19 +7,12 @@ import unittest
 import rospy
 import rostest
 from actionlib_msgs.msg import GoalID, GoalStatus, GoalStatusArray
-from cleaners import Cleaner, go_to
+from cleaners import FLOOR, Cleaner, go_to
 from simulators import TIMEOUT, Heard, Simulator, folder_of, shared, wait
 
 from rumba_msg.msg import CleanGoal, GoToActionGoal, GoToActionResult, Outcome, SimulatorState
 
-FLOOR = """image: floor.pgm
-resolution: 0.05
-origin: [0, 0, 0]
-negate: 0
-occupied_thresh: 0.65
-free_thresh: 0.196
-start: [1.0, 1.0, 0.0]
-"""
+MAP = FLOOR + 'start: [1.0, 1.0, 0.0]\n'
 OPEN, WALL = 80 * b'\xff', 40 * b'\xff' + b'\0' + 39 * b'\xff'
 
 
@@ -34,7 +27,7 @@ class CleanerWorldsTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.fixture = shared(cls)
-        cls.folder = folder_of(cls.fixture, {'floor.yaml': FLOOR.encode(), 'floor.pgm': picture(OPEN)})
+        cls.folder = folder_of(cls.fixture, {'floor.yaml': MAP.encode(), 'floor.pgm': picture(OPEN)})
         cls.cleaner = Cleaner(cls.fixture)
         cls.start()
         cls.cleaner.connect()

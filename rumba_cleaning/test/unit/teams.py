@@ -4,7 +4,7 @@ from rumba_cleaning.behaviour import Status
 from rumba_cleaning.belief.context import BeforeNextStep, Context, own_seed
 from rumba_cleaning.belief.mates import Mates
 from rumba_cleaning.cleaning_config import CleaningConfig
-from rumba_cleaning.control import CONTROL_DT, CONTROL_TICKS, STEP_RATE, act
+from rumba_cleaning.control import CONTROL_DT, CONTROL_TICKS, STEP_RATE, act, tell_mates
 from rumba_cleaning.mission.mission import Mission
 from rumba_sim.model.robot import nth_name
 from rumba_sim.model.world import World
@@ -40,11 +40,7 @@ class Crew:
         for name, mission in self.missions.items():
             if mission.status is Status.RUNNING and name not in self.silent:
                 act(mission, self.world, name, self._dt)
-        for listener, context in self.contexts.items():
-            for name, mission in self.missions.items():
-                report = mission.report() if name not in self.silent else None
-                if name != listener and report is not None:
-                    context.hear(name, report)
+        tell_mates({name: mission for name, mission in self.missions.items() if name not in self.silent})
         self._dt = CONTROL_DT
         self.world.step(CONTROL_TICKS)
 

@@ -12,9 +12,10 @@ from rumba_cleaning.belief.context import Context
 from rumba_cleaning.belief.mates import Report, Task
 from rumba_cleaning.cleaning_config import CleaningConfig
 from rumba_cleaning.ros.cleaner import team
+from rumba_cleaning.ros.cleaner.activities import Cleaning
 from rumba_cleaning.ros.cleaner.team import PATIENCE, SILENT, Team
 from rumba_cleaning.route import Ahead, Relief, Route
-from rumba_msg.msg import TeamPlan, TeamReport
+from rumba_msg.msg import CleanGoal, TeamPlan, TeamReport
 from rumba_sim.model.geometry import Pose
 
 NAMES = 'rumba', 'rumba2'
@@ -79,7 +80,7 @@ def test_a_report_arrives_as_it_was_told(wire, pair):
     told = Report(HERE, False, Task.SWEEPING, Ahead(ROUTE, 1.5, 7, Relief('rumba', 3, 2.5)))
     second.tell(told, at(1.0))
     wire.deliver(wire.take())
-    first.listen(context, at(1.1))
+    first.listen([context.hear], at(1.1))
     heard = context.mates.reports['rumba2']
     assert heard._replace(ahead=None) == told._replace(ahead=None)
     assert heard.ahead[1:] == told.ahead[1:]
@@ -99,15 +100,15 @@ def test_a_report_waits_for_its_plan_and_those_after_it_wait_too(wire, pair):
     first, second, context = pair
     second.tell(Report(HERE, False, Task.SEEKING), at(1.0))
     wire.deliver(wire.take())
-    first.listen(context, at(1.0))
+    first.listen([context.hear], at(1.0))
     second.tell(Report(HERE, False, Task.SWEEPING, Ahead(ROUTE, 2.0)), at(1.1))
     second.tell(Report(HERE, True, Task.RETURNING), at(1.2))
     plan, *reports = wire.take()
     wire.deliver(reports)
-    first.listen(context, at(1.2))
+    first.listen([context.hear], at(1.2))
     assert context.mates.reports['rumba2'].task is Task.SEEKING
     wire.deliver([plan])
-    first.listen(context, at(1.3))
+    first.listen([context.hear], at(1.3))
     assert context.mates.reports['rumba2'].task is Task.RETURNING
 
 
@@ -117,10 +118,10 @@ def test_a_plan_that_overtakes_a_report_does_not_take_the_place_of_its_own(wire,
     second.tell(Report(HERE, False, Task.SWEEPING, Ahead(OTHER, 0.2)), at(1.1))
     plan, report, other_plan, other_report = wire.take()
     wire.deliver([plan, other_plan, report])
-    first.listen(context, at(1.1))
+    first.listen([context.hear], at(1.1))
     assert_array_equal(context.mates.reports['rumba2'].ahead.route.waypoints, ROUTE.waypoints)
     wire.deliver([other_report])
-    first.listen(context, at(1.2))
+    first.listen([context.hear], at(1.2))
     assert_array_equal(context.mates.reports['rumba2'].ahead.route.waypoints, OTHER.waypoints)
 
 
@@ -128,9 +129,9 @@ def test_in_lockstep_nothing_is_heard_before_its_time(wire, pair):
     first, second, context = pair
     second.tell(Report(HERE, False, Task.SEEKING), at(1.0))
     wire.deliver(wire.take())
-    first.listen(context, at(1.0), before=at(1.0))
+    first.listen([context.hear], at(1.0), before=at(1.0))
     assert context.mates.reports == {}
-    first.listen(context, at(1.1), before=at(1.1))
+    first.listen([context.hear], at(1.1), before=at(1.1))
     assert context.mates.reports['rumba2'].task is Task.SEEKING
 
 
@@ -156,10 +157,10 @@ def test_a_mate_that_falls_silent_is_taken_to_have_stopped(wire, pair):
     first, second, context = pair
     second.tell(Report(HERE, False, Task.SWEEPING, Ahead(ROUTE, 2.0)), at(1.0))
     wire.deliver(wire.take())
-    first.listen(context, at(1.0))
-    first.listen(context, at(1.0 + SILENT))
+    first.listen([context.hear], at(1.0))
+    first.listen([context.hear], at(1.0 + SILENT))
     assert context.mates.are_busy and not wire.warnings
-    first.listen(context, at(1.1 + SILENT))
+    first.listen([context.hear], at(1.1 + SILENT))
     assert not context.mates.are_busy and context.mates.reports['rumba2'].pose == HERE
     assert wire.warnings == ['rumba: nothing is heard of rumba2 any more: it is taken to have stopped']
 
@@ -168,8 +169,16 @@ def test_a_new_goal_begins_with_what_mates_told_last(wire, pair):
     first, second, context = pair
     second.tell(Report(HERE, True, Task.DOCKED), at(1.0))
     wire.deliver(wire.take())
-    first.listen(None, at(1.0))
+    first.listen([], at(1.0))
     assert first.mates().reports['rumba2'].task is Task.DOCKED
+
+
+def test_the_mission_of_a_cleaning_hears_mates_and_so_does_what_is_resumed_of_it():
+    context = Context(room(4.0, 3.0), quiet(), CleaningConfig())
+    cleaning = Cleaning.of_goal(context, CleanGoal())
+    for activity, pose in ((cleaning, HERE), (cleaning.resumed(0.0), Pose(3.0, 1.0, 0.0))):
+        activity.hear('rumba2', Report(pose, True, Task.OFF))
+        assert context.mates.reports['rumba2'].pose == pose
 
 
 NAN = float('nan')
@@ -185,7 +194,7 @@ NAN = float('nan')
 def test_what_makes_no_sense_is_ignored_with_a_line(wire, pair, topic, bad):
     first, _, context = pair
     wire.deliver([(f'rumba2/{topic}', bad)])
-    first.listen(context, at(1.0))
+    first.listen([context.hear], at(1.0))
     assert context.mates.reports == {} and len(wire.warnings) == 1 and wire.warnings[0].startswith(f'rumba2/{topic} is')
 
 
@@ -194,7 +203,7 @@ def test_an_odd_length_that_is_left_is_borne(wire, pair, remaining):
     first, _, context = pair
     wire.deliver([('rumba2/team_plan', TeamPlan(Header(), 1, [1.0, 2.0, 2.0], [1.0, 1.0, 2.0], [0.3, 0.3])),
                   ('rumba2/team_report', TeamReport(task=TeamReport.SWEEPING, route=1, remaining=remaining))])
-    first.listen(context, at(1.0))
+    first.listen([context.hear], at(1.0))
     rest = context.mates.sweeping()['rumba2'].rest()
     assert np.isfinite(rest.waypoints).all() and len(rest.speeds) >= 1
 
@@ -202,7 +211,7 @@ def test_an_odd_length_that_is_left_is_borne(wire, pair, remaining):
 def test_a_robot_without_mates_tells_nothing(wire):
     alone = Team('rumba', ('rumba',))
     alone.tell(Report(HERE, True, Task.OFF), at(1.0))
-    alone.listen(None, at(1.0))
+    alone.listen([], at(1.0))
     assert alone.is_alone and wire.sent == [] and wire.listeners == {} and alone.have_told(at(1.0))
 
 

@@ -69,4 +69,4 @@ def test_a_context_with_another_target_shares_the_rest():
     assert (context.target_coverage, other.target_coverage) == (0.7, 0.5)
     assert other.config is context.config and other.config.target_coverage == 0.7
     assert all(getattr(other, name) is getattr(context, name)
-               for name in ('plan', 'robot', 'generator', 'executor', 'ground', 'swept'))
+               for name in ('plan', 'robot', 'generator', 'executor', 'ground', 'mates', 'swept'))

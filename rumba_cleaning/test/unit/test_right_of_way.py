@@ -50,10 +50,12 @@ def test_of_two_that_drive_toward_each_other_the_second_moves_aside_and_the_firs
     assert command('rumba', HERE, MINE, THERE, mates_way=THEIRS) is None
 
 
-def test_in_a_corridor_without_a_place_aside_the_second_stands_or_drives_back():
-    aside = command('rumba2', Pose(2.0, 0.25, 0.0), along((2.0, 0.25), (4.0, 0.25)), Pose(2.8, 0.25, math.pi),
-                    mates_way=along((2.8, 0.25), (1.5, 0.25)), plan=CORRIDOR)
-    assert aside is not None and (aside == STOP or aside.w != 0.0)
+@pytest.mark.parametrize('x, back', [(2.0, 1.9), (0.4, 0.0)])
+def test_in_a_corridor_the_second_turns_to_drive_back_and_stands_at_its_end(x, back):
+    pose, mate = Pose(x, 0.25, 0.0), Pose(x + 0.8, 0.25, math.pi)
+    mine, theirs = along((x, 0.25), (x + 2.0, 0.25)), along((x + 0.8, 0.25), (x - 0.2, 0.25))
+    aside = command('rumba2', pose, mine, mate, mates_way=theirs, plan=CORRIDOR)
+    assert (aside.v, abs(aside.w), aside.brushes_up) == (0.0, back, True)
 
 
 def test_who_crosses_the_way_of_the_first_waits_and_the_first_does_not():

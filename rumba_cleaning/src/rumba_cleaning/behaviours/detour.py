@@ -5,7 +5,7 @@ from typing import List, Optional
 import numpy as np
 
 from rumba_cleaning.belief.context import Context
-from rumba_cleaning.route import Route
+from rumba_cleaning.route import Route, lengths_along
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.kernel import Array
 
@@ -20,7 +20,7 @@ def detour(context: Context, pose: Pose, rest: Route) -> Optional[Route]:
     ground = context.ground
     parts: List[Array] = [np.array([pose[:2]])]
     speeds: List[Array] = []
-    lengths = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(rest.waypoints, axis=0).T))])
+    lengths = lengths_along(rest.waypoints)
     is_on_route = False
     for index, waypoint in enumerate(rest.waypoints):
         here = parts[-1][-1]

@@ -40,9 +40,8 @@ class Dock(Behaviour):
             MapError: the plan has no dock, or the robot fits nowhere before it.
         """
         self._context = context
-        self._approach = approach(context)
-        dock = context.home or self._approach
-        self._last_line = Route(np.array([self._approach[:2], dock[:2]]), np.array([FAR_SPEED]))
+        self._home, self._approach = home(context), approach(context)
+        self._last_line = Route(np.array([self._approach[:2], self._home[:2]]), np.array([FAR_SPEED]))
         self._away = 0.0  # [m] from the dock
 
     def initialise(self) -> None:
@@ -63,13 +62,14 @@ class Dock(Behaviour):
 
     def update(self, observation: Observation) -> Command:
         """Go to the point before the dock, then home; if that fails, try again."""
-        x, y = self._last_line.waypoints[-1].tolist()
-        self._away = math.hypot(observation.pose.x - x, observation.pose.y - y)
-        is_at_home = self._context.nearest_dock(observation.pose) == self._context.home
+        pose = observation.pose
+        self._away = math.hypot(pose.x - self._home.x, pose.y - self._home.y)
+        is_at_home = self._context.nearest_dock(pose) == self._home
         if observation.is_docked and is_at_home:
             return self.succeed('docked')
-        if not self.is_homing and self._occupants():
-            return self._wait(observation)
+        occupants = {} if self.is_homing else self._occupants()
+        if occupants:
+            return self._wait(observation, occupants)
         if self._is_waiting:
             self._part, self._is_waiting = None, False
         if self._part is None:
@@ -96,13 +96,12 @@ class Dock(Behaviour):
 
     def _occupants(self) -> Dict[str, Task]:
         """What the mates at the dock do, by their names."""
-        home = self._context.home
+        home = self._home
         return {name: report.task for name, report in self._context.mates.reports.items()
-                if report.task in STANDING and home is not None
-                and math.hypot(report.pose.x - home.x, report.pose.y - home.y) < BERTH
+                if report.task in STANDING and math.hypot(report.pose.x - home.x, report.pose.y - home.y) < BERTH
                 or report.task is Task.DOCKING and self._context.nearest_dock(report.pose) == home}
 
-    def _wait(self, observation: Observation) -> Command:
+    def _wait(self, observation: Observation, occupants: Dict[str, Task]) -> Command:
         """Stand where the robot is not in the way of those that drive up to the dock or leave it."""
         if not self._is_waiting:
             self._part, self._is_waiting = self._way_aside(observation.pose), True
@@ -111,7 +110,6 @@ class Dock(Behaviour):
             if self._part.status is Status.RUNNING:
                 return command
             self._part = None
-        occupants = self._occupants()
         self.message = f'waiting for the dock, where {" and ".join(occupants)} is'
         if all(task is Task.OFF for task in occupants.values()):
             self.is_taken = True
@@ -120,10 +118,8 @@ class Dock(Behaviour):
 
     def _way_aside(self, pose: Pose) -> Optional[GoTo]:
         """To a place to wait; None where the robot stands already, or if there is none."""
-        dock, begin = self._context.home, self._approach
-        assert dock is not None
-        shares = np.linspace(0.0, 1.5, 16)[:, np.newaxis]
-        line = np.array(dock[:2]) + shares * (np.array(begin[:2]) - dock[:2])
+        before, dock = self._last_line.waypoints
+        line = dock + np.linspace(0.0, 1.5, 16)[:, np.newaxis] * (before - dock)  # and beyond it by half
         if np.hypot(*(line - pose[:2]).T).min() > POLITE:
             return None
         mates = [report.pose[:2] for report in self._context.mates.reports.values()]
@@ -149,15 +145,24 @@ class Dock(Behaviour):
         return None if self._part is None else self._part.plan_ahead()
 
 
+def home(context: Context) -> Pose:
+    """The dock to which a robot returns.
+
+    Raises:
+        MapError: the plan has no dock.
+    """
+    if context.home is None:
+        raise MapError(f'{context.plan.name}: no dock on the map: its YAML file may name one, dock: [x, y, theta]')
+    return context.home
+
+
 def approach(context: Context) -> Pose:
     """Where a robot stands before the dock, and faces it.
 
     Raises:
         MapError: the plan has no dock, or the robot fits nowhere before it.
     """
-    dock = context.home
-    if dock is None:
-        raise MapError(f'{context.plan.name}: no dock on the map: its YAML file may name one, dock: [x, y, theta]')
+    dock = home(context)
     for steps in BEFORE:
         line = [Pose(dock.x - step * STEP * math.cos(dock.theta), dock.y - step * STEP * math.sin(dock.theta),
                      dock.theta) for step in range(1, steps + 1)]

@@ -15,7 +15,7 @@ from rumba_cleaning.behaviours.follower import Follower
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.belief.mates import Report, Task
 from rumba_cleaning.belief.places import places_apart
-from rumba_cleaning.route import Ahead, Route
+from rumba_cleaning.route import Ahead, Route, lengths_along
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.kernel import Array
 
@@ -28,7 +28,7 @@ CLOSER = 0.02  # [m] by which a way must come nearer to a robot to lead toward i
 STANDING = 0.4  # [m] of the way ahead on which a mate without precedence stands: it is waited for, since it gives way
 PATIENCE = 30.0  # [s] that a robot waits or stands aside for one mate, then it goes on: a plan takes shorter
 REFUGE = 2.5  # [m] to a place aside, at most: large finds one more often, small comes back sooner
-TRIES = 12  # of them to which a path is looked for: large finds one more often, small saves time
+TRIES = 12  # of such places, to which a path is looked for: large finds one more often, small saves time
 MOVING = (Task.SEEKING, Task.SWEEPING, Task.RETURNING, Task.DOCKING)
 
 
@@ -97,6 +97,7 @@ class RightOfWay:
         return Command(v, w, brushes_up=True)
 
     def _way_aside(self, pose: Pose, mate: Report) -> Optional[Route]:
+        """To the nearest place that is off the way of a mate and apart from all of them; None: there is none."""
         ground, speed = self._context.ground, self._context.config.speed
         taken = np.concatenate([_points(mate.ahead, mate.pose, 2.0 * THEIRS), *(
             [report.pose[:2]] for report in self._context.mates.reports.values())])
@@ -119,7 +120,8 @@ def _points(ahead: Optional[Ahead], pose: Pose, length: float) -> Array:
 
 
 def _resampled(path: Array, length: float) -> Array:
-    along = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(path, axis=0).T))])
+    """Points (2 or more, 2) [m] on a path, SPACING apart, up to a length [m]."""
+    along = lengths_along(path)
     at = np.arange(0.0, min(length, along[-1]) + SPACING, SPACING)
     columns: List[Array] = [np.interp(at, along, path[:, axis]) for axis in (0, 1)]
     return np.stack(columns, axis=1)

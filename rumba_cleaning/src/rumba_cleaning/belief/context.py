@@ -124,14 +124,14 @@ class Context:
         return True
 
     def moor(self, pose: Pose) -> None:
-        """The robot is docked at a pose: that dock is its home."""
+        """Make the dock that is nearest to a pose the home of the robot."""
         dock = self.nearest_dock(pose)
         self._berth = self._berth if dock is None else self.plan.docks.index(dock)
 
     def nearest_dock(self, pose: Pose) -> Optional[Pose]:
         """The dock that is nearest to a pose, as the crow flies; None without docks."""
-        docks = sorted(self.plan.docks, key=lambda dock: math.hypot(dock.x - pose.x, dock.y - pose.y))
-        return docks[0] if docks else None
+        docks = self.plan.docks
+        return min(docks, key=lambda dock: math.hypot(dock.x - pose.x, dock.y - pose.y)) if docks else None
 
     @property
     def home(self) -> Optional[Pose]:

@@ -49,10 +49,11 @@ class BatteryWatch:
 
     @property
     def is_ready(self) -> bool:
-        """Whether the lengths of the paths are computed, so that `needed` can answer; on a newer plan, or with another
-        home, anew.
+        """Whether the lengths of the paths are computed, so that `needed` can answer.
+
+        For a newer plan, or another home, they are computed again.
         """
-        if self._plan is not self._context.plan or self._home is not self._context.home:
+        if self._plan is not self._context.plan or self._home != self._context.home:
             self._measure_ways()
         return self._lengths is None or self._lengths.done()
 

@@ -196,6 +196,10 @@ class Mission(Behaviour):
         self._context.swept.follow(pose, self._brushes_up)
         self._watch.measure(observation)
 
+    def hear(self, name: str, report: Report) -> None:
+        """Take note of what a mate tells."""
+        self._context.hear(name, report)
+
     def report(self) -> Optional[Report]:
         """What its mates need to know; None before its first step."""
         if self._last is None:
@@ -247,7 +251,6 @@ class Mission(Behaviour):
 
     def _clean(self, observation: Observation) -> Command:
         coverage = self._context.swept.coverage
-        target = self._context.target_coverage
         if self._is_target_met(observation):
             return self._succeed()
         needed = self._watch.needed(observation.pose)
@@ -262,17 +265,20 @@ class Mission(Behaviour):
         self.message = '; '.join(filter(None, [f'{percent(coverage)} swept', cleaning.message]))
         if cleaning.status is Status.FAILED:
             return self._close(Status.FAILED, f'{percent(coverage)} swept: {cleaning.message}', cleaning.outcome)
-        if cleaning.status is Status.SUCCEEDED and self._context.mates.are_busy:
+        return self._finish_cleaning(observation) if cleaning.status is Status.SUCCEEDED else command
+
+    def _finish_cleaning(self, observation: Observation) -> Command:
+        """The strategy finds nothing left to clean; mates may still leave something."""
+        target = self._context.target_coverage
+        if self._context.mates.are_busy:
             return self._wait_for_mates(observation)
-        if cleaning.status is Status.SUCCEEDED and self._waits:
+        if self._waits:
             self._waits = False
-            return self._enter(State.CLEANING, cleaning)
-        if cleaning.status is Status.SUCCEEDED:
-            if coverage >= target:
-                return self._succeed()
-            return self._close(Status.FAILED, f'{swept(self._context)}, the target is {percent(target)}: '
-                                              f'{cleaning.message}', Outcome.INCOMPLETE)
-        return command
+            return self._enter(State.CLEANING, self._cleaning)
+        if self._context.swept.coverage >= target:
+            return self._succeed()
+        return self._close(Status.FAILED, f'{swept(self._context)}, the target is {percent(target)}: '
+                                          f'{self._cleaning.message}', Outcome.INCOMPLETE)
 
     def _wait_for_mates(self, observation: Observation) -> Command:
         """Go home, since mates clean what is left; nobody knows yet whether they leave anything."""
@@ -301,12 +307,13 @@ class Mission(Behaviour):
             self._part.restart()
         elif self._part.status is Status.SUCCEEDED:
             self._homes = 0
-            return self._end() if self._closing else self._enter(State.CHARGING, None) if self._waits else (
-                self._arrive())
+            return self._end() if self._closing else self._arrive()
         return command
 
     def _arrive(self) -> Command:
-        """Charge, unless several charges brought nothing although nobody interfered."""
+        """Charge or wait, unless several charges brought nothing although nobody interfered."""
+        if self._waits:
+            return self._enter(State.CHARGING, None)
         coverage = self._context.swept.coverage
         if coverage > self._gained + GAIN:
             self._vain = 0

@@ -5,6 +5,7 @@ import numpy as np
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.belief.swept import Swept
 from rumba_cleaning.planning import compiled_ways
+from rumba_cleaning.route import lengths_along
 from rumba_sim.model.geometry import Pose, wrap_angle
 from rumba_sim.model.kernel import Array
 
@@ -52,7 +53,7 @@ def stride_counts(path: Array, longest: float) -> Array:
 
 def resampled(path: Array, spacing: float) -> Array:
     """A path (any, 2) [m] with waypoints that are about a spacing [m] apart, all the way along."""
-    lengths = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(path, axis=0).T))])
+    lengths = lengths_along(path)
     along = np.linspace(0.0, lengths[-1], max(int(lengths[-1] / spacing), 1) + 1)
     return np.stack([np.interp(along, lengths, path[:, axis]) for axis in (0, 1)], axis=1)
 

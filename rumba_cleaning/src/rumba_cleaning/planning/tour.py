@@ -9,6 +9,7 @@ from rumba_cleaning.belief.ground import Ground
 from rumba_cleaning.planning import compiled_tours, compiled_ways
 from rumba_cleaning.planning.paper import simplified
 from rumba_cleaning.planning.stretches import Stretch
+from rumba_cleaning.route import BENT, STOP, TURN_RATE
 from rumba_sim.model.kernel import Array
 
 # All figures are our choice; each comment says what speaks for a larger and for a smaller value.
@@ -19,9 +20,6 @@ BESIDE = 0.03  # [m] beyond the touching distance on a way: a robot that cuts a 
 NEAR = 0.15  # [m] ... except so near to its ends, since stretches lie beside walls: there a way may be ...
 TOUCHING = 0.004  # [m] ... too near by so much, and the robot slides along the wall
 UNSEEN = 3.0  # [m] that are added to twice the distance of points between which no line of sight leads: a guess
-BENT = 0.5  # [rad] a corner by less costs no time, since the robot goes round it at full speed
-STOP = 0.5  # [s] to slow down and to start again at a corner by more than a right angle
-TURN_RATE = 1.9  # [rad/s] of the robot, about: corners are compared with ways
 AROUND = 0.3  # [m] about all stretches, in which obstacles are looked at that a way may lead around
 OUTSIDE = 0.05  # [m] beyond BESIDE that ways lead around corners: large sees past them, small is short
 CORNER = 0.04  # [m] by which a way around a corner may cut it, so that it needs few points: less than OUTSIDE

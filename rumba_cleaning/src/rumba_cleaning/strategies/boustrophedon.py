@@ -5,7 +5,6 @@ from typing import NamedTuple, Optional
 
 from rumba_cleaning.behaviour import STOP, Behaviour, Command, Observation
 from rumba_cleaning.behaviours.detour import detour
-from rumba_cleaning.behaviours.helping import help_mate
 from rumba_cleaning.behaviours.travel import Going, Travel
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.route import Ahead, Relief, Route
@@ -169,25 +168,20 @@ def plan(context: Context, pose: Pose) -> Optional[Route]:
     return planner.plan(context, pose)
 
 
-def leave_to_mates(context: Context) -> None:
-    """As `paper.leave_to_mates`, imported where it is needed, for the same reason."""
-    from rumba_cleaning.planning import paper
-    paper.leave_to_mates(context)
-
-
 def _round(context: Context, pose: Pose, is_worth: bool, may_forget: bool) -> Planned:
     """A route that cleans what was missed; if there is none, one without the obstacles that may have gone."""
+    from rumba_cleaning.planning import helping, paper  # here for the same reason
     part = context.beside_obstacles()
     if part.coverage >= context.target_coverage and part.share > OPEN:
         return Planned(None)
-    leave_to_mates(context)
+    paper.leave_to_mates(context)
     share = 1.0 / (1 + context.mates.seeking)
     route = plan(context, pose) if is_worth else None
     if route is not None:
         return Planned(_part_of(route, share))
-    helping = help_mate(context, pose)
-    if helping is not None:
-        return Planned(helping[0], relief=helping[1])
+    help_for_mate = helping.help_mate(context, pose)
+    if help_for_mate is not None:
+        return Planned(help_for_mate[0], relief=help_for_mate[1])
     if not may_forget:
         return Planned(None)
     context.ground.forget_doubtful()

@@ -15,7 +15,7 @@ from rumba_cleaning.behaviour import Status
 from rumba_cleaning.belief.context import BeforeNextStep, Context, Seed, own_seed
 from rumba_cleaning.belief.mates import Mates
 from rumba_cleaning.cleaning_config import CleaningConfig
-from rumba_cleaning.control import CONTROL_DT, CONTROL_TICKS, STEP_RATE, act
+from rumba_cleaning.control import CONTROL_DT, CONTROL_TICKS, STEP_RATE, act, tell_mates
 from rumba_cleaning.mission.duration import longest
 from rumba_cleaning.mission.mission import Mission, State
 from rumba_cleaning.outcome import Outcome
@@ -109,7 +109,7 @@ class Trial:
         self._planners.work()
         for name, mission in self._running.items():
             act(mission, self.world, name, self._dt, self.sources[name])
-        self._tell_mates()
+        tell_mates(dict(zip(self.world.robots, self.missions)))
         self._dt = CONTROL_DT
         running = self._running.values()
         if running and all(mission.state is State.CHARGING for mission in running):
@@ -121,14 +121,6 @@ class Trial:
         coverage = self.world.floor.coverage
         while len(self.curve) < 100 and coverage >= (len(self.curve) + 1) / 100:
             self.curve.append(self.working_time)
-
-    def _tell_mates(self) -> None:
-        """Have each robot hear what the others do, as the node `cleaner` does before the next step in lockstep."""
-        reports = {name: mission.report() for name, mission in zip(self.world.robots, self.missions)}
-        for listener, context in zip(self.world.robots, self.contexts):
-            for name, report in reports.items():
-                if name != listener and report is not None:
-                    context.hear(name, report)
 
     def result(self) -> Result:
         """The result so far."""

@@ -46,6 +46,7 @@ class Activity(abc.ABC):
         """
         if not (math.isfinite(time_limit) and time_limit >= 0.0):
             raise ConfigError(f'time_limit is {time_limit}: must be a finite number, 0 or more [s]')
+        self._context = context
         self.behaviour = Bounded(behaviour, time_limit or default_limit, context)
 
     def begin(self) -> None:
@@ -54,6 +55,11 @@ class Activity(abc.ABC):
     def begin_again(self) -> None:
         """Forget what was done, and do all of it in another world, with all the time of its limit."""
         self.behaviour.restart()
+
+    def hear(self, name: str, report: Report) -> None:
+        """Take note of what a mate of the robot tells."""
+        if self._context is not None:
+            self._context.hear(name, report)
 
     def for_mates(self, pose: Pose) -> Optional[Report]:
         """What the mates of the robot, which is at a pose, need to know: it goes where a client wants it, or stands."""
@@ -127,6 +133,10 @@ class Cleaning(Activity):
         """Clean a floor of which nothing is swept."""
         self._mission.forget()
         super().begin_again()
+
+    def hear(self, name: str, report: Report) -> None:
+        """Have the mission hear it, also while it is interrupted."""
+        self._mission.hear(name, report)
 
     def for_mates(self, pose: Pose) -> Optional[Report]:
         """What the mission tells."""

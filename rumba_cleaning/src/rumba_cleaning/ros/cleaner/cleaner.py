@@ -91,7 +91,6 @@ class Cleaner:
         self._world: Optional[World] = self._workplace.world  # that of the goal and of the cleaning below
         self._run: Optional[Run] = None
         self._interrupted: Optional[Cleaning] = None  # what a goal of clean with `resume` goes on with
-        self._context: Optional[Context] = None  # what the robot knows, for the newest goal
         self._read_stamp: Optional[rospy.Time] = None  # of the newest reading that was acted upon
         self._is_reading_postponed = False
         self._is_reading_queued = True  # by `run`, after the goal of autostart
@@ -187,7 +186,9 @@ class Cleaner:
         self._read_stamp = stamp
         self._planners.deliver()
         self._robot.wheels.forget()
-        self._robot.team.listen(self._context, stamp, before=stamp if is_lockstep else None)
+        activities = self._run.activity if self._run is not None else None, self._interrupted
+        listeners = [activity.hear for activity in activities if activity is not None]
+        self._robot.team.listen(listeners, stamp, before=stamp if is_lockstep else None)
         try:
             if self._run is not None:
                 self._run.read()
@@ -260,12 +261,12 @@ class Cleaner:
             return self._rest_of_cleaning(goal.time_limit)
         plan, robot = self._workplace.look()
         seed = own_seed(self._settings.seed, self._settings.robot)
-        self._context = Context(plan, robot, self._settings.cleaning, seed, self._planners, self._workplace.survey,
-                                self._robot.team.mates())
+        context = Context(plan, robot, self._settings.cleaning, seed, self._planners, self._workplace.survey,
+                          self._robot.team.mates())
         pose = self._robot.senses.pose()
         if self._robot.team.is_alone and pose is not None:
-            self._context.moor(pose)
-        return ACTIONS[name].activity(self._context, goal)
+            context.moor(pose)
+        return ACTIONS[name].activity(context, goal)
 
     def _rest_of_cleaning(self, time_limit: float) -> Cleaning:
         """What is left of the cleaning that was interrupted, or is going on.

@@ -9,7 +9,6 @@ import numpy as np
 import rospy
 from std_msgs.msg import Header
 
-from rumba_cleaning.belief.context import Context
 from rumba_cleaning.belief.mates import Mates, Report, Task
 from rumba_cleaning.ros.cleaner import conversions
 from rumba_cleaning.route import Ahead, Relief, Route
@@ -24,6 +23,7 @@ PATIENCE = 5.0  # [s] of the wall clock that a world in lockstep waits for a mat
 MOST = 100  # reports that may wait to be heard: 10 s of one mate
 LONGEST = 100_000  # corners of a plan
 COMPLAINT_PERIOD = 10.0  # [s]
+Listener = Callable[[str, Report], None]  # gets the name of a mate, and what it told
 
 
 class _Heard(NamedTuple):
@@ -43,7 +43,7 @@ class Team:
             robot: its name.
             names: of all robots of the team, in the order of precedence, its own among them; without others it is
                 alone.
-            on_news: called after each report of a mate, in a thread of rospy.
+            on_news: called after each message of a mate, in a thread of rospy.
         """
         self._on_news = on_news
         self._robot, self._names = robot, tuple(names) if len(names) > 1 else ()
@@ -122,25 +122,25 @@ class Team:
             self._waits_since = None
             return True
 
-    def listen(self, context: Optional[Context], stamp: rospy.Time, before: Optional[rospy.Time] = None) -> None:
-        """Have a context hear what has been told, and who has fallen silent.
+    def listen(self, listeners: Sequence[Listener], stamp: rospy.Time, before: Optional[rospy.Time] = None) -> None:
+        """Have all who listen hear what has been told, and who has fallen silent.
 
         Args:
-            context: of the goal that is active; None without one.
+            listeners: the goal that is active, and the cleaning that is interrupted.
             stamp: of the newest reading of the robot.
             before: hear only what was told before this stamp; None: all that has come.
         """
         for name, message in self._arrived(before):
-            self._take(context, name, self._read(name, message), stamp)
+            self._take(listeners, name, self._read(name, message), stamp)
         for name, heard in list(self._heard.items()):
             if heard.report.task is not Task.OFF and (stamp - heard.stamp).to_sec() > SILENT:
                 rospy.logwarn(f'{self._robot}: nothing is heard of {name} any more: it is taken to have stopped')
-                self._take(context, name, heard.report._replace(task=Task.OFF, ahead=None), stamp)
+                self._take(listeners, name, heard.report._replace(task=Task.OFF, ahead=None), stamp)
 
-    def _take(self, context: Optional[Context], name: str, report: Report, stamp: rospy.Time) -> None:
+    def _take(self, listeners: Sequence[Listener], name: str, report: Report, stamp: rospy.Time) -> None:
         self._heard[name] = _Heard(report, stamp)
-        if context is not None:
-            context.hear(name, report)
+        for listener in listeners:
+            listener(name, report)
 
     def _arrived(self, before: Optional[rospy.Time]) -> List[Tuple[str, TeamReport]]:
         """The reports to hear, mate by mate, whose plans are known; the others wait, and what is told after them."""

@@ -5,7 +5,7 @@ from typing import Optional, Tuple
 import numpy as np
 
 from rumba_cleaning.belief.context import Context
-from rumba_cleaning.route import Relief, Route
+from rumba_cleaning.route import Relief, Route, lengths_along
 from rumba_sim.model.geometry import Pose
 
 LEAST = 15.0  # [s] of work that are taken over, at least: our choice, less is hardly worth the way there
@@ -27,11 +27,11 @@ def help_mate(context: Context, pose: Pose) -> Optional[Tuple[Route, Relief]]:
         return None
     name, rest = max(rests.items(), key=lambda item: float(item[1].times()[-1]))
     duration = float(rest.times()[-1])
-    way = context.ground.path(np.array(pose[:2]), rest.end(0.5).waypoints[0])
+    way = context.ground.path(np.array(pose[:2]), rest.end(0.5).waypoints[0])  # about as long as that to its end
     if way is None:
         return None
     speed = context.config.transit_speed
-    share = 0.5 + 0.5 * float(np.hypot(*np.diff(way, axis=0).T).sum()) / speed / max(duration, LEAST)
+    share = 0.5 + 0.5 * float(lengths_along(way)[-1]) / speed / max(duration, LEAST)
     end = rest.end(min(share, 1.0))
     if (1.0 - share) * duration < LEAST or len(end.speeds) == 0:
         return None
