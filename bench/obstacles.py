@@ -1,6 +1,7 @@
 """How missions end among obstacles that the map does not show, two of which move.
 
-`obstacles.py [--seeds N] [--poses POSE ...]` runs seeds 1 to N, 20 by default, on all cores; times are simulated.
+`obstacles.py [--seeds N] [--poses POSE ...] [--bumper]` runs seeds 1 to N, 20 by default, on all cores; times are
+simulated.
 """
 
 import argparse
@@ -78,10 +79,11 @@ def _place(plan, generator):
     raise ValueError('no place is free')
 
 
-def mission(name, pose, seed):
-    """A mission on a map, by a kind of pose."""
+def mission(name, pose, has_laser, seed):
+    """A mission on a map, by a kind of pose, by bumper alone or by laser too."""
     plan = floor(name)
-    trial = Trial(plan, 'boustrophedon', Conditions(pose=pose, target=TARGET), seed, obstacles=drawn(plan, seed))
+    trial = Trial(plan, 'boustrophedon', Conditions(pose=pose, target=TARGET, laser=has_laser), seed,
+                  obstacles=drawn(plan, seed))
     while not trial.is_over:
         trial.step()
     result = trial.result()
@@ -95,14 +97,16 @@ def main():
     parser.add_argument('--seeds', type=int, default=20)
     parser.add_argument('--first', type=int, default=1, help='seed')
     parser.add_argument('--poses', nargs='+', choices=POSES, default=(TRUTH, LOCALISED))
+    parser.add_argument('--bumper', action='store_true', help='robots find obstacles by their bumpers alone')
     parser.add_argument('--each', action='store_true', help='print a line for each mission')
     arguments = parser.parse_args()
     seeds = range(arguments.first, arguments.first + arguments.seeds)
     with concurrent.futures.ProcessPoolExecutor() as executor:
         for name, pose in itertools.product(NAMES, arguments.poses):
             figures.heading(f'{STANDING} obstacles and {MOVING} movers on the map {name}, pose: {pose}, '
-                            f'{len(seeds)} seeds')
-            show(seeds, list(executor.map(functools.partial(mission, name, pose), seeds)), arguments.each)
+                            f'{"bumper alone" if arguments.bumper else "laser and bumper"}, {len(seeds)} seeds')
+            run = functools.partial(mission, name, pose, not arguments.bumper)
+            show(seeds, list(executor.map(run, seeds)), arguments.each)
 
 
 def show(seeds, missions, is_each):

@@ -7,6 +7,7 @@ from typing import Any, NamedTuple, Optional, Sequence, Tuple, final
 
 from rumba_cleaning.outcome import Outcome
 from rumba_cleaning.route import Ahead
+from rumba_localisation.scan import Scan
 from rumba_sim.model.errors import CommandError, quoted
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.kernel import NO_BEAM, Array
@@ -35,6 +36,7 @@ class Observation(NamedTuple):
     infrared: Infrared = Infrared(NO_BEAM, NO_BEAM, NO_BEAM)  # beams of the dock by receiver
     has_fallen: bool = False  # a wheel hangs over a cliff: the robot cannot drive
     covariance: Covariance = CERTAIN  # of the pose [m^2, m rad, rad^2]
+    scan: Optional[Scan] = None  # of the laser, if there is a new one
 
     @property
     def is_lost(self) -> bool:

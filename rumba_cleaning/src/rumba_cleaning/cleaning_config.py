@@ -31,4 +31,6 @@ class CleaningConfig:
     reserve: float = setting(0.05, 'charge that is kept for the unexpected (our choice)', '0..1', 0.0, 0.5)
     charge_to: float = setting(0.95, 'charge at which cleaning is resumed; the charger tapers above 0.85', '0..1',
                                0.1, 1.0)
+    laser: bool = setting(False, 'whether to drive around what the laser sees and the map does not show; without, the '
+                                 'robot finds it by its bumper')
     time_limit: TimeLimits = section(TimeLimits, 'when an action is given up; simulated time')

@@ -1,11 +1,10 @@
 """Has the robots of a world follow behaviours, in process, at the control rate."""
 
-from typing import Iterator, Mapping, Tuple
+from typing import Iterator, Tuple
 
 import numpy as np
 
 from rumba_cleaning.behaviour import Behaviour, Command, Observation, Status
-from rumba_cleaning.mission.mission import Mission
 from rumba_cleaning.pose_source import PoseSource, truth
 from rumba_sim.model.robot import FIRST
 from rumba_sim.model.world import World
@@ -21,9 +20,9 @@ def observe(world: World, name: str, dt: float, source: PoseSource = truth) -> O
     Pose and charge are those that messages tell, bit for bit: the charge is a float32.
     """
     robot = world.robots[name]
-    pose, covariance = source(world, name)
+    pose, covariance, scan = source(world, name)
     return Observation(dt, pose, robot.bumper, world.cliffs(name), float(np.float32(robot.battery.state_of_charge)),
-                       robot.is_docked, world.infrared(name), robot.has_fallen, covariance)
+                       robot.is_docked, world.infrared(name), robot.has_fallen, covariance, scan)
 
 
 def act(behaviour: Behaviour, world: World, name: str, dt: float,
@@ -35,15 +34,6 @@ def act(behaviour: Behaviour, world: World, name: str, dt: float,
     robot.brushes_up = command.brushes_up
     robot.command(command.v, command.w, world.tick)
     return observation, command
-
-
-def tell_mates(missions: Mapping[str, Mission]) -> None:
-    """Have each mission hear what the others, by the names of their robots, do; as nodes do before the next step."""
-    reports = {name: mission.report() for name, mission in missions.items()}
-    for listener, mission in missions.items():
-        for name, report in reports.items():
-            if name != listener and report is not None:
-                mission.hear(name, report)
 
 
 def steps(behaviour: Behaviour, world: World, name: str = FIRST, seconds: float = 600.0,

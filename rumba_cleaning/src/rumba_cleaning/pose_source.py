@@ -6,10 +6,11 @@ from typing import Any, Callable, Dict, NamedTuple, Optional, Tuple
 import numpy as np
 
 from rumba_cleaning.behaviour import CERTAIN, UNKNOWN, Covariance
-from rumba_localisation.localiser import Localiser, Seed, points
+from rumba_localisation.localiser import Localiser, Seed
 from rumba_localisation.mapping.believed_plan import believed_plan
 from rumba_localisation.mapping.findings import Findings
-from rumba_localisation.mapping.mapper import Mapper, scan_of
+from rumba_localisation.mapping.mapper import Mapper
+from rumba_localisation.scan import Scan, scan_of
 from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.model.geometry import Pose, as_told, compose, inverse
 from rumba_sim.model.robot_config import TURN
@@ -21,6 +22,7 @@ class Belief(NamedTuple):
 
     pose: Pose
     covariance: Covariance = CERTAIN
+    scan: Optional[Scan] = None  # by which it was found
 
 
 PoseSource = Callable[[World, str], Belief]  # called once for each observation of a robot, by its name
@@ -62,11 +64,11 @@ class Localised:
     def __call__(self, world: World, name: str) -> Belief:
         """Scan, and see where that fits."""
         odometry = as_told(world.robots[name].odometry)
-        ranges = world.scan(name).astype(np.float32)
-        self.localiser.observe(odometry, points(ranges, *_angles(len(ranges))))
+        scan = _scan(world, name)
+        self.localiser.observe(odometry, scan.points)
         estimate = self.localiser.estimate
         pose = compose(as_told(self.localiser.correction), odometry)
-        return Belief(pose, UNKNOWN if estimate is None else _rows(estimate.covariance))
+        return Belief(pose, UNKNOWN if estimate is None else _rows(estimate.covariance), scan)
 
 
 class Mapped:
@@ -89,11 +91,11 @@ class Mapped:
     def __call__(self, world: World, name: str) -> Belief:
         """Scan, and see where that fits on the map."""
         odometry = as_told(world.robots[name].odometry)
-        ranges = world.scan(name).astype(np.float32)
-        self.mapper.observe(odometry, scan_of(ranges, *_angles(len(ranges)), world.config.laser.range_max))
+        scan = _scan(world, name)
+        self.mapper.observe(odometry, scan)
         estimate, pose = self.mapper.estimate, self.mapper.pose(odometry)
         self.findings.note(self.mapper.grid, pose, world.robots[name].bumper, world.cliffs(name))
-        return Belief(pose, UNKNOWN if estimate is None else _rows(estimate.covariance))
+        return Belief(pose, UNKNOWN if estimate is None else _rows(estimate.covariance), scan)
 
     def plan(self) -> FloorPlan:
         """The map so far; the same object as long as the map is the same."""
@@ -103,9 +105,19 @@ class Mapped:
         return self._known[1]
 
 
-def _angles(beams: int) -> Tuple[float, float]:
-    """Direction of the first beam, and from beam to beam [rad], as a sensor_msgs/LaserScan tells them."""
-    return float(np.float32(-math.pi)), float(np.float32(TURN / beams))
+def seeing(source: PoseSource) -> PoseSource:
+    """The same belief, with a scan in any case."""
+    def believe(world: World, name: str) -> Belief:
+        belief = source(world, name)
+        return belief if belief.scan is not None else belief._replace(scan=_scan(world, name))
+    return believe
+
+
+def _scan(world: World, name: str) -> Scan:
+    """What the laser of a robot of a world tells, as by a sensor_msgs/LaserScan."""
+    ranges = world.scan(name).astype(np.float32)
+    return scan_of(ranges, float(np.float32(-math.pi)), float(np.float32(TURN / len(ranges))),
+                   world.config.laser.range_max)
 
 
 def _told(correction: Pose, odometry: Pose) -> Pose:

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """A robot that localises itself cleans, through ROS as in process; and knows what to do if nobody tells its pose."""
 
+import os
 import unittest
 
 import rospy
@@ -18,7 +19,7 @@ from rumba_cleaning.control import CONTROL_DT, CONTROL_TICKS, STEP_RATE, act
 from rumba_cleaning.mission.mission import Mission
 from rumba_cleaning.pose_source import Localised
 from rumba_msg.msg import CleanGoal, DockStatus, MissionStatus
-from rumba_sim.model import map_file
+from rumba_sim.model import map_file, obstacle_file
 from rumba_sim.model.robot import FIRST
 from rumba_sim.model.robot_config import RobotConfig
 from rumba_sim.model.world import World
@@ -28,15 +29,15 @@ SEED, TARGET = 3, 0.05
 SIMULATOR = '_map:=studio', f'_seed:={SEED}', '_speed:=0', '_brushes_up:=true', '_localisation:=none'
 
 
-def digest_in_process(ticks):
+def digest_in_process(ticks, obstacles=(), laser=False):
     """The digest of the world so many ticks after the start of a mission by a pose that is localised."""
     plan = map_file.load(map_path('studio'))
-    world, planners = World(plan, RobotConfig(), STEP_RATE, SEED), BeforeNextStep()
+    world, planners = World(plan, RobotConfig(), STEP_RATE, SEED, obstacles), BeforeNextStep()
     world.spawn(FIRST, brushes_up=True)
     source = Localised(plan, world, FIRST, SEED)
     world.step()
-    mission = Mission(Context(plan, RobotConfig(), CleaningConfig(), own_seed(SEED, FIRST), planners), 'boustrophedon',
-                      TARGET)
+    mission = Mission(Context(plan, RobotConfig(), CleaningConfig(laser=laser), own_seed(SEED, FIRST), planners),
+                      'boustrophedon', TARGET)
     dt = 0.0
     while mission.status is Status.RUNNING:
         planners.work()
@@ -50,16 +51,29 @@ def digest_in_process(ticks):
 class CleanerLocalisedTest(unittest.TestCase):
     """Each test has its own nodes."""
 
-    def test_a_mission_by_a_pose_that_is_localised_is_the_same_as_in_process(self):
-        simulator = Simulator(self, *SIMULATOR, '_wait_for:=cleaner localiser', '_lockstep_patience:=60')
+    def clean(self, simulator_arguments, cleaner_arguments):
+        """A mission in lockstep by a pose that is localised; returns the simulator."""
+        simulator = Simulator(self, *SIMULATOR, '_wait_for:=cleaner localiser', '_lockstep_patience:=60',
+                              *simulator_arguments)
         start = map_file.load(map_path('studio')).dock
         Localiser(self, f'_seed:={SEED}', f'_initial_pose_x:={start.x}', f'_initial_pose_y:={start.y}',
                   f'_initial_pose_a:={start.theta}')
-        cleaner = Cleaner(self, f'_seed:={SEED}', f'_target_coverage:={TARGET}', '_autostart:=true').connect()
+        cleaner = Cleaner(self, f'_seed:={SEED}', f'_target_coverage:={TARGET}', '_autostart:=true',
+                          *cleaner_arguments).connect()
         ended = cleaner.status.find(lambda status: status.state == MissionStatus.IDLE and 'swept' in status.message)
         self.assertRegex(ended.message, r'^5\.\d % swept$')
-        digest, tick = simulator.digest()
+        return simulator
+
+    def test_a_mission_by_a_pose_that_is_localised_is_the_same_as_in_process(self):
+        digest, tick = self.clean([], []).digest()
         self.assertEqual(digest, digest_in_process(tick))
+
+    def test_a_mission_by_laser_among_obstacles_is_the_same_as_in_process(self):
+        path = os.path.join(os.path.dirname(map_path('studio')), '..', 'config', 'obstacles_studio.yaml')
+        obstacles = obstacle_file.load(path)
+        digest, tick = self.clean([f'_obstacles:={path}'], ['_laser:=true']).digest()
+        self.assertEqual(digest, digest_in_process(tick, obstacles, laser=True))
+        self.assertNotEqual(digest, digest_in_process(tick, obstacles))  # it saw something
 
     def test_a_robot_whose_localisation_falls_silent_stands_still_until_it_is_back(self):
         Simulator(self, '_map:=studio', '_speed:=10', '_brushes_up:=true', '_localisation:=none',

@@ -5,6 +5,7 @@ from concurrent.futures import Executor, Future
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.cleaning_config import CleaningConfig
 from rumba_cleaning.control import CONTROL_DT, CONTROL_TICKS, observe, steps
+from rumba_cleaning.pose_source import truth
 from rumba_sim.model.floor_plan import OCCUPIED, FloorPlan
 
 
@@ -13,10 +14,10 @@ def context_of(plan, world, seed=1, executor=None, **changes):
     return Context(plan, world.config, CleaningConfig(**changes), seed, executor)
 
 
-def run(behaviour, world, name='rumba', seconds=600.0):
+def run(behaviour, world, name='rumba', seconds=600.0, source=truth):
     """Step a behaviour until it ends or the time is up; returns the seconds that this took."""
     start = world.time
-    for _ in steps(behaviour, world, name, seconds):
+    for _ in steps(behaviour, world, name, seconds, source):
         pass
     return world.time - start
 

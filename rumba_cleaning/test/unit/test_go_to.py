@@ -11,11 +11,14 @@ from rumba_cleaning.behaviour import STOP, Status
 from rumba_cleaning.behaviours.go_to import GoTo
 from rumba_cleaning.control import steps
 from rumba_cleaning.outcome import Outcome
+from rumba_cleaning.pose_source import seeing, truth
 from rumba_sim.model.errors import MapError
 from rumba_sim.model.geometry import Pose, wrap_angle
+from rumba_sim.model.obstacle import Obstacle
 from rumba_sim.model.world import World
 
 PLAN = crooked()
+HALL = room(4.0, 3.0, 0.02)
 START = Pose(0.4, 0.4, 1.0)
 TARGET = Pose(3.5, 2.4, -2.0)
 
@@ -158,3 +161,25 @@ def test_restarted_it_arrives():
     run(behaviour, world)
     assert behaviour.status is Status.SUCCEEDED
     assert off(world, TARGET)[0] < 0.03
+
+
+@pytest.mark.parametrize('laser', [False, True])
+def test_with_its_laser_it_touches_nothing_that_the_laser_sees(laser):
+    world = World(HALL, quiet(), 50, 1, [Obstacle('box', Pose(2.0, 1.5, 0.4), 0.3, length=0.4, width=0.6)])
+    world.spawn('rumba', Pose(0.5, 1.5, 0.0))
+    behaviour = GoTo(context_of(HALL, world, laser=laser), Pose(3.5, 1.5, 0.0))
+    run(behaviour, world, seconds=60.0, source=seeing(truth))
+    assert behaviour.status is Status.SUCCEEDED, behaviour.message
+    assert (world.robots['rumba'].bumps == 0) == laser
+
+
+def test_it_waits_for_somebody_who_stands_in_its_only_way():
+    world = World(HALL, quiet(), 50, 1, [Obstacle('crowd', Pose(2.0, 1.5, 0.0), 1.5, length=0.2, width=2.9)])
+    world.spawn('rumba', Pose(0.5, 1.5, 0.0))
+    behaviour = GoTo(context_of(HALL, world, laser=True), Pose(3.5, 1.5, 0.0))
+    messages = {behaviour.message for _ in steps(behaviour, world, seconds=40.0, source=seeing(truth))}
+    assert behaviour.status is Status.RUNNING and 'waiting for what is in the way' in messages
+    assert world.robots['rumba'].bumps == 0
+    world.remove_obstacle('crowd')
+    run(behaviour, world, seconds=60.0, source=seeing(truth))
+    assert behaviour.status is Status.SUCCEEDED, behaviour.message

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from pytest import approx
 from rooms import PLANS, crooked, room
 
-from rumba_cleaning.belief.ground import GROWTH, INFLATION, LARGEST
+from rumba_cleaning.belief.ground import GROWTH, INFLATION, LARGEST, NOTHING_SEEN, SEEN, Seen
 from rumba_sim.model.reachability import SLACK
 
 
@@ -158,3 +158,79 @@ def test_a_copy_has_the_lasting_obstacles_too():
     assert floor.has_lasting and not copy.has_lasting
     copy.mark(2.0, 2.0, 0.05)
     assert copy.has_lasting and floor.copy().has_lasting
+
+
+def wall_of_points(x, low, high):
+    """Points of something that is seen, across a room."""
+    return np.array([(x, y) for y in np.arange(low, high, 0.04)])
+
+
+def test_what_is_seen_is_shown_until_something_else_is():
+    floor = ground(room(4.0, 3.0))
+    floor.show(Seen(wall_of_points(1.0, 1.0, 2.0), wall_of_points(3.0, 1.0, 2.0)))
+    assert floor.has_marks and floor.has_doubtful and floor.has_lasting and not floor.has_met
+    assert floor.shows(np.array([[1.0, 1.04], [3.0, 1.04]])) and not floor.shows(np.array([[1.0, 1.04], [2.0, 1.5]]))
+    assert floor.clearance[floor.node(1.3, 1.4)] == approx(0.3 - SEEN)
+    assert floor.lasting_clearance()[floor.node(1.3, 1.4)] == approx(1.3)
+    floor.forget_doubtful()
+    assert not floor.has_doubtful and floor.has_lasting
+    floor.forget_doubtful()
+    assert not floor.has_marks
+    floor.show(Seen(wall_of_points(1.0, 1.0, 2.0), wall_of_points(3.0, 1.0, 2.0)))
+    floor.show(NOTHING_SEEN)
+    assert not floor.has_marks and (floor.clearance == floor.plan.safe_clearance).all()
+
+
+def test_what_is_known_to_stay_stays_at_once():
+    floor = ground(room(4.0, 3.0))
+    floor.mark(2.0, 2.0, 0.05, stays=True)
+    assert floor.has_lasting and not floor.has_doubtful
+    floor.forget_doubtful(even_lasting=True)
+    assert not floor.has_marks
+    floor.mark(2.0, 2.0, 0.05)  # met again: it stays
+    assert floor.has_lasting
+
+
+def test_forgetting_even_what_lasts_keeps_what_is_seen():
+    floor = ground(room(4.0, 3.0))
+    floor.mark(2.0, 2.0, 0.05, stays=True)
+    floor.show(Seen(NOTHING_SEEN.passing, wall_of_points(3.0, 1.0, 2.0)))
+    floor.forget_doubtful(even_lasting=True)
+    assert floor.has_lasting and not floor.has_met
+
+
+def test_an_obstacle_is_as_small_as_the_robot_shows_it_to_be_by_standing_there():
+    floor = ground(room(4.0, 3.0))
+    floor.mark(2.0, 1.5, 0.2)
+    floor.mark(1.0, 1.0, 0.1, stays=True)
+    floor.leave_out(1.72, 1.5, 0.1)  # does not overlap it by more than the pose may err
+    assert floor.clearance[floor.node(2.3, 1.5)] == approx(0.1)
+    floor.leave_out(1.75, 1.5, 0.17)
+    assert floor.clearance[floor.node(2.3, 1.5)] == approx(0.3 - 0.08)
+    assert floor.clearance[floor.node(1.0, 1.3)] == approx(0.2)
+    floor.leave_out(1.0, 1.0, 0.17)
+    assert not floor.has_lasting
+
+
+def test_floor_to_which_no_way_is_left_is_cut_off():
+    floor = ground(room(4.0, 3.0))
+    assert floor.cut_off(1.0, 1.5) == 0.0
+    floor.show(Seen(wall_of_points(2.0, 0.0, 3.0), NOTHING_SEEN.staying))
+    assert floor.cut_off(1.0, 1.5) == 0.0  # it may move on
+    floor.show(Seen(NOTHING_SEEN.passing, wall_of_points(2.0, 0.0, 3.0)))
+    half = (2.0 - 2 * floor.reach) * (3.0 - 2 * floor.reach)
+    assert floor.cut_off(1.0, 1.5) == approx(half, rel=0.1) == floor.cut_off(3.0, 1.5)
+    floor.show(Seen(NOTHING_SEEN.passing, wall_of_points(2.0, 0.0, 2.5)))
+    assert floor.cut_off(1.0, 1.5) == 0.0
+
+
+def test_a_robot_in_a_passage_where_it_does_not_quite_fit_can_go_on_to_the_larger_side():
+    """It believes to be a little nearer to what is there than it fits, or that is not quite where it was seen."""
+    floor = ground(room(4.0, 3.0, 0.02))
+    half = floor.reach + SLACK + SEEN - 0.01
+    floor.show(Seen(np.concatenate([wall_of_points(1.0, 0.0, 1.5 - half + 0.04), wall_of_points(1.0, 1.5 + half, 3.0)]),
+                    NOTHING_SEEN.staying))
+    inside, left, right = np.array([0.96, 1.5]), np.array([0.4, 1.5]), np.array([3.0, 1.5])
+    assert floor.path(left, right) is None and not floor.are_free(inside[np.newaxis])[0]
+    assert floor.points([floor.standing_at(*inside)])[0][0] > 1.0
+    assert (floor.path(inside, left)[-1] == left).all() and (floor.path(inside, right)[-1] == right).all()

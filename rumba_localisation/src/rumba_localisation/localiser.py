@@ -7,7 +7,8 @@ import numpy as np
 
 from rumba_localisation import compiled_matching, motion, particles
 from rumba_localisation.localiser_config import LocaliserConfig
-from rumba_localisation.search import Search
+from rumba_localisation.scan import is_blind, thinned
+from rumba_localisation.search import WRONG, Search
 from rumba_localisation.walls import Walls
 from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.model.geometry import Pose, compose, inverse, wrap_angle
@@ -20,8 +21,12 @@ SURE = 0.9  # share of the weight in one cluster from which on the robot knows w
 NARROW = 0.3  # [m], [rad] standard deviations in that cluster, at most
 FITS = 0.25  # share of beams that end at a wall, at least: what the map does not show may hide most of it
 DOUBT = 0.1  # the share by which scans fit worse than in the long run, from which on particles are drawn from the scan
+SOME = 20  # beams, by which particles are looked at that may be in the wrong place
+PLAUSIBLE = 0.75  # of how well scans went with the estimates before, at least
 GOOD, STARTS = 0.85, 8  # a fit below which a match begins also at so many of the heaviest particles
-FEWEST = 10  # beams with an echo, fewer tell nothing
+WORSE, SOON = 0.8, 0.1  # times the average fit, below which the wheels may have slipped; weight of each scan in it
+SLIPS = np.linspace(-0.4, 0.4, 5)  # [rad] by which they may have turned the robot ...
+SLIPPED = np.diag([0.1, 0.1, 0.1]) ** 2  # ... with such variances [m^2, m^2, rad^2]
 HELD = np.diag([0.02, 0.02, 0.02]) ** 2  # least variances of the prior of a match [m^2, m^2, rad^2]
 INDEPENDENT = 0.2  # share of the beams of a match that err independently: the map errs with its neighbours alike
 START = np.diag([0.25, 0.25, math.radians(15.0) ** 2])  # covariance of a start that is told, as amcl's
@@ -97,6 +102,8 @@ class Localiser:
         self._logarithms = np.zeros(len(self.particles))
         self._last: Optional[Pose] = None  # odometry at the newest scan that was used
         self._slow = self._fast = 0.0  # averages of how well scans fit
+        self._fit = 0.0  # average share of beams that end at a wall
+        self._is_in_doubt = True
 
     # --- scans ----------------------------------------------------------------------------------------------------
 
@@ -126,8 +133,6 @@ class Localiser:
         if not is_blind(points):
             self._weigh(points)
         self.estimate = self._estimated(points)
-        if not is_blind(points):
-            self._follow_fit(self.estimate.fit)
         self.correction = compose(self.estimate.pose, inverse(odometry))
         return True
 
@@ -149,6 +154,11 @@ class Localiser:
         fresh = 1.0 - self._fast / self._slow if self._slow > 0.0 else 0.0
         if particles.effective(share) < 0.5 * len(share) or fresh > DOUBT:
             self._draw(share, fresh if fresh > DOUBT else 0.0, points)
+
+    def _plausibility(self, match: Match, points: Array) -> float:
+        """How well a scan goes with a match [0..1], whatever stands before the walls unless it hides most."""
+        through = self._walls.through(match.pose, thinned(points, self.config.laser_max_beams))
+        return min(max(1.0 - WRONG * through, 0.0), match.fit / FITS)
 
     def _follow_fit(self, fit: float) -> None:
         """Update the averages of how well scans fit."""
@@ -172,10 +182,17 @@ class Localiser:
         return chosen + self._generator.standard_normal((count, 3)) * 0.03
 
     def _likelihoods(self, points: Array) -> Array:
-        """Logarithms of how likely a scan is at the particles: float64, at most 0."""
+        """Logarithms of how likely a scan is at the particles: float64, at most 0.
+
+        Only a robot that may be in the wrong place looks at what its beams pass through, which takes long.
+        """
         few = thinned(points, self.config.laser_max_beams)
         sums = np.empty(len(self.particles))
         compiled_matching.weigh(self.particles, few, self._field, *self._walls.origin, self._walls.resolution, sums)
+        if self._is_in_doubt:
+            few = thinned(points, SOME)
+            sums -= WRONG * self.config.laser_max_beams * np.array(
+                [self._walls.through(pose, few) for pose in self.particles])
         return sums * self.config.laser_independence
 
     def _estimated(self, points: Array) -> Estimate:
@@ -187,9 +204,16 @@ class Localiser:
         cluster = particles.heaviest(self.particles, share)
         match = self._best_match(cluster, share, points)
         deviations = np.sqrt(np.diag(cluster.covariance))
-        is_sure = cluster.share >= SURE and float(deviations.max()) < NARROW and (match.fit >= FITS or is_blind(points))
+        is_sure = cluster.share >= SURE and float(deviations.max()) < NARROW
+        if not is_blind(points):
+            plausibility = self._plausibility(match, points)
+            is_sure = is_sure and match.fit >= FITS and plausibility >= PLAUSIBLE * max(self._slow, self._fast)
+            self._is_in_doubt = not is_sure or plausibility < 1.0 - DOUBT
+            self._follow_fit(plausibility)
+            self._fit += SOON * (match.fit - self._fit)
         if is_sure:
-            self.particles += match.pose - cluster.mean
+            x, y, turn = (match.pose - cluster.mean).tolist()
+            self.particles += (x, y, wrap_angle(turn))
         x, y, theta = match.pose.tolist()
         covariance = match.covariance if is_sure else START + particles.mean_and_covariance(self.particles, share)[1]
         return Estimate(Pose(x, y, wrap_angle(theta)), covariance, match.fit, is_sure)
@@ -199,10 +223,15 @@ class Localiser:
         if is_blind(points):
             return Match(cluster.mean, cluster.covariance, 0.0)
         match = self._matched(cluster, cluster.mean, points)
+        starts = []
         if match.fit < GOOD:  # perhaps the far side of a thin wall: it may fit better from elsewhere in the cluster
-            best = self.particles[np.argsort(-share, kind='stable')[:STARTS]]
-            match = max([match, *(self._matched(cluster, start, points) for start in best)], key=lambda each: each.fit)
-        return match
+            starts += list(self.particles[np.argsort(-share, kind='stable')[:STARTS]])
+        if match.fit < WORSE * self._fit:  # perhaps the wheels slipped
+            starts += [cluster.mean + (0.0, 0.0, turn) for turn in SLIPS]
+            cluster = cluster._replace(covariance=cluster.covariance + SLIPPED)
+        few = thinned(points, self.config.laser_max_beams)
+        return max([match, *(self._matched(cluster, start, points) for start in starts)],
+                   key=lambda each: each.fit - WRONG * self._walls.through(each.pose, few)) if starts else match
 
     def _matched(self, cluster: particles.Cluster, start: Array, points: Array) -> Match:
         pose, covariance = np.empty(3), np.empty((3, 3))
@@ -210,26 +239,3 @@ class Localiser:
                                       self._walls.distance, *self._walls.origin, self._walls.resolution, STEPS,
                                       INDEPENDENT, pose, covariance)
         return Match(pose, covariance, fit)
-
-
-def points(ranges: Array, angle_min: float, angle_increment: float) -> Array:
-    """Where the beams of a scan that have an echo end, in the frame of the laser: float64 (any, 2) [m].
-
-    Args:
-        ranges: float (beams) [m]; an infinite one has no echo (REP 117).
-        angle_min: direction of the first beam [rad].
-        angle_increment: from beam to beam [rad].
-    """
-    has_echo = np.isfinite(ranges)
-    angles = angle_min + angle_increment * np.flatnonzero(has_echo)
-    return np.stack([np.cos(angles), np.sin(angles)], axis=1) * ranges[has_echo].astype(np.float64)[:, None]
-
-
-def is_blind(points: Array) -> bool:
-    """Whether so few beams have an echo that they tell nothing."""
-    return len(points) < FEWEST
-
-
-def thinned(points: Array, count: int) -> Array:
-    """At most `count` of the points, spread evenly."""
-    return points if len(points) <= count else points[np.linspace(0, len(points) - 1, count).astype(np.int64)]

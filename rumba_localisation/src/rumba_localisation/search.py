@@ -15,6 +15,7 @@ HEADINGS = 60
 BEAMS = 40
 SIGMA = 0.15  # [m] for the end of a beam, at a position that is tried: it is up to 0.11 m off
 MOST = 300_000  # poses that are tried at once: others at the next scan
+WRONG = 3.0  # beams that end at a wall are outweighed by one that would have to pass through a wall
 BEST = 100  # poses that are kept, and moved to where the scan fits best
 APART = np.array([1.0, 1.0, 0.3]) ** 2  # variances of a pose that is kept: it may be moved far
 STEPS = np.geomspace(0.3, 0.05, 12)  # [m] sigmas of `match`
@@ -39,14 +40,16 @@ class Search:
             points: float64 (beams, 2), where beams end in the frame of the laser [m].
 
         Returns:
-            Poses, float64 (BEST at most, 3), and how large a share of the beams ends at a wall there [0..1].
+            Poses, float64 (BEST at most, 3), and how large a share of the beams ends at a wall there, less
+            WRONG times the share that would have to pass through walls.
         """
         few = points[np.linspace(0, len(points) - 1, min(BEAMS, len(points))).astype(np.int64)]
         tried = self._tried(generator)
         sums = np.empty(len(tried))
         compiled_matching.weigh(tried, few, self._field, *self._walls.origin, self._walls.resolution, sums)
         best = tried[np.argsort(-sums, kind='stable')[:BEST]]
-        return self._matched(best, points)
+        poses, fits = self._matched(best, points)
+        return poses, fits - WRONG * np.array([self._walls.through(pose, few) for pose in poses])
 
     def _tried(self, generator: np.random.Generator) -> Array:
         headings = np.arange(HEADINGS) * (2.0 * math.pi / HEADINGS)

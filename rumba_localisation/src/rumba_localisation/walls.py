@@ -6,6 +6,7 @@ from typing import Tuple
 import numpy as np
 from scipy import ndimage
 
+from rumba_localisation import compiled_matching
 from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.model.kernel import Array
 
@@ -29,6 +30,15 @@ class Walls:
         self.resolution = terrain.resolution
         inside = terrain.resolution * _depth(~terrain.free)
         self.distance = np.clip(terrain.clearance - inside, -FARTHEST, FARTHEST).astype(np.float32)
+
+    def through(self, pose: Array, points: Array) -> float:
+        """The share of beams that would have to pass through walls at a pose (3) [0..1].
+
+        Args:
+            pose: of the laser [m, m, rad].
+            points: float64 (beams, 2), where they end, in its frame [m].
+        """
+        return compiled_matching.through_walls(pose, points, self.distance, *self.origin, self.resolution)
 
     def log_likelihood(self, sigma: float, hit: float, rand: float, range_max: float) -> Array:
         """Likelihood field: the logarithm of how likely a beam ends in each cell, 0 at a wall.

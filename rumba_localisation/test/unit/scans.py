@@ -5,7 +5,8 @@ import math
 import numpy as np
 from rooms import crooked
 
-from rumba_localisation.localiser import Localiser, points
+from rumba_localisation.localiser import Localiser
+from rumba_localisation.scan import points
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.robot_config import RobotConfig
 from rumba_sim.model.world import World

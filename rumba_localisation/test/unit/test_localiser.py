@@ -7,10 +7,14 @@ import pytest
 from rooms import RADIUS, crooked, room
 from scans import drive, error, localiser_of, scanned, world_of
 
-from rumba_localisation.localiser import START, points, thinned
+from rumba_localisation.localiser import START
 from rumba_localisation.localiser_config import LocaliserConfig
+from rumba_localisation.scan import points, thinned
 from rumba_sim.model.errors import ConfigError
 from rumba_sim.model.geometry import Pose
+from rumba_sim.model.obstacle import Obstacle
+from rumba_sim.model.robot_config import RobotConfig
+from rumba_sim.model.world import World
 
 NOBODY = Pose(0.0, 0.0, 0.0)
 
@@ -67,6 +71,61 @@ def test_a_robot_that_was_carried_away_notices_and_finds_itself_again():
         sure.append(localiser.estimate.is_sure)
     assert errors[3] > 1.0 and not all(sure)
     assert max(errors[-50:]) < 0.05 and all(sure[-50:])
+
+
+@pytest.mark.parametrize('turn', [-0.4, -0.2, 0.2, 0.4])
+def test_a_robot_that_was_turned_finds_its_heading_at_the_next_scan(turn):
+    """As by wheels that slip at an obstacle; scans are used from a movement to the next."""
+    world = world_of()
+    localiser = localiser_of(world.plan)
+    localiser.start_at(world.robots['rumba'].pose)
+    list(drive(world, localiser, 0.2, 0.3, 5.0))
+    here = world.robots['rumba'].pose
+    world.teleport('rumba', here._replace(theta=here.theta + turn))
+    errors = list(drive(world, localiser, 0.2, 0.3, 5.0))
+    assert max(turned for _, turned in errors[5:]) < 0.05 and max(away for away, _ in errors[5:]) < 0.1  # used by then
+
+
+def among_obstacles(seed):
+    """A world in which boxes hide most of the walls, and a localiser that is told where its robot is."""
+    plan = room(4.0, 3.0, 0.02, [(1.98, 0.0, 2.02, 1.9)])
+    world = World(plan, RobotConfig(), 50, seed, [
+        Obstacle(f'box_{number}', Pose(x, y, 0.3 * number), 0.3, length=0.5, width=0.3)
+        for number, (x, y) in enumerate([(0.4, 1.2), (1.5, 1.4), (0.9, 2.5), (0.4, 2.0)])])
+    world.spawn('rumba', Pose(0.8, 0.6, 0.0))
+    localiser = localiser_of(plan, seed=seed)
+    localiser.start_at(world.robots['rumba'].pose)
+    return world, localiser
+
+
+def farthest_particle(world, localiser):
+    """Distance from the robot [m]."""
+    pose = world.robots['rumba'].pose
+    return np.hypot(*(localiser.particles[:, :2] - pose[:2]).T).max()
+
+
+@pytest.mark.parametrize('seed', range(4))
+def test_obstacles_that_hide_most_walls_do_not_carry_a_robot_away(seed):
+    """It knows where it is, and no beam would have to pass through a wall there, as it would elsewhere."""
+    world, localiser = among_obstacles(seed)
+    list(drive(world, localiser, 0.0, 0.8, 4.0))
+    for number in range(4):
+        angle = world.robots['rumba'].pose.theta + number * math.pi / 2.0
+        x, y = world.robots['rumba'].pose[:2]
+        there = Pose(x + 0.32 * math.cos(angle), y + 0.32 * math.sin(angle), angle)
+        world.add_obstacle(Obstacle(f'leg_{number}', there, 0.3, length=0.06, width=0.2))
+    for away, _ in drive(world, localiser, 0.0, 0.5, 12.0):
+        assert away < 0.1 and localiser.estimate.is_sure and farthest_particle(world, localiser) < 1.0
+    assert localiser.estimate.fit < 0.5
+
+
+def test_headings_that_were_wound_up_by_whole_turns_do_not_grow():
+    world, localiser = among_obstacles(1)
+    list(drive(world, localiser, 0.0, 0.8, 1.0))
+    localiser.particles[::2, 2] += 8.0 * math.pi
+    errors = list(drive(world, localiser, 0.0, 0.8, 10.0))
+    assert np.abs(localiser.particles[:, 2]).max() < 16.0 * math.pi
+    assert max(away for away, _ in errors) < 0.1 and localiser.estimate.is_sure
 
 
 @pytest.mark.parametrize('slipped', [0.1, 0.2, 0.3])

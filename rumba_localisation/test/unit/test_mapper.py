@@ -8,7 +8,8 @@ from rooms import crooked, room
 from scans import error
 
 from rumba_localisation.mapping.believed_plan import believed_plan
-from rumba_localisation.mapping.mapper import Mapper, scan_of
+from rumba_localisation.mapping.mapper import Mapper
+from rumba_localisation.scan import scan_of
 from rumba_sim.model.config import updated
 from rumba_sim.model.floor_plan import OCCUPIED
 from rumba_sim.model.geometry import Pose, compose, wrap_angle

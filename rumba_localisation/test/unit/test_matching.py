@@ -60,3 +60,26 @@ def test_beams_that_hit_what_the_map_does_not_show_count_little():
     pose, _, fit = matched(Walls(world.plan), (2.03, 1.27, 0.75), points)
     assert pose == pytest.approx([2.0, 1.3, 0.7], abs=0.01)
     assert fit == pytest.approx(0.95 * (1.0 - 60.0 / len(points)), abs=0.06)
+
+
+def test_beams_that_would_have_to_pass_through_walls_are_counted():
+    """In a room of 3 m x 2 m with a thin wall across, 1 m from its left side."""
+    walls = Walls(room(3.0, 2.0, 0.02, [(1.0, 0.0, 1.04, 2.0)]))
+    pose = np.array([0.5, 1.0, 0.0])
+
+    def through(*ends):
+        return walls.through(pose, np.array(ends, float))
+    assert through((0.5, 0.0), (0.0, 0.9), (0.2, 0.0), (-0.49, 0.0)) == 0.0  # at walls, and at something before them
+    assert through((0.54 + 0.13, 0.0)) == 0.0  # the pose may err a little
+    assert through((0.54 + 0.2, 0.0)) == 1.0
+    assert through((1.5, 0.0), (1.5, 0.5), (0.3, 0.0), (-0.4, 0.1)) == 0.5
+    assert through((-1.5, 0.0)) == 1.0  # out of the map
+    assert walls.through(np.array([0.5, 1.0, math.pi]), np.array([[1.5, 0.0], [-1.5, 0.0]])) == 1.0
+
+
+def test_a_match_does_not_run_away_from_a_start_that_fits_nowhere():
+    walls = Walls(crooked(0.025))
+    points = np.random.default_rng(1).uniform(-3.0, 3.0, (100, 2))
+    for start in ((2.0, 1.3, 0.7), (0.1, 0.1, 3.0), (3.9, 2.9, -2.0)):
+        pose, _, _ = matched(walls, start, points, np.diag([1.0, 1.0, 1.0]))
+        assert np.abs(pose - start).max() <= compiled_matching.FARTHEST * len(STEPS)

@@ -115,6 +115,15 @@ class Follower:
         """Speed of the route where the robot is [m/s]; 0 at its end."""
         return self._pieces[0].speeds[self._pieces[0].index(self._distance)] if self._pieces else 0.0
 
+    def ahead(self, length: float) -> Array:
+        """Points on the next part of the route, up to a length, or a hairpin: float64 (any, 2) [m]."""
+        if not self._pieces:
+            return np.empty((0, 2))
+        piece = self._pieces[0]
+        ends = min(self._distance + length, piece.length)
+        along = np.append(np.arange(self._distance, ends, LEAST_AHEAD), ends)
+        return np.array([piece.at(distance) for distance in along.tolist()])
+
     def rest(self) -> Optional[Route]:
         """What is left of the route, from the next waypoint on; None if nothing is left."""
         if not self._pieces:

@@ -15,6 +15,7 @@ from rumba_cleaning.route import Ahead, Route
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.kernel import Array
 
+PAUSE = 5.0  # [s] before it tries again what was closed: who stands in the way may walk on; our choice
 TRIES = 30  # times that it may find something unknown in the way, or rest beside the target; our choice
 CLOSE = 0.02  # [m] from the target at which the robot rests, at most, as docs/interfaces.md says
 
@@ -42,6 +43,7 @@ class GoTo(Behaviour):
         """Begin with the search for a path."""
         self._leave()
         self._tries = 0
+        self._pause = 0.0  # [s] still to wait
 
     @property
     def remaining(self) -> float:
@@ -56,6 +58,10 @@ class GoTo(Behaviour):
             self._travel = self._found(observation.pose)
             if self._travel is None:
                 return STOP
+        if self._pause > 0.0:
+            self._pause -= observation.dt
+            self.message = 'waiting for what is in the way'
+            return STOP
         command = self._travel.command(observation, brushes_up=True)
         if self._travel.going is Going.ARRIVED:
             any_heading = math.isnan(self._target.theta)
@@ -97,7 +103,8 @@ class GoTo(Behaviour):
         path, has_forgotten = self._search.result()
         self._search = None
         if has_forgotten:
-            self._context.ground.forget()
+            self._context.forget_obstacles()
+            self._pause = PAUSE
         if path is None:
             target = self._target
             self.fail(f'no path from ({pose.x:.2f}, {pose.y:.2f}) to ({target.x:.2f}, {target.y:.2f}) m',

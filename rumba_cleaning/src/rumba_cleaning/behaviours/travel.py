@@ -19,9 +19,11 @@ from rumba_sim.model.geometry import Pose
 KNOWN = 0.03  # [m] if a known obstacle is so near to the body, a contact is a contact with that: three errors of a pose
 SIDE = 0.74  # [rad] the middle of the part of the bumper that presses one switch alone: (field + overlap) / 4
 OBSTACLE = 0.05  # [m] radius that is assumed for what a contact reveals; `Ground` makes it larger if it is met again
+TALL = 0.2  # [m] from there, within which the laser sees what is not low: the bumper tells the side alone
 GAP = 0.02  # [m] from the body to that: one cell of a fine map
 PATIENCE = 4.0  # [s] without progress, which is longer than any turn takes: the robot is stuck
 PROGRESS = 0.01  # [m]: more than the noise of a pose
+AHEAD = 0.5  # [m] of the route, in which the laser looks for obstacles: the robot stops within a fifth of that
 LONGEST = 0.5  # [s] of one observation that count as waiting: in a longer one the node was busy, not the robot
 
 
@@ -30,7 +32,7 @@ class Going(enum.Enum):
 
     ON = 'on the way'
     ARRIVED = 'at the end of the route'
-    BLOCKED = 'something unknown was in the way: it is marked on the ground, and another route is needed'
+    BLOCKED = 'something unknown is in the way: the ground shows it now, and another route is needed'
     LOST = 'far off the route: another route is needed'
 
 
@@ -86,12 +88,27 @@ class Travel:
         if self._is_blocked(observation):
             self._back, self._leaves = recoil.time_back(observation), True
             return Command(-recoil.SPEED, 0.0, brushes_up)
+        if self._sees_obstacle(observation):
+            self.going = Going.BLOCKED
+            return Command(0.0, 0.0, brushes_up)
         v, w = self._follower.velocity(observation.pose, observation.dt)
         if self._follower.is_lost:
             self.going = Going.LOST
         elif self._follower.is_done:
             self.going = Going.ARRIVED
         return Command(v, w, brushes_up)
+
+    def _sees_obstacle(self, observation: Observation) -> bool:
+        """Whether the laser sees something in the way that the ground does not show; has it show that."""
+        context = self._context
+        context.look(observation)
+        if context.sight is None:
+            return False
+        points = context.sight.in_way(observation.pose, self._follower.ahead(AHEAD), context.ground.reach)
+        is_news = not context.ground.shows(points)
+        if is_news:
+            context.show_seen()
+        return is_news
 
     def _is_blocked(self, observation: Observation) -> bool:
         """Whether something is in the way that the ground does not show; marks it."""
@@ -102,18 +119,24 @@ class Travel:
             self._nearest, self._waited = self._follower.remaining, 0.0
         else:
             self._waited += min(observation.dt, LONGEST)
+        if not (left or right):
+            self._context.ground.leave_out(*observation.pose[:2], self._context.robot.drive.radius)
         is_stuck = self._waited > PATIENCE
         if is_stuck or touches and (any(observation.cliffs) or not _is_known(self._context.ground, observation.pose)):
-            mark(self._context, observation.pose, 0.0 if left == right else SIDE if left else -SIDE)
+            mark(self._context, observation.pose, 0.0 if left == right else SIDE if left else -SIDE, touches)
             return True
         return False
 
 
-def mark(context: Context, pose: Pose, angle: float) -> None:
-    """Remember an obstacle that the body touches at an angle from its front [rad]."""
+def mark(context: Context, pose: Pose, angle: float, touches: bool = True) -> None:
+    """Remember an obstacle that the body touches at an angle from its front [rad], or is taken to touch.
+
+    What the bumper finds and the laser does not see is low, and stays: a person, a pet or a robot is higher.
+    """
     away = context.robot.drive.radius + GAP + OBSTACLE
-    context.ground.mark(pose.x + away * math.cos(pose.theta + angle), pose.y + away * math.sin(pose.theta + angle),
-                        OBSTACLE)
+    x, y = pose.x + away * math.cos(pose.theta + angle), pose.y + away * math.sin(pose.theta + angle)
+    is_low = context.sight is not None and not context.sight.is_seen(x, y, TALL)
+    context.ground.mark(x, y, OBSTACLE, stays=touches and is_low)
 
 
 def _is_known(ground: Ground, pose: Pose) -> bool:

@@ -3,10 +3,11 @@
 import copy
 import math
 from concurrent.futures import Executor, Future
-from typing import Any, Callable, List, Optional, Sequence, Tuple, TypeVar, Union
+from typing import TYPE_CHECKING, Any, Callable, List, Optional, Sequence, Tuple, TypeVar, Union
 
 import numpy as np
 
+from rumba_cleaning.behaviour import Observation
 from rumba_cleaning.belief.footing import Footing
 from rumba_cleaning.belief.ground import Ground
 from rumba_cleaning.belief.mates import Mates, Report
@@ -17,8 +18,12 @@ from rumba_sim.model.geometry import Pose
 from rumba_sim.model.robot_config import RobotConfig
 from rumba_sim.model.sweep import Part
 
+if TYPE_CHECKING:
+    from rumba_cleaning.belief.sight import Sight
+
 Result = TypeVar('Result')
 Seed = Union[int, Sequence[int]]
+CUT_OFF = 0.02  # of the reachable floor: less than a room, more than corners beside things; our choice
 Survey = Callable[[], FloorPlan]  # the same object as long as the plan is the same
 
 
@@ -60,6 +65,12 @@ def _fulfil(future: 'Future[Result]', call: Callable[[], Result]) -> None:
         future.set_exception(error)
 
 
+def _sight(plan: FloorPlan) -> 'Sight':
+    """What a laser sees; it is imported here, since a cleaner without one starts sooner."""
+    from rumba_cleaning.belief.sight import Sight
+    return Sight(plan)
+
+
 def own_seed(seed: int, robot: str) -> List[int]:
     """The seed of a robot, by its name, in a run with a seed: robots draw different random numbers."""
     return [seed, *robot.encode()]
@@ -79,6 +90,7 @@ class Context:
         mates: the robots with which it shares the floor.
         swept: what its brush passed over, and those of its mates.
         footing: where the floor ends.
+        sight: what its laser sees; None if it does without.
     """
 
     def __init__(self, plan: FloorPlan, robot: RobotConfig, config: CleaningConfig, seed: Seed = 0,
@@ -100,6 +112,7 @@ class Context:
         self.ground = Ground(plan, robot)
         self.swept = Swept(plan, robot)
         self.footing = Footing(plan, robot)
+        self.sight = _sight(plan) if config.laser else None
 
     @property
     def plan(self) -> FloorPlan:
@@ -119,6 +132,8 @@ class Context:
             return False
         self.ground.learn(plan)
         self.footing.learn(plan)
+        if self.sight is not None:
+            self.sight.learn(plan)
         (x, y), = self.ground.points(np.array([self.ground.standing_at(pose.x, pose.y)])).tolist()
         self.swept.learn(plan, x, y)
         return True
@@ -138,6 +153,39 @@ class Context:
         """The dock to which the robot returns: where it began, or by its place among its mates; None without docks."""
         docks = self.plan.docks
         return docks[self._berth % len(docks)] if docks else None
+
+    # --- obstacles --------------------------------------------------------------------------------------------------
+
+    def look(self, observation: Observation) -> None:
+        """Take note of what the laser sees; `show_seen` has paths lead around it."""
+        if self.sight is not None and observation.scan is not None:
+            mates = [report.pose for report in self.mates.reports.values()]
+            self.sight.look(observation.pose, observation.scan, mates, observation.dt)
+
+    def show_seen(self) -> None:
+        """Have the ground show what is seen."""
+        if self.sight is not None:
+            self.ground.show(self.sight.seen())
+
+    def is_cut_off(self, pose: Pose) -> bool:
+        """Whether obstacles that stay, as a closed door, keep a robot at a pose from much of the floor."""
+        return (self.ground.has_lasting
+                and self.ground.cut_off(pose.x, pose.y) > CUT_OFF * self.swept.reachable_area)
+
+    def forget_doubtful(self, even_lasting: bool) -> None:
+        """As that of the ground; what is seen and stays is forgotten only if nothing else is."""
+        if self.sight is not None:
+            has_other = self.ground.has_doubtful or even_lasting and self.ground.has_met
+            self.sight.forget(also_what_stays=not has_other)
+        self.ground.forget_doubtful(even_lasting)
+
+    def forget_obstacles(self) -> None:
+        """Forget all obstacles."""
+        if self.sight is not None:
+            self.sight.forget(also_what_stays=True)
+        self.ground.forget()
+
+    # --- mates, and work --------------------------------------------------------------------------------------------
 
     def hear(self, name: str, report: Report) -> None:
         """Take note of what a mate tells: what it sweeps is swept."""
@@ -161,6 +209,7 @@ class Context:
 
         The function may run in another thread. It must not draw from the generator, whose state the copy shares.
         """
+        self.show_seen()
         snapshot = copy.copy(self)
         snapshot.ground, snapshot.swept, snapshot.mates = self.ground.copy(), self.swept.copy(), self.mates.copy()
         return self.executor.submit(function, snapshot, *args)

@@ -2,11 +2,12 @@
 
 import copy
 import math
-from typing import List, NamedTuple, Optional, Tuple
+from typing import List, NamedTuple, Optional, Sequence, Tuple
 
 import numpy as np
 from scipy import ndimage
 
+from rumba_cleaning.belief.compiled_marks import keep_clear
 from rumba_cleaning.belief.limits import limited
 from rumba_cleaning.belief.search import cheapest, is_clear, path_lengths
 from rumba_sim.model.constants import clearance_needed
@@ -19,12 +20,18 @@ from rumba_sim.model.robot_config import RobotConfig
 GROWTH = 0.02  # [m] added to the radius of an obstacle that is met again: large passes it after fewer touches
 SAME = 1.5  # radii from where it was met before: small outlines wide obstacles touch by touch, large hides free floor
 LARGEST = 0.25  # [m] radius of an obstacle, at most: small leaves gaps beside it open, large passes wide obstacles
+OVERLAP = 0.02  # [m] by which robot and obstacle may overlap: a pose errs by less
+LEAST = 0.01  # [m] radius of an obstacle, below which there is none
+SEEN = 0.02  # [m] radius of what is seen at a point: half a cell of `Sight`
 EXTRA_CLEARANCE = 0.04  # [m] beside straight parts of a path: large touches less, small makes paths shorter
 NEAR = 0.4  # [m] a goal this near is driven to directly, without the extra clearance: a path around it costs more
+ESCAPE = 0.15  # [m] from where a robot is, it may go to another part of the floor: it does not reach across what is
+#               between two parts, which are at least a robot's diameter apart there
 SEARCH_SPACING = 0.05  # [m] between the nodes that are looked at first: large is fast, but misses narrow passages
 SEARCH_MARGIN = 2.0  # [m] around both ends is searched first: small is fast, but a longer path needs a second search
 INFLATION = 0.1  # [m] beyond the touching distance, within which a path costs more: large keeps to the open floor ...
 INFLATION_COST = 2.0  # ... up to this many times its length more: small lets a path follow a wall to be shorter
+ALL_AROUND = np.ones((3, 3))  # nodes next to one
 
 
 class Mark(NamedTuple):
@@ -39,11 +46,21 @@ class Mark(NamedTuple):
         return math.hypot(self.x - other.x, self.y - other.y) < self.radius + other.radius
 
 
+class Seen(NamedTuple):
+    """Obstacles that the robot sees, or saw last: points (any, 2) [m], map frame."""
+
+    passing: Array  # may move on
+    staying: Array
+
+
+NOTHING_SEEN = Seen(np.empty((0, 2)), np.empty((0, 2)))
+
+
 class Ground:
     """The floor as one robot knows it.
 
     What it meets may move: `forget_doubtful` forgets marks, and what is met again after that where something was met
-    before is there to stay.
+    before is there to stay. What it sees is shown by `show`.
 
     Points are (x, y) [m] in the map frame; an array of points, and a path, is float64 (any, 2). Nodes are the corners
     of the cells, (row, column) into `FloorPlan.safe_clearance`; an array of nodes is int (any, 2).
@@ -66,82 +83,125 @@ class Ground:
         other = copy.copy(self)
         other.clearance = self.clearance.copy()
         other._unsure, other._former, other._lasting = list(self._unsure), list(self._former), list(self._lasting)
-        return other
+        return other  # what is seen is replaced, never changed
 
     def learn(self, plan: FloorPlan) -> None:
         """Go on with a newer plan of the same floor, and the obstacles that were met."""
         self.plan = plan
-        self.clearance = plan.safe_clearance.copy()
-        for mark in self._unsure + self._lasting:
-            self._keep_clear(self.clearance, mark)
-        self._update()
+        self._measure()
 
     def forget(self) -> None:
-        """Forget all obstacles that the robot has met."""
-        self.clearance = self.plan.safe_clearance.copy()
+        """Forget all obstacles that the robot has met or seen."""
         self._unsure: List[Mark] = []  # met once
         self._former: List[Mark] = []  # met once, and forgotten last
         self._lasting: List[Mark] = []  # met again after that
-        self._update()
+        self._seen = NOTHING_SEEN
+        self._measure()
 
-    def forget_doubtful(self) -> None:
-        """Forget the obstacles that may have gone since they were met: those met once; if there are none, all."""
-        if self._unsure:
-            self._former, self._unsure = self._unsure, []
+    def show(self, seen: Seen) -> None:
+        """Replace what the robot sees."""
+        if len(seen.passing) or len(seen.staying) or len(self._seen.passing) or len(self._seen.staying):
+            self._seen = seen
+            self._measure()
+
+    def shows(self, points: Array) -> bool:
+        """Whether it shows obstacles at points (any, 2) [m], all of them."""
+        nodes = self.nodes(points)
+        return bool((self.clearance[nodes[:, 0], nodes[:, 1]] <= SEEN).all())
+
+    def forget_doubtful(self, even_lasting: bool = False) -> None:
+        """Forget the obstacles that may have gone since they were met: those met once; if there are none, all.
+
+        Args:
+            even_lasting: those that were met more than once too, which may be smaller than they are taken to be.
+        """
+        doubtful = self._unsure + self._lasting if even_lasting else self._unsure
+        if doubtful or len(self._seen.passing):
+            self._former, self._unsure, self._seen = doubtful, [], Seen(NOTHING_SEEN.passing, self._seen.staying)
+            self._lasting = [] if even_lasting else self._lasting
         else:
-            self._former, self._lasting = self._lasting, []
-        self.clearance = self.lasting_clearance()
-        self._update()
+            self._former, self._lasting, self._seen = self._lasting, [], NOTHING_SEEN
+        self._measure()
+
+    def leave_out(self, x: float, y: float, radius: float) -> None:
+        """Take what the robot has met to be as small as it must be, since there is nothing within a circle [m]."""
+        def smaller(marks: List[Mark]) -> List[Mark]:
+            rooms = (math.hypot(mark.x - x, mark.y - y) - radius for mark in marks)
+            return [mark._replace(radius=min(mark.radius, room)) for mark, room in zip(marks, rooms) if room > LEAST]
+        if any(math.hypot(mark.x - x, mark.y - y) < radius + mark.radius - OVERLAP
+               for mark in self._unsure + self._lasting):
+            self._unsure, self._lasting = smaller(self._unsure), smaller(self._lasting)
+            self._measure()
 
     @property
     def has_marks(self) -> bool:
-        """Whether the robot has met any obstacles."""
+        """Whether the robot has met or seen any obstacles."""
+        return self.has_doubtful or self.has_lasting
+
+    @property
+    def has_doubtful(self) -> bool:
+        """Whether it has met or seen any that may go again."""
+        return bool(self._unsure) or len(self._seen.passing) > 0
+
+    @property
+    def has_met(self) -> bool:
+        """Whether it has met any."""
         return bool(self._unsure or self._lasting)
 
     @property
     def has_lasting(self) -> bool:
-        """Whether it has met any that stay."""
-        return bool(self._lasting)
+        """Whether it has met or seen any that stay."""
+        return bool(self._lasting) or len(self._seen.staying) > 0
 
     def lasting_clearance(self) -> Array:
         """As `clearance`, without the obstacles that may go again."""
         clearance = self.plan.safe_clearance.copy()
-        for mark in self._lasting:
-            self._keep_clear(clearance, mark)
+        self._keep_clear(clearance, self._lasting)
+        self._keep_clear(clearance, _marks(self._seen.staying))
         return clearance
 
-    def mark(self, x: float, y: float, radius: float) -> None:
+    def cut_off(self, x: float, y: float) -> float:
+        """Area on which the robot could stand, and to which the obstacles that stay leave no way from a point [m^2]."""
+        node = self.standing_at(x, y)
+        by_plan, _ = ndimage.label(self.plan.safe_clearance >= self.reach + SLACK, ALL_AROUND)
+        fits = self.lasting_clearance() >= self.reach + SLACK
+        beside_all, _ = ndimage.label(fits, ALL_AROUND)
+        away = fits & (by_plan == by_plan[node]) & (beside_all != beside_all[node])
+        return float(away.sum()) * self.plan.resolution ** 2
+
+    def mark(self, x: float, y: float, radius: float, stays: bool = False) -> None:
         """Remember a round obstacle; one that is met again is taken to be larger than before.
 
         Args:
             x, y: its centre in the map frame [m].
             radius: [m]
+            stays: whether it is known to stay, even if it is met for the first time.
         """
         touched = Mark(x, y, radius)
         again = [mark.radius + GROWTH for mark in self._unsure + self._lasting
                  if math.hypot(mark.x - x, mark.y - y) < SAME * radius]
         touched = Mark(x, y, min(max([radius, *again]), LARGEST))
         back = [mark for mark in self._former if mark.overlaps(touched)]
-        if back or any(mark.overlaps(touched) for mark in self._lasting):
+        if stays or back or any(mark.overlaps(touched) for mark in self._lasting):
             self._lasting += [touched, *back]
             self._former = [mark for mark in self._former if mark not in back]
         else:
             self._unsure.append(touched)
-        for mark in [touched, *back]:
-            self._keep_clear(self.clearance, mark)
+        self._keep_clear(self.clearance, [touched, *back])
         self._update()
 
-    def _keep_clear(self, clearance: Array, mark: Mark) -> None:
-        """Lower a clearance, which is changed, around an obstacle."""
-        rows, columns = clearance.shape
-        res = self.plan.resolution
-        row, column = self.node(mark.x, mark.y)
-        size = int((mark.radius + self.reach + INFLATION) / res) + 2
-        top, left = max(row - size, 0), max(column - size, 0)
-        near_y, near_x = np.ogrid[top:min(row + size + 1, rows), left:min(column + size + 1, columns)]
-        x, y = near_x * res + self.plan.origin[0] - mark.x, near_y * res + self.plan.origin[1] - mark.y
-        window = clearance[top:row + size + 1, left:column + size + 1]
-        np.minimum(window, np.maximum(np.hypot(x, y) - mark.radius, 0.0), out=window)
+    def _measure(self) -> None:
+        """Find the clearance anew."""
+        self.clearance = self.lasting_clearance()
+        self._keep_clear(self.clearance, self._unsure)
+        self._keep_clear(self.clearance, _marks(self._seen.passing))
+        self._update()
+
+    def _keep_clear(self, clearance: Array, marks: Sequence[Mark]) -> None:
+        """Lower a clearance, which is changed, around obstacles."""
+        if len(marks):
+            keep_clear(clearance, self.plan.origin, self.plan.resolution, np.array(marks, np.float64),
+                       self.reach + INFLATION)
 
     def _update(self) -> None:
         """Derive from `clearance` what depends on it."""
@@ -184,10 +244,23 @@ class Ground:
         return self._nearest
 
     def standing_at(self, x: float, y: float) -> Tuple[int, int]:
-        """The node nearest to a point [m] at which the robot can stand."""
-        rows, columns = self._standing()
-        row, column = self.node(x, y)
-        return int(rows[row, column]), int(columns[row, column])
+        """The node nearest to a point [m] at which the robot can stand.
+
+        If there are several parts of the floor within ESCAPE, it lies in the largest: the robot is in none of them, or
+        in a pocket that it would not have got into, so it is not quite where it believes to be, or obstacles are not.
+        """
+        (row, column), = self.standing(self.nodes(np.array([[x, y]]))).tolist()
+        size = int(ESCAPE / self.plan.resolution) + 1
+        middle_row, middle_column = self.node(x, y)
+        top, left = max(middle_row - size, 0), max(middle_column - size, 0)
+        parts = self._parts()[top:middle_row + size + 1, left:middle_column + size + 1]
+        if len(np.unique(parts[parts > 0])) < 2:
+            return row, column
+        sizes = np.bincount(self._parts().ravel())
+        sizes[0] = 0
+        near = np.argwhere(sizes[parts] == sizes[parts].max()) + (top, left)
+        row, column = near[np.argmin(((self.points(near) - (x, y)) ** 2).sum(axis=1))].tolist()
+        return row, column
 
     def within(self, distance: float) -> Array:
         """Cells that lie within a distance [m], or one cell more, of a node at which the robot can stand.
@@ -229,8 +302,11 @@ class Ground:
         if self.is_straight(start, end, 0.0 if is_near else EXTRA_CLEARANCE):
             return np.array([start, end])
         first, last = self.standing(self.nodes(np.array([start, end])))
-        if not self._are_connected(first, last):
-            return None
+        parts = self._parts()
+        if parts[tuple(first)] != parts[tuple(last)]:
+            first = np.array(self.standing_at(*start.tolist()))
+            if parts[tuple(first)] != parts[tuple(last)]:
+                return None
         near, all_of_it = int(SEARCH_MARGIN / self.plan.resolution), max(self.clearance.shape)
         coarse = max(int(SEARCH_SPACING / self.plan.resolution + 0.5), 1)
         for margin, spacing in ((near, coarse), (near, 1), (all_of_it, coarse), (all_of_it, 1)):
@@ -242,11 +318,11 @@ class Ground:
         inner = self._straightened(self.points(found))
         return np.concatenate([[start], inner[1:-1] if len(inner) > 2 else inner, [end]])
 
-    def _are_connected(self, first: Array, last: Array) -> bool:
-        """Whether any path leads from one node (2) to another."""
+    def _parts(self) -> Array:
+        """To which part of the floor each node belongs: int (rows + 1, columns + 1), 0 where a robot cannot stand."""
         if self._connected is None:
-            self._connected, _ = ndimage.label(self.fits, np.ones((3, 3)))
-        return bool(self._connected[tuple(first)] == self._connected[tuple(last)])
+            self._connected, _ = ndimage.label(self.fits, ALL_AROUND)
+        return self._connected
 
     def path_lengths_to(self, x: float, y: float) -> Array:
         """Length of the shortest path from each node to a point [m].
@@ -301,3 +377,8 @@ class Ground:
             here = low
             kept.append(here)
         return path[kept]
+
+
+def _marks(points: Array) -> List[Mark]:
+    """Obstacles that were seen at points (any, 2) [m]."""
+    return [Mark(x, y, SEEN) for x, y in points.tolist()]

@@ -114,7 +114,7 @@ class Mission(Behaviour):
             self.charges = 0
             self._gained = 0.0  # coverage at the last charge
             self._has_memory = False
-            self._context.ground.forget()
+            self._context.forget_obstacles()
             self._context.footing.forget()
             self._watch = BatteryWatch(self._context)
         self._resumes = False

@@ -1,5 +1,7 @@
 """boustrophedon: plans on the map, then drives in lanes, to and fro, as an ox ploughs."""
 
+import enum
+import math
 from concurrent.futures import Future
 from typing import NamedTuple, Optional
 
@@ -12,19 +14,28 @@ from rumba_cleaning.strategies import strategy
 from rumba_sim.model.geometry import Pose
 
 WORTH = 0.0005  # of coverage: a round that gains less is the last: a round for the last spots gains little more
+DEAR = 150.0  # [m/m^2] that a round beside obstacles drives for what it gains, beyond which it is the last: five times
+#               what the planner drives for a crumb, so most of what it planned for cannot be reached
 HELPED = 0.01  # of coverage: forgetting obstacles that gained less was in vain: to touch them all again takes long
-VAIN = 3  # times that obstacles are forgotten in vain, after which it ends
-PAUSE = 10.0  # [s] after the first of these times, twice that after the second ...: who stands there may walk on
-OPEN = 0.9  # of the floor: what lies beside obstacles must be more to be all that is cleaned, or a door may be closed
+VAIN = 2  # times that obstacles are forgotten in vain, after which it ends
+PAUSE = 20.0  # [s] after the first of these times, twice that after the second ...: who stands there may walk on
 TURN = 20.0  # [s] that a mate may take to plan, before it is the turn of the robot all the same; our choice
 ROUNDS = 20  # at most, each with what was missed before: far more than the maps of rumba_sim need
+
+
+class Forgotten(enum.Enum):
+    """Which obstacles were forgotten for a plan."""
+
+    NOTHING = 'none'
+    DOUBTFUL = 'those that may go again'
+    EVEN_LASTING = 'those that were met more than once too'
 
 
 class Planned(NamedTuple):
     """What was planned."""
 
     route: Optional[Route]
-    has_forgotten: bool = False  # obstacles that were met, since there was no route beside them
+    forgotten: Forgotten = Forgotten.NOTHING  # since there was no route beside them
     relief: Optional[Relief] = None  # what it takes over from a mate
 
 
@@ -57,10 +68,15 @@ class Boustrophedon(Behaviour):
         self._vain = 0  # times, one after the other, that this did not help
         self._pause = 0.0  # [s] still to wait
         self._before = -1.0  # coverage when the round began
+        self._driven = 0.0  # [m] since then
+        self._last: Optional[Pose] = None  # where the robot was
         self._brushes_up = True
 
     def update(self, observation: Observation) -> Command:
         """Follow the plan, once there is one."""
+        pose, last = observation.pose, self._last
+        self._driven += 0.0 if last is None else math.hypot(pose.x - last.x, pose.y - last.y)
+        self._last = pose
         self._leave_to_mate()
         if self._travel is None:
             if self._planning is None:
@@ -110,9 +126,11 @@ class Boustrophedon(Behaviour):
         context = self._context
         context.learn(pose)
         coverage = context.swept.coverage
-        is_worth = coverage > self._before + WORTH and self._rounds < ROUNDS
+        gain = coverage - self._before
+        is_dear = context.ground.has_marks and self._driven > DEAR * gain * context.swept.reachable_area
+        is_worth = gain > WORTH and self._rounds < ROUNDS and not is_dear
         may_forget = context.ground.has_marks and self._vain < VAIN
-        self._before = coverage
+        self._before, self._driven = coverage, 0.0
         self._rounds += 1
         self._rest = None
         self._planning = context.submit(_round, pose, is_worth, may_forget)
@@ -132,11 +150,11 @@ class Boustrophedon(Behaviour):
         planned, self._planning = self._planning.result(), None
         if self._rest is None:
             self._plan, self._relief = self._plan + 1, planned.relief
-        if planned.has_forgotten:
+        if planned.forgotten is not Forgotten.NOTHING:
             self._vain = 0 if self._before > self._forgot_at + HELPED else self._vain + 1
             self._pause = PAUSE * self._vain
             self._forgot_at = self._before
-            self._context.ground.forget_doubtful()
+            self._context.forget_doubtful(planned.forgotten is Forgotten.EVEN_LASTING)
         self._travel = None if planned.route is None else Travel(self._context, planned.route)
 
     def _leave_to_mate(self) -> None:
@@ -171,8 +189,8 @@ def plan(context: Context, pose: Pose) -> Optional[Route]:
 def _round(context: Context, pose: Pose, is_worth: bool, may_forget: bool) -> Planned:
     """A route that cleans what was missed; if there is none, one without the obstacles that may have gone."""
     from rumba_cleaning.planning import helping, paper  # here for the same reason
-    part = context.beside_obstacles()
-    if part.coverage >= context.target_coverage and part.share > OPEN:
+    is_cut_off = context.is_cut_off(pose)
+    if context.beside_obstacles().coverage >= context.target_coverage and not is_cut_off:
         return Planned(None)
     paper.leave_to_mates(context)
     share = 1.0 / (1 + context.mates.seeking)
@@ -182,10 +200,10 @@ def _round(context: Context, pose: Pose, is_worth: bool, may_forget: bool) -> Pl
     help_for_mate = helping.help_mate(context, pose)
     if help_for_mate is not None:
         return Planned(help_for_mate[0], relief=help_for_mate[1])
-    if not may_forget:
+    if not may_forget or not (context.ground.has_doubtful or is_cut_off):
         return Planned(None)
-    context.ground.forget_doubtful()
-    return Planned(_part_of(plan(context, pose), share), has_forgotten=True)
+    context.ground.forget_doubtful(is_cut_off)
+    return Planned(_part_of(plan(context, pose), share), Forgotten.EVEN_LASTING if is_cut_off else Forgotten.DOUBTFUL)
 
 
 def _part_of(route: Optional[Route], share: float) -> Optional[Route]:

@@ -40,6 +40,7 @@ class Conditions:
     target: float = setting(CleaningConfig().target_coverage, 'share of the reachable floor at which a mission ends',
                             '', 0.0, 1.0)
     obstacles: str = setting('', 'path of a YAML file of obstacles that the maps do not show; robots do not know them')
+    laser: bool = setting(False, 'whether robots drive around what their lasers see and the maps do not show')
     bound: float = setting(12.0, 'working time, in multiples of T, after which a mission is stopped', '', 0.01, 1e6)
 
     def __post_init__(self) -> None:

@@ -15,11 +15,12 @@ from rumba_cleaning.behaviour import Status
 from rumba_cleaning.belief.context import BeforeNextStep, Context, Seed, own_seed
 from rumba_cleaning.belief.mates import Mates
 from rumba_cleaning.cleaning_config import CleaningConfig
-from rumba_cleaning.control import CONTROL_DT, CONTROL_TICKS, STEP_RATE, act, tell_mates
+from rumba_cleaning.control import CONTROL_DT, CONTROL_TICKS, STEP_RATE, act
 from rumba_cleaning.mission.duration import longest
 from rumba_cleaning.mission.mission import Mission, State
+from rumba_cleaning.mission.team import tell_mates
 from rumba_cleaning.outcome import Outcome
-from rumba_cleaning.pose_source import DeadReckoning, Localised, Mapped, PoseSource, truth
+from rumba_cleaning.pose_source import DeadReckoning, Localised, Mapped, PoseSource, seeing, truth
 from rumba_evaluation.scoring.meter import Meter
 from rumba_evaluation.trials import starts
 from rumba_evaluation.trials.cases import ANYWHERE, LOCALISED, ODOMETRY, SLAM, Conditions, Result, severity
@@ -61,7 +62,7 @@ class Trial:
             RumbaError: the strategy is unknown, there is no space for so many robots, or an obstacle is wrong.
         """
         config = updated(RobotConfig(), {'battery': {'drain': conditions.drain}}, 'conditions')
-        cleaning = CleaningConfig()
+        cleaning = CleaningConfig(laser=conditions.laser)
         self._conditions = conditions
         self.world = World(plan, config, STEP_RATE, seed, obstacles)
         poses: Sequence[Optional[Pose]] = [None] * robots
@@ -71,7 +72,7 @@ class Trial:
                 lambda x, y: bool(self.world.obstacles.near(x, y, config.drive.radius)))
         for number, pose in enumerate(poses, 1):
             self.world.spawn(nth_name(number), pose, brushes_up=True)
-        self.sources = {name: _source(plan, self.world, name, conditions.pose, seed) for name in self.world.robots}
+        self.sources = {name: _source(plan, self.world, name, conditions, seed) for name in self.world.robots}
         self._planners = BeforeNextStep()
         self.contexts = [_context(plan, source, config, cleaning, own_seed(seed, name), self._planners,
                                   _mates(name, list(self.sources), conditions.pose))
@@ -166,12 +167,13 @@ def _context(plan: FloorPlan, source: PoseSource, config: RobotConfig, cleaning:
     return Context(plan, config, cleaning, seed, executor, mates=mates)
 
 
-def _source(plan: FloorPlan, world: World, name: str, pose: str, seed: int) -> PoseSource:
-    """By what a robot knows where it is."""
-    if pose == LOCALISED:
+def _source(plan: FloorPlan, world: World, name: str, conditions: Conditions, seed: int) -> PoseSource:
+    """What tells a robot where it is, and what its laser sees, if it goes by that."""
+    if conditions.pose == LOCALISED:
         return Localised(plan, world, name, own_seed(seed, name))
-    if pose == ODOMETRY:
-        return DeadReckoning()
-    if pose == SLAM:
+    if conditions.pose == SLAM:
         return Mapped(world, name, plan.dock)
-    return truth
+    source: PoseSource = truth
+    if conditions.pose == ODOMETRY:
+        source = DeadReckoning()
+    return seeing(source) if conditions.laser else source

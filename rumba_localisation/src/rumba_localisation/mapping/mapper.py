@@ -1,15 +1,16 @@
 """Makes a map of a floor that a robot has never seen, by its odometry and its laser, and finds its place on that."""
 
 import math
-from typing import Dict, NamedTuple, Optional, Tuple
+from typing import Dict, Optional, Tuple
 
 import numpy as np
 
 from rumba_localisation import compiled_matching
-from rumba_localisation.localiser import START, Estimate, Localiser, is_blind, points, thinned
+from rumba_localisation.localiser import START, Estimate, Localiser
 from rumba_localisation.mapping.believed_plan import believed_plan
 from rumba_localisation.mapping.grid import RESOLUTION, Grid
 from rumba_localisation.mapping.mapper_config import MapperConfig
+from rumba_localisation.scan import Scan, is_blind, thinned
 from rumba_sim.model.geometry import Pose, compose, inverse, wrap_angle
 from rumba_sim.model.kernel import Array
 
@@ -27,13 +28,6 @@ LOST_FIT, LOST_AFTER = 0.6, 5  # the robot was carried away if, of the beams tha
 #                                many scans, one after the other; meanwhile the map stays as it is
 FOUND_FIT = 0.6  # from which on a place that was looked for is believed
 CERTAIN = np.diag(LEAST)
-
-
-class Scan(NamedTuple):
-    """What a laser tells at one moment, in its own frame [m]."""
-
-    points: Array  # float64 (any, 2), where beams with an echo end
-    beyond: Array  # float64 (any, 2), as far as beams without an echo reach
 
 
 class Mapper:
@@ -168,16 +162,3 @@ class Mapper:
         turn = wrap_angle(odometry.theta - last.theta) ** 2
         place = config.odom_alpha3 * way + config.odom_alpha4 * turn
         return np.diag(LEAST + (place, place, config.odom_alpha1 * turn + config.odom_alpha2 * way))
-
-
-def scan_of(ranges: Array, angle_min: float, angle_increment: float, range_max: float) -> Scan:
-    """A scan, by its ranges.
-
-    Args:
-        ranges: float (beams) [m]; +inf has no echo, -inf one that is too near (REP 117).
-        angle_min: direction of the first beam [rad].
-        angle_increment: from beam to beam [rad].
-        range_max: up to which a beam without an echo met nothing [m].
-    """
-    free = np.where(np.isposinf(ranges), range_max, np.nan)
-    return Scan(points(ranges, angle_min, angle_increment), points(free, angle_min, angle_increment))

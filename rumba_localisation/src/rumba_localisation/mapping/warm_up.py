@@ -4,8 +4,9 @@ import math
 
 import numpy as np
 
-from rumba_localisation.localiser import Localiser, points
-from rumba_localisation.mapping.mapper import Mapper, scan_of
+from rumba_localisation.localiser import Localiser
+from rumba_localisation.mapping.mapper import Mapper
+from rumba_localisation.scan import points, scan_of
 from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.model.geometry import Pose
 

@@ -1,7 +1,7 @@
 """Converts between messages and what the localisation knows: pure functions."""
 
 import math
-from typing import Any, List, Optional
+from typing import Any, List
 
 import numpy as np
 from geometry_msgs.msg import Point, PoseArray, PoseWithCovariance, PoseWithCovarianceStamped
@@ -9,8 +9,7 @@ from geometry_msgs.msg import Pose as PoseMessage
 from sensor_msgs.msg import LaserScan
 from std_msgs.msg import Header
 
-from rumba_localisation.localiser import points
-from rumba_localisation.mapping.mapper import Scan, scan_of
+from rumba_localisation.scan import points
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.kernel import Array
 from rumba_sim.ros.common.conversions import quaternion
@@ -23,14 +22,6 @@ def scan_points(scan: LaserScan) -> Array:
     if not (math.isfinite(scan.angle_min) and math.isfinite(scan.angle_increment)):
         return np.empty((0, 2))
     return points(np.asarray(scan.ranges, np.float32), scan.angle_min, scan.angle_increment)
-
-
-def whole_scan(message: LaserScan) -> Optional[Scan]:
-    """A scan with the beams that have no echo; None if its angles or its range are no numbers."""
-    if not all(map(math.isfinite, (message.angle_min, message.angle_increment, message.range_max))):
-        return None
-    return scan_of(np.asarray(message.ranges, np.float32), message.angle_min, message.angle_increment,
-                   message.range_max)
 
 
 def covariance_of(message: PoseWithCovariance) -> Array:

@@ -38,6 +38,7 @@ from rumba_localisation.mapping.mapper import Mapper
 from rumba_localisation.mapping.mapper_config import MapperConfig
 from rumba_localisation.ros import conversions
 from rumba_localisation.ros.scan_loop import COMPLAINT_PERIOD, QUEUE, ScanLoop
+from rumba_localisation.scan import told
 from rumba_msg.msg import Bumper, Cliff, DockStatus
 from rumba_sim.model.config import part, setting
 from rumba_sim.model.errors import MapError
@@ -109,7 +110,7 @@ class MapperNode(ScanLoop):
         self._is_docked = message.is_docked
 
     def _use(self, scan: LaserScan, odometry: Pose) -> None:
-        seen = conversions.whole_scan(scan)
+        seen = told(scan)
         if seen is None:
             rospy.logerr_throttle(COMPLAINT_PERIOD, 'scan: its angles and its range must be numbers; ignored')
             return

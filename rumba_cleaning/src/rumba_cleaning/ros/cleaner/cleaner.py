@@ -18,6 +18,7 @@ subscribes to
   dock_status       rumba_msg/DockStatus    battery_state     sensor_msgs/BatteryState
   cleaning_status   rumba_msg/CleaningStatus
   teleop/cmd_vel    geometry_msgs/Twist: while a person drives, and for 0.5 s after, the cleaner commands nothing
+to scan (sensor_msgs/LaserScan) if it goes by its laser,
 to team_report and team_plan of its mates, the robots of its team,
 and to /tf and /tf_static for map -> odom -> base_footprint. It takes part in a lockstep by simulator/lockstep and
 simulator/lockstep_answers (rumba_msg/Lockstep, LockstepAnswer), and uses the service
@@ -98,7 +99,7 @@ class Cleaner:
                                   lambda: self._events.put(self._read_postponed))
         self._robot = Robot(settings.robot, self._on_reading, settings.team.split(),
                             lambda: self._events.put(self._read_postponed), lambda: self._workplace.lockstep,
-                            lambda: self._planners.are_at_work)
+                            lambda: self._planners.are_at_work, settings.laser)
         GoToPosition(settings, self._workplace, self._robot.senses)
         self._servers = {name: self._serve(name) for name in ACTIONS}
         if not rospy.core.is_shutdown_requested():

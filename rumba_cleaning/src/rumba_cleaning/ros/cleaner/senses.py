@@ -6,12 +6,13 @@ import time
 from typing import Any, Callable, Dict, List, Optional, Tuple
 
 import rospy
-from sensor_msgs.msg import BatteryState
+from sensor_msgs.msg import BatteryState, LaserScan
 
 from rumba_cleaning.behaviour import Observation
 from rumba_cleaning.ros.cleaner import conversions
 from rumba_cleaning.ros.cleaner.certainty import Certainty
 from rumba_cleaning.ros.cleaner.location import QUEUE, Location
+from rumba_localisation.scan import told
 from rumba_msg.msg import Bumper, CleaningStatus, Cliff, DockStatus, Lockstep
 from rumba_sim.model.geometry import Pose
 from rumba_sim.ros.common.clock import LATEST
@@ -39,13 +40,14 @@ class Senses:
     """
 
     def __init__(self, robot: str, on_reading: Callable[[], None],
-                 lockstep: Callable[[], Optional[Tuple[str, int]]] = lambda: None) -> None:
+                 lockstep: Callable[[], Optional[Tuple[str, int]]] = lambda: None, has_laser: bool = False) -> None:
         """Listen to a robot.
 
         Args:
             robot: its name.
             on_reading: called after each complete reading, in a thread of rospy.
             lockstep: run and resets of the world that is known, if it is in lockstep; else None.
+            has_laser: whether observations have scans.
         """
         self._robot = robot
         self._on_reading = on_reading
@@ -53,6 +55,8 @@ class Senses:
         self._lock = threading.Lock()
         self._newest: Dict[str, Any] = {}
         self._battery: Optional[BatteryState] = None
+        self._scan: Optional[LaserScan] = None
+        self._observed_scan: Optional[LaserScan] = None
         self._tick: Optional[Lockstep] = None
         self._since: Optional[rospy.Time] = None  # stamp until which messages are of a world that is gone
         self._observed: Optional[int] = None  # `passed` at the last observation [ns]
@@ -63,6 +67,9 @@ class Senses:
         self.cleaning: Optional[CleaningStatus] = None
         self._location = Location(robot, self._check_in_lockstep)
         self._certainty = Certainty(robot, self._check_in_lockstep)
+        self._has_laser = has_laser
+        if has_laser:
+            rospy.Subscriber(f'{robot}/scan', LaserScan, self._on_scan, queue_size=QUEUE)
         rospy.Subscriber(f'{robot}/battery_state', BatteryState, self._on_battery, queue_size=QUEUE)
         rospy.Subscriber(f'{robot}/cleaning_status', CleaningStatus, self._on_cleaning, queue_size=QUEUE)
         self._subscribers = {
@@ -73,6 +80,12 @@ class Senses:
         with self._lock:
             if math.isfinite(battery.percentage) and not self._is_old(battery):
                 self._battery = battery
+        self._check_in_lockstep()
+
+    def _on_scan(self, scan: LaserScan) -> None:
+        with self._lock:
+            if not self._is_old(scan):
+                self._scan = scan
         self._check_in_lockstep()
 
     def _on_cleaning(self, cleaning: CleaningStatus) -> None:
@@ -124,6 +137,8 @@ class Senses:
         """Whether everything has come that was published up to a control tick; a stamp of 0: it is not published."""
         stamp = tick.header.stamp
         parts = [(self._newest.get(topic), stamp) for topic in READING]
+        if self._has_laser:
+            parts.append((self._scan, tick.scan))
         location, certainty = self._location, self._certainty
         if certainty.is_told and min(location.corrected, certainty.stamp) < tick.scan:
             return False
@@ -160,8 +175,9 @@ class Senses:
             self._since, self.unread = since, 0
             earliest = rospy.Time(LATEST) if is_new_run else since
             self._newest = {topic: part for topic, part in self._newest.items() if part.header.stamp > earliest}
-            self._battery, self.cleaning = (message if message is not None and message.header.stamp > earliest else None
-                                            for message in (self._battery, self.cleaning))
+            self._battery, self.cleaning, self._scan = (
+                message if message is not None and message.header.stamp > earliest else None
+                for message in (self._battery, self.cleaning, self._scan))
             self.stamp = None
         if is_new_run:
             self._location.forget()
@@ -169,11 +185,15 @@ class Senses:
         self.check()
 
     def observe(self) -> Optional[Observation]:
-        """As `look`, with the time since the observation before."""
-        found, passed = self.look(), self.passed
+        """As `look`, with the time since the observation before, and the scan if there is a new one."""
+        found, passed, scan = self.look(), self.passed, self._scan
         dt = passed - self._observed if self._observed is not None else 0
         self._observed = passed
-        return found._replace(dt=dt / SECOND) if found is not None else None
+        if found is None:
+            return None
+        is_new = scan is not None and scan is not self._observed_scan
+        self._observed_scan = scan
+        return found._replace(dt=dt / SECOND, scan=told(scan) if is_new else None)
 
     def look(self) -> Optional[Observation]:
         """What the robot knows now, with dt 0; None if something is missing."""

@@ -1,0 +1,61 @@
+"""What a laser tells, as points."""
+
+import math
+from typing import Any, NamedTuple, Optional
+
+import numpy as np
+
+from rumba_sim.model.kernel import Array
+
+FEWEST = 10  # beams with an echo, fewer tell nothing
+
+
+class Scan(NamedTuple):
+    """What a laser tells at one moment, in its own frame [m]."""
+
+    points: Array  # float64 (any, 2), where beams with an echo end
+    beyond: Array  # float64 (any, 2), as far as beams without an echo reach
+
+
+def points(ranges: Array, angle_min: float, angle_increment: float) -> Array:
+    """Where the beams of a scan that have an echo end, in the frame of the laser: float64 (any, 2) [m].
+
+    Args:
+        ranges: float (beams) [m]; an infinite one has no echo (REP 117).
+        angle_min: direction of the first beam [rad].
+        angle_increment: from beam to beam [rad].
+    """
+    has_echo = np.isfinite(ranges)
+    angles = angle_min + angle_increment * np.flatnonzero(has_echo)
+    return np.stack([np.cos(angles), np.sin(angles)], axis=1) * ranges[has_echo].astype(np.float64)[:, None]
+
+
+def scan_of(ranges: Array, angle_min: float, angle_increment: float, range_max: float) -> Scan:
+    """A scan, by its ranges.
+
+    Args:
+        ranges: float (beams) [m]; +inf has no echo, -inf one that is too near (REP 117).
+        angle_min: direction of the first beam [rad].
+        angle_increment: from beam to beam [rad].
+        range_max: up to which a beam without an echo met nothing [m].
+    """
+    free = np.where(np.isposinf(ranges), range_max, np.nan)
+    return Scan(points(ranges, angle_min, angle_increment), points(free, angle_min, angle_increment))
+
+
+def told(message: Any) -> Optional[Scan]:
+    """What a sensor_msgs/LaserScan tells; None if its angles or its range are no numbers."""
+    if not all(map(math.isfinite, (message.angle_min, message.angle_increment, message.range_max))):
+        return None
+    return scan_of(np.asarray(message.ranges, np.float32), message.angle_min, message.angle_increment,
+                   message.range_max)
+
+
+def is_blind(points: Array) -> bool:
+    """Whether so few beams have an echo that they tell nothing."""
+    return len(points) < FEWEST
+
+
+def thinned(points: Array, count: int) -> Array:
+    """At most `count` of the points, spread evenly."""
+    return points if len(points) <= count else points[np.linspace(0, len(points) - 1, count).astype(np.int64)]
