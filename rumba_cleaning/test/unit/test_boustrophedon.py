@@ -11,6 +11,7 @@ from rumba_cleaning.behaviour import Status
 from rumba_cleaning.control import steps
 from rumba_cleaning.mission.mission import Mission, State
 from rumba_cleaning.outcome import Outcome
+from rumba_cleaning.pose_source import seeing, truth
 from rumba_cleaning.strategies.boustrophedon import Boustrophedon
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.obstacle import Obstacle
@@ -83,3 +84,17 @@ def test_a_robot_that_parks_in_the_way_is_cleaned_around_and_under_once_it_is_go
             world.kill('rumba2')
     assert mission.state is State.IDLE
     assert world.floor.coverage >= 0.99
+
+
+def test_a_laser_saves_most_of_the_touches_that_outline_obstacles():
+    plan = room(4.0, 3.0, 0.02, start=Pose(0.5, 0.5, 0.0))
+    bumps = []
+    for laser in (False, True):
+        world = World(plan, quiet(), 50, 1, [Obstacle('box', Pose(2.0, 1.5, 0.4), 0.3, length=0.6, width=0.4),
+                                             Obstacle('bag', Pose(3.2, 0.8, 0.0), 0.3, 0.12)])
+        robot = world.spawn('rumba')
+        mission = Mission(context_of(plan, world, laser=laser), 'boustrophedon', 0.98)
+        run(mission, world, seconds=1500.0, source=seeing(truth))
+        assert mission.outcome is Outcome.INCOMPLETE and world.floor.coverage >= 0.98
+        bumps.append(robot.bumps)
+    assert bumps[1] < 0.5 * bumps[0]

@@ -56,6 +56,12 @@ def test_a_team_without_the_robot_or_with_wrong_names_is_refused(team):
         Settings(team=team)
 
 
+def test_robots_that_make_their_own_maps_are_no_team():
+    Settings(team='rumba', mapping=True)
+    with pytest.raises(ConfigError, match='^team is .rumba rumba2.: must be empty with mapping: '):
+        Settings(team='rumba rumba2', mapping=True)
+
+
 def test_an_unknown_answer_of_go_to_position_is_refused():
     with pytest.raises(ConfigError, match="^it: go_to_position/answer is 'speed': must be velocity or heading$"):
         from_mapping(Settings, {'go_to_position': {'answer': 'speed'}}, 'it')

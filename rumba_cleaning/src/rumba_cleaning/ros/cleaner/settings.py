@@ -45,6 +45,9 @@ class Settings(CleaningConfig):
                 map(is_legal_base_name, names)):
             raise ConfigError(f'team is {self.team!r}: must be names of robots, each of them once, and {self.robot!r} '
                               'among them')
+        if self.mapping and len(names) > 1:
+            raise ConfigError(f'team is {self.team!r}: must be empty with mapping: each robot would make a map of its '
+                              'own, in a frame of its own')
 
     @property
     def cleaning(self) -> CleaningConfig:
