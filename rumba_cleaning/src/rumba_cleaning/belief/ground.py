@@ -25,8 +25,8 @@ LEAST = 0.01  # [m] radius of an obstacle, below which there is none
 SEEN = 0.02  # [m] radius of what is seen at a point: half a cell of `Sight`
 EXTRA_CLEARANCE = 0.04  # [m] beside straight parts of a path: large touches less, small makes paths shorter
 NEAR = 0.4  # [m] a goal this near is driven to directly, without the extra clearance: a path around it costs more
-ESCAPE = 0.15  # [m] from where a robot is, it may go to another part of the floor: it does not reach across what is
-#               between two parts, which are at least a robot's diameter apart there
+ESCAPE = 0.15  # [m] from where a robot is, it may go to another part of the floor, through a passage ...
+NARROW = 0.03  # [m] ... that is too narrow by twice this, at most: three errors of a pose
 SEARCH_SPACING = 0.05  # [m] between the nodes that are looked at first: large is fast, but misses narrow passages
 SEARCH_MARGIN = 2.0  # [m] around both ends is searched first: small is fast, but a longer path needs a second search
 INFLATION = 0.1  # [m] beyond the touching distance, within which a path costs more: large keeps to the open floor ...
@@ -246,14 +246,17 @@ class Ground:
     def standing_at(self, x: float, y: float) -> Tuple[int, int]:
         """The node nearest to a point [m] at which the robot can stand.
 
-        If there are several parts of the floor within ESCAPE, it lies in the largest: the robot is in none of them, or
-        in a pocket that it would not have got into, so it is not quite where it believes to be, or obstacles are not.
+        In a passage in which it does not fit by less than NARROW, it lies in the largest part of the floor within
+        ESCAPE: the robot is not quite where it believes to be, or obstacles are not.
         """
         (row, column), = self.standing(self.nodes(np.array([[x, y]]))).tolist()
         size = int(ESCAPE / self.plan.resolution) + 1
         middle_row, middle_column = self.node(x, y)
         top, left = max(middle_row - size, 0), max(middle_column - size, 0)
-        parts = self._parts()[top:middle_row + size + 1, left:middle_column + size + 1]
+        window = slice(top, middle_row + size + 1), slice(left, middle_column + size + 1)
+        joined, _ = ndimage.label(self.clearance[window] >= self.reach - NARROW, ALL_AROUND)
+        here = joined[middle_row - top, middle_column - left]
+        parts = np.where((joined == here) & (here > 0), self._parts()[window], 0)
         if len(np.unique(parts[parts > 0])) < 2:
             return row, column
         sizes = np.bincount(self._parts().ravel())
