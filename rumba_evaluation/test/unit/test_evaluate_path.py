@@ -76,6 +76,7 @@ def test_a_bad_path_is_one_line(run, content, message):
 @pytest.mark.parametrize('arguments, message', [
     (['--strategies', 'bounce'], '--strategies has no meaning with --path'),
     (['--import', 'x'], '--import has no meaning with --path'),
+    (['--laser'], '--laser has no meaning with --path'),
     (['--maps', 'studio', 'field'], '--path needs --maps with the one map that the path is for'),
     (['--speed', '0'], '--speed is 0: must be above 0, and 0.5 m/s at most'),
     (['--speed', 'nan'], '--speed is nan: must be above 0'),

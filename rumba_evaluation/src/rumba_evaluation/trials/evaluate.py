@@ -88,6 +88,7 @@ def _parser() -> argparse.ArgumentParser:
         help='by what robots know where they are: the truth, laser and odometry, or odometry; default %(default)s')
     add('--obstacles', type=_path, default='', metavar='FILE',
         help='YAML file of obstacles that the maps do not show, and that the robots do not know')
+    add('--laser', action='store_true', help='robots drive around what their lasers see and the maps do not show')
     for field in dataclasses.fields(Conditions):
         if isinstance(field.default, float):
             add(f'--{field.name}', type=float, default=field.default,

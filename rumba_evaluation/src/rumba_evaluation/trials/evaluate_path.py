@@ -17,7 +17,7 @@ from rumba_sim.model.errors import ConfigError
 from rumba_sim.model.robot_config import RobotConfig
 
 JSON, TEXT = FORMATS = 'json', 'text'
-OF_MISSIONS = ('strategies', 'seeds', 'robots', 'start', 'pose', 'target', 'modules', 'jobs', 'scheduler')
+OF_MISSIONS = ('strategies', 'seeds', 'robots', 'start', 'pose', 'laser', 'target', 'modules', 'jobs', 'scheduler')
 OF_PATHS = ('as_drawn', 'speed', 'topic')
 
 
