@@ -45,7 +45,8 @@ def test_the_solution_earns_all_points_and_each_wrong_submission_less(exercise, 
     class_of(exercise, tmp_path / 'class')
     rows = marked(workspace.space('devel'), tmp_path, f'{exercise}/hidden')
     assert len(rows) == 4
-    assert {name for name, row in rows.items() if row['points'] == row['of']} == {'solution'}, rows
+    assert {name for name, row in rows.items() if row['points'] == row['of']} == {'solution'}, '\n'.join(
+        f'{name}: {row}' for name, row in rows.items())
 
 
 def test_an_examination_is_passed_by_what_a_robot_knows_and_void_for_who_looks_at_the_truth(workspace, tmp_path):
