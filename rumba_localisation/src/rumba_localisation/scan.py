@@ -1,5 +1,6 @@
 """What a laser tells, as points."""
 
+import functools
 import math
 from typing import Any, NamedTuple, Optional
 
@@ -26,8 +27,14 @@ def points(ranges: Array, angle_min: float, angle_increment: float) -> Array:
         angle_increment: from beam to beam [rad].
     """
     has_echo = np.isfinite(ranges)
-    angles = angle_min + angle_increment * np.flatnonzero(has_echo)
-    return np.stack([np.cos(angles), np.sin(angles)], axis=1) * ranges[has_echo].astype(np.float64)[:, None]
+    return _directions(len(ranges), angle_min, angle_increment)[has_echo] * ranges[has_echo].astype(np.float64)[:, None]
+
+
+@functools.lru_cache(maxsize=8)
+def _directions(count: int, angle_min: float, angle_increment: float) -> Array:
+    """Directions of beams: float64 (count, 2), unit vectors in the frame of the laser."""
+    angles = angle_min + angle_increment * np.arange(count)
+    return np.stack([np.cos(angles), np.sin(angles)], axis=1)
 
 
 def scan_of(ranges: Array, angle_min: float, angle_increment: float, range_max: float) -> Scan:

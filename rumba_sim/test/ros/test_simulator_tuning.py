@@ -59,6 +59,7 @@ class SimulatorTuningTest(unittest.TestCase):
         now = client.update_configuration({'rates_scan': 25})
         self.assertEqual(now['rates_scan'], 25)
         simulator.end()
+        client.close()  # or rospy may connect to the new node before that says that its topics are latched
         # A new node with the same name at the same master uses none of these values.
         Simulator(self, '_speed:=1', forget=False)
         again = self.client()

@@ -51,6 +51,9 @@ class RightOfWay:
         pose = observation.pose
         mates = {name: report for name, report in self._context.mates.reports.items()
                  if report.task in MOVING and _distance(report.pose, pose) < NEAR}
+        if not mates:
+            self.rest()
+            return None
         mine = _points(ahead, pose, MINE)
         command = None
         for name, report in mates.items():

@@ -254,10 +254,13 @@ class Ground:
         middle_row, middle_column = self.node(x, y)
         top, left = max(middle_row - size, 0), max(middle_column - size, 0)
         window = slice(top, middle_row + size + 1), slice(left, middle_column + size + 1)
+        parts = self._parts()[window]
+        if _is_of_one(parts):  # nearly everywhere
+            return row, column
         joined, _ = ndimage.label(self.clearance[window] >= self.reach - NARROW, ALL_AROUND)
         here = joined[middle_row - top, middle_column - left]
-        parts = np.where((joined == here) & (here > 0), self._parts()[window], 0)
-        if len(np.unique(parts[parts > 0])) < 2:
+        parts = np.where((joined == here) & (here > 0), parts, 0)
+        if _is_of_one(parts):
             return row, column
         sizes = np.bincount(self._parts().ravel())
         sizes[0] = 0
@@ -385,3 +388,9 @@ class Ground:
 def _marks(points: Array) -> List[Mark]:
     """Obstacles that were seen at points (any, 2) [m]."""
     return [Mark(x, y, SEEN) for x, y in points.tolist()]
+
+
+def _is_of_one(parts: Array) -> bool:
+    """Whether all nodes of a window at which a robot can stand, if any, belong to one part of the floor."""
+    most = parts.max()
+    return bool(((parts == 0) | (parts == most)).all())
