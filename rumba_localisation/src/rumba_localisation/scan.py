@@ -65,4 +65,10 @@ def is_blind(points: Array) -> bool:
 
 def thinned(points: Array, count: int) -> Array:
     """At most `count` of the points, spread evenly."""
-    return points if len(points) <= count else points[np.linspace(0, len(points) - 1, count).astype(np.int64)]
+    return points if len(points) <= count else points[_spread(len(points), count)]
+
+
+@functools.lru_cache(maxsize=1024)
+def _spread(length: int, count: int) -> Array:
+    """Indices, spread evenly from 0 to length - 1: int64 (count)."""
+    return np.linspace(0, length - 1, count).astype(np.int64)
