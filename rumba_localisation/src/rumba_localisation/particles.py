@@ -69,12 +69,21 @@ def bins_of(poses: Array) -> Array:
 
 def heaviest(poses: Array, share: Array) -> Cluster:
     """The cluster around the bin with the largest weight."""
+    mean, covariance = mean_and_covariance(poses, share)
+    if _are_near(poses, mean, 0.5).all():  # then they are near each other, and the mean of any bin is near them all
+        return Cluster(mean, covariance, float(share.sum()))
     bins, where = np.unique(bins_of(poses), return_inverse=True)
     is_best = where == np.argmax(np.bincount(where, weights=share))
     middle, _ = mean_and_covariance(poses[is_best], share[is_best])
-    off = np.abs(wrapped(poses[:, 2] - middle[2]))
-    is_near = (np.hypot(poses[:, 0] - middle[0], poses[:, 1] - middle[1]) < NEAR[0]) & (off < NEAR[1])
+    is_near = _are_near(poses, middle, 1.0)
     return Cluster(*mean_and_covariance(poses[is_near], share[is_near]), float(share[is_near].sum()))
+
+
+def _are_near(poses: Array, middle: Array, scale: float) -> Array:
+    """Which poses are within NEAR, times a scale, of the middle of a cluster: bool (any)."""
+    off = np.abs(wrapped(poses[:, 2] - middle[2]))
+    return np.asarray(
+        (np.hypot(poses[:, 0] - middle[0], poses[:, 1] - middle[1]) < scale * NEAR[0]) & (off < scale * NEAR[1]))
 
 
 def mean_and_covariance(poses: Array, share: Array) -> Tuple[Array, Array]:
