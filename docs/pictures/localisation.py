@@ -3,10 +3,7 @@
 import math
 import pathlib
 
-import matplotlib
-
-matplotlib.use('Agg')
-from matplotlib import pyplot
+from matplotlib.figure import Figure
 
 from rumba_evaluation.trials.cases import LOCALISED, ODOMETRY, Conditions
 from rumba_evaluation.trials.trial import Trial
@@ -22,7 +19,8 @@ EVERY = 10  # steps from one point of a curve to the next
 
 def main():
     """Run the same mission by either kind of pose, and draw the errors."""
-    figure, axes = pyplot.subplots(figsize=(7.5, 3.2), layout='constrained')
+    figure = Figure(figsize=(7.5, 3.2), layout='constrained')
+    axes = figure.subplots()
     for pose, (words, height, colour) in KINDS.items():
         axes.semilogy(*mission(pose), color=colour, linewidth=1.0)
         axes.annotate(words, (0.98 * LONGEST, height), color=colour, horizontalalignment='right')
