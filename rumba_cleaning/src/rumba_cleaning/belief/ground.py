@@ -249,9 +249,9 @@ class Ground:
         In a passage in which it does not fit by less than NARROW, it lies in the largest part of the floor within
         ESCAPE: the robot is not quite where it believes to be, or obstacles are not.
         """
-        (row, column), = self.standing(self.nodes(np.array([[x, y]]))).tolist()
-        size = int(ESCAPE / self.plan.resolution) + 1
         middle_row, middle_column = self.node(x, y)
+        row, column = self._standing()[:, middle_row, middle_column].tolist()
+        size = int(ESCAPE / self.plan.resolution) + 1
         top, left = max(middle_row - size, 0), max(middle_column - size, 0)
         window = slice(top, middle_row + size + 1), slice(left, middle_column + size + 1)
         parts = self._parts()[window]
