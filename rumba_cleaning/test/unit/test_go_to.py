@@ -9,9 +9,11 @@ from rooms import RADIUS, crooked, quiet, room
 
 from rumba_cleaning.behaviour import STOP, Status
 from rumba_cleaning.behaviours.go_to import GoTo
-from rumba_cleaning.control import steps
+from rumba_cleaning.behaviours.travel import Going, Travel
+from rumba_cleaning.control import CONTROL_DT, CONTROL_TICKS, observe, steps
 from rumba_cleaning.outcome import Outcome
 from rumba_cleaning.pose_source import seeing, truth
+from rumba_cleaning.route import Route
 from rumba_sim.model.errors import MapError
 from rumba_sim.model.geometry import Pose, wrap_angle
 from rumba_sim.model.obstacle import Obstacle
@@ -171,6 +173,22 @@ def test_with_its_laser_it_touches_nothing_that_the_laser_sees(laser):
     run(behaviour, world, seconds=60.0, source=seeing(truth))
     assert behaviour.status is Status.SUCCEEDED, behaviour.message
     assert (world.robots['rumba'].bumps == 0) == laser
+
+
+def test_it_backs_off_from_what_it_touches_and_sees():
+    world = World(HALL, quiet(), 50, 1, [Obstacle('box', Pose(2.0, 1.5, 0.0), 0.3, length=0.4, width=0.6)])
+    world.spawn('rumba', Pose(1.75 - RADIUS, 1.5, 0.0))
+    robot = world.robots['rumba']
+    robot.command(0.2, 0.0, world.tick)
+    world.step(20)
+    assert any(robot.bumper)
+    route = Route(np.array([[1.8 - RADIUS, 1.5], [3.5, 1.5]]), np.array([0.2]))
+    travel = Travel(context_of(HALL, world, laser=True), route)
+    while travel.going is Going.ON:
+        command = travel.command(observe(world, 'rumba', CONTROL_DT, seeing(truth)), brushes_up=True)
+        robot.command(command.v, command.w, world.tick)
+        world.step(CONTROL_TICKS)
+    assert travel.going is Going.BLOCKED and robot.pose.x < 1.77 - RADIUS
 
 
 def test_it_waits_for_somebody_who_stands_in_its_only_way():

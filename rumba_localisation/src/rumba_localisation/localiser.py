@@ -23,6 +23,7 @@ FITS = 0.25  # share of beams that end at a wall, at least: what the map does no
 DOUBT = 0.1  # the share by which scans fit worse than in the long run, from which on particles are drawn from the scan
 SOME = 20  # beams, by which particles are looked at that may be in the wrong place
 PLAUSIBLE = 0.75  # of how well scans went with the estimates before, at least
+LITTLE, RARELY = 0.005, 20  # [m], [rad] of movement after which one scan in so many is used: wheels may slip in place
 GOOD, STARTS = 0.85, 8  # a fit below which a match begins also at so many of the heaviest particles
 WORSE, SOON = 0.8, 0.1  # times the average fit, below which the wheels may have slipped; weight of each scan in it
 SLIPS = np.linspace(-0.4, 0.4, 5)  # [rad] by which they may have turned the robot ...
@@ -101,6 +102,7 @@ class Localiser:
     def _begin(self) -> None:
         self._logarithms = np.zeros(len(self.particles))
         self._last: Optional[Pose] = None  # odometry at the newest scan that was used
+        self._unused = 0  # scans since then
         self._slow = self._fast = 0.0  # averages of how well scans fit
         self._fit = 0.0  # average share of beams that end at a wall
         self._is_in_doubt = True
@@ -123,8 +125,12 @@ class Localiser:
         Returns:
             Whether it was used: there is a new estimate and a new correction.
         """
-        if not (is_forced or self._has_moved(odometry)):
+        self._unused += 1
+        config = self.config
+        if not (is_forced or self._has_moved(odometry, config.update_min_d, config.update_min_a)
+                or self._unused >= RARELY and self._has_moved(odometry, LITTLE, LITTLE)):
             return False
+        self._unused = 0
         if self._last is not None:
             self.particles = motion.moved(self.particles, self._last, odometry, self.config, self._generator)
         elif is_blind(points):
@@ -136,11 +142,11 @@ class Localiser:
         self.correction = compose(self.estimate.pose, inverse(odometry))
         return True
 
-    def _has_moved(self, odometry: Pose) -> bool:
+    def _has_moved(self, odometry: Pose, distance: float, turn: float) -> bool:
+        """Whether the robot has moved by a distance [m], or a turn [rad], since the newest scan that was used."""
         last = self._last
-        return last is None or (
-            math.hypot(odometry.x - last.x, odometry.y - last.y) >= self.config.update_min_d
-            or abs(wrap_angle(odometry.theta - last.theta)) >= self.config.update_min_a)
+        return last is None or (math.hypot(odometry.x - last.x, odometry.y - last.y) >= distance
+                                or abs(wrap_angle(odometry.theta - last.theta)) >= turn)
 
     def _weigh(self, points: Array) -> None:
         """Weigh the particles, and draw new ones if few of them carry most of the weight."""

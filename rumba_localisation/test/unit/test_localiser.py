@@ -11,7 +11,7 @@ from rumba_localisation.localiser import START
 from rumba_localisation.localiser_config import LocaliserConfig
 from rumba_localisation.scan import points, thinned
 from rumba_sim.model.errors import ConfigError
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.geometry import Pose, compose
 from rumba_sim.model.obstacle import Obstacle
 from rumba_sim.model.robot_config import RobotConfig
 from rumba_sim.model.world import World
@@ -140,6 +140,21 @@ def test_wheels_that_slip_for_a_second_do_not_lose_the_robot(slipped):
                                  pose.theta))
     errors = list(drive(world, localiser, 0.2, 0.3, 6.0))
     assert max(map(max, errors[-30:])) < 0.05 and localiser.estimate.is_sure
+
+
+def test_wheels_that_slip_in_place_are_noticed_within_seconds():
+    """As those of a robot that drives against an obstacle, and moves less than what a scan is used after."""
+    world = world_of()
+    localiser, robot = localiser_of(world.plan), world.robots['rumba']
+    localiser.start_at(robot.pose)
+    list(drive(world, localiser, 0.2, 0.3, 5.0))
+    slipped = compose(robot.odometry, Pose(0.04, 0.0, 0.0))
+    errors = []
+    for _ in range(30):
+        localiser.observe(slipped, scanned(world))
+        errors.append(error(localiser.pose(slipped), robot.pose)[0])
+    assert errors[0] > 0.02 and max(errors[20:]) < 0.01
+    assert not any([localiser.observe(slipped, scanned(world)) for _ in range(50)])  # it stands
 
 
 def test_without_echoes_the_pose_becomes_uncertain_and_is_found_again():

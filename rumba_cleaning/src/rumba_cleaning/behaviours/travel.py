@@ -89,6 +89,9 @@ class Travel:
             self._back, self._leaves = recoil.time_back(observation), True
             return Command(-recoil.SPEED, 0.0, brushes_up)
         if self._sees_obstacle(observation):
+            if any(observation.contact):  # or it would stay there, and find the same way again
+                self._back, self._leaves = recoil.time_back(observation), True
+                return Command(-recoil.SPEED, 0.0, brushes_up)
             self.going = Going.BLOCKED
             return Command(0.0, 0.0, brushes_up)
         v, w = self._follower.velocity(observation.pose, observation.dt)
