@@ -8,13 +8,14 @@ from drivers import context_of, drive_by_hand, run, with_box
 from rooms import RADIUS, crooked, quiet, room
 
 from rumba_cleaning.behaviour import Status
-from rumba_cleaning.behaviours.dock import Dock
+from rumba_cleaning.behaviours.dock import Dock, approach
 from rumba_cleaning.behaviours.homing import BUOYS, Homing
 from rumba_cleaning.behaviours.undock import Undock
 from rumba_cleaning.control import observe, steps
 from rumba_cleaning.outcome import Outcome
 from rumba_sim.model.errors import MapError
 from rumba_sim.model.geometry import Pose, wrap_angle
+from rumba_sim.model.obstacle import Obstacle
 from rumba_sim.model.world import World
 
 DOCK = Pose(5.0 - RADIUS - 0.01, 1.3, 0.0)
@@ -104,6 +105,21 @@ def test_a_dock_with_something_before_it_is_given_up():
     assert (behaviour.status, behaviour.outcome) == (Status.FAILED, Outcome.FAILED)
     assert behaviour.message == '3 attempts to dock failed: the beams of the dock are lost'
     assert not world.robots['rumba'].is_docked
+
+
+def test_with_something_at_the_point_before_the_dock_it_begins_nearer():
+    thing = Obstacle('thing', Pose(DOCK.x - 0.95, DOCK.y + 0.05, 0.0), 0.3, radius=0.15)
+    world = World(PLAN, quiet(), 50, 1, [thing])
+    world.spawn('rumba', Pose(1.0, 2.5, 0.0))
+    context = context_of(PLAN, world)
+    before = approach(context)
+    assert math.hypot(before.x - thing.pose.x, before.y - thing.pose.y) < thing.radius + RADIUS
+    context.ground.mark(thing.pose.x, thing.pose.y, thing.radius)
+    assert DOCK.x - 0.8 < approach(context).x < DOCK.x - 0.3
+    context.forget_obstacles()
+    behaviour = Dock(context)
+    run(behaviour, world, seconds=200.0)
+    assert behaviour.status is Status.SUCCEEDED, behaviour.message
 
 
 def test_moved_elsewhere_while_the_beams_guide_it_it_still_comes_home():

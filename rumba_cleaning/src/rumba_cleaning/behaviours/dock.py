@@ -1,5 +1,6 @@
 """dock: home, by the infrared beams if they are received, by the map from anywhere else."""
 
+import contextlib
 import math
 from typing import Dict, Optional
 
@@ -75,7 +76,9 @@ class Dock(Behaviour):
         if self._part is None:
             homes = is_at_home and observation.infrared.omni & BUOYS and (
                 not self._context.mates.reports or self._away < CLOSE)
-            self._part = Homing(self._context) if homes else GoTo(self._context, self._approach)
+            self._part = Homing(self._context) if homes else self._way_home()
+        elif isinstance(self._part, GoTo) and self._is_covered():
+            self._part = self._way_home()
         command = self._part.step(observation)
         self.message = self._part.message
         if self._part.status is Status.RUNNING:
@@ -86,11 +89,22 @@ class Dock(Behaviour):
                 return self.fail(f'cannot get to the dock: {self._part.message}', outcome)
             self._part = Homing(self._context)
         else:
-            self._part = GoTo(self._context, self._approach)
+            self._part = self._way_home()
             self._tries += 1
             if self._tries >= TRIES:
                 return self.fail(f'{TRIES} attempts to dock failed: {self.message}', outcome)
         return Command(0.0, 0.0, brushes_up=True)
+
+    def _way_home(self) -> GoTo:
+        """To the point before the dock, by the obstacles that are known now."""
+        with contextlib.suppress(MapError):  # a map that grows may show less space there: the point stays
+            self._approach = approach(self._context)
+        return GoTo(self._context, self._approach)
+
+    def _is_covered(self) -> bool:
+        """Whether an obstacle that the robot met covers the point before the dock, and another one will do."""
+        here = np.array(self._approach[:2])
+        return self._context.ground.is_marked(here, here) and approach(self._context) != self._approach
 
     # --- the queue ------------------------------------------------------------------------------------------------
 
@@ -157,16 +171,20 @@ def home(context: Context) -> Pose:
 
 
 def approach(context: Context) -> Pose:
-    """Where a robot stands before the dock, and faces it.
+    """Where a robot stands before the dock, and faces it: as far away as obstacles that it met leave the line free.
 
     Raises:
         MapError: the plan has no dock, or the robot fits nowhere before it.
     """
     dock = home(context)
-    for steps in BEFORE:
-        line = [Pose(dock.x - step * STEP * math.cos(dock.theta), dock.y - step * STEP * math.sin(dock.theta),
-                     dock.theta) for step in range(1, steps + 1)]
-        if all(context.plan.safe_clearance_at(pose.x, pose.y) > context.ground.reach for pose in line):
-            return line[-1]
-    raise MapError(f'{context.plan.name}: too little space before the dock at ({dock.x:.2f}, {dock.y:.2f}) m: '
-                   f'a robot of radius {context.robot.drive.radius:.3f} m cannot drive up to it')
+    ways = np.array([[step * STEP * math.cos(dock.theta), step * STEP * math.sin(dock.theta)]
+                     for step in range(1, max(BEFORE) + 1)])
+    line = np.array(dock[:2]) - ways
+    fitting = [steps for steps in BEFORE if all(
+        context.plan.safe_clearance_at(x, y) > context.ground.reach for x, y in line[:steps].tolist())]
+    if not fitting:
+        raise MapError(f'{context.plan.name}: too little space before the dock at ({dock.x:.2f}, {dock.y:.2f}) m: '
+                       f'a robot of radius {context.robot.drive.radius:.3f} m cannot drive up to it')
+    free = [steps for steps in fitting if not context.ground.is_marked(line[0], line[steps - 1])]
+    x, y = line[(free or fitting)[0] - 1].tolist()
+    return Pose(x, y, dock.theta)

@@ -17,7 +17,8 @@ WORTH = 0.0005  # of coverage: a round that gains less is the last: a round for 
 DEAR = 150.0  # [m/m^2] that a round beside obstacles drives for what it gains, beyond which it is the last: five times
 #               what the planner drives for a crumb, so most of what it planned for cannot be reached
 HELPED = 0.01  # of coverage: forgetting obstacles that gained less was in vain: to touch them all again takes long
-VAIN = 2  # times that obstacles are forgotten in vain, after which it ends
+VAIN = 2  # times that obstacles are forgotten in vain, after which it ends ...
+PATIENT, MUCH = 6, 0.9  # ... and so many while less than this share is swept of what lies beside obstacles
 PAUSE = 20.0  # [s] after the first of these times, twice that after the second ...: who stands there may walk on
 TURN = 20.0  # [s] that a mate may take to plan, before it is the turn of the robot all the same; our choice
 ROUNDS = 20  # at most, each with what was missed before: far more than the maps of rumba_sim need
@@ -129,11 +130,15 @@ class Boustrophedon(Behaviour):
         gain = coverage - self._before
         is_dear = context.ground.has_marks and self._driven > DEAR * gain * context.swept.reachable_area
         is_worth = gain > WORTH and self._rounds < ROUNDS and not is_dear
-        may_forget = context.ground.has_marks and self._vain < VAIN
+        may_forget = context.ground.has_marks and self._vain < self._tries()
         self._before, self._driven = coverage, 0.0
         self._rounds += 1
         self._rest = None
         self._planning = context.submit(_round, pose, is_worth, may_forget)
+
+    def _tries(self) -> int:
+        """How often obstacles may be forgotten in vain: somebody in the only way to much of the floor is waited for."""
+        return VAIN if self._context.beside_obstacles().coverage > MUCH else PATIENT
 
     def _leave_route(self, travel: Travel, pose: Pose) -> None:
         """Plan the way back onto the route if the robot had to leave it."""
