@@ -73,6 +73,25 @@ def test_it_waits_for_what_stands_in_a_doorway_to_go():
     assert is_open and context.swept.coverage > 0.98
 
 
+def test_somebody_who_stands_in_the_only_door_now_and_then_does_not_end_it_early():
+    """For minutes, but never for so long that it would have to be furniture."""
+    plan = room(5.0, 3.0, boxes=[(2.4, 0.0, 2.6, 1.0), (2.4, 1.9, 2.6, 3.0)], start=Pose(1.0, 1.0, 0.0))
+    world = World(plan, quiet())
+    robot = world.spawn('rumba')
+    context = context_of(plan, world, laser=True)
+    context.swept.begin(1.0, 1.0)
+    time = 0.0  # [s] since the person came
+    for observation, _ in steps(Boustrophedon(context), world, seconds=2500.0, source=seeing(truth)):
+        context.swept.follow(robot.pose, robot.brushes_up)
+        time += observation.dt if time > 0.0 or context.swept.coverage > 0.02 else 0.0
+        stands = 0.0 < time < 500.0 and time % 50.0 < 47.0
+        if stands and not world.obstacles.items and robot.pose.x < 2.1:
+            world.add_obstacle(Obstacle('person', Pose(2.5, 1.45, 0.0), 1.7, 0.2))
+        elif not stands and world.obstacles.items:
+            world.remove_obstacle('person')
+    assert time > 500.0 and context.swept.coverage > 0.98
+
+
 def test_a_robot_that_parks_in_the_way_is_cleaned_around_and_under_once_it_is_gone():
     plan = room(4.0, 3.0, start=Pose(0.5, 0.5, 0.0))
     world = World(plan, quiet())
