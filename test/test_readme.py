@@ -30,7 +30,7 @@ COMMANDS = {
     # Asked for all of its conditions, the first of which nobody meets.
     'mission_test': 'rosrun rumba_evaluation mission_test _coverage:=1 _reach:="9 9" _docked:=true _collisions:=0 '
                     '_battery:=1 _time_limit:=100000 _patience:=100000',
-    'cleaner': 'rosrun rumba_cleaning cleaner _team:="rumba rumba2"',
+    'cleaner': 'rosrun rumba_cleaning cleaner _team:="rumba rumba2" _laser:=true',
     # teleop_key wants a terminal.
     'teleop_key': 'script -qec "rosrun rumba_sim teleop_key __ns:=/readme" /dev/null',
     'turtlesim': 'rosrun turtlesim turtlesim_node _gui:=false',

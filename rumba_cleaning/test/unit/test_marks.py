@@ -168,13 +168,13 @@ def wall_of_points(x, low, high):
 def test_what_is_seen_is_shown_until_something_else_is():
     floor = ground(room(4.0, 3.0))
     floor.show(Seen(wall_of_points(1.0, 1.0, 2.0), wall_of_points(3.0, 1.0, 2.0)))
-    assert floor.has_marks and floor.has_doubtful and floor.has_lasting and not floor.has_met
+    assert floor.has_marks and floor.has_doubtful and floor.has_lasting
     assert floor.shows(np.array([[1.0, 1.04], [3.0, 1.04]])) and not floor.shows(np.array([[1.0, 1.04], [2.0, 1.5]]))
     assert floor.clearance[floor.node(1.3, 1.4)] == approx(0.3 - SEEN)
     assert floor.lasting_clearance()[floor.node(1.3, 1.4)] == approx(1.3)
-    floor.forget_doubtful()
+    assert not floor.forget_doubtful()
     assert not floor.has_doubtful and floor.has_lasting
-    floor.forget_doubtful()
+    assert floor.forget_doubtful()
     assert not floor.has_marks
     floor.show(Seen(wall_of_points(1.0, 1.0, 2.0), wall_of_points(3.0, 1.0, 2.0)))
     floor.show(NOTHING_SEEN)
@@ -195,8 +195,10 @@ def test_forgetting_even_what_lasts_keeps_what_is_seen():
     floor = ground(room(4.0, 3.0))
     floor.mark(2.0, 2.0, 0.05, stays=True)
     floor.show(Seen(NOTHING_SEEN.passing, wall_of_points(3.0, 1.0, 2.0)))
-    floor.forget_doubtful(even_lasting=True)
-    assert floor.has_lasting and not floor.has_met
+    assert not floor.forget_doubtful(even_lasting=True)
+    assert floor.has_lasting
+    assert floor.forget_doubtful(even_lasting=True)
+    assert not floor.has_lasting
 
 
 def test_an_obstacle_is_as_small_as_the_robot_shows_it_to_be_by_standing_there():

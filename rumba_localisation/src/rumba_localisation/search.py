@@ -6,6 +6,7 @@ from typing import Tuple
 import numpy as np
 
 from rumba_localisation import compiled_matching
+from rumba_localisation.scan import thinned
 from rumba_localisation.walls import Walls
 from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.model.kernel import Array
@@ -43,7 +44,7 @@ class Search:
             Poses, float64 (BEST at most, 3), and how large a share of the beams ends at a wall there, less
             WRONG times the share that would have to pass through walls.
         """
-        few = points[np.linspace(0, len(points) - 1, min(BEAMS, len(points))).astype(np.int64)]
+        few = thinned(points, BEAMS)
         tried = self._tried(generator)
         sums = np.empty(len(tried))
         compiled_matching.weigh(tried, few, self._field, *self._walls.origin, self._walls.resolution, sums)

@@ -19,6 +19,15 @@ from rumba_sim.model.world import World
 NOBODY = Pose(0.0, 0.0, 0.0)
 
 
+def under_way(seconds=5.0):
+    """A world, and a localiser that was told where its robot is, which has driven for some time since."""
+    world = world_of()
+    localiser = localiser_of(world.plan)
+    localiser.start_at(world.robots['rumba'].pose)
+    list(drive(world, localiser, 0.2, 0.3, seconds))
+    return world, localiser
+
+
 def test_points_are_where_beams_end():
     found = points(np.array([1.0, np.inf, 2.0, -np.inf, np.nan]), -0.5 * math.pi, 0.5 * math.pi)
     assert found == pytest.approx(np.array([[0.0, -1.0], [0.0, 2.0]]))
@@ -60,10 +69,7 @@ def test_a_scan_is_used_only_after_a_movement():
 
 
 def test_a_robot_that_was_carried_away_notices_and_finds_itself_again():
-    world = world_of()
-    localiser = localiser_of(world.plan)
-    localiser.start_at(world.robots['rumba'].pose)
-    list(drive(world, localiser, 0.2, 0.3, 5.0))
+    world, localiser = under_way()
     world.teleport('rumba', Pose(0.5, 1.2, -2.0))
     errors, sure = [], []
     for each in drive(world, localiser, 0.12, 0.6, 15.0):
@@ -76,10 +82,7 @@ def test_a_robot_that_was_carried_away_notices_and_finds_itself_again():
 @pytest.mark.parametrize('turn', [-0.4, -0.2, 0.2, 0.4])
 def test_a_robot_that_was_turned_finds_its_heading_at_the_next_scan(turn):
     """As by wheels that slip at an obstacle; scans are used from a movement to the next."""
-    world = world_of()
-    localiser = localiser_of(world.plan)
-    localiser.start_at(world.robots['rumba'].pose)
-    list(drive(world, localiser, 0.2, 0.3, 5.0))
+    world, localiser = under_way()
     here = world.robots['rumba'].pose
     world.teleport('rumba', here._replace(theta=here.theta + turn))
     errors = list(drive(world, localiser, 0.2, 0.3, 5.0))
@@ -131,10 +134,7 @@ def test_headings_that_were_wound_up_by_whole_turns_do_not_grow():
 @pytest.mark.parametrize('slipped', [0.1, 0.2, 0.3])
 def test_wheels_that_slip_for_a_second_do_not_lose_the_robot(slipped):
     """The wheels count a way that the robot does not drive: for the localiser, it was pushed back."""
-    world = world_of()
-    localiser = localiser_of(world.plan)
-    localiser.start_at(world.robots['rumba'].pose)
-    list(drive(world, localiser, 0.2, 0.3, 4.0))
+    world, localiser = under_way(4.0)
     pose = world.robots['rumba'].pose
     world.teleport('rumba', Pose(pose.x - slipped * math.cos(pose.theta), pose.y - slipped * math.sin(pose.theta),
                                  pose.theta))
@@ -144,10 +144,8 @@ def test_wheels_that_slip_for_a_second_do_not_lose_the_robot(slipped):
 
 def test_wheels_that_slip_in_place_are_noticed_within_seconds():
     """As those of a robot that drives against an obstacle, and moves less than what a scan is used after."""
-    world = world_of()
-    localiser, robot = localiser_of(world.plan), world.robots['rumba']
-    localiser.start_at(robot.pose)
-    list(drive(world, localiser, 0.2, 0.3, 5.0))
+    world, localiser = under_way()
+    robot = world.robots['rumba']
     slipped = compose(robot.odometry, Pose(0.04, 0.0, 0.0))
     errors = []
     for _ in range(30):

@@ -177,9 +177,8 @@ def approach(context: Context) -> Pose:
         MapError: the plan has no dock, or the robot fits nowhere before it.
     """
     dock = home(context)
-    ways = np.array([[step * STEP * math.cos(dock.theta), step * STEP * math.sin(dock.theta)]
-                     for step in range(1, max(BEFORE) + 1)])
-    line = np.array(dock[:2]) - ways
+    away = STEP * np.arange(1, max(BEFORE) + 1)[:, np.newaxis]
+    line = np.array(dock[:2]) - away * (math.cos(dock.theta), math.sin(dock.theta))
     fitting = [steps for steps in BEFORE if all(
         context.plan.safe_clearance_at(x, y) > context.ground.reach for x, y in line[:steps].tolist())]
     if not fitting:

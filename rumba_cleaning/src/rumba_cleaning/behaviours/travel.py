@@ -85,13 +85,12 @@ class Travel:
             if self._back <= 0.0 and self._leaves:
                 self.going = Going.BLOCKED
             return Command(-recoil.SPEED, 0.0, brushes_up)
-        if self._is_blocked(observation):
+        is_blocked = self._is_blocked(observation)
+        sees_obstacle = not is_blocked and self._sees_obstacle(observation)
+        if is_blocked or sees_obstacle and any(observation.contact):  # else it would stay, and find the same way again
             self._back, self._leaves = recoil.time_back(observation), True
             return Command(-recoil.SPEED, 0.0, brushes_up)
-        if self._sees_obstacle(observation):
-            if any(observation.contact):  # or it would stay there, and find the same way again
-                self._back, self._leaves = recoil.time_back(observation), True
-                return Command(-recoil.SPEED, 0.0, brushes_up)
+        if sees_obstacle:
             self.going = Going.BLOCKED
             return Command(0.0, 0.0, brushes_up)
         v, w = self._follower.velocity(observation.pose, observation.dt)

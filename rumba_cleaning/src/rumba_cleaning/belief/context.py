@@ -174,10 +174,9 @@ class Context:
 
     def forget_doubtful(self, even_lasting: bool) -> None:
         """As that of the ground; what is seen and stays is forgotten only if nothing else is."""
+        forgets_all = self.ground.forget_doubtful(even_lasting)
         if self.sight is not None:
-            has_other = self.ground.has_doubtful or even_lasting and self.ground.has_met
-            self.sight.forget(also_what_stays=not has_other)
-        self.ground.forget_doubtful(even_lasting)
+            self.sight.forget(also_what_stays=forgets_all)
 
     def forget_obstacles(self) -> None:
         """Forget all obstacles."""

@@ -109,19 +109,24 @@ class Ground:
         nodes = self.nodes(points)
         return bool((self.clearance[nodes[:, 0], nodes[:, 1]] <= SEEN).all())
 
-    def forget_doubtful(self, even_lasting: bool = False) -> None:
+    def forget_doubtful(self, even_lasting: bool = False) -> bool:
         """Forget the obstacles that may have gone since they were met: those met once; if there are none, all.
 
         Args:
             even_lasting: those that were met more than once too, which may be smaller than they are taken to be.
+
+        Returns:
+            Whether it has forgotten all, what is seen and stays too.
         """
         doubtful = self._unsure + self._lasting if even_lasting else self._unsure
-        if doubtful or len(self._seen.passing):
+        forgets_all = not doubtful and not len(self._seen.passing)
+        if not forgets_all:
             self._former, self._unsure, self._seen = doubtful, [], Seen(NOTHING_SEEN.passing, self._seen.staying)
             self._lasting = [] if even_lasting else self._lasting
         else:
             self._former, self._lasting, self._seen = self._lasting, [], NOTHING_SEEN
         self._measure()
+        return forgets_all
 
     def leave_out(self, x: float, y: float, radius: float) -> None:
         """Take what the robot has met to be as small as it must be, since there is nothing within a circle [m]."""
@@ -142,11 +147,6 @@ class Ground:
     def has_doubtful(self) -> bool:
         """Whether it has met or seen any that may go again."""
         return bool(self._unsure) or len(self._seen.passing) > 0
-
-    @property
-    def has_met(self) -> bool:
-        """Whether it has met any."""
-        return bool(self._unsure or self._lasting)
 
     @property
     def has_lasting(self) -> bool:
@@ -191,7 +191,7 @@ class Ground:
         self._update()
 
     def _measure(self) -> None:
-        """Find the clearance anew."""
+        """Compute the clearance: that of the plan, less around all obstacles."""
         self.clearance = self.lasting_clearance()
         self._keep_clear(self.clearance, self._unsure)
         self._keep_clear(self.clearance, _marks(self._seen.passing))
