@@ -128,6 +128,26 @@ def test_a_mover_that_has_waited_for_five_seconds_turns_back_pauses_and_tries_ag
     assert robot.pose == Pose(2.0, 2.0, 0.0) and robot.bumps == 2
 
 
+def test_a_mover_that_meets_the_same_robot_again_goes_back_farther_each_time_until_it_has_passed():
+    stops = [(5.0, 2.0), (4.0, 2.0), (3.0, 2.0), (1.0, 2.0)]
+    world = World(HALL, quiet(), obstacles=[walker('cat', stops, 0.5, 0.15, pause=(1.0, 1.0))])
+    robot = world.spawn('rumba', Pose(2.0, 2.0, 0.0))
+    contact = 2.0 + RADIUS + 0.15
+    assert turns(world, 100.0)[:8] == approx([contact, 3.0, contact, 4.0, contact, 5.0, contact, 5.0], abs=0.02)
+    assert robot.pose == Pose(2.0, 2.0, 0.0)
+    world.teleport('rumba', Pose(2.0, 4.0, 0.0))
+    assert min(turns(world, 25.0)) == approx(1.0)
+    world.teleport('rumba', Pose(2.0, 2.0, 0.0))
+    assert turns(world, 40.0)[:4] == approx([contact, 3.0, contact, 4.0], abs=0.02)
+
+
+def turns(world, seconds):
+    """Where along x the one mover of a world turned round [m]."""
+    places = [next(world.obstacles.poses())[1].x for _ in range(round(50 * seconds)) if world.step() is None]
+    moves = [place for place, before in zip(places[1:], places) if place != before]
+    return [here for before, here, after in zip(moves, moves[1:], moves[2:]) if (here - before) * (after - here) < 0.0]
+
+
 def test_a_robot_that_drives_after_a_mover_never_touches_it_harder_than_a_wall():
     world = World(HALL, quiet(), obstacles=[walker('cat', [(1.6, 2.0), (5.0, 2.0)], 0.1, 0.15)])
     robot = world.spawn('rumba', Pose(1.0, 2.0, 0.0))

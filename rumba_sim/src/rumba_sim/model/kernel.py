@@ -50,10 +50,11 @@ ROBOT = np.dtype((np.record, np.dtype([(name, 'f8') for name in (
 # A disc has a radius, and halves that are 0; a box has halves, and a radius that is 0. `reach` is the distance from its
 # centre to its farthest point. A mover has `stops` stops from row `first` of the array of stops on; it has left number
 # `stop` of them, `moved` [ticks] ago, or stands there for `rest` ticks more; it has reached stops `visits` times. For
-# `waited` ticks a robot has been in its way; `is_back` while it returns to the stop that it left, for lack of patience.
+# `waited` ticks a robot has been in its way; `is_back` while it goes back, for lack of patience. `retreats` times in a row
+# it turned back on its way to the same stop, from which it is `behind` stops too far.
 OBSTACLE = np.dtype((np.record, np.dtype([(name, 'f8') for name in (
     'x', 'y', 'theta', 'cos', 'sin', 'half_length', 'half_width', 'radius', 'reach', 'moved')] + [
-        (name, 'i8') for name in ('first', 'stops', 'stop', 'rest', 'visits', 'waited', 'key')] + [
+        (name, 'i8') for name in ('first', 'stops', 'stop', 'rest', 'visits', 'waited', 'retreats', 'behind', 'key')] + [
             (name, 'u1') for name in ('is_back', 'is_seen')], align=True)))
 X, Y, THETA = 0, 1, 2  # columns of a stop and of a dock: its pose [m, rad]
 TRAVEL = 3  # [ticks] that the way from the stop before takes
@@ -432,17 +433,35 @@ def go(obstacles: Array, stops: Array, robots: Array, k: Record) -> None:
             mover.waited = 0
         put_between(mover, stops, moved)
         if mover.waited * k.dt >= PATIENCE:
-            mover.waited, mover.is_back = 0, not mover.is_back
+            turn_round(mover)
         elif moved == (0.0 if mover.is_back else travel):
             arrive(mover, stops)
 
 
+def turn_round(mover: Record) -> None:
+    """Let a mover that lost patience go the other way: back by one stop more each time that it meets the robot there.
+
+    It goes back by half of its stops at most: there a way to and fro ends, and farther on it leads to the robot again.
+    """
+    mover.waited, mover.is_back = 0, not mover.is_back
+    if mover.is_back:
+        mover.retreats = min(mover.retreats + 1, mover.stops // 2)
+
+
 def arrive(mover: Record, stops: Array) -> None:
-    """Let a mover, which has reached the next stop or returned to the last one, pause there."""
+    """Let a mover pause at the next stop, or where it goes back to; it passes stops on its way back."""
+    if mover.is_back and mover.behind + 1 < mover.retreats:
+        mover.moved = stops[mover.first + mover.stop, TRAVEL]
+        mover.stop = (mover.stop + mover.stops - 1) % mover.stops
+        mover.behind += 1
+        return
     if mover.is_back:
         mover.is_back = False
     else:
         mover.stop, mover.moved = (mover.stop + 1) % mover.stops, 0.0
+        if mover.behind == 0:
+            mover.retreats = 0
+        mover.behind = max(mover.behind - 1, 0)
     mover.visits += 1
     mover.rest = pause(mover, stops)
 
