@@ -31,7 +31,8 @@ PoseSource = Callable[[World, str], Belief]  # called once for each observation 
 def truth(world: World, name: str) -> Belief:
     """The true pose, as the simulator tells it by way of two transforms, bit for bit."""
     robot = world.robots[name]
-    return Belief(_told(compose(robot.pose, inverse(robot.odometry)), robot.odometry))
+    odometry = robot.odometry
+    return Belief(_told(compose(robot.pose, inverse(odometry)), odometry))
 
 
 class DeadReckoning:

@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 from rumba_cleaning.behaviours.compiled_follower import nearest
 from rumba_cleaning.behaviours.compiled_guard import STEP, path
 from rumba_cleaning.belief.compiled_footing import are_marked, stamp
+from rumba_cleaning.belief.compiled_ground import are_of_one_part
 from rumba_cleaning.belief.search import is_clear
 from rumba_cleaning.planning.compiled_lanes import NO_ROW, lowest, runs
 from rumba_cleaning.planning.compiled_ways import cornered_length
@@ -71,7 +72,15 @@ def test_floor_is_marked_where_a_robot_has_its_points_and_found_beside_them():
     points = np.array([[-0.65, 2.35], [-0.55, 2.25], [-0.35, 2.35], [-9.0, 2.35]])
     for cells, found in ((0, [True, False, False, False]), (1, [True, True, False, False]),
                          (2, [True, True, True, False]), (3, [True, True, True, True])):
-        assert are_marked(floor, *ORIGIN, RESOLUTION, points, cells).tolist() == found
+        assert [are_marked(floor, *ORIGIN, RESOLUTION, points[[index]], cells) for index in range(4)] == found
+        assert are_marked(floor, *ORIGIN, RESOLUTION, points, cells) == all(found)
+
+
+def test_the_nodes_of_a_window_are_of_one_part_if_those_that_are_free_have_one_number():
+    parts = np.array([[0, 2, 2, 0], [0, 2, 0, 1], [0, 0, 0, 1]])
+    windows = {(0, 3, 0, 3): True, (0, 3, 0, 4): False, (1, 9, 2, 9): True, (2, 3, 0, 2): True, (0, 2, 1, 4): False}
+    for window, answer in windows.items():
+        assert are_of_one_part(parts, *window) == answer, window
 
 
 def test_floor_is_marked_along_the_way_of_a_robot_but_not_where_it_began():

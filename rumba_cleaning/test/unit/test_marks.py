@@ -10,7 +10,8 @@ from hypothesis import strategies as st
 from pytest import approx
 from rooms import PLANS, crooked, room
 
-from rumba_cleaning.belief.ground import GROWTH, INFLATION, LARGEST, NOTHING_SEEN, SEEN, Seen
+from rumba_cleaning.belief.ground import INFLATION
+from rumba_cleaning.belief.met import GROWTH, LARGEST, NOTHING_SEEN, SEEN, Seen
 from rumba_sim.model.reachability import SLACK
 
 

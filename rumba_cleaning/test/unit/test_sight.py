@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from rooms import quiet, room
 
-from rumba_cleaning.belief.ground import SEEN
+from rumba_cleaning.belief.met import SEEN
 from rumba_cleaning.belief.sight import CELL, MATE, STAYS, Sight
 from rumba_cleaning.pose_source import seeing, truth
 from rumba_sim.model.geometry import Pose

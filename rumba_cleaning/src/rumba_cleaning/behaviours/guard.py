@@ -80,9 +80,9 @@ class Guard:
             observation = observation._replace(cliffs=(far_left or left, near_left, near_right, far_right or right))
         command = decide(observation)
         change = self._drive.acceleration * min(observation.dt, LONGEST)
-        left_speed, right_speed = (min(max(goal, speed - change), speed + change)
-                                   for speed, goal in zip(self._speeds, self._wanted(self._command)))
-        self._speeds = left_speed, right_speed
+        (left_speed, right_speed), (left_goal, right_goal) = self._speeds, self._wanted(self._command)
+        self._speeds = (min(max(left_goal, left_speed - change), left_speed + change),
+                        min(max(right_goal, right_speed - change), right_speed + change))
         self._command = self._admitted(observation, command)
         self._last = observation.pose
         return self._command
@@ -90,26 +90,24 @@ class Guard:
     def _admitted(self, observation: Observation, command: Command) -> Command:
         self._held = NONE
         pose, wanted = observation.pose, self._wanted(command)
-        fastest = max(abs(speed) for speed in wanted)
+        fastest = _faster(wanted)
         if self._footing.seen and fastest > WARY_SPEED:
             share = WARY_SPEED / fastest
             command = command._replace(v=share * command.v, w=share * command.w)
             wanted = self._wanted(command)
-        fastest = max(abs(speed) for speed in self._speeds + wanted)
+        fastest = max(_faster(self._speeds), _faster(wanted))
         braking = fastest * LONGEST + 0.5 * fastest ** 2 / self._drive.acceleration
         is_near = self._footing.clearance_at(pose.x, pose.y) <= self._clear + braking
         must_know = not (self._sees_ahead(wanted) and self._sees_ahead(self._speeds))
         if not (is_near or must_know) or fastest == 0.0:
             return command
         found, slips = [], self._slips(observation, wanted)
-        for share in (1.0, min(SAFE_SPEED / max(abs(speed) for speed in wanted), 1.0) if any(wanted) else 1.0, *SHARES):
-            slower = command._replace(v=share * command.v, w=share * command.w)
-            edges = [self._edge(pose, self._wanted(slower), slip, is_near, must_know)
-                     for slip in slips]
-            found.append((any(left for left, _ in edges), any(right for _, right in edges)))
+        for share in (1.0, SAFE_SPEED / max(_faster(wanted), SAFE_SPEED), *SHARES):
+            slower = command if share == 1.0 else command._replace(v=share * command.v, w=share * command.w)
+            found.append(self._edges(pose, self._wanted(slower), slips, is_near, must_know))
             if found[-1] == NONE:
                 return slower
-        if max(abs(speed) for speed in self._speeds) < AT_REST:
+        if _faster(self._speeds) < AT_REST:
             self._held = found[0]
         return command._replace(v=0.0, w=0.0)
 
@@ -126,7 +124,7 @@ class Guard:
         speed v into v * sin(a) * cos(a) sideways, away from the contact, at most half of it.
         """
         left, right = observation.bumper if max(sum(wanted), sum(self._speeds)) > 0.0 else NONE
-        most = 0.5 * max(abs(speed) for speed in self._speeds + wanted)
+        most = 0.5 * max(_faster(self._speeds), _faster(wanted))
         return [self._slip(observation), *([-most] if left else []), *([most] if right else [])]
 
     def _slip(self, observation: Observation) -> float:
@@ -140,16 +138,24 @@ class Guard:
 
     # --- what a command leads to ----------------------------------------------------------------------------------
 
-    def _edge(self, pose: Pose, wanted: Wheels, slip: float, is_near: bool, must_know: bool) -> Sides:
+    def _edges(self, pose: Pose, wanted: Wheels, slips: List[float], is_near: bool, must_know: bool) -> Sides:
         """Whether an edge is too near on the left and on the right, before the robot can stop after a command.
 
         Args:
             pose: where the robot is.
             wanted: the speeds of the wheels that are commanded [m/s].
-            slip: speed at which it slides to its left [m/s].
+            slips: speeds at which it may slide to its left [m/s].
             is_near: whether any cliff is near.
             must_know: whether the wheels may only go where the robot knows that there is floor.
         """
+        left = right = False
+        for slip in slips:
+            is_left, is_right = self._edge(pose, wanted, slip, is_near, must_know)
+            left, right = left or is_left, right or is_right
+        return left, right
+
+    def _edge(self, pose: Pose, wanted: Wheels, slip: float, is_near: bool, must_know: bool) -> Sides:
+        """As `_edges`, for a robot that slides to its left at one speed [m/s]."""
         middle, left, right = self._path(pose, wanted, slip)
         if is_near:
             near = [self._footing.clearances(line) for line in (middle, left, right)]
@@ -164,9 +170,7 @@ class Guard:
             is_fast = max(wanted) > SAFE_SPEED + ROUNDING and _curvature(wanted, self._half) < TIGHT
             is_wary = bool(self._footing.seen) and not -ROUNDING <= sum(wanted) <= 2.0 * SLOW
             cells = 0 if is_fast or is_wary else 2
-            is_known = self._footing.are_known(np.concatenate([left[1:], right[1:]]), cells)
-            half = len(left) - 1
-            return not is_known[:half].all(), not is_known[half:].all()
+            return not self._footing.are_known(left[1:], cells), not self._footing.are_known(right[1:], cells)
         return NONE
 
     def _path(self, pose: Pose, wanted: Wheels, slip: float) -> Array:
@@ -181,6 +185,12 @@ class Guard:
         left, right = v - w * self._half, v + w * self._half
         share = min(1.0, drive.max_speed / max(abs(left), abs(right), 1e-9))
         return share * left, share * right
+
+
+def _faster(speeds: Wheels) -> float:
+    """Speed of the faster wheel, forward or back [m/s]."""
+    left, right = speeds
+    return max(abs(left), abs(right))
 
 
 def _curvature(speeds: Wheels, half: float) -> float:

@@ -49,10 +49,10 @@ def stamp(floor: Array, left: float, bottom: float, size: float, start: Triple, 
 
 
 @compiled
-def are_marked(floor: Array, left: float, bottom: float, size: float, points: Array, cells: int) -> Array:
-    """Whether the cell that holds each point (any, 2) [m], or one so many cells beside it, is marked: bool (any)."""
-    found = np.zeros(len(points), np.bool_)
+def are_marked(floor: Array, left: float, bottom: float, size: float, points: Array, cells: int) -> bool:
+    """Whether each cell that holds one of the points (any, 2) [m], or one so many cells beside it, is marked."""
     for index in range(len(points)):
         row, column = cell_at(floor.shape, left, bottom, size, points[index, 0], points[index, 1])
-        found[index] = floor[max(row - cells, 0):row + cells + 1, max(column - cells, 0):column + cells + 1].any()
-    return found
+        if not floor[max(row - cells, 0):row + cells + 1, max(column - cells, 0):column + cells + 1].any():
+            return False
+    return True

@@ -144,9 +144,9 @@ class Footing:
             return np.full(len(points), FAR)
         return np.asarray(fast.interpolated_at(self._edges, *self._plan.origin, self._plan.resolution, points))
 
-    def are_known(self, points: Array, cells: int) -> Array:
-        """Whether wheels or sensors found floor at each point (any, 2) [m], or so many cells beside it: bool (any)."""
-        return np.asarray(are_marked(self._floor, *self._origin, CELL, points, cells))
+    def are_known(self, points: Array, cells: int) -> bool:
+        """Whether wheels or sensors found floor at all points (any, 2) [m], or so many cells beside them."""
+        return bool(are_marked(self._floor, *self._origin, CELL, points, cells))
 
 
 def _line(start: Tuple[float, float], end: Tuple[float, float]) -> Array:

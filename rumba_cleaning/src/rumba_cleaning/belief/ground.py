@@ -1,14 +1,14 @@
 """Where a robot can stand, and paths from point to point: by the floor plan and the obstacles the robot has met."""
 
 import copy
-import math
-from typing import List, NamedTuple, Optional, Sequence, Tuple
+from typing import List, Optional, Tuple
 
 import numpy as np
 from scipy import ndimage
 
-from rumba_cleaning.belief.compiled_marks import keep_clear
+from rumba_cleaning.belief.compiled_ground import are_of_one_part, keep_clear
 from rumba_cleaning.belief.limits import limited
+from rumba_cleaning.belief.met import SEEN, Mark, Met, Seen
 from rumba_cleaning.belief.search import cheapest, is_clear, path_lengths
 from rumba_sim.model.constants import clearance_needed
 from rumba_sim.model.floor_plan import FloorPlan
@@ -17,12 +17,6 @@ from rumba_sim.model.reachability import SLACK
 from rumba_sim.model.robot_config import RobotConfig
 
 # All figures below are our choice; each comment says what speaks for a larger and for a smaller value.
-GROWTH = 0.02  # [m] added to the radius of an obstacle that is met again: large passes it after fewer touches
-SAME = 1.5  # radii from where it was met before: small outlines wide obstacles touch by touch, large hides free floor
-LARGEST = 0.25  # [m] radius of an obstacle, at most: small leaves gaps beside it open, large passes wide obstacles
-OVERLAP = 0.02  # [m] by which robot and obstacle may overlap: a pose errs by less
-LEAST = 0.01  # [m] radius of an obstacle, below which there is none
-SEEN = 0.02  # [m] radius of what is seen at a point: half a cell of `Sight`
 EXTRA_CLEARANCE = 0.04  # [m] beside straight parts of a path: large touches less, small makes paths shorter
 NEAR = 0.4  # [m] a goal this near is driven to directly, without the extra clearance: a path around it costs more
 ESCAPE = 0.15  # [m] from where a robot is, it may go to another part of the floor, through a passage ...
@@ -32,28 +26,6 @@ SEARCH_MARGIN = 2.0  # [m] around both ends is searched first: small is fast, bu
 INFLATION = 0.1  # [m] beyond the touching distance, within which a path costs more: large keeps to the open floor ...
 INFLATION_COST = 2.0  # ... up to this many times its length more: small lets a path follow a wall to be shorter
 ALL_AROUND = np.ones((3, 3))  # nodes next to one
-
-
-class Mark(NamedTuple):
-    """A round obstacle that the robot has met."""
-
-    x: float  # [m] of its centre, map frame
-    y: float  # [m]
-    radius: float  # [m]
-
-    def overlaps(self, other: 'Mark') -> bool:
-        """Whether it has floor in common with another one."""
-        return math.hypot(self.x - other.x, self.y - other.y) < self.radius + other.radius
-
-
-class Seen(NamedTuple):
-    """Obstacles that the robot sees, or saw last: points (any, 2) [m], map frame."""
-
-    passing: Array  # may move on
-    staying: Array
-
-
-NOTHING_SEEN = Seen(np.empty((0, 2)), np.empty((0, 2)))
 
 
 class Ground:
@@ -82,8 +54,8 @@ class Ground:
         """A ground with the same obstacles, which stays as it is if this one changes."""
         other = copy.copy(self)
         other.clearance = self.clearance.copy()
-        other._unsure, other._former, other._lasting = list(self._unsure), list(self._former), list(self._lasting)
-        return other  # what is seen is replaced, never changed
+        other._met = self._met.copy()
+        return other
 
     def learn(self, plan: FloorPlan) -> None:
         """Go on with a newer plan of the same floor, and the obstacles that were met."""
@@ -92,16 +64,12 @@ class Ground:
 
     def forget(self) -> None:
         """Forget all obstacles that the robot has met or seen."""
-        self._unsure: List[Mark] = []  # met once
-        self._former: List[Mark] = []  # met once, and forgotten last
-        self._lasting: List[Mark] = []  # met again after that
-        self._seen = NOTHING_SEEN
+        self._met = Met()
         self._measure()
 
     def show(self, seen: Seen) -> None:
         """Replace what the robot sees."""
-        if len(seen.passing) or len(seen.staying) or len(self._seen.passing) or len(self._seen.staying):
-            self._seen = seen
+        if self._met.show(seen):
             self._measure()
 
     def shows(self, points: Array) -> bool:
@@ -118,24 +86,13 @@ class Ground:
         Returns:
             Whether it has forgotten all, what is seen and stays too.
         """
-        doubtful = self._unsure + self._lasting if even_lasting else self._unsure
-        forgets_all = not doubtful and not len(self._seen.passing)
-        if not forgets_all:
-            self._former, self._unsure, self._seen = doubtful, [], Seen(NOTHING_SEEN.passing, self._seen.staying)
-            self._lasting = [] if even_lasting else self._lasting
-        else:
-            self._former, self._lasting, self._seen = self._lasting, [], NOTHING_SEEN
+        forgets_all = self._met.forget_doubtful(even_lasting)
         self._measure()
         return forgets_all
 
     def leave_out(self, x: float, y: float, radius: float) -> None:
         """Take what the robot has met to be as small as it must be, since there is nothing within a circle [m]."""
-        def smaller(marks: List[Mark]) -> List[Mark]:
-            rooms = (math.hypot(mark.x - x, mark.y - y) - radius for mark in marks)
-            return [mark._replace(radius=min(mark.radius, room)) for mark, room in zip(marks, rooms) if room > LEAST]
-        if any(math.hypot(mark.x - x, mark.y - y) < radius + mark.radius - OVERLAP
-               for mark in self._unsure + self._lasting):
-            self._unsure, self._lasting = smaller(self._unsure), smaller(self._lasting)
+        if self._met.leave_out(x, y, radius):
             self._measure()
 
     @property
@@ -146,18 +103,17 @@ class Ground:
     @property
     def has_doubtful(self) -> bool:
         """Whether it has met or seen any that may go again."""
-        return bool(self._unsure) or len(self._seen.passing) > 0
+        return self._met.has_doubtful
 
     @property
     def has_lasting(self) -> bool:
         """Whether it has met or seen any that stay."""
-        return bool(self._lasting) or len(self._seen.staying) > 0
+        return self._met.has_lasting
 
     def lasting_clearance(self) -> Array:
         """As `clearance`, without the obstacles that may go again."""
         clearance = self.plan.safe_clearance.copy()
-        self._keep_clear(clearance, self._lasting)
-        self._keep_clear(clearance, _marks(self._seen.staying))
+        self._keep_clear(clearance, self._met.lasting)
         return clearance
 
     def cut_off(self, x: float, y: float) -> float:
@@ -177,29 +133,18 @@ class Ground:
             radius: [m]
             stays: whether it is known to stay, even if it is met for the first time.
         """
-        touched = Mark(x, y, radius)
-        again = [mark.radius + GROWTH for mark in self._unsure + self._lasting
-                 if math.hypot(mark.x - x, mark.y - y) < SAME * radius]
-        touched = Mark(x, y, min(max([radius, *again]), LARGEST))
-        back = [mark for mark in self._former if mark.overlaps(touched)]
-        if stays or back or any(mark.overlaps(touched) for mark in self._lasting):
-            self._lasting += [touched, *back]
-            self._former = [mark for mark in self._former if mark not in back]
-        else:
-            self._unsure.append(touched)
-        self._keep_clear(self.clearance, [touched, *back])
+        self._keep_clear(self.clearance, self._met.add(Mark(x, y, radius), stays))
         self._update()
 
     def _measure(self) -> None:
         """Compute the clearance: that of the plan, less around all obstacles."""
         self.clearance = self.lasting_clearance()
-        self._keep_clear(self.clearance, self._unsure)
-        self._keep_clear(self.clearance, _marks(self._seen.passing))
+        self._keep_clear(self.clearance, self._met.doubtful)
         self._update()
 
-    def _keep_clear(self, clearance: Array, marks: Sequence[Mark]) -> None:
+    def _keep_clear(self, clearance: Array, marks: List[Mark]) -> None:
         """Lower a clearance, which is changed, around obstacles."""
-        if len(marks):
+        if marks:
             keep_clear(clearance, self.plan.origin, self.plan.resolution, np.array(marks, np.float64),
                        self.reach + INFLATION)
 
@@ -253,14 +198,14 @@ class Ground:
         row, column = self._standing()[:, middle_row, middle_column].tolist()
         size = int(ESCAPE / self.plan.resolution) + 1
         top, left = max(middle_row - size, 0), max(middle_column - size, 0)
-        window = slice(top, middle_row + size + 1), slice(left, middle_column + size + 1)
-        parts = self._parts()[window]
-        if _is_of_one(parts):  # nearly everywhere
+        bottom, right = middle_row + size + 1, middle_column + size + 1
+        if are_of_one_part(self._parts(), top, bottom, left, right):  # nearly everywhere
             return row, column
+        window = slice(top, bottom), slice(left, right)
         joined, _ = ndimage.label(self.clearance[window] >= self.reach - NARROW, ALL_AROUND)
         here = joined[middle_row - top, middle_column - left]
-        parts = np.where((joined == here) & (here > 0), parts, 0)
-        if _is_of_one(parts):
+        parts = np.where((joined == here) & (here > 0), self._parts()[window], 0)
+        if are_of_one_part(parts, 0, bottom, 0, right):
             return row, column
         sizes = np.bincount(self._parts().ravel())
         sizes[0] = 0
@@ -383,14 +328,3 @@ class Ground:
             here = low
             kept.append(here)
         return path[kept]
-
-
-def _marks(points: Array) -> List[Mark]:
-    """Obstacles that were seen at points (any, 2) [m]."""
-    return [Mark(x, y, SEEN) for x, y in points.tolist()]
-
-
-def _is_of_one(parts: Array) -> bool:
-    """Whether all nodes of a window at which a robot can stand, if any, belong to one part of the floor."""
-    most = parts.max()
-    return bool(((parts == 0) | (parts == most)).all())

@@ -7,7 +7,8 @@ import numpy as np
 from scipy import ndimage
 from scipy.spatial import distance
 
-from rumba_cleaning.belief.ground import ALL_AROUND, NOTHING_SEEN, Seen
+from rumba_cleaning.belief.ground import ALL_AROUND
+from rumba_cleaning.belief.met import NOTHING_SEEN, Seen
 from rumba_localisation.mapping import compiled_grid
 from rumba_localisation.mapping.grid import placed
 from rumba_localisation.scan import Scan

@@ -151,7 +151,7 @@ class Mission(Behaviour):
         return self._guard.step(self._relocation.command, observation)
 
     def _decide(self, observation: Observation) -> Command:
-        if self.state in (State.CLEANING, State.RETURNING):
+        if self._context.mates.reports and self.state in (State.CLEANING, State.RETURNING):
             command = self._right_of_way.command(observation, self.plan_ahead())
             if command is not None:
                 self.message = 'giving way to a mate'

@@ -7,6 +7,8 @@ from rumba_cleaning.mission.mission import Mission
 
 def tell_mates(missions: Mapping[str, Mission]) -> None:
     """Have each mission hear what the others, by the names of their robots, do; as nodes do before the next step."""
+    if len(missions) == 1:
+        return
     reports = {name: mission.report() for name, mission in missions.items()}
     for listener, mission in missions.items():
         for name, report in reports.items():

@@ -91,12 +91,12 @@ class Sweep:
     @property
     def cleaned_area(self) -> float:
         """Part of the reachable area that was swept at least once [m^2]."""
-        return int(self.tally[0]['swept']) * self._plan.sample_pitch ** 2
+        return int(self.tally['swept'][0]) * self._plan.sample_pitch ** 2
 
     @property
     def coverage(self) -> float:
         """cleaned_area / reachable_area [0..1]; 1 if nothing is reachable."""
-        return int(self.tally[0]['swept']) / self.reachable if self.reachable else 1.0
+        return int(self.tally['swept'][0]) / self.reachable if self.reachable else 1.0
 
     def within(self, clearance: Array, x: float, y: float) -> Part:
         """What can be reached on the same floor with less clearance; all, if a robot does not fit at the start then.

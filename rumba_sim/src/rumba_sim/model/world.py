@@ -87,6 +87,7 @@ class World:
         self._lasers: List[np.random.Generator] = []
         self._spawned = 0
         self.fan = _fan(self._config.laser.beams)
+        self._cliff_angles = np.array(self._config.cliff.angles)
         self._docks: Array = np.reshape(np.array(plan.docks, np.float64), (-1, 3))
         self._begin()
 
@@ -184,6 +185,7 @@ class World:
         self._states['charge'] = np.minimum(self._states['charge'], config.battery.capacity)
         self._take(self._states)  # robots that were far apart may meet sooner now
         self.fan = _fan(config.laser.beams)
+        self._cliff_angles = np.array(config.cliff.angles)
         for member in self.robots.values():
             member.config = config
 
@@ -366,11 +368,10 @@ class World:
 
     def cliffs(self, name: str) -> List[bool]:
         """Whether there is no floor under the left, front left, front right and right sensor of a robot."""
-        config = self._config.cliff
-        seen = np.zeros(len(config.angles), np.bool_)
+        seen = np.zeros(len(self._cliff_angles), np.bool_)
         if self.terrain.cliff is not None:
-            fast.cliffs(self._states, self._index(name), self.constants, self.floor.cells, config.distance,
-                        np.array(config.angles), seen)
+            fast.cliffs(self._states, self._index(name), self.constants, self.floor.cells,
+                        self._config.cliff.distance, self._cliff_angles, seen)
         found: List[bool] = seen.tolist()
         return found
 

@@ -1,4 +1,4 @@
-"""Lowers the clearance of nodes around obstacles, compiled by numba."""
+"""Lowers the clearance of nodes around obstacles, and sees whether nodes are connected; compiled by numba."""
 
 import math
 from typing import Any, Tuple
@@ -29,3 +29,22 @@ def keep_clear(clearance: Array, origin: Tuple[float, float], resolution: float,
             for column in range(max(middle_column - size, 0), min(middle_column + size + 1, columns)):
                 away = math.hypot(column * resolution + left - x, row * resolution + bottom - y) - radius
                 clearance[row, column] = min(clearance[row, column], max(away, 0.0))
+
+
+@compiled
+def are_of_one_part(parts: Array, top: int, bottom: int, left: int, right: int) -> bool:
+    """Whether all nodes of a window at which a robot can stand, if any, belong to one part of the floor.
+
+    Args:
+        parts: int (rows, columns), the part to which each node belongs; 0 where a robot cannot stand.
+        top, bottom: the first row of the window, and the one after its last; there may be fewer rows.
+        left, right: the same of its columns.
+    """
+    found = 0
+    for row in range(top, min(bottom, parts.shape[0])):
+        for column in range(left, min(right, parts.shape[1])):
+            part = parts[row, column]
+            if part != 0 and found != 0 and found != part:
+                return False
+            found = max(found, part)
+    return True
