@@ -5,7 +5,7 @@ import re
 
 import pytest
 from drivers import context_of, drive_by_hand, run, with_box
-from rooms import quiet, room
+from rooms import RADIUS, quiet, room
 
 from rumba_cleaning.behaviour import Status
 from rumba_cleaning.control import steps
@@ -90,6 +90,24 @@ def test_somebody_who_stands_in_the_only_door_now_and_then_does_not_end_it_early
         elif not stands and world.obstacles.items:
             world.remove_obstacle('person')
     assert time > 500.0 and context.swept.coverage > 0.98
+
+
+def test_a_robot_that_gave_up_where_it_was_shut_in_begins_again_at_its_dock():
+    plan = room(5.0, 3.0, boxes=[(2.4, 0.0, 2.6, 1.0), (2.4, 1.9, 2.6, 3.0)], dock=Pose(4.9 - RADIUS, 1.45, 0.0))
+    world = World(plan, quiet())
+    robot = world.spawn('rumba', Pose(0.5, 0.5, 0.0))
+    world.add_obstacle(Obstacle('person', Pose(2.5, 1.45, 0.0), 1.7, 0.2))
+    mission = Mission(context_of(plan, world), 'boustrophedon', 0.98)
+    states = [mission.state]
+    for _ in steps(mission, world, seconds=3000.0):
+        if mission.state != states[-1]:
+            states.append(mission.state)
+        if mission.state is State.RETURNING and world.obstacles.items:
+            assert robot.pose.x < 2.4 and world.floor.coverage < 0.55
+            world.remove_obstacle('person')
+    once = [State.CLEANING, State.RETURNING, State.DOCKING]
+    assert states == [State.IDLE, *once, State.UNDOCKING, *once, State.IDLE]
+    assert mission.outcome is Outcome.SUCCEEDED
 
 
 def test_a_robot_that_parks_in_the_way_is_cleaned_around_and_under_once_it_is_gone():

@@ -81,6 +81,8 @@ class Dock(Behaviour):
             self._part = self._way_home()
         command = self._part.step(observation)
         self.message = self._part.message
+        if self.is_homing and not any(observation.contact):
+            self._context.ground.leave_out(*pose[:2], self._context.robot.drive.radius)
         if self._part.status is Status.RUNNING:
             return command
         outcome = self._part.outcome

@@ -3,8 +3,6 @@
 import math
 from typing import Any, Tuple
 
-import numpy as np
-
 from rumba_sim.model.jit import compiled
 
 Array = Any  # numpy.ndarray

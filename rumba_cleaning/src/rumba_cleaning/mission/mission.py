@@ -16,6 +16,7 @@ from rumba_cleaning.behaviours.undock import Undock
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.belief.mates import Report, Task
 from rumba_cleaning.mission.battery_watch import BatteryWatch
+from rumba_cleaning.mission.second_try import SecondTry
 from rumba_cleaning.mission.wording import percent, swept
 from rumba_cleaning.outcome import Outcome
 from rumba_cleaning.route import Ahead
@@ -107,6 +108,7 @@ class Mission(Behaviour):
         self._closing: Optional[Tuple[Status, str, Outcome]] = None  # how the mission ends once the robot is back
         self._off = 0.0  # [s] off the contacts
         self._homes = 0  # failed attempts to return to the dock
+        self._second_try = SecondTry(self._context)
         self._vain = 0  # charges that brought little, one after the other
         self._is_undisturbed = True  # nobody drove or moved the robot since it began or was charged
         if not self._resumes:
@@ -277,6 +279,7 @@ class Mission(Behaviour):
             return self._enter(State.CLEANING, self._cleaning)
         if self._context.swept.coverage >= target:
             return self._succeed()
+        self._second_try.give_up(observation.pose)
         return self._close(Status.FAILED, f'{swept(self._context)}, the target is {percent(target)}: '
                                           f'{self._cleaning.message}', Outcome.INCOMPLETE)
 
@@ -307,8 +310,16 @@ class Mission(Behaviour):
             self._part.restart()
         elif self._part.status is Status.SUCCEEDED:
             self._homes = 0
-            return self._end() if self._closing else self._arrive()
+            if self._closing is None:
+                return self._arrive()
+            return self._begin_again() if self._second_try.is_worth_it else self._end()
         return command
+
+    def _begin_again(self) -> Command:
+        """Clean from the dock on."""
+        self._second_try.begin()
+        self._closing = None
+        return self._enter(State.UNDOCKING, Undock(self._context, turns=False))
 
     def _arrive(self) -> Command:
         """Charge or wait, unless several charges brought nothing although nobody interfered."""

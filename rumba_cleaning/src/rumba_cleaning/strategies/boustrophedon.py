@@ -17,8 +17,8 @@ WORTH = 0.0005  # of coverage: a round that gains less is the last: a round for 
 DEAR = 150.0  # [m/m^2] that a round beside obstacles drives for what it gains, beyond which it is the last: five times
 #               what the planner drives for a crumb, so most of what it planned for cannot be reached
 HELPED = 0.01  # of coverage: forgetting obstacles that gained less was in vain: to touch them all again takes long
-VAIN = 2  # times that obstacles are forgotten in vain, after which it ends ...
-PATIENT, MUCH = 6, 0.9  # ... and so many while less than this share is swept of what lies beside obstacles
+VAIN = 1  # times that obstacles are forgotten in vain, after which it ends ...
+PATIENT, MUCH = 3, 0.9  # ... and so many while less than this share is swept of what lies beside obstacles
 PAUSE = 20.0  # [s] after the first of these times, twice that after the second ...: who stands there may walk on
 TURN = 20.0  # [s] that a mate may take to plan, before it is the turn of the robot all the same; our choice
 ROUNDS = 20  # at most, each with what was missed before: far more than the maps of rumba_sim need

@@ -1,0 +1,127 @@
+"""The obstacles that one robot has met and sees: which of them may go again, and which stay."""
+
+import math
+from typing import List, NamedTuple
+
+import numpy as np
+
+from rumba_sim.model.kernel import Array
+
+# All figures below are our choice; each comment says what speaks for a larger and for a smaller value.
+GROWTH = 0.02  # [m] added to the radius of an obstacle that is met again: large passes it after fewer touches
+SAME = 1.5  # radii from where it was met before: small outlines wide obstacles touch by touch, large hides free floor
+LARGEST = 0.25  # [m] radius of an obstacle, at most: small leaves gaps beside it open, large passes wide obstacles
+OVERLAP = 0.02  # [m] by which robot and obstacle may overlap: a pose errs by less
+LEAST = 0.01  # [m] radius of an obstacle, below which there is none
+SEEN = 0.02  # [m] radius of what is seen at a point: half a cell of `Sight`
+
+
+class Mark(NamedTuple):
+    """A round obstacle that the robot has met."""
+
+    x: float  # [m] of its centre, map frame
+    y: float  # [m]
+    radius: float  # [m]
+
+    def overlaps(self, other: 'Mark') -> bool:
+        """Whether it has floor in common with another one."""
+        return math.hypot(self.x - other.x, self.y - other.y) < self.radius + other.radius
+
+    def beside(self, x: float, y: float, radius: float) -> 'Mark':
+        """The same, but as small as it must be to have no floor in common with a circle [m]."""
+        return self._replace(radius=min(self.radius, math.hypot(self.x - x, self.y - y) - radius))
+
+
+class Seen(NamedTuple):
+    """Obstacles that the robot sees, or saw last: points (any, 2) [m], map frame."""
+
+    passing: Array  # may move on
+    staying: Array
+
+
+NOTHING_SEEN = Seen(np.empty((0, 2)), np.empty((0, 2)))
+
+
+class Met:
+    """What one robot met and sees. What is met may move: what is met where it was met before is there to stay."""
+
+    def __init__(self) -> None:
+        """Nothing."""
+        self._unsure: List[Mark] = []  # met once
+        self._former: List[Mark] = []  # met once, and forgotten last
+        self._lasting: List[Mark] = []  # met again after that
+        self._seen = NOTHING_SEEN
+
+    def copy(self) -> 'Met':
+        """One that stays as it is if this one changes."""
+        other = Met()
+        other._unsure, other._former, other._lasting = list(self._unsure), list(self._former), list(self._lasting)
+        other._seen = self._seen  # replaced, never changed
+        return other
+
+    @property
+    def doubtful(self) -> List[Mark]:
+        """Those that may go again."""
+        return self._unsure + _marks(self._seen.passing)
+
+    @property
+    def lasting(self) -> List[Mark]:
+        """Those that stay."""
+        return self._lasting + _marks(self._seen.staying)
+
+    @property
+    def has_doubtful(self) -> bool:
+        """Whether it has met or seen any that may go again."""
+        return bool(self._unsure) or len(self._seen.passing) > 0
+
+    @property
+    def has_lasting(self) -> bool:
+        """Whether it has met or seen any that stay."""
+        return bool(self._lasting) or len(self._seen.staying) > 0
+
+    def show(self, seen: Seen) -> bool:
+        """Replace what the robot sees; whether there is, or was, anything."""
+        shown, self._seen = self._seen, seen
+        return any(len(points) for points in (*seen, *shown))
+
+    def add(self, touched: Mark, stays: bool) -> List[Mark]:
+        """Remember an obstacle that was touched; one that is met again is taken to be larger than before.
+
+        Returns:
+            It, and what was forgotten there and is known again.
+        """
+        again = [mark.radius + GROWTH for mark in self._unsure + self._lasting
+                 if math.hypot(mark.x - touched.x, mark.y - touched.y) < SAME * touched.radius]
+        touched = touched._replace(radius=min(max([touched.radius, *again]), LARGEST))
+        back = [mark for mark in self._former if mark.overlaps(touched)]
+        if stays or back or any(mark.overlaps(touched) for mark in self._lasting):
+            self._lasting += [touched, *back]
+            self._former = [mark for mark in self._former if mark not in back]
+        else:
+            self._unsure.append(touched)
+        return [touched, *back]
+
+    def leave_out(self, x: float, y: float, radius: float) -> bool:
+        """As `Ground.leave_out`; whether that changed anything."""
+        if not any(math.hypot(mark.x - x, mark.y - y) < radius + mark.radius - OVERLAP
+                   for mark in self._unsure + self._lasting):
+            return False
+        self._unsure, self._lasting = ([mark for mark in (old.beside(x, y, radius) for old in marks)
+                                        if mark.radius > LEAST] for marks in (self._unsure, self._lasting))
+        return True
+
+    def forget_doubtful(self, even_lasting: bool) -> bool:
+        """As `Ground.forget_doubtful`."""
+        doubtful = self._unsure + self._lasting if even_lasting else self._unsure
+        forgets_all = not doubtful and not len(self._seen.passing)
+        if not forgets_all:
+            self._former, self._unsure, self._seen = doubtful, [], Seen(NOTHING_SEEN.passing, self._seen.staying)
+            self._lasting = [] if even_lasting else self._lasting
+        else:
+            self._former, self._lasting, self._seen = self._lasting, [], NOTHING_SEEN
+        return forgets_all
+
+
+def _marks(points: Array) -> List[Mark]:
+    """Obstacles that were seen at points (any, 2) [m]."""
+    return [Mark(x, y, SEEN) for x, y in points.tolist()]
