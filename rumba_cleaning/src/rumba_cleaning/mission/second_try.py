@@ -3,19 +3,16 @@
 from rumba_cleaning.belief.context import Context
 from rumba_sim.model.geometry import Pose
 
-# As boustrophedon judges what it gained by forgetting obstacles.
-HELPED = 0.01  # of coverage: less since the try before was not worth the time
-MUCH = 0.9  # of what lies beside obstacles: who swept so much was not shut in
+MUCH = 0.9  # of what lies beside obstacles: who swept so much was not shut in; as boustrophedon judges it
 
 
 class SecondTry:
-    """What a robot knew when it gave up."""
+    """What a robot knew when it gave up; a mission begins again once, since a third try gains little."""
 
     def __init__(self, context: Context) -> None:
         """It has not given up yet."""
         self._context = context
-        self._was_shut_in = False
-        self._before = -1.0  # coverage when it gave up, the time before
+        self._was_shut_in = self._has_begun = False
 
     def give_up(self, pose: Pose) -> None:
         """The robot gives up at a pose: see whether obstacles shut it in."""
@@ -25,12 +22,9 @@ class SecondTry:
 
     @property
     def is_worth_it(self) -> bool:
-        """Whether it was shut in, much of the floor is open from where it is now, and its last try brought anything."""
-        context = self._context
-        return (self._was_shut_in and context.swept.coverage > self._before + HELPED
-                and context.beside_obstacles().coverage < MUCH)
+        """Whether it was shut in, and much of the floor is open from where it is now."""
+        return self._was_shut_in and not self._has_begun and self._context.beside_obstacles().coverage < MUCH
 
     def begin(self) -> None:
         """It begins again."""
-        self._was_shut_in = False
-        self._before = self._context.swept.coverage
+        self._has_begun = True
