@@ -2,6 +2,7 @@
 
 import math
 
+import numpy as np
 import pytest
 from drivers import context_of
 from missions import DOCK, PLAN, mission
@@ -23,6 +24,14 @@ def test_the_charge_that_the_way_to_the_dock_needs_grows_with_its_length():
     assert far - near > rate * 2.5 / context.config.transit_speed
 
 
+def test_what_is_enough_for_the_longest_way_is_enough_anywhere_and_less_is_not():
+    context = context_of(PLAN, mission()[0])
+    watch = BatteryWatch(context)
+    nodes = np.argwhere(context.ground.fits)
+    needed = [watch.needed(Pose(x, y, 0.0)) for x, y in context.ground.points(nodes).tolist()]
+    assert watch.is_enough_anywhere(max(needed)) and not watch.is_enough_anywhere(max(needed) - 1e-6)
+
+
 def test_a_charge_that_falls_faster_counts():
     world, _ = mission()
     watch = BatteryWatch(context_of(PLAN, world))
@@ -35,7 +44,10 @@ def test_a_charge_that_falls_faster_counts():
 def test_without_a_path_to_the_dock_no_charge_is_enough():
     plan = room(4.0, 3.0, boxes=[(2.4, 0.0, 2.6, 3.0)], dock=DOCK, start=Pose(1.0, 1.0, 0.0))
     world, _ = mission(plan)
-    assert BatteryWatch(context_of(plan, world)).needed(Pose(1.0, 1.0, 0.0)) == math.inf
+    watch = BatteryWatch(context_of(plan, world))
+    assert watch.needed(Pose(1.0, 1.0, 0.0)) == math.inf and watch.needed(Pose(3.0, 1.0, 0.0)) < 1.0
+    assert watch.is_enough_anywhere(1.0)  # where a path leads there
+    assert not BatteryWatch(context_of(room(4.0, 3.0), world)).is_enough_anywhere(1.0)
 
 
 @pytest.mark.parametrize('first', [0.9001, 0.905, 0.91])

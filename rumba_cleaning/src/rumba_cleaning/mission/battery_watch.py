@@ -2,7 +2,9 @@
 
 import math
 from concurrent.futures import Future
-from typing import Optional
+from typing import Optional, Tuple
+
+import numpy as np
 
 from rumba_cleaning.behaviour import Observation
 from rumba_cleaning.behaviours.dock import approach
@@ -37,7 +39,7 @@ class BatteryWatch:
 
     def _measure_ways(self) -> None:
         """Have the lengths of the paths to the dock computed, on the plan as it is now."""
-        self._lengths: 'Optional[Future[Array]]' = None
+        self._lengths: 'Optional[Future[Tuple[Array, float]]]' = None  # see `_lengths_to`
         self._plan, self._home = self._context.plan, self._context.home
         try:
             goal = approach(self._context)
@@ -73,11 +75,23 @@ class BatteryWatch:
         """
         if self._lengths is None:
             return math.inf
+        lengths, _ = self._lengths.result()
+        return self._needed_for(float(lengths[self._context.ground.standing_at(pose.x, pose.y)]))
+
+    def is_enough_anywhere(self, state_of_charge: float) -> bool:
+        """Whether a charge is enough wherever a path leads to the dock, so that `needed` need not be asked.
+
+        It waits, too.
+        """
+        return self._lengths is not None and state_of_charge >= self._needed_for(self._lengths.result()[1])
+
+    def _needed_for(self, length: float) -> float:
+        """State of charge for a path to the dock of a length [m], with the reserve."""
         config = self._context.config
-        length = float(self._lengths.result()[self._context.ground.standing_at(pose.x, pose.y)])
-        seconds = SLOWNESS * length / config.transit_speed + DOCKING
-        return self._rate * seconds + config.reserve
+        return self._rate * (SLOWNESS * length / config.transit_speed + DOCKING) + config.reserve
 
 
-def _lengths_to(context: Context, goal: Pose) -> Array:
-    return context.ground.path_lengths_to(goal.x, goal.y)
+def _lengths_to(context: Context, goal: Pose) -> Tuple[Array, float]:
+    """Lengths of the paths from each node to a goal [m], inf where none leads there, and the longest one."""
+    lengths = context.ground.path_lengths_to(goal.x, goal.y)
+    return lengths, float(np.max(lengths, where=np.isfinite(lengths), initial=0.0))

@@ -255,11 +255,11 @@ class Mission(Behaviour):
         coverage = self._context.swept.coverage
         if self._is_target_met(observation):
             return self._succeed()
-        needed = self._watch.needed(observation.pose)
-        if observation.state_of_charge < needed:
-            if math.isfinite(needed):
+        if not self._watch.is_enough_anywhere(observation.state_of_charge):
+            needed = self._watch.needed(observation.pose)
+            if math.isfinite(needed) and observation.state_of_charge < needed:
                 return self._enter(State.RETURNING, Dock(self._context))
-            if observation.state_of_charge < self._context.config.reserve:
+            if not math.isfinite(needed) and observation.state_of_charge < self._context.config.reserve:
                 return self._close(Status.FAILED, f'{percent(coverage)} swept: the battery is low, and no path leads '
                                                   'to a dock', Outcome.BATTERY_LOW)
         cleaning = self._cleaning

@@ -112,8 +112,8 @@ class Trial:
             act(mission, self.world, name, self._dt, self.sources[name])
         tell_mates(dict(zip(self.world.robots, self.missions)))
         self._dt = CONTROL_DT
-        running = self._running.values()
-        if running and all(mission.state is State.CHARGING for mission in running):
+        if any(mission.state is State.CHARGING for mission in self.missions) and all(
+                mission.state is State.CHARGING for mission in self._running.values()):
             self._charging_steps += 1
         self.advance(CONTROL_TICKS)
         self._steps += 1
