@@ -191,6 +191,19 @@ def test_it_backs_off_from_what_it_touches_and_sees():
     assert travel.going is Going.BLOCKED and robot.pose.x < 1.77 - RADIUS
 
 
+@pytest.mark.parametrize('angle', [0.3, 0.5, 0.7])
+def test_it_feels_its_way_through_a_gap_that_the_laser_sees_no_way_through(angle):
+    gap, plan = 2.0 * RADIUS + 0.025, room(4.0, 2.4, 0.02)
+    away = 0.5 * gap + 1.0
+    world = World(plan, quiet(), obstacles=[Obstacle(
+        name, Pose(2.0 - side * math.sin(angle), 1.2 + side * math.cos(angle), angle), 0.5, length=0.2, width=2.0)
+        for name, side in (('one', away), ('other', -away))])
+    world.spawn('rumba', Pose(0.5, 1.0, 0.0))
+    behaviour = GoTo(context_of(plan, world, laser=True), Pose(3.5, 1.0, 0.0))
+    run(behaviour, world, source=seeing(truth))
+    assert behaviour.status is Status.SUCCEEDED
+
+
 def test_it_waits_for_somebody_who_stands_in_its_only_way():
     world = World(HALL, quiet(), 50, 1, [Obstacle('crowd', Pose(2.0, 1.5, 0.0), 1.5, length=0.2, width=2.9)])
     world.spawn('rumba', Pose(0.5, 1.5, 0.0))

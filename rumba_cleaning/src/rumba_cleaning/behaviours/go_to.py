@@ -16,7 +16,9 @@ from rumba_sim.model.geometry import Pose
 from rumba_sim.model.kernel import Array
 
 PAUSE = 5.0  # [s] before it tries again what was closed: who stands in the way may walk on; our choice
-TRIES = 30  # times that it may find something unknown in the way, or rest beside the target; our choice
+TRIES = 60  # times that it may find something unknown in the way, or rest beside the target; our choice
+LOOKING = 10  # times that obstacles close every path before it feels its way: somebody may walk on, but a gap that is
+#               hardly wider than the robot stays closed to the laser; our choice
 CLOSE = 0.02  # [m] from the target at which the robot rests, at most, as docs/interfaces.md says
 
 Found = Tuple[Optional[Array], bool]  # a path, and whether obstacles that were met had to be forgotten for it
@@ -43,6 +45,8 @@ class GoTo(Behaviour):
         """Begin with the search for a path."""
         self._leave()
         self._tries = 0
+        self._closed = 0  # times that obstacles closed every path
+        self._looks = True  # ahead by the laser
         self._pause = 0.0  # [s] still to wait
 
     @property
@@ -105,12 +109,15 @@ class GoTo(Behaviour):
         if has_forgotten:
             self._context.forget_obstacles()
             self._pause = PAUSE
+            self._closed += 1
+            self._looks = self._closed < LOOKING
         if path is None:
             target = self._target
             self.fail(f'no path from ({pose.x:.2f}, {pose.y:.2f}) to ({target.x:.2f}, {target.y:.2f}) m',
                       Outcome.NO_PATH)
             return None
-        return Travel(self._context, Route(path, np.full(len(path) - 1, self._context.config.transit_speed)))
+        route = Route(path, np.full(len(path) - 1, self._context.config.transit_speed))
+        return Travel(self._context, route, self._looks)
 
     def _turned(self, turn: Turn, observation: Observation) -> Command:
         """Turn to the heading; if the robot is off the target then, go back: commands came late, or it was pushed."""
