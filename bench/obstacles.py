@@ -27,6 +27,7 @@ TARGET = 0.98
 STANDING, MOVING = 10, 2
 KEPT = 1.0  # [m] around the dock, where nothing stands
 ENDED = (Outcome.SUCCEEDED, Outcome.INCOMPLETE)
+LIMIT = 20.0  # [T] of working time, after which a mission counts as one that does not end
 LEAST = 0.95  # of what is free: a mission that ends with less gave up too early
 
 
@@ -88,7 +89,7 @@ def _place(plan, generator):
 def mission(name, pose, has_laser, seed):
     """A mission on a map, by a kind of pose, by bumper alone or by laser too."""
     plan = floor(name)
-    trial = Trial(plan, 'boustrophedon', Conditions(pose=pose, target=TARGET, laser=has_laser), seed,
+    trial = Trial(plan, 'boustrophedon', Conditions(pose=pose, target=TARGET, laser=has_laser, bound=LIMIT), seed,
                   obstacles=drawn(plan, seed))
     while not trial.is_over:
         trial.step()

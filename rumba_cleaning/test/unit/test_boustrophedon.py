@@ -92,6 +92,18 @@ def test_somebody_who_stands_in_the_only_door_now_and_then_does_not_end_it_early
     assert time > 500.0 and context.swept.coverage > 0.98
 
 
+def test_it_squeezes_through_a_gap_that_leads_to_more_of_the_floor():
+    plan, gap = room(4.0, 2.4, 0.02, start=Pose(0.5, 1.0, 0.0)), 2.0 * RADIUS + 0.02
+    away = 0.5 * gap + 1.0
+    world = World(plan, quiet(), 50, 1, [Obstacle(
+        name, Pose(2.0 - side * math.sin(0.4), 1.2 + side * math.cos(0.4), 0.4), 0.5, length=0.2, width=2.0)
+        for name, side in (('one', away), ('other', -away))])
+    world.spawn('rumba')
+    mission = Mission(context_of(plan, world, laser=True), 'boustrophedon', 0.98)
+    run(mission, world, seconds=3000.0, source=seeing(truth))
+    assert mission.outcome is Outcome.INCOMPLETE and world.floor.coverage >= 0.97
+
+
 def test_a_robot_that_gave_up_where_it_was_shut_in_begins_again_at_its_dock():
     plan = room(5.0, 3.0, boxes=[(2.4, 0.0, 2.6, 1.0), (2.4, 1.9, 2.6, 3.0)], dock=Pose(4.9 - RADIUS, 1.45, 0.0))
     world = World(plan, quiet())

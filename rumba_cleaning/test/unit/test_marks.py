@@ -8,7 +8,7 @@ from floors import along, ground, length, off, standing_points, wall_with_gap
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from pytest import approx
-from rooms import PLANS, crooked, room
+from rooms import PLANS, RADIUS, crooked, room
 
 from rumba_cleaning.belief.ground import INFLATION
 from rumba_cleaning.belief.met import GROWTH, LARGEST, NOTHING_SEEN, SEEN, Seen
@@ -164,6 +164,20 @@ def test_a_copy_has_the_lasting_obstacles_too():
 def wall_of_points(x, low, high):
     """Points of something that is seen, across a room."""
     return np.array([(x, y) for y in np.arange(low, high, 0.04)])
+
+
+def test_squeezed_what_is_seen_leaves_a_gap_open_that_is_as_narrow_as_the_robot():
+    floor, gap = ground(room(4.0, 3.0)), 2.0 * RADIUS + 0.02
+    wall = np.concatenate([wall_of_points(2.0, 0.0, 1.5 - 0.5 * gap), 3.0 - wall_of_points(2.0, 0.0, 1.5 - 0.5 * gap)])
+    wall[:, 0] = 2.0
+    floor.show(Seen(wall, wall[:0]))
+    ends = np.array([[1.0, 1.5], [3.0, 1.5]])
+    assert floor.path(*ends) is None
+    assert floor.opened(1.0, 1.5) == approx((4.0 - 2.0 * RADIUS) * (3.0 - 2.0 * RADIUS) / 2.0, rel=0.2)
+    floor.squeeze(True)
+    assert floor.copy().path(*ends) is not None and floor.shows(wall) and floor.opened(1.0, 1.5) == 0.0
+    floor.squeeze(False)
+    assert floor.path(*ends) is None
 
 
 def test_what_is_seen_is_shown_until_something_else_is():

@@ -1,5 +1,6 @@
 """go_to: to a pose, around what is in the way."""
 
+import enum
 import math
 from concurrent.futures import Future
 from typing import Optional, Tuple
@@ -16,12 +17,19 @@ from rumba_sim.model.geometry import Pose
 from rumba_sim.model.kernel import Array
 
 PAUSE = 5.0  # [s] before it tries again what was closed: who stands in the way may walk on; our choice
-TRIES = 60  # times that it may find something unknown in the way, or rest beside the target; our choice
-LOOKING = 10  # times that obstacles close every path before it feels its way: somebody may walk on, but a gap that is
-#               hardly wider than the robot stays closed to the laser; our choice
+TRIES = 30  # times that it may find something unknown in the way, or rest beside the target; our choice
 CLOSE = 0.02  # [m] from the target at which the robot rests, at most, as docs/interfaces.md says
 
-Found = Tuple[Optional[Array], bool]  # a path, and whether obstacles that were met had to be forgotten for it
+
+class Needs(enum.Enum):
+    """What a path needs beyond the open floor."""
+
+    NOTHING = 'nothing'
+    SQUEEZING = 'squeezing past what the robot sees'
+    FORGETTING = 'that the obstacles are gone that the robot met'
+
+
+Found = Tuple[Optional[Array], Needs]  # a path, if there is one
 
 
 class GoTo(Behaviour):
@@ -45,8 +53,6 @@ class GoTo(Behaviour):
         """Begin with the search for a path."""
         self._leave()
         self._tries = 0
-        self._closed = 0  # times that obstacles closed every path
-        self._looks = True  # ahead by the laser
         self._pause = 0.0  # [s] still to wait
 
     @property
@@ -78,6 +84,7 @@ class GoTo(Behaviour):
     def terminate(self) -> None:
         """Drop the search for a path."""
         self._drop_search()
+        self._context.ground.squeeze(False)
 
     def take_note(self, observation: Observation) -> None:
         """Look for a path again, from wherever the robot will be."""
@@ -104,20 +111,19 @@ class GoTo(Behaviour):
         if not self._search.done():
             self.message = 'planning'
             return None
-        path, has_forgotten = self._search.result()
+        path, needs = self._search.result()
         self._search = None
-        if has_forgotten:
+        if needs is Needs.SQUEEZING:
+            self._context.ground.squeeze(True)
+        elif needs is Needs.FORGETTING:
             self._context.forget_obstacles()
             self._pause = PAUSE
-            self._closed += 1
-            self._looks = self._closed < LOOKING
         if path is None:
             target = self._target
             self.fail(f'no path from ({pose.x:.2f}, {pose.y:.2f}) to ({target.x:.2f}, {target.y:.2f}) m',
                       Outcome.NO_PATH)
             return None
-        route = Route(path, np.full(len(path) - 1, self._context.config.transit_speed))
-        return Travel(self._context, route, self._looks)
+        return Travel(self._context, Route(path, np.full(len(path) - 1, self._context.config.transit_speed)))
 
     def _turned(self, turn: Turn, observation: Observation) -> Command:
         """Turn to the heading; if the robot is off the target then, go back: commands came late, or it was pushed."""
@@ -138,10 +144,14 @@ class GoTo(Behaviour):
 
 
 def _search(context: Context, pose: Pose, target: Pose) -> Found:
-    """A path to a target; if obstacles that were met close every path, they are forgotten."""
+    """A path to a target; if obstacles close every path, past what the robot sees, or else as if there were none."""
     ground, ends = context.ground, np.array([pose[:2], target[:2]])
     path = ground.path(*ends)
     if path is not None or not ground.has_marks:
-        return path, False
+        return path, Needs.NOTHING
+    ground.squeeze(True)
+    path = ground.path(*ends)
+    if path is not None:
+        return path, Needs.SQUEEZING
     ground.forget()
-    return ground.path(*ends), True
+    return ground.path(*ends), Needs.FORGETTING

@@ -44,10 +44,9 @@ class Travel:
         route: what it follows.
     """
 
-    def __init__(self, context: Context, route: Route, looks: bool = True) -> None:
-        """Follow a route; unless it looks ahead by the laser, it feels its way by the bumper alone."""
+    def __init__(self, context: Context, route: Route) -> None:
+        """Follow a route."""
         self._context = context
-        self._looks = looks
         self._follower = Follower(route, context.robot.drive)
         self.route = route
         self._back = 0.0  # [s] still to back off
@@ -104,9 +103,9 @@ class Travel:
     def _sees_obstacle(self, observation: Observation) -> bool:
         """Whether the laser sees something in the way that the ground does not show; has it show that."""
         context = self._context
-        if context.sight is None or not self._looks:
-            return False
         context.look(observation)
+        if context.sight is None:
+            return False
         points = context.sight.in_way(observation.pose, self._follower.ahead(AHEAD), context.ground.reach)
         is_news = not context.ground.shows(points)
         if is_news:

@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 Result = TypeVar('Result')
 Seed = Union[int, Sequence[int]]
 CUT_OFF = 0.02  # of the reachable floor: less than a room, more than corners beside things; our choice
+OPENED = 0.05  # [m^2] half of what a robot covers: a gap that opens less is not worth squeezing through; our choice
 Survey = Callable[[], FloorPlan]  # the same object as long as the plan is the same
 
 
@@ -171,6 +172,10 @@ class Context:
         """Whether obstacles that stay, as a closed door, keep a robot at a pose from much of the floor."""
         return (self.ground.has_lasting
                 and self.ground.cut_off(pose.x, pose.y) > CUT_OFF * self.swept.reachable_area)
+
+    def may_squeeze(self, pose: Pose) -> bool:
+        """Whether squeezing past what it sees opens floor to a robot at a pose."""
+        return self.ground.opened(pose.x, pose.y) > OPENED
 
     def forget_doubtful(self, even_lasting: bool) -> None:
         """As that of the ground; what is seen and stays is forgotten only if nothing else is."""

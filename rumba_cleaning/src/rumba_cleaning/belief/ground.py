@@ -72,6 +72,19 @@ class Ground:
         if self._met.show(seen):
             self._measure()
 
+    def squeeze(self, on: bool) -> None:
+        """Take what the robot sees to be as small as it can be, so that gaps as narrow as it are open, or as usual."""
+        if self._met.squeeze(on):
+            self._measure()
+
+    def opened(self, x: float, y: float) -> float:
+        """Area on which the robot could stand anyway, and to which squeezing opens a way from a point [m^2]."""
+        squeezed = self.copy()
+        squeezed.squeeze(True)
+        before, after = self._parts(), squeezed._parts()
+        away = self.fits & (before != before[self.standing_at(x, y)]) & (after == after[squeezed.standing_at(x, y)])
+        return float(away.sum()) * self.plan.resolution ** 2
+
     def shows(self, points: Array) -> bool:
         """Whether it shows obstacles at points (any, 2) [m], all of them."""
         nodes = self.nodes(points)

@@ -14,6 +14,7 @@ LARGEST = 0.25  # [m] radius of an obstacle, at most: small leaves gaps beside i
 OVERLAP = 0.02  # [m] by which robot and obstacle may overlap: a pose errs by less
 LEAST = 0.01  # [m] radius of an obstacle, below which there is none
 SEEN = 0.02  # [m] radius of what is seen at a point: half a cell of `Sight`
+SQUEEZED = -0.015  # [m] the same for a robot that squeezes past: beams end within a cell of what they meet
 
 
 class Mark(NamedTuple):
@@ -51,23 +52,24 @@ class Met:
         self._former: List[Mark] = []  # met once, and forgotten last
         self._lasting: List[Mark] = []  # met again after that
         self._seen = NOTHING_SEEN
+        self._radius = SEEN  # [m] of what is seen at a point
 
     def copy(self) -> 'Met':
         """One that stays as it is if this one changes."""
         other = Met()
         other._unsure, other._former, other._lasting = list(self._unsure), list(self._former), list(self._lasting)
-        other._seen = self._seen  # replaced, never changed
+        other._seen, other._radius = self._seen, self._radius  # replaced, never changed
         return other
 
     @property
     def doubtful(self) -> List[Mark]:
         """Those that may go again."""
-        return self._unsure + _marks(self._seen.passing)
+        return self._unsure + self._marks(self._seen.passing)
 
     @property
     def lasting(self) -> List[Mark]:
         """Those that stay."""
-        return self._lasting + _marks(self._seen.staying)
+        return self._lasting + self._marks(self._seen.staying)
 
     @property
     def has_doubtful(self) -> bool:
@@ -121,7 +123,11 @@ class Met:
             self._former, self._lasting, self._seen = self._lasting, [], NOTHING_SEEN
         return forgets_all
 
+    def squeeze(self, on: bool) -> bool:
+        """As `Ground.squeeze`; whether that changed anything."""
+        before, self._radius = self._radius, SQUEEZED if on else SEEN
+        return before != self._radius and any(len(points) for points in self._seen)
 
-def _marks(points: Array) -> List[Mark]:
-    """Obstacles that were seen at points (any, 2) [m]."""
-    return [Mark(x, y, SEEN) for x, y in points.tolist()]
+    def _marks(self, points: Array) -> List[Mark]:
+        """Obstacles that are seen at points (any, 2) [m]."""
+        return [Mark(x, y, self._radius) for x, y in points.tolist()]

@@ -18,7 +18,7 @@ DEAR = 150.0  # [m/m^2] that a round beside obstacles drives for what it gains, 
 #               what the planner drives for a crumb, so most of what it planned for cannot be reached
 HELPED = 0.01  # of coverage: forgetting obstacles that gained less was in vain: to touch them all again takes long
 VAIN = 1  # times that obstacles are forgotten in vain, after which it ends ...
-PATIENT, MUCH = 3, 0.9  # ... and so many while less than this share is swept of what lies beside obstacles
+PATIENT, MUCH = 4, 0.9  # ... and so many while less than this share is swept of what lies beside obstacles
 PAUSE = 20.0  # [s] after the first of these times, twice that after the second ...: who stands there may walk on
 TURN = 20.0  # [s] that a mate may take to plan, before it is the turn of the robot all the same; our choice
 ROUNDS = 20  # at most, each with what was missed before: far more than the maps of rumba_sim need
@@ -36,6 +36,7 @@ class Planned(NamedTuple):
     """What was planned."""
 
     route: Optional[Route]
+    squeezes: bool = False  # past what the robot sees
     forgotten: Forgotten = Forgotten.NOTHING  # since there was no route beside them
     relief: Optional[Relief] = None  # what it takes over from a mate
 
@@ -155,6 +156,8 @@ class Boustrophedon(Behaviour):
         planned, self._planning = self._planning.result(), None
         if self._rest is None:
             self._plan, self._relief = self._plan + 1, planned.relief
+        if planned.squeezes:
+            self._context.ground.squeeze(True)
         if planned.forgotten is not Forgotten.NOTHING:
             self._vain = 0 if self._before > self._forgot_at + HELPED else self._vain + 1
             self._pause = PAUSE * self._vain
@@ -205,10 +208,16 @@ def _round(context: Context, pose: Pose, is_worth: bool, may_forget: bool) -> Pl
     help_for_mate = helping.help_mate(context, pose)
     if help_for_mate is not None:
         return Planned(help_for_mate[0], relief=help_for_mate[1])
+    if context.may_squeeze(pose):
+        context.ground.squeeze(True)
+        route = plan(context, pose)
+        if route is not None:
+            return Planned(_part_of(route, share), squeezes=True)
     if not may_forget or not (context.ground.has_doubtful or is_cut_off):
         return Planned(None)
     context.ground.forget_doubtful(is_cut_off)
-    return Planned(_part_of(plan(context, pose), share), Forgotten.EVEN_LASTING if is_cut_off else Forgotten.DOUBTFUL)
+    forgotten = Forgotten.EVEN_LASTING if is_cut_off else Forgotten.DOUBTFUL
+    return Planned(_part_of(plan(context, pose), share), forgotten=forgotten)
 
 
 def _part_of(route: Optional[Route], share: float) -> Optional[Route]:
