@@ -167,9 +167,9 @@ def wall_of_points(x, low, high):
 
 
 def test_squeezed_what_is_seen_leaves_a_gap_open_that_is_as_narrow_as_the_robot():
-    floor, gap = ground(room(4.0, 3.0)), 2.0 * RADIUS + 0.02
-    wall = np.concatenate([wall_of_points(2.0, 0.0, 1.5 - 0.5 * gap), 3.0 - wall_of_points(2.0, 0.0, 1.5 - 0.5 * gap)])
-    wall[:, 0] = 2.0
+    floor = ground(room(4.0, 3.0))
+    below = np.arange(1.5 - RADIUS - 0.01, 0.0, -0.04)
+    wall = np.array([(2.0, y) for y in (*below, *(3.0 - below))])
     floor.show(Seen(wall, wall[:0]))
     ends = np.array([[1.0, 1.5], [3.0, 1.5]])
     assert floor.path(*ends) is None

@@ -8,7 +8,7 @@ from scipy import ndimage
 
 from rumba_cleaning.belief.compiled_ground import are_of_one_part, keep_clear
 from rumba_cleaning.belief.limits import limited
-from rumba_cleaning.belief.met import SEEN, Mark, Met, Seen
+from rumba_cleaning.belief.met import Mark, Met, Seen
 from rumba_cleaning.belief.search import cheapest, is_clear, path_lengths
 from rumba_sim.model.constants import clearance_needed
 from rumba_sim.model.floor_plan import FloorPlan
@@ -88,7 +88,7 @@ class Ground:
     def shows(self, points: Array) -> bool:
         """Whether it shows obstacles at points (any, 2) [m], all of them."""
         nodes = self.nodes(points)
-        return bool((self.clearance[nodes[:, 0], nodes[:, 1]] <= SEEN).all())
+        return bool((self.clearance[nodes[:, 0], nodes[:, 1]] <= self._met.most_clearance).all())
 
     def forget_doubtful(self, even_lasting: bool = False) -> bool:
         """Forget the obstacles that may have gone since they were met: those met once; if there are none, all.

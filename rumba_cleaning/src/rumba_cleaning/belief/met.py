@@ -123,6 +123,11 @@ class Met:
             self._former, self._lasting, self._seen = self._lasting, [], NOTHING_SEEN
         return forgets_all
 
+    @property
+    def most_clearance(self) -> float:
+        """Clearance that a node has at most to which a point is nearest at which something is seen [m]."""
+        return 2.0 * SEEN - self._radius
+
     def squeeze(self, on: bool) -> bool:
         """As `Ground.squeeze`; whether that changed anything."""
         before, self._radius = self._radius, SQUEEZED if on else SEEN
