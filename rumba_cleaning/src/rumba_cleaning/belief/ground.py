@@ -73,7 +73,7 @@ class Ground:
             self._measure()
 
     def squeeze(self, on: bool) -> None:
-        """Take what the robot sees to be as small as it can be, so that gaps as narrow as it are open, or as usual."""
+        """Take obstacles to be as small as they can be, so that gaps as narrow as the robot are open, or as usual."""
         if self._met.squeeze(on):
             self._measure()
 

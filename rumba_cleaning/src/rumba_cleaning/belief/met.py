@@ -14,7 +14,8 @@ LARGEST = 0.25  # [m] radius of an obstacle, at most: small leaves gaps beside i
 OVERLAP = 0.02  # [m] by which robot and obstacle may overlap: a pose errs by less
 LEAST = 0.01  # [m] radius of an obstacle, below which there is none
 SEEN = 0.02  # [m] radius of what is seen at a point: half a cell of `Sight`
-SQUEEZED = -0.015  # [m] the same for a robot that squeezes past: beams end within a cell of what they meet
+SQUEEZED = -0.015  # [m] the same for a robot that squeezes past: beams end within a cell of what they meet, and it does
+#                    not know exactly where it touched things
 
 
 class Mark(NamedTuple):
@@ -64,12 +65,12 @@ class Met:
     @property
     def doubtful(self) -> List[Mark]:
         """Those that may go again."""
-        return self._unsure + self._marks(self._seen.passing)
+        return self._touched(self._unsure) + self._marks(self._seen.passing)
 
     @property
     def lasting(self) -> List[Mark]:
         """Those that stay."""
-        return self._lasting + self._marks(self._seen.staying)
+        return self._touched(self._lasting) + self._marks(self._seen.staying)
 
     @property
     def has_doubtful(self) -> bool:
@@ -101,7 +102,7 @@ class Met:
             self._former = [mark for mark in self._former if mark not in back]
         else:
             self._unsure.append(touched)
-        return [touched, *back]
+        return self._touched([touched, *back])
 
     def leave_out(self, x: float, y: float, radius: float) -> bool:
         """As `Ground.leave_out`; whether that changed anything."""
@@ -131,7 +132,12 @@ class Met:
     def squeeze(self, on: bool) -> bool:
         """As `Ground.squeeze`; whether that changed anything."""
         before, self._radius = self._radius, SQUEEZED if on else SEEN
-        return before != self._radius and any(len(points) for points in self._seen)
+        return before != self._radius and (self.has_doubtful or self.has_lasting)
+
+    def _touched(self, marks: List[Mark]) -> List[Mark]:
+        """Obstacles that were touched; where the robot squeezes past, as much smaller as what it sees."""
+        less = SEEN - self._radius
+        return [mark._replace(radius=mark.radius - less) for mark in marks]
 
     def _marks(self, points: Array) -> List[Mark]:
         """Obstacles that are seen at points (any, 2) [m]."""
