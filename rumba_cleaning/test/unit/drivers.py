@@ -1,5 +1,6 @@
 """Has robots of a world do what behaviours or people say."""
 
+import math
 from concurrent.futures import Executor, Future
 
 from rumba_cleaning.belief.context import Context
@@ -7,6 +8,8 @@ from rumba_cleaning.cleaning_config import CleaningConfig
 from rumba_cleaning.control import CONTROL_DT, CONTROL_TICKS, observe, steps
 from rumba_cleaning.pose_source import truth
 from rumba_sim.model.floor_plan import OCCUPIED, FloorPlan
+from rumba_sim.model.geometry import Pose
+from rumba_sim.model.obstacle import Obstacle
 
 
 def context_of(plan, world, seed=1, executor=None, **changes):
@@ -38,6 +41,13 @@ def with_box(plan, box):
     occupancy[row:last_row, column:last_column] = OCCUPIED
     return FloorPlan(plan.name, occupancy, plan.resolution, plan.origin, cliff=plan.cliff, carpet=plan.carpet,
                      dock=plan.dock, start=plan.start)
+
+
+def slanted_gap(gap, angle):
+    """Obstacles that leave only a gap [m], slanted by an angle [rad], between the halves of a floor of 4 x 2.4 m."""
+    away = 0.5 * gap + 1.0
+    return [Obstacle(name, Pose(2.0 - side * math.sin(angle), 1.2 + side * math.cos(angle), angle), 0.5, length=0.2,
+                     width=2.0) for name, side in (('one', away), ('other', -away))]
 
 
 class Later(Executor):

@@ -4,7 +4,7 @@ import math
 import re
 
 import pytest
-from drivers import context_of, drive_by_hand, run, with_box
+from drivers import context_of, drive_by_hand, run, slanted_gap, with_box
 from rooms import RADIUS, quiet, room
 
 from rumba_cleaning.behaviour import Status
@@ -93,11 +93,8 @@ def test_somebody_who_stands_in_the_only_door_now_and_then_does_not_end_it_early
 
 
 def test_it_squeezes_through_a_gap_that_leads_to_more_of_the_floor():
-    plan, gap = room(4.0, 2.4, 0.02, start=Pose(0.5, 1.0, 0.0)), 2.0 * RADIUS + 0.02
-    away = 0.5 * gap + 1.0
-    world = World(plan, quiet(), 50, 1, [Obstacle(
-        name, Pose(2.0 - side * math.sin(0.4), 1.2 + side * math.cos(0.4), 0.4), 0.5, length=0.2, width=2.0)
-        for name, side in (('one', away), ('other', -away))])
+    plan = room(4.0, 2.4, 0.02, start=Pose(0.5, 1.0, 0.0))
+    world = World(plan, quiet(), obstacles=slanted_gap(2.0 * RADIUS + 0.02, 0.4))
     world.spawn('rumba')
     mission = Mission(context_of(plan, world, laser=True), 'boustrophedon', 0.98)
     run(mission, world, seconds=3000.0, source=seeing(truth))

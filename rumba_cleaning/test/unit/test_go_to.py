@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from drivers import context_of, drive_by_hand, run, with_box
+from drivers import context_of, drive_by_hand, run, slanted_gap, with_box
 from rooms import RADIUS, crooked, quiet, room
 
 from rumba_cleaning.behaviour import STOP, Status
@@ -192,12 +192,9 @@ def test_it_backs_off_from_what_it_touches_and_sees():
 
 
 @pytest.mark.parametrize('angle', [0.3, 0.5, 0.7])
-def test_it_feels_its_way_through_a_gap_that_the_laser_sees_no_way_through(angle):
-    gap, plan = 2.0 * RADIUS + 0.025, room(4.0, 2.4, 0.02)
-    away = 0.5 * gap + 1.0
-    world = World(plan, quiet(), obstacles=[Obstacle(
-        name, Pose(2.0 - side * math.sin(angle), 1.2 + side * math.cos(angle), angle), 0.5, length=0.2, width=2.0)
-        for name, side in (('one', away), ('other', -away))])
+def test_it_squeezes_through_a_gap_that_is_hardly_wider_than_the_robot(angle):
+    plan = room(4.0, 2.4, 0.02)
+    world = World(plan, quiet(), obstacles=slanted_gap(2.0 * RADIUS + 0.015, angle))
     world.spawn('rumba', Pose(0.5, 1.0, 0.0))
     behaviour = GoTo(context_of(plan, world, laser=True), Pose(3.5, 1.0, 0.0))
     run(behaviour, world, source=seeing(truth))

@@ -141,6 +141,20 @@ def test_a_mover_that_meets_the_same_robot_again_goes_back_farther_each_time_unt
     assert turns(world, 40.0)[:4] == approx([contact, 3.0, contact, 4.0], abs=0.02)
 
 
+def test_a_mover_that_meets_a_robot_on_the_first_part_of_its_way_pauses_at_its_end_each_time():
+    stops = [(4.0, 2.0), (1.0, 2.0), (1.0, 4.0)]
+    world = World(HALL, quiet(), obstacles=[walker('cat', stops, 0.5, 0.15, pause=(10.0, 10.0))])
+    world.spawn('rumba', Pose(2.0, 2.0, 0.0))
+    places = []
+    for _ in range(50 * 100):
+        world.step()
+        places.append(next(world.obstacles.poses())[1].x)
+    touching = np.array(places) < 2.0 + RADIUS + 0.15 + 0.01
+    met = np.flatnonzero(touching[1:] & ~touching[:-1]) / 50.0  # [s]
+    cycle = 2.0 * (2.0 - RADIUS - 0.15) / 0.5 + 5.0 + 10.0
+    assert np.diff(met) == approx(cycle, abs=0.1) and len(met) == int((100.0 - met[0]) / cycle) + 1
+
+
 def turns(world, seconds):
     """Where along x the one mover of a world turned round [m]."""
     places = [next(world.obstacles.poses())[1].x for _ in range(round(50 * seconds)) if world.step() is None]

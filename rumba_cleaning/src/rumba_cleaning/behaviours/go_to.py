@@ -25,7 +25,7 @@ class Needs(enum.Enum):
     """What a path needs beyond the open floor."""
 
     NOTHING = 'nothing'
-    SQUEEZING = 'squeezing past what the robot sees'
+    SQUEEZING = 'squeezing past obstacles'
     FORGETTING = 'that the obstacles are gone that the robot met'
 
 
@@ -144,7 +144,7 @@ class GoTo(Behaviour):
 
 
 def _search(context: Context, pose: Pose, target: Pose) -> Found:
-    """A path to a target; if obstacles close every path, past what the robot sees, or else as if there were none."""
+    """A path to a target; if obstacles close every path, squeezing past them, or else as if there were none."""
     ground, ends = context.ground, np.array([pose[:2], target[:2]])
     path = ground.path(*ends)
     if path is not None or not ground.has_marks:

@@ -174,7 +174,7 @@ class Context:
                 and self.ground.cut_off(pose.x, pose.y) > CUT_OFF * self.swept.reachable_area)
 
     def may_squeeze(self, pose: Pose) -> bool:
-        """Whether squeezing past what it sees opens floor to a robot at a pose."""
+        """Whether squeezing past obstacles opens floor to a robot at a pose."""
         return self.ground.opened(pose.x, pose.y) > OPENED
 
     def forget_doubtful(self, even_lasting: bool) -> None:

@@ -36,7 +36,7 @@ class Planned(NamedTuple):
     """What was planned."""
 
     route: Optional[Route]
-    squeezes: bool = False  # past what the robot sees
+    squeezes: bool = False  # past obstacles, through gaps as narrow as the robot
     forgotten: Forgotten = Forgotten.NOTHING  # since there was no route beside them
     relief: Optional[Relief] = None  # what it takes over from a mate
 

@@ -442,7 +442,7 @@ def go(obstacles: Array, stops: Array, robots: Array, k: Record) -> None:
 def turn_round(mover: Record) -> None:
     """Let a mover that lost patience go the other way: back by one stop more each time that it meets the robot there.
 
-    It goes back by half of its stops at most: there a way to and fro ends, and farther on it leads to the robot again.
+    Not beyond the end of a way to and fro, nor by more than half of a loop: farther on, they lead to the robot again.
     """
     mover.waited, mover.is_back = 0, not mover.is_back
     if mover.is_back:
@@ -451,7 +451,7 @@ def turn_round(mover: Record) -> None:
 
 def arrive(mover: Record, stops: Array) -> None:
     """Let a mover pause at the next stop, or where it goes back to; it passes stops on its way back."""
-    if mover.is_back and mover.behind + 1 < mover.retreats:
+    if mover.is_back and mover.behind + 1 < mover.retreats and not is_at_end(mover, stops):
         mover.moved = stops[mover.first + mover.stop, TRAVEL]
         mover.stop = (mover.stop + mover.stops - 1) % mover.stops
         mover.behind += 1
@@ -465,6 +465,13 @@ def arrive(mover: Record, stops: Array) -> None:
         mover.behind = max(mover.behind - 1, 0)
     mover.visits += 1
     mover.rest = pause(mover, stops)
+
+
+def is_at_end(mover: Record, stops: Array) -> bool:
+    """Whether the way turns at the last stop of a mover: it leads there from the place to which it leads next."""
+    before = stops[mover.first + (mover.stop + mover.stops - 1) % mover.stops]
+    after = stops[mover.first + (mover.stop + 1) % mover.stops]
+    return bool(before[X] == after[X] and before[Y] == after[Y])
 
 
 def farthest(mover: Record, stops: Array, robots: Array, k: Record, before: float, moved: float) -> float:
