@@ -80,16 +80,17 @@ def test_somebody_who_stands_in_the_only_door_now_and_then_does_not_end_it_early
     robot = world.spawn('rumba')
     context = context_of(plan, world, laser=True)
     context.swept.begin(1.0, 1.0)
-    time = 0.0  # [s] since the person came
+    time, times = 0.0, 0  # [s] since the person came, and how often
     for observation, _ in steps(Boustrophedon(context), world, seconds=2500.0, source=seeing(truth)):
         context.swept.follow(robot.pose, robot.brushes_up)
         time += observation.dt if time > 0.0 or context.swept.coverage > 0.02 else 0.0
         stands = 0.0 < time < 500.0 and time % 50.0 < 47.0
         if stands and not world.obstacles.items and robot.pose.x < 2.1:
             world.add_obstacle(Obstacle('person', Pose(2.5, 1.45, 0.0), 1.7, 0.2))
+            times += 1
         elif not stands and world.obstacles.items:
             world.remove_obstacle('person')
-    assert time > 500.0 and context.swept.coverage > 0.98
+    assert times >= 4 and context.swept.coverage > 0.98
 
 
 def test_it_squeezes_through_a_gap_that_leads_to_more_of_the_floor():

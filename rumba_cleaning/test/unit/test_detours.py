@@ -20,7 +20,7 @@ def detoured(*boxes, target=1.0, route=ACROSS, plan=None):
     """A route with detours on a floor that was swept except for crumbs, and the floor after it, on paper."""
     context = wiped_but(knowing(plan or room(4.0, 3.0, 0.02), START, target_coverage=target), *boxes)
     floor = context.swept.copy()
-    found = with_crumbs(context, route, floor, regions(context.ground))
+    found = with_crumbs(context, route, floor, np.ones(context.plan.free.shape, bool), regions(context.ground))
     drive(floor, found.waypoints)
     return found, floor
 

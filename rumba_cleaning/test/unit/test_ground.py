@@ -71,12 +71,15 @@ def test_the_nearest_node_to_stand_changes_when_an_obstacle_is_met_there():
 
 @pytest.mark.parametrize('distance', [0.0, 0.085, 0.3])
 @RESOLUTIONS
-def test_cells_within_a_distance_of_where_the_robot_can_stand_are_found_and_few_beyond(distance, resolution):
+def test_cells_around_where_the_robot_can_go_are_found_and_few_beyond(distance, resolution):
     plan = crooked(resolution)
     floor = ground(plan)
-    within = floor.within(distance)
+    for y in np.arange(0.0, 3.0, 0.1):
+        floor.mark(2.0, y, 0.1)
+    within = floor.around(0.5, 0.5, distance)
     assert within.shape == plan.occupancy.shape
     free = np.argwhere(floor.fits)
+    free = free[floor.points(free)[:, 0] < 2.0]
     for row, column in np.random.default_rng(5).integers((0, 0), within.shape, (100, 2)):
         away = min(np.hypot(*(free - (row + 0.5, column + 0.5)).T)) * resolution
         if within[row, column]:

@@ -144,10 +144,8 @@ def test_what_is_met_again_after_it_was_forgotten_stays_and_what_is_not_goes():
     assert lasting[floor.node(2.0, 2.0)] == 0.0 < lasting[floor.node(5.0, 3.0)]
     floor.forget_doubtful()
     assert np.array_equal(floor.clearance, lasting)
-    floor.forget_doubtful()  # none is left that was met once: now those that were met twice are in doubt
-    assert not floor.has_marks
-    floor.mark(2.0, 2.0, 0.05)
-    assert floor.has_lasting
+    floor.forget_barring(1.0, 1.0)  # it bars no way
+    assert np.array_equal(floor.clearance, lasting)
 
 
 def test_a_copy_has_the_lasting_obstacles_too():
@@ -187,10 +185,8 @@ def test_what_is_seen_is_shown_until_something_else_is():
     assert floor.shows(np.array([[1.0, 1.04], [3.0, 1.04]])) and not floor.shows(np.array([[1.0, 1.04], [2.0, 1.5]]))
     assert floor.clearance[floor.node(1.3, 1.4)] == approx(0.3 - SEEN)
     assert floor.lasting_clearance()[floor.node(1.3, 1.4)] == approx(1.3)
-    assert not floor.forget_doubtful()
+    assert len(floor.forget_doubtful()) == len(wall_of_points(1.0, 1.0, 2.0))
     assert not floor.has_doubtful and floor.has_lasting
-    assert floor.forget_doubtful()
-    assert not floor.has_marks
     floor.show(Seen(wall_of_points(1.0, 1.0, 2.0), wall_of_points(3.0, 1.0, 2.0)))
     floor.show(NOTHING_SEEN)
     assert not floor.has_marks and (floor.clearance == floor.plan.safe_clearance).all()
@@ -200,20 +196,24 @@ def test_what_is_known_to_stay_stays_at_once():
     floor = ground(room(4.0, 3.0))
     floor.mark(2.0, 2.0, 0.05, stays=True)
     assert floor.has_lasting and not floor.has_doubtful
-    floor.forget_doubtful(even_lasting=True)
-    assert not floor.has_marks
-    floor.mark(2.0, 2.0, 0.05)  # met again: it stays
+    floor.forget_doubtful()
     assert floor.has_lasting
 
 
-def test_forgetting_even_what_lasts_keeps_what_is_seen():
-    floor = ground(room(4.0, 3.0))
-    floor.mark(2.0, 2.0, 0.05, stays=True)
-    floor.show(Seen(NOTHING_SEEN.passing, wall_of_points(3.0, 1.0, 2.0)))
-    assert not floor.forget_doubtful(even_lasting=True)
-    assert floor.has_lasting
-    assert floor.forget_doubtful(even_lasting=True)
-    assert not floor.has_lasting
+def test_of_what_stays_only_what_bars_a_way_is_forgotten():
+    floor = ground(room(4.0, 3.0, boxes=[(2.0, 0.0, 2.2, 1.2), (2.0, 1.8, 2.2, 3.0)]))
+    floor.mark(2.1, 1.5, 0.1, stays=True)
+    floor.mark(0.8, 2.4, 0.1, stays=True)
+    barring, beside = wall_of_points(2.1, 1.3, 1.7), wall_of_points(3.5, 2.5, 2.8)
+    floor.show(Seen(NOTHING_SEEN.passing, np.concatenate([barring, beside])))
+    lasting = floor.lasting_clearance()
+    assert floor.cut_off(1.0, 0.5) > 1.0
+    assert floor.forget_barring(1.0, 0.5).tolist() == barring.tolist()
+    assert floor.cut_off(1.0, 0.5) == 0.0
+    kept = floor.node(0.8, 2.1), floor.node(3.2, 2.6)
+    assert all(floor.lasting_clearance()[node] == lasting[node] for node in kept)
+    floor.mark(2.1, 1.5, 0.05)  # met again: it stays
+    assert floor.cut_off(1.0, 0.5) > 1.0
 
 
 def test_an_obstacle_is_as_small_as_the_robot_shows_it_to_be_by_standing_there():

@@ -1,5 +1,6 @@
 """Whole plans, driven on paper and in the world: what they sweep, how long they are, and where they lead."""
 
+import itertools
 import math
 import pathlib
 
@@ -183,6 +184,28 @@ def test_a_crumb_is_visited_although_most_of_what_was_missed_cannot_be_reached()
     context.ground.mark(2.85, 0.65, 0.25)  # somebody has closed the door
     route = plan(context, START)
     assert np.hypot(*(along(route.waypoints) - (1.5, 1.2)).T).min() < 0.05 and route.waypoints[:, 0].max() < 2.8
+
+
+def test_a_patch_is_cleaned_in_lanes_although_most_of_what_was_missed_lies_under_an_obstacle():
+    patch = (0.8, 1.0, 1.6, 1.8)
+    context = wiped_but(knowing(room(4.0, 3.0, 0.02), START), patch, (2.4, 1.0, 3.6, 1.8))
+    for x, y in itertools.product((2.5, 2.75, 3.0, 3.25, 3.5), (1.1, 1.4, 1.7)):
+        context.ground.mark(x, y, 0.15, stays=True)
+    missed = driven(context, plan(context, START)).missed()
+    x, y = context.plan.centre(*np.argwhere(missed).T.astype(float))
+    left, bottom, right, top = patch
+    left_over = np.count_nonzero((x > left) & (x < right) & (y > bottom) & (y < top)) * context.plan.resolution ** 2
+    assert left_over < 0.1 * (right - left) * (top - bottom)
+
+
+def test_what_obstacles_enclose_keeps_no_plan_from_the_rest():
+    """A way that the tour takes to be open leads into a pocket from which no path leads out."""
+    context = wiped_but(knowing(room(4.0, 3.0, 0.02), START, target_coverage=1.0), (3.0, 1.0, 3.2, 1.2),
+                        (3.5, 1.0, 3.7, 1.2))
+    context.ground.mark(3.55, 0.85, 0.2, stays=True)
+    context.ground.mark(3.55, 1.45, 0.2, stays=True)
+    route = plan(context, START)
+    assert np.hypot(*(along(route.waypoints) - (3.1, 1.1)).T).min() < 0.05
 
 
 def test_there_is_no_plan_if_nothing_was_missed():

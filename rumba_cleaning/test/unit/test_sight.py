@@ -78,17 +78,14 @@ def test_what_is_seen_for_a_minute_stays_and_stays_at_once_when_it_is_seen_again
     assert len(seen.passing) and not len(seen.staying)
     seen = look(sight, world, count=20)
     assert not len(seen.passing) and len(seen.staying) >= len(passing)
-    sight.forget(also_what_stays=False)
-    assert len(sight.seen().staying) == len(seen.staying)
-    sight.forget(also_what_stays=True)
-    assert not len(sight.seen().staying)
+    sight.forget(seen.staying[1:])
+    assert sight.seen().staying.tolist() == seen.staying[:1].tolist()
     assert len(look(sight, world).staying)
 
 
 def test_what_passes_is_forgotten_until_it_is_seen_again():
     sight, world = Sight(PLAN), world_with(BOX)
-    look(sight, world)
-    sight.forget(also_what_stays=False)
+    sight.forget(look(sight, world).passing)
     assert not len(sight.seen().passing) and len(look(sight, world).passing)
 
 

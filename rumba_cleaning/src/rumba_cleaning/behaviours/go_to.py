@@ -9,6 +9,7 @@ import numpy as np
 
 from rumba_cleaning.behaviour import STOP, Behaviour, Command, Observation
 from rumba_cleaning.behaviours.follower import Turn
+from rumba_cleaning.behaviours.impasse import Impasse
 from rumba_cleaning.behaviours.travel import Going, Travel
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.outcome import Outcome
@@ -26,7 +27,8 @@ class Needs(enum.Enum):
 
     NOTHING = 'nothing'
     SQUEEZING = 'squeezing past obstacles'
-    FORGETTING = 'that the obstacles are gone that the robot met'
+    FORGETTING_DOUBTFUL = 'that the obstacles are gone that may go again'
+    FORGETTING_ALL = 'that all obstacles are gone that the robot met'
 
 
 Found = Tuple[Optional[Array], Needs]  # a path, if there is one
@@ -54,6 +56,7 @@ class GoTo(Behaviour):
         self._leave()
         self._tries = 0
         self._pause = 0.0  # [s] still to wait
+        self._impasse = Impasse()
 
     @property
     def remaining(self) -> float:
@@ -77,6 +80,8 @@ class GoTo(Behaviour):
             any_heading = math.isnan(self._target.theta)
             self._turn = Turn(observation.pose.theta if any_heading else self._target.theta, self._context.robot.drive)
         elif self._travel.going is not Going.ON:
+            if self._travel.going is Going.BLOCKED:
+                self._impasse.stop(self._context, observation.pose)
             return self._try_again(command)
         self.message = f'{self.remaining:.1f} m to go'
         return command
@@ -115,8 +120,11 @@ class GoTo(Behaviour):
         self._search = None
         if needs is Needs.SQUEEZING:
             self._context.ground.squeeze(True)
-        elif needs is Needs.FORGETTING:
+        elif needs is Needs.FORGETTING_DOUBTFUL:
+            self._context.forget_doubtful()
+        elif needs is Needs.FORGETTING_ALL:
             self._context.forget_obstacles()
+        if needs in (Needs.FORGETTING_DOUBTFUL, Needs.FORGETTING_ALL):
             self._pause = PAUSE
         if path is None:
             target = self._target
@@ -144,7 +152,7 @@ class GoTo(Behaviour):
 
 
 def _search(context: Context, pose: Pose, target: Pose) -> Found:
-    """A path to a target; if obstacles close every path, squeezing past them, or else as if there were none."""
+    """A path to a target; if obstacles close every path, squeezing past them, or else as if there were fewer."""
     ground, ends = context.ground, np.array([pose[:2], target[:2]])
     path = ground.path(*ends)
     if path is not None or not ground.has_marks:
@@ -153,5 +161,10 @@ def _search(context: Context, pose: Pose, target: Pose) -> Found:
     path = ground.path(*ends)
     if path is not None:
         return path, Needs.SQUEEZING
+    ground.squeeze(False)
+    ground.forget_doubtful()
+    path = ground.path(*ends)
+    if path is not None:
+        return path, Needs.FORGETTING_DOUBTFUL
     ground.forget()
-    return ground.path(*ends), Needs.FORGETTING
+    return ground.path(*ends), Needs.FORGETTING_ALL

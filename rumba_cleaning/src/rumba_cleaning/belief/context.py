@@ -15,6 +15,7 @@ from rumba_cleaning.belief.swept import Swept
 from rumba_cleaning.cleaning_config import CleaningConfig
 from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.model.geometry import Pose
+from rumba_sim.model.kernel import Array
 from rumba_sim.model.robot_config import RobotConfig
 from rumba_sim.model.sweep import Part
 
@@ -177,17 +178,23 @@ class Context:
         """Whether squeezing past obstacles opens floor to a robot at a pose."""
         return self.ground.opened(pose.x, pose.y) > OPENED
 
-    def forget_doubtful(self, even_lasting: bool) -> None:
-        """As that of the ground; what is seen and stays is forgotten only if nothing else is."""
-        forgets_all = self.ground.forget_doubtful(even_lasting)
-        if self.sight is not None:
-            self.sight.forget(also_what_stays=forgets_all)
+    def forget_doubtful(self) -> None:
+        """As that of the ground."""
+        self._lose_sight_of(self.ground.forget_doubtful())
+
+    def forget_barring(self, pose: Pose) -> None:
+        """As that of the ground, for a robot at a pose."""
+        self._lose_sight_of(self.ground.forget_barring(pose.x, pose.y))
 
     def forget_obstacles(self) -> None:
         """Forget all obstacles."""
         if self.sight is not None:
-            self.sight.forget(also_what_stays=True)
+            self._lose_sight_of(np.concatenate(self.sight.seen()))
         self.ground.forget()
+
+    def _lose_sight_of(self, points: Array) -> None:
+        if self.sight is not None:
+            self.sight.forget(points)
 
     # --- mates, and work --------------------------------------------------------------------------------------------
 

@@ -23,6 +23,7 @@ ESCAPE = 0.15  # [m] from where a robot is, it may go to another part of the flo
 NARROW = 0.03  # [m] ... that is too narrow by twice this, at most: three errors of a pose
 SEARCH_SPACING = 0.05  # [m] between the nodes that are looked at first: large is fast, but misses narrow passages
 SEARCH_MARGIN = 2.0  # [m] around both ends is searched first: small is fast, but a longer path needs a second search
+BARRING = 0.1  # [m] beyond that from both sides, an obstacle bars the way from one to the other: small misses some
 INFLATION = 0.1  # [m] beyond the touching distance, within which a path costs more: large keeps to the open floor ...
 INFLATION_COST = 2.0  # ... up to this many times its length more: small lets a path follow a wall to be shorter
 ALL_AROUND = np.ones((3, 3))  # nodes next to one
@@ -90,18 +91,30 @@ class Ground:
         nodes = self.nodes(points)
         return bool((self.clearance[nodes[:, 0], nodes[:, 1]] <= self._met.most_clearance).all())
 
-    def forget_doubtful(self, even_lasting: bool = False) -> bool:
-        """Forget the obstacles that may have gone since they were met: those met once; if there are none, all.
-
-        Args:
-            even_lasting: those that were met more than once too, which may be smaller than they are taken to be.
+    def forget_doubtful(self) -> Array:
+        """Forget the obstacles that may have gone since they were met: those that were met once.
 
         Returns:
-            Whether it has forgotten all, what is seen and stays too.
+            The points of those that were seen: float64 (any, 2) [m].
         """
-        forgets_all = self._met.forget_doubtful(even_lasting)
+        forgotten = self._met.forget_doubtful()
         self._measure()
-        return forgets_all
+        return forgotten
+
+    def forget_barring(self, x: float, y: float) -> Array:
+        """Forget them, and those that stay and keep a robot at a point [m] from part of the floor.
+
+        These may be smaller than they are taken to be, or have gone after all.
+
+        Returns:
+            As `forget_doubtful`.
+        """
+        farther = np.maximum(*(ndimage.distance_transform_edt(~side) for side in self._sides(x, y)))
+        farther *= self.plan.resolution
+        forgotten = self._met.forget_barring(
+            lambda mark: bool(farther[self.node(mark.x, mark.y)] < mark.radius + self.reach + BARRING))
+        self._measure()
+        return forgotten
 
     def leave_out(self, x: float, y: float, radius: float) -> None:
         """Take what the robot has met to be as small as it must be, since there is nothing within a circle [m]."""
@@ -131,12 +144,21 @@ class Ground:
 
     def cut_off(self, x: float, y: float) -> float:
         """Area on which the robot could stand, and to which the obstacles that stay leave no way from a point [m^2]."""
+        _, away = self._sides(x, y)
+        return float(away.sum()) * self.plan.resolution ** 2
+
+    def _sides(self, x: float, y: float) -> Tuple[Array, Array]:
+        """The nodes to which the obstacles that stay leave a way from a point, and those that they cut off.
+
+        Returns:
+            Two arrays, bool (rows + 1, columns + 1).
+        """
         node = self.standing_at(x, y)
         by_plan, _ = ndimage.label(self.plan.safe_clearance >= self.reach + SLACK, ALL_AROUND)
         fits = self.lasting_clearance() >= self.reach + SLACK
         beside_all, _ = ndimage.label(fits, ALL_AROUND)
-        away = fits & (by_plan == by_plan[node]) & (beside_all != beside_all[node])
-        return float(away.sum()) * self.plan.resolution ** 2
+        here = fits & (beside_all == beside_all[node])
+        return here, fits & (by_plan == by_plan[node]) & ~here
 
     def mark(self, x: float, y: float, radius: float, stays: bool = False) -> None:
         """Remember a round obstacle; one that is met again is taken to be larger than before.
@@ -226,13 +248,14 @@ class Ground:
         row, column = near[np.argmin(((self.points(near) - (x, y)) ** 2).sum(axis=1))].tolist()
         return row, column
 
-    def within(self, distance: float) -> Array:
-        """Cells that lie within a distance [m], or one cell more, of a node at which the robot can stand.
+    def around(self, x: float, y: float, distance: float) -> Array:
+        """Cells within a distance [m], or one cell more, of a node to which a robot at a point [m] can go.
 
         Returns:
             bool (rows, columns)
         """
-        away = ndimage.distance_transform_edt(~self.fits)[:-1, :-1] * self.plan.resolution
+        parts = self._parts()
+        away = ndimage.distance_transform_edt(parts != parts[self.standing_at(x, y)])[:-1, :-1] * self.plan.resolution
         return np.asarray(away <= distance + self.plan.resolution)
 
     # --- paths ----------------------------------------------------------------------------------------------------

@@ -1,7 +1,7 @@
 """The obstacles that one robot has met and sees: which of them may go again, and which stay."""
 
 import math
-from typing import List, NamedTuple
+from typing import Callable, List, NamedTuple
 
 import numpy as np
 
@@ -113,16 +113,20 @@ class Met:
                                         if mark.radius > LEAST] for marks in (self._unsure, self._lasting))
         return True
 
-    def forget_doubtful(self, even_lasting: bool) -> bool:
+    def forget_doubtful(self) -> Array:
         """As `Ground.forget_doubtful`."""
-        doubtful = self._unsure + self._lasting if even_lasting else self._unsure
-        forgets_all = not doubtful and not len(self._seen.passing)
-        if not forgets_all:
-            self._former, self._unsure, self._seen = doubtful, [], Seen(NOTHING_SEEN.passing, self._seen.staying)
-            self._lasting = [] if even_lasting else self._lasting
-        else:
-            self._former, self._lasting, self._seen = self._lasting, [], NOTHING_SEEN
-        return forgets_all
+        seen, self._seen = self._seen, self._seen._replace(passing=NOTHING_SEEN.passing)
+        self._former, self._unsure = self._unsure, []
+        return seen.passing
+
+    def forget_barring(self, is_barring: Callable[[Mark], bool]) -> Array:
+        """As `Ground.forget_barring`."""
+        forgotten = [mark for mark in self._lasting if is_barring(mark)]
+        self._former, self._unsure = self._unsure + forgotten, []
+        self._lasting = [mark for mark in self._lasting if mark not in forgotten]
+        bars = np.array([is_barring(Mark(x, y, SEEN)) for x, y in self._seen.staying.tolist()], bool)
+        seen, self._seen = self._seen, Seen(NOTHING_SEEN.passing, self._seen.staying[~bars])
+        return np.concatenate([seen.passing, seen.staying[bars]])
 
     @property
     def most_clearance(self) -> float:

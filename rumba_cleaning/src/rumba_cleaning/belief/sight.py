@@ -116,13 +116,11 @@ class Sight:
     def _middles(self, cells: Array) -> Array:
         return (np.argwhere(cells)[:, ::-1] + 0.5) * CELL + self._plan.origin
 
-    def forget(self, also_what_stays: bool) -> None:
-        """Forget what is there, until it is seen again; what stayed then stays at once."""
+    def forget(self, points: Array) -> None:
+        """Forget what is at points (any, 2) [m] that were seen, until it is seen again; what stayed stays at once."""
         if self._odds is not None:
-            seen = self.seen()
-            for points in seen if also_what_stays else seen[:1]:
-                column, row = ((points - self._plan.origin) / CELL).astype(np.intp).T
-                self._odds[row, column] = 0.0
+            column, row = ((points - self._plan.origin) / CELL).astype(np.intp).T
+            self._odds[row, column] = 0.0
 
     def in_way(self, pose: Pose, ahead: Array, reach: float) -> Array:
         """Points of what is in the way of a robot that will drive to other points.

@@ -35,18 +35,19 @@ class Detour(NamedTuple):
     area: float  # [m^2] that it cleans
 
 
-def with_crumbs(context: Context, route: Route, paper: Swept, labels: Array) -> Route:
+def with_crumbs(context: Context, route: Route, paper: Swept, around: Array, labels: Array) -> Route:
     """A route with detours to crumbs that it would leave, no more than the target needs: those that cost least.
 
     Args:
         context: where the robot can stand, and the target.
         route: without detours.
         paper: what is swept after it.
+        around: the cells that the robot can sweep, bool (rows, columns).
         labels: the region of each node, int (rows + 1, columns + 1).
     """
     missing = (context.target_coverage + SURPLUS - paper.coverage) * paper.reachable_area  # [m^2]
     route = _dense(route)
-    found = _detours(context, route, crumbs(context.ground, paper.missing_share(), labels))
+    found = _detours(context, route, crumbs(context.ground, paper.missing_share() * around, labels))
     chosen: Dict[int, Detour] = {}
     for detour in sorted(found, key=lambda detour: detour.length / detour.area):
         if missing <= 0.0 or detour.length > DEAREST * detour.area:

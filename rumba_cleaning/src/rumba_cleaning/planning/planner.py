@@ -25,6 +25,7 @@ from rumba_sim.model.kernel import Array
 # Our choice.
 MOST = 0.5  # share of what was missed that lanes and rings must clean, for them to be driven
 MISSED = 0.3  # share of a cell, for a lane to clean it: small drives over swept floor
+BEYOND = 0.03  # [m] from what the brush reaches, where an obstacle may leave more floor free than the robot knows
 YIELD = 0.7  # share of a crumb that is swept in passing, about: small plans for more crumbs than the target needs
 SPARE = 0.0005  # of coverage that is planned beyond the target, once the robot is past the lanes and rings
 CULLS = 4  # rounds in which crumbs are left out that cost much time for their area: more make better choices
@@ -47,12 +48,22 @@ def plan(context: Context, pose: Pose) -> Optional[Route]:
     ground, swept = context.ground, context.swept
     labels = regions(ground)
     paper = swept.copy()
-    found = _stretches(context, paper, labels)
-    if paper.coverage - swept.coverage > MOST * (1.0 - swept.coverage):
+    around = _around(context, pose)
+    found = _stretches(context, paper, around, labels)
+    missing = swept.missing_share() * around
+    if paper.coverage - swept.coverage > MOST * missing.sum() * ground.plan.resolution ** 2 / swept.reachable_area:
         route = _through(context, pose, labels, found)
         if route is not None:
-            return with_crumbs(context, route, paper, labels)
-    return _through(context, pose, labels, crumbs(ground, swept.missing_share(), labels))
+            return with_crumbs(context, route, paper, around, labels)
+    return _through(context, pose, labels, crumbs(ground, missing, labels))
+
+
+def _around(context: Context, pose: Pose) -> Array:
+    """The cells that a robot at a pose can sweep beside the obstacles it met, about: bool (rows, columns)."""
+    ground = context.ground
+    if not ground.has_marks:
+        return np.ones(ground.plan.free.shape, bool)
+    return ground.around(pose.x, pose.y, 0.5 * context.robot.brush.width + BEYOND)
 
 
 def _through(context: Context, pose: Pose, labels: Array, found: List[Stretch]) -> Optional[Route]:
@@ -68,12 +79,12 @@ def _through(context: Context, pose: Pose, labels: Array, found: List[Stretch]) 
     return _route(context, pose, tours, by_region)
 
 
-def _stretches(context: Context, paper: Swept, labels: Array) -> List[Stretch]:
+def _stretches(context: Context, paper: Swept, around: Array, labels: Array) -> List[Stretch]:
     """Rings, and lanes where those are better, that clean what was missed, but for crumbs; they are driven on paper."""
     ground, brush = context.ground, context.robot.brush.width
     shape = shapes(ground, labels)
     found = [stretch(chain, brush) for chain in chains(rings(ground, paper, labels, shape, brush))]
-    missed = paper.missing_share() > MISSED
+    missed = (paper.missing_share() > MISSED) & around
     angle = main_direction(ground)
     for region, part in _by_region(ground, missed, labels).items():
         if shape.has_lanes[region]:

@@ -7,6 +7,7 @@ from typing import NamedTuple, Optional
 
 from rumba_cleaning.behaviour import STOP, Behaviour, Command, Observation
 from rumba_cleaning.behaviours.detour import detour
+from rumba_cleaning.behaviours.impasse import Impasse
 from rumba_cleaning.behaviours.travel import Going, Travel
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.route import Ahead, Relief, Route
@@ -16,20 +17,20 @@ from rumba_sim.model.geometry import Pose
 WORTH = 0.0005  # of coverage: a round that gains less is the last: a round for the last spots gains little more
 DEAR = 150.0  # [m/m^2] that a round beside obstacles drives for what it gains, beyond which it is the last: five times
 #               what the planner drives for a crumb, so most of what it planned for cannot be reached
-HELPED = 0.01  # of coverage: forgetting obstacles that gained less was in vain: to touch them all again takes long
-VAIN = 1  # times that obstacles are forgotten in vain, after which it ends ...
-PATIENT, MUCH = 4, 0.9  # ... and so many while less than this share is swept of what lies beside obstacles
+HELPED = 0.01  # of coverage: a retry that gained less was in vain: to touch all obstacles again takes long
+VAIN = 1  # retries in vain, one after the other, after which it ends ...
+PATIENT, MUCH = 5, 0.9  # ... and so many while less than this share is swept of what lies beside obstacles
 PAUSE = 20.0  # [s] after the first of these times, twice that after the second ...: who stands there may walk on
 TURN = 20.0  # [s] that a mate may take to plan, before it is the turn of the robot all the same; our choice
 ROUNDS = 20  # at most, each with what was missed before: far more than the maps of rumba_sim need
 
 
-class Forgotten(enum.Enum):
-    """Which obstacles were forgotten for a plan."""
+class Retry(enum.Enum):
+    """Why a plan may succeed where the last one did not."""
 
-    NOTHING = 'none'
-    DOUBTFUL = 'those that may go again'
-    EVEN_LASTING = 'those that were met more than once too'
+    NONE = 'it is the next round, not another try'
+    FORGOT_DOUBTFUL = 'the obstacles that may go again are forgotten'
+    FORGOT_BARRING = 'those that were met more than once, but bar the way to much of the floor, are forgotten too'
 
 
 class Planned(NamedTuple):
@@ -37,7 +38,7 @@ class Planned(NamedTuple):
 
     route: Optional[Route]
     squeezes: bool = False  # past obstacles, through gaps as narrow as the robot
-    forgotten: Forgotten = Forgotten.NOTHING  # since there was no route beside them
+    retry: Retry = Retry.NONE
     relief: Optional[Relief] = None  # what it takes over from a mate
 
 
@@ -66,12 +67,14 @@ class Boustrophedon(Behaviour):
         self._relief: Optional[Relief] = None  # what the plan takes over from a mate
         self._waited = 0.0  # [s] for the turn to plan
         self._rounds = 0
-        self._forgot_at = -1.0  # coverage when obstacles that were met were forgotten
-        self._vain = 0  # times, one after the other, that this did not help
+        self._tried_at = -1.0  # coverage at the last retry
+        self._vain = 0  # retries, one after the other, that did not help
+        self._most = 0.0  # coverage of what lies beside obstacles, at most: those that are forgotten still stand there
         self._pause = 0.0  # [s] still to wait
         self._before = -1.0  # coverage when the round began
         self._driven = 0.0  # [m] since then
         self._last: Optional[Pose] = None  # where the robot was
+        self._impasse = Impasse()
         self._brushes_up = True
 
     def update(self, observation: Observation) -> Command:
@@ -85,7 +88,7 @@ class Boustrophedon(Behaviour):
                 if self._is_turn_of_mate(observation.dt):
                     return self._wait()
                 self._plan_round(observation.pose)
-            self._take_plan()
+            self._take_plan(observation.pose)
             if self._travel is None:
                 if self._planning is not None or self._rest is not None:
                     return self._wait()
@@ -131,26 +134,32 @@ class Boustrophedon(Behaviour):
         gain = coverage - self._before
         is_dear = context.ground.has_marks and self._driven > DEAR * gain * context.swept.reachable_area
         is_worth = gain > WORTH and self._rounds < ROUNDS and not is_dear
-        may_forget = context.ground.has_marks and self._vain < self._tries()
+        is_cut_off = context.is_cut_off(pose)
+        if not is_cut_off:
+            self._most = max(self._most, context.beside_obstacles().coverage)
+        tries = PATIENT if is_cut_off or self._most <= MUCH else VAIN
+        may_retry = context.ground.has_marks and (self._has_helped(coverage) or self._vain < tries)
         self._before, self._driven = coverage, 0.0
         self._rounds += 1
         self._rest = None
-        self._planning = context.submit(_round, pose, is_worth, may_forget)
+        self._planning = context.submit(_round, pose, is_worth, may_retry)
 
-    def _tries(self) -> int:
-        """How often obstacles may be forgotten in vain: somebody in the only way to much of the floor is waited for."""
-        return VAIN if self._context.beside_obstacles().coverage > MUCH else PATIENT
+    def _has_helped(self, coverage: float) -> bool:
+        """Whether the last retry helped, if there was one."""
+        return coverage > self._tried_at + HELPED
 
     def _leave_route(self, travel: Travel, pose: Pose) -> None:
         """Plan the way back onto the route if the robot had to leave it."""
         self._travel = None
         self._rest = None if travel.going is Going.ARRIVED else travel.rest()
+        if travel.going is Going.BLOCKED:
+            self._impasse.stop(self._context, pose)
         if self._rest is not None:
             self._planning = self._context.submit(_detour, pose, self._rest)
-            self._take_plan()
+            self._take_plan(pose)
 
-    def _take_plan(self) -> None:
-        """Follow what was planned, if that is done."""
+    def _take_plan(self, pose: Pose) -> None:
+        """Follow what was planned for a pose, if that is done."""
         if self._planning is None or not self._planning.done():
             return
         planned, self._planning = self._planning.result(), None
@@ -158,11 +167,14 @@ class Boustrophedon(Behaviour):
             self._plan, self._relief = self._plan + 1, planned.relief
         if planned.squeezes:
             self._context.ground.squeeze(True)
-        if planned.forgotten is not Forgotten.NOTHING:
-            self._vain = 0 if self._before > self._forgot_at + HELPED else self._vain + 1
+        if planned.retry is not Retry.NONE:
+            self._vain = 0 if self._has_helped(self._before) else self._vain + 1
             self._pause = PAUSE * self._vain
-            self._forgot_at = self._before
-            self._context.forget_doubtful(planned.forgotten is Forgotten.EVEN_LASTING)
+            self._tried_at = self._before
+            if planned.retry is Retry.FORGOT_BARRING:
+                self._context.forget_barring(pose)
+            elif planned.retry is Retry.FORGOT_DOUBTFUL:
+                self._context.forget_doubtful()
         self._travel = None if planned.route is None else Travel(self._context, planned.route)
 
     def _leave_to_mate(self) -> None:
@@ -194,7 +206,7 @@ def plan(context: Context, pose: Pose) -> Optional[Route]:
     return planner.plan(context, pose)
 
 
-def _round(context: Context, pose: Pose, is_worth: bool, may_forget: bool) -> Planned:
+def _round(context: Context, pose: Pose, is_worth: bool, may_retry: bool) -> Planned:
     """A route that cleans what was missed; if there is none, one without the obstacles that may have gone."""
     from rumba_cleaning.planning import helping, paper  # here for the same reason
     is_cut_off = context.is_cut_off(pose)
@@ -213,11 +225,21 @@ def _round(context: Context, pose: Pose, is_worth: bool, may_forget: bool) -> Pl
         route = plan(context, pose)
         if route is not None:
             return Planned(_part_of(route, share), squeezes=True)
-    if not may_forget or not (context.ground.has_doubtful or is_cut_off):
+    retry = _retry(context, is_cut_off) if may_retry else Retry.NONE
+    if retry is Retry.NONE:
         return Planned(None)
-    context.ground.forget_doubtful(is_cut_off)
-    forgotten = Forgotten.EVEN_LASTING if is_cut_off else Forgotten.DOUBTFUL
-    return Planned(_part_of(plan(context, pose), share), forgotten=forgotten)
+    if retry is Retry.FORGOT_BARRING:
+        context.ground.forget_barring(pose.x, pose.y)
+    elif retry is Retry.FORGOT_DOUBTFUL:
+        context.ground.forget_doubtful()
+    return Planned(_part_of(plan(context, pose), share), retry=retry)
+
+
+def _retry(context: Context, is_cut_off: bool) -> Retry:
+    """What another try may rest on."""
+    if is_cut_off:
+        return Retry.FORGOT_BARRING
+    return Retry.FORGOT_DOUBTFUL if context.ground.has_doubtful else Retry.NONE
 
 
 def _part_of(route: Optional[Route], share: float) -> Optional[Route]:
