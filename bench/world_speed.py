@@ -13,8 +13,8 @@ AT_ONCE = {1: 1_000_000, 10: 2_000_000, 100: 2_300_000}  # the same by robots, t
 SCANS = {1: 30_000, 10: 30_000, 100: 25_000}  # scans of 360 beams in a CPU second, by robots; the lower bounds
 LASER_PERIOD = 0.1  # [s]
 ROBOTS = (1, 10, 100)
-SETTLED = 100  # ticks before the measurement: then the robots have their speed, and know which others are far away
-WORK = 20_000  # robot-steps in one unit of work
+WORK = 100_000  # robot-steps in a run
+LONGEST = 3000.0  # [s] a run, at most: a battery lasts twice as long
 
 
 def main():
@@ -44,9 +44,9 @@ def main():
 def measured_steps(plan, robots, step_rate, rooms=(1, 1), runs=5):
     """Robot-steps in a CPU second."""
     world = room20.populated(plan, robots, step_rate, rooms)
-    room20.drive(world, SETTLED)
-    ticks = max(1, WORK // robots)
-    figure = figures.per_cpu_second(lambda: room20.drive(world, ticks), ticks * robots, 0.4, runs)
+    ticks = min(WORK // robots, round(LONGEST * step_rate))
+    figure = figures.per_cpu_second(lambda: room20.drive(world, ticks), ticks * robots, 0.0, runs,
+                                    lambda: room20.begin(world))
     room20.check(world)
     return figure
 
@@ -54,7 +54,7 @@ def measured_steps(plan, robots, step_rate, rooms=(1, 1), runs=5):
 def measured_scans(plan, robots, step_rate, rooms=(1, 1)):
     """Scans in a CPU second of robots that stand still."""
     world = room20.populated(plan, robots, step_rate, rooms)
-    room20.drive(world, SETTLED)
+    room20.begin(world)
     return figures.per_cpu_second(lambda: room20.scan(world), robots, 0.4)
 
 
@@ -68,9 +68,9 @@ def steps(plan, robots, step_rate):
 def steps_at_once(plan, robots):
     """Print figures of robots that nobody looks at between their commands."""
     world = room20.populated(plan, robots, 50)
-    room20.drive(world, SETTLED)
-    commands = max(1, WORK // robots // 10)
-    figure = figures.per_cpu_second(lambda: room20.drive_at_once(world, commands), commands * 10 * robots, 0.4)
+    commands = WORK // robots // 10
+    figure = figures.per_cpu_second(lambda: room20.drive_at_once(world, commands), commands * 10 * robots, 0.0,
+                                    prepare=lambda: room20.begin(world))
     room20.check(world)
     figures.row(f'{robots:>4} robots: robot-steps', figure, at_least=AT_ONCE[robots])
 
@@ -79,7 +79,7 @@ def lasers(plan, robots, step_rate):
     """Print figures with laser."""
     figures.row(f'{robots:>4} robots: scans', measured_scans(plan, robots, step_rate), at_least=SCANS[robots])
     world = room20.populated(plan, robots, step_rate)
-    room20.drive(world, SETTLED)
+    room20.begin(world)
     ticks = round(step_rate * max(LASER_PERIOD, 10.0 / robots))
     figures.row('             simulated seconds, steps and scans', figures.per_cpu_second(
         lambda: room20.drive(world, ticks, LASER_PERIOD), ticks / step_rate, 0.4))

@@ -38,7 +38,7 @@ def _short(figure):
     return f'{figure:,.0f}' if abs(figure) >= 100.0 else f'{figure:.3g}'
 
 
-def per_cpu_second(work, amount, seconds=0.5, runs=5):
+def per_cpu_second(work, amount, seconds=0.5, runs=5, prepare=lambda: None):
     """How much work is done in one second of CPU time: the median of several runs.
 
     Args:
@@ -46,9 +46,11 @@ def per_cpu_second(work, amount, seconds=0.5, runs=5):
         amount: how much one call counts.
         seconds: CPU time of a run, at least.
         runs: how many.
+        prepare: a function that is called before each run, and is not measured.
     """
     figures = []
     for _ in range(runs):
+        prepare()
         calls, begin = 0, time.process_time()
         while time.process_time() - begin < seconds or not calls:
             work()

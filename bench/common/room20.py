@@ -16,6 +16,7 @@ SQUARE_SIDE = 0.6  # [m]
 FIRST = (9.0, 9.0)  # [m] position of the first robot; all robots stand at odd coordinates
 SPEED, TURN_RATE = 0.2, 1.0  # [m/s, rad/s] every robot drives in a circle of radius 0.2 m and touches nothing
 COMMAND_PERIOD = 0.2  # [s] less than the timeout of a command
+SETTLED = 100  # ticks after which the robots have their speed, and know which others are far away
 
 
 def room20(resolution, rooms=(1, 1), side=0.0):
@@ -79,9 +80,15 @@ def scan(world):
         world.scan(name)
 
 
+def begin(world):
+    """Let all robots begin anew, with full batteries, and drive until they have their speed."""
+    world.reset()
+    drive(world, SETTLED)
+
+
 def check(world):
-    """Refuse a world in which a robot touched something, since that takes more time than driving freely."""
+    """Refuse a world in which a robot touched something, which takes more time, or has no charge left and stands."""
     for robot in world.robots.values():
         start, pose = robot.start.pose, robot.pose
         assert robot.bumps == 0 and math.hypot(pose.x - start.x, pose.y - start.y) < 0.5, robot.name
-        assert robot.distance > 0.0, robot.name
+        assert robot.distance > 0.0 and robot.battery.state_of_charge > 0.0, robot.name

@@ -71,13 +71,12 @@ class Copy:
                 cliffs = np.zeros(len(CLIFF.angles), np.bool_)
                 functions.cliffs(self.robots, me, self.constants, self.floor.cells, CLIFF.distance,
                                  np.array(CLIFF.angles), cliffs)
-                seen.append((*functions.infrared(self.robots, me, self.constants, self.docks, self.plan.skips,
-                                                 self.floor.cells),
+                seen.append((*functions.infrared(self.robots, me, self.constants, self.docks, self.plan.skips),
                              *cliffs))
         ranges = np.empty((len(STARTS), len(self.fan)))
         for me in range(len(STARTS)):
-            functions.scan(self.robots, me, self.constants, self.obstacles, self.plan.skips, self.floor.cells,
-                           self.fan, self.noise.reshape(-1)[:len(self.fan)], ranges[me])
+            functions.scan(self.robots, me, self.constants, self.obstacles, self.plan.skips, self.fan,
+                           self.noise.reshape(-1)[:len(self.fan)], ranges[me])
         return np.array(states), seen, ranges
 
 

@@ -149,11 +149,6 @@ def test_noise_has_its_deviation_its_seed_and_no_bias():
     assert abs(np.corrcoef(errors[0], errors[1])[0, 1]) < 0.2
 
 
-def cells_of(plan):
-    """The cells of a plan as the kernel reads them."""
-    return np.where(plan.free, 0, kernel.BLOCKED).astype(np.uint8)
-
-
 def test_a_range_with_noise_is_within_its_limits_or_infinite():
     far = World(room(9.0, 9.0, start=Pose(1.002, 4.5, 0.0)), seed=4)  # 7.998 m from the wall ahead
     far.spawn('rumba')
@@ -168,7 +163,7 @@ def test_beams_along_the_borders_of_cells_are_exact_and_take_no_more_steps_than_
     grid = np.full((80, 80), OCCUPIED, np.int8)
     grid[1:-1, 1:-1] = FREE
     plan = FloorPlan('borders', grid, resolution, (0.0, 0.0))
-    k, cells = constants(quiet(), plan, 50)[0], cells_of(plan)
+    k = constants(quiet(), plan, 50)[0]
     steps = []
     to_border = kernel.to_border
     monkeypatch.setattr(kernel, 'to_border', lambda *args: steps.append(args) or to_border(*args))
@@ -177,7 +172,7 @@ def test_beams_along_the_borders_of_cells_are_exact_and_take_no_more_steps_than_
             angle = (turn - 2) * math.pi / 2.0  # its sine or cosine is nearly 0
             x, y = node * resolution, (80 - node) * resolution
             steps.clear()
-            distance = kernel.cast(k, plan.skips, cells, x, y, math.cos(angle), math.sin(angle), RANGE)
+            distance = kernel.cast(k, plan.skips, x, y, math.cos(angle), math.sin(angle), RANGE)
             assert distance == approx(ray(plan, x, y, angle + 1e-5), abs=1e-4)
             assert len(steps) < 200
 
@@ -196,7 +191,7 @@ def test_a_beam_whose_skip_ends_at_the_border_of_a_wall_meets_it_there(resolutio
     along_x, along_y = mirrors[0] * columns / cells, mirrors[1] * rows / cells
     # Beams along an axis start in the middle of a border, so that they do not run along the edge of the wall.
     x, y = x + mirrors[0] * 0.5 * resolution * (columns == 0), y + mirrors[1] * 0.5 * resolution * (rows == 0)
-    distance = kernel.cast(constants(quiet(), plan, 50)[0], plan.skips, cells_of(plan), x, y, along_x, along_y, RANGE)
+    distance = kernel.cast(constants(quiet(), plan, 50)[0], plan.skips, x, y, along_x, along_y, RANGE)
     assert distance == approx(cells * resolution, abs=2.0 * kernel.NUDGE * resolution)
 
 

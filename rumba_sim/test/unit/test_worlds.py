@@ -110,6 +110,16 @@ def test_robots_sweep_bump_and_sense_so_that_the_comparison_says_something():
     assert len({worlds[index].digest() for index in range(20)}) == 20
 
 
+@given(st.floats(-300.0, 300.0), st.one_of(st.floats(-4.0, 4.0), st.just(0.0)), st.integers(1, 200),
+       st.integers(0, 40), st.integers(0, 40))
+def test_the_points_of_a_line_that_lie_on_the_floor_are_found_without_trying_all(start, step, limit, first, more):
+    inside = [n for n in range(first, first + more) if 0.0 <= start + n * step < limit]
+    begin, end = batch.within(start, step, limit, first, first + more)
+    assert first <= begin <= end <= first + more and set(range(begin, end)) <= set(inside)
+    on_the_border = [n for n in inside if min(abs(start + n * step), abs(limit - start - n * step)) < 1e-9]
+    assert set(inside) - set(range(begin, end)) <= set(on_the_border)
+
+
 def test_a_map_of_the_surroundings_looks_where_the_robot_looks():
     """A robot at (1.5, 1) in a room of 4 x 3 m faces up; it has come from below, and only the left wall is near."""
     plan = room(4.0, 3.0, 0.05, [(0.0, 2.0, 1.0, 3.0)])

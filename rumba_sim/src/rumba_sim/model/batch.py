@@ -19,7 +19,6 @@ Arguments that the functions share. Each row belongs to one world; it may be lon
 
 import math
 from typing import Tuple
-
 import numpy as np
 
 from rumba_sim.model import kernel
@@ -64,8 +63,7 @@ def advance(first: int, last: int, order: Array, ticks: Array, spans: Array, rob
 
 
 def scan(first: int, last: int, order: Array, rows: Array, robots: Array, constants: Array, obstacles: Array,
-         counts: Array, plans: Array, shapes: Array, cells: Array, skips: Array, fan: Array, noise: Array,
-         ranges: Array) -> None:
+         counts: Array, plans: Array, shapes: Array, skips: Array, fan: Array, noise: Array, ranges: Array) -> None:
     """Measure with the laser of each robot.
 
     Args, apart from those above:
@@ -75,20 +73,19 @@ def scan(first: int, last: int, order: Array, rows: Array, robots: Array, consta
     """
     for index in range(first, last):
         world, row = order[index], rows[index]
-        floor, skip = floor_of(plans[world], plans[world], shapes[world], cells, skips)
         alone = slice(world, world + 1)
-        kernel.scan(robots[alone], 0, constants[alone], obstacles[world, :counts[world]], skip, floor, fan, noise[row],
-                    ranges[row])
+        kernel.scan(robots[alone], 0, constants[alone], obstacles[world, :counts[world]],
+                    floor_of(skips[plans[world]], shapes[world]), fan, noise[row], ranges[row])
 
 
 def infrared(first: int, last: int, order: Array, rows: Array, robots: Array, constants: Array, plans: Array,
-             docks: Array, dock_counts: Array, shapes: Array, cells: Array, skips: Array, beams: Array) -> None:
+             docks: Array, dock_counts: Array, shapes: Array, skips: Array, beams: Array) -> None:
     """What the receivers of each robot get from the docks: `beams`, uint8 (any, 3), receives omni, left, right."""
     for index in range(first, last):
         world, row = order[index], rows[index]
-        floor, skip = floor_of(plans[world], plans[world], shapes[world], cells, skips)
         beams[row, 0], beams[row, 1], beams[row, 2] = kernel.infrared(
-            robots, world, constants[world:world + 1], docks[plans[world], :dock_counts[plans[world]]], skip, floor)
+            robots, world, constants[world:world + 1], docks[plans[world], :dock_counts[plans[world]]],
+            floor_of(skips[plans[world]], shapes[world]))
 
 
 def cliffs(first: int, last: int, order: Array, rows: Array, robots: Array, constants: Array, plans: Array,
@@ -102,7 +99,7 @@ def cliffs(first: int, last: int, order: Array, rows: Array, robots: Array, cons
     """
     for index in range(first, last):
         world, row = order[index], rows[index]
-        floor, _ = floor_of(plans[world], plans[world], shapes[world], cells, cells)
+        floor = floor_of(cells[plans[world]], shapes[world])
         kernel.cliffs(robots, world, constants[world:world + 1], floor, distances[world], angles[world], seen[row])
 
 
@@ -124,7 +121,7 @@ def surroundings(first: int, last: int, order: Array, rows: Array, robots: Array
         world, row = order[index], rows[index]
         squares = shapes[world, 2]
         high, wide = shapes[world, 0] * squares, shapes[world, 1] * squares
-        floor, dirty = floor_of(plans[world], world, shapes[world], cells, left)
+        floor, dirty = floor_of(cells[plans[world]], shapes[world]), floor_of(left[world], shapes[world])
         sample = samples[world, :high * wide].reshape((high, wide))
         look(robots[world], constants[world], squares, floor, sample, dirty, known[world])
         for scale in range(len(pitches)):
@@ -163,25 +160,48 @@ def draw(robot: Record, k: Record, left: Array, pitch: float, points: int, pictu
     first = 0.5 * size * points - 0.5
     first_u = (robot.x - k.origin_x) / k.resolution + first * along_u - first * along_v
     first_v = (robot.y - k.origin_y) / k.resolution + first * along_v + first * along_u
-    rows, columns = float(left.shape[0]), float(left.shape[1])
+    floor, dirty = np.empty(size * points, np.int32), np.empty(size * points, np.int32)
     for row in range(size):
+        floor[:], dirty[:] = 0, 0
+        for back in range(row * points, (row + 1) * points):
+            see_line(left, first_u - back * along_u, first_v - back * along_v, along_v, -along_u, floor, dirty)
         for column in range(size):
-            blocked, total = 0, 0
-            for back in range(row * points, (row + 1) * points):
-                for right in range(column * points, (column + 1) * points):
-                    u = first_u - back * along_u + right * along_v
-                    v = first_v - back * along_v - right * along_u
-                    seen = NO_FLOOR
-                    if 0.0 <= u < columns and 0.0 <= v < rows:
-                        seen = int(left[np.uint32(v), np.uint32(u)])
-                    blocked += seen == NO_FLOOR
-                    total += seen
+            blocked, total = points * points, 0
+            for point in range(column * points, (column + 1) * points):
+                blocked -= floor[point]
+                total += dirty[point]
             picture[0, row, column] = np.uint8(blocked * share + 0.5)
-            picture[1, row, column] = np.uint8((total - NO_FLOOR * blocked) * part + 0.5)
+            picture[1, row, column] = np.uint8(total * part + 0.5)
 
 
-def floor_of(plan: int, world: int, shape: Array, cells: Array, others: Array) -> Tuple[Array, Array]:
-    """Row `plan` of `cells`, and row `world` of another such array, in rows and columns."""
-    rows, columns = shape[0], shape[1]
-    return (cells[plan, :rows * columns].reshape((rows, columns)),
-            others[world, :rows * columns].reshape((rows, columns)))
+def see_line(left: Array, u: float, v: float, step_u: float, step_v: float, floor: Array, dirty: Array) -> None:
+    """Look at points from (u, v) on, by steps [cells]: add 1 to `floor` where there is some, and to `dirty` its `left`.
+
+    `floor` and `dirty` are int32 (points).
+    """
+    first, last = within(u, step_u, left.shape[1], 0, len(floor))
+    first, last = within(v, step_v, left.shape[0], first, last)
+    for point in range(first, last):
+        seen = int(left[np.uint32(v + point * step_v), np.uint32(u + point * step_u)])
+        is_floor = int(seen != NO_FLOOR)
+        floor[point] += is_floor
+        dirty[point] += is_floor * seen
+
+
+def within(start: float, step: float, limit: int, first: int, last: int) -> Tuple[int, int]:
+    """Which of the whole numbers n from `first` on and below `last` have 0 <= start + n * step < limit: from, to."""
+    if step != 0.0:
+        enter, leave = -start / step, (limit - start) / step
+        low, high = min(enter, leave), max(enter, leave)
+        first, last = (int(math.ceil(min(max(low, float(first)), float(last)))),
+                       int(math.floor(min(max(high, first - 1.0), last - 1.0))) + 1)
+    while first < last and not 0.0 <= start + first * step < limit:
+        first += 1
+    while first < last and not 0.0 <= start + (last - 1) * step < limit:
+        last -= 1
+    return first, last
+
+
+def floor_of(row: Array, shape: Array) -> Array:
+    """A row of an array such as `cells`, in the rows and columns of the floor."""
+    return row[:shape[0] * shape[1]].reshape((shape[0], shape[1]))

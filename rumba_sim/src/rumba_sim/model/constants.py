@@ -6,12 +6,13 @@ from typing import Any, Dict, NamedTuple
 
 import numpy as np
 
+from rumba_sim.model import kernel
 from rumba_sim.model.errors import ConfigError, MapError
 from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.model.kernel import Array
 from rumba_sim.model.robot_config import RobotConfig
 
-FORMATS: Dict[Any, str] = {float: 'f8', int: 'i8', bool: '?'}
+FORMATS: Dict[Any, str] = {float: 'f8', int: 'i8', bool: '?', Array: f'({kernel.MOST_PASSES + 1},)f8'}
 
 
 class Constants(NamedTuple):
@@ -54,8 +55,7 @@ class Constants(NamedTuple):
     # brush
     brush_width: float  # [m]
     sample_pitch: float  # side of the squares of the floor that hold one sample point each [m]
-    pickup: float  # share of the dirt that one pass takes
-    kept: float  # share of the dirt that one pass leaves
+    takes: Array  # share of the first dirt that a pass takes, after 0, 1, ... MOST_PASSES others: float64
     # battery
     capacity: float  # [Ah]
     idle_current: float  # [A]
@@ -113,8 +113,9 @@ def _values(config: RobotConfig, plan: FloorPlan, step_rate: float) -> Constants
         contact_distance=dock.contact_distance, contact_angle=dock.contact_angle,
         release_distance=dock.release_distance, release_angle=dock.release_angle, buoy_range=dock.buoy_range,
         buoy_half=0.5 * dock.buoy_field, buoy_overlap_half=0.5 * dock.buoy_overlap, halo=dock.halo,
-        brush_width=brush.width, sample_pitch=plan.sample_pitch, pickup=brush.pickup, kept=1.0 - brush.pickup,
-        capacity=battery.capacity, idle_current=battery.idle_current, wheel_current_slow=battery.wheel_current_slow,
+        brush_width=brush.width, sample_pitch=plan.sample_pitch,
+        takes=brush.pickup * (1.0 - brush.pickup) ** np.arange(kernel.MOST_PASSES + 1), capacity=battery.capacity,
+        idle_current=battery.idle_current, wheel_current_slow=battery.wheel_current_slow,
         wheel_current=battery.wheel_current, wheel_speed=battery.wheel_speed, brush_current=battery.brush_current,
         charge_current=battery.charge_current, trickle_current=battery.trickle_current,
         taper_start=battery.taper_start, drain=battery.drain)

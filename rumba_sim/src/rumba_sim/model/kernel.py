@@ -11,7 +11,8 @@ Units: [m], [rad], [s], [A], [Ah]. Arguments that many functions share:
     samples: uint8 (n * rows, n * columns), the bits SWEEPABLE and REACHABLE, and how often the brush passed, of the
         sample point in each of the n x n squares of a cell.
     dirt: float32 (rows, columns), dirt on the samples of each cell in the beginning.
-    skips: uint8 (rows, columns), how many cells a beam may skip from anywhere in a cell (`FloorPlan.skips`).
+    skips: uint8 (rows, columns), how many cells a beam may skip from anywhere in a cell, or IN_WALL
+        (`FloorPlan.skips`).
     obstacles: array of records of type OBSTACLE, which the map does not show.
     docks: float64 (docks, 3), pose of a robot that stands at the contacts of each and faces it [m, rad].
     stops: float64 (all stops of all movers, 6), the columns X, Y, THETA, TRAVEL, LEAST and MOST of each stop.
@@ -31,7 +32,8 @@ BLOCKED, CLIFF, CARPET = 1, 2, 4  # bits of a cell
 SWEEPABLE, REACHABLE, PASS = 1, 2, 4  # bits of a sample; the bits from PASS on count how often the brush passed it
 MOST_PASSES = 63  # that fit into a byte; after so many no dirt is left
 BEND = 0.15  # [rad] turns are swept in pieces of at most this: the brush is up to 0.3 % longer or shorter in them
-STRIDE = 0.03  # [m] the floor is swept in strides of about this: sweeping in each tick takes several times longer
+# [m], [rad] the floor is swept in strides of about this: sweeping in each tick takes several times longer
+STRIDE, TURN_STRIDE = 0.03, 0.12
 LEFT, RIGHT = 1, 2  # bits of the bumper
 NO_BEAM, FORCE_FIELD, GREEN_BUOY, RED_BUOY = 0, 1, 4, 8  # rumba_msg/DockStatus
 INNER, OUTER = 0.26, 1.57  # [rad] how far the left receiver sees to the right and to the left
@@ -39,6 +41,7 @@ NEVER = -1
 TOUCH = 0.0005  # [m] a smaller gap is a contact
 PUSH = 0.0001  # [m] a push leaves this gap, so that rounding cannot leave an overlap
 PUSHES = 8  # how often a robot is pushed in one tick before it stays where it was
+IN_WALL = 255  # instead of what a beam may skip: there is a wall
 NUDGE = 1e-7  # [cells] that carries a beam across a border; a beam with less drift per cell is parallel to the border
 
 ROBOT = np.dtype((np.record, np.dtype([(name, 'f8') for name in (
@@ -528,7 +531,7 @@ def brush(robot: Record, k: Record, samples: Array, dirt: Array, tally: Record, 
     `swept_x`, `swept_y` and `swept_theta` are the pose up to which the floor is swept.
     """
     works = not robot.brushes_up and robot.charge > 0.0
-    if robot.sweeps and (not works or is_reversing(robot)):
+    if robot.sweeps and (not works or is_reversing(robot, start)):
         sweep(k, samples, dirt, tally, (robot.swept_x, robot.swept_y, robot.swept_theta), start)
         robot.sweeps = False
     if not works:
@@ -538,17 +541,17 @@ def brush(robot: Record, k: Record, samples: Array, dirt: Array, tally: Record, 
         robot.sweeps = True
         robot.swept_x, robot.swept_y, robot.swept_theta = start
         robot.swept_distance = robot.distance
-    if robot.distance - robot.swept_distance >= STRIDE or abs(wrap(robot.theta - robot.swept_theta)) >= BEND:
+    if robot.distance - robot.swept_distance >= STRIDE or abs(wrap(robot.theta - robot.swept_theta)) >= TURN_STRIDE:
         end = robot.x, robot.y, robot.theta
         sweep(k, samples, dirt, tally, (robot.swept_x, robot.swept_y, robot.swept_theta), end)
         robot.swept_x, robot.swept_y, robot.swept_theta = end
         robot.swept_distance = robot.distance
 
 
-def is_reversing(robot: Record) -> bool:
-    """Whether a robot drives back over the floor that it has not yet swept since its last stride."""
-    along = (robot.x - robot.swept_x) * math.cos(robot.theta) + (robot.y - robot.swept_y) * math.sin(robot.theta)
-    return along * (robot.left_speed + robot.right_speed) < 0.0
+def is_reversing(robot: Record, start: Triple) -> bool:
+    """Whether a robot went back, in a tick that began with the pose `start`, over floor that is not swept yet."""
+    return bool((start[0] - robot.swept_x) * (robot.x - start[0])
+                + (start[1] - robot.swept_y) * (robot.y - start[1]) < 0.0)
 
 
 def sweep_between(constants: Array, samples: Array, dirt: Array, tallies: Array, start: Triple, end: Triple) -> None:
@@ -593,6 +596,7 @@ def pass_over(k: Record, samples: Array, dirt: Array, tally: Record, start: Trip
     middle_line, middle_across = (middle_y, middle_x) if is_upright else (middle_x, middle_y)
     count, length = (samples.shape[0], samples.shape[1]) if is_upright else (samples.shape[1], samples.shape[0])
     lines = half / steep + 0.5 * (distance + turn * half)
+    swept, taken, cells = 0, 0.0, dirt.shape[0] / samples.shape[0]
     for line in range(max(int(middle_line - lines), 0), min(int(middle_line + lines) + 1, count)):
         off = line + 0.5 - middle_line
         centre = middle_across + slope * off
@@ -602,11 +606,14 @@ def pass_over(k: Record, samples: Array, dirt: Array, tally: Record, start: Trip
             u, v = sample_point(row, column)
             ahead = (u - x) * cos + (v - y) * sin
             ahead_after = (u - to_x) * to_cos + (v - to_y) * to_sin
-            if (ahead > 0.0) != (ahead_after > 0.0):
-                beside = (v - y) * cos - (u - x) * sin
-                beside_after = (v - to_y) * to_cos - (u - to_x) * to_sin
-                if abs(beside + ahead / (ahead - ahead_after) * (beside_after - beside)) <= half:
-                    clean(k, samples, dirt, tally, row, column)
+            beside = (v - y) * cos - (u - x) * sin
+            beside_after = (v - to_y) * to_cos - (u - to_x) * to_sin
+            crosses = (ahead > 0.0) != (ahead_after > 0.0)
+            is_within = abs(ahead * beside_after - ahead_after * beside) <= half * abs(ahead - ahead_after)
+            fresh, share = clean(k, samples, row, column, int(crosses) & int(is_within))
+            swept, taken = swept + fresh, taken + share * float(dirt[int(v * cells), int(u * cells)])
+    tally.swept += swept
+    tally.dirt -= taken
 
 
 def to_squares(k: Record, pose: Triple) -> Tuple[float, float, float, float]:
@@ -632,17 +639,20 @@ def scrambled(one: int, other: int) -> int:
     return bits ^ (bits >> 13)
 
 
-def clean(k: Record, samples: Array, dirt: Array, tally: Record, row: int, column: int) -> None:
-    """Count one more pass over the sample of a square (row, column), and take its share of the dirt."""
+def clean(k: Record, samples: Array, row: int, column: int, passes: int) -> Tuple[int, float]:
+    """Count 1 or 0 more passes over the sample of a square (row, column).
+
+    There are no branches in it: the processor could not foresee where the border of what the brush passes lies.
+
+    Returns:
+        How many more samples are swept, and the share of the first dirt that is taken.
+    """
     sample = int(samples[row, column])
-    passes = sample // PASS
-    if passes == MOST_PASSES or not sample & SWEEPABLE:
-        return
-    samples[row, column] = sample + PASS
-    if sample & REACHABLE:
-        squares = samples.shape[0] // dirt.shape[0]
-        tally.swept += passes == 0
-        tally.dirt -= float(dirt[row // squares, column // squares]) * k.pickup * k.kept ** passes
+    before = sample // PASS
+    passes &= sample // SWEEPABLE & int(before < MOST_PASSES)
+    samples[row, column] = sample + PASS * passes
+    passes &= sample // REACHABLE
+    return passes & int(before == 0), passes * k.takes[before]
 
 
 # --- reach --------------------------------------------------------------------------------------------------------
@@ -743,17 +753,16 @@ def at_contacts(robot: Record, k: Record, docks: Array) -> bool:
     return False
 
 
-def infrared(robots: Array, me: int, constants: Array, docks: Array, skips: Array, cells: Array) -> Tuple[
-        int, int, int]:
+def infrared(robots: Array, me: int, constants: Array, docks: Array, skips: Array) -> Tuple[int, int, int]:
     """Sums of the beams of all docks that the three receivers get: omnidirectional, front left, front right."""
     omni, left, right = NO_BEAM, NO_BEAM, NO_BEAM
     for dock in range(len(docks)):
-        beams = beams_of(docks[dock], robots[me], constants[0], skips, cells)
+        beams = beams_of(docks[dock], robots[me], constants[0], skips)
         omni, left, right = omni | beams[0], left | beams[1], right | beams[2]
     return omni, left, right
 
 
-def beams_of(dock: Array, robot: Record, k: Record, skips: Array, cells: Array) -> Tuple[int, int, int]:
+def beams_of(dock: Array, robot: Record, k: Record, skips: Array) -> Tuple[int, int, int]:
     """The same of one dock, a row of `docks`.
 
     It sends from the wall in front of a docked robot, opposite to the heading of that robot.
@@ -762,7 +771,7 @@ def beams_of(dock: Array, robot: Record, k: Record, skips: Array, cells: Array) 
     from_y = dock[Y] + k.radius * math.sin(dock[THETA])
     dx, dy = robot.x - from_x, robot.y - from_y
     distance = math.hypot(dx, dy)
-    if distance < 1e-6 or cast(k, skips, cells, from_x, from_y, dx / distance, dy / distance, distance) < distance:
+    if distance < 1e-6 or cast(k, skips, from_x, from_y, dx / distance, dy / distance, distance) < distance:
         return NO_BEAM, NO_BEAM, NO_BEAM
     beams = FORCE_FIELD if distance <= k.halo else NO_BEAM
     # Positive if a robot that faces the dock is to the right of its axis.
@@ -798,20 +807,19 @@ def cliffs(robots: Array, me: int, constants: Array, cells: Array, distance: flo
 
 # --- laser --------------------------------------------------------------------------------------------------------
 
-def cast(k: Record, skips: Array, cells: Array, x: float, y: float, along_x: float, along_y: float,
-         limit: float) -> float:
+def cast(k: Record, skips: Array, x: float, y: float, along_x: float, along_y: float, limit: float) -> float:
     """Distance from (x, y) along a unit vector to the first wall, at most `limit`."""
     u, v, far = (x - k.origin_x) / k.resolution, (y - k.origin_y) / k.resolution, limit / k.resolution
     distance = 0.0
     while distance < far:
-        after = beam_step(skips, cells, u, v, along_x, along_y, distance)
+        after = beam_step(skips, u, v, along_x, along_y, distance)
         if after == distance:
             return distance * k.resolution
         distance = after
     return limit
 
 
-def cast_all(k: Record, skips: Array, cells: Array, x: float, y: float, along: Array, ranges: Array) -> None:
+def cast_all(k: Record, skips: Array, x: float, y: float, along: Array, ranges: Array) -> None:
     """The same along many unit vectors, at most `range_max`: `ranges`, float64 (beams), receives the distances.
 
     The beams take their steps in turn. What one reads of the map does not depend on the others, so that the processor
@@ -825,7 +833,7 @@ def cast_all(k: Record, skips: Array, cells: Array, x: float, y: float, along: A
         going, left = left, 0
         for place in range(going):
             beam = under_way[place]
-            distance = beam_step(skips, cells, u, v, along[beam, 0], along[beam, 1], ranges[beam])
+            distance = beam_step(skips, u, v, along[beam, 0], along[beam, 1], ranges[beam])
             if ranges[beam] < distance < far:
                 under_way[left] = beam
                 left += 1
@@ -834,21 +842,20 @@ def cast_all(k: Record, skips: Array, cells: Array, x: float, y: float, along: A
         ranges[beam] = min(ranges[beam] * k.resolution, k.range_max)
 
 
-def beam_step(skips: Array, cells: Array, u: float, v: float, along_x: float, along_y: float,
-              distance: float) -> float:
+def beam_step(skips: Array, u: float, v: float, along_x: float, along_y: float, distance: float) -> float:
     """How far a beam has come after another step, in cells; as far as before if it meets a wall or leaves the map.
 
     Far from walls it skips whole cells; near walls it goes from border to border of the cells, so that it meets the
     wall exactly.
     """
     column, row = u + distance * along_x, v + distance * along_y
-    if not (0.0 <= column < cells.shape[1] and 0.0 <= row < cells.shape[0]):
+    if not (0.0 <= column < skips.shape[1] and 0.0 <= row < skips.shape[0]):
         return distance
     skip = int(skips[int(row), int(column)])
+    if skip == IN_WALL:
+        return distance
     if skip > 0:
         return distance + skip
-    if cells[int(row), int(column)] & BLOCKED:
-        return distance
     return distance + min(to_border(column, along_x), to_border(row, along_y)) + NUDGE
 
 
@@ -864,8 +871,8 @@ def to_border(position: float, along: float) -> float:
     return math.inf
 
 
-def scan(robots: Array, me: int, constants: Array, obstacles: Array, skips: Array, cells: Array, fan: Array,
-         noise: Array, ranges: Array) -> None:
+def scan(robots: Array, me: int, constants: Array, obstacles: Array, skips: Array, fan: Array, noise: Array,
+         ranges: Array) -> None:
     """Measure with the laser of the robot with index `me`.
 
     Args, apart from those above:
@@ -879,7 +886,7 @@ def scan(robots: Array, me: int, constants: Array, obstacles: Array, skips: Arra
     for beam in range(len(ranges)):
         along[beam, 0] = cos * fan[beam, 0] - sin * fan[beam, 1]
         along[beam, 1] = sin * fan[beam, 0] + cos * fan[beam, 1]
-    cast_all(k, skips, cells, robot.x, robot.y, along, ranges)
+    cast_all(k, skips, robot.x, robot.y, along, ranges)
     for other in range(len(robots)):
         if other != me:
             see_disc(robots[other].x - robot.x, robots[other].y - robot.y, k.radius, robot.theta, k, along, ranges)

@@ -3,7 +3,7 @@
 import dataclasses
 import hashlib
 import math
-from typing import Any, Dict, List, Optional, Sequence
+from typing import Any, Dict, List, Optional, Sequence, Tuple
 
 import numpy as np
 
@@ -24,7 +24,6 @@ from rumba_sim.model.world_arrays import WorldArrays
 from rumba_sim.model.world_state import Member, WorldState
 
 NOISE_TICKS = 256  # ticks for which the noise of the wheels is drawn at once
-PLAIN = np.dtype((np.void, kernel.ROBOT))  # its elements are read in half the time that those of np.record take
 APART, TOUCHING = 0.5, 0.0  # radii between a robot that is added and the others, if there is room, and if not
 FLOOR, WHEELS, LASER = 0, 1, 2  # purposes of random generators, beside that of `Obstacles`
 
@@ -95,11 +94,19 @@ class World:
         self.tick = 0
         self.obstacles.begin()
         self.floor = Floor(self.reachable_plan, self._config, self.start, self._generator(FLOOR, 0))
-        # Kept together, since finding them takes as long as a tenth of a tick.
-        sweep = self.floor.sweep
-        self._ground = (self._docks, self.terrain.clearance, self.floor.cells, sweep.samples, self.floor.dirt,
-                        sweep.tally)
+        self._renew()
+
+    def _renew(self) -> None:
+        """Look for the arrays anew before the next tick: some were replaced, or a constant has changed."""
         self.version += 1
+        self._inputs: Tuple[Array, ...] = ()
+
+    def _found_inputs(self) -> Tuple[Array, ...]:
+        """The arrays that a tick needs; kept together, since finding them takes as long as a tenth of a tick."""
+        floor = self.floor
+        self._inputs = (self._states, self.constants, self.obstacles.records, self._docks, self.terrain.clearance,
+                        floor.cells, floor.sweep.samples, floor.dirt, floor.sweep.tally, self._noise)
+        return self._inputs
 
     def _checked_start(self) -> Pose:
         """The start of the plan, else the dock, else the position with the largest clearance."""
@@ -130,12 +137,13 @@ class World:
         obstacles = self.obstacles
         while ticks > 0:
             row = self.tick % NOISE_TICKS
-            self.draw_noise()
+            if row == 0:
+                self.draw_noise()
             now = ticks if ticks < NOISE_TICKS - row else NOISE_TICKS - row
             if obstacles.has_movers:
                 now = 1
                 obstacles.step(self._states, self.constants[0])
-            fast.advance(self._states, self.constants, obstacles.records, *self._ground, self._noise, self.tick, now)
+            fast.advance(*(self._inputs or self._found_inputs()), self.tick, now)
             self.tick += now
             ticks -= now
 
@@ -148,7 +156,7 @@ class World:
         self.draw_noise()
         if self.obstacles.has_movers:
             self.obstacles.step(self._states, self.constants[0])
-        fast.follow(self._states, self.constants, self.obstacles.records, *self._ground, self._noise, self.tick, led)
+        fast.follow(*(self._inputs or self._found_inputs()), self.tick, led)
         self.tick += 1
 
     def reset(self) -> None:
@@ -217,7 +225,7 @@ class World:
         self._wheels.append(wheels)
         self._lasers.append(laser)
         self._noise = np.concatenate([self._noise, wheels.standard_normal((1, NOISE_TICKS, 2))])
-        self.robots[name] = Robot(name, start, self._config, state[0])
+        self.robots[name] = Robot(name, start, self._config, state)
         self._take(np.concatenate([self._states, state]))
         return self.robots[name]
 
@@ -274,9 +282,9 @@ class World:
         """Use these states from now on, after robots were added, removed or moved: any two of them may be close now."""
         states['alone_until'] = 0
         self._states = states
-        self.version += 1
-        for member, state in zip(self.robots.values(), states.view(PLAIN)):
-            member.state = state
+        self._renew()
+        for index, member in enumerate(self.robots.values()):
+            member.hold(states[index:index + 1])
 
     def _index(self, name: str) -> int:
         if name not in self.robots:
@@ -326,7 +334,7 @@ class World:
                 self.obstacles.remove(obstacle.name)
                 raise WorldError(f'{obstacle.name} at ({obstacle.pose.x:.2f}, {obstacle.pose.y:.2f}) m: '
                                  f'{member.name!r} stands there')
-        self.version += 1
+        self._renew()
 
     def remove_obstacle(self, name: str) -> None:
         """Take an obstacle away.
@@ -335,7 +343,7 @@ class World:
             WorldError: there is no obstacle of that name.
         """
         self.obstacles.remove(name)
-        self.version += 1
+        self._renew()
 
     def swept(self) -> Array:
         """How much of each cell of the plan is swept: int8 (rows, columns), as `Floor.swept`."""
@@ -353,8 +361,8 @@ class World:
         """
         index = self._index(name)
         ranges = np.empty(len(self.fan))
-        fast.scan(self._states, index, self.constants, self.obstacles.records, self.terrain.skips, self.floor.cells,
-                  self.fan, self._lasers[index].standard_normal(len(self.fan)), ranges)
+        fast.scan(self._states, index, self.constants, self.obstacles.records, self.terrain.skips, self.fan,
+                  self._lasers[index].standard_normal(len(self.fan)), ranges)
         return ranges
 
     def infrared(self, name: str) -> Infrared:
@@ -364,7 +372,7 @@ class World:
             WorldError: there is no robot of that name.
         """
         return Infrared(*fast.infrared(self._states, self._index(name), self.constants, self._docks,
-                                       self.terrain.skips, self.floor.cells))
+                                       self.terrain.skips))
 
     def cliffs(self, name: str) -> List[bool]:
         """Whether there is no floor under the left, front left, front right and right sensor of a robot."""
@@ -390,7 +398,6 @@ class World:
         self.obstacles.records, self.obstacles.stops = arrays.obstacles, arrays.stops
         floor.cells, sweep.samples, floor.dirt, sweep.tally = (
             arrays.cells, arrays.samples, arrays.dirt, arrays.tally)
-        self._ground = (self._docks, self.terrain.clearance, floor.cells, sweep.samples, floor.dirt, sweep.tally)
         self._take(arrays.robots)
 
     def draw_noise(self) -> None:
@@ -450,8 +457,8 @@ class World:
         world.obstacles.restore(state.obstacles)
         world._states = np.zeros(len(state.members), kernel.ROBOT)
         world._noise = np.zeros((len(state.members), NOISE_TICKS, 2))
-        for member, record in zip(state.members, world._states):
-            world.robots[member.name] = Robot(member.name, member.start, world._config, record)
+        for index, member in enumerate(state.members):
+            world.robots[member.name] = Robot(member.name, member.start, world._config, world._states[index:index + 1])
             world._wheels.append(world_state.generator(member.wheels))
             world._lasers.append(world_state.generator(member.laser))
         world_state.fill(world._arrays(), state.arrays)

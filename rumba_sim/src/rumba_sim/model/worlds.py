@@ -152,7 +152,7 @@ class Worlds:
         for row, index in zip(rows.tolist(), order.tolist()):
             self._worlds[index].draw_laser_noise(0, noise[row])
         self._run(many.scan, order, rows, here.robots, here.constants, here.obstacles, here.counts, here.plans,
-                  here.shapes, here.cells, here.skips, here.fan, noise, ranges)
+                  here.shapes, here.skips, here.fan, noise, ranges)
         return ranges
 
     def infrared(self, which: Optional[Array] = None) -> Array:
@@ -161,7 +161,7 @@ class Worlds:
         here = self._rows
         beams = np.empty((len(order), 3), np.uint8)
         self._run(many.infrared, order, rows, here.robots, here.constants, here.plans, here.docks, here.dock_counts,
-                  here.shapes, here.cells, here.skips, beams)
+                  here.shapes, here.skips, beams)
         return beams
 
     def cliffs(self, which: Optional[Array] = None) -> Array:
