@@ -59,7 +59,11 @@ class CleanerLockstepTest(unittest.TestCase):
             busy = subprocess.Popen([sys.executable, '-c', 'while True: pass'])
             self.addCleanup(busy.wait)
             self.addCleanup(busy.kill)
-        return simulator, Cleaner(self, *CLEANER, '_autostart:=true').connect()
+        # Listen before the cleaner starts: its mission may be over before the clients of its actions are connected.
+        status = Heard(self, '/rumba/mission_status', MissionStatus, waits=False)
+        cleaner = Cleaner(self, *CLEANER, '_autostart:=true').connect()
+        cleaner.status = status
+        return simulator, cleaner
 
     def ends_as_in_process(self, simulator, cleaner, begin=1):
         """Wait until the mission has ended at its target, and compare the world."""

@@ -111,15 +111,16 @@ def forget_parameters(node='/simulator'):
 
 
 class Heard:
-    """The messages of a topic since the publisher is connected."""
+    """The messages of a topic since the publisher is connected; it is waited for, unless it starts only later."""
 
-    def __init__(self, test, topic, message=None):
+    def __init__(self, test, topic, message=None, waits=True):
         self._test = test
         self._topic = topic
         self.messages = []
         subscriber = rospy.Subscriber(topic, message or TOPICS[topic.split('/')[-1]], self.messages.append)
         test.addCleanup(subscriber.unregister)
-        wait(test, subscriber.get_num_connections, f'a publisher of {topic}')
+        if waits:
+            wait(test, subscriber.get_num_connections, f'a publisher of {topic}')
 
     def find(self, condition=lambda message: True):
         """The first message that meets a condition."""
