@@ -81,7 +81,7 @@ def scan(world):
 
 
 def begin(world):
-    """Let all robots begin anew, with full batteries, and drive until they have their speed."""
+    """Put all robots back to the start with full batteries, and drive until they have their speed."""
     world.reset()
     drive(world, SETTLED)
 

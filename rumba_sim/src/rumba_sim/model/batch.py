@@ -19,6 +19,7 @@ Arguments that the functions share. Each row belongs to one world; it may be lon
 
 import math
 from typing import Tuple
+
 import numpy as np
 
 from rumba_sim.model import kernel

@@ -32,8 +32,8 @@ BLOCKED, CLIFF, CARPET = 1, 2, 4  # bits of a cell
 SWEEPABLE, REACHABLE, PASS = 1, 2, 4  # bits of a sample; the bits from PASS on count how often the brush passed it
 MOST_PASSES = 63  # that fit into a byte; after so many no dirt is left
 BEND = 0.15  # [rad] turns are swept in pieces of at most this: the brush is up to 0.3 % longer or shorter in them
-# [m], [rad] the floor is swept in strides of about this: sweeping in each tick takes several times longer
-STRIDE, TURN_STRIDE = 0.03, 0.12
+STRIDE = 0.03  # [m] the floor is swept in strides of about this: sweeping in each tick takes several times longer
+TURN_STRIDE = 0.12  # [rad] the same in turns: less than BEND, so that each stride is swept in one piece
 LEFT, RIGHT = 1, 2  # bits of the bumper
 NO_BEAM, FORCE_FIELD, GREEN_BUOY, RED_BUOY = 0, 1, 4, 8  # rumba_msg/DockStatus
 INNER, OUTER = 0.26, 1.57  # [rad] how far the left receiver sees to the right and to the left

@@ -97,7 +97,7 @@ class World:
         self._renew()
 
     def _renew(self) -> None:
-        """Look for the arrays anew before the next tick: some were replaced, or a constant has changed."""
+        """Have the next tick collect its arrays again: some were replaced, or a constant has changed."""
         self.version += 1
         self._inputs: Tuple[Array, ...] = ()
 
