@@ -1,6 +1,6 @@
 """Speed of whole missions in process: one after another, and by the workers of `evaluate` on all cores.
 
-`missions.py [--missions N]`: N missions for the workers, 40 by default.
+`missions.py [--missions N]`: N missions for the workers, 40 by default; one worker alone does a part of them.
 """
 
 import argparse
@@ -21,6 +21,7 @@ NAMES, SEEDS = ('studio', 'apartment'), range(1, 6)
 MAP = 'apartment'  # of the missions of the workers
 SPEED = 1000  # simulated seconds in a CPU second, the lower bound
 SCALING = 90.0  # [%] of the missions in a second that as many single processes would do, the lower bound
+ALONE = 100  # missions that one worker does alone, at most
 GROWTH = 5.0  # [%] of the memory of a worker, from the first tenth of its missions to the last one, the upper bound
 
 
@@ -46,11 +47,12 @@ def main():
                     at_least=SPEED)
     workers = len(os.sched_getaffinity(0))
     figures.heading(f'{count} missions on the {MAP} by the workers of evaluate')
-    _, alone = by_workers(1, count)
+    few, alone = by_workers(1, min(count, ALONE))
     missions, together = by_workers(workers, count)
-    figures.row('missions in a second, 1 worker', count / alone)
-    figures.row(f'missions in a second, {workers} workers', count / together)
-    figures.row('    of those of as many single workers [%]', 100.0 * alone / (workers * together), at_least=SCALING)
+    single, all_of_them = len(few) / alone, count / together
+    figures.row(f'missions in a second, 1 worker, {len(few)} of them', single)
+    figures.row(f'missions in a second, {workers} workers', all_of_them)
+    figures.row('    of those of as many single workers [%]', 100.0 * all_of_them / (workers * single), at_least=SCALING)
     figures.row('memory of a worker: largest growth [%]', max(map(growth, by_worker(missions))), below=GROWTH)
 
 

@@ -82,7 +82,7 @@ def lasers(plan, robots, step_rate):
     room20.begin(world)
     ticks = round(step_rate * max(LASER_PERIOD, 10.0 / robots))
     figures.row('             simulated seconds, steps and scans', figures.per_cpu_second(
-        lambda: room20.drive(world, ticks, LASER_PERIOD), ticks / step_rate, 0.4))
+        lambda: room20.drive(world, ticks, LASER_PERIOD), ticks / step_rate, 0.4, prepare=lambda: room20.begin(world)))
     room20.check(world)
 
 
