@@ -83,6 +83,11 @@ def run(venv, *command, **options):
                           stdout=subprocess.PIPE, universal_newlines=True, **options).stdout
 
 
+def programs():
+    """The Python programs on the page."""
+    return re.findall(r'^```python\n(.*?)^```$', PAGE.read_text(), re.MULTILINE | re.DOTALL)
+
+
 def test_pip_installs_the_same_modules_as_catkin_and_nothing_that_needs_ros(venv):
     [packages] = venv.glob('lib/python3*/site-packages')
     for name in PURE:
@@ -104,12 +109,20 @@ def test_the_commands_of_the_page_print_what_it_shows(venv, tmp_path):
 
 
 def test_the_map_becomes_a_picture_in_ten_lines(venv, tmp_path):
-    [program] = re.findall(r'^```python\n(.*?)^```$', PAGE.read_text(), re.MULTILINE | re.DOTALL)
+    program, _ = programs()
     promised, picture = re.search(r'It prints `(.*)`, and the picture is `(.*)`\.', PAGE.read_text()).groups()
     assert len(program.splitlines()) <= 10
     printed = run(venv, 'python', '-c', program, cwd=tmp_path)
     assert re.fullmatch('.*'.join(map(re.escape, promised.split('...'))) + '\n', printed)
     assert [path.name for path in tmp_path.iterdir()] == [picture]
+
+
+def test_many_worlds_advance_as_the_page_shows(venv, tmp_path):
+    _, program = programs()
+    assert 'range(1000)' in program
+    printed = run(venv, 'python', '-c', program.replace('range(1000)', 'range(20)'), cwd=tmp_path)
+    mean, most = map(float, re.fullmatch(r'(.*) % swept on average, (.*) % at most\n', printed).groups())
+    assert 5.0 < mean < most < 50.0
 
 
 def test_a_bag_is_refused_in_one_line(venv, tmp_path):
