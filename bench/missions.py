@@ -50,10 +50,10 @@ def main():
     figures.heading(f'{count} missions on the {MAP} by the workers of evaluate')
     few, alone = by_workers(1, min(count, ALONE))
     missions, together = by_workers(workers, count)
-    single, all_of_them = len(few) / alone, count / together
+    single, several = len(few) / alone, count / together
     figures.row(f'missions in a second, 1 worker, {len(few)} of them', single)
-    figures.row(f'missions in a second, {workers} workers', all_of_them)
-    figures.row('    of those of as many single workers [%]', 100.0 * all_of_them / (workers * single), at_least=SCALING)
+    figures.row(f'missions in a second, {workers} workers', several)
+    figures.row('    of those of as many single workers [%]', 100.0 * several / (workers * single), at_least=SCALING)
     figures.row('memory of a worker: largest growth [%]', max(map(growth, by_worker(missions))), below=GROWTH)
 
 
@@ -70,7 +70,7 @@ def run(work):
 
 
 def share_of_world(work):
-    """Share of the CPU time of a mission in which its world advances: all that advancing many worlds could spare."""
+    """Share of the CPU time of a mission in which its world advances: all that one call for many could spare."""
     trial = batch.prepare(work)
     advance, spent = trial.advance, 0.0
 
