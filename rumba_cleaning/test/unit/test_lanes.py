@@ -11,13 +11,13 @@ from pytest import approx
 from rooms import crooked, distances, quiet, room
 
 from rumba_cleaning.belief.swept import Swept
-from rumba_cleaning.planning.lanes import BLOCK, OVERLAP, TURN, blocks
+from rumba_cleaning.planning.lanes import BLOCK, TURN, Layout, blocks
 from rumba_cleaning.planning.paper import drive
 from rumba_cleaning.planning.turned_floor import main_direction
 from rumba_sim.model.floor_plan import FREE, OCCUPIED, FloorPlan
 
 SPEED = 0.3
-APART = (1.0 - OVERLAP) * BRUSH  # [m] from lane to lane
+APART = (1.0 - Layout().overlap) * BRUSH  # [m] from lane to lane
 FINE = pytest.mark.parametrize('resolution', [0.02, 0.05])
 
 
@@ -99,7 +99,7 @@ def test_lanes_overlap_by_a_share_of_the_brush():
     missed = part_of(plan, (0.3, 0.3, 3.7, 2.3))
     for brush in (0.1, 0.3):
         block, = blocks(ground(plan), missed, brush, SPEED)
-        apart = (1.0 - OVERLAP) * brush
+        apart = (1.0 - Layout().overlap) * brush
         assert len(block.lanes) == math.ceil((2.0 - brush) / apart) + 1
         assert np.diff([lane[0, 1] for lane in block.lanes]) == approx(apart)
 

@@ -8,7 +8,7 @@ from floors import along, ground, length
 from pytest import approx
 from rooms import distances, room
 
-from rumba_cleaning.planning.links import BENDS, CORNERS, OFFSET, block_variants
+from rumba_cleaning.planning.links import BENDS, CORNERS, EARLY, OFFSET, block_variants
 
 PLAN = room(4.0, 3.0)
 FLOOR = ground(PLAN)
@@ -22,10 +22,15 @@ def lanes(*ends, step=LANE, bottom=1.0):
 
 
 def between(floor, one, other):
-    """Waypoints between two lanes, in the variant that begins at the first end of the first lane."""
+    """Waypoints from one lane to the other, in the variant that begins at the first end of the first lane."""
     path = block_variants(floor, [one, other])[0].path()
-    assert (path[:2] == one).all() and (path[-2:] == other[::-1]).all()
-    return path[2:-2]
+    assert (path[0] == one[0]).all() and (path[-1] == other[0]).all()
+    return path[1:-1]
+
+
+def are_joined_without_bend(path, one, other):
+    """Whether a path from lane to lane leads from end to end."""
+    return path[0].tolist() == one[1].tolist() and path[-1].tolist() == other[1].tolist()
 
 
 def turned(points, angle, about=(2.0, 1.5)):
@@ -36,28 +41,34 @@ def turned(points, angle, about=(2.0, 1.5)):
 
 @pytest.mark.parametrize('angle', [0.0, 0.6, math.pi / 2.0, math.pi])
 @pytest.mark.parametrize('step', [0.17, -0.17, 0.1, 0.3])
-def test_two_lanes_side_by_side_are_joined_by_a_half_circle_beyond_their_ends(step, angle):
+def test_two_lanes_side_by_side_are_joined_by_a_half_circle_that_begins_a_little_before_their_ends(step, angle):
     one, other = (turned(lane, angle) for lane in lanes((1.2, 2.8), (1.2, 2.8), step=step, bottom=1.5))
     bend = between(FLOOR, one, other)
-    middle, ahead = 0.5 * (one[1] + other[1]), (one[1] - one[0]) / 1.6
-    assert len(bend) == CORNERS and bend[0] == approx(one[1]) and bend[-1] == approx(other[1])
+    ahead = (one[1] - one[0]) / 1.6
+    middle = 0.5 * (one[1] + other[1]) - EARLY * ahead
+    assert len(bend) == CORNERS
+    assert bend[0] == approx(one[1] - EARLY * ahead) and bend[-1] == approx(other[1] - EARLY * ahead)
     assert np.hypot(*(bend - middle).T) == approx(0.5 * abs(step))
     assert (((bend - middle) @ ahead)[1:-1] > 0.01).all()
-    assert length(np.concatenate([one, bend])) == approx(1.6 + 0.5 * math.pi * abs(step), rel=0.01)
+    assert length(np.concatenate([one[:1], bend])) == approx(1.6 - EARLY + 0.5 * math.pi * abs(step), rel=0.01)
 
 
 @pytest.mark.parametrize('first, second', [(2.4, 2.7), (2.7, 2.4)])
 def test_a_half_circle_lies_beyond_the_end_that_is_farther_out(first, second):
     bend = between(FLOOR, *lanes((1.0, first), (1.0, second)))
-    assert len(bend) == CORNERS and np.hypot(*(bend - (2.7, 1.0 + 0.5 * LANE)).T) == approx(0.5 * LANE)
-    assert (bend[1:-1, 0] > 2.7).all() and bend[0] == approx([2.7, 1.0]) and bend[-1] == approx([2.7, 1.0 + LANE])
+    circle = bend[1:] if first < second else bend[:-1]
+    begin = 2.7 - EARLY
+    assert len(circle) == CORNERS and np.hypot(*(circle - (begin, 1.0 + 0.5 * LANE)).T) == approx(0.5 * LANE)
+    assert (circle[1:-1, 0] > begin).all()
+    assert circle[0] == approx([begin, 1.0]) and circle[-1] == approx([begin, 1.0 + LANE])
 
 
 @pytest.mark.parametrize('ends', [((1.0, 3.78), (1.0, 3.78)), ((1.0, 3.6), (1.0, 3.8))])
 def test_if_a_half_circle_would_touch_a_wall_there_is_another_path(ends):
-    one, other = lanes(*ends)
-    path = np.concatenate([one[1:], between(FLOOR, one, other), other[1:]])
-    assert min(distances(PLAN, along(path))) >= FLOOR.reach and length(path) < 0.35
+    one, other = lanes(*ends, step=0.3)
+    path = between(FLOOR, one, other)
+    assert are_joined_without_bend(path, one, other)
+    assert min(distances(PLAN, along(path))) >= FLOOR.reach and length(path) < 0.4
     assert path[:, 0].max() <= 3.8 + 1e-9
 
 
@@ -65,21 +76,22 @@ def test_if_an_obstacle_was_met_at_the_half_circle_there_is_another_path():
     floor = ground(PLAN)
     one, other = lanes((1.0, 2.5), (1.0, 2.5))
     assert len(between(floor, one, other)) == CORNERS
-    floor.mark(2.79, 1.085, 0.05)
-    assert len(between(floor, one, other)) < CORNERS
+    floor.mark(2.79 - EARLY, 1.085, 0.05)
+    assert are_joined_without_bend(between(floor, one, other), one, other)
 
 
 def test_lanes_that_are_not_side_by_side_are_joined_by_a_straight_line():
     for one, other in (lanes((1.0, 2.5), (1.0, 2.5), step=BENDS[1] + 0.05), lanes((1.0, 2.0), (1.0, 2.1 + OFFSET)),
                        lanes((1.0, 2.5), (1.0, 2.5), step=0.03)):
-        assert len(between(FLOOR, one, other)) == 0
+        path = between(FLOOR, one, other)
+        assert len(path) == 2 and are_joined_without_bend(path, one, other)
 
 
 def test_a_path_from_lane_to_lane_leads_around_an_obstacle_between_them():
     plan = room(4.0, 3.0, boxes=[(1.0, 1.3, 3.0, 1.5)])
     floor = ground(plan)
     one, other = np.array([[0.7, 1.0], [2.5, 1.0]]), np.array([[0.7, 1.8], [2.5, 1.8]])
-    path = np.concatenate([one[1:], between(floor, one, other), other[1:]])
+    path = between(floor, one, other)
     assert len(path) >= 4 and min(distances(plan, along(path))) >= floor.reach
     assert 1.6 < length(path) < 2.2
 
@@ -87,7 +99,8 @@ def test_a_path_from_lane_to_lane_leads_around_an_obstacle_between_them():
 def test_lanes_that_no_path_joins_still_follow_each_other():
     floor = ground(room(4.0, 2.0, boxes=[(1.9, 0.0, 2.1, 2.0)]))
     one, other = np.array([[0.5, 0.5], [0.5, 1.5]]), np.array([[3.0, 0.5], [3.0, 1.5]])
-    assert len(between(floor, one, other)) == 0
+    path = between(floor, one, other)
+    assert len(path) == 2 and are_joined_without_bend(path, one, other)
 
 
 ENDS = ((1.0, 2.5), (1.1, 2.6), (1.0, 2.4), (0.9, 2.5))
@@ -101,10 +114,14 @@ def test_each_of_four_variants_drives_all_lanes_to_and_fro_from_another_corner(c
     for variant, (order, first) in zip(variants, [(block, 0), (block, 1), (block[::-1], 0), (block[::-1], 1)]):
         assert (variant[0] == order[0][first]).all()
         assert (variant[-1] == order[-1][(first + count) % 2]).all()
-        steps = [np.concatenate(step).tolist() for step in zip(variant[:-1], variant[1:])]
-        driven = [steps.index((lane if (index + first) % 2 == 0 else lane[::-1]).ravel().tolist())
-                  for index, lane in enumerate(order)]
-        assert driven == sorted(driven) and driven[0] == 0 and driven[-1] == len(steps) - 1
+        driven = []
+        for index, lane in enumerate(order):
+            begin, end = lane[::1 if (index + first) % 2 == 0 else -1, 0]
+            along_lane, = np.flatnonzero((np.abs(variant[1:] - variant[:-1])[:, 1] < 1e-9) & (
+                np.abs(variant[1:, 1] - lane[0, 1]) < 1e-9) & (
+                    np.sign(end - begin) * np.diff(variant[:, 0]) > abs(end - begin) - 2.0 * EARLY - 1e-9))
+            driven.append(int(along_lane))
+        assert driven == sorted(driven) and driven[0] == 0 and driven[-1] == len(variant) - 2
     corners = {tuple(variant[0]) for variant in variants}
     assert len(corners) == (4 if count > 1 else 2)
     assert min(distances(PLAN, along(variants[0]))) >= FLOOR.reach

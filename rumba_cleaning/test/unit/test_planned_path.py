@@ -34,13 +34,13 @@ def distance(path, point):
 def test_a_mission_drives_along_what_it_shows(strategy):
     world = World(PLAN, quiet())
     robot = world.spawn('rumba', PLAN.dock)
-    mission = Mission(context_of(PLAN, world), strategy, 0.9)
+    mission = Mission(context_of(PLAN, world), strategy, 0.95)
     shown = {state: [] for state in State}
     for _ in steps(mission, world, seconds=600.0):
         path = mission.planned_path()
         if path is not None:
             shown[mission.state].append(distance(path, np.array(robot.pose[:2])))
-    assert mission.message.startswith('90.')
+    assert mission.message.startswith('95.')
     assert shown[State.UNDOCKING] == [] and len(shown[State.CLEANING]) > 500 and len(shown[State.RETURNING]) > 20
     assert max(shown[State.CLEANING]) < 0.35 and np.mean(np.array(shown[State.CLEANING]) < NEAR) > 0.95
     assert max(shown[State.RETURNING]) < NEAR

@@ -101,7 +101,7 @@ def test_walls_do_not_vanish_from_ways():
     floor = ground(room(4.0, 3.0, 0.05, [(1.95, 0.0, 2.0, 2.2)]))
     near = np.array([[1.7, 0.5], [2.3, 0.5]])
     metres, _ = compiled_ways.lengths(floor.clearance, floor.reach, floor.reach, 0.0,
-                                      (near - floor.plan.origin) / floor.plan.resolution)
+                                      (near - floor.plan.origin) / floor.plan.resolution, np.arange(2))
     assert metres[0, 1] == np.inf and metres[0, 0] == 0.0
 
 
@@ -164,7 +164,7 @@ def test_compiled_and_uncompiled_tours_and_ways_are_equal():
             module.shaken(made._costs, made._last, made._of, made._begins, found[name], 20, 5)
         assert (found['compiled'] == found['plain']).all()
         nodes = (made._points - HALL.plan.origin) / HALL.plan.resolution
-        asked = HALL.clearance, HALL.reach, HALL.reach, 1.0, nodes
+        asked = HALL.clearance, HALL.reach, HALL.reach, 1.0, nodes, np.arange(0, len(nodes), 2)
         assert uncompiled(compiled_ways).lengths(*asked)[0] == approx(compiled_ways.lengths(*asked)[0])
 
 

@@ -32,13 +32,15 @@ def sight(clearance: Array, least: float, touching: float, near: float, x: float
 
 
 @compiled
-def lengths(clearance: Array, least: float, touching: float, near: float, points: Array) -> Tuple[Array, Array]:
+def lengths(clearance: Array, least: float, touching: float, near: float, points: Array,
+            stops: Array) -> Tuple[Array, Array]:
     """Lengths [nodes] of the shortest paths from point to point over lines of sight, and the last stop on each of them.
 
     Args:
         clearance: float64 (rows + 1, columns + 1) [m].
         least, touching, near: see `sight`.
         points: float64 (n, 2), x and y [nodes].
+        stops: int (any), the points at which a path may stop between its ends.
 
     Returns:
         float64 (n, n), inf if there is no path; int (n, n), the point before the last one.
@@ -54,16 +56,29 @@ def lengths(clearance: Array, least: float, touching: float, near: float, points
             if sight(clearance, least, touching, near, points[one, 0], points[one, 1], points[other, 0],
                      points[other, 1]):
                 found[one, other] = found[other, one] = distance
-    for middle in range(count):
+    for middle in stops:
         for one in range(count):
-            here = found[one, middle]
-            if here == np.inf:
-                continue
-            for other in range(count):
-                if here + found[middle, other] < found[one, other]:
-                    found[one, other] = here + found[middle, other]
-                    before[one, other] = before[middle, other]
+            if one != middle and found[one, middle] < np.inf:
+                shorten(found[one], before[one], found[one, middle], found[middle], before[middle])
     return found, before
+
+
+@compiled
+def shorten(lengths_of: Array, before: Array, there: float, beyond: Array, before_beyond: Array) -> None:
+    """Take the paths from one point to all others over a third point, where those are shorter.
+
+    Without a branch, so that the compiler handles several paths at once.
+
+    Args:
+        lengths_of, before: of the paths so far, float64 and int (n); they are changed.
+        there: length of the path to the third point.
+        beyond, before_beyond: of the paths from there, as the first two.
+    """
+    for other in range(len(lengths_of)):
+        length = there + beyond[other]
+        is_shorter = length < lengths_of[other]
+        lengths_of[other] = length if is_shorter else lengths_of[other]
+        before[other] = before_beyond[other] if is_shorter else before[other]
 
 
 @compiled

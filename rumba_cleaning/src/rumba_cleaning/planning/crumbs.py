@@ -10,6 +10,7 @@ from skimage import morphology
 from rumba_cleaning.belief.ground import Ground
 from rumba_cleaning.planning.paper import simplified
 from rumba_cleaning.planning.stretches import Stretch, Variant, pair
+from rumba_cleaning.planning.walls import Walls
 from rumba_sim.model.kernel import Array
 
 # All figures are our choice; each comment says what speaks for a larger and for a smaller value.
@@ -40,6 +41,7 @@ def crumbs(ground: Ground, share: Array, regions: Array) -> List[Stretch]:
     res = ground.plan.resolution
     labels, _ = ndimage.label(share >= MISSED, np.ones((3, 3)))
     areas = np.bincount(labels.ravel(), share.ravel()) * res * res
+    walls = Walls(ground)
     found: List[Stretch] = []
     for number, window in enumerate(ndimage.find_objects(labels), 1):
         if areas[number] < LEAST:
@@ -50,8 +52,19 @@ def crumbs(ground: Ground, share: Array, regions: Array) -> List[Stretch]:
         if max(cells.shape) * res >= STRIP:
             found += _strips(ground, cells, corner, region, areas[number])
         else:
-            found.append(_spot(ground, cells, corner, region, areas[number]))
+            found.append(_small(ground, walls, cells, corner, region, areas[number]))
     return found
+
+
+def _small(ground: Ground, walls: Walls, cells: Array, corner: Array, region: int, area: float) -> Stretch:
+    """Along a wall, or over a spot."""
+    points = ground.points(np.argwhere(cells) + corner + 0.5)
+    middle = points.mean(axis=0)
+    if np.hypot(*(_standing(ground, middle[np.newaxis])[0] - middle)) > RIM:
+        path = walls.beside(points)
+        if path is not None:
+            return Stretch(pair([path]), region, area, True)
+    return _spot(ground, cells, corner, region, area)
 
 
 def _region(ground: Ground, cells: Array, corner: Array, regions: Array) -> int:

@@ -17,18 +17,23 @@ from rumba_sim.model.kernel import Array
 from rumba_sim.model.reachability import SLACK
 
 # All figures are our choice; each comment says what speaks for a larger and for a smaller value.
-GAP = 0.5  # [m] of swept floor within a lane: large saves turns, small saves distance
 LEAST = 0.08  # [m] length of a lane, half a brush: a shorter one is left to the crumbs
-ALIKE = 1.5  # ratio of the lengths of two neighbouring lanes, at most: large makes fewer blocks, with more clean floor
 TURN, BLOCK = 2.2, 3.0  # [s] estimates of the time from lane to lane, and from block to block: large wants long lanes
-# A block is worth area - USUAL * brush * speed * time: large prefers blocks that waste little time, small large ones.
-USUAL = 0.3
 POOR = 0.12  # share of brush * speed: a block that cleans less is left to the crumbs
-NEEDED = 0.12  # share of the brush's width that was missed, for a lane to be needed: small drives over swept floor
-OVERLAP = 0.05  # share of the brush's width by which two lanes overlap: small drives less, large leaves nothing between
 JOIN = 2  # [cells] that were swept, between cells that one lane shall still clean: noise, not a gap
 Window = Tuple[slice, slice]  # rows and columns
 Run = Tuple[int, int]  # columns: the first, and the one after the last
+
+
+class Layout(NamedTuple):
+    """How lanes are laid out."""
+
+    overlap: float = 0.05  # of two lanes, share of the brush's width: small drives less, large leaves nothing between
+    needed: float = 0.12  # share of the brush's width that was missed, for a lane to be needed: large leaves more
+    # A block is worth area - usual * brush * speed * time: large prefers blocks that waste little, small large ones.
+    usual: float = 0.3
+    gap: float = 0.5  # [m] of swept floor within a lane: large saves turns, small saves distance
+    alike: float = 1.5  # ratio of the lengths of two neighbouring lanes, at most: large makes fewer blocks
 
 
 class Block(NamedTuple):
@@ -47,7 +52,8 @@ class _Lane(NamedTuple):
     across: float
 
 
-def blocks(ground: Ground, missed: Array, brush: float, speed: float, angle: float = 0.0) -> List[Block]:
+def blocks(ground: Ground, missed: Array, brush: float, speed: float, angle: float = 0.0,
+           layout: Layout = Layout()) -> List[Block]:
     """Blocks whose lanes clean what was missed, except for crumbs.
 
     Args:
@@ -56,6 +62,7 @@ def blocks(ground: Ground, missed: Array, brush: float, speed: float, angle: flo
         brush: width of the brush [m].
         speed: along the lanes [m/s].
         angle: between the lanes and the map's axes [rad].
+        layout: how the lanes are laid out.
     """
     found: List[Block] = []
     floor = TurnedFloor(ground, missed, angle)
@@ -63,8 +70,9 @@ def blocks(ground: Ground, missed: Array, brush: float, speed: float, angle: flo
     whole = _window(floor.missed, math.ceil(brush / floor.resolution))
     remaining = floor.missed[whole].copy()
     while remaining.any():  # in each round the best block, and each other that has no better one near it
-        grids = [_Grid(floor, remaining, whole, ground.reach + SLACK, brush, along_x) for along_x in (True, False)]
-        choices = [(block.area - USUAL * rate * block.time, block, grid, lanes)
+        grids = [_Grid(floor, remaining, whole, ground.reach + SLACK, brush, along_x, layout)
+                 for along_x in (True, False)]
+        choices = [(block.area - layout.usual * rate * block.time, block, grid, lanes)
                    for grid in grids for block, lanes in grid.blocks(speed) if block.area > POOR * rate * block.time]
         if not choices:
             break
@@ -85,7 +93,7 @@ class _Grid:
     """
 
     def __init__(self, floor: TurnedFloor, missed: Array, window: Window, clearance: float, brush: float,
-                 along_x: bool) -> None:
+                 along_x: bool, layout: Layout) -> None:
         """Take the part of a floor.
 
         Args:
@@ -95,6 +103,7 @@ class _Grid:
             clearance: that the robot needs at its centre [m].
             brush: width of the brush [m].
             along_x: whether the lanes run along x of the floor, or along y.
+            layout: of the lanes.
         """
         self._window = window
         rows, columns = self._window
@@ -104,10 +113,11 @@ class _Grid:
         self._missed = self._view(missed)
         self._floor = floor
         self._resolution = floor.resolution
-        self._half = 0.5 * (1.0 - OVERLAP) * brush / self._resolution  # [cells] half the width that a lane cleans
+        self._half = 0.5 * (1.0 - layout.overlap) * brush / self._resolution  # [cells] half of what a lane cleans
         self._needed_clearance = clearance
-        self._gap = int(GAP / self._resolution)
+        self._gap = int(layout.gap / self._resolution)
         self._least = max(int(LEAST / self._resolution), 1)
+        self._layout = layout
         self._remaining = self._missed
 
     def _view(self, missed: Array) -> Array:
@@ -157,7 +167,8 @@ class _Grid:
             if lane is None:
                 self._remaining[row, run[0]:run[1]] = False
                 return lanes, count
-            if lanes and not 1.0 / ALIKE < (lane.last - lane.first) / (lanes[-1].last - lanes[-1].first) < ALIKE:
+            alike = self._layout.alike
+            if lanes and not 1.0 / alike < (lane.last - lane.first) / (lanes[-1].last - lanes[-1].first) < alike:
                 return lanes, count
             band = self._band(lane.across)
             count += np.count_nonzero(self._remaining[band, lane.first:lane.last])
@@ -187,7 +198,7 @@ class _Grid:
         highest = below + 2.0 * self._half if below is not None and beside else row + self._half
         first, last, across = compiled_lanes.lane(
             self._remaining, self._clearance, self._needed_clearance, run, highest, self._half, self._least, self._gap,
-            NEEDED)
+            self._layout.needed)
         return _Lane(first, last, across) if last > first else None
 
     def _band(self, across: float) -> slice:

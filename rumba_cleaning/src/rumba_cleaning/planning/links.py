@@ -14,8 +14,13 @@ from rumba_sim.model.kernel import Array
 BENDS = (0.05, 0.4)  # [m] between two lanes, if a half circle joins them: lanes are as far apart as the brush is wide
 OFFSET = 0.35  # [m] by which the ends of the two lanes may differ along the lanes: twice the width of the brush
 CORNERS = 9  # points of a half circle, both ends included: 22.5 degrees apart, within 2 % of its radius
+# [m] before its end at which a lane is left for the next one, if that begins beside it: a half circle over two lanes
+# then just reaches as far as the lanes would. Large leaves the corners beside the half circle.
+EARLY = 0.08
+PART = 0.4  # of a lane, at most, by which it is shorter at each end
 ANGLES = np.linspace(0.0, math.pi, CORNERS)[:, np.newaxis]
 COS, SIN = np.cos(ANGLES), np.sin(ANGLES)
+SAME = 1e-6  # [m] waypoints so near to each other are one
 NO_POINTS = np.zeros((0, 2))
 
 
@@ -26,29 +31,34 @@ def block_variants(ground: Ground, lanes: List[Array]) -> List[Variant]:
         ground: where the robot can stand.
         lanes: float64 (2, 2) [m] each, side by side, all in the same direction.
     """
-    return [Variant([_through(ground, order, first)], False) for order in (lanes, lanes[::-1]) for first in (0, 1)]
+    return [Variant([through(ground, order, first)], False) for order in (lanes, lanes[::-1]) for first in (0, 1)]
 
 
-def _through(ground: Ground, lanes: List[Array], first: int) -> Array:
+def through(ground: Ground, lanes: List[Array], first: int) -> Array:
     """The path through lanes, to and fro: float64 (any, 2) [m]; it begins at the end `first`, 0 or 1, of lane 0."""
-    parts: List[Array] = []
-    for index, lane in enumerate(lanes):
+    parts = [lanes[0] if first == 0 else lanes[0][::-1]]
+    for index, lane in enumerate(lanes[1:], 1):
         lane = lane if index % 2 == first else lane[::-1]
-        if parts:
-            parts.append(_link(ground, parts[-1], lane))
-        parts.append(lane)
-    return np.concatenate(parts)
+        parts[-1:] = _joined(ground, parts[-1], lane)
+    path = np.concatenate(parts)
+    return np.asarray(path[np.append(True, np.hypot(*np.diff(path, axis=0).T) > SAME)])
 
 
-def _link(ground: Ground, lane: Array, following: Array) -> Array:
-    """The waypoints between two lanes: float64 (any, 2) [m]."""
-    bend = _half_circle(lane, following)
-    end, start = lane[-1], following[0]
-    if len(bend) and ground.are_free(bend).all() and ground.is_straight(end, bend[0]) and (
-            ground.is_straight(bend[-1], start)):
-        return bend
-    path = ground.path(end, start)
-    return NO_POINTS if path is None else path[1:-1]
+def _joined(ground: Ground, lane: Array, following: Array) -> List[Array]:
+    """A lane, the waypoints from it to the next lane, and that lane: float64 (any, 2) [m] each."""
+    end, start = _early(lane[::-1])[::-1], _early(following)
+    bend = _half_circle(end, start)
+    if len(bend) and ground.are_free(bend).all() and ground.is_straight(end[-1], bend[0]) and (
+            ground.is_straight(bend[-1], start[0])):
+        return [end, bend, start]
+    path = ground.path(lane[-1], following[0])
+    return [lane, NO_POINTS if path is None else path[1:-1], following]
+
+
+def _early(lane: Array) -> Array:
+    """A lane that begins a little later: float64 (2, 2) [m]."""
+    along = lane[1] - lane[0]
+    return np.array([lane[0] + min(EARLY / np.hypot(*along), PART) * along, lane[1]])
 
 
 def _half_circle(lane: Array, following: Array) -> Array:

@@ -10,9 +10,7 @@ from rumba_cleaning.belief.swept import Swept
 from rumba_cleaning.planning import tour
 from rumba_cleaning.planning.crumbs import crumbs
 from rumba_cleaning.planning.detours import with_crumbs
-from rumba_cleaning.planning.lanes import blocks
-from rumba_cleaning.planning.links import block_variants
-from rumba_cleaning.planning.paper import drive
+from rumba_cleaning.planning.layouts import laid_out, tries
 from rumba_cleaning.planning.regions import Ways, doors, regions, shapes
 from rumba_cleaning.planning.rings import chains, rings, stretch
 from rumba_cleaning.planning.stretches import Stretch
@@ -86,12 +84,10 @@ def _stretches(context: Context, paper: Swept, around: Array, labels: Array) -> 
     found = [stretch(chain, brush) for chain in chains(rings(ground, paper, labels, shape, brush))]
     missed = (paper.missing_share() > MISSED) & around
     angle = main_direction(ground)
+    layouts = tries(float(missed.sum()) * ground.plan.resolution ** 2)
     for region, part in _by_region(ground, missed, labels).items():
         if shape.has_lanes[region]:
-            for block in blocks(ground, part, brush, context.config.speed, angle):
-                variants = block_variants(ground, block.lanes)
-                drive(paper, variants[0].path())
-                found.append(Stretch(variants, region, block.area, False))
+            found += laid_out(context, paper, part, region, angle, layouts)
     return found
 
 

@@ -19,9 +19,9 @@ from rumba_cleaning.planning.stretches import Stretch, Variant, pair
 from rumba_sim.model.kernel import Array
 
 # All figures are our choice; each comment says what speaks for a larger and for a smaller value.
-WALL_MARGIN = 0.001  # [m] between robot and wall: small sweeps more of the rim, large touches the wall less often
+WALL_MARGIN = 0.0003  # [m] between robot and wall: small sweeps more of the rim, large touches the wall less often
 # Of the brush's width from ring to ring: small leaves less where corners are cut, large drives less.
-PASS, OPEN_PASS = 0.93, 0.985  # the second in open regions, where few rings have corners
+PASS, OPEN_PASS = 0.93, 0.995  # the second in open regions, where few rings have corners
 SPACING = 0.02  # [m] between the waypoints
 SMOOTH = 0.02  # [m] standard deviation of the filter along a ring: takes out the steps of the grid, and cuts corners
 # The corners of a ring reach farther out by what such a filter [m] would cut off, as a robot does that goes round them.
@@ -77,6 +77,14 @@ def rings(ground: Ground, swept: Swept, labels: Array, shape: Shapes, brush: flo
                 drive(swept, ring.waypoints)
         level += 1
         passes = np.where(shape.has_lanes[labels], -1.0, passes)
+
+
+def outermost(ground: Ground) -> List[Array]:
+    """The closed rings beside the walls, whole: float64 (any, 2) [m] each."""
+    contours = measure.find_contours(_depth(ground) - WALL_MARGIN, 0.0)
+    found = [resampled(ground.points(contour), SPACING) for contour in contours
+             if np.allclose(contour[0], contour[-1])]
+    return [path for path in found if len(path) * SPACING >= SHORTEST]
 
 
 def _depth(ground: Ground) -> Array:

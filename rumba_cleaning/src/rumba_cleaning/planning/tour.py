@@ -71,12 +71,16 @@ class Tour:
         points = np.concatenate([ends[:, 0], ends[:, 3], [start, last]])
         points = np.round(np.concatenate([points, _corners(ground, points)]), SAME)
         self._points, numbers = np.unique(points, axis=0, return_inverse=True)
-        numbers = numbers.reshape(-1)[:2 * count + 2]
+        numbers = numbers.reshape(-1)
+        firsts = self._begins[:-1]  # the variants of a stretch end near each other: those of the first one are enough
+        stops = np.unique(np.concatenate([numbers[firsts], numbers[count + firsts], numbers[2 * count:]]))
+        numbers = numbers[:2 * count + 2]
         self._entries, self._exits = numbers[:count], numbers[count:-1]  # the last exit is the start of the tour
         nodes = np.clip((self._points - ground.plan.origin) / ground.plan.resolution, 0.0,
                         np.array(ground.clearance.shape[::-1]) - 1.0)
         metres, self._before = compiled_ways.lengths(
-            ground.clearance, ground.reach + BESIDE, ground.reach - TOUCHING, NEAR / ground.plan.resolution, nodes)
+            ground.clearance, ground.reach + BESIDE, ground.reach - TOUCHING, NEAR / ground.plan.resolution, nodes,
+            stops)
         self._is_known = np.isfinite(metres)
         apart = np.hypot(*(self._points[:, np.newaxis] - self._points).transpose(2, 0, 1))
         metres = np.where(self._is_known, metres * ground.plan.resolution, 2.0 * apart + UNSEEN)

@@ -1,0 +1,56 @@
+"""Chooses how the lanes of a region are laid out: several layouts are driven on paper."""
+
+from typing import List
+
+import numpy as np
+
+from rumba_cleaning.belief.context import Context
+from rumba_cleaning.belief.swept import Swept
+from rumba_cleaning.planning.lanes import Layout, blocks
+from rumba_cleaning.planning.links import block_variants, through
+from rumba_cleaning.planning.paper import drive
+from rumba_cleaning.planning.stretches import Stretch
+from rumba_cleaning.route import Route
+from rumba_sim.model.kernel import Array
+
+# Our choice: which of these is best differs from region to region. More save less and less time, and take as long to
+# compare. Less overlap, or lanes for wider strips only, look better on paper, but leave slivers for the last round.
+LAYOUTS = (Layout(), Layout(usual=0.15, alike=2.5), Layout(usual=0.7), Layout(usual=0.7, gap=0.25, alike=2.5))
+AREA = 600.0  # [m^2] to clean, times the layouts that are compared: large drives less, small plans faster
+BLOCK = 3.0  # [s] from block to block, about: large prefers few blocks
+LEFT = 50.0  # times as long as a lane takes a crumb to clean an area, about: large leaves less to the crumbs
+
+
+def laid_out(context: Context, paper: Swept, missed: Array, region: int, angle: float, tries: int) -> List[Stretch]:
+    """Blocks of lanes that clean a region, by the best layout of those tried.
+
+    Args:
+        context: where the robot can stand.
+        paper: what was swept; the lanes are driven on it, on paper.
+        missed: the cells to clean in the region, bool (rows, columns).
+        region: its label.
+        angle: between the lanes and the map's axes [rad].
+        tries: how many layouts to compare.
+    """
+    ground, brush, speed = context.ground, context.robot.brush.width, context.config.speed
+    options = [blocks(ground, missed, brush, speed, angle, layout) for layout in LAYOUTS[:tries]]
+    paths = [[through(ground, block.lanes, 0) for block in option] for option in options]
+    best = 0 if tries == 1 else int(np.argmin([_cost(context, paper.copy(), option) for option in paths]))
+    for path in paths[best]:
+        drive(paper, path)
+    return [Stretch(block_variants(ground, block.lanes), region, block.area, False) for block in options[best]]
+
+
+def tries(area: float) -> int:
+    """How many layouts are compared for an area to clean [m^2]."""
+    return int(np.clip(AREA / max(area, 1.0), 1, len(LAYOUTS)))
+
+
+def _cost(context: Context, paper: Swept, paths: List[Array]) -> float:
+    """The time [s] that paths take, without what they sweep; they are driven on paper."""
+    before, time = paper.coverage, 0.0
+    for path in paths:
+        drive(paper, path)
+        time += BLOCK + float(Route(path, np.full(len(path) - 1, context.config.speed)).times()[-1])
+    rate = context.robot.brush.width * context.config.speed
+    return time - LEFT * (paper.coverage - before) * paper.reachable_area / rate

@@ -1,0 +1,79 @@
+"""Which layout of lanes is chosen, and on what it depends."""
+
+import numpy as np
+import pytest
+from floors import BRUSH, knowing
+from pytest import approx
+from rooms import crooked
+
+from rumba_cleaning.planning import layouts
+from rumba_cleaning.planning.lanes import Layout, blocks
+from rumba_cleaning.planning.layouts import AREA, LAYOUTS, laid_out, tries
+from rumba_sim.model.geometry import Pose
+
+PLAN = crooked(0.02)
+SPEED = 0.3
+
+
+def chosen(tried, monkeypatch, among=LAYOUTS):
+    """The paths of the best of some layouts, and what is swept when they were driven on paper."""
+    monkeypatch.setattr(layouts, 'LAYOUTS', among)
+    context = knowing(PLAN, Pose(1.0, 1.0, 0.0))
+    paper = context.swept.copy()
+    found = laid_out(context, paper, context.swept.missed(), 1, 0.0, tried)
+    return [stretch.variants[0].path() for stretch in found], paper
+
+
+def cost(paths, paper):
+    """Time along paths [s], 3 s from each to the next, and for what they leave 50 times what a lane takes for it.
+
+    Corners, which take time too, are not looked at: so this differs from the planner's figure by a little.
+    """
+    metres = sum(np.hypot(*np.diff(path, axis=0).T).sum() for path in paths)
+    return metres / SPEED + 3.0 * len(paths) + 50.0 * (1.0 - paper.coverage) * paper.reachable_area / (BRUSH * SPEED)
+
+
+def test_of_all_layouts_the_one_is_chosen_that_costs_least(monkeypatch):
+    each = [chosen(1, monkeypatch, (layout,)) for layout in LAYOUTS]
+    costs = [cost(*one) for one in each]
+    paths, paper = chosen(len(LAYOUTS), monkeypatch)
+    assert len(set(np.round(costs, 1))) > 1  # they differ on this floor
+    assert cost(paths, paper) < min(costs) + 0.2 * np.ptp(costs)
+
+
+def test_what_the_lanes_sweep_is_swept_on_paper_once(monkeypatch):
+    context = knowing(PLAN, Pose(1.0, 1.0, 0.0))
+    paths, paper = chosen(len(LAYOUTS), monkeypatch)
+    assert context.swept.coverage == 0.0 and paper.coverage > 0.5
+    again = context.swept.copy()
+    for path in paths:
+        layouts.drive(again, path)
+    assert again.coverage == paper.coverage
+
+
+def test_with_a_single_try_the_first_layout_is_taken(monkeypatch):
+    context = knowing(PLAN, Pose(1.0, 1.0, 0.0))
+    paths, _ = chosen(1, monkeypatch)
+    found = blocks(context.ground, context.swept.missed(), BRUSH, SPEED, 0.0, LAYOUTS[0])
+    assert len(paths) == len(found) and [path[0].tolist() for path in paths] == [
+        block.lanes[0][0].tolist() for block in found]
+
+
+@pytest.mark.parametrize('area, count', [(0.0, len(LAYOUTS)), (1.0, len(LAYOUTS)), (AREA / 2.5, 2), (2.0 * AREA, 1)])
+def test_fewer_layouts_are_tried_on_a_larger_floor(area, count):
+    assert tries(area) == count
+
+
+@pytest.mark.parametrize('change, fewer', [({'overlap': 0.15}, False), ({'needed': 0.5}, True)])
+def test_each_layout_lays_lanes_its_own_way(change, fewer):
+    context = knowing(PLAN, Pose(1.0, 1.0, 0.0))
+    counts = [sum(len(block.lanes) for block in blocks(context.ground, context.swept.missed(), BRUSH, SPEED, 0.0, layout))
+              for layout in (Layout(), Layout(**change))]
+    assert (counts[1] < counts[0]) == fewer and counts[1] != counts[0]
+
+
+def test_lanes_of_a_floor_that_is_swept_are_none(monkeypatch):
+    monkeypatch.setattr(layouts, 'LAYOUTS', LAYOUTS)
+    context = knowing(PLAN, Pose(1.0, 1.0, 0.0))
+    paper = context.swept.copy()
+    assert laid_out(context, paper, np.zeros_like(PLAN.free), 1, 0.0, 4) == [] and paper.coverage == approx(0.0)
