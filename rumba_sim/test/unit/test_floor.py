@@ -1,6 +1,5 @@
 """How brushes clean the floor."""
 
-import functools
 import math
 
 import numpy as np
@@ -21,15 +20,9 @@ RESOLUTIONS = (0.005, 0.01, 0.02, 0.05, 0.1)
 HEADINGS = tuple(math.radians(degrees) for degrees in (0.0, 7.0, 30.0, 45.0))
 
 
-@functools.lru_cache(maxsize=None)
-def square(resolution):
-    """A room of 4 m."""
-    return room(4.0, 4.0, resolution)
-
-
 def swept_area(*start, v, w, seconds, resolution, step_rate=50):
     """Area [m^2] that a robot sweeps in a room of 4 m whose walls it does not touch."""
-    world, robot = alone(Pose(*start), square(resolution), step_rate, drive=AT_ONCE)
+    world, robot = alone(Pose(*start), room(4.0, 4.0, resolution), step_rate, drive=AT_ONCE)
     drove(world, v, w, round(seconds * step_rate))
     robot.brushes_up = True
     world.step()  # what was not swept yet of the last stride
