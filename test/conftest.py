@@ -56,8 +56,7 @@ def built(tmp_path_factory, name, workspace_at):
     with once(tmp_path_factory, name) as (path, is_first):
         workspace = workspace_at(path)
         if is_first:
-            workspace.make()
-            workspace.make('install')
+            workspace.make('install')  # after it has built all
     return workspace
 
 

@@ -28,5 +28,8 @@ function(rumba_warm_up module)
   add_custom_target(${PROJECT_NAME}_warm_up ALL DEPENDS ${done})
   configure_file(${CMAKE_CURRENT_FUNCTION_LIST_DIR}/warm_up_installed.cmake.in
                  ${CMAKE_CURRENT_BINARY_DIR}/warm_up_installed.cmake @ONLY)
+  # What was compiled of the sources is as good for their copies; what is missing is compiled then.
+  install(DIRECTORY src/${PROJECT_NAME} DESTINATION ${CATKIN_GLOBAL_PYTHON_DESTINATION}
+    FILES_MATCHING PATTERN "*.nb[ci]")
   install(SCRIPT ${CMAKE_CURRENT_BINARY_DIR}/warm_up_installed.cmake)
 endfunction()

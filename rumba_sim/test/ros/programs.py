@@ -9,6 +9,7 @@ that start a node by rosrun or roslaunch load all of it each time, as users do.
 import array
 import ctypes
 import functools
+import gc
 import importlib
 import json
 import os
@@ -136,6 +137,8 @@ def _main():
         module = importlib.import_module(name)
         if name.endswith('.warm_up'):
             module.main()
+    gc.collect()
+    gc.freeze()  # otherwise each node would look through all objects of the libraries, and copy their memory, to end
     request = _serve(channel)
     os.chdir(request['folder'])
     os.environ.clear()

@@ -20,8 +20,16 @@ PILLARS = ((1.2, 0.4, 1.5, 0.9), (2.6, 1.6, 2.9, 2.6), (0.3, 2.0, 0.7, 2.2))
 def room(width, height, resolution=0.05, boxes=(), **kwargs):
     """A room [m] with its inner lower left corner at (0, 0), a wall of one cell around it, and boxes in it.
 
-    A box is (left, bottom, right, top) [m]; `cliff` and `carpet` are given as boxes too.
+    A box is (left, bottom, right, top) [m]; `cliff` and `carpet` are given as boxes too. A plan never changes, so that
+    the same one serves all tests.
     """
+    others = tuple((name, tuple(value) if isinstance(value, list) else value) for name, value in kwargs.items())
+    return _room(width, height, resolution, tuple(boxes), others)
+
+
+@functools.lru_cache(maxsize=20)
+def _room(width, height, resolution, boxes, others):
+    kwargs = dict(others)
     rows, columns = round(height / resolution) + 2, round(width / resolution) + 2
     grid = np.full((rows, columns), OCCUPIED, np.int8)
     grid[1:-1, 1:-1] = FREE

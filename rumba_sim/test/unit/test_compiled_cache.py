@@ -1,6 +1,7 @@
 """The kernel is compiled and works wherever its cache cannot be kept; one line says so."""
 
 import os
+import pathlib
 import shutil
 import subprocess
 import sys
@@ -80,11 +81,19 @@ def test_what_was_cached_of_a_source_that_has_changed_is_not_used(source, tmp_pa
     home = {'HOME': str(tmp_path / 'home')}
     assert run(source, ANGLE, **home) == ('False\n', '')
     turned_around(source, tmp_path / 'other')
-    kernel_file = source / 'rumba_sim' / 'model' / 'kernel.py'
-    begin = kernel_file.stat().st_mtime_ns
-    shutil.copy(str(tmp_path / 'other' / 'rumba_sim' / 'model' / 'kernel.py'), str(kernel_file))
-    os.utime(str(kernel_file), ns=(begin, begin + 1_000_000_000))  # as after an installation a second later
+    kernel_file = pathlib.Path('rumba_sim', 'model', 'kernel.py')
+    shutil.copy2(str(tmp_path / 'other' / kernel_file), str(source / kernel_file))
     assert run(source, ANGLE, **home) == ('True\n', '')
+
+
+def test_a_source_with_another_time_and_the_same_contents_needs_no_compiling(source, tmp_path):
+    """As an installed copy has it."""
+    home = {'HOME': str(tmp_path / 'home')}
+    assert run(source, **home) == ('True\n', '')
+    cached = {path: path.stat().st_mtime_ns for path in (tmp_path / 'home').rglob('*.nb[ci]')}
+    os.utime(str(source / 'rumba_sim' / 'model' / 'kernel.py'), ns=(0, 1_000_000_000))
+    assert run(source, **home) == ('True\n', '')
+    assert cached == {path: path.stat().st_mtime_ns for path in (tmp_path / 'home').rglob('*.nb[ci]')}
 
 
 def test_what_was_cached_of_the_batch_does_not_outlive_a_change_of_the_kernel_that_it_calls(source, tmp_path):
@@ -98,7 +107,6 @@ def test_what_was_cached_of_the_batch_does_not_outlive_a_change_of_the_kernel_th
     for _ in range(2):  # the second time from the cache
         assert run(source, code, **home) == ('6.0\n', '')
     kernel_file.write_text(kernel_file.read_text().replace('2.0 * x', '3.0 * x'))
-    os.utime(str(kernel_file), ns=(0, 1_000_000_000))  # as of an installation at another time
     assert run(source, code, **home) == ('13.5\n', '')
 
 

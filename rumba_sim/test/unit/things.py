@@ -1,5 +1,6 @@
 """Obstacles for the tests of the model, and exact distances to them, computed from their corners."""
 
+import functools
 import math
 
 import numpy as np
@@ -42,12 +43,18 @@ def to_segment(point, start, end):
     return math.hypot(start[0] + share * x - point[0], start[1] + share * y - point[1])
 
 
+@functools.lru_cache(maxsize=100)  # most obstacles stand, or several robots are near them
+def sides_of(pose, obstacle):
+    """Begin and end of each side of a box at a pose [m]."""
+    points = corners(pose, obstacle).tolist()
+    return list(zip(points, points[1:] + points[:1]))
+
+
 def distance(pose, obstacle, x, y):
     """Distance from an obstacle at a pose to a point [m], negative inside: by the sides of a box, one by one."""
     if obstacle.radius:
         return math.hypot(pose.x - x, pose.y - y) - obstacle.radius
-    points = corners(pose, obstacle).tolist()
-    sides = list(zip(points, points[1:] + points[:1]))
+    sides = sides_of(pose, obstacle)
     least = min(to_segment((x, y), start, end) for start, end in sides)
     is_inside = all((end[0] - start[0]) * (y - start[1]) - (end[1] - start[1]) * (x - start[0]) > 0.0
                     for start, end in sides)
@@ -56,6 +63,6 @@ def distance(pose, obstacle, x, y):
 
 def gaps(world):
     """Distance from the edge of each robot to each obstacle [m]."""
-    radius = world.config.drive.radius
-    return [distance(pose, obstacle, robot.pose.x, robot.pose.y) - radius
-            for robot in world.robots.values() for obstacle, pose in world.obstacles.poses()]
+    radius, obstacles = world.config.drive.radius, list(world.obstacles.poses())
+    return [distance(pose, obstacle, robot.x, robot.y) - radius
+            for robot in (robot.pose for robot in world.robots.values()) for obstacle, pose in obstacles]

@@ -1,8 +1,8 @@
 """The kernel, compiled by numba: the same functions with the same results, about a hundred times faster.
 
-Compiled functions can call only compiled functions, and numba caches compiled code until the source file changes. So
-the file of the kernel is executed a second time, as a separate module in which every function is replaced by its
-compiled version. `batch` calls the kernel: its copy calls the compiled one, and its cache also lasts only until the
+Compiled functions can call only compiled functions, and compiled code is cached until the contents of the source file
+change. So the file of the kernel is executed a second time, as a separate module in which every function is replaced by
+its compiled version. `batch` calls the kernel: its copy calls the compiled one, and its cache also lasts only until the
 file of the kernel changes. Code from the cache loads in a fraction of a second; compiling takes some seconds. All of
 that waits for the first use of `fast` or `many`, and so does the import of numba, which takes as long as that of rospy:
 a node that refuses its input, or prints its help, needs none of it.
@@ -12,6 +12,8 @@ cache is damaged, or the disk is full, the kernel is compiled at each start.
 """
 
 import contextlib
+import functools
+import hashlib
 import importlib.util
 import inspect
 import os
@@ -46,7 +48,7 @@ def _compiled_batch() -> Any:
     module = _compiled('batch', batch.__file__, nogil=True)
     module.kernel = fast.module
     for _, function in inspect.getmembers(module, lambda member: isinstance(getattr(member, '_cache', None), _Cache)):
-        function._cache.also_depends_on(kernel.__file__)
+        function._cache.depends_on(batch.__file__, kernel.__file__)
     return module
 
 
@@ -62,6 +64,7 @@ def _cached(function: Any, path: str) -> Any:
         _say(str(exc))
     else:
         function._cache = _Cache(function._cache)
+        function._cache.depends_on(path)
     return function
 
 
@@ -78,10 +81,12 @@ class _Cache:
     def __getattr__(self, name: str) -> Any:
         return getattr(self._cache, name)
 
-    def also_depends_on(self, path: str) -> None:
-        """Count what is in the cache as out of date, too, if this file has changed."""
-        status, file = os.stat(path), self._cache._cache_file
-        file._source_stamp = (file._source_stamp, status.st_mtime, status.st_size)
+    def depends_on(self, *paths: str) -> None:
+        """Count what is in the cache as out of date once one of these files has other contents.
+
+        numba would go by their time: then a copy of the files would need compiling again, as an installation is one.
+        """
+        self._cache._cache_file._source_stamp = [_digest(path) for path in paths]
 
     def load_overload(self, *what: Any) -> Any:
         """The compiled code, or None if it is not in the cache or cannot be read."""
@@ -99,6 +104,12 @@ class _Cache:
             self._cache.save_overload(*what)
         except Exception as exc:
             _say(f'{self.cache_path}: {exc}')
+
+
+@functools.lru_cache(maxsize=None)
+def _digest(path: str) -> str:
+    with open(path, 'rb') as file:
+        return hashlib.sha256(file.read()).hexdigest()
 
 
 def _say(reason: str) -> None:

@@ -309,7 +309,7 @@ class World:
             free = np.ones(len(points), np.bool_)
             for pose in others:
                 free &= np.hypot(*(points - pose[:2]).T) >= (2.0 + gap) * radius
-            for x, y in points[free].tolist():
+            for x, y in map(np.ndarray.tolist, points[free]):  # as a rule the first will do
                 if not self.obstacles.near(x, y, radius):
                     return self.check(Pose(x, y, self.start.theta))
         raise WorldError(f'{self.plan.name}: no room for another robot')
