@@ -157,3 +157,26 @@ def through_walls(pose: Array, points: Array, distance: Array, left: float, bott
                 count += 1
                 break
     return count / len(points)
+
+
+@compiled
+def from_behind(pose: Array, points: Array, distance: Array, left: float, bottom: float, resolution: float,
+                sigma: float) -> float:
+    """The share of the beams of a scan that end at a wall that faces away from the laser, weighted [0..1].
+
+    Distances are negative behind a wall that was seen from one side alone. Beams that end there were met by the other
+    side, which is elsewhere: the scan does not belong there, even if it fits.
+
+    Args, apart from those above:
+        pose: float64 (3).
+        sigma: standard deviation of a distance [m].
+    """
+    cos, sin = math.cos(pose[2]), math.sin(pose[2])
+    total = 0.0
+    for beam in range(len(points)):
+        along, across = cos * points[beam, 0] - sin * points[beam, 1], sin * points[beam, 0] + cos * points[beam, 1]
+        off, by_u, by_v = slope_at(distance, (pose[0] + along - left) / resolution,
+                                   (pose[1] + across - bottom) / resolution)
+        if by_u * along + by_v * across > 0.0:
+            total += math.exp(-0.5 * (off / sigma) ** 2)
+    return total / len(points)
