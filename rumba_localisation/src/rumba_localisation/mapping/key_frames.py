@@ -7,7 +7,7 @@ import numpy as np
 from scipy import sparse
 from scipy.sparse import csgraph
 
-from rumba_localisation.mapping.grid import Grid
+from rumba_localisation.mapping.grid import Grid, placed
 from rumba_localisation.mapping.pose_graph import Link, optimised
 from rumba_localisation.scan import Scan
 from rumba_sim.model.geometry import Pose, compose, inverse, wrap_angle
@@ -75,9 +75,12 @@ class KeyFrames:
     def drawn(self, numbers: Array) -> Grid:
         """A map of some of the scans alone."""
         grid = Grid()
-        for number in numbers.tolist():
-            points, beyond = self._scans[number]
-            grid.add(self.poses[number], points.astype(np.float64), beyond.astype(np.float64))
+        shown = [(self.poses[number], *(ends.astype(np.float64) for ends in self._scans[number]))
+                 for number in numbers.tolist()]
+        met = [placed(pose, ends) for pose, *scan in shown for ends in (*scan, np.zeros((1, 2)))]
+        grid.cover(np.concatenate(met))  # at once: each time that it grows all cells are copied
+        for pose, points, beyond in shown:
+            grid.add(pose, points, beyond)
         grid.measure()
         return grid
 

@@ -70,11 +70,11 @@ class LoopClosure:
         pose = self._frames.poses[frame]
         if is_blind(points) or self._is_near_the_last(pose):
             return False
+        self._tried = pose
         near, ways = self._frames.near(pose.x, pose.y, NEAR), self._frames.ways(frame)
         old = near[ways[near] > LOOP]
         if not len(old):
             return False
-        self._tried = pose
         found = self._found(frame, old, min(max(DRIFT * float(ways[old[0]]), LEAST), MOST), points)
         before, self._doubted = self._doubted, None
         if found is None:

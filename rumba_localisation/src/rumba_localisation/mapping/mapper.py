@@ -130,13 +130,12 @@ class Mapper:
 
     def _keep(self, estimate: Estimate, scan: Scan) -> int:
         """Make a scan a key frame, which was found from the one before, or from the map nearby; returns its number."""
-        frames = self._frames
+        frames, pose = self._frames, estimate.pose
         is_first, is_next = not frames.poses, self._way < FOLLOWED
-        nearest = 0 if is_first else frames.nearest(estimate.pose.x, estimate.pose.y)
-        frame = frames.add(estimate.pose, scan)
+        before = len(frames.poses) - 1 if is_first or is_next else frames.nearest(pose.x, pose.y)
+        frame = frames.add(pose, scan)
         if not is_first:
-            frames.link(frame - 1 if is_next else nearest, frame, estimate.pose,
-                        self._drift if is_next else estimate.covariance)
+            frames.link(before, frame, pose, self._drift if is_next else estimate.covariance)
         self._way, self._drift = 0.0, np.zeros((3, 3))
         return frame
 
