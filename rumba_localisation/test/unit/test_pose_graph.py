@@ -82,11 +82,20 @@ def chain(count, closing=None):
 
 def test_ways_are_along_links():
     frames = chain(11)
-    assert frames.ways(10) == pytest.approx(np.arange(10.0, -1.0, -1.0), abs=1e-4)
-    frames.link(0, 10, Pose(10.0, 0.0, 0.0), EQUAL)
-    assert frames.ways(10)[[0, 4, 8]] == pytest.approx([10.0, 6.0, 2.0], abs=1e-4)
+    assert frames.ways(10).lengths == pytest.approx(np.arange(10.0, -1.0, -1.0), abs=1e-4)
     frames.link(2, 9, Pose(9.0, 0.0, 0.0), EQUAL)
     assert frames.near(3.2, 0.0, 1.5).tolist() == [3, 4, 2]
+    around = chain(11)
+    around.poses[10] = Pose(0.0, 1.0, 0.0)
+    around.link(0, 10, around.poses[10], EQUAL)
+    assert around.ways(10).lengths[[0, 3, 8]] == pytest.approx([1.0, 4.0, 9.0], abs=1e-4)
+
+
+def test_doubt_grows_along_a_way_by_errors_of_places_and_of_headings():
+    """Ten links with variances of 0.01 + 0.01 m^2 and 0.0001 rad^2 each, 10 m."""
+    frames = chain(11)
+    assert frames.doubt(frames.ways(10), 0) == pytest.approx(math.sqrt(0.2 + 0.001 * 100.0 / 3.0), abs=1e-4)
+    assert frames.doubt(frames.ways(10), 10) == 0.0
 
 
 def test_what_was_found_on_a_map_moves_with_the_nearest_frame():

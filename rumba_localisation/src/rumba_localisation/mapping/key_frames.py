@@ -1,7 +1,7 @@
 """The scans that a map shows, where they were taken, and how one was found from another."""
 
 import math
-from typing import List
+from typing import Dict, List, NamedTuple, Tuple
 
 import numpy as np
 from scipy import sparse
@@ -12,6 +12,13 @@ from rumba_localisation.mapping.pose_graph import Link, optimised
 from rumba_localisation.scan import Scan
 from rumba_sim.model.geometry import Pose, compose, inverse, wrap_angle
 from rumba_sim.model.kernel import Array
+
+
+class Ways(NamedTuple):
+    """The shortest ways from a frame to all, along links."""
+
+    lengths: Array  # float64 (frames) [m]
+    before: Array  # int32 (frames), the number before each frame on its way; negative if there is none
 
 
 class KeyFrames:
@@ -26,6 +33,7 @@ class KeyFrames:
         self.poses: List[Pose] = []
         self._scans: List[Scan] = []
         self._links: List[Link] = []
+        self._variances: Dict[Tuple[int, int], Tuple[float, float]] = {}  # of place [m^2] and heading, by both ends
         self._before: List[Pose] = []  # poses before the newest `optimise`
 
     def add(self, pose: Pose, scan: Scan) -> int:
@@ -49,6 +57,8 @@ class KeyFrames:
         turn = np.array([[cos, sin, 0.0], [-sin, cos, 0.0], [0.0, 0.0, 1.0]])
         information = np.linalg.inv(turn @ covariance @ turn.T)
         self._links.append(Link(one, other, compose(inverse(frame), pose), information, is_robust))
+        self._variances[min(one, other), max(one, other)] = float(covariance[0, 0] + covariance[1, 1]), float(
+            covariance[2, 2])
 
     def near(self, x: float, y: float, distance: float) -> Array:
         """Numbers of the frames within a distance of a point [m], the nearest first: int64 (any)."""
@@ -64,13 +74,25 @@ class KeyFrames:
         poses = np.array(self.poses)
         return np.hypot(poses[:, 0] - x, poses[:, 1] - y)
 
-    def ways(self, frame: int) -> Array:
-        """Lengths of the shortest ways along links from a frame to all others [m]: float64 (any)."""
+    def ways(self, frame: int) -> Ways:
+        """The shortest ways along links from a frame to all."""
         count, poses = len(self.poses), np.array(self.poses)
         one, other = (np.array([link[end] for link in self._links], np.int64) for end in (0, 1))
         lengths = np.hypot(*(poses[one, :2] - poses[other, :2]).T) + 1e-6  # a 0 would be no link
         matrix = sparse.coo_matrix((lengths, (one, other)), shape=(count, count)).tocsr()
-        return np.asarray(csgraph.dijkstra(matrix, directed=False, indices=frame))
+        return Ways(*csgraph.dijkstra(matrix, directed=False, indices=frame, return_predecessors=True))
+
+    def doubt(self, ways: Ways, frame: int) -> float:
+        """Standard deviation of where the beginning of a way is, seen from a frame at its end [m].
+
+        Errors of headings add up, and move what is far away: by a third of the square of the way, as on a straight one.
+        """
+        places, headings, number = 0.0, 0.0, frame
+        while ways.before[number] >= 0:
+            before = int(ways.before[number])
+            place, heading = self._variances[min(before, number), max(before, number)]
+            places, headings, number = places + place, headings + heading, before
+        return math.sqrt(places + headings * float(ways.lengths[frame]) ** 2 / 3.0)
 
     def drawn(self, numbers: Array) -> Grid:
         """A map of some of the scans alone."""

@@ -19,8 +19,10 @@ HELD = np.diag([0.1, 0.1, 0.05]) ** 2  # covariance of each start of a match [m^
 STRIDE = 0.15  # [m] between these starts: a match finds what is as far off
 # All these are our choice:
 LOOP = 12.0  # [m] of way along links from which on frames are old: shorter loops close by matching with the map
+DOUBT = 0.05  # [m] of standard deviation along that way, below which no error is looked for: a smaller one looks for it
+#               in each room, and missions take longer to compute; a larger one leaves loops open
 NEAR = 5.0  # [m] to an old frame, at most: a longer way off, the laser sees too little of the same
-PAUSE, REST = 0.4, 1.0  # [m] between two scans that are compared with old ones, if the first needs one that agrees, and
+PAUSE, REST = 0.4, 2.0  # [m] between two scans that are compared with old ones, if the first needs one that agrees, and
 #                         if it does not: nearer ones err alike, and each takes 0.1 s
 DRIFT, LEAST, MOST = 0.03, 0.3, 1.0  # errors that are looked for: share of the way, at least and at most [m]
 KNOWN = 0.5  # share of the beams that end where the old frames saw something, at least: others prove nothing
@@ -72,10 +74,10 @@ class LoopClosure:
             return False
         self._tried = pose
         near, ways = self._frames.near(pose.x, pose.y, NEAR), self._frames.ways(frame)
-        old = near[ways[near] > LOOP]
-        if not len(old):
+        old = near[ways.lengths[near] > LOOP]
+        if not len(old) or self._frames.doubt(ways, int(old[0])) < DOUBT:
             return False
-        found = self._found(frame, old, min(max(DRIFT * float(ways[old[0]]), LEAST), MOST), points)
+        found = self._found(frame, old, min(max(DRIFT * float(ways.lengths[old[0]]), LEAST), MOST), points)
         before, self._doubted = self._doubted, None
         if found is None:
             return False
@@ -95,7 +97,8 @@ class LoopClosure:
         return tried is not None and math.hypot(pose.x - tried.x, pose.y - tried.y) < pause
 
     def _link(self, found: Found) -> None:
-        self._frames.link(found.old, found.frame, found.match.pose, found.match.covariance, is_robust=True)
+        covariance = INDEPENDENT * found.match.covariance  # that is told as too large, with care
+        self._frames.link(found.old, found.frame, found.match.pose, covariance, is_robust=True)
 
     def _found(self, frame: int, old: Array, reach: float, points: Array) -> Optional[Found]:
         """Where a key frame is by old ones, as far off as `reach` [m] at most; None if nowhere, or not clear."""

@@ -135,7 +135,7 @@ class Mapper:
         before = len(frames.poses) - 1 if is_first or is_next else frames.nearest(pose.x, pose.y)
         frame = frames.add(pose, scan)
         if not is_first:
-            frames.link(before, frame, pose, self._drift if is_next else estimate.covariance)
+            frames.link(before, frame, pose, self._drift if is_next else INDEPENDENT * estimate.covariance)
         self._way, self._drift = 0.0, np.zeros((3, 3))
         return frame
 
