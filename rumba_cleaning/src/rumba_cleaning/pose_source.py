@@ -93,7 +93,10 @@ class Mapped:
         """Scan, and see where that fits on the map."""
         odometry = as_told(world.robots[name].odometry)
         scan = _scan(world, name)
+        redrawn = self.mapper.redrawn
         self.mapper.observe(odometry, scan)
+        if self.mapper.redrawn > redrawn:
+            self.findings.move(self.mapper.moved)
         estimate, pose = self.mapper.estimate, self.mapper.pose(odometry)
         self.findings.note(self.mapper.grid, pose, world.robots[name].bumper, world.cliffs(name))
         return Belief(pose, UNKNOWN if estimate is None else _rows(estimate.covariance), scan)

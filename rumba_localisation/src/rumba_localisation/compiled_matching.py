@@ -18,6 +18,8 @@ FARTHEST = 0.5  # [m], [rad] in one step of `match`: beyond, its lines say nothi
 BEFORE = 0.15  # [m] of a beam before its end that may be in a wall: by so much a pose that is not wrong may err
 STRIDE = 0.02  # [m] from point to point on a beam: no more than the thinnest wall
 INSIDE = 0.015  # [m] from its faces a point is in a wall: half of a thin one, so that beams may graze corners
+STEEP = 1.2  # slope from which on distances jump: true ones have slopes of 1, interpolated ones up to 1.1; any up to 2
+#              lets maps drift as little
 Array = Any  # numpy.ndarray
 Triple = Tuple[float, float, float]
 
@@ -62,7 +64,9 @@ def normal_equations(pose: Array, points: Array, distance: Array, left: float, b
     """Linearise the distances from the ends of beams to the walls around a pose.
 
     A beam that ends far from any wall, in units of sigma, counts little (Welsch's weight): it hit something that the
-    map does not show.
+    map does not show. Where distances are steeper than distances can be, they change their sign beside the last hit on
+    a wall: scaled to a slope of 1 they still tell where the wall is. Unscaled, a few such beams would hold the heading
+    where the odometry has it, so that a map of scattered hits bends the way that the wheels err.
 
     Args, apart from those above:
         pose: float64 (3).
@@ -82,6 +86,9 @@ def normal_equations(pose: Array, points: Array, distance: Array, left: float, b
         if math.isnan(off):
             continue
         by_x, by_y = by_u / resolution, by_v / resolution
+        steep = math.hypot(by_x, by_y)
+        if steep > STEEP:
+            off, by_x, by_y = off / steep, by_x / steep, by_y / steep
         by_theta = by_y * along - by_x * across
         share = math.exp(-0.5 * (off / sigma) ** 2)
         weight = share / sigma ** 2
@@ -150,3 +157,26 @@ def through_walls(pose: Array, points: Array, distance: Array, left: float, bott
                 count += 1
                 break
     return count / len(points)
+
+
+@compiled
+def from_behind(pose: Array, points: Array, distance: Array, left: float, bottom: float, resolution: float,
+                sigma: float) -> float:
+    """The share of the beams of a scan that end at a wall that faces away from the laser, weighted [0..1].
+
+    Distances are negative behind a wall that was seen from one side alone. Beams that end there were met by the other
+    side, which is elsewhere: the scan does not belong there, even if it fits.
+
+    Args, apart from those above:
+        pose: float64 (3).
+        sigma: standard deviation of a distance [m].
+    """
+    cos, sin = math.cos(pose[2]), math.sin(pose[2])
+    total = 0.0
+    for beam in range(len(points)):
+        along, across = cos * points[beam, 0] - sin * points[beam, 1], sin * points[beam, 0] + cos * points[beam, 1]
+        off, by_u, by_v = slope_at(distance, (pose[0] + along - left) / resolution,
+                                   (pose[1] + across - bottom) / resolution)
+        if by_u * along + by_v * across > 0.0:
+            total += math.exp(-0.5 * (off / sigma) ** 2)
+    return total / len(points)

@@ -112,6 +112,17 @@ def test_a_long_corridor_that_dead_reckoning_bends_is_straight():
     assert off_walls(mapper, plan).max() < 0.2
 
 
+@pytest.mark.parametrize('seed', [1, 3])
+def test_a_map_does_not_bend_the_way_that_the_wheels_err(seed):
+    plan, start = room(20.0, 1.6, boxes=[(6.0, 0.0, 6.3, 0.2), (13.0, 1.4, 13.4, 1.6)]), Pose(0.5, 0.8, 0.0)
+    world, mapper = world_of(plan, start, seed), Mapper(start)
+    for _ in drive(world, mapper, [(19.3, 0.8)]):
+        pass
+    robot = world.robots['rumba']
+    assert error(reckoned(world, start), robot.pose)[0] > 5.0
+    assert mapper.pose(robot.odometry).y == pytest.approx(robot.pose.y, abs=0.03)
+
+
 def test_a_loop_that_dead_reckoning_leaves_open_closes():
     plan, start = room(10.0, 8.0, boxes=[(1.6, 1.6, 8.4, 6.4)]), Pose(0.8, 0.8, 0.0)
     world, mapper = world_of(plan, start, seed=3), Mapper(start)

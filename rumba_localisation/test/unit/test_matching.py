@@ -53,6 +53,24 @@ def test_along_a_bare_wall_the_prior_decides():
     assert covariance[0, 0] == pytest.approx(WIDE[0, 0], rel=0.05) and covariance[1, 1] < 0.01 * WIDE[1, 1]
 
 
+def normal_equations(field, points):
+    """Matrix, vector and share for beams from a pose in a field with cells of 1 m."""
+    matrix, vector = np.empty((3, 3)), np.empty(3)
+    share = compiled_matching.normal_equations(np.array([5.0, 5.0, 0.3]), points, field, 0.0, 0.0, 1.0, 0.5, matrix,
+                                               vector)
+    return matrix, vector, share
+
+
+def test_distances_that_are_steeper_than_distances_can_be_count_as_if_they_were_not():
+    plane = np.broadcast_to(0.6 * np.arange(11.0) + 0.8 * np.arange(11.0)[:, np.newaxis] - 7.0, (11, 11))
+    points = np.random.default_rng(1).uniform(-3.0, 3.0, (50, 2))
+    for told, expected in zip(normal_equations(7.0 * plane, points), normal_equations(1.0 * plane, points)):
+        assert told == pytest.approx(expected)
+    matrix, _, _ = normal_equations(0.5 * plane, points)  # between two walls distances are less steep
+    assert matrix[0, 0] / matrix[1, 1] == pytest.approx(0.5625)
+    assert matrix[0, 0] <= 0.25 * 0.36 * 50.0 / 0.5 ** 2
+
+
 def test_beams_that_hit_what_the_map_does_not_show_count_little():
     world = world_of(crooked(0.025))
     points = scanned(world)

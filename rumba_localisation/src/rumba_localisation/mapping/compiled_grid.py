@@ -96,7 +96,8 @@ def measure(odds: Array, hits: Array, field: Array, box: Box, reach: int, resolu
     bottom, right = min(box[2] + reach, rows), min(box[3] + reach, columns)
     first_row, first_column = max(top - reach, 0), max(left - reach, 0)
     height, width = min(bottom + reach, rows) - first_row, min(right + reach, columns) - first_column
-    walls = np.empty((height * width, 7))
+    occupied = np.count_nonzero(odds[first_row:first_row + height, first_column:first_column + width] > 0.0)
+    walls = np.empty((occupied, 7))
     nearest = np.full((height + 1, width + 1), -1, np.int32)  # the number of a wall
     squares = np.full((height + 1, width + 1), float(reach * reach))
     count = 0

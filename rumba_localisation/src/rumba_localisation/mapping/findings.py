@@ -1,7 +1,7 @@
 """What bumper and cliff sensors found where the laser saw nothing."""
 
 import math
-from typing import List, Sequence, Tuple
+from typing import Callable, List, Sequence, Tuple
 
 from rumba_localisation.mapping.grid import Grid
 from rumba_sim.model.geometry import Pose
@@ -51,6 +51,11 @@ class Findings:
         for is_over, (distance, angle) in zip(cliffs, self._sensors):
             if is_over:
                 _remember(self.cliffs, _ahead(pose, angle, distance))
+
+    def move(self, moved: Callable[[Pose], Pose]) -> None:
+        """Follow a map that was drawn anew, by where what was at a pose is now."""
+        for points in (self.touched, self.cliffs):
+            points[:] = [moved(Pose(x, y, 0.0))[:2] for x, y in points]
 
 
 def _ahead(pose: Pose, angle: float, distance: float) -> Point:

@@ -50,7 +50,7 @@ class Grid:
         """
         echoes, others = placed(pose, points), placed(pose, beyond)
         here = np.array([[pose.x, pose.y]])
-        self._cover(np.concatenate([here, echoes, others]))
+        self.cover(np.concatenate([here, echoes, others]))
         (x, y), = self.cells(here).tolist()
         free = compiled_grid.add_beams(self.odds, self._hits, x, y, self.cells(others), False)
         met = compiled_grid.add_beams(self.odds, self._hits, x, y, self.cells(echoes), True)
@@ -74,7 +74,7 @@ class Grid:
         column, row = (round(cells) for cells in self.cells(np.array([x, y])).tolist())
         return abs(float(self.field[row, column])) if 0 <= row < rows and 0 <= column < columns else math.inf
 
-    def _cover(self, points: Array) -> None:
+    def cover(self, points: Array) -> None:
         """Grow until points (any, 2) [m] lie on the grid."""
         if not self.odds.size:
             self.origin = (round(points[0, 0] / RESOLUTION) * RESOLUTION, round(points[0, 1] / RESOLUTION) * RESOLUTION)

@@ -114,8 +114,10 @@ class MapperNode(ScanLoop):
         if seen is None:
             rospy.logerr_throttle(COMPLAINT_PERIOD, 'scan: its angles and its range must be numbers; ignored')
             return
-        mapper, stamp = self._mapper, scan.header.stamp
+        mapper, stamp, redrawn = self._mapper, scan.header.stamp, self._mapper.redrawn
         mapper.observe(odometry, seen)
+        if mapper.redrawn > redrawn:
+            self._follow(stamp)
         if mapper.estimate is None:
             return
         pose = mapper.pose(odometry)
@@ -125,8 +127,18 @@ class MapperNode(ScanLoop):
         self._pose.publish(conversions.pose_with_covariance(pose, mapper.estimate.covariance, header))
         if self._is_docked and self._dock is None:
             self._dock = pose
-            self._docked.publish(PoseStamped(header, conversions.pose_message(*pose)))
+            self._tell_dock(pose, stamp)
         self._tell_map(stamp)
+
+    def _follow(self, stamp: rospy.Time) -> None:
+        """Move what was found on the map to where that is since it was drawn anew."""
+        self._findings.move(self._mapper.moved)
+        if self._dock is not None:
+            self._dock = self._mapper.moved(self._dock)
+            self._tell_dock(self._dock, stamp)
+
+    def _tell_dock(self, dock: Pose, stamp: rospy.Time) -> None:
+        self._docked.publish(PoseStamped(Header(stamp=stamp, frame_id=MAP), conversions.pose_message(*dock)))
 
     def _tell_map(self, stamp: rospy.Time) -> None:
         """Publish the map, if there is a newer one and the last one was published long enough ago."""

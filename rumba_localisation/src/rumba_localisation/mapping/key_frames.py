@@ -1,0 +1,119 @@
+"""The scans that a map shows, where they were taken, and how one was found from another."""
+
+import math
+from typing import Dict, List, NamedTuple, Tuple
+
+import numpy as np
+from scipy import sparse
+from scipy.sparse import csgraph
+
+from rumba_localisation.mapping.grid import Grid, placed
+from rumba_localisation.mapping.pose_graph import Link, optimised
+from rumba_localisation.scan import Scan
+from rumba_sim.model.geometry import Pose, compose, inverse, wrap_angle
+from rumba_sim.model.kernel import Array
+
+
+class Ways(NamedTuple):
+    """The shortest ways from a frame to all, along links."""
+
+    lengths: Array  # float64 (frames) [m]
+    before: Array  # int32 (frames), the number before each frame on its way; negative if there is none
+
+
+class KeyFrames:
+    """Scans with their poses, which links connect: they grow with the area of the map, as scans are added to that.
+
+    Attributes:
+        poses: of the laser, map frame.
+    """
+
+    def __init__(self) -> None:
+        """Have none."""
+        self.poses: List[Pose] = []
+        self._scans: List[Scan] = []
+        self._links: List[Link] = []
+        self._variances: Dict[Tuple[int, int], Tuple[float, float]] = {}  # of place [m^2] and heading, by both ends
+        self._before: List[Pose] = []  # poses before the newest `optimise`
+
+    def add(self, pose: Pose, scan: Scan) -> int:
+        """Keep a scan; returns its number."""
+        self.poses.append(pose)
+        self._scans.append(Scan(scan.points.astype(np.float32), scan.beyond.astype(np.float32)))
+        return len(self.poses) - 1
+
+    def link(self, one: int, other: int, pose: Pose, covariance: Array, is_robust: bool = False) -> None:
+        """Remember where a frame was found from another.
+
+        Args:
+            one: number of the frame from which it was found.
+            other: its own number.
+            pose: where it was found, map frame.
+            covariance: float64 (3, 3) of that, map frame.
+            is_robust: whether that may be wrong.
+        """
+        frame = self.poses[one]
+        cos, sin = math.cos(frame.theta), math.sin(frame.theta)
+        turn = np.array([[cos, sin, 0.0], [-sin, cos, 0.0], [0.0, 0.0, 1.0]])
+        information = np.linalg.inv(turn @ covariance @ turn.T)
+        self._links.append(Link(one, other, compose(inverse(frame), pose), information, is_robust))
+        self._variances[min(one, other), max(one, other)] = float(covariance[0, 0] + covariance[1, 1]), float(
+            covariance[2, 2])
+
+    def near(self, x: float, y: float, distance: float) -> Array:
+        """Numbers of the frames within a distance of a point [m], the nearest first: int64 (any)."""
+        away = self._away(x, y)
+        order = np.argsort(away, kind='stable')
+        return order[away[order] < distance]
+
+    def nearest(self, x: float, y: float) -> int:
+        """Number of the frame that is nearest to a point [m]."""
+        return int(np.argmin(self._away(x, y)))
+
+    def _away(self, x: float, y: float) -> Array:
+        poses = np.array(self.poses)
+        return np.hypot(poses[:, 0] - x, poses[:, 1] - y)
+
+    def ways(self, frame: int) -> Ways:
+        """The shortest ways along links from a frame to all."""
+        count, poses = len(self.poses), np.array(self.poses)
+        one, other = (np.array([link[end] for link in self._links], np.int64) for end in (0, 1))
+        lengths = np.hypot(*(poses[one, :2] - poses[other, :2]).T) + 1e-6  # a 0 would be no link
+        matrix = sparse.coo_matrix((lengths, (one, other)), shape=(count, count)).tocsr()
+        return Ways(*csgraph.dijkstra(matrix, directed=False, indices=frame, return_predecessors=True))
+
+    def doubt(self, ways: Ways, frame: int) -> float:
+        """Standard deviation of where the beginning of a way is, seen from a frame at its end [m].
+
+        Errors of headings add up, and move what is far away: by a third of the square of the way, as on a straight one.
+        """
+        places, headings, number = 0.0, 0.0, frame
+        while ways.before[number] >= 0:
+            before = int(ways.before[number])
+            place, heading = self._variances[min(before, number), max(before, number)]
+            places, headings, number = places + place, headings + heading, before
+        return math.sqrt(places + headings * float(ways.lengths[frame]) ** 2 / 3.0)
+
+    def drawn(self, numbers: Array) -> Grid:
+        """A map of some of the scans alone."""
+        grid = Grid()
+        shown = [(self.poses[number], *(ends.astype(np.float64) for ends in self._scans[number]))
+                 for number in numbers.tolist()]
+        met = [placed(pose, ends) for pose, *scan in shown for ends in (*scan, np.zeros((1, 2)))]
+        grid.cover(np.concatenate(met))  # at once: each time that it grows all cells are copied
+        for pose, points, beyond in shown:
+            grid.add(pose, points, beyond)
+        grid.measure()
+        return grid
+
+    def optimise(self) -> None:
+        """Move all frames but the first so that they satisfy all links as well as possible."""
+        self._before = self.poses
+        self.poses = [Pose(x, y, wrap_angle(theta))
+                      for x, y, theta in optimised(np.array(self.poses), self._links).tolist()]
+
+    def moved(self, pose: Pose) -> Pose:
+        """Where what was at a pose before the newest `optimise` is now: it stays at the frame that was nearest."""
+        before = np.array(self._before)
+        nearest = int(np.argmin(np.hypot(before[:, 0] - pose.x, before[:, 1] - pose.y)))
+        return compose(self.poses[nearest], compose(inverse(self._before[nearest]), pose))
