@@ -67,7 +67,8 @@ def test_fewer_layouts_are_tried_on_a_larger_floor(area, count):
 @pytest.mark.parametrize('change, fewer', [({'overlap': 0.15}, False), ({'needed': 0.5}, True)])
 def test_each_layout_lays_lanes_its_own_way(change, fewer):
     context = knowing(PLAN, Pose(1.0, 1.0, 0.0))
-    counts = [sum(len(block.lanes) for block in blocks(context.ground, context.swept.missed(), BRUSH, SPEED, 0.0, layout))
+    missed = context.swept.missed()
+    counts = [sum(len(block.lanes) for block in blocks(context.ground, missed, BRUSH, SPEED, 0.0, layout))
               for layout in (Layout(), Layout(**change))]
     assert (counts[1] < counts[0]) == fewer and counts[1] != counts[0]
 
