@@ -70,11 +70,12 @@ def test_a_spiral_as_drawn_and_driven():
         assert ride.time == approx(length / SPEED, rel=0.05)
 
 
-def test_a_square_driven_with_the_limits_of_a_robot_takes_longer_and_cuts_corners():
+def test_a_square_driven_with_the_limits_of_a_robot_is_cut_at_its_corners():
     exact, ride = drawn(SQUARE), driven(SQUARE)
     found = ride.observer.measures()
     assert (ride.outcome, found.turns) == (Outcome.SUCCEEDED, 3)
-    assert 7.5 < found.path_length < 8.0
+    assert 7.5 < found.path_length < 8.1
+    assert all(np.hypot(*(ride.observer.path[:, :2] - corner).T).min() > 0.01 for corner in SQUARE[1:-1])
     assert np.max(np.abs(np.diff(ride.observer.path[:, 0]))) <= SPEED * TICK * 1.01
     assert exact.observer.measures().path_length == approx(8.0)
 
