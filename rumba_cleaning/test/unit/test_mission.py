@@ -20,7 +20,9 @@ from rumba_sim.model.world import World
 
 def test_it_undocks_cleans_and_comes_home():
     world, behaviour = mission()
-    assert states(behaviour, world) == [State.UNDOCKING, State.CLEANING, State.RETURNING, State.DOCKING, State.IDLE]
+    home = [State.RETURNING, State.DOCKING]
+    found = states(behaviour, world)
+    assert found in [[State.UNDOCKING, State.CLEANING, *tries * home, State.IDLE] for tries in (1, 2)]
     assert behaviour.status is Status.SUCCEEDED
     assert world.robots['rumba'].is_docked
     assert world.floor.coverage >= 0.98
