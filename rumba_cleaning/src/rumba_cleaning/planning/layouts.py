@@ -15,9 +15,11 @@ from rumba_sim.model.kernel import Array
 
 # Our choice: which of these is best differs from region to region. More save less and less time, and take as long to
 # compare. Less overlap, or lanes for wider strips only, look better on paper, but leave slivers for the last round.
-LAYOUTS = (Layout(), Layout(usual=0.15, alike=2.5), Layout(usual=0.7), Layout(usual=0.7, gap=0.25, alike=2.5))
+LAYOUTS = (Layout(), Layout(usual=0.15, alike=2.5), Layout(usual=0.7))
 AREA = 600.0  # [m^2] to clean, times the layouts that are compared: large drives less, small plans faster
+LITTLE = 1.0  # [m^2] to clean, for which no layouts are compared: most of that is left to the crumbs
 BLOCK = 3.0  # [s] from block to block, about: large prefers few blocks
+TURN = 3.0  # [s] for each turn, beyond its length: the wheels limit the turn rate, and it leaves crumbs beside it
 LEFT = 50.0  # times as long as a lane takes a crumb to clean an area, about: large leaves less to the crumbs
 
 
@@ -35,7 +37,8 @@ def laid_out(context: Context, paper: Swept, missed: Array, region: int, angle: 
     ground, brush, speed = context.ground, context.robot.brush.width, context.config.speed
     options = [blocks(ground, missed, brush, speed, angle, layout) for layout in LAYOUTS[:tries]]
     paths = [[through(ground, block.lanes, 0) for block in option] for option in options]
-    best = 0 if tries == 1 else int(np.argmin([_cost(context, paper.copy(), option) for option in paths]))
+    turns = [sum(len(block.lanes) - 1 for block in option) for option in options]
+    best = 0 if tries == 1 else int(np.argmin([_cost(context, paper.copy(), *each) for each in zip(paths, turns)]))
     for path in paths[best]:
         drive(paper, path)
     return [Stretch(block_variants(ground, block.lanes), region, block.area, False) for block in options[best]]
@@ -43,12 +46,12 @@ def laid_out(context: Context, paper: Swept, missed: Array, region: int, angle: 
 
 def tries(area: float) -> int:
     """How many layouts are compared for an area to clean [m^2]."""
-    return int(np.clip(AREA / max(area, 1.0), 1, len(LAYOUTS)))
+    return 1 if area < LITTLE else int(np.clip(AREA / area, 1, len(LAYOUTS)))
 
 
-def _cost(context: Context, paper: Swept, paths: List[Array]) -> float:
-    """The time [s] that paths take, without what they sweep; they are driven on paper."""
-    before, time = paper.coverage, 0.0
+def _cost(context: Context, paper: Swept, paths: List[Array], turns: int) -> float:
+    """The time [s] that paths with turns take, without what they sweep; they are driven on paper."""
+    before, time = paper.coverage, TURN * turns
     for path in paths:
         drive(paper, path)
         time += BLOCK + float(Route(path, np.full(len(path) - 1, context.config.speed)).times()[-1])
