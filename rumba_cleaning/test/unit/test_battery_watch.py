@@ -50,6 +50,17 @@ def test_without_a_path_to_the_dock_no_charge_is_enough():
     assert not BatteryWatch(context_of(room(4.0, 3.0), world)).is_enough_anywhere(1.0)
 
 
+def test_a_path_that_an_obstacle_barred_is_found_once_the_obstacle_is_forgotten():
+    plan = room(4.0, 3.0, boxes=[(2.4, 0.0, 2.6, 2.5)], dock=DOCK, start=Pose(1.0, 1.0, 0.0))
+    context = context_of(plan, mission(plan)[0])
+    context.ground.mark(2.5, 2.75, 0.1)
+    watch = BatteryWatch(context)
+    assert watch.needed(Pose(1.0, 1.0, 0.0)) == math.inf
+    assert watch.needed(Pose(1.0, 1.0, 0.0)) == math.inf
+    context.ground.forget()
+    assert watch.needed(Pose(1.0, 1.0, 0.0)) < 1.0
+
+
 @pytest.mark.parametrize('first', [0.9001, 0.905, 0.91])
 def test_a_battery_that_reports_whole_percents_is_not_taken_for_an_empty_one(first):
     watch = BatteryWatch(context_of(PLAN, mission()[0]))

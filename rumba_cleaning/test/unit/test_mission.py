@@ -30,14 +30,6 @@ def test_it_undocks_cleans_and_comes_home():
     assert (behaviour.charges, behaviour.charging_time) == (0, 0.0)
 
 
-def test_it_comes_home_from_floor_that_was_unknown_when_the_watch_looked_for_ways():
-    world, behaviour = mission()
-    until(behaviour, world, 0.4)
-    behaviour._watch.needed = lambda pose: math.inf
-    assert states(behaviour, world)[:3] == [State.CLEANING, State.RETURNING, State.DOCKING]
-    assert behaviour.status is Status.SUCCEEDED and world.robots['rumba'].is_docked
-
-
 def test_brushes_are_down_only_while_it_cleans():
     world, behaviour = mission()
     for _, command in steps(behaviour, world):

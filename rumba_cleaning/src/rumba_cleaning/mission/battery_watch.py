@@ -1,14 +1,14 @@
 """How long the charge lasts, as the robot measures it, and whether that is enough for the way to the dock."""
 
 import math
-from concurrent.futures import Future
+from concurrent.futures import Executor, Future
 from typing import Optional, Tuple
 
 import numpy as np
 
 from rumba_cleaning.behaviour import Observation
 from rumba_cleaning.behaviours.dock import approach
-from rumba_cleaning.belief.context import Context
+from rumba_cleaning.belief.context import Context, InPlace
 from rumba_sim.model.errors import MapError
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.kernel import Array
@@ -41,6 +41,7 @@ class BatteryWatch:
         """Have the lengths of the paths to the dock computed, on the plan as it is now."""
         self._lengths: 'Optional[Future[Tuple[Array, float]]]' = None  # see `_lengths_to`
         self._plan, self._home = self._context.plan, self._context.home
+        self._fits = self._context.ground.fits
         try:
             goal = approach(self._context)
         except MapError:
@@ -71,12 +72,17 @@ class BatteryWatch:
     def needed(self, pose: Pose) -> float:
         """State of charge that is enough to reach the dock from a pose, with the reserve; inf if no path leads there.
 
-        It waits for the lengths of the paths if they are not ready.
+        It waits for the lengths of the paths if they are not ready, and measures them again where no path led before
+        obstacles were forgotten.
         """
         if self._lengths is None:
             return math.inf
-        lengths, _ = self._lengths.result()
-        return self._needed_for(float(lengths[self._context.ground.standing_at(pose.x, pose.y)]))
+        ground = self._context.ground
+        node = ground.standing_at(pose.x, pose.y)
+        if not math.isfinite(self._lengths.result()[0][node]) and self._fits is not ground.fits:
+            self._fits = ground.fits
+            self._lengths = InPlace().submit(_lengths_to, self._context, approach(self._context))
+        return self._needed_for(float(self._lengths.result()[0][node]))
 
     def is_enough_anywhere(self, state_of_charge: float) -> bool:
         """Whether a charge is enough wherever a path leads to the dock, so that `needed` need not be asked.

@@ -369,14 +369,9 @@ class Mission(Behaviour):
     def _close(self, status: Status, message: str, outcome: Outcome) -> Command:
         """Return to the dock, if a path leads there, and end then."""
         self._closing = status, message, outcome
-        return self._enter(State.RETURNING, Dock(self._context)) if self._may_get_home() else self._end()
-
-    def _may_get_home(self) -> bool:
-        """Whether a path leads to the dock, on the map as it is now: it may have grown since the watch looked."""
-        dock, here = self._context.home, self._last
-        return dock is not None and here is not None and (
-            math.isfinite(self._watch.needed(here))
-            or self._context.ground.path(np.array(here[:2]), np.array(dock[:2])) is not None)
+        if self._last is None or not math.isfinite(self._watch.needed(self._last)):
+            return self._end()
+        return self._enter(State.RETURNING, Dock(self._context))
 
     def _end(self) -> Command:
         assert self._closing is not None
