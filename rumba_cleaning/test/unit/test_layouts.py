@@ -76,8 +76,7 @@ def test_each_layout_lays_lanes_its_own_way(change, fewer):
     assert (counts[1] < counts[0]) == fewer and counts[1] != counts[0]
 
 
-def test_lanes_of_a_floor_that_is_swept_are_none(monkeypatch):
-    monkeypatch.setattr(layouts, 'LAYOUTS', LAYOUTS)
+def test_lanes_of_a_floor_that_is_swept_are_none():
     context = knowing(PLAN, Pose(1.0, 1.0, 0.0))
     paper = context.swept.copy()
     assert laid_out(context, paper, np.zeros_like(PLAN.free), 1, 0.0, 4) == [] and paper.coverage == approx(0.0)

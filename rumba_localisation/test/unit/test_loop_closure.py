@@ -75,7 +75,7 @@ def test_the_same_scans_close_a_loop_in_the_same_way():
     assert (one.grid.odds == other.grid.odds).all() and (one.grid.field == other.grid.field).all()
 
 
-def test_a_map_that_is_drawn_anew_has_its_cells_where_those_of_the_map_before_were():
+def test_a_redrawn_map_has_its_cells_where_those_of_the_map_before_were():
     mapper, versions, origins = Mapper(START), [], []
     for odometry, seen in drive_around()[0]:
         mapper.observe(odometry, seen)

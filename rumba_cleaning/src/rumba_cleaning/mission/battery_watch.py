@@ -1,7 +1,7 @@
 """How long the charge lasts, as the robot measures it, and whether that is enough for the way to the dock."""
 
 import math
-from concurrent.futures import Executor, Future
+from concurrent.futures import Future
 from typing import Optional, Tuple
 
 import numpy as np
@@ -43,12 +43,12 @@ class BatteryWatch:
         self._plan, self._home = self._context.plan, self._context.home
         self._fits = self._context.ground.fits
         try:
-            goal = approach(self._context)
+            self._goal = approach(self._context)
         except MapError:
             self.has_home = False
         else:
             self.has_home = True
-            self._lengths = self._context.submit(_lengths_to, goal)
+            self._lengths = self._context.submit(_lengths_to, self._goal)
 
     @property
     def is_ready(self) -> bool:
@@ -81,7 +81,7 @@ class BatteryWatch:
         node = ground.standing_at(pose.x, pose.y)
         if not math.isfinite(self._lengths.result()[0][node]) and self._fits is not ground.fits:
             self._fits = ground.fits
-            self._lengths = InPlace().submit(_lengths_to, self._context, approach(self._context))
+            self._lengths = InPlace().submit(_lengths_to, self._context, self._goal)
         return self._needed_for(float(self._lengths.result()[0][node]))
 
     def is_enough_anywhere(self, state_of_charge: float) -> bool:

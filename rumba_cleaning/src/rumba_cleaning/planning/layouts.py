@@ -6,7 +6,7 @@ import numpy as np
 
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.belief.swept import Swept
-from rumba_cleaning.planning.lanes import Layout, blocks
+from rumba_cleaning.planning.lanes import BLOCK, Layout, blocks
 from rumba_cleaning.planning.links import block_variants, through
 from rumba_cleaning.planning.paper import drive
 from rumba_cleaning.planning.stretches import Stretch
@@ -18,12 +18,11 @@ from rumba_sim.model.kernel import Array
 LAYOUTS = (Layout(), Layout(usual=0.15, alike=2.5), Layout(usual=0.7))
 AREA = 600.0  # [m^2] to clean, times the layouts that are compared: large drives less, small plans faster
 LITTLE = 1.0  # [m^2] to clean, for which no layouts are compared: most of that is left to the crumbs
-BLOCK = 3.0  # [s] from block to block, about: large prefers few blocks
 TURN = 3.0  # [s] for each turn, beyond its length: the wheels limit the turn rate, and it leaves crumbs beside it
 LEFT = 50.0  # times as long as a lane takes a crumb to clean an area, about: large leaves less to the crumbs
 
 
-def laid_out(context: Context, paper: Swept, missed: Array, region: int, angle: float, tries: int) -> List[Stretch]:
+def laid_out(context: Context, paper: Swept, missed: Array, region: int, angle: float, count: int) -> List[Stretch]:
     """Blocks of lanes that clean a region, by the best layout of those tried.
 
     Args:
@@ -32,13 +31,13 @@ def laid_out(context: Context, paper: Swept, missed: Array, region: int, angle: 
         missed: the cells to clean in the region, bool (rows, columns).
         region: its label.
         angle: between the lanes and the map's axes [rad].
-        tries: how many layouts to compare.
+        count: how many layouts to compare.
     """
     ground, brush, speed = context.ground, context.robot.brush.width, context.config.speed
-    options = [blocks(ground, missed, brush, speed, angle, layout) for layout in LAYOUTS[:tries]]
+    options = [blocks(ground, missed, brush, speed, angle, layout) for layout in LAYOUTS[:count]]
     paths = [[through(ground, block.lanes, 0) for block in option] for option in options]
     turns = [sum(len(block.lanes) - 1 for block in option) for option in options]
-    best = 0 if tries == 1 else int(np.argmin([_cost(context, paper.copy(), *each) for each in zip(paths, turns)]))
+    best = 0 if count == 1 else int(np.argmin([_cost(context, paper.copy(), *each) for each in zip(paths, turns)]))
     for path in paths[best]:
         drive(paper, path)
     return [Stretch(block_variants(ground, block.lanes), region, block.area, False) for block in options[best]]

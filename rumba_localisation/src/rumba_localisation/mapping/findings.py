@@ -53,7 +53,7 @@ class Findings:
                 _remember(self.cliffs, _ahead(pose, angle, distance))
 
     def move(self, moved: Callable[[Pose], Pose]) -> None:
-        """Follow a map that was drawn anew, by where what was at a pose is now."""
+        """Follow a redrawn map; `moved` tells where on it is what was at a pose before."""
         for points in (self.touched, self.cliffs):
             points[:] = [moved(Pose(x, y, 0.0))[:2] for x, y in points]
 

@@ -37,7 +37,7 @@ CERTAIN = np.diag(LEAST)
 
 
 class Mapper:
-    """Matches each scan with the map of those before it, and adds it; draws the map anew if a loop closes.
+    """Matches each scan with the map of those before it, and adds it; redraws the map if a loop closes.
 
     The laser is in the centre of the robot and looks forward, as a Rumba's.
 
@@ -47,7 +47,7 @@ class Mapper:
         estimate: where the robot was at the newest scan that was used; None before the first.
         grid: the map so far.
         version: rises with each change of it.
-        redrawn: how many times it was drawn anew; then what was found on it must move, as `moved` says.
+        redrawn: how many times the map was redrawn; what was found on it must then move, as `moved` says.
     """
 
     def __init__(self, start: Pose = Pose(0.0, 0.0, 0.0), config: MapperConfig = MapperConfig(),
@@ -114,11 +114,11 @@ class Mapper:
         return True
 
     def moved(self, pose: Pose) -> Pose:
-        """Where what was at a pose of the map is since it was drawn anew [m, rad]."""
+        """Where on the redrawn map is what was at a pose before [m, rad]."""
         return self._frames.moved(pose)
 
     def _add(self, estimate: Estimate, scan: Scan) -> None:
-        """Have the map show a scan, and draw it anew if that closes a loop."""
+        """Add a scan to the map, and redraw the map if that closes a loop."""
         self.grid.add(estimate.pose, scan.points, scan.beyond)
         self.version += 1
         self._added += 1

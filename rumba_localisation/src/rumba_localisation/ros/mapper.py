@@ -131,7 +131,7 @@ class MapperNode(ScanLoop):
         self._tell_map(stamp)
 
     def _follow(self, stamp: rospy.Time) -> None:
-        """Move what was found on the map to where that is since it was drawn anew."""
+        """Move what was found on the map to where that is since the map was redrawn."""
         self._findings.move(self._mapper.moved)
         if self._dock is not None:
             self._dock = self._mapper.moved(self._dock)
