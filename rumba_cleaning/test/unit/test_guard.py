@@ -1,5 +1,6 @@
 """Robots do not fall: over stairs that the map shows, and over those that it does not, whatever is commanded."""
 
+import itertools
 import math
 
 import numpy as np
@@ -54,6 +55,41 @@ def commanded(v, w, pose, is_shown, seconds=20.0):
 @pytest.mark.parametrize('v, w', [(0.3, 0.0), (0.45, 0.0), (0.5, 0.3), (0.3, -0.5)])
 def test_a_robot_that_is_driven_at_stairs_stops_before_them(v, w, heading, is_shown):
     assert not commanded(v, w, Pose(1.0, 1.0, heading), is_shown).has_fallen
+
+
+def with_corner(plan, apex, heading):
+    """The plan with a cliff that has a corner of 90 degrees at a point [m], and widens from there in a direction."""
+    row, column = np.mgrid[0:plan.rows, 0:plan.columns] + 0.5
+    left, bottom = plan.origin
+    away = np.arctan2(row * plan.resolution + bottom - apex[1], column * plan.resolution + left - apex[0]) - heading
+    cliff = np.cos(away) >= math.cos(0.25 * math.pi)
+    return FloorPlan(plan.name, plan.occupancy, plan.resolution, plan.origin, cliff=cliff, dock=plan.dock)
+
+
+@pytest.mark.parametrize('degrees', range(0, 360, 15))
+def test_a_robot_that_passes_a_corner_that_no_map_shows_does_not_fall(degrees):
+    plan = room(1.3, 0.8, 0.005)
+    for aside, ahead in itertools.product([0.1, 0.115], np.arange(0.0, 0.03, 0.005)):
+        truth = with_corner(plan, (0.8 + ahead, 0.4 + aside), math.radians(degrees))
+        if truth.safe_clearance_at(0.3, 0.4) < RADIUS:
+            continue  # the robot would begin there
+        world = World(truth, quiet())
+        robot = world.spawn('rumba', Pose(0.3, 0.4, 0.0))
+        run(Bounded(Always(0.3, 0.0), 1000.0, context_of(plan, world)), world, seconds=2.5)
+        assert not robot.has_fallen, f'{aside} m aside, {ahead} m ahead'
+
+
+def test_it_is_wary_near_a_cliff_that_no_map_shows_and_only_there():
+    plan = room(6.0, 2.0, 0.02, start=Pose(0.5, 1.0, 0.0))
+    world = World(with_cliffs(plan, (5.0, 0.0, 6.0, 2.0)), quiet())
+    robot = world.spawn('rumba')
+    context = context_of(plan, world)
+    run(Bounded(Always(0.3, 0.0), 1000.0, context), world, seconds=20.0)
+    assert context.footing.seen
+    for x, fastest in ((4.2, 0.25), (2.0, 0.3)):
+        world.teleport('rumba', Pose(x, 1.0, math.pi))
+        run(Bounded(Always(0.3, 0.0), 1000.0, context), world, seconds=1.0)
+        assert robot.twist.v == pytest.approx(fastest, abs=1e-3)
 
 
 @pytest.mark.parametrize('heading', [math.pi, 2.7, -2.5])

@@ -13,6 +13,7 @@ import numpy as np
 from rumba_cleaning.behaviour import Command, Observation
 from rumba_cleaning.behaviours.compiled_guard import path
 from rumba_cleaning.belief.context import Context
+from rumba_cleaning.belief.footing import FAR
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.kernel import Array
 
@@ -27,9 +28,9 @@ CREEP = 1e-4  # [m] by which an edge may come nearer to the middle of a robot th
 # The sensors see an edge in time for wheels that are no faster (a corner of 90 degrees is seen 0.09 m before a wheel is
 # there, in which such a robot stops), and all of the floor before wheels in bends that are no tighter.
 SAFE_SPEED = 0.35  # [m/s]
-SAFE_CURVATURE = 1.5  # [1/m]
-WARY_SPEED = 0.25  # [m/s] if the map does not show all cliffs: in 0.06 m the robot stops, whatever shape an edge has
-SLOW = 0.1  # [m/s] if the map does not show all cliffs: no faster in bends, unless all of the floor in them is known
+SAFE_CURVATURE = 2.0  # [1/m]
+WARY_SPEED = 0.25  # [m/s] near a cliff that the map does not show: in 0.06 m the robot stops, whatever its shape is
+SLOW = 0.1  # [m/s] near such a cliff: no faster in bends, unless all of the floor in them is known
 TIGHT = 3.3  # [1/m] in tighter bends the sensors of one side look along the circle of the outer wheel
 
 Wheels = Tuple[float, float]  # left and right
@@ -91,7 +92,7 @@ class Guard:
         self._held = NONE
         pose, wanted = observation.pose, self._wanted(command)
         fastest = _faster(wanted)
-        if self._footing.seen and fastest > WARY_SPEED:
+        if fastest > WARY_SPEED and self._is_wary(pose):
             share = WARY_SPEED / fastest
             command = command._replace(v=share * command.v, w=share * command.w)
             wanted = self._wanted(command)
@@ -110,6 +111,10 @@ class Guard:
         if _faster(self._speeds) < AT_REST:
             self._held = found[0]
         return command._replace(v=0.0, w=0.0)
+
+    def _is_wary(self, pose: Pose) -> bool:
+        """Whether a cliff that the map does not show is near: its edge may have any shape where it was not seen yet."""
+        return bool(self._footing.seen) and self._footing.clearance_at(pose.x, pose.y) < FAR
 
     def _sees_ahead(self, speeds: Wheels) -> bool:
         """Whether the cliff sensors see the floor under the wheels before it is too late, with no need to remember."""
@@ -168,8 +173,9 @@ class Guard:
                 return over
         if must_know:
             is_fast = max(wanted) > SAFE_SPEED + ROUNDING and _curvature(wanted, self._half) < TIGHT
-            is_wary = bool(self._footing.seen) and not -ROUNDING <= sum(wanted) <= 2.0 * SLOW
-            cells = 0 if is_fast or is_wary else 2
+            is_wary = self._is_wary(pose)
+            is_slow = -ROUNDING <= sum(wanted) <= 2.0 * SLOW
+            cells = 0 if is_fast or is_wary and not is_slow else 1 if is_wary else 2
             return not self._footing.are_known(left[1:], cells), not self._footing.are_known(right[1:], cells)
         return NONE
 

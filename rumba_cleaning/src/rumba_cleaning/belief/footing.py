@@ -14,7 +14,7 @@ from rumba_sim.model.kernel import Array
 from rumba_sim.model.robot_config import RobotConfig
 
 FAR = 1.0  # [m] what is farther from a cliff than this is far enough for everything that a robot does
-SEEN = 0.015  # [m] radius that is assumed for a cliff that a sensor saw: half of what a robot drives between readings
+SEEN = 0.015  # [m] radius that is assumed for an edge that a sensor saw: half of what a robot drives between readings
 SAME = 0.02  # [m] from a known cliff, a sensor sees that one
 CELL = 0.015  # [m] side of the cells in which floor is remembered
 STEP = 0.012  # [m] between points that are remembered: less than a cell, so that no cell is left out
@@ -75,17 +75,20 @@ class Footing:
         self._mapped: Optional[Array] = None if plan.cliff is None else _distances_to(plan.cliff) * plan.resolution
 
     def note(self, pose: Pose, cliffs: Sequence[bool], is_docked: bool) -> None:
-        """Remember what the cliff sensors see at a pose, and that there is floor under the wheels."""
+        """Remember what the cliff sensors see at a pose, and that there is floor under the wheels.
+
+        A sensor that saw floor before came over an edge since then: that lies half way, give or take SEEN.
+        """
         noted = (pose, tuple(cliffs), is_docked)
         if noted == self._noted:
             return  # a robot that stands, as while it charges, learns nothing new
-        last = None if self._noted is None else self._noted[0]
+        last, before, _ = (None, (), False) if self._noted is None else self._noted
         self._noted = noted
         if is_docked:
             self._stamp(self._before_dock, pose)
         if last is None or math.hypot(pose.x - last.x, pose.y - last.y) > JUMP:
             self._stamp(self._body, pose)
-            last = pose
+            last, before = pose, noted[1]
         turn = wrap_angle(pose.theta - last.theta)
         count = int((math.hypot(pose.x - last.x, pose.y - last.y) + self._far * abs(turn)) / STEP) + 1
         change = pose.x - last.x, pose.y - last.y, turn
@@ -96,10 +99,11 @@ class Footing:
         for line, is_over, is_next_over in zip(self._between, cliffs, cliffs[1:]):
             if not (is_over or is_next_over):
                 self._stamp(line, pose)
-        for (ahead, aside), is_over in zip(self._sensors, cliffs):
+        for sensor, is_over, was_over in zip(self._sensors, cliffs, before):
             if is_over:
-                cos, sin = math.cos(pose.theta), math.sin(pose.theta)
-                self._see(pose.x + ahead * cos - aside * sin, pose.y + ahead * sin + aside * cos)
+                x, y = _at(pose, sensor)
+                since_x, since_y = (x, y) if was_over else _at(last, sensor)
+                self._see(0.5 * (since_x + x), 0.5 * (since_y + y))
 
     def _stamp(self, points: Array, pose: Pose, change: Tuple[float, float, float] = (0.0, 0.0, 0.0),
                count: int = 1) -> None:
@@ -147,6 +151,13 @@ class Footing:
     def are_known(self, points: Array, cells: int) -> bool:
         """Whether wheels or sensors found floor at all points (any, 2) [m], or so many cells beside them."""
         return bool(are_marked(self._floor, *self._origin, CELL, points, cells))
+
+
+def _at(pose: Pose, sensor: Tuple[float, float]) -> Tuple[float, float]:
+    """Where a sensor is whose place is given in the frame of the robot [m]."""
+    ahead, aside = sensor
+    cos, sin = math.cos(pose.theta), math.sin(pose.theta)
+    return pose.x + ahead * cos - aside * sin, pose.y + ahead * sin + aside * cos
 
 
 def _line(start: Tuple[float, float], end: Tuple[float, float]) -> Array:
