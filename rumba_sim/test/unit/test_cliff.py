@@ -38,8 +38,8 @@ def test_front_sensors_warn_before_a_wheel_is_over_the_edge():
         if robot.has_fallen:
             first.setdefault('fallen', pose.x)
     assert first == approx({
-        1: 2.0 - 0.165 * math.cos(0.26), 2: 2.0 - 0.165 * math.cos(0.26),
-        0: 2.0 - 0.165 * math.cos(0.9), 3: 2.0 - 0.165 * math.cos(0.9), 'fallen': 2.0}, abs=0.005)
+        1: 2.0 - 0.165 * math.cos(0.32), 2: 2.0 - 0.165 * math.cos(0.32),
+        0: 2.0 - 0.165 * math.cos(0.95), 3: 2.0 - 0.165 * math.cos(0.95), 'fallen': 2.0}, abs=0.005)
 
 
 def test_a_fallen_robot_comes_to_rest_and_stays_until_it_is_teleported():
