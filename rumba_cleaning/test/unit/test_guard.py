@@ -12,6 +12,7 @@ from rumba_cleaning.behaviour import Behaviour, Command
 from rumba_cleaning.behaviours.bounded import Bounded
 from rumba_cleaning.behaviours.guard import Guard
 from rumba_cleaning.behaviours.travel import Going, Travel
+from rumba_cleaning.belief.footing import SEEN
 from rumba_cleaning.control import CONTROL_DT, CONTROL_TICKS, observe, steps
 from rumba_cleaning.mission.mission import Mission
 from rumba_cleaning.route import Route
@@ -77,6 +78,16 @@ def test_a_robot_that_passes_a_corner_that_no_map_shows_does_not_fall(degrees):
         robot = world.spawn('rumba', Pose(0.3, 0.4, 0.0))
         run(Bounded(Always(0.3, 0.0), 1000.0, context_of(plan, world)), world, seconds=2.5)
         assert not robot.has_fallen, f'{aside} m aside, {ahead} m ahead'
+
+
+@pytest.mark.parametrize('ahead', [0.0, 0.01, 0.02])
+def test_an_edge_lies_half_way_between_the_readings_of_the_sensor_that_found_it(ahead):
+    plan = room(3.0, 2.0, 0.01)
+    world = World(with_cliffs(plan, STAIRS), quiet())
+    world.spawn('rumba', Pose(1.0 + ahead, 1.0, 0.0))
+    context = context_of(plan, world)
+    run(Bounded(Always(0.3, 0.0), 1000.0, context), world, seconds=5.0)
+    assert context.footing.seen[0][0] == pytest.approx(STAIRS[0], abs=SEEN + 0.001)
 
 
 def test_it_is_wary_near_a_cliff_that_no_map_shows_and_only_there():

@@ -9,7 +9,7 @@ from scipy import ndimage
 from rumba_cleaning.belief.compiled_footing import are_marked, stamp
 from rumba_sim.model.compiled import fast
 from rumba_sim.model.floor_plan import FloorPlan
-from rumba_sim.model.geometry import Pose, wrap_angle
+from rumba_sim.model.geometry import Pose, compose, wrap_angle
 from rumba_sim.model.kernel import Array
 from rumba_sim.model.robot_config import RobotConfig
 
@@ -101,9 +101,9 @@ class Footing:
                 self._stamp(line, pose)
         for sensor, is_over, was_over in zip(self._sensors, cliffs, before):
             if is_over:
-                x, y = _at(pose, sensor)
-                since_x, since_y = (x, y) if was_over else _at(last, sensor)
-                self._see(0.5 * (since_x + x), 0.5 * (since_y + y))
+                here = compose(pose, Pose(*sensor, 0.0))
+                since = here if was_over else compose(last, Pose(*sensor, 0.0))
+                self._see(0.5 * (since.x + here.x), 0.5 * (since.y + here.y))
 
     def _stamp(self, points: Array, pose: Pose, change: Tuple[float, float, float] = (0.0, 0.0, 0.0),
                count: int = 1) -> None:
@@ -151,13 +151,6 @@ class Footing:
     def are_known(self, points: Array, cells: int) -> bool:
         """Whether wheels or sensors found floor at all points (any, 2) [m], or so many cells beside them."""
         return bool(are_marked(self._floor, *self._origin, CELL, points, cells))
-
-
-def _at(pose: Pose, sensor: Tuple[float, float]) -> Tuple[float, float]:
-    """Where a sensor is whose place is given in the frame of the robot [m]."""
-    ahead, aside = sensor
-    cos, sin = math.cos(pose.theta), math.sin(pose.theta)
-    return pose.x + ahead * cos - aside * sin, pose.y + ahead * sin + aside * cos
 
 
 def _line(start: Tuple[float, float], end: Tuple[float, float]) -> Array:

@@ -59,8 +59,9 @@ class BumperConfig:
 class CliffConfig:
     """The cliff sensors under the front (OI: there are four; their positions are our choice).
 
-    The outer ones look 1.7 cm outside the wheels, so that no corner of 90 degrees reaches a wheel between two readings
-    of a robot that drives straight at 0.3 m/s and looks ten times a second: it stops within 0.08 m of the first one.
+    The outer ones look 1.7 cm outside the wheels, so that no corner of 90 degrees comes to a wheel between two readings
+    of a robot that drives straight at 0.3 m/s and looks ten times a second: the first reading that shows the corner
+    leaves it the 0.05 m within which it brakes.
     """
 
     distance: float = setting(0.165, 'distance from the centre of the robot (our choice: 1 cm inside the rim)', 'm',
