@@ -172,11 +172,17 @@ class Guard:
             if any(over):
                 return over
         if must_know:
-            is_fast = max(wanted) > SAFE_SPEED + ROUNDING and _curvature(wanted, self._half) < TIGHT
-            is_wary = not -ROUNDING <= sum(wanted) <= 2.0 * SLOW and self._is_wary(pose)
-            cells = 0 if is_fast or is_wary else 2
+            cells = self._guessed(pose, wanted)
             return not self._footing.are_known(left[1:], cells), not self._footing.are_known(right[1:], cells)
         return NONE
+
+    def _guessed(self, pose: Pose, wanted: Wheels) -> int:
+        """So many cells beside floor that it knows, a robot takes it that there is floor too: few where that is risky."""
+        if max(wanted) > SAFE_SPEED + ROUNDING and _curvature(wanted, self._half) < TIGHT:
+            return 0
+        if not self._is_wary(pose):
+            return 2
+        return 1 if -ROUNDING <= sum(wanted) <= 2.0 * SLOW else 0
 
     def _path(self, pose: Pose, wanted: Wheels, slip: float) -> Array:
         """Where the robot, its left and its right wheel are after a command, until it has stopped: see `path`."""
