@@ -177,7 +177,7 @@ class Guard:
         return NONE
 
     def _guessed(self, pose: Pose, wanted: Wheels) -> int:
-        """So many cells beside floor that it knows, a robot takes it that there is floor too: few where that is risky."""
+        """How many cells beside known floor are taken to be floor too: fewer where it is easier to fall."""
         if max(wanted) > SAFE_SPEED + ROUNDING and _curvature(wanted, self._half) < TIGHT:
             return 0
         if not self._is_wary(pose):
