@@ -8,7 +8,8 @@ from floors import along, ground, length
 from pytest import approx
 from rooms import distances, room
 
-from rumba_cleaning.planning.links import BENDS, CORNERS, EARLY, OFFSET, block_variants
+from rumba_cleaning.planning.compiled_links import BENDS, CORNERS, EARLY, OFFSET
+from rumba_cleaning.planning.links import block_variants
 
 PLAN = room(4.0, 3.0)
 FLOOR = ground(PLAN)

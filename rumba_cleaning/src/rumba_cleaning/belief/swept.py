@@ -70,7 +70,15 @@ class Swept:
 
     def sweep(self, start: Pose, end: Pose) -> None:
         """Sweep from one pose to another that is near, map frame."""
-        self._sweep.pass_over(start, end)
+        self.sweep_all(np.array([start]), np.array([end]))
+
+    def sweep_all(self, starts: Array, ends: Array) -> None:
+        """Sweep from poses to others that are near, map frame.
+
+        Args:
+            starts, ends: x [m], y [m] and theta [rad] of each, float64 (any, 3).
+        """
+        self._sweep.pass_over(starts, ends)
 
     @property
     def coverage(self) -> float:

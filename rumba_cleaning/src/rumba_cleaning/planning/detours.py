@@ -1,19 +1,19 @@
 """Detours from a route past the crumbs beside it."""
 
-from typing import Dict, Iterator, List, NamedTuple, Optional
+from typing import Dict, Iterator, List, NamedTuple
 
 import numpy as np
 from scipy import spatial
 
 from rumba_cleaning.belief.context import Context
-from rumba_cleaning.belief.ground import Ground
 from rumba_cleaning.belief.swept import Swept
-from rumba_cleaning.planning.compiled_ways import cornered_length
+from rumba_cleaning.planning import compiled_detours
 from rumba_cleaning.planning.crumbs import crumbs
 from rumba_cleaning.planning.paper import stride_counts, strides
 from rumba_cleaning.planning.stretches import Stretch
 from rumba_cleaning.route import Route
 from rumba_sim.model.kernel import Array
+from rumba_sim.model.reachability import SLACK
 
 # All figures are our choice; each comment says what speaks for a larger and for a smaller value.
 SURPLUS = 0.005  # of coverage that is planned beyond the target, since no robot drives exactly as planned
@@ -77,22 +77,12 @@ def _detours(context: Context, route: Route, found: List[Stretch]) -> Iterator[D
     if len(begins) == 0:
         return
     tree = spatial.cKDTree(route.waypoints[begins])
+    ground = context.ground
     for crumb in found:
         distances, near = tree.query(crumb.variants[0].path()[0], TRIES, distance_upper_bound=FARTHEST)
-        options = [_detour(context.ground, route, int(begins[number]), crumb)
-                   for number in near[np.isfinite(distances)]]
-        yield from sorted(filter(None, options), key=lambda option: option.length)[:1]
-
-
-def _detour(ground: Ground, route: Route, index: int, crumb: Stretch) -> Optional[Detour]:
-    """The shortest detour past a crumb from a waypoint of a route, or None."""
-    before, after = route.waypoints[max(index - 1, 0):index + 1], route.waypoints[index + 1:index + 3]
-    without = cornered_length(np.concatenate([before, after]), CORNER)
-    best: Optional[Detour] = None
-    for variant in crumb.variants:
-        path = variant.path()
-        length = cornered_length(np.concatenate([before, path, after]), CORNER) - without
-        if (best is None or length < best.length) and ground.is_straight(before[-1], path[0]) and (
-                ground.is_straight(path[-1], after[0])):
-            best = Detour(index, path, length, crumb.area)
-    return best
+        paths = [variant.path() for variant in crumb.variants]
+        length, waypoint, number = compiled_detours.shortest(
+            ground.clearance, ground.plan.origin, ground.plan.resolution, ground.reach + SLACK, route.waypoints,
+            begins[near[np.isfinite(distances)]], np.concatenate(paths), np.cumsum([0, *map(len, paths)]), CORNER)
+        if np.isfinite(length):
+            yield Detour(waypoint, paths[number], length, crumb.area)

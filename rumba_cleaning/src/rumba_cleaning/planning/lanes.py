@@ -6,7 +6,7 @@ long. What Choset calls a cell is called a block here, since a cell is a square 
 """
 
 import math
-from typing import List, NamedTuple, Optional, Tuple
+from typing import List, NamedTuple, Tuple
 
 import numpy as np
 
@@ -22,7 +22,6 @@ TURN, BLOCK = 2.2, 3.0  # [s] estimates of the time from lane to lane, and from 
 POOR = 0.12  # share of brush * speed: a block that cleans less is left to the crumbs
 JOIN = 2  # [cells] that were swept, between cells that one lane shall still clean: noise, not a gap
 Window = Tuple[slice, slice]  # rows and columns
-Run = Tuple[int, int]  # columns: the first, and the one after the last
 
 
 class Layout(NamedTuple):
@@ -42,14 +41,6 @@ class Block(NamedTuple):
     lanes: List[Array]  # float64 (2, 2) [m] each: both ends, map frame; all lanes in the same direction
     area: float  # [m^2] that they clean
     time: float  # [s] that this takes, about
-
-
-class _Lane(NamedTuple):
-    """In nodes of the grid: the columns of its ends, and the row (with fractions) of the robot's centre."""
-
-    first: int
-    last: int
-    across: float
 
 
 def blocks(ground: Ground, missed: Array, brush: float, speed: float, angle: float = 0.0,
@@ -72,16 +63,16 @@ def blocks(ground: Ground, missed: Array, brush: float, speed: float, angle: flo
     while remaining.any():  # in each round the best block, and each other that has no better one near it
         grids = [_Grid(floor, remaining, whole, ground.reach + SLACK, brush, along_x, layout)
                  for along_x in (True, False)]
-        choices = [(block.area - layout.usual * rate * block.time, block, grid, lanes)
-                   for grid in grids for block, lanes in grid.blocks(speed) if block.area > POOR * rate * block.time]
+        choices = [(area - layout.usual * rate * time, area, time, grid, lanes)
+                   for grid in grids for lanes, area, time in grid.blocks(speed) if area > POOR * rate * time]
         if not choices:
             break
         claimed = np.zeros_like(remaining)
-        for _, block, grid, lanes in sorted(choices, key=lambda choice: -choice[0]):
+        for _, area, time, grid, lanes in sorted(choices, key=lambda choice: -choice[0]):
             window = grid.window(lanes)
             if not claimed[window].any():
                 grid.take(lanes, remaining)
-                found.append(block)
+                found.append(Block(grid.metres(lanes), area, time))
             claimed[window] = True
     return found
 
@@ -89,7 +80,8 @@ def blocks(ground: Ground, missed: Array, brush: float, speed: float, angle: flo
 class _Grid:
     """The part of a floor that holds all cells to clean, transposed if the lanes run along y: they run along a row.
 
-    Rows and columns are counted from the corner of this part; lengths are in cells.
+    Rows and columns are counted from the corner of this part; lengths are in cells. Lanes are float64 (any, 3): the
+    column at which each begins, the one after its last, and the row (with fractions) of the robot's centre.
     """
 
     def __init__(self, floor: TurnedFloor, missed: Array, window: Window, clearance: float, brush: float,
@@ -113,103 +105,42 @@ class _Grid:
         self._missed = self._view(missed)
         self._floor = floor
         self._resolution = floor.resolution
-        self._half = 0.5 * (1.0 - layout.overlap) * brush / self._resolution  # [cells] half of what a lane cleans
-        self._needed_clearance = clearance
-        self._gap = int(layout.gap / self._resolution)
-        self._least = max(int(LEAST / self._resolution), 1)
-        self._layout = layout
-        self._remaining = self._missed
+        self._rule = compiled_lanes.Rule(
+            clearance, 0.5 * (1.0 - layout.overlap) * brush / self._resolution, max(int(LEAST / self._resolution), 1),
+            JOIN, int(layout.gap / self._resolution), layout.needed, layout.alike)
 
     def _view(self, missed: Array) -> Array:
         """Bool (rows, columns) of this part of the floor, as a view with rows along the lanes."""
         return missed if self._along_x else missed.T
 
-    def window(self, lanes: List[_Lane]) -> Tuple[slice, slice]:
+    def window(self, lanes: Array) -> Window:
         """Rows and columns of this part around lanes, with the margin in which these lanes change other blocks."""
-        margin = math.ceil(self._half)
-        across = [lane.across for lane in lanes]
-        rows = slice(int(min(across)) - 2 * margin, int(max(across)) + 2 * margin + 1)
-        columns = slice(min(lane.first for lane in lanes) - margin, max(lane.last for lane in lanes) + margin)
+        margin = math.ceil(self._rule.half)
+        firsts, afters, across = lanes.T
+        rows = slice(int(across.min()) - 2 * margin, int(across.max()) + 2 * margin + 1)
+        columns = slice(int(firsts.min()) - margin, int(afters.max()) + margin)
         rows, columns = (rows, columns) if self._along_x else (columns, rows)
         return slice(max(rows.start, 0), rows.stop), slice(max(columns.start, 0), columns.stop)
 
-    def take(self, lanes: List[_Lane], missed: Array) -> None:
+    def take(self, lanes: Array, missed: Array) -> None:
         """Set to False what lanes clean, in bool (rows, columns) of this part of the floor."""
         view = self._view(missed)
-        for lane in lanes:
-            view[self._band(lane.across), lane.first:lane.last] = False
+        for first, after, across in lanes.tolist():
+            view[slice(*compiled_lanes.band(across, self._rule.half)), int(first):int(after)] = False
 
-    def blocks(self, speed: float) -> List[Tuple[Block, List[_Lane]]]:
-        """All blocks, from the lowest row upward, as if no lanes ran in the other direction."""
-        self._remaining = self._missed.copy()
-        found: List[Tuple[Block, List[_Lane]]] = []
-        bottom = 0  # nothing remains below
-        while True:
-            lowest = self._lowest(bottom, len(self._remaining), (0, self._remaining.shape[1]))
-            if lowest is None:
-                return found
-            bottom, run = lowest
-            lanes, count = self._grow(bottom, run)
-            if lanes:
-                area = count * self._resolution ** 2
-                time = BLOCK + sum((lane.last - lane.first) * self._resolution / speed + TURN for lane in lanes)
-                found.append((Block([self._metres(lane) for lane in lanes], area, time), lanes))
+    def blocks(self, speed: float) -> List[Tuple[Array, float, float]]:
+        """The lanes of all blocks, as if none ran in the other direction; their area [m^2], and their time [s]."""
+        lanes, begins, counts = compiled_lanes.blocks(self._missed.copy(), self._clearance, self._rule)
+        times = (lanes[:, 1] - lanes[:, 0]) * self._resolution / speed + TURN
+        return [(lanes[first:after], count * self._resolution ** 2, BLOCK + sum(times[first:after].tolist()))
+                for first, after, count in zip(begins.tolist(), begins[1:].tolist(), counts.tolist())]
 
-    def _grow(self, row: int, run: Run) -> Tuple[List[_Lane], int]:
-        """The lanes of one block, from its lowest row upward, and the number of cells they clean.
-
-        These cells remain no longer.
-        """
-        lanes: List[_Lane] = []
-        count = 0
-        while True:
-            lane = self._lane(row, run, lanes[-1].across if lanes else None)
-            if lane is None:
-                self._remaining[row, run[0]:run[1]] = False
-                return lanes, count
-            alike = self._layout.alike
-            if lanes and not 1.0 / alike < (lane.last - lane.first) / (lanes[-1].last - lanes[-1].first) < alike:
-                return lanes, count
-            band = self._band(lane.across)
-            count += np.count_nonzero(self._remaining[band, lane.first:lane.last])
-            self._remaining[band, lane.first:lane.last] = False
-            self._remaining[row, max(run[0], lane.first):min(run[1], lane.last)] = False
-            lanes.append(lane)
-            above = self._lowest(band.stop - 1, min(int(lane.across + 3.0 * self._half), len(self._remaining)),
-                                 (lane.first, lane.last))
-            if above is None:
-                return lanes, count
-            row, run = above
-
-    def _lowest(self, bottom: int, top: int, columns: Run) -> Optional[Tuple[int, Run]]:
-        """The lowest row from bottom to top that has a long run within columns, and its longest run there."""
-        row, first, after = compiled_lanes.lowest(self._remaining, bottom, top, columns[0], columns[1], JOIN,
-                                                  self._least)
-        return None if row == compiled_lanes.NO_ROW else (row, (first, after))
-
-    def _lane(self, row: int, run: Run, below: Optional[float]) -> Optional[_Lane]:
-        """The lane that cleans a run of a row and as much as possible above it.
-
-        Args:
-            row, run: the lowest cells that it has to clean.
-            below: position (row, with fractions) of the lane before; None if this is the first of its block.
-        """
-        beside = below is not None and row <= below + self._half + 0.6  # no whole row lies between the two lanes
-        highest = below + 2.0 * self._half if below is not None and beside else row + self._half
-        first, last, across = compiled_lanes.lane(
-            self._remaining, self._clearance, self._needed_clearance, run, highest, self._half, self._least, self._gap,
-            self._layout.needed)
-        return _Lane(first, last, across) if last > first else None
-
-    def _band(self, across: float) -> slice:
-        """The rows whose centres the brush passes over."""
-        return slice(*compiled_lanes.band(across, self._half))
-
-    def _metres(self, lane: _Lane) -> Array:
-        """Both ends of a lane: float64 (2, 2) [m], map frame."""
-        ends = np.array([[lane.first, lane.across], [lane.last, lane.across]])
+    def metres(self, lanes: Array) -> List[Array]:
+        """Both ends of each lane: float64 (2, 2) [m], map frame."""
         rows, columns = self._window
-        return self._floor.points((ends if self._along_x else ends[:, ::-1]) + (columns.start, rows.start))
+        across = lanes[:, 2]
+        ends = np.stack([np.stack([lanes[:, end], across], axis=1) for end in (0, 1)], axis=1)
+        return list(self._floor.points((ends if self._along_x else ends[..., ::-1]) + (columns.start, rows.start)))
 
 
 def _window(missed: Array, margin: int) -> Window:

@@ -554,9 +554,17 @@ def is_reversing(robot: Record, start: Triple) -> bool:
                 + (start[1] - robot.swept_y) * (robot.y - start[1]) < 0.0)
 
 
-def sweep_between(constants: Array, samples: Array, dirt: Array, tallies: Array, start: Triple, end: Triple) -> None:
-    """As `sweep`, for callers that are not compiled: for them, records take longer than the sweeping."""
-    sweep(constants[0], samples, dirt, tallies[0], start, end)
+def sweep_moves(constants: Array, samples: Array, dirt: Array, tallies: Array, starts: Array, ends: Array) -> None:
+    """As `sweep`, for callers that are not compiled: for them, one call takes longer than the sweeping.
+
+    Args:
+        constants, tallies: one record each, in arrays.
+        samples, dirt: as for `sweep`.
+        starts, ends: poses (x [m], y [m], theta [rad]) between which the brush passes, float64 (any, 3) each.
+    """
+    for move in range(len(starts)):
+        sweep(constants[0], samples, dirt, tallies[0], (starts[move, 0], starts[move, 1], starts[move, 2]),
+              (ends[move, 0], ends[move, 1], ends[move, 2]))
 
 
 def sweep(k: Record, samples: Array, dirt: Array, tally: Record, start: Triple, end: Triple) -> None:

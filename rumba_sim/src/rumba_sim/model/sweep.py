@@ -8,7 +8,6 @@ from rumba_sim.model import kernel
 from rumba_sim.model.compiled import fast
 from rumba_sim.model.constants import constants
 from rumba_sim.model.floor_plan import FloorPlan
-from rumba_sim.model.geometry import Pose
 from rumba_sim.model.kernel import Array
 from rumba_sim.model.reachability import reach
 from rumba_sim.model.robot_config import RobotConfig
@@ -79,9 +78,13 @@ class Sweep:
         self.tally[0]['swept'] = np.count_nonzero(
             (self.samples & kernel.REACHABLE > 0) & (self.samples >= kernel.PASS))
 
-    def pass_over(self, start: Pose, end: Pose) -> None:
-        """Let a brush pass from one pose to another that is near, map frame."""
-        fast.sweep_between(self._constants, self.samples, self._no_dirt, self.tally, tuple(start), tuple(end))
+    def pass_over(self, starts: Array, ends: Array) -> None:
+        """Let a brush pass from poses to others that are near, map frame.
+
+        Args:
+            starts, ends: x [m], y [m] and theta [rad] of each, float64 (any, 3).
+        """
+        fast.sweep_moves(self._constants, self.samples, self._no_dirt, self.tally, starts, ends)
 
     @property
     def reachable_area(self) -> float:

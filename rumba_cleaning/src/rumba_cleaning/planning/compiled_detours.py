@@ -1,0 +1,47 @@
+"""The search for the shortest detour past a crumb, compiled by numba."""
+
+from typing import Any, Tuple
+
+import numpy as np
+
+from rumba_cleaning.belief.search import is_clear
+from rumba_cleaning.planning.compiled_ways import cornered_length
+from rumba_sim.model.jit import compiled
+
+Array = Any  # numpy.ndarray
+
+
+@compiled
+def shortest(clearance: Array, origin: Tuple[float, float], resolution: float, least: float, route: Array,
+             begins: Array, paths: Array, stops: Array, corner: float) -> Tuple[float, int, int]:
+    """The shortest detour from one waypoint of a route to the next one, along one of several paths.
+
+    Args:
+        clearance, origin, resolution: of the ground, as in `search.is_clear`.
+        least: clearance that the robot needs on the straight lines to a path and back [m].
+        route: float64 (any, 2) [m].
+        begins: int (any), the waypoints of the route from which a detour may begin.
+        paths: float64 (any, 2) [m], one behind the other.
+        stops: int (paths + 1), where each begins, and the end of the last.
+        corner: see `compiled_ways.cornered_length`.
+
+    Returns:
+        what it adds to the length of the route [m], inf if there is none; the waypoint; the number of the path.
+    """
+    best, waypoint, number = np.inf, 0, 0
+    for begin in begins:
+        before, after = route[max(begin - 1, 0):begin + 1], route[begin + 1:begin + 3]
+        without = cornered_length(np.concatenate((before, after)), corner)
+        for index in range(len(stops) - 1):
+            path = paths[stops[index]:stops[index + 1]]
+            length = cornered_length(np.concatenate((before, path, after)), corner) - without
+            if length < best and is_clear(clearance, origin, resolution, at(before, -1), at(path, 0), least) and (
+                    is_clear(clearance, origin, resolution, at(path, -1), at(after, 0), least)):
+                best, waypoint, number = length, begin, index
+    return best, waypoint, number
+
+
+@compiled
+def at(path: Array, index: int) -> Tuple[float, float]:
+    """A waypoint of a path (any, 2) [m]."""
+    return path[index, 0], path[index, 1]
