@@ -12,6 +12,7 @@ from typing import Any, Tuple
 
 import numpy as np
 
+from rumba_localisation.compiled_matrices import inverse, product
 from rumba_sim.model.jit import compiled
 
 FARTHEST = 0.5  # [m], [rad] in one step of `match`: beyond, its lines say nothing of the walls
@@ -122,15 +123,15 @@ def match(start: Array, covariance: Array, points: Array, distance: Array, left:
     Returns:
         The share of the beams that end at a wall there, weighted [0..1].
     """
-    prior = np.linalg.inv(covariance)
+    prior = inverse(covariance)
     information, vector = np.zeros((3, 3)), np.zeros(3)
     pose[:] = start
     for step in range(len(sigmas)):
         normal_equations(pose, points, distance, left, bottom, resolution, sigmas[step], information, vector)
-        change = np.linalg.solve(information + prior, vector + np.dot(prior, pose - start))
+        change = product(inverse(information + prior), vector + product(prior, pose - start))
         pose -= np.minimum(np.maximum(change, -FARTHEST), FARTHEST)
     fit = normal_equations(pose, points, distance, left, bottom, resolution, sigmas[-1], information, vector)
-    result[:] = np.linalg.inv(share * information + prior)
+    result[:] = inverse(share * information + prior)
     return fit
 
 

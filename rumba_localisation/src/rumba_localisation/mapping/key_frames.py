@@ -7,6 +7,7 @@ import numpy as np
 from scipy import sparse
 from scipy.sparse import csgraph
 
+from rumba_localisation.compiled_matrices import inverse as inverted
 from rumba_localisation.mapping.grid import Grid, placed
 from rumba_localisation.mapping.pose_graph import Link, optimised
 from rumba_localisation.scan import Scan
@@ -55,7 +56,7 @@ class KeyFrames:
         frame = self.poses[one]
         cos, sin = math.cos(frame.theta), math.sin(frame.theta)
         turn = np.array([[cos, sin, 0.0], [-sin, cos, 0.0], [0.0, 0.0, 1.0]])
-        information = np.linalg.inv(turn @ covariance @ turn.T)
+        information = inverted(turn @ covariance @ turn.T)
         self._links.append(Link(one, other, compose(inverse(frame), pose), information, is_robust))
         self._variances[min(one, other), max(one, other)] = float(covariance[0, 0] + covariance[1, 1]), float(
             covariance[2, 2])

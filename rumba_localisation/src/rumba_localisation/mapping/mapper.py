@@ -7,6 +7,7 @@ from typing import Dict, Optional, Tuple
 import numpy as np
 
 from rumba_localisation import compiled_matching
+from rumba_localisation.compiled_matrices import inverse as inverted
 from rumba_localisation.localiser import START, Estimate, Localiser
 from rumba_localisation.mapping.believed_plan import believed_plan
 from rumba_localisation.mapping.grid import RESOLUTION, Grid
@@ -220,9 +221,9 @@ def _leaked(covariance: Array, prior: Array) -> Array:
         covariance: float64 (3, 3), of the estimate.
         prior: float64 (3, 3), of the movement before it.
     """
-    held = np.linalg.inv(prior)
-    seen = (np.linalg.inv(covariance) - held) / INDEPENDENT
-    gain = np.linalg.inv(seen + held)
+    held = inverted(prior)
+    seen = (inverted(covariance) - held) / INDEPENDENT
+    gain = inverted(seen + held)
     return np.asarray(gain @ held @ gain)
 
 
