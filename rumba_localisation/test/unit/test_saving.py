@@ -51,15 +51,38 @@ def test_what_is_found_twice_is_remembered_once():
     found = findings()
     for x in (1.0, 1.01):
         found.note(Grid(), Pose(x, 0.0, 0.0), (True, True), (True, False, False, False))
+        found.note(Grid(), Pose(x, 0.0, 0.0), (False, False), QUIET)
     assert len(found.touched) == len(found.cliffs) == 1
 
 
-def test_a_cliff_is_where_the_sensor_is():
+def test_a_switch_that_stays_pressed_tells_nothing_new():
+    found = findings()
+    for x in (1.0, 1.1, 1.2):  # as the wheels have it, which slip
+        found.note(Grid(), Pose(x, 0.0, 0.0), (True, True), QUIET)
+    assert len(found.touched) == 1
+
+
+@pytest.mark.parametrize('sides, is_known', [((-1.1, 1.1), True), ((1.1,), False), ((0.3,), True)])
+def test_both_switches_are_pressed_by_what_the_map_shows_ahead_or_at_both_sides(sides, is_known):
+    found, grid = findings(), Grid()
+    legs = np.array([[AWAY * math.cos(side), AWAY * math.sin(side)] for side in sides])
+    grid.add(Pose(0.0, 0.0, 0.0), legs, np.empty((0, 2)))
+    grid.measure()
+    found.note(grid, Pose(0.0, 0.0, 0.0), (True, True), QUIET)
+    assert not found.touched if is_known else len(found.touched) == 1
+
+
+def test_a_cliff_is_where_the_sensor_is_at_first_and_half_way_from_where_it_saw_floor():
     found, cliff = findings(), RobotConfig().cliff
     found.note(Grid(), Pose(1.0, 2.0, 0.0), (False, False), (True, False, False, False))
     angle = cliff.angles[0]
     assert angle > 0.0  # the first is on the left
     assert found.cliffs == [pytest.approx((1.0 + cliff.distance * math.cos(angle),
+                                           2.0 + cliff.distance * math.sin(angle)))]
+    found = findings()
+    found.note(Grid(), Pose(1.0, 2.0, 0.0), (False, False), QUIET)
+    found.note(Grid(), Pose(1.03, 2.0, 0.0), (False, False), (True, False, False, False))
+    assert found.cliffs == [pytest.approx((1.015 + cliff.distance * math.cos(angle),
                                            2.0 + cliff.distance * math.sin(angle)))]
 
 

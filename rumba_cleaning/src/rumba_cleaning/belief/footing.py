@@ -7,9 +7,10 @@ import numpy as np
 from scipy import ndimage
 
 from rumba_cleaning.belief.compiled_footing import are_marked, stamp
+from rumba_localisation.edges import JUMP, Edges
 from rumba_sim.model.compiled import fast
 from rumba_sim.model.floor_plan import FloorPlan
-from rumba_sim.model.geometry import Pose, compose, wrap_angle
+from rumba_sim.model.geometry import Pose, wrap_angle
 from rumba_sim.model.kernel import Array
 from rumba_sim.model.robot_config import RobotConfig
 
@@ -18,7 +19,6 @@ SEEN = 0.015  # [m] radius that is assumed for an edge that a sensor saw: half o
 SAME = 0.02  # [m] from a known cliff, a sensor sees that one
 CELL = 0.015  # [m] side of the cells in which floor is remembered
 STEP = 0.012  # [m] between points that are remembered: less than a cell, so that no cell is left out
-JUMP = 0.5  # [m] from one pose to the next: somebody put the robot elsewhere; as in `Swept`
 BEHIND_DOCK = 0.45  # [m] of floor that a dock needs before it, as it is put up by a person: more than undocking takes
 
 
@@ -31,6 +31,7 @@ class Footing:
 
     def __init__(self, plan: FloorPlan, robot: RobotConfig) -> None:
         """Know the cliffs of a plan."""
+        self._robot = robot
         self._far = robot.cliff.distance
         half, radius, sensors = 0.5 * robot.drive.wheel_base, robot.drive.radius, robot.cliff
         self._sensors = [(sensors.distance * math.cos(angle), sensors.distance * math.sin(angle))
@@ -53,6 +54,7 @@ class Footing:
         self._origin: Tuple[float, float] = (left, bottom)  # of what follows [m]
         self._floor: Array = np.zeros((int((top - bottom) / CELL) + 1, int((right - left) / CELL) + 1), np.bool_)
         self._noted: Optional[Tuple[Pose, Tuple[bool, ...], bool]] = None  # the last that was
+        self._readings = Edges(self._robot)
 
     def learn(self, plan: FloorPlan) -> None:
         """Go on with a newer plan of the same floor, and with what was seen of it."""
@@ -75,20 +77,19 @@ class Footing:
         self._mapped: Optional[Array] = None if plan.cliff is None else _distances_to(plan.cliff) * plan.resolution
 
     def note(self, pose: Pose, cliffs: Sequence[bool], is_docked: bool) -> None:
-        """Remember what the cliff sensors see at a pose, and that there is floor under the wheels.
-
-        A sensor that saw floor before came over an edge since then: that lies half way, give or take SEEN.
-        """
+        """Remember what the cliff sensors see at a pose, and that there is floor under the wheels."""
         noted = (pose, tuple(cliffs), is_docked)
         if noted == self._noted:
             return  # a robot that stands, as while it charges, learns nothing new
-        last, before, _ = (None, (), False) if self._noted is None else self._noted
+        last = None if self._noted is None else self._noted[0]
         self._noted = noted
+        for x, y in self._readings.met(pose, cliffs):
+            self._see(x, y)
         if is_docked:
             self._stamp(self._before_dock, pose)
         if last is None or math.hypot(pose.x - last.x, pose.y - last.y) > JUMP:
             self._stamp(self._body, pose)
-            last, before = pose, noted[1]
+            last = pose
         turn = wrap_angle(pose.theta - last.theta)
         count = int((math.hypot(pose.x - last.x, pose.y - last.y) + self._far * abs(turn)) / STEP) + 1
         change = pose.x - last.x, pose.y - last.y, turn
@@ -99,11 +100,6 @@ class Footing:
         for line, is_over, is_next_over in zip(self._between, cliffs, cliffs[1:]):
             if not (is_over or is_next_over):
                 self._stamp(line, pose)
-        for sensor, is_over, was_over in zip(self._sensors, cliffs, before):
-            if is_over:
-                here = compose(pose, Pose(*sensor, 0.0))
-                since = here if was_over else compose(last, Pose(*sensor, 0.0))
-                self._see(0.5 * (since.x + here.x), 0.5 * (since.y + here.y))
 
     def _stamp(self, points: Array, pose: Pose, change: Tuple[float, float, float] = (0.0, 0.0, 0.0),
                count: int = 1) -> None:

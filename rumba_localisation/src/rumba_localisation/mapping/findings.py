@@ -3,6 +3,7 @@
 import math
 from typing import Callable, List, Sequence, Tuple
 
+from rumba_localisation.edges import Edges
 from rumba_localisation.mapping.grid import Grid
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.robot_config import RobotConfig
@@ -27,7 +28,8 @@ class Findings:
     def __init__(self, robot: RobotConfig) -> None:
         """Know nothing."""
         self._away = robot.drive.radius + DEPTH
-        self._sensors = [(robot.cliff.distance, angle) for angle in robot.cliff.angles]
+        self._edges = Edges(robot)
+        self._pressed = (False, False)  # the newest state of the bumper
         self.touched: List[Point] = []
         self.cliffs: List[Point] = []
 
@@ -39,18 +41,27 @@ class Findings:
     def note(self, grid: Grid, pose: Pose, bumper: Tuple[bool, bool], cliffs: Sequence[bool]) -> None:
         """Remember what the sensors tell at a pose, unless the grid shows it.
 
+        A switch that stays pressed tells nothing new: a robot that pushes against something is not where its wheels
+        have it.
+
         Args:
             grid: the map.
             pose: of the robot, map frame.
             bumper: whether it is pressed on the left and on the right.
             cliffs: whether there is no floor under each sensor, from left to right.
         """
-        side = SIDES.get(bumper)
-        if side is not None and all(grid.distance_at(*_ahead(pose, side + off, self._away)) > KNOWN for off in ARC):
-            _remember(self.touched, _ahead(pose, side, self._away))
-        for is_over, (distance, angle) in zip(cliffs, self._sensors):
-            if is_over:
-                _remember(self.cliffs, _ahead(pose, angle, distance))
+        is_new, self._pressed = bumper != self._pressed, bumper
+        if is_new and any(bumper) and not self._is_known(grid, pose, bumper):
+            _remember(self.touched, _ahead(pose, SIDES[bumper], self._away))
+        for found in self._edges.met(pose, cliffs):
+            _remember(self.cliffs, found)
+
+    def _is_known(self, grid: Grid, pose: Pose, bumper: Tuple[bool, bool]) -> bool:
+        """Whether walls of the map press what is pressed: one in the direction of the contact, or one at each side."""
+        def is_wall(side: float) -> bool:
+            return any(grid.distance_at(*_ahead(pose, side + off, self._away)) <= KNOWN for off in ARC)
+
+        return is_wall(SIDES[bumper]) or all(bumper) and is_wall(SIDES[True, False]) and is_wall(SIDES[False, True])
 
     def move(self, moved: Callable[[Pose], Pose]) -> None:
         """Follow a redrawn map; `moved` tells where on it is what was at a pose before."""

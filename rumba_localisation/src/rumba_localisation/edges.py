@@ -1,0 +1,44 @@
+"""Where floor ends, by what the cliff sensors of a robot tell on its way."""
+
+import math
+from typing import List, Optional, Sequence, Tuple
+
+from rumba_sim.model.geometry import Pose, compose
+from rumba_sim.model.robot_config import RobotConfig
+
+JUMP = 0.5  # [m] from one pose to the next: somebody put the robot elsewhere; our choice, as in `Swept`
+
+
+class Edges:
+    """The newest reading of the cliff sensors, by which the next one tells where an edge is."""
+
+    def __init__(self, robot: RobotConfig) -> None:
+        """Know no reading."""
+        cliff = robot.cliff
+        self._sensors = [Pose(cliff.distance * math.cos(angle), cliff.distance * math.sin(angle), 0.0)
+                         for angle in cliff.angles]
+        self._last: Optional[Tuple[Pose, Tuple[bool, ...]]] = None
+
+    def met(self, pose: Pose, cliffs: Sequence[bool]) -> List[Tuple[float, float]]:
+        """Take a reading, and tell where edges are.
+
+        A sensor that saw floor before came over an edge since then: that lies half way.
+
+        Args:
+            pose: of the robot, map frame.
+            cliffs: whether there is no floor under each sensor, from left to right.
+
+        Returns:
+            Points (x, y) [m], map frame; for a sensor that stays beyond an edge, where it is now.
+        """
+        last, before = (pose, ()) if self._last is None else self._last
+        if not before or math.hypot(pose.x - last.x, pose.y - last.y) > JUMP:
+            last, before = pose, tuple(cliffs)
+        self._last = pose, tuple(cliffs)
+        found = []
+        for sensor, is_over, was_over in zip(self._sensors, cliffs, before):
+            if is_over:
+                here = compose(pose, sensor)
+                since = here if was_over else compose(last, sensor)
+                found.append((0.5 * (since.x + here.x), 0.5 * (since.y + here.y)))
+        return found
