@@ -15,6 +15,7 @@ from rumba_cleaning.behaviours.travel import Going, Travel
 from rumba_cleaning.belief.footing import SEEN
 from rumba_cleaning.control import CONTROL_DT, CONTROL_TICKS, observe, steps
 from rumba_cleaning.mission.mission import Mission
+from rumba_cleaning.outcome import Outcome
 from rumba_cleaning.route import Route
 from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.model.geometry import Pose
@@ -156,6 +157,17 @@ def test_no_mission_among_islands_of_cliffs_falls(strategy, shown):
         robot = world.spawn('rumba', start, brushes_up=True)
         run(Mission(context_of(known, world), strategy, 0.99), world, seconds=250.0)
         assert not robot.has_fallen
+
+
+def test_a_robot_that_cannot_move_for_edges_ends_its_mission_and_says_so():
+    plan = room(3.0, 2.6, 0.02)
+    known = with_cliffs(plan, (0.5, 1.0, 2.5, 1.19), (0.5, 1.41, 2.5, 1.6))  # nobody can turn between them
+    world = World(plan, quiet())
+    robot = world.spawn('rumba', Pose(1.5, 1.3, 0.5 * math.pi))
+    mission = Mission(context_of(known, world), 'boustrophedon', 0.99)
+    run(mission, world, seconds=200.0)
+    assert mission.outcome is Outcome.BLOCKED and 'edges' in mission.message
+    assert robot.pose.y == pytest.approx(1.3, abs=0.02) and 60.0 < world.time < 120.0
 
 
 @pytest.mark.parametrize('speed, brushes_up', [(0.3, False), (0.45, True)])

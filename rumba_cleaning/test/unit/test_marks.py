@@ -4,6 +4,7 @@ import itertools
 import math
 
 import numpy as np
+import pytest
 from floors import along, ground, length, off, standing_points, wall_with_gap
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -12,6 +13,7 @@ from rooms import PLANS, RADIUS, crooked, room
 
 from rumba_cleaning.belief.ground import INFLATION
 from rumba_cleaning.belief.met import GROWTH, LARGEST, NOTHING_SEEN, SEEN, Seen
+from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.model.reachability import SLACK
 
 
@@ -174,6 +176,21 @@ def test_squeezed_what_is_seen_leaves_a_gap_open_that_is_as_narrow_as_the_robot(
     assert floor.opened(1.0, 1.5) == approx((4.0 - 2.0 * RADIUS) * (3.0 - 2.0 * RADIUS) / 2.0, rel=0.2)
     floor.squeeze(True)
     assert floor.copy().path(*ends) is not None and floor.shows(wall) and floor.opened(1.0, 1.5) == 0.0
+    floor.squeeze(False)
+    assert floor.path(*ends) is None
+
+
+@pytest.mark.parametrize('gap, opens', [(0.36, True), (0.30, False)])
+def test_squeezed_the_body_hangs_over_a_cliff_beside_a_wall_as_far_as_the_wheels_stay_off(gap, opens):
+    plan = room(4.0, 3.0, 0.02)
+    cliff = np.zeros((plan.rows, plan.columns), np.bool_)
+    top = int(round((3.0 - gap - plan.origin[1]) / 0.02))
+    cliff[:top, 100:105] = True
+    floor = ground(FloorPlan('a gap', plan.occupancy, 0.02, plan.origin, cliff=cliff))
+    ends = np.array([[1.0, 1.5], [3.0, 1.5]])
+    assert floor.path(*ends) is None
+    floor.squeeze(True)
+    assert (floor.path(*ends) is not None) == opens
     floor.squeeze(False)
     assert floor.path(*ends) is None
 

@@ -39,7 +39,11 @@ NONE = (False, False)
 
 
 class Guard:
-    """Watches what a robot sees and what it is commanded; a controller, for the behaviour that is in charge."""
+    """Watches what a robot sees and what it is commanded; a controller, for the behaviour that is in charge.
+
+    Attributes:
+        held_time: for how long edges have kept the robot, which stands still, from what it was to do [s].
+    """
 
     def __init__(self, context: Context) -> None:
         """Guard the robot of a context."""
@@ -55,6 +59,7 @@ class Guard:
         self._command = Command(0.0, 0.0)  # the last one
         self._last: Optional[Pose] = None
         self._held = NONE  # the side on which an edge kept the robot from what it was to do
+        self.held_time = 0.0
 
     def see(self, observation: Observation) -> None:
         """Remember what the cliff sensors see, and show it to the ground."""
@@ -85,6 +90,10 @@ class Guard:
         self._speeds = (min(max(left_goal, left_speed - change), left_speed + change),
                         min(max(right_goal, right_speed - change), right_speed + change))
         self._command = self._admitted(observation, command)
+        if _faster(self._speeds) > 0.0:
+            self.held_time = 0.0
+        elif self._held != NONE:
+            self.held_time += min(observation.dt, LONGEST)
         self._last = observation.pose
         return self._command
 

@@ -124,8 +124,11 @@ class Context:
     def learn(self, pose: Pose) -> bool:
         """Take the newest plan of a floor that is being mapped; returns whether there is one.
 
+        What can be reached is counted from the robot, or, if that is more, from where it was counted before: cliffs
+        that the robot has found may seem to cut the way off on which it came.
+
         Args:
-            pose: of the robot, from which what can be reached is counted.
+            pose: of the robot.
         """
         if self.survey is None:
             return False
@@ -136,8 +139,7 @@ class Context:
         self.footing.learn(plan)
         if self.sight is not None:
             self.sight.learn(plan)
-        (x, y), = self.ground.points(np.array([self.ground.standing_at(pose.x, pose.y)])).tolist()
-        self.swept.learn(plan, x, y)
+        self.swept.learn(plan, *self.ground.in_largest_part([pose[:2], self.swept.start]))
         return True
 
     def moor(self, pose: Pose) -> None:

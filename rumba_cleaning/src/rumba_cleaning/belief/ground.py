@@ -1,7 +1,7 @@
 """Where a robot can stand, and paths from point to point: by the floor plan and the obstacles the robot has met."""
 
 import copy
-from typing import List, Optional, Tuple
+from typing import List, Optional, Sequence, Tuple
 
 import numpy as np
 from scipy import ndimage
@@ -74,8 +74,11 @@ class Ground:
             self._measure()
 
     def squeeze(self, on: bool) -> None:
-        """Take obstacles to be as small as they can be, so that gaps as narrow as the robot are open, or as usual."""
-        if self._met.squeeze(on):
+        """Take obstacles to be as small as they can be, so that gaps as narrow as the robot are open, or as usual.
+
+        The body may then hang over cliffs, as far as the wheels stay well off.
+        """
+        if self._met.squeeze(on) and (self.has_marks or self.plan.cliff is not None):
             self._measure()
 
     def opened(self, x: float, y: float) -> float:
@@ -138,7 +141,7 @@ class Ground:
 
     def lasting_clearance(self) -> Array:
         """As `clearance`, without the obstacles that may go again."""
-        clearance = self.plan.safe_clearance.copy()
+        clearance = np.minimum(self.plan.clearance, self.plan.safe_clearance + self._met.less)
         self._keep_clear(clearance, self._met.lasting)
         return clearance
 
@@ -304,6 +307,14 @@ class Ground:
             return None
         inner = self._straightened(self.points(found))
         return np.concatenate([[start], inner[1:-1] if len(inner) > 2 else inner, [end]])
+
+    def in_largest_part(self, points: Sequence[Tuple[float, float]]) -> Tuple[float, float]:
+        """Of the nodes nearest to points at which the robot can stand, that in the largest part of the floor [m]."""
+        parts = self._parts()
+        sizes = np.bincount(parts.ravel())
+        node = max((self.standing_at(x, y) for x, y in points), key=lambda node: int(sizes[parts[node]]))
+        (x, y), = self.points(np.array([node])).tolist()
+        return x, y
 
     def _parts(self) -> Array:
         """To which part of the floor each node belongs: int (rows + 1, columns + 1), 0 where a robot cannot stand."""

@@ -134,14 +134,18 @@ class Met:
         return 2.0 * SEEN - self._radius
 
     def squeeze(self, on: bool) -> bool:
-        """As `Ground.squeeze`; whether that changed anything."""
+        """As `Ground.squeeze`; whether that is news."""
         before, self._radius = self._radius, SQUEEZED if on else SEEN
-        return before != self._radius and (self.has_doubtful or self.has_lasting)
+        return before != self._radius
+
+    @property
+    def less(self) -> float:
+        """By how much smaller everything is taken to be where the robot squeezes past [m]; else 0."""
+        return SEEN - self._radius
 
     def _touched(self, marks: List[Mark]) -> List[Mark]:
         """Obstacles that were touched; where the robot squeezes past, as much smaller as what it sees."""
-        less = SEEN - self._radius
-        return [mark._replace(radius=mark.radius - less) for mark in marks]
+        return [mark._replace(radius=mark.radius - self.less) for mark in marks]
 
     def _marks(self, points: Array) -> List[Mark]:
         """Obstacles that are seen at points (any, 2) [m]."""

@@ -18,14 +18,18 @@ MOST = 0.5  # share of a cell's area, from which on the cell is missed: less is 
 
 
 class Swept:
-    """A memory of the floor; nothing is reachable in it until `begin`."""
+    """A memory of the floor; nothing is reachable in it until `begin`.
+
+    Attributes:
+        start: from where it was counted what can be reached, x and y [m], map frame.
+    """
 
     def __init__(self, plan: FloorPlan, config: RobotConfig) -> None:
         """Remember a floor by its refined plan."""
         self._config = config
         self._sweep = Sweep(plan, config)
         self._last: Dict[str, Pose] = {}  # by the name of the robot
-        self._start = math.nan, math.nan  # [m], map frame
+        self.start = math.nan, math.nan
 
     def begin(self, x: float, y: float) -> None:
         """Forget what was swept, and find out what can be reached from (x, y) [m], map frame.
@@ -35,7 +39,7 @@ class Swept:
         """
         self._sweep.begin(x, y)
         self._last = {}
-        self._start = x, y
+        self.start = x, y
 
     def learn(self, plan: FloorPlan, x: float, y: float) -> None:
         """Go on with a newer plan of the same floor, and find out what can be reached from (x, y) [m] on that.
@@ -47,7 +51,7 @@ class Swept:
         before, self._sweep = self._sweep, Sweep(plan, self._config)
         self._sweep.begin(x, y)
         self._sweep.take_over(before)
-        self._start = x, y
+        self.start = x, y
 
     def copy(self) -> 'Swept':
         """A memory of the same floor, which stays as it is if this one changes, and has no last pose."""
@@ -91,7 +95,7 @@ class Swept:
         Args:
             clearance: as `FloorPlan.safe_clearance` [m].
         """
-        return self._sweep.within(clearance, *self._start)
+        return self._sweep.within(clearance, *self.start)
 
     @property
     def reachable_area(self) -> float:

@@ -30,6 +30,7 @@ INEXACT = 0.0008  # the same by a pose that is not certain: twice what an error 
 GAIN = 0.002  # of coverage: a charge that brings less brings nothing; as boustrophedon judges its rounds
 VAIN = 3  # charges, one after the other, that brought nothing: the mission is given up; our choice
 HOMES = 2  # attempts to return to the dock, each with the tries of `Dock`; our choice
+HELD = 60.0  # [s] for which edges may hold the robot at one place: it has tried other ways by then; our choice
 WAITING = 'waiting for mates, which clean what is left'
 START = 0.1  # charge beyond what the way to the dock needs, without which a mission begins with charging; our choice
 
@@ -138,6 +139,9 @@ class Mission(Behaviour):
             self.message = 'planning'
             return STOP
         command = self._guard.step(self._decide, observation)
+        if self._guard.held_time > HELD:
+            return self._strand(f'{percent(self._context.swept.coverage)} swept: the robot is so near to edges that no '
+                                'way on is safe', Outcome.BLOCKED)
         self._brushes_up = command.brushes_up
         return command
 

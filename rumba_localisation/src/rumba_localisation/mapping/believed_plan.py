@@ -13,7 +13,8 @@ from rumba_sim.model.kernel import Array
 
 GAPS = 4  # [cells] half the width of what lies unseen between two beams, and is free if all around it is
 BEFORE = 0.002  # [m] before a wall, and more, a cell does not belong to it
-RADIUS = 0.03  # [m] of what bumper and cliff sensors found at a point
+RADIUS = 0.03  # [m] of what the bumper found at a point
+EDGE = 0.022  # [m] the same of a cliff sensor: half of what a robot drives between readings, and half a cell, about
 RIM = 2  # [cells] around all that is known
 
 
@@ -37,8 +38,8 @@ def believed_plan(grid: Grid, name: str, dock: Optional[Pose] = None,
     origin = grid.origin[0] + left * RESOLUTION, grid.origin[1] + top * RESOLUTION
     cliff = None
     if findings is not None:
-        cells[around(findings.touched, cells.shape, origin)] = OCCUPIED
-        cliff = around(findings.cliffs, cells.shape, origin) if findings.cliffs else None
+        cells[around(findings.touched, RADIUS, cells.shape, origin)] = OCCUPIED
+        cliff = around(findings.cliffs, EDGE, cells.shape, origin) if findings.cliffs else None
     return FloorPlan(name, cells, RESOLUTION, origin, cliff=cliff, dock=dock)
 
 
@@ -65,11 +66,12 @@ def occupancy(odds: Array, field: Array) -> Array:
     return cells
 
 
-def around(points: List[Point], shape: Tuple[int, ...], origin: Tuple[float, float]) -> Array:
+def around(points: List[Point], radius: float, shape: Tuple[int, ...], origin: Tuple[float, float]) -> Array:
     """The cells around points: bool (rows, columns).
 
     Args:
         points: [m], map frame.
+        radius: to the centres of the cells [m].
         shape: rows and columns.
         origin: of the cells [m].
     """
@@ -78,5 +80,5 @@ def around(points: List[Point], shape: Tuple[int, ...], origin: Tuple[float, flo
     y = (origin[1] + (np.arange(rows) + 0.5) * RESOLUTION)[:, np.newaxis]
     cells = np.zeros((rows, columns), np.bool_)
     for point_x, point_y in points:
-        cells |= np.hypot(x - point_x, y - point_y) < RADIUS
+        cells |= np.hypot(x - point_x, y - point_y) < radius
     return cells
