@@ -7,7 +7,7 @@ from typing import Any, Dict, List, Optional, Sequence, Tuple
 
 import numpy as np
 
-from rumba_sim.model import kernel, robot, world_state
+from rumba_sim.model import robot, world_state
 from rumba_sim.model.compiled import fast
 from rumba_sim.model.constants import check_speed, constants
 from rumba_sim.model.errors import ConfigError, MapError, WorldError
@@ -15,6 +15,7 @@ from rumba_sim.model.floor import Floor
 from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.model.geometry import Pose, wrap_angle
 from rumba_sim.model.kernel import Array
+from rumba_sim.model.kernel.records import ROBOT
 from rumba_sim.model.obstacle import Obstacle
 from rumba_sim.model.obstacles import Obstacles, kept_clear
 from rumba_sim.model.reachability import stands
@@ -73,7 +74,7 @@ class World:
         self.terrain = plan.refined()
         self.constants = constants(self._config, self.terrain, step_rate)
         self.robots: Dict[str, Robot] = {}
-        self._states: Array = np.zeros(0, kernel.ROBOT)
+        self._states: Array = np.zeros(0, ROBOT)
         self.version = 0
         self.obstacles = Obstacles(step_rate, seed, self._config.drive.radius)
         for obstacle in obstacles:
@@ -151,7 +152,7 @@ class World:
         """Simulate one tick in which something else moves the robots.
 
         Args:
-            led: poses of the robots after the tick, in the order of `robots`, as for `kernel.follow`.
+            led: poses of the robots after the tick, in the order of `robots`, as for `kernel.tick.follow`.
         """
         self.draw_noise()
         if self.obstacles.has_movers:
@@ -219,7 +220,7 @@ class World:
         number = self._spawned
         self._spawned += 1
         wheels, laser = self._generator(WHEELS, number), self._generator(LASER, number)
-        state = np.zeros(1, kernel.ROBOT)
+        state = np.zeros(1, ROBOT)
         scales = wheels.normal(0.0, self._config.odometry.scale_error, 2)
         robot.begin(state[0], start, self._config.battery.capacity, scales)
         self._wheels.append(wheels)
@@ -415,7 +416,7 @@ class World:
 
         `alone_until` is none of them: it only saves time, and 0 is as good as what was computed.
         """
-        names = [name for name in kernel.ROBOT.names or () if name != 'alone_until']
+        names = [name for name in ROBOT.names or () if name != 'alone_until']
         robots = {f'robots/{name}': self._states[name] for name in names}
         return {**robots,  # field by field, since bytes between fields are undefined
                 'noise': self._noise, 'dirt': self.floor.dirt, 'samples': self.floor.sweep.samples,
@@ -455,7 +456,7 @@ class World:
         world_state.check_origin(state.origin, world._origin())
         world.tick, world._spawned = state.tick, state.spawned
         world.obstacles.restore(state.obstacles)
-        world._states = np.zeros(len(state.members), kernel.ROBOT)
+        world._states = np.zeros(len(state.members), ROBOT)
         world._noise = np.zeros((len(state.members), NOISE_TICKS, 2))
         for index, member in enumerate(state.members):
             world.robots[member.name] = Robot(member.name, member.start, world._config, world._states[index:index + 1])

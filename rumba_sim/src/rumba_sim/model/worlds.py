@@ -90,7 +90,7 @@ class Worlds:
 
     @property
     def robots(self) -> Array:
-        """The states of all robots: (worlds) records `kernel.ROBOT`. Ask again after a world was replaced."""
+        """The states of all robots: (worlds) records of type ROBOT. Ask again after a world was replaced."""
         self._follow_changes()
         return self._rows.robots
 
