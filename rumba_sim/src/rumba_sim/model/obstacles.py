@@ -98,13 +98,6 @@ class Obstacles:
                 return name
         return ''
 
-    def arrays(self) -> Dict[str, Array]:
-        """What changes while movers move, by name; nothing without obstacles."""
-        if not self.items:
-            return {}
-        records = {f'obstacles/{name}': self.records[name] for name in OBSTACLE.names or ()}
-        return {**records, 'stops': self.stops}
-
     def _take(self, items: Dict[str, Obstacle], records: Array) -> None:
         self.items, self.records = items, records
         stops = [_row(stop, self._step_rate) for obstacle in items.values() for stop in obstacle.stops]
@@ -150,6 +143,20 @@ def _row(stop: Stop, step_rate: float) -> List[float]:
 def _ticks(stop: Stop, step_rate: float) -> float:
     """How long the way to a stop takes, at least one tick."""
     return max(stop.travel * step_rate, 1.0)
+
+
+def check_inside(obstacle: Obstacle, plan: FloorPlan) -> None:
+    """Check that an obstacle is on the map, wherever it moves.
+
+    Raises:
+        WorldError: it lies outside.
+    """
+    left, bottom, right, top = plan.bounds
+    for x, y, _ in [obstacle.pose, *(stop.pose for stop in obstacle.stops)]:
+        if not (left - obstacle.reach < x < right + obstacle.reach
+                and bottom - obstacle.reach < y < top + obstacle.reach):
+            raise WorldError(f'{obstacle.name} at ({x:.2f}, {y:.2f}) m lies outside the map (x {left:.2f} to '
+                             f'{right:.2f} m, y {bottom:.2f} to {top:.2f} m)')
 
 
 def kept_clear(plan: FloorPlan, constants: Record, obstacles: Obstacles) -> FloorPlan:

@@ -8,7 +8,8 @@ from rumba_sim.model.constants import RECORD
 from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.model.kernel import Array
 from rumba_sim.model.kernel.records import ROBOT, TALLY
-from rumba_sim.model.world import NOISE_TICKS, World
+from rumba_sim.model.noise import NOISE_TICKS
+from rumba_sim.model.world import World
 from rumba_sim.model.world_arrays import WorldArrays
 
 
