@@ -106,8 +106,11 @@ SMALL = {  # the real ones take a minute
                 '    return 2.0 * four_times.four_times(x)\n'}
 
 
-@pytest.mark.parametrize('name, call', [('fast', 'four_times(3.0)'), ('many', 'eight_times(1.5)')])
-def test_what_was_cached_does_not_outlive_a_change_of_another_file_that_it_calls(source, tmp_path, name, call):
+@pytest.mark.parametrize('name, call, changed, result', [
+    ('fast', 'four_times(3.0)', 'kernel/twice.py', 27.0), ('many', 'eight_times(1.5)', 'kernel/twice.py', 27.0),
+    ('many', 'eight_times(1.5)', 'batch.py', 18.0)])
+def test_what_was_cached_does_not_outlive_a_change_of_a_file_that_it_depends_on(
+        source, tmp_path, name, call, changed, result):
     model, home = source / 'rumba_sim' / 'model', {'HOME': str(tmp_path / 'home')}
     shutil.rmtree(str(model / 'kernel'))
     (model / 'kernel').mkdir()
@@ -116,9 +119,8 @@ def test_what_was_cached_does_not_outlive_a_change_of_another_file_that_it_calls
     code = f'from rumba_sim.model.compiled import {name}; print({name}.{call})'
     for _ in range(2):  # the second time from the cache
         assert run(source, code, **home) == ('12.0\n', '')
-    changed = model / 'kernel' / 'twice.py'
-    changed.write_text(changed.read_text().replace('2.0 * x', '3.0 * x'))
-    assert run(source, code, **home) == ('27.0\n', '')
+    (model / changed).write_text(SMALL[changed].replace('2.0', '3.0'))
+    assert run(source, code, **home) == (f'{result}\n', '')
 
 
 def test_a_full_disk_does_no_harm(source, tmp_path):
