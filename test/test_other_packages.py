@@ -14,7 +14,8 @@ def test_a_python_node_reads_what_a_cpp_node_publishes(request, name, space):
 
 
 def test_what_was_compiled_is_installed_and_not_compiled_again(workspace):
-    model = 'rumba_sim/model/__pycache__'
-    built = max((ROOT / 'rumba_sim' / 'src' / model).glob('kernel.wrap-*.1.nbc'), key=lambda path: path.stat().st_mtime)
-    [installed] = workspace.path.glob(f'install/lib/python3*/dist-packages/{model}/{built.name}')
+    kernel = 'rumba_sim/model/kernel/__pycache__'
+    built = max((ROOT / 'rumba_sim' / 'src' / kernel).glob('geometry.wrap-*.1.nbc'),
+                key=lambda path: path.stat().st_mtime)
+    [installed] = workspace.path.glob(f'install/lib/python3*/dist-packages/{kernel}/{built.name}')
     assert int(installed.stat().st_mtime) == int(built.stat().st_mtime)

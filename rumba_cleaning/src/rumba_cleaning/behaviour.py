@@ -10,7 +10,8 @@ from rumba_cleaning.route import Ahead
 from rumba_localisation.scan import Scan
 from rumba_sim.model.errors import CommandError, quoted
 from rumba_sim.model.geometry import Pose
-from rumba_sim.model.kernel import NO_BEAM, Array
+from rumba_sim.model.kernel import Array
+from rumba_sim.model.kernel.dock import NO_BEAM
 from rumba_sim.model.robot import Infrared
 
 Row = Tuple[float, float, float]

@@ -8,7 +8,7 @@ from rooms import alone, crooked, drive, drove, quiet, room
 
 from rumba_sim.model.errors import MapError
 from rumba_sim.model.geometry import Pose
-from rumba_sim.model.kernel import FORCE_FIELD, GREEN_BUOY, NO_BEAM, RED_BUOY
+from rumba_sim.model.kernel.dock import FORCE_FIELD, GREEN_BUOY, NO_BEAM, RED_BUOY
 from rumba_sim.model.robot import Infrared
 from rumba_sim.model.world import World
 

@@ -10,8 +10,8 @@ from rooms import RADIUS, quiet, room
 from rumba_cleaning.behaviour import Status
 from rumba_cleaning.mission.mission import Mission
 from rumba_cleaning.strategies.spiral import SIZE, Spiral
-from rumba_sim.model import kernel
 from rumba_sim.model.geometry import Pose
+from rumba_sim.model.kernel.samples import PASS
 from rumba_sim.model.world import World
 
 PLAN = room(4.0, 4.0, 0.02)
@@ -30,7 +30,7 @@ def test_a_spot_is_swept_without_a_gap():
     world, behaviour = spiral(Pose(2.0, 2.0, 0.0))
     assert behaviour.status is Status.SUCCEEDED
     assert behaviour.message == 'a spot of 1.2 m is swept'
-    swept = world.floor.sweep.samples >= kernel.PASS
+    swept = world.floor.sweep.samples >= PASS
     y, x = np.indices(swept.shape) * PLAN.sample_pitch
     disc = np.hypot(x - x[swept].mean(), y - y[swept].mean()) < SIZE - 0.15
     assert np.count_nonzero(disc & ~swept) < 0.01 * np.count_nonzero(disc)

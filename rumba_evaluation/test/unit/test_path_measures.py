@@ -12,9 +12,9 @@ from rooms import RADIUS, quiet, room
 from rumba_cleaning.outcome import Outcome
 from rumba_evaluation.scoring.measures import events, ratios, runs, turns_in
 from rumba_evaluation.scoring.ride import AsDrawn, Driven
-from rumba_sim.model import kernel
 from rumba_sim.model.config import updated
 from rumba_sim.model.geometry import Pose
+from rumba_sim.model.kernel.samples import PASS, REACHABLE
 from rumba_sim.model.obstacle import Obstacle
 
 TICK = 0.02  # [s]
@@ -192,8 +192,8 @@ def test_a_wide_curve_and_a_small_correction_are_no_turns():
 
 def test_ratios_of_counted_passes():
     passes = np.array([[0, 1, 1], [2, 5, 1]])
-    samples = (passes * kernel.PASS + kernel.REACHABLE).astype(np.uint8)
-    samples[0, 1] -= kernel.REACHABLE  # swept, but beyond what counts
+    samples = (passes * PASS + REACHABLE).astype(np.uint8)
+    samples[0, 1] -= REACHABLE  # swept, but beyond what counts
     assert ratios(samples) == (0.5, (1 + 2 + 5 + 1) / 4 - 1.0)
     assert ratios(samples * 0) == (0.0, 0.0)
 

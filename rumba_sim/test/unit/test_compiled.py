@@ -1,15 +1,17 @@
 """The compiled kernel gives the results of the plain one, except for rounding."""
 
 import math
+import types
 
 import numpy as np
 import pytest
 from rooms import crooked
 
-from rumba_sim.model import kernel
-from rumba_sim.model.compiled import fast
+from rumba_sim.model.compiled import fast, functions_of, kernel_modules
 from rumba_sim.model.constants import constants
 from rumba_sim.model.geometry import Pose
+from rumba_sim.model.kernel.records import OBSTACLE, ROBOT
+from rumba_sim.model.kernel.samples import REACHABLE, SWEEPABLE
 from rumba_sim.model.obstacle import Obstacle, walk
 from rumba_sim.model.reachability import stands
 from rumba_sim.model.robot_config import CliffConfig
@@ -26,6 +28,8 @@ OBSTACLES = [
         [Pose(0.5, 2.0, 0.0), Pose(0.5, 0.4, 1.0)], 0.3, False, 0.0, 0.5))]
 ROUNDING = 1e-12
 CLIFF = CliffConfig()
+FUNCTIONS = [function for module in kernel_modules() for function in functions_of(module)]
+PLAIN = types.SimpleNamespace(**{function.__name__: function for function in FUNCTIONS})
 
 
 class Copy:
@@ -36,7 +40,7 @@ class Copy:
         world = World(plan, seed=4, obstacles=OBSTACLES)
         self.robots = np.concatenate([
             np.atleast_1d(world.spawn(str(number), start, charge).state) for number, start in enumerate(STARTS)
-        ]).astype(kernel.ROBOT)
+        ]).astype(ROBOT)
         self.constants = constants(world.config, world.terrain, world.step_rate)
         self.plan, self.floor = world.terrain, world.floor
         self.obstacles, self.stops = world.obstacles.records, world.obstacles.stops
@@ -66,7 +70,7 @@ class Copy:
                 robot.command_v, robot.command_w = rng.uniform(-0.1, 0.5), rng.uniform(-1.9, 1.9)
                 robot.command_tick = tick
             self.advance(functions, tick, 10)
-            states.append(np.array([[float(robot[name]) for name in kernel.ROBOT.names] for robot in self.robots]))
+            states.append(np.array([[float(robot[name]) for name in ROBOT.names] for robot in self.robots]))
             for me in range(len(STARTS)):
                 cliffs = np.zeros(len(CLIFF.angles), np.bool_)
                 functions.cliffs(self.robots, me, self.constants, self.floor.cells, CLIFF.distance,
@@ -83,18 +87,18 @@ class Copy:
 @pytest.mark.parametrize('charge', [1.0, 0.00001])
 def test_compiled_and_plain_kernel_agree_except_for_rounding(charge):
     plain, compiled = Copy(charge), Copy(charge)
-    states, seen, ranges = plain.run(kernel, 400)
+    states, seen, ranges = plain.run(PLAIN, 400)
     fast_states, fast_seen, fast_ranges = compiled.run(fast, 400)
-    for place, name in enumerate(kernel.ROBOT.names):
+    for place, name in enumerate(ROBOT.names):
         np.testing.assert_allclose(fast_states[..., place], states[..., place], ROUNDING, ROUNDING, err_msg=name)
     assert fast_seen == seen
     np.testing.assert_allclose(fast_ranges, ranges, ROUNDING, ROUNDING)
-    for name in kernel.OBSTACLE.names:
+    for name in OBSTACLE.names:
         np.testing.assert_allclose(compiled.obstacles[name], plain.obstacles[name], ROUNDING, ROUNDING, err_msg=name)
     np.testing.assert_array_equal(compiled.floor.sweep.samples, plain.floor.sweep.samples)
     np.testing.assert_allclose(compiled.floor.sweep.tally[0].tolist(), plain.floor.sweep.tally[0].tolist(), 1e-9)
     if charge == 1.0:  # every kind of event happened
-        columns = dict(zip(kernel.ROBOT.names, states.transpose(2, 0, 1)))
+        columns = dict(zip(ROBOT.names, states.transpose(2, 0, 1)))
         assert columns['bumps'].max() > 0 and columns['docked'].any() and columns['fallen'].any()
         assert any(beams != (0, 0, 0) for beams in seen) and np.isfinite(ranges).any()
         assert plain.obstacles['visits'][2:].min() > 0
@@ -104,11 +108,11 @@ def test_compiled_and_plain_kernel_agree_except_for_rounding(charge):
 def test_compiled_and_plain_kernel_move_led_robots_in_the_same_way():
     led = np.array([[x + 0.004, y - 0.002, theta + 0.01, me % 2] for me, (x, y, theta) in enumerate(STARTS)])
     states = []
-    for functions in (kernel, fast):
+    for functions in (PLAIN, fast):
         copy = Copy(1.0)
         functions.follow(*copy.ground, 0, led)
         assert [(robot.x, robot.y, robot.theta) for robot in copy.robots] == [tuple(to) for to in led[:, :3]]
-        states.append(np.array([[float(robot[name]) for name in kernel.ROBOT.names] for robot in copy.robots]))
+        states.append(np.array([[float(robot[name]) for name in ROBOT.names] for robot in copy.robots]))
         halted = [functions.halted(robot, copy.constants[0], copy.plan.clearance, 0.3) for robot in copy.robots]
         states[-1] = np.column_stack([states[-1], halted])
     np.testing.assert_allclose(states[1], states[0], ROUNDING, ROUNDING)
@@ -118,20 +122,24 @@ def test_compiled_and_plain_kernel_find_the_same_floor_in_reach():
     plan = crooked(cliff=(3.6, 2.4, 4.0, 3.0))
     where = stands(plan, 0.17, 0.5, 0.5)
     found = []
-    for functions in (kernel, fast):
-        samples = np.full((plan.rows * 2, plan.columns * 2), kernel.SWEEPABLE, np.uint8)
+    for functions in (PLAIN, fast):
+        samples = np.full((plan.rows * 2, plan.columns * 2), SWEEPABLE, np.uint8)
         count = functions.mark_reachable(plan.safe_clearance, plan.resolution, where, 0.17, 0.08, samples)
-        assert count == np.count_nonzero(samples & kernel.REACHABLE) > 1000
+        assert count == np.count_nonzero(samples & REACHABLE) > 1000
         found.append(samples)
     np.testing.assert_array_equal(found[1], found[0])
 
 
-def test_every_function_of_the_kernel_is_compiled():
-    for name, function in vars(kernel).items():
-        if callable(function) and getattr(function, '__module__', '') == kernel.__name__:
-            assert getattr(fast, name).py_func.__name__ == name, name
+def test_every_function_of_the_kernel_is_compiled_and_has_a_name_of_its_own():
+    for function in FUNCTIONS:
+        assert getattr(fast, function.__name__).py_func.__code__ is function.__code__
+
+
+def test_a_name_that_no_function_has_is_an_error():
+    with pytest.raises(AttributeError, match="^there is no compiled function 'fly'$"):
+        fast.fly
 
 
 @pytest.mark.parametrize('angle', [0.0, math.pi, -math.pi, 3.5, -3.5, 100.0, math.nan])
 def test_the_compiled_kernel_wraps_angles_like_the_plain_one(angle):
-    np.testing.assert_equal(fast.wrap(angle), kernel.wrap(angle))
+    np.testing.assert_equal(fast.wrap(angle), PLAIN.wrap(angle))

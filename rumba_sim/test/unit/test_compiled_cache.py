@@ -8,24 +8,26 @@ import sys
 
 import pytest
 
-from rumba_sim.model import kernel
+from rumba_sim.model import compiled
 
 LINE = 'rumba_sim: the kernel is compiled anew, which takes some seconds: '
 ADVICE = '; NUMBA_CACHE_DIR can name a writable folder for its cache\n'
 TURN = 'from rumba_sim.model.compiled import fast; print(fast.wrap(7.0) == 7.0 - 6.283185307179586)'
 SMALL_FILES = 'import resource; resource.setrlimit(resource.RLIMIT_FSIZE, (0, 0)); '
+GEOMETRY = pathlib.Path('rumba_sim', 'model', 'kernel', 'geometry.py')
 NOBODY = 'import os, pwd; os.access = lambda *_: False; pwd.getpwuid = {}.__getitem__; '
 
 
 @pytest.fixture
 def source(tmp_path):
-    """A copy of the model whose folder for compiled code cannot be made."""
+    """A copy of the model whose folders for compiled code cannot be made."""
     folder = tmp_path / 'src' / 'rumba_sim'
     folder.mkdir(parents=True)
     (folder / '__init__.py').touch()
-    shutil.copytree(os.path.dirname(kernel.__file__), str(folder / 'model'),
+    shutil.copytree(os.path.dirname(compiled.__file__), str(folder / 'model'),
                     ignore=shutil.ignore_patterns('__pycache__'))
-    (folder / 'model' / '__pycache__').touch()  # where numba wants a folder; root can write into any
+    for place in (folder / 'model', folder / 'model' / 'kernel'):
+        (place / '__pycache__').touch()  # where numba wants a folder; root can write into any
     return tmp_path / 'src'
 
 
@@ -58,7 +60,7 @@ def test_the_advice_helps(source, tmp_path):
 def turned_around(source, path):
     """Copy the model to a folder, with an error in its kernel, and with a file of the same size and time."""
     shutil.copytree(str(source), str(path), symlinks=True)
-    changed, original = path / 'rumba_sim' / 'model' / 'kernel.py', source / 'rumba_sim' / 'model' / 'kernel.py'
+    changed, original = path / GEOMETRY, source / GEOMETRY
     text = original.read_text()
     changed.write_text(text.replace('return angle if -math.pi < angle', 'return angle if -math.pi > angle'))
     os.utime(str(changed), ns=(original.stat().st_atime_ns, original.stat().st_mtime_ns))
@@ -81,8 +83,7 @@ def test_what_was_cached_of_a_source_that_has_changed_is_not_used(source, tmp_pa
     home = {'HOME': str(tmp_path / 'home')}
     assert run(source, ANGLE, **home) == ('False\n', '')
     turned_around(source, tmp_path / 'other')
-    kernel_file = pathlib.Path('rumba_sim', 'model', 'kernel.py')
-    shutil.copy2(str(tmp_path / 'other' / kernel_file), str(source / kernel_file))
+    shutil.copy2(str(tmp_path / 'other' / GEOMETRY), str(source / GEOMETRY))
     assert run(source, ANGLE, **home) == ('True\n', '')
 
 
@@ -91,23 +92,35 @@ def test_a_source_with_another_time_and_the_same_contents_needs_no_compiling(sou
     home = {'HOME': str(tmp_path / 'home')}
     assert run(source, **home) == ('True\n', '')
     cached = {path: path.stat().st_mtime_ns for path in (tmp_path / 'home').rglob('*.nb[ci]')}
-    os.utime(str(source / 'rumba_sim' / 'model' / 'kernel.py'), ns=(0, 1_000_000_000))
+    os.utime(str(source / GEOMETRY), ns=(0, 1_000_000_000))
     assert run(source, **home) == ('True\n', '')
     assert cached == {path: path.stat().st_mtime_ns for path in (tmp_path / 'home').rglob('*.nb[ci]')}
 
 
-def test_what_was_cached_of_the_batch_does_not_outlive_a_change_of_the_kernel_that_it_calls(source, tmp_path):
+SMALL = {  # the real ones take a minute
+    'kernel/__init__.py': '',
+    'kernel/twice.py': 'def twice(x):\n    return 2.0 * x\n',
+    'kernel/four_times.py': 'from rumba_sim.model.kernel.twice import twice\n\n\ndef four_times(x):\n'
+                            '    return twice(twice(x))\n',
+    'batch.py': 'from rumba_sim.model.kernel import four_times\n\n\ndef eight_times(x):\n'
+                '    return 2.0 * four_times.four_times(x)\n'}
+
+
+@pytest.mark.parametrize('name, call, changed, result', [
+    ('fast', 'four_times(3.0)', 'kernel/twice.py', 27.0), ('many', 'eight_times(1.5)', 'kernel/twice.py', 27.0),
+    ('many', 'eight_times(1.5)', 'batch.py', 18.0)])
+def test_what_was_cached_does_not_outlive_a_change_of_a_file_that_it_depends_on(
+        source, tmp_path, name, call, changed, result):
     model, home = source / 'rumba_sim' / 'model', {'HOME': str(tmp_path / 'home')}
-    kernel_file = model / 'kernel.py'
-    for name, text in (('kernel', 'def twice(x):\n    return 2.0 * x\n'),
-                       ('batch', 'from rumba_sim.model import kernel\n\n\ndef four_times(x):\n'
-                                 '    return kernel.twice(kernel.twice(x))\n')):  # small: the real ones take a minute
-        (model / f'{name}.py').write_text(text)
-    code = 'from rumba_sim.model.compiled import many; print(many.four_times(1.5))'
+    shutil.rmtree(str(model / 'kernel'))
+    (model / 'kernel').mkdir()
+    for path, text in SMALL.items():
+        (model / path).write_text(text)
+    code = f'from rumba_sim.model.compiled import {name}; print({name}.{call})'
     for _ in range(2):  # the second time from the cache
-        assert run(source, code, **home) == ('6.0\n', '')
-    kernel_file.write_text(kernel_file.read_text().replace('2.0 * x', '3.0 * x'))
-    assert run(source, code, **home) == ('13.5\n', '')
+        assert run(source, code, **home) == ('12.0\n', '')
+    (model / changed).write_text(SMALL[changed].replace('2.0', '3.0'))
+    assert run(source, code, **home) == (f'{result}\n', '')
 
 
 def test_a_full_disk_does_no_harm(source, tmp_path):

@@ -7,9 +7,10 @@ import pytest
 from pytest import approx
 from rooms import alone, crooked, drive, drove, quiet, room
 
-from rumba_sim.model import kernel
 from rumba_sim.model.floor import Floor
 from rumba_sim.model.geometry import Pose
+from rumba_sim.model.kernel.brush import STRIDE
+from rumba_sim.model.kernel.samples import PASS, REACHABLE
 from rumba_sim.model.world import World
 
 WIDTH = 0.17
@@ -101,7 +102,7 @@ def test_swept_samples_are_those_that_the_brush_passed_over():
     drove(world, 0.3, 0.0, 200)
     robot.brushes_up = True
     world.step()
-    assert crossed(world.floor.sweep.samples >= kernel.PASS, start, 1.2) == approx(1.2 * WIDTH / 0.01 ** 2, rel=0.015)
+    assert crossed(world.floor.sweep.samples >= PASS, start, 1.2) == approx(1.2 * WIDTH / 0.01 ** 2, rel=0.015)
 
 
 @pytest.mark.parametrize('heading', [0.0, 0.25 * math.pi, 1.0])
@@ -110,14 +111,14 @@ def test_swept_samples_are_those_that_the_brush_passed_over():
 def test_each_pass_takes_the_same_share_of_the_dirt_at_any_speed_and_heading(passes, v, heading):
     world, robot = alone(Pose(2.0, 2.0, heading), room(4.0, 4.0), drive=AT_ONCE)
     world.floor.dirt[:] = 1.0
-    samples = np.count_nonzero(world.floor.sweep.samples & kernel.REACHABLE)
+    samples = np.count_nonzero(world.floor.sweep.samples & REACHABLE)
     world.floor.sweep.tally[0]['dirt'] = samples
     for index in range(passes):
         drove(world, -v if index % 2 else v, 0.0, round(50.0 / v))
     robot.brushes_up = True
     world.step()
     taken = samples - float(world.floor.sweep.tally[0]['dirt'])
-    assert taken == approx(np.count_nonzero(world.floor.sweep.samples >= kernel.PASS) * (1.0 - 0.1 ** passes), rel=0.02)
+    assert taken == approx(np.count_nonzero(world.floor.sweep.samples >= PASS) * (1.0 - 0.1 ** passes), rel=0.02)
 
 
 def test_brushes_that_are_up_neither_sweep_nor_clean_nor_count_their_time():
@@ -157,7 +158,7 @@ def test_after_a_long_random_run_the_tally_equals_a_recount():
     floor = world.floor
     samples, squares = floor.sweep.samples, world.terrain.sample_squares
     dirt = floor.dirt.astype(float).repeat(squares, 0).repeat(squares, 1)
-    reachable = samples & kernel.REACHABLE > 0
+    reachable = samples & REACHABLE > 0
     before = dirt[reachable].sum()
     assert float(floor.sweep.tally[0]['dirt']) == approx(before)
     rng = np.random.default_rng(6)
@@ -166,7 +167,7 @@ def test_after_a_long_random_run_the_tally_equals_a_recount():
             robot.command(rng.uniform(-0.2, 0.5), rng.uniform(-1.9, 1.9), world.tick)
             robot.brushes_up = bool(rng.random() < 0.1)
         world.step(25)
-    passes = samples // kernel.PASS
+    passes = samples // PASS
     assert int(floor.sweep.tally[0]['swept']) == np.count_nonzero(passes[reachable])
     left = (dirt * 0.1 ** passes.astype(float))[reachable].sum()
     assert floor.dirt_left == approx(left / before, rel=1e-6)
@@ -191,4 +192,4 @@ def test_a_lane_that_is_driven_twice_counts_once():
         pass
     once = world.floor.cleaned_area
     drove(world, -0.3, 0.0, 199)
-    assert once <= world.floor.cleaned_area <= once + kernel.STRIDE * WIDTH  # the end of the last stride
+    assert once <= world.floor.cleaned_area <= once + STRIDE * WIDTH  # the end of the last stride

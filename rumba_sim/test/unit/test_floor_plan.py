@@ -9,10 +9,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from pytest import approx
 
-from rumba_sim.model import kernel
 from rumba_sim.model.errors import MapError
 from rumba_sim.model.floor_plan import FREE, MAX_CELLS, OCCUPIED, UNKNOWN, FloorPlan, check_size
 from rumba_sim.model.geometry import Pose
+from rumba_sim.model.kernel.beams import IN_WALL
 
 SIGNS = {'#': OCCUPIED, '.': FREE, '?': UNKNOWN, '~': FREE}
 
@@ -105,7 +105,7 @@ def free_cells_around(blocked):
     for row, column in np.ndindex(rows, columns):
         gaps = np.maximum(np.abs(obstacles - (row, column)) - 1, 0)
         result[row, column] = math.isqrt(int(np.min(np.sum(gaps ** 2, axis=1))))
-    result[blocked] = kernel.IN_WALL
+    result[blocked] = IN_WALL
     return result
 
 

@@ -7,10 +7,11 @@ import pytest
 from pytest import approx
 from rooms import PILLARS, RADIUS, alone, crooked, drove, quiet, room, squares
 
-from rumba_sim.model import kernel
 from rumba_sim.model.constants import constants
 from rumba_sim.model.floor_plan import FREE, OCCUPIED, FloorPlan
 from rumba_sim.model.geometry import Pose
+from rumba_sim.model.kernel import beams
+from rumba_sim.model.kernel.beams import NUDGE
 from rumba_sim.model.world import World
 
 POSES = [Pose(0.5, 0.5, 0.0), Pose(2.1, 1.3, 0.7), Pose(3.6, 2.7, -2.0), Pose(1.83, 2.41, math.pi),
@@ -165,14 +166,14 @@ def test_beams_along_the_borders_of_cells_are_exact_and_take_no_more_steps_than_
     plan = FloorPlan('borders', grid, resolution, (0.0, 0.0))
     k = constants(quiet(), plan, 50)[0]
     steps = []
-    to_border = kernel.to_border
-    monkeypatch.setattr(kernel, 'to_border', lambda *args: steps.append(args) or to_border(*args))
+    to_border = beams.to_border
+    monkeypatch.setattr(beams, 'to_border', lambda *args: steps.append(args) or to_border(*args))
     for node in range(12, 68, 4):
         for turn in range(4):
             angle = (turn - 2) * math.pi / 2.0  # its sine or cosine is nearly 0
             x, y = node * resolution, (80 - node) * resolution
             steps.clear()
-            distance = kernel.cast(k, plan.skips, x, y, math.cos(angle), math.sin(angle), RANGE)
+            distance = beams.cast(k, plan.skips, x, y, math.cos(angle), math.sin(angle), RANGE)
             assert distance == approx(ray(plan, x, y, angle + 1e-5), abs=1e-4)
             assert len(steps) < 200
 
@@ -191,8 +192,8 @@ def test_a_beam_whose_skip_ends_at_the_border_of_a_wall_meets_it_there(resolutio
     along_x, along_y = mirrors[0] * columns / cells, mirrors[1] * rows / cells
     # Beams along an axis start in the middle of a border, so that they do not run along the edge of the wall.
     x, y = x + mirrors[0] * 0.5 * resolution * (columns == 0), y + mirrors[1] * 0.5 * resolution * (rows == 0)
-    distance = kernel.cast(constants(quiet(), plan, 50)[0], plan.skips, x, y, along_x, along_y, RANGE)
-    assert distance == approx(cells * resolution, abs=2.0 * kernel.NUDGE * resolution)
+    distance = beams.cast(constants(quiet(), plan, 50)[0], plan.skips, x, y, along_x, along_y, RANGE)
+    assert distance == approx(cells * resolution, abs=2.0 * NUDGE * resolution)
 
 
 def test_a_scan_does_not_change_the_world():

@@ -8,10 +8,10 @@ from pytest import approx
 from rooms import crooked, quiet, room, slanted
 from scipy import ndimage, spatial
 
-from rumba_sim.model import kernel
 from rumba_sim.model.constants import clearance_needed
 from rumba_sim.model.errors import MapError
 from rumba_sim.model.floor_plan import FREE, OCCUPIED, FloorPlan
+from rumba_sim.model.kernel.samples import REACHABLE, SWEEPABLE, sample_point
 from rumba_sim.model.reachability import SLACK, reach, stands
 
 RESOLUTIONS = (0.005, 0.01, 0.02, 0.05, 0.1)
@@ -71,7 +71,7 @@ def by_hand(plan, x, y):
     squares = plan.sample_squares
     rng = np.random.default_rng(0)
     samples = rng.integers((0, 0), (plan.rows * squares, plan.columns * squares), (3000, 2)).tolist()
-    points = np.array([kernel.sample_point(row, column) for row, column in samples]) * plan.sample_pitch
+    points = np.array([sample_point(row, column) for row, column in samples]) * plan.sample_pitch
     return [(row, column, distance) for (row, column), distance in zip(samples, standing.query(points)[0])]
 
 
@@ -79,16 +79,16 @@ def by_hand(plan, x, y):
 def test_samples_are_reachable_as_the_definition_says(plan):
     found = reach(plan, quiet(), 0.5, 0.5).samples
     for row, column, distance in by_hand(plan, 0.5, 0.5):
-        if found[row, column] & kernel.SWEEPABLE and abs(distance - 0.5 * BRUSH) > 0.003:
-            assert bool(found[row, column] & kernel.REACHABLE) == (distance < 0.5 * BRUSH), (row, column, distance)
+        if found[row, column] & SWEEPABLE and abs(distance - 0.5 * BRUSH) > 0.003:
+            assert bool(found[row, column] & REACHABLE) == (distance < 0.5 * BRUSH), (row, column, distance)
 
 
 def test_no_sample_in_a_wall_or_over_a_cliff_can_be_swept():
     plan = crooked(0.02, cliff=(3.4, 2.4, 4.0, 3.0))
     samples = reach(plan, quiet(), 0.5, 0.5).samples
     floor = (plan.free & ~plan.cliff).repeat(2, 0).repeat(2, 1)
-    assert ((samples & kernel.SWEEPABLE > 0) == floor).all()
-    assert not (samples & kernel.REACHABLE > 0)[~floor].any() and (samples & kernel.REACHABLE).any()
+    assert ((samples & SWEEPABLE > 0) == floor).all()
+    assert not (samples & REACHABLE > 0)[~floor].any() and (samples & REACHABLE).any()
 
 
 def test_a_robot_keeps_away_from_a_cliff_as_from_a_wall():
@@ -103,7 +103,7 @@ def test_every_start_in_the_same_region_reaches_the_same_and_the_answer_is_remem
     plan = room(5.0, 2.4, 0.02, boxes=[(2.8, 0.0, 2.9, 2.4)])
     left, again, right = (reach(plan, quiet(), x, 1.0) for x in (1.0, 2.2, 4.0))
     assert again is left and right is not left
-    assert not (left.samples & right.samples & kernel.REACHABLE).any()
+    assert not (left.samples & right.samples & REACHABLE).any()
     assert (reach(plan, quiet(), 0.4, 0.4).samples == left.samples).all()
     narrow = reach(plan, quiet(brush={'width': 0.1}), 1.0, 1.0)
     assert narrow.reachable < left.reachable

@@ -11,7 +11,7 @@ import pytest
 from pytest import approx
 from rooms import crooked, quiet
 
-from rumba_sim.model import kernel
+from rumba_sim.model.compiled import kernel_modules
 from rumba_sim.model.config import describe, from_mapping, leaves, updated
 from rumba_sim.model.constants import Constants, check_speed, constants
 from rumba_sim.model.errors import ConfigError, MapError
@@ -99,7 +99,7 @@ def test_a_constant_that_is_left_out_or_misspelt_is_an_error(name):
 
 
 def test_the_kernel_reads_every_constant_and_no_other():
-    read = {node.attr for node in ast.walk(ast.parse(inspect.getsource(kernel)))
+    read = {node.attr for module in kernel_modules() for node in ast.walk(ast.parse(inspect.getsource(module)))
             if isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name) and node.value.id == 'k'}
     assert read == set(Constants._fields)
 

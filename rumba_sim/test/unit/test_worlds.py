@@ -13,9 +13,10 @@ from rumba_sim.model.compiled import many
 from rumba_sim.model.config import updated
 from rumba_sim.model.errors import CommandError, WorldError
 from rumba_sim.model.geometry import Pose
+from rumba_sim.model.noise import NOISE_TICKS
 from rumba_sim.model.obstacle import Obstacle, walk
 from rumba_sim.model.robot_config import RobotConfig
-from rumba_sim.model.world import NOISE_TICKS, World
+from rumba_sim.model.world import World
 from rumba_sim.model.worlds import Worlds, world_with_a_robot
 
 FLOORS = [crooked(dock=Pose(3.8, 1.0, 0.0), cliff=(3.6, 2.6, 4.0, 3.0), carpet=(0.0, 0.0, 1.0, 1.0)),

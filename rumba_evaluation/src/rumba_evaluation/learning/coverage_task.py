@@ -18,7 +18,8 @@ from rumba_evaluation.trials.cases import ANYWHERE
 from rumba_sim.model.config import updated
 from rumba_sim.model.errors import ConfigError
 from rumba_sim.model.floor_plan import FloorPlan
-from rumba_sim.model.kernel import BEND, STRIDE, Array
+from rumba_sim.model.kernel import Array
+from rumba_sim.model.kernel.brush import BEND, STRIDE
 from rumba_sim.model.robot import FIRST
 from rumba_sim.model.robot_config import RobotConfig
 from rumba_sim.model.world import World

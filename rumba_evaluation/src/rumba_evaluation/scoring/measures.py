@@ -7,10 +7,10 @@ from typing import List, NamedTuple, Tuple
 import numpy as np
 from scipy import ndimage
 
-from rumba_sim.model import kernel
 from rumba_sim.model.compiled import fast
 from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.model.kernel import Array
+from rumba_sim.model.kernel.samples import PASS, REACHABLE
 from rumba_sim.model.robot import Robot
 from rumba_sim.model.world import World
 
@@ -112,7 +112,7 @@ def _wrapped(angles: Array) -> Array:
 
 def ratios(samples: Array) -> Tuple[float, float]:
     """Overlap ratio and revisit ratio of a floor, from the passes over its samples (`kernel`)."""
-    passes = (samples // kernel.PASS)[samples & kernel.REACHABLE > 0]
+    passes = (samples // PASS)[samples & REACHABLE > 0]
     swept = int(np.count_nonzero(passes))
     if not swept:
         return 0.0, 0.0

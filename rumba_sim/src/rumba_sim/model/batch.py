@@ -22,12 +22,15 @@ from typing import Tuple
 
 import numpy as np
 
-from rumba_sim.model import kernel
-from rumba_sim.model.kernel import Array, Record
+from rumba_sim.model.kernel import Array, Record, dock, ground, laser, movers, tick
+from rumba_sim.model.kernel.brush import STRIDE
+from rumba_sim.model.kernel.ground import BLOCKED, CLIFF
+from rumba_sim.model.kernel.motion import PUSH
+from rumba_sim.model.kernel.samples import REACHABLE, SWEEPABLE
 
 NO_FLOOR, WHOLE = 255, 254  # of a cell: there is no floor; all of its floor is left to be swept
-WITHOUT_FLOOR = kernel.BLOCKED | kernel.CLIFF  # bits of a cell
-ANY_BUT_SWEEPABLE = 0xFF - kernel.SWEEPABLE  # bits of a sample: REACHABLE and the passes
+WITHOUT_FLOOR = BLOCKED | CLIFF  # bits of a cell
+ANY_BUT_SWEEPABLE = 0xFF - SWEEPABLE  # bits of a sample: REACHABLE and the passes
 
 
 def advance(first: int, last: int, order: Array, ticks: Array, spans: Array, robots: Array, constants: Array,
@@ -55,12 +58,12 @@ def advance(first: int, last: int, order: Array, ticks: Array, spans: Array, rob
         things = obstacles[world, :counts[world]]
         stations = docks[plans[world], :dock_counts[plans[world]]]
         if not moving[world]:
-            kernel.advance(robot, k, things, stations, field, floor, sample, dirty, tally, noise[world], ticks[world],
-                           spans[world])
+            tick.advance(robot, k, things, stations, field, floor, sample, dirty, tally, noise[world], ticks[world],
+                         spans[world])
             continue
-        for tick in range(ticks[world], ticks[world] + spans[world]):
-            kernel.go(things, stops[world], robot, k[0])
-            kernel.advance(robot, k, things, stations, field, floor, sample, dirty, tally, noise[world], tick, 1)
+        for now in range(ticks[world], ticks[world] + spans[world]):
+            movers.go(things, stops[world], robot, k[0])
+            tick.advance(robot, k, things, stations, field, floor, sample, dirty, tally, noise[world], now, 1)
 
 
 def scan(first: int, last: int, order: Array, rows: Array, robots: Array, constants: Array, obstacles: Array,
@@ -75,8 +78,8 @@ def scan(first: int, last: int, order: Array, rows: Array, robots: Array, consta
     for index in range(first, last):
         world, row = order[index], rows[index]
         alone = slice(world, world + 1)
-        kernel.scan(robots[alone], 0, constants[alone], obstacles[world, :counts[world]],
-                    floor_of(skips[plans[world]], shapes[world]), fan, noise[row], ranges[row])
+        laser.scan(robots[alone], 0, constants[alone], obstacles[world, :counts[world]],
+                   floor_of(skips[plans[world]], shapes[world]), fan, noise[row], ranges[row])
 
 
 def infrared(first: int, last: int, order: Array, rows: Array, robots: Array, constants: Array, plans: Array,
@@ -84,7 +87,7 @@ def infrared(first: int, last: int, order: Array, rows: Array, robots: Array, co
     """What the receivers of each robot get from the docks: `beams`, uint8 (any, 3), receives omni, left, right."""
     for index in range(first, last):
         world, row = order[index], rows[index]
-        beams[row, 0], beams[row, 1], beams[row, 2] = kernel.infrared(
+        beams[row, 0], beams[row, 1], beams[row, 2] = dock.infrared(
             robots, world, constants[world:world + 1], docks[plans[world], :dock_counts[plans[world]]],
             floor_of(skips[plans[world]], shapes[world]))
 
@@ -101,7 +104,7 @@ def cliffs(first: int, last: int, order: Array, rows: Array, robots: Array, cons
     for index in range(first, last):
         world, row = order[index], rows[index]
         floor = floor_of(cells[plans[world]], shapes[world])
-        kernel.cliffs(robots, world, constants[world:world + 1], floor, distances[world], angles[world], seen[row])
+        ground.cliffs(robots, world, constants[world:world + 1], floor, distances[world], angles[world], seen[row])
 
 
 def surroundings(first: int, last: int, order: Array, rows: Array, robots: Array, constants: Array, plans: Array,
@@ -136,8 +139,8 @@ def look(robot: Record, k: Record, squares: int, cells: Array, samples: Array, l
     """
     from_row, from_column, to_row, to_column = 0, 0, left.shape[0], left.shape[1]
     driven = robot.distance - known[2]
-    if math.hypot(robot.x - known[0], robot.y - known[1]) <= driven + kernel.PUSH:  # false if it is NaN
-        near = driven + 0.5 * k.brush_width + 2.0 * kernel.STRIDE
+    if math.hypot(robot.x - known[0], robot.y - known[1]) <= driven + PUSH:  # false if it is NaN
+        near = driven + 0.5 * k.brush_width + 2.0 * STRIDE
         from_row = max(int((known[1] - near - k.origin_y) / k.resolution), 0)
         from_column = max(int((known[0] - near - k.origin_x) / k.resolution), 0)
         to_row = min(int((known[1] + near - k.origin_y) / k.resolution) + 1, to_row)
@@ -148,7 +151,7 @@ def look(robot: Record, k: Record, squares: int, cells: Array, samples: Array, l
             count = 0
             for i in range(row * squares, (row + 1) * squares):
                 for j in range(column * squares, (column + 1) * squares):
-                    count += samples[i, j] & ANY_BUT_SWEEPABLE == kernel.REACHABLE
+                    count += samples[i, j] & ANY_BUT_SWEEPABLE == REACHABLE
             left[row, column] = NO_FLOOR if cells[row, column] & WITHOUT_FLOOR else np.uint8(count * share + 0.5)
     known[0], known[1], known[2] = robot.x, robot.y, robot.distance
 

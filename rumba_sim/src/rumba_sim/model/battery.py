@@ -3,8 +3,8 @@
 import dataclasses
 import math
 
-from rumba_sim.model import kernel
 from rumba_sim.model.config import setting
+from rumba_sim.model.kernel.energy import battery_current, charge_after
 
 CELLS = 12
 # Pairs of the state of charge [0..1] and the rest voltage [V] of one NiMH cell: a flat middle part and a knee at each
@@ -63,8 +63,8 @@ class Battery:
             load: sum of the loads [A], not negative.
             on_dock: whether the charging contacts are closed.
         """
-        self.current = kernel.battery_current(self.charge, self.config, load, on_dock)
-        self.charge = kernel.charge_after(self.charge, self.config, self.current, dt)
+        self.current = battery_current(self.charge, self.config, load, on_dock)
+        self.charge = charge_after(self.charge, self.config, self.current, dt)
 
     @property
     def state_of_charge(self) -> float:

@@ -1,11 +1,13 @@
 """The kernel, compiled by numba: the same functions with the same results, about a hundred times faster.
 
-Compiled functions can call only compiled functions, and compiled code is cached until the contents of the source file
-change. So the file of the kernel is executed a second time, as a separate module in which every function is replaced by
-its compiled version. `batch` calls the kernel: its copy calls the compiled one, and its cache also lasts only until the
-file of the kernel changes. Code from the cache loads in a fraction of a second; compiling takes some seconds. All of
-that waits for the first use of `fast` or `many`, and so does the import of numba, which takes as long as that of rospy:
-a node that refuses its input, or prints its help, needs none of it.
+Compiled functions can call only compiled functions. So each module of the kernel has a twin, which differs from it only
+in that all functions of the kernel, its own and those that it imports, are compiled. `batch` calls the kernel: its twin
+calls the twins of the kernel.
+
+Compiled code is cached until the contents of any file of the kernel change; that of `batch`, also until `batch` does.
+Code from the cache loads in a fraction of a second; compiling takes some seconds. All of that waits for the first use
+of `fast` or `many`, and so does the import of numba, which takes as long as that of rospy: a node that refuses its
+input, or prints its help, needs none of it.
 
 numba caches beside the source file, or in the user's home if that folder cannot be written. If neither can, or the
 cache is damaged, or the disk is full, the kernel is compiled at each start.
@@ -14,48 +16,74 @@ cache is damaged, or the disk is full, the kernel is compiled at each start.
 import contextlib
 import functools
 import hashlib
-import importlib.util
+import importlib
 import inspect
 import os
+import pkgutil
 import sys
 import threading
-from typing import Any, Callable, List
+from types import FunctionType, ModuleType
+from typing import Any, Callable, Dict, List, Mapping, Sequence
 
 from rumba_sim.model import batch, kernel
 from rumba_sim.model.errors import one_line
 
+Twins = Dict[Any, Any]  # of modules and of their functions, by those
 
-def _compiled(name: str, path: str, **options: Any) -> Any:
-    """The module of a source file with all its functions compiled, with options of numba."""
+
+def kernel_modules() -> List[ModuleType]:
+    """The modules of the kernel as plain Python."""
+    return [importlib.import_module(f'{kernel.__name__}.{module.name}')
+            for module in pkgutil.iter_modules(kernel.__path__)]
+
+
+def _kernel_files() -> List[str]:
+    return [inspect.getfile(module) for module in (kernel, *kernel_modules())]
+
+
+def _compiled_kernel() -> Twins:
+    return _twins(kernel_modules(), _kernel_files(), {})
+
+
+def _compiled_batch() -> Twins:
+    """The twin of `batch`, whose functions let other threads work meanwhile."""
+    return _twins([batch], [batch.__file__, *_kernel_files()], fast.twins, nogil=True)
+
+
+def _twins(modules: Sequence[ModuleType], paths: Sequence[str], others: Mapping[Any, Any], **options: Any) -> Twins:
+    """The twins of modules and of their functions, compiled with options of numba.
+
+    Args:
+        modules: they may import each other and each other's functions.
+        paths: the files that the compiled code depends on.
+        others: twins of what else they import and call.
+    """
     import numba
-    spec = importlib.util.spec_from_file_location(f'{__name__}_{name}', path)
-    if spec is None or spec.loader is None:
-        raise ImportError(f'{path} is not a Python module')
-    module = importlib.util.module_from_spec(spec)
-    sys.modules[spec.name] = module  # numba looks for the module there when it loads code from its cache
-    spec.loader.exec_module(module)
-    for name, function in inspect.getmembers(module, inspect.isfunction):
-        setattr(module, name, _cached(numba.njit(function, **options), path))
-    return module
+    twins: Twins = {module: ModuleType(module.__name__) for module in modules}
+    for module in modules:
+        names = twins[module].__dict__
+        names.update(module.__dict__)
+        for function in functions_of(module):
+            copy = FunctionType(function.__code__, names, argdefs=function.__defaults__)
+            twins[function] = _cached(numba.njit(copy, **options), *paths)
+    known = {**others, **twins}
+    for module in modules:
+        twins[module].__dict__.update({name: known[value] for name, value in module.__dict__.items()
+                                       if isinstance(value, (FunctionType, ModuleType)) and value in known})
+    return twins
 
 
-def _compiled_kernel() -> Any:
-    return _compiled('kernel', kernel.__file__)
+def functions_of(module: ModuleType) -> List[FunctionType]:
+    """The functions that a module defines, without those that it imports."""
+    return [function for _, function in inspect.getmembers(module, inspect.isfunction)
+            if function.__module__ == module.__name__]
 
 
-def _compiled_batch() -> Any:
-    """The functions of `batch`, which call the compiled kernel, and let other threads work meanwhile."""
-    module = _compiled('batch', batch.__file__, nogil=True)
-    module.kernel = fast.module
-    for _, function in inspect.getmembers(module, lambda member: isinstance(getattr(member, '_cache', None), _Cache)):
-        function._cache.depends_on(batch.__file__, kernel.__file__)
-    return module
-
-
-def _cached(function: Any, path: str) -> Any:
-    """A compiled function of a source file with its cache, if there is a place for one."""
+def _cached(function: Any, *paths: str) -> Any:
+    """A compiled function with its cache, if there is a place for one; it depends on source files."""
     import numba
-    if not (numba.config.CACHE_DIR or os.access(os.path.dirname(path), os.W_OK) or _knows_home()):
+    folder = os.path.dirname(function.py_func.__code__.co_filename)
+    if not (numba.config.CACHE_DIR or os.access(folder, os.W_OK) or _knows_home()):
         _say('no home folder is known')  # numba would take ~ for the name of a folder here, and make it
         return function
     try:
@@ -63,8 +91,7 @@ def _cached(function: Any, path: str) -> Any:
     except (RuntimeError, OSError) as exc:
         _say(str(exc))
     else:
-        function._cache = _Cache(function._cache)
-        function._cache.depends_on(path)
+        function._cache = _Cache(function._cache, paths)
     return function
 
 
@@ -75,18 +102,16 @@ def _knows_home() -> bool:
 class _Cache:
     """A cache of numba whose errors are no reason to fail."""
 
-    def __init__(self, cache: Any) -> None:
-        self._cache = cache
-
-    def __getattr__(self, name: str) -> Any:
-        return getattr(self._cache, name)
-
-    def depends_on(self, *paths: str) -> None:
+    def __init__(self, cache: Any, paths: Sequence[str]) -> None:
         """Count what is in the cache as out of date once one of these files has other contents.
 
         numba would go by their time: then a copy of the files would need compiling again, as an installation is one.
         """
-        self._cache._cache_file._source_stamp = [_digest(path) for path in paths]
+        self._cache = cache
+        cache._cache_file._source_stamp = [_digest(path) for path in paths]
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self._cache, name)
 
     def load_overload(self, *what: Any) -> Any:
         """The compiled code, or None if it is not in the cache or cannot be read."""
@@ -121,24 +146,26 @@ def _say(reason: str) -> None:
 
 
 class _Fast:
-    """A compiled module, which is loaded when its first function is asked for."""
+    """The compiled functions of modules by their names, which are loaded when the first is asked for."""
 
-    def __init__(self, load: Callable[[], Any]) -> None:
+    def __init__(self, load: Callable[[], Twins]) -> None:
         self._load = load
-        self._module: Any = None
+        self._twins: Twins = {}
 
     @property
-    def module(self) -> Any:
-        """The module itself."""
+    def twins(self) -> Twins:
+        """The twins of the modules and of their functions."""
         with _loading:  # another thread may ask too
-            if self._module is None:
-                self._module = self._load()
-        return self._module
+            if not self._twins:
+                self._twins = self._load()
+        return self._twins
 
     def __getattr__(self, name: str) -> Any:
-        function = getattr(self.module, name)
-        setattr(self, name, function)
-        return function
+        for plain, twin in self.twins.items():
+            if plain.__name__ == name:
+                setattr(self, name, twin)
+                return twin
+        raise AttributeError(f'there is no compiled function {name!r}')
 
 
 _said: List[str] = []

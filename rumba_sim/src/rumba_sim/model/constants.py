@@ -6,13 +6,13 @@ from typing import Any, Dict, NamedTuple
 
 import numpy as np
 
-from rumba_sim.model import kernel
 from rumba_sim.model.errors import ConfigError, MapError
 from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.model.kernel import Array
+from rumba_sim.model.kernel.samples import MOST_PASSES
 from rumba_sim.model.robot_config import RobotConfig
 
-FORMATS: Dict[Any, str] = {float: 'f8', int: 'i8', bool: '?', Array: f'({kernel.MOST_PASSES + 1},)f8'}
+FORMATS: Dict[Any, str] = {float: 'f8', int: 'i8', bool: '?', Array: f'({MOST_PASSES + 1},)f8'}
 
 
 class Constants(NamedTuple):
@@ -114,7 +114,7 @@ def _values(config: RobotConfig, plan: FloorPlan, step_rate: float) -> Constants
         release_distance=dock.release_distance, release_angle=dock.release_angle, buoy_range=dock.buoy_range,
         buoy_half=0.5 * dock.buoy_field, buoy_overlap_half=0.5 * dock.buoy_overlap, halo=dock.halo,
         brush_width=brush.width, sample_pitch=plan.sample_pitch,
-        takes=brush.pickup * (1.0 - brush.pickup) ** np.arange(kernel.MOST_PASSES + 1), capacity=battery.capacity,
+        takes=brush.pickup * (1.0 - brush.pickup) ** np.arange(MOST_PASSES + 1), capacity=battery.capacity,
         idle_current=battery.idle_current, wheel_current_slow=battery.wheel_current_slow,
         wheel_current=battery.wheel_current, wheel_speed=battery.wheel_speed, brush_current=battery.brush_current,
         charge_current=battery.charge_current, trickle_current=battery.trickle_current,

@@ -4,10 +4,10 @@ import math
 
 import numpy as np
 
-from rumba_sim.model import kernel
 from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.kernel import Array
+from rumba_sim.model.kernel.ground import BLOCKED, CARPET, CLIFF
 from rumba_sim.model.robot_config import RobotConfig
 from rumba_sim.model.sweep import Sweep
 
@@ -21,7 +21,7 @@ class Floor:
     """The floor of a plan that can be cleaned, and how far it is clean.
 
     Attributes:
-        cells: uint8 (rows, columns), the bits BLOCKED, CLIFF and CARPET of `kernel`.
+        cells: uint8 (rows, columns), the bits BLOCKED, CLIFF and CARPET of `kernel.ground`.
         dirt: float32 (rows, columns), on each cell in the beginning.
         sweep: what was swept since then.
     """
@@ -38,8 +38,8 @@ class Floor:
         Raises:
             MapError: a robot does not fit at the start.
         """
-        self.cells = np.where(plan.free, 0, kernel.BLOCKED).astype(np.uint8)
-        for layer, bit in ((plan.cliff, kernel.CLIFF), (plan.carpet, kernel.CARPET)):
+        self.cells = np.where(plan.free, 0, BLOCKED).astype(np.uint8)
+        for layer, bit in ((plan.cliff, CLIFF), (plan.carpet, CARPET)):
             if layer is not None:
                 self.cells[layer & plan.free] |= bit
         self.dirt = _random_dirt(plan, generator)

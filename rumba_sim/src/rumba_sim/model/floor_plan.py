@@ -9,17 +9,17 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Optional, Sequence, Tuple
 import numpy as np
 from scipy import ndimage
 
-from rumba_sim.model import kernel
 from rumba_sim.model.compiled import fast
 from rumba_sim.model.errors import MapError
 from rumba_sim.model.geometry import Pose
+from rumba_sim.model.kernel.beams import IN_WALL
 
 if TYPE_CHECKING:  # NumPy 1.17 of Ubuntu 20.04 has no numpy.typing
     from numpy.typing import NDArray
 
 OCCUPIED, FREE, UNKNOWN = 100, 0, -1  # the values of nav_msgs/OccupancyGrid
 MAX_CELLS = 25_000_000  # the distance fields of a larger map would need gigabytes
-MAX_SKIP = kernel.IN_WALL - 1  # [cells]
+MAX_SKIP = IN_WALL - 1  # [cells]
 FINE = 0.025  # [m] side of the cells of a refined plan, at most: 36 of them cover a robot
 SAMPLE_PITCH = 0.01  # [m] side of the squares with one sample point each, at most: 17 of them lie across a brush
 MAX_SAMPLES = 25_000_000  # a byte each; on larger floors the squares are larger
@@ -55,7 +55,7 @@ class FloorPlan:
         clearance: float64 (rows + 1, columns + 1), exact distance from each node to the nearest obstacle [m],
             0 inside an obstacle and on its border. C-contiguous.
         skips: uint8 (rows, columns), how many cells a beam may skip from any point of a cell, in any direction,
-            without entering an obstacle, at most MAX_SKIP; kernel.IN_WALL in an obstacle.
+            without entering an obstacle, at most MAX_SKIP; IN_WALL in an obstacle.
         safe_clearance: as `clearance`, but cliffs count as obstacles too: where a robot may plan to go.
     """
 
@@ -83,7 +83,7 @@ class FloorPlan:
             raise MapError(f'{name}: no free floor: every cell is wall or unknown')
         distances = _distances(free)
         self.clearance = distances * self.resolution
-        self.skips = np.where(free, _skips(distances), np.uint8(kernel.IN_WALL))
+        self.skips = np.where(free, _skips(distances), np.uint8(IN_WALL))
         self._refined: Optional[FloorPlan] = None
         self.safe_clearance = self.clearance
         if self.cliff is not None:

@@ -3,7 +3,7 @@
 import math
 from typing import NamedTuple, Tuple
 
-from rumba_sim.model import kernel
+from rumba_sim.model.kernel.geometry import wrap
 
 
 class Pose(NamedTuple):
@@ -16,7 +16,7 @@ class Pose(NamedTuple):
 
 def wrap_angle(angle: float) -> float:
     """The same direction as an angle in (-pi, pi] [rad]."""
-    return kernel.wrap(angle)
+    return wrap(angle)
 
 
 def compose(frame: Pose, pose: Pose) -> Pose:

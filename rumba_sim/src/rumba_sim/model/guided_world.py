@@ -4,10 +4,11 @@ from typing import Optional
 
 import numpy as np
 
-from rumba_sim.model import kernel
 from rumba_sim.model.compiled import fast
 from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.model.geometry import Pose
+from rumba_sim.model.kernel import Array
+from rumba_sim.model.kernel.records import ROBOT
 from rumba_sim.model.robot import Robot, Twist, put
 from rumba_sim.model.robot_config import RobotConfig
 from rumba_sim.model.world import World
@@ -43,7 +44,7 @@ class GuidedWorld:
         """
         self.world = World(plan, config, step_rate, seed)
         self._name = name
-        self._wheels: kernel.Array = np.zeros(1, kernel.ROBOT)  # of a robot that drives as `wish` says ...
+        self._wheels: Array = np.zeros(1, ROBOT)  # of a robot that drives as `wish` says ...
         self._driving = self.world.spawn(name, None, state_of_charge, brushes_up)  # ... which is this one
 
     @property

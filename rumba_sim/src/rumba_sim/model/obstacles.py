@@ -6,12 +6,13 @@ from typing import Dict, Iterator, List, Sequence, Tuple
 
 import numpy as np
 
-from rumba_sim.model import kernel
 from rumba_sim.model.compiled import fast
 from rumba_sim.model.errors import WorldError
 from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.model.geometry import Pose, wrap_angle
 from rumba_sim.model.kernel import Array, Record
+from rumba_sim.model.kernel.movers import pause
+from rumba_sim.model.kernel.records import OBSTACLE
 from rumba_sim.model.name import check_name
 from rumba_sim.model.obstacle import Obstacle, Stop
 
@@ -24,7 +25,7 @@ class Obstacles:
 
     Attributes:
         items: obstacles by name, in the order in which they were added.
-        records: array of `kernel.OBSTACLE`, in the same order.
+        records: array of records of type OBSTACLE, in the same order.
         stops: float64 (stops of all movers, 6), as for `kernel`.
         has_movers: whether one of them moves.
     """
@@ -41,7 +42,7 @@ class Obstacles:
         self._seed = seed
         self._radius = radius
         self.items: Dict[str, Obstacle] = {}
-        self.records: Array = np.zeros(0, kernel.OBSTACLE)
+        self.records: Array = np.zeros(0, OBSTACLE)
         self.stops: Array = np.zeros((0, 6))
         self.has_movers = False
 
@@ -82,7 +83,7 @@ class Obstacles:
         self.begin()
 
     def step(self, robots: Array, constants: Record) -> None:
-        """Let the movers go on for one tick; they wait for robots (array of `kernel.ROBOT`)."""
+        """Let the movers go on for one tick; they wait for robots (records of type ROBOT)."""
         fast.go(self.records, self.stops, robots, constants)
 
     def poses(self) -> Iterator[Tuple[Obstacle, Pose]]:
@@ -97,13 +98,6 @@ class Obstacles:
                 return name
         return ''
 
-    def arrays(self) -> Dict[str, Array]:
-        """What changes while movers move, by name; nothing without obstacles."""
-        if not self.items:
-            return {}
-        records = {f'obstacles/{name}': self.records[name] for name in kernel.OBSTACLE.names or ()}
-        return {**records, 'stops': self.stops}
-
     def _take(self, items: Dict[str, Obstacle], records: Array) -> None:
         self.items, self.records = items, records
         stops = [_row(stop, self._step_rate) for obstacle in items.values() for stop in obstacle.stops]
@@ -114,7 +108,7 @@ class Obstacles:
 
     def _begun(self, obstacle: Obstacle) -> Array:
         """Array of the one record of an obstacle that begins; `first` is left open."""
-        records = np.zeros(1, kernel.OBSTACLE)
+        records = np.zeros(1, OBSTACLE)
         record = records[0]
         record['x'], record['y'], record['theta'] = obstacle.pose
         record['cos'], record['sin'] = math.cos(obstacle.pose.theta), math.sin(obstacle.pose.theta)
@@ -124,7 +118,7 @@ class Obstacles:
         record['key'] = np.random.SeedSequence(self._seed, spawn_key=(MOVER, zlib.crc32(obstacle.name.encode()))
                                                ).generate_state(1)[0] >> 1
         if obstacle.stops:
-            record['rest'] = kernel.pause(record, np.array([_row(obstacle.stops[0], self._step_rate)]))
+            record['rest'] = pause(record, np.array([_row(obstacle.stops[0], self._step_rate)]))
         return records
 
     def _check_steps(self, obstacle: Obstacle) -> None:
@@ -149,6 +143,20 @@ def _row(stop: Stop, step_rate: float) -> List[float]:
 def _ticks(stop: Stop, step_rate: float) -> float:
     """How long the way to a stop takes, at least one tick."""
     return max(stop.travel * step_rate, 1.0)
+
+
+def check_inside(obstacle: Obstacle, plan: FloorPlan) -> None:
+    """Check that an obstacle is on the map, wherever it moves.
+
+    Raises:
+        WorldError: it lies outside.
+    """
+    left, bottom, right, top = plan.bounds
+    for x, y, _ in [obstacle.pose, *(stop.pose for stop in obstacle.stops)]:
+        if not (left - obstacle.reach < x < right + obstacle.reach
+                and bottom - obstacle.reach < y < top + obstacle.reach):
+            raise WorldError(f'{obstacle.name} at ({x:.2f}, {y:.2f}) m lies outside the map (x {left:.2f} to '
+                             f'{right:.2f} m, y {bottom:.2f} to {top:.2f} m)')
 
 
 def kept_clear(plan: FloorPlan, constants: Record, obstacles: Obstacles) -> FloorPlan:

@@ -6,12 +6,12 @@ from typing import NamedTuple, Tuple
 import numpy as np
 from scipy import ndimage
 
-from rumba_sim.model import kernel
 from rumba_sim.model.compiled import fast
 from rumba_sim.model.constants import clearance_needed
 from rumba_sim.model.floor_plan import ROUNDING, FloorPlan
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.kernel import Array
+from rumba_sim.model.kernel.samples import SWEEPABLE
 from rumba_sim.model.robot_config import RobotConfig
 
 SLACK = 0.003  # [m] on each side of a robot in a passage, at least: no robot drives through a narrower one; our choice
@@ -22,7 +22,7 @@ class Reach(NamedTuple):
     """What a robot can reach from where it is; the arrays are not to be changed."""
 
     stands: Array  # bool (2 * rows + 1, 2 * columns + 1), see `stands`
-    samples: Array  # uint8 (n * rows, n * columns), the bits SWEEPABLE and REACHABLE of `kernel`
+    samples: Array  # uint8 (n * rows, n * columns), the bits SWEEPABLE and REACHABLE of `kernel.samples`
     reachable: int  # number of reachable samples
 
 
@@ -101,4 +101,4 @@ def _sweepable(plan: FloorPlan) -> Array:
     """The samples of a plan, with the bit SWEEPABLE where there is floor."""
     floor = plan.free if plan.cliff is None else plan.free & ~plan.cliff
     squares = plan.sample_squares
-    return (floor * np.uint8(kernel.SWEEPABLE)).repeat(squares, 0).repeat(squares, 1)
+    return (floor * np.uint8(SWEEPABLE)).repeat(squares, 0).repeat(squares, 1)

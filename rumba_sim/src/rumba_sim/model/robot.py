@@ -5,20 +5,21 @@ from typing import Any, MutableSequence, NamedTuple, Optional, Tuple
 
 import numpy as np
 
-from rumba_sim.model import kernel
 from rumba_sim.model.battery import Battery
 from rumba_sim.model.errors import CommandError
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.kernel import Array, Record
+from rumba_sim.model.kernel.bumper import LEFT, RIGHT
+from rumba_sim.model.kernel.records import NEVER, ROBOT
 from rumba_sim.model.robot_config import RobotConfig
 
 FIRST = 'rumba'  # name of the first robot
-PLAIN = np.dtype((np.void, kernel.ROBOT))  # its elements are read in half the time that those of np.record take
+PLAIN = np.dtype((np.void, ROBOT))  # its elements are read in half the time that those of np.record take
 
 
 def _places(*names: str) -> Tuple[int, ...]:
     """Where fields of the record of a robot are in its memory, in units of their own size."""
-    fields: Any = kernel.ROBOT.fields
+    fields: Any = ROBOT.fields
     return tuple(fields[name][1] // fields[name][0].itemsize for name in names)
 
 
@@ -45,7 +46,7 @@ class Twist(NamedTuple):
 
 
 class Infrared(NamedTuple):
-    """Beams of the dock that each receiver gets: sums of the bits FORCE_FIELD, GREEN_BUOY, RED_BUOY of `kernel`."""
+    """Beams of the dock that each receiver gets: sums of FORCE_FIELD, GREEN_BUOY, RED_BUOY (`kernel.dock`)."""
 
     omni: int
     left: int
@@ -67,7 +68,7 @@ class Robot:
         name: name, unique in its world.
         start: how it began.
         config: configuration of the robot.
-        state: its record (`kernel.ROBOT`) in the array of the world.
+        state: its record (of type ROBOT) in the array of the world.
     """
 
     def __init__(self, name: str, start: Start, config: RobotConfig, record: Array) -> None:
@@ -78,7 +79,7 @@ class Robot:
         self.hold(record)
 
     def hold(self, record: Array) -> None:
-        """Be in this record from now on: an array of one element of type `kernel.ROBOT`.
+        """Be in this record from now on: an array of one record of type ROBOT.
 
         Its fields are read through memoryviews, which takes a fifth of the time that it takes through NumPy.
         """
@@ -153,7 +154,7 @@ class Robot:
     def bumper(self) -> Tuple[bool, bool]:
         """Whether the left and the right switch are pressed."""
         bits = self._bytes[BUMPER]
-        return bool(bits & kernel.LEFT), bool(bits & kernel.RIGHT)
+        return bool(bits & LEFT), bool(bits & RIGHT)
 
     @property
     def contact_angle(self) -> Optional[float]:
@@ -192,7 +193,7 @@ def put(state: Record, pose: Pose) -> None:
     for name in ('left_speed', 'right_speed', 'command_v', 'command_w', 'odom_v', 'odom_w'):
         state[name] = 0.0
     state['x'], state['y'], state['theta'] = pose
-    state['command_tick'] = kernel.NEVER
+    state['command_tick'] = NEVER
     state['contact_angle'] = math.nan
     for name in ('bumper', 'fallen', 'docked', 'sweeps'):
         state[name] = 0

@@ -4,11 +4,12 @@ from typing import NamedTuple, Tuple
 
 import numpy as np
 
-from rumba_sim.model import kernel
 from rumba_sim.model.compiled import fast
 from rumba_sim.model.constants import constants
 from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.model.kernel import Array
+from rumba_sim.model.kernel.records import TALLY
+from rumba_sim.model.kernel.samples import PASS, REACHABLE, SWEEPABLE
 from rumba_sim.model.reachability import reach
 from rumba_sim.model.robot_config import RobotConfig
 
@@ -30,7 +31,7 @@ class Sweep:
 
     Attributes:
         samples: uint8 (n * rows, n * columns), as for `kernel`.
-        tally: array of one record (`kernel.TALLY`): number of swept reachable samples, and dirt left on those.
+        tally: array of one record of type TALLY: number of swept reachable samples, and dirt left on those.
         reachable: number of reachable samples.
     """
 
@@ -45,7 +46,7 @@ class Sweep:
         self._config = config
         self._constants = constants(config, plan, ANY_RATE)
         self._no_dirt = np.zeros((plan.rows, plan.columns), np.float32)
-        self.tally = np.zeros(1, kernel.TALLY)
+        self.tally = np.zeros(1, TALLY)
         size = plan.sample_squares
         self.samples: Array = np.zeros((plan.rows * size, plan.columns * size), np.uint8)
         self.reachable = 0
@@ -72,11 +73,11 @@ class Sweep:
         pitch = self._plan.sample_pitch
         across, up = (round((theirs - ours) / pitch) for theirs, ours in zip(other._plan.origin, self._plan.origin))
         ours, theirs = _common(self.samples.shape, other.samples.shape, (up, across))
-        passes = other.samples[theirs] & ~np.uint8(kernel.PASS - 1)
+        passes = other.samples[theirs] & ~np.uint8(PASS - 1)
         window = self.samples[ours]
-        window += np.where(window & kernel.SWEEPABLE, passes, 0).astype(np.uint8)
+        window += np.where(window & SWEEPABLE, passes, 0).astype(np.uint8)
         self.tally[0]['swept'] = np.count_nonzero(
-            (self.samples & kernel.REACHABLE > 0) & (self.samples >= kernel.PASS))
+            (self.samples & REACHABLE > 0) & (self.samples >= PASS))
 
     def pass_over(self, starts: Array, ends: Array) -> None:
         """Let a brush pass from poses to others that are near, map frame.
@@ -112,8 +113,8 @@ class Sweep:
         if not self.reachable or plan.safe_clearance_at(x, y) < self._config.drive.radius:
             return Part(1.0, self.coverage)
         found = reach(plan, self._config, x, y)
-        is_reachable = found.samples & kernel.REACHABLE > 0
-        return Part(found.reachable / self.reachable, float((self.samples[is_reachable] >= kernel.PASS).mean()))
+        is_reachable = found.samples & REACHABLE > 0
+        return Part(found.reachable / self.reachable, float((self.samples[is_reachable] >= PASS).mean()))
 
     def counts(self, squares: int) -> Tuple[Array, Array]:
         """Numbers of samples that can be reached, and of these that were swept, in blocks of squares.
@@ -124,15 +125,15 @@ class Sweep:
         Returns:
             Two arrays, uint16 (rows, columns) of the blocks.
         """
-        is_reachable = self.samples & kernel.REACHABLE > 0
-        is_swept = is_reachable & (self.samples >= kernel.PASS)
+        is_reachable = self.samples & REACHABLE > 0
+        is_swept = is_reachable & (self.samples >= PASS)
         return _sums(is_reachable, squares), _sums(is_swept, squares)
 
     def missing_share(self) -> Array:
         """Share of each cell's area that can be reached and was not swept [0..1]: float32 (rows, columns)."""
         squares = self._plan.sample_squares
-        is_missing = self.samples & kernel.REACHABLE > 0
-        is_missing &= self.samples < kernel.PASS
+        is_missing = self.samples & REACHABLE > 0
+        is_missing &= self.samples < PASS
         return _sums(is_missing, squares) / np.float32(squares ** 2)
 
 

@@ -7,25 +7,23 @@ from typing import Any, Dict, List, Optional, Sequence, Tuple
 
 import numpy as np
 
-from rumba_sim.model import kernel, robot, world_state
+from rumba_sim.model import robot, world_state
 from rumba_sim.model.compiled import fast
 from rumba_sim.model.constants import check_speed, constants
-from rumba_sim.model.errors import ConfigError, MapError, WorldError
+from rumba_sim.model.errors import ConfigError, WorldError
 from rumba_sim.model.floor import Floor
 from rumba_sim.model.floor_plan import FloorPlan
-from rumba_sim.model.geometry import Pose, wrap_angle
+from rumba_sim.model.free_space import FreeSpace
+from rumba_sim.model.geometry import Pose
 from rumba_sim.model.kernel import Array
+from rumba_sim.model.kernel.records import ROBOT
+from rumba_sim.model.noise import FLOOR, NOISE_TICKS, Noise, generator
 from rumba_sim.model.obstacle import Obstacle
-from rumba_sim.model.obstacles import Obstacles, kept_clear
-from rumba_sim.model.reachability import stands
+from rumba_sim.model.obstacles import Obstacles, check_inside, kept_clear
 from rumba_sim.model.robot import Infrared, Robot, Start
 from rumba_sim.model.robot_config import RobotConfig
 from rumba_sim.model.world_arrays import WorldArrays
 from rumba_sim.model.world_state import Member, WorldState
-
-NOISE_TICKS = 256  # ticks for which the noise of the wheels is drawn at once
-APART, TOUCHING = 0.5, 0.0  # radii between a robot that is added and the others, if there is room, and if not
-FLOOR, WHEELS, LASER = 0, 1, 2  # purposes of random generators, beside that of `Obstacles`
 
 
 class World:
@@ -42,6 +40,7 @@ class World:
         constants: array of the one record that the kernel reads (`constants.Constants`).
         start: pose of the first robot if none is given.
         floor: which cells are swept, and the dirt on them.
+        noise: of the wheels and lasers of the robots.
         robots: robots by name, in the order in which they were added.
         obstacles: what else stands or moves there; `add_obstacle` and `remove_obstacle` change it.
         tick: number of ticks since the beginning or the last reset.
@@ -73,18 +72,17 @@ class World:
         self.terrain = plan.refined()
         self.constants = constants(self._config, self.terrain, step_rate)
         self.robots: Dict[str, Robot] = {}
-        self._states: Array = np.zeros(0, kernel.ROBOT)
+        self._states: Array = np.zeros(0, ROBOT)
         self.version = 0
         self.obstacles = Obstacles(step_rate, seed, self._config.drive.radius)
         for obstacle in obstacles:
             self.add_obstacle(obstacle)
         self._at_start = tuple(obstacles)
         self.reachable_plan = kept_clear(self.terrain, self.constants[0], self.obstacles)
-        self.start = self._checked_start()
-        self._noise: Array = np.zeros((0, NOISE_TICKS, 2))
-        self._wheels: List[np.random.Generator] = []
-        self._lasers: List[np.random.Generator] = []
-        self._spawned = 0
+        self._space = FreeSpace(self.terrain, self.reachable_plan, self.obstacles, self._config.drive.radius,
+                                float(self.constants[0]['reach']))
+        self.start = self._space.start
+        self.noise = Noise(seed)
         self.fan = _fan(self._config.laser.beams)
         self._cliff_angles = np.array(self._config.cliff.angles)
         self._docks: Array = np.reshape(np.array(plan.docks, np.float64), (-1, 3))
@@ -93,7 +91,7 @@ class World:
     def _begin(self) -> None:
         self.tick = 0
         self.obstacles.begin()
-        self.floor = Floor(self.reachable_plan, self._config, self.start, self._generator(FLOOR, 0))
+        self.floor = Floor(self.reachable_plan, self._config, self.start, generator(self.seed, FLOOR, 0))
         self._renew()
 
     def _renew(self) -> None:
@@ -105,25 +103,8 @@ class World:
         """The arrays that a tick needs; kept together, since finding them takes as long as a tenth of a tick."""
         floor = self.floor
         self._inputs = (self._states, self.constants, self.obstacles.records, self._docks, self.terrain.clearance,
-                        floor.cells, floor.sweep.samples, floor.dirt, floor.sweep.tally, self._noise)
+                        floor.cells, floor.sweep.samples, floor.dirt, floor.sweep.tally, self.noise.wheels)
         return self._inputs
-
-    def _checked_start(self) -> Pose:
-        """The start of the plan, else the dock, else the position with the largest clearance."""
-        radius = float(self.constants[0]['reach'])
-        start = self.plan.start or self.plan.dock or self.reachable_plan.most_open_pose()
-        for what, pose in [*(('dock', dock) for dock in self.plan.docks), ('start', start)]:
-            self.terrain.check_pose(pose, radius, what)
-            # The clearance is interpolated, and smaller than the distance near a corner of an obstacle.
-            is_free = self.reachable_plan.safe_clearance_at(pose.x, pose.y) >= radius
-            name = self.obstacles.near(pose.x, pose.y, radius + (0.0 if is_free else self.terrain.resolution))
-            if name:
-                raise WorldError(f'{name!r} stands at the {what}, ({pose.x:.2f}, {pose.y:.2f}) m: no robot fits '
-                                 'there')
-        return start
-
-    def _generator(self, purpose: int, number: int) -> np.random.Generator:
-        return np.random.default_rng(np.random.SeedSequence(self.seed, spawn_key=(purpose, number)))
 
     # --- time -----------------------------------------------------------------------------------------------------
 
@@ -138,7 +119,7 @@ class World:
         while ticks > 0:
             row = self.tick % NOISE_TICKS
             if row == 0:
-                self.draw_noise()
+                self.noise.draw(self.tick)
             now = ticks if ticks < NOISE_TICKS - row else NOISE_TICKS - row
             if obstacles.has_movers:
                 now = 1
@@ -151,9 +132,9 @@ class World:
         """Simulate one tick in which something else moves the robots.
 
         Args:
-            led: poses of the robots after the tick, in the order of `robots`, as for `kernel.follow`.
+            led: poses of the robots after the tick, in the order of `robots`, as for `kernel.tick.follow`.
         """
-        self.draw_noise()
+        self.noise.draw(self.tick)
         if self.obstacles.has_movers:
             self.obstacles.step(self._states, self.constants[0])
         fast.follow(*(self._inputs or self._found_inputs()), self.tick, led)
@@ -164,7 +145,7 @@ class World:
         before = list(self.robots.values())
         for member in before:
             self.kill(member.name)
-        self._spawned = 0
+        self.noise.spawned = 0
         self._begin()
         for member in before:
             try:
@@ -215,16 +196,11 @@ class World:
             raise WorldError(f'{name!r} is taken: robots are {", ".join(self.robots)}')
         if not 0.0 <= state_of_charge <= 1.0:
             raise WorldError(f'state of charge is {state_of_charge}: must be 0 to 1')
-        start = Start(self._free_start() if pose is None else self.check(pose), state_of_charge, brushes_up)
-        number = self._spawned
-        self._spawned += 1
-        wheels, laser = self._generator(WHEELS, number), self._generator(LASER, number)
-        state = np.zeros(1, kernel.ROBOT)
-        scales = wheels.normal(0.0, self._config.odometry.scale_error, 2)
+        where = self._space.nearest(self._poses()) if pose is None else self.check(pose)
+        start = Start(where, state_of_charge, brushes_up)
+        state = np.zeros(1, ROBOT)
+        scales = self.noise.add(self._config.odometry.scale_error)
         robot.begin(state[0], start, self._config.battery.capacity, scales)
-        self._wheels.append(wheels)
-        self._lasers.append(laser)
-        self._noise = np.concatenate([self._noise, wheels.standard_normal((1, NOISE_TICKS, 2))])
         self.robots[name] = Robot(name, start, self._config, state)
         self._take(np.concatenate([self._states, state]))
         return self.robots[name]
@@ -236,8 +212,8 @@ class World:
             WorldError: there is no robot of that name.
         """
         index = self._index(name)
-        del self.robots[name], self._wheels[index], self._lasers[index]
-        self._noise = np.delete(self._noise, index, axis=0)
+        del self.robots[name]
+        self.noise.remove(index)
         self._take(np.delete(self._states, index))
 
     def teleport(self, name: str, pose: Pose) -> None:
@@ -263,20 +239,10 @@ class World:
         Raises:
             WorldError: a number is not finite, or the robot does not fit beside walls, cliffs, obstacles and robots.
         """
-        if not all(map(math.isfinite, pose)):
-            raise WorldError(f'pose ({pose.x}, {pose.y}, {pose.theta}): must be finite numbers')
-        try:
-            self.terrain.check_pose(pose, float(self.constants[0]['reach']), 'pose')
-        except MapError as error:
-            raise WorldError(str(error)) from None
-        for other in self.robots.values():
-            gap = math.hypot(other.pose.x - pose.x, other.pose.y - pose.y) - 2.0 * self._config.drive.radius
-            if other.name != name and gap < 0.0:
-                raise WorldError(f'({pose.x:.2f}, {pose.y:.2f}) m: {other.name!r} stands there')
-        obstacle = self.obstacles.near(pose.x, pose.y, self._config.drive.radius)
-        if obstacle:
-            raise WorldError(f'({pose.x:.2f}, {pose.y:.2f}) m: the obstacle {obstacle!r} stands there')
-        return Pose(pose.x, pose.y, wrap_angle(pose.theta))
+        return self._space.check(pose, {other: where for other, where in self._poses().items() if other != name})
+
+    def _poses(self) -> Dict[str, Pose]:
+        return {name: member.pose for name, member in self.robots.items()}
 
     def _take(self, states: Array) -> None:
         """Use these states from now on, after robots were added, removed or moved: any two of them may be close now."""
@@ -291,29 +257,6 @@ class World:
             raise WorldError(f'there is no robot {name!r}: robots are {", ".join(self.robots) or "none"}')
         return list(self.robots).index(name)
 
-    def _free_start(self) -> Pose:
-        """The start, or a dock if that is one, or the free position nearest to it that a robot can drive to from there.
-
-        The free position is a little apart from other robots.
-        """
-        others = [member.pose for member in self.robots.values()]
-        radius = self._config.drive.radius
-        for place in (self.start, *(self.plan.further_docks if self.plan.start is None else ())):
-            if all(math.hypot(pose.x - place.x, pose.y - place.y) >= 2.0 * radius for pose in others) and (
-                    not self.obstacles.near(*place[:2], radius)):
-                return self.check(place)
-        where = np.argwhere(stands(self.reachable_plan, float(self.constants[0]['reach']), self.start.x, self.start.y))
-        points = 0.5 * self.terrain.resolution * where[:, ::-1] + self.terrain.origin
-        points = points[np.argsort(np.hypot(*(points - self.start[:2]).T), kind='stable')]
-        for gap in (APART, TOUCHING):
-            free = np.ones(len(points), np.bool_)
-            for pose in others:
-                free &= np.hypot(*(points - pose[:2]).T) >= (2.0 + gap) * radius
-            for x, y in map(np.ndarray.tolist, points[free]):  # as a rule the first will do
-                if not self.obstacles.near(x, y, radius):
-                    return self.check(Pose(x, y, self.start.theta))
-        raise WorldError(f'{self.plan.name}: no room for another robot')
-
     # --- obstacles ------------------------------------------------------------------------------------------------
 
     def add_obstacle(self, obstacle: Obstacle) -> None:
@@ -322,12 +265,7 @@ class World:
         Raises:
             WorldError: its name is taken, it lies outside the map or on a robot, or it cannot be an obstacle.
         """
-        left, bottom, right, top = self.terrain.bounds
-        for x, y, _ in [obstacle.pose, *(stop.pose for stop in obstacle.stops)]:
-            if not (left - obstacle.reach < x < right + obstacle.reach
-                    and bottom - obstacle.reach < y < top + obstacle.reach):
-                raise WorldError(f'{obstacle.name} at ({x:.2f}, {y:.2f}) m lies outside the map (x {left:.2f} to '
-                                 f'{right:.2f} m, y {bottom:.2f} to {top:.2f} m)')
+        check_inside(obstacle, self.terrain)
         self.obstacles.add(obstacle)
         for member in self.robots.values():
             if self.obstacles.near(*member.pose[:2], self._config.drive.radius):
@@ -360,9 +298,10 @@ class World:
             WorldError: there is no robot of that name.
         """
         index = self._index(name)
-        ranges = np.empty(len(self.fan))
-        fast.scan(self._states, index, self.constants, self.obstacles.records, self.terrain.skips, self.fan,
-                  self._lasers[index].standard_normal(len(self.fan)), ranges)
+        ranges, noise = np.empty(len(self.fan)), np.empty(len(self.fan))
+        self.noise.draw_laser(index, noise)
+        fast.scan(self._states, index, self.constants, self.obstacles.records, self.terrain.skips, self.fan, noise,
+                  ranges)
         return ranges
 
     def infrared(self, name: str) -> Infrared:
@@ -388,43 +327,23 @@ class World:
     @property
     def arrays(self) -> WorldArrays:
         """The arrays in which the world is, and not copies."""
-        return WorldArrays(self._states, self.constants, self.obstacles.records, self.obstacles.stops, self._noise,
-                           self.floor.cells, self.floor.sweep.samples, self.floor.dirt, self.floor.sweep.tally)
+        obstacles, floor = self.obstacles, self.floor
+        return WorldArrays(self._states, self.constants, obstacles.records, obstacles.stops, self.noise.wheels,
+                           floor.cells, floor.sweep.samples, floor.dirt, floor.sweep.tally)
 
     def keep_in(self, arrays: WorldArrays) -> None:
         """Be in these arrays from now on, whose contents are the same already."""
         floor, sweep = self.floor, self.floor.sweep
-        self.constants, self._noise = arrays.constants, arrays.noise
+        self.constants, self.noise.wheels = arrays.constants, arrays.noise
         self.obstacles.records, self.obstacles.stops = arrays.obstacles, arrays.stops
         floor.cells, sweep.samples, floor.dirt, sweep.tally = (
             arrays.cells, arrays.samples, arrays.dirt, arrays.tally)
         self._take(arrays.robots)
 
-    def draw_noise(self) -> None:
-        """Draw the noise of the wheels for the next NOISE_TICKS ticks, if that of the last ones is used up."""
-        if self.tick % NOISE_TICKS == 0:
-            for row, generator in zip(self._noise, self._wheels):
-                generator.standard_normal(out=row)
-
-    def draw_laser_noise(self, index: int, noise: Array) -> None:
-        """Draw the noise of a scan by the robot with an index: float64 (beams)."""
-        self._lasers[index].standard_normal(out=noise)
-
-    def _arrays(self) -> Dict[str, Array]:
-        """All arrays that change, by name.
-
-        `alone_until` is none of them: it only saves time, and 0 is as good as what was computed.
-        """
-        names = [name for name in kernel.ROBOT.names or () if name != 'alone_until']
-        robots = {f'robots/{name}': self._states[name] for name in names}
-        return {**robots,  # field by field, since bytes between fields are undefined
-                'noise': self._noise, 'dirt': self.floor.dirt, 'samples': self.floor.sweep.samples,
-                'tally': self.floor.sweep.tally, **self.obstacles.arrays()}
-
     def digest(self) -> str:
         """SHA-256 of everything that changes: tick, robots, noise, floor, obstacles."""
         state = hashlib.sha256(' '.join([str(self.tick), *self.robots, *self.obstacles.items]).encode())
-        for array in self._arrays().values():
+        for array in self.arrays.changing().values():
             state.update(np.ascontiguousarray(array).tobytes())
         return state.hexdigest()
 
@@ -434,11 +353,11 @@ class World:
 
     def state(self) -> WorldState:
         """A copy of everything that changes, from which `restored` goes on."""
-        members = [Member(member.name, member.start, wheels.bit_generator.state, laser.bit_generator.state)
-                   for member, wheels, laser in zip(self.robots.values(), self._wheels, self._lasers)]
-        arrays = {name: array.copy() for name, array in self._arrays().items()}
+        members = [Member(member.name, member.start, *generators)
+                   for member, generators in zip(self.robots.values(), self.noise.states())]
+        arrays = {name: array.copy() for name, array in self.arrays.changing().items()}
         obstacles = list(self.obstacles.items.values())
-        return WorldState(self._origin(), self.tick, self._spawned, members, obstacles, arrays, self.digest())
+        return WorldState(self._origin(), self.tick, self.noise.spawned, members, obstacles, arrays, self.digest())
 
     @classmethod
     def restored(cls, state: WorldState, plan: FloorPlan, config: Optional[RobotConfig] = None,
@@ -453,15 +372,13 @@ class World:
         """
         world = cls(plan, config, step_rate, seed, obstacles)
         world_state.check_origin(state.origin, world._origin())
-        world.tick, world._spawned = state.tick, state.spawned
+        world.tick = state.tick
+        world.noise.restore(state.spawned, state.members)
         world.obstacles.restore(state.obstacles)
-        world._states = np.zeros(len(state.members), kernel.ROBOT)
-        world._noise = np.zeros((len(state.members), NOISE_TICKS, 2))
+        world._states = np.zeros(len(state.members), ROBOT)
         for index, member in enumerate(state.members):
             world.robots[member.name] = Robot(member.name, member.start, world._config, world._states[index:index + 1])
-            world._wheels.append(world_state.generator(member.wheels))
-            world._lasers.append(world_state.generator(member.laser))
-        world_state.fill(world._arrays(), state.arrays)
+        world_state.fill(world.arrays.changing(), state.arrays)
         if world.digest() != state.digest:
             raise WorldError('is damaged: its digest is another one')
         return world

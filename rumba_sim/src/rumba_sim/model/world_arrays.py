@@ -1,8 +1,9 @@
 """The arrays in which a world is: what the kernel reads and changes."""
 
-from typing import NamedTuple
+from typing import Dict, NamedTuple
 
 from rumba_sim.model.kernel import Array
+from rumba_sim.model.kernel.records import OBSTACLE, ROBOT
 
 
 class WorldArrays(NamedTuple):
@@ -17,3 +18,15 @@ class WorldArrays(NamedTuple):
     samples: Array
     dirt: Array
     tally: Array
+
+    def changing(self) -> Dict[str, Array]:
+        """Those that ticks change, by name; records field by field, since bytes between fields are undefined.
+
+        `alone_until` is none of them: it only saves time, and 0 is as good as what was computed.
+        """
+        robots = {f'robots/{name}': self.robots[name] for name in ROBOT.names or () if name != 'alone_until'}
+        floor = {'noise': self.noise, 'dirt': self.dirt, 'samples': self.samples, 'tally': self.tally}
+        if len(self.obstacles) == 0:
+            return {**robots, **floor}
+        obstacles = {f'obstacles/{name}': self.obstacles[name] for name in OBSTACLE.names or ()}
+        return {**robots, **floor, **obstacles, 'stops': self.stops}

@@ -4,11 +4,12 @@ from typing import Dict, List, Optional, Sequence
 
 import numpy as np
 
-from rumba_sim.model import kernel
 from rumba_sim.model.constants import RECORD
 from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.model.kernel import Array
-from rumba_sim.model.world import NOISE_TICKS, World
+from rumba_sim.model.kernel.records import ROBOT, TALLY
+from rumba_sim.model.noise import NOISE_TICKS
+from rumba_sim.model.world import World
 from rumba_sim.model.world_arrays import WorldArrays
 
 
@@ -29,9 +30,9 @@ class WorldRows:
         def rows(name: str, *shape: int) -> Array:
             most = max(getattr(each, name).size for each in arrays)
             return np.zeros((number, most, *shape), getattr(arrays[0], name).dtype)
-        self.robots: Array = np.zeros(number, kernel.ROBOT)
+        self.robots: Array = np.zeros(number, ROBOT)
         self.constants: Array = np.zeros(number, RECORD)
-        self.tallies: Array = np.zeros(number, kernel.TALLY)
+        self.tallies: Array = np.zeros(number, TALLY)
         self.noise: Array = np.zeros((number, 1, NOISE_TICKS, 2))
         self.obstacles, self.samples, self.dirt = rows('obstacles'), rows('samples'), rows('dirt')
         self.stops: Array = np.zeros((number, max(len(each.stops) for each in arrays), 6))

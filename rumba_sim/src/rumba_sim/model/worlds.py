@@ -17,9 +17,10 @@ from rumba_sim.model.compiled import many
 from rumba_sim.model.errors import CommandError, WorldError
 from rumba_sim.model.floor_plan import ROUNDING, FloorPlan
 from rumba_sim.model.kernel import Array
+from rumba_sim.model.noise import NOISE_TICKS
 from rumba_sim.model.robot import FIRST
 from rumba_sim.model.robot_config import RobotConfig
-from rumba_sim.model.world import NOISE_TICKS, World
+from rumba_sim.model.world import World
 from rumba_sim.model.world_arrays import WorldArrays
 from rumba_sim.model.world_rows import WorldRows
 
@@ -90,7 +91,7 @@ class Worlds:
 
     @property
     def robots(self) -> Array:
-        """The states of all robots: (worlds) records `kernel.ROBOT`. Ask again after a world was replaced."""
+        """The states of all robots: (worlds) records of type ROBOT. Ask again after a world was replaced."""
         self._follow_changes()
         return self._rows.robots
 
@@ -129,7 +130,7 @@ class Worlds:
             now, here = self._ticks(), self._rows
             rows = now % NOISE_TICKS
             for index in np.flatnonzero((rows == 0) & (left > 0)):
-                self._worlds[index].draw_noise()
+                self._worlds[index].noise.draw(now[index])
             spans = np.minimum(left, NOISE_TICKS - rows)
             self._run(many.advance, self._by_plan, now, spans, here.robots, here.constants, here.obstacles, here.counts,
                       here.stops, here.moving, here.plans, here.docks, here.dock_counts, here.shapes, here.fields,
@@ -150,7 +151,7 @@ class Worlds:
         here = self._rows
         ranges, noise = np.empty((2, len(order), len(self._rows.fan)))
         for row, index in zip(rows.tolist(), order.tolist()):
-            self._worlds[index].draw_laser_noise(0, noise[row])
+            self._worlds[index].noise.draw_laser(0, noise[row])
         self._run(many.scan, order, rows, here.robots, here.constants, here.obstacles, here.counts, here.plans,
                   here.shapes, here.skips, here.fan, noise, ranges)
         return ranges

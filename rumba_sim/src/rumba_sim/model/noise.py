@@ -1,0 +1,78 @@
+"""The random numbers of a world: each robot draws its own, so that what one robot does changes nothing for another."""
+
+from typing import Any, List, Mapping, Sequence, Tuple
+
+import numpy as np
+
+from rumba_sim.model import world_state
+from rumba_sim.model.kernel import Array
+
+NOISE_TICKS = 256  # ticks for which the noise of the wheels is drawn at once
+FLOOR, WHEELS, LASER = 0, 1, 2  # purposes of random generators, beside that of `Obstacles`
+
+
+def generator(seed: int, purpose: int, number: int) -> np.random.Generator:
+    """A random generator for a purpose in a world with a seed."""
+    return np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(purpose, number)))
+
+
+class Noise:
+    """The noise of wheels and lasers, by the index of the robot.
+
+    Attributes:
+        wheels: float64 (robots, NOISE_TICKS, 2), standard normal; tick t uses row t modulo NOISE_TICKS.
+        spawned: how many robots there have been since the beginning or the last reset of the world.
+    """
+
+    def __init__(self, seed: int) -> None:
+        """That of a world with a seed and without robots."""
+        self.wheels: Array = np.zeros((0, NOISE_TICKS, 2))
+        self.spawned = 0
+        self._seed = seed
+        self._wheels: List[np.random.Generator] = []
+        self._lasers: List[np.random.Generator] = []
+
+    def add(self, scale_error: float) -> Array:
+        """Begin that of another robot; returns the errors of the scales of its wheels: float64 (2).
+
+        Args:
+            scale_error: their standard deviation.
+        """
+        wheels = generator(self._seed, WHEELS, self.spawned)
+        scales = wheels.normal(0.0, scale_error, 2)
+        self._wheels.append(wheels)
+        self._lasers.append(generator(self._seed, LASER, self.spawned))
+        self.wheels = np.concatenate([self.wheels, wheels.standard_normal((1, NOISE_TICKS, 2))])
+        self.spawned += 1
+        return scales
+
+    def remove(self, index: int) -> None:
+        """End that of a robot."""
+        del self._wheels[index], self._lasers[index]
+        self.wheels = np.delete(self.wheels, index, axis=0)
+
+    def draw(self, tick: int) -> None:
+        """Draw that of the wheels for the next NOISE_TICKS ticks, if that of the last ones is used up."""
+        if tick % NOISE_TICKS == 0:
+            for row, wheels in zip(self.wheels, self._wheels):
+                wheels.standard_normal(out=row)
+
+    def draw_laser(self, index: int, noise: Array) -> None:
+        """Draw that of a scan: `noise`, float64 (beams), receives it."""
+        self._lasers[index].standard_normal(out=noise)
+
+    def states(self) -> List[Tuple[Mapping[str, Any], Mapping[str, Any]]]:
+        """The states of the bit generators of wheels and laser of each robot."""
+        return [(wheels.bit_generator.state, laser.bit_generator.state)
+                for wheels, laser in zip(self._wheels, self._lasers)]
+
+    def restore(self, spawned: int, members: Sequence[world_state.Member]) -> None:
+        """Go on from a saved state; the array is to be filled next.
+
+        Raises:
+            WorldError: it is damaged.
+        """
+        self.spawned = spawned
+        self.wheels = np.zeros((len(members), NOISE_TICKS, 2))
+        self._wheels = [world_state.generator(member.wheels) for member in members]
+        self._lasers = [world_state.generator(member.laser) for member in members]
