@@ -123,6 +123,31 @@ def test_what_was_cached_does_not_outlive_a_change_of_a_file_that_it_depends_on(
     assert run(source, code, **home) == (f'{result}\n', '')
 
 
+CHAIN = {  # each calls the one before
+    'twice': 'return 2.0 * x', 'four_times': 'return twice(twice(x))', 'eight_times': 'return 2.0 * four_times(x)'}
+
+
+def write_chain(folder, factor):
+    """Write three modules with one compiled function each, of which the first multiplies by a factor."""
+    folder.mkdir(exist_ok=True)
+    before = ''
+    for name, body in CHAIN.items():
+        body = body.replace('2.0 * x', f'{factor} * x')
+        (folder / f'{name}.py').write_text(f'from rumba_sim.model.jit import compiled\n{before}\n\n@compiled\n'
+                                           f'def {name}(x):\n    {body}\n')
+        before = f'from {name} import {name}\n'
+
+
+def test_what_was_cached_by_the_decorator_does_not_outlive_a_change_of_what_it_calls(source, tmp_path):
+    own, home = tmp_path / 'own', {'HOME': str(tmp_path / 'home')}
+    code = f'import sys; sys.path.append({str(own)!r}); from eight_times import eight_times; print(eight_times(1.5))'
+    write_chain(own, 2.0)
+    for _ in range(2):  # the second time from the cache
+        assert run(source, code, **home) == ('12.0\n', '')
+    write_chain(own, 3.0)
+    assert run(source, code, **home) == ('27.0\n', '')
+
+
 def test_a_full_disk_does_no_harm(source, tmp_path):
     out, error = run(source, SMALL_FILES + TURN, HOME=str(tmp_path / 'home'))
     assert out == 'True\n'

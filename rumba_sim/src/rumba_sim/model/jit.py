@@ -1,9 +1,11 @@
 """Has a function compiled by numba, as the kernel is: with a cache, if there is a place for one.
 
-The same functions give the same results uncompiled. A compiled function can call only compiled functions.
+The same functions give the same results uncompiled. A compiled function can call only compiled functions: those of its
+own module, and those that this imports. Compiled code is cached until the contents of any of their files change.
 """
 
-from typing import Any, Callable, TypeVar, cast
+from types import FunctionType
+from typing import Any, Callable, List, TypeVar, cast
 
 import numba
 
@@ -14,4 +16,15 @@ Function = TypeVar('Function', bound=Callable[..., Any])
 
 def compiled(function: Function) -> Function:
     """A decorator."""
-    return cast(Function, kernel._cached(numba.njit(function), function.__code__.co_filename))
+    return cast(Function, kernel._cached(numba.njit(function), *_files(cast(FunctionType, function))))
+
+
+def _files(function: FunctionType) -> List[str]:
+    """The file of a function, and those of the compiled functions that its module imports, and so on."""
+    own = function.__code__.co_filename
+    found = {own}
+    for value in function.__globals__.values():
+        plain = getattr(value, 'py_func', None)  # of a function that numba has compiled
+        if plain is not None and plain.__code__.co_filename != own:
+            found.update(_files(plain))
+    return sorted(found)
