@@ -11,6 +11,7 @@ from rooms import crooked, room
 from rumba_cleaning.planning.crumbs import HEADINGS, LEAST, crumbs, middle_lines
 from rumba_cleaning.planning.paper import drive
 from rumba_cleaning.planning.regions import regions
+from rumba_cleaning.planning.walls import Walls
 from rumba_sim.model.geometry import Pose
 
 START = Pose(0.5, 0.5, 0.0)
@@ -23,7 +24,7 @@ def missed_alone(plan, *boxes):
 
 def found(context):
     """The crumbs on the floor of a context."""
-    return crumbs(context.ground, context.swept.missing_share(), regions(context.ground))
+    return crumbs(context.ground, Walls(context.ground), context.swept.missing_share(), regions(context.ground))
 
 
 @pytest.mark.parametrize('resolution', [0.01, 0.02, 0.05])
@@ -101,4 +102,4 @@ def test_ground_without_crumbs_has_none():
     plan = room(4.0, 3.0)
     share = np.zeros(plan.refined().occupancy.shape, np.float32)
     floor = ground(plan.refined())
-    assert crumbs(floor, share, regions(floor)) == []
+    assert crumbs(floor, Walls(floor), share, regions(floor)) == []

@@ -8,6 +8,7 @@ from rooms import room
 from rumba_cleaning.planning.detours import APART, DEAREST, FARTHEST, SURPLUS, with_crumbs
 from rumba_cleaning.planning.paper import drive
 from rumba_cleaning.planning.regions import regions
+from rumba_cleaning.planning.walls import Walls
 from rumba_cleaning.route import Route
 from rumba_sim.model.geometry import Pose
 
@@ -20,7 +21,8 @@ def detoured(*boxes, target=1.0, route=ACROSS, plan=None):
     """A route with detours on a floor that was swept except for crumbs, and the floor after it, on paper."""
     context = wiped_but(knowing(plan or room(4.0, 3.0, 0.02), START, target_coverage=target), *boxes)
     floor = context.swept.copy()
-    found = with_crumbs(context, route, floor, np.ones(context.plan.free.shape, bool), regions(context.ground))
+    everywhere = np.ones(context.plan.free.shape, bool)
+    found = with_crumbs(context, Walls(context.ground), route, floor, everywhere, regions(context.ground))
     drive(floor, found.waypoints)
     return found, floor
 

@@ -13,6 +13,7 @@ from rooms import crooked, distances, quiet, room
 from rumba_cleaning.belief.swept import Swept
 from rumba_cleaning.planning.lanes import BLOCK, TURN, Layout, blocks
 from rumba_cleaning.planning.paper import drive
+from rumba_cleaning.planning.rings import outlines
 from rumba_cleaning.planning.turned_floor import main_direction
 from rumba_sim.model.floor_plan import FREE, OCCUPIED, FloorPlan
 
@@ -222,7 +223,7 @@ def test_floor_that_the_robot_cannot_reach_makes_no_blocks():
 def test_lanes_of_a_turned_room_run_along_its_walls_and_keep_off_them(resolution, degrees):
     plan = tilted(4.0, 2.5, math.radians(degrees), resolution)
     floor, missed = ground(plan), all_of(plan)
-    found = blocks(floor, missed, BRUSH, SPEED, main_direction(floor))
+    found = blocks(floor, missed, BRUSH, SPEED, main_direction(outlines(floor)))
     for block in found:
         for lane in block.lanes:
             assert abs((math.degrees(direction(lane)) - degrees + 45.0) % 90.0 - 45.0) <= 1.5

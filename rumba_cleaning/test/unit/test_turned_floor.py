@@ -8,6 +8,7 @@ from floors import ground, tilted
 from pytest import approx
 from rooms import crooked, room
 
+from rumba_cleaning.planning.rings import outlines
 from rumba_cleaning.planning.turned_floor import TurnedFloor, main_direction
 
 FINE = pytest.mark.parametrize('resolution', [0.02, 0.05])
@@ -16,18 +17,18 @@ FINE = pytest.mark.parametrize('resolution', [0.02, 0.05])
 @pytest.mark.parametrize('degrees', [0, 20, -20, 45, 65, -70])
 @FINE
 def test_the_main_direction_is_that_of_the_walls(resolution, degrees):
-    found = math.degrees(main_direction(ground(tilted(4.0, 2.5, math.radians(degrees), resolution))))
+    found = math.degrees(main_direction(outlines(ground(tilted(4.0, 2.5, math.radians(degrees), resolution)))))
     assert -45.0 <= found <= 45.0 and abs((found - degrees + 45.0) % 90.0 - 45.0) <= 1.5
 
 
 @pytest.mark.parametrize('degrees', [1.0, -2.0])
 def test_a_floor_that_is_turned_by_two_degrees_or_less_is_not_turned(degrees):
-    assert main_direction(ground(tilted(4.0, 2.5, math.radians(degrees), 0.02))) == 0.0
+    assert main_direction(outlines(ground(tilted(4.0, 2.5, math.radians(degrees), 0.02)))) == 0.0
 
 
 def test_the_main_direction_is_that_of_the_longer_walls():
     slanting = [(0.8 + x, 1.5 + 0.58 * x, 0.85 + x, 1.55 + 0.58 * x) for x in np.arange(0.0, 1.5, 0.01)]
-    assert main_direction(ground(room(4.0, 4.0, 0.02, slanting))) == 0.0
+    assert main_direction(outlines(ground(room(4.0, 4.0, 0.02, slanting)))) == 0.0
 
 
 @pytest.mark.parametrize('angle', [0.0, 0.35, -0.7])

@@ -30,18 +30,18 @@ NEIGHBOURS = tuple((row, column) for row in (-1, 0, 1) for column in (-1, 0, 1) 
 Pixel = Tuple[int, int]
 
 
-def crumbs(ground: Ground, share: Array, regions: Array) -> List[Stretch]:
+def crumbs(ground: Ground, walls: Walls, share: Array, regions: Array) -> List[Stretch]:
     """The crumbs: strips and spots.
 
     Args:
         ground: where the robot can stand.
+        walls: of the same ground.
         share: of each cell that was missed, float32 (rows, columns).
         regions: the region of each node, int (rows + 1, columns + 1).
     """
     res = ground.plan.resolution
     labels, _ = ndimage.label(share >= MISSED, np.ones((3, 3)))
     areas = np.bincount(labels.ravel(), share.ravel()) * res * res
-    walls = Walls(ground)
     found: List[Stretch] = []
     for number, window in enumerate(ndimage.find_objects(labels), 1):
         if areas[number] < LEAST:

@@ -11,6 +11,7 @@ from rumba_cleaning.planning import compiled_detours
 from rumba_cleaning.planning.crumbs import crumbs
 from rumba_cleaning.planning.paper import stride_counts, strides
 from rumba_cleaning.planning.stretches import Stretch
+from rumba_cleaning.planning.walls import Walls
 from rumba_cleaning.route import Route
 from rumba_sim.model.kernel import Array
 from rumba_sim.model.reachability import SLACK
@@ -35,11 +36,12 @@ class Detour(NamedTuple):
     area: float  # [m^2] that it cleans
 
 
-def with_crumbs(context: Context, route: Route, paper: Swept, around: Array, labels: Array) -> Route:
+def with_crumbs(context: Context, walls: Walls, route: Route, paper: Swept, around: Array, labels: Array) -> Route:
     """A route with detours to crumbs that it would leave, no more than the target needs: those that cost least.
 
     Args:
         context: where the robot can stand, and the target.
+        walls: of the ground of the context.
         route: without detours.
         paper: what is swept after it.
         around: the cells that the robot can sweep, bool (rows, columns).
@@ -47,7 +49,7 @@ def with_crumbs(context: Context, route: Route, paper: Swept, around: Array, lab
     """
     missing = (context.target_coverage + SURPLUS - paper.coverage) * paper.reachable_area  # [m^2]
     route = _dense(route)
-    found = _detours(context, route, crumbs(context.ground, paper.missing_share() * around, labels))
+    found = _detours(context, route, crumbs(context.ground, walls, paper.missing_share() * around, labels))
     chosen: Dict[int, Detour] = {}
     for detour in sorted(found, key=lambda detour: detour.length / detour.area):
         if missing <= 0.0 or detour.length > DEAREST * detour.area:

@@ -16,6 +16,7 @@ from rumba_cleaning.planning.rings import chains, rings, stretch
 from rumba_cleaning.planning.stretches import Stretch
 from rumba_cleaning.planning.tour import Tour
 from rumba_cleaning.planning.turned_floor import main_direction
+from rumba_cleaning.planning.walls import Walls
 from rumba_cleaning.route import Route
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.kernel import Array
@@ -45,15 +46,16 @@ def plan(context: Context, pose: Pose) -> Optional[Route]:
     """
     ground, swept = context.ground, context.swept
     labels = regions(ground)
+    walls = Walls(ground)
     paper = swept.copy()
     around = _around(context, pose)
-    found = _stretches(context, paper, around, labels)
+    found = _stretches(context, paper, around, labels, main_direction(walls.outlines))
     missing = swept.missing_share() * around
     if paper.coverage - swept.coverage > MOST * missing.sum() * ground.plan.resolution ** 2 / swept.reachable_area:
         route = _through(context, pose, labels, found)
         if route is not None:
-            return with_crumbs(context, route, paper, around, labels)
-    return _through(context, pose, labels, crumbs(ground, missing, labels))
+            return with_crumbs(context, walls, route, paper, around, labels)
+    return _through(context, pose, labels, crumbs(ground, walls, missing, labels))
 
 
 def _around(context: Context, pose: Pose) -> Array:
@@ -77,13 +79,15 @@ def _through(context: Context, pose: Pose, labels: Array, found: List[Stretch]) 
     return _route(context, pose, tours, by_region)
 
 
-def _stretches(context: Context, paper: Swept, around: Array, labels: Array) -> List[Stretch]:
-    """Rings, and lanes where those are better, that clean what was missed, but for crumbs; they are driven on paper."""
+def _stretches(context: Context, paper: Swept, around: Array, labels: Array, angle: float) -> List[Stretch]:
+    """Rings, and lanes where those are better, that clean what was missed, but for crumbs; they are driven on paper.
+
+    The lanes are at an angle [rad] to the map's axes.
+    """
     ground, brush = context.ground, context.robot.brush.width
     shape = shapes(ground, labels)
     found = [stretch(chain, brush) for chain in chains(rings(ground, paper, labels, shape, brush))]
     missed = (paper.missing_share() > MISSED) & around
-    angle = main_direction(ground)
     layouts = tries(float(missed.sum()) * ground.plan.resolution ** 2)
     for region, part in _by_region(ground, missed, labels).items():
         if shape.has_lanes[region]:

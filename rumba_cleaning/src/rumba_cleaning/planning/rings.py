@@ -79,12 +79,10 @@ def rings(ground: Ground, swept: Swept, labels: Array, shape: Shapes, brush: flo
         passes = np.where(shape.has_lanes[labels], -1.0, passes)
 
 
-def outermost(ground: Ground) -> List[Array]:
-    """The closed rings beside the walls, whole: float64 (any, 2) [m] each."""
-    contours = measure.find_contours(_depth(ground) - WALL_MARGIN, 0.0)
-    found = [resampled(ground.points(contour), SPACING) for contour in contours
-             if np.allclose(contour[0], contour[-1])]
-    return [path for path in found if len(path) * SPACING >= SHORTEST]
+def outlines(ground: Ground) -> List[Array]:
+    """The paths beside the walls, whole: float64 (any, 2) [m] each; closed ones end where they begin."""
+    return [resampled(ground.points(contour), SPACING)
+            for contour in measure.find_contours(_depth(ground) - WALL_MARGIN, 0.0)]
 
 
 def _depth(ground: Ground) -> Array:

@@ -1,14 +1,13 @@
 """The floor on a grid that is turned so that its rows and columns run along the walls, whatever their direction."""
 
 import math
+from typing import List
 
 import numpy as np
 from scipy import ndimage
-from skimage import measure
 
 from rumba_cleaning.belief.ground import Ground
-from rumba_cleaning.planning.paper import resampled
-from rumba_cleaning.planning.rings import SPACING, WALL_MARGIN
+from rumba_cleaning.planning.rings import SPACING
 from rumba_sim.model.kernel import Array
 
 # Our choice, checked by test_turned_floor.py, which allows an error of 1.5 degrees.
@@ -61,12 +60,15 @@ class TurnedFloor:
         return np.asarray(cells * self.resolution @ self._axes + self._corner)
 
 
-def main_direction(ground: Ground) -> float:
-    """The angle by which most walls are turned against the map's axes: -pi/4 to pi/4 [rad]."""
+def main_direction(outlines: List[Array]) -> float:
+    """The angle by which most walls are turned against the map's axes: -pi/4 to pi/4 [rad].
+
+    Args:
+        outlines: paths beside the walls, float64 (any, 2) [m] each, with waypoints SPACING apart.
+    """
     counts = np.zeros(BINS)
     span = int(SPAN / SPACING)
-    for contour in measure.find_contours(ground.clearance, ground.reach + WALL_MARGIN):
-        path = resampled(ground.points(contour), SPACING)
+    for path in outlines:
         dx, dy = (path[span:] - path[:-span]).T
         bins = np.rint(np.arctan2(dy, dx) / QUARTER * BINS).astype(int) % BINS
         counts += np.bincount(bins, minlength=BINS)

@@ -6,7 +6,7 @@ import numpy as np
 from scipy import spatial
 
 from rumba_cleaning.belief.ground import Ground
-from rumba_cleaning.planning.rings import SPACING, outermost
+from rumba_cleaning.planning.rings import SHORTEST, SPACING, outlines
 from rumba_sim.model.kernel import Array
 
 # Our choice.
@@ -18,11 +18,17 @@ AHEAD = 3  # waypoints over which its direction is measured
 
 
 class Walls:
-    """The outermost rings of a floor."""
+    """The outermost rings of a floor.
+
+    Attributes:
+        outlines: as those of `rings`.
+    """
 
     def __init__(self, ground: Ground) -> None:
         """Find them."""
-        self._rings = outermost(ground)
+        self.outlines = outlines(ground)
+        self._rings = [path for path in self.outlines
+                       if len(path) * SPACING >= SHORTEST and np.allclose(path[0], path[-1])]
         self._tree = spatial.cKDTree(np.concatenate([np.zeros((0, 2)), *self._rings]))
         self._begins = np.cumsum([0, *(len(ring) for ring in self._rings)])
 
