@@ -1,8 +1,8 @@
 """How exactly a robot localises itself, how fast it finds its place, and how missions by that pose go.
 
-`localisation.py [--seeds N] [--first M] [--troubles]` runs N seeds, 20 by default, from M on, 1 by default, on all cores;
-times are simulated, but for the cost. With --troubles it runs only the missions in which the laser is silent for a while,
-or the wheels slip.
+`localisation.py [--seeds N] [--first M] [--troubles]` runs N seeds, 20 by default, from M on, 1 by default, on all
+cores; times are simulated, but for the cost. With --troubles it runs only the missions in which the laser is silent for
+a while, or the wheels slip.
 """
 
 import argparse

@@ -68,8 +68,7 @@ class Localised:
         """Scan, and see where that fits."""
         odometry = as_told(world.robots[name].odometry)
         scan = self.scans(world, name)
-        if scan is not None:
-            self.localiser.observe(odometry, scan.points)
+        self.localiser.observe(odometry, None if scan is None else scan.points)
         estimate = self.localiser.estimate
         pose = compose(as_told(self.localiser.correction), odometry)
         return Belief(pose, UNKNOWN if estimate is None else _rows(estimate.covariance), scan)

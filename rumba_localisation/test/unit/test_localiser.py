@@ -142,6 +142,25 @@ def test_wheels_that_slip_for_a_second_do_not_lose_the_robot(slipped):
     assert max(map(max, errors[-30:])) < 0.05 and localiser.estimate.is_sure
 
 
+@pytest.mark.parametrize('v, w', [(0.25, 0.0), (0.0, 1.5), (0.0, -1.5)])
+@pytest.mark.parametrize('pose', [Pose(0.5, 0.5, 0.3), Pose(2.0, 1.3, 2.0), Pose(0.8, 2.4, 1.0), Pose(3.5, 2.5, -2.5)])
+def test_a_robot_that_slides_for_a_second_stays_near_where_it_is(pose, v, w):
+    """Its wheels stand meanwhile, so that the odometry tells of no movement."""
+    world = world_of(pose=pose)
+    localiser, robot = localiser_of(world.plan), world.robots['rumba']
+    localiser.start_at(robot.pose)
+    list(drive(world, localiser, 0.1, 0.3, 3.0))
+    counted = robot.odometry
+    for _ in range(10):
+        robot.command(v, w, world.tick)
+        world.step(5)
+        robot.state['odom_x'], robot.state['odom_y'], robot.state['odom_theta'] = counted
+        localiser.observe(counted, scanned(world))
+        away, turned = error(localiser.pose(counted), robot.pose)
+        assert away < 0.15 and turned < 0.25
+    assert max(map(max, drive(world, localiser, 0.1, 0.3, 3.0))) < 0.1 and localiser.estimate.is_sure
+
+
 def test_wheels_that_slip_in_place_are_noticed_within_seconds():
     """As those of a robot that drives against an obstacle, and moves less than what a scan is used after."""
     world, localiser = under_way()
