@@ -73,7 +73,7 @@ class Matcher:
         config, now = self._config, match.plausibility
         self._slow += (config.recovery_alpha_slow if self._slow > 0.0 else 1.0) * (now - self._slow)
         self._fast += (config.recovery_alpha_fast if self._fast > 0.0 else 1.0) * (now - self._fast)
-        self._fit += (SOON if is_sure else LATE) * (match.fit - self._fit)
+        self._fit += (1.0 if self._fit == 0.0 else SOON if is_sure else LATE) * (match.fit - self._fit)
 
     def is_good(self, match: Match) -> bool:
         """Whether a scan fits as well as scans usually do."""
