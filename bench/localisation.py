@@ -106,7 +106,8 @@ class Watched:
     @property
     def lost(self):
         """Whether the robot was not sure of its place: bool (observations)."""
-        return np.array([Observation(0.0, each.pose, covariance=each.covariance).is_lost for each in self.told])
+        return np.array([Observation(0.0, each.pose, covariance=each.covariance, silence=each.silence).is_lost
+                         for each in self.told])
 
 
 def mission(name, pose, seed):

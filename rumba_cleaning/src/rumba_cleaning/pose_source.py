@@ -23,6 +23,7 @@ class Belief(NamedTuple):
     pose: Pose
     covariance: Covariance = CERTAIN
     scan: Optional[Scan] = None  # by which it was found
+    silence: float = 0.0  # [s] since the newest scan by which it was found, if a scan is due
 
 
 PoseSource = Callable[[World, str], Belief]  # called once for each observation of a robot, by its name
@@ -61,6 +62,7 @@ class Localised:
         """Have a robot of a world know a map, and where it stands now."""
         config = world.config
         self.scans: Callable[[World, str], Optional[Scan]] = scan_of_robot
+        self._scanned = world.time  # [s] of the newest scan
         self.localiser = Localiser(plan, config.drive.radius, config.laser.range_max, seed=seed)
         self.localiser.start_at(world.robots[name].pose)
 
@@ -69,9 +71,12 @@ class Localised:
         odometry = as_told(world.robots[name].odometry)
         scan = self.scans(world, name)
         self.localiser.observe(odometry, None if scan is None else scan.points)
+        if scan is not None:
+            self._scanned = world.time
         estimate = self.localiser.estimate
         pose = compose(as_told(self.localiser.correction), odometry)
-        return Belief(pose, UNKNOWN if estimate is None else _rows(estimate.covariance), scan)
+        return Belief(pose, UNKNOWN if estimate is None else _rows(estimate.covariance), scan,
+                      world.time - self._scanned)
 
 
 class Mapped:

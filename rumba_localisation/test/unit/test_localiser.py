@@ -174,6 +174,51 @@ def test_wheels_that_slip_in_place_are_noticed_within_seconds():
     assert not any([localiser.observe(slipped, scanned(world)) for _ in range(50)])  # it stands
 
 
+def silenced():
+    """A world, and a localiser of many particles that knows its place, and looks along the x axis."""
+    world = world_of(pose=Pose(0.5, 0.6, 0.0))
+    localiser = localiser_of(world.plan, config=LocaliserConfig(min_particles=4000, max_particles=4000))
+    localiser.start_at(world.robots['rumba'].pose, np.diag([1e-6, 1e-6, 1e-6]))
+    assert localiser.observe(NOBODY, scanned(world))
+    return world, localiser
+
+
+@pytest.mark.parametrize('steps', [8, 4])
+def test_while_the_laser_is_silent_the_covariance_grows_as_the_motion_model_says(steps):
+    """After a way straight ahead of d: a3 d^2 along it, a2 d^2 of the heading, whatever its parts are."""
+    _, localiser = silenced()
+    config, known, before = localiser.config, np.cov(localiser.particles.T), localiser.estimate.pose
+    for step in range(1, steps + 1):
+        assert localiser.observe(Pose(step / steps, 0.0, 0.0), None)
+    found, pose = localiser.estimate.covariance - known, localiser.estimate.pose
+    assert found[0, 0] == pytest.approx(config.odom_alpha3, rel=0.15)
+    assert found[2, 2] == pytest.approx(config.odom_alpha2, rel=0.1)
+    assert found[1, 1] > 0.2 * found[2, 2] and localiser.estimate.is_sure
+    assert pose == pytest.approx(compose(before, Pose(1.0, 0.0, 0.0)))
+
+
+def test_while_the_laser_is_silent_a_robot_that_stands_stays_as_certain_and_one_that_drives_far_does_not():
+    _, localiser = silenced()
+    known = localiser.estimate
+    assert not any([localiser.observe(NOBODY, None) for _ in range(100)]) and localiser.estimate == known
+    for step in range(1, 40):
+        localiser.observe(Pose(0.1 * step, 0.0, 0.0), None)
+    assert not localiser.estimate.is_sure and localiser.estimate.covariance[0, 0] > 0.3 ** 2
+
+
+def test_the_first_scan_after_a_silence_is_used_although_the_robot_stands():
+    world, localiser = under_way()
+    robot = world.robots['rumba']
+    for _ in range(30):
+        robot.command(0.2, 0.8, world.tick)
+        world.step(5)
+        localiser.observe(robot.odometry, None)
+    assert localiser.estimate.covariance[2, 2] > 0.01
+    assert localiser.observe(robot.odometry, scanned(world))
+    assert max(error(localiser.pose(robot.odometry), robot.pose)) < 0.02
+    assert localiser.estimate.is_sure and localiser.estimate.covariance[2, 2] < 0.001
+
+
 def test_without_echoes_the_pose_becomes_uncertain_and_is_found_again():
     world = world_of(room(4.0, 3.0, 0.05, ((1.0, 0.0, 1.3, 0.4),)), Pose(2.0, 1.5, 0.0))
     localiser = localiser_of(world.plan)

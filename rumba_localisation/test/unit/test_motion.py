@@ -35,6 +35,16 @@ def test_each_error_spreads_the_particles_as_it_says(config, after, spread):
     assert ahead.std(axis=0) == pytest.approx(spread, abs=0.016)
 
 
+def test_with_the_same_errors_a_way_in_parts_is_as_uncertain_as_the_whole():
+    config, errors = LocaliserConfig(), noise(4000, np.random.default_rng(3))
+    far = moved(np.tile(HERE, (4000, 1)), Pose(0.0, 0.0, 0.0), Pose(2.0, 0.0, 0.0), config, errors)
+    near = np.tile(HERE, (4000, 1))
+    for number in range(20):
+        near = moved(near, Pose(0.1 * number, 0.0, 0.0), Pose(0.1 * number + 0.1, 0.0, 0.0), config, errors)
+    assert near[:, 2].std() == pytest.approx(far[:, 2].std())
+    assert near[:, 2].std() == pytest.approx(2.0 * math.sqrt(config.odom_alpha2), rel=0.05)
+
+
 def _along_first_turn(poses, turn):
     """Positions in a frame whose y axis is the direction in which a turning robot would move."""
     off = poses[:, :2] - HERE[0, :2]
