@@ -62,7 +62,9 @@ class Bounded(Behaviour):
         if self._relocation is not None:
             self._relocation.rest()
         command = self.behaviour.step(observation)
-        self.message = '; '.join(filter(None, [self.behaviour.message, relocation.silence(observation)]))
+        self.message = self.behaviour.message
+        if observation.is_silent:
+            self.message = relocation.while_silent(self.message, observation)
         return command
 
     def terminate(self) -> None:

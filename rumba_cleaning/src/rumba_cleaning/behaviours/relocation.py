@@ -14,9 +14,13 @@ MESSAGE = 'lost: drives about until it knows where it is'
 GIVEN_UP = f'lost: still does not know where it is after {PATIENCE:g} s'
 
 
-def silence(observation: Observation) -> str:
-    """One line for a person: that the laser is silent; empty if it is not."""
-    return f'the laser has been silent for {observation.silence:.0f} s' if observation.is_silent else ''
+def while_silent(message: str, observation: Observation) -> str:
+    """What a robot does, in one line for a person, and that its laser is silent."""
+    return f'{message}{"; " if message else ""}{_silence(observation)}'
+
+
+def _silence(observation: Observation) -> str:
+    return f'the laser has been silent for {observation.silence:.0f} s'
 
 
 class Relocation:
@@ -51,7 +55,7 @@ class Relocation:
     def command(self, observation: Observation) -> Command:
         """What to do now: off the dock, which is found again by its beams, then about; stop if there is no pose."""
         self._lost += min(observation.dt, LONGEST)
-        self.message = f'{silence(observation)}: waits for it' if observation.is_silent else MESSAGE
+        self.message = f'{_silence(observation)}: waits for it' if observation.is_silent else MESSAGE
         if observation.is_silent:
             return STOP
         self._back = BACK / SPEED if observation.is_docked else max(self._back - observation.dt, 0.0)

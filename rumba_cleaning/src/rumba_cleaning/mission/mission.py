@@ -140,7 +140,7 @@ class Mission(Behaviour):
         command = self._guard.step(self._decide, observation)
         self._brushes_up = command.brushes_up
         if self.status is Status.RUNNING and observation.is_silent:
-            self.message = '; '.join(filter(None, [self.message, relocation.silence(observation)]))
+            self.message = relocation.while_silent(self.message, observation)
         return command
 
     def _relocate(self, observation: Observation) -> Command:

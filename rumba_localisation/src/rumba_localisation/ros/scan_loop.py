@@ -102,7 +102,7 @@ class ScanLoop(abc.ABC):
 
     def _silence(self, stamp: rospy.Time) -> float:
         """Time from the newest scan to a stamp [s]; 0 before the first scan."""
-        return 0.0 if self._scanned.is_zero() else (stamp - self._scanned).to_sec()
+        return 0.0 if self._scanned.is_zero() else float((stamp - self._scanned).to_sec())
 
     def _correct(self, correction: Pose, stamp: rospy.Time) -> None:
         """Publish map -> odom."""
