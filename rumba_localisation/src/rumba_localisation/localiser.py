@@ -7,7 +7,7 @@ import numpy as np
 
 from rumba_localisation import compiled_matching, motion, particles
 from rumba_localisation.localiser_config import LocaliserConfig
-from rumba_localisation.matcher import DOUBT, FITS, STARTS, Matcher
+from rumba_localisation.matcher import DOUBT, FITS, Matcher
 from rumba_localisation.scan import is_blind, thinned
 from rumba_localisation.search import NEAR, WRONG, Search
 from rumba_localisation.walls import Walls
@@ -214,7 +214,7 @@ class Localiser:
         matcher = self._matcher
         share = particles.weights(self._logarithms)
         cluster = particles.heaviest(self.particles, share)
-        match = matcher.best(cluster, self.particles[np.argsort(-share, kind='stable')[:STARTS]], points)
+        match = matcher.best(cluster, self.particles, share, points)
         near = None if self._good is None else compose(self._good, odometry)
         if near is not None and not matcher.is_good(match):
             slipped = matcher.slipped(near, points)

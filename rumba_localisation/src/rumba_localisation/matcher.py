@@ -92,16 +92,18 @@ class Matcher:
                                                  np.empty((3, 3)), np.empty(3))
         return bool(fit < WORSE * self._fit)
 
-    def best(self, cluster: particles.Cluster, heaviest: Array, points: Array) -> Match:
+    def best(self, cluster: particles.Cluster, poses: Array, share: Array, points: Array) -> Match:
         """Where a scan fits best near a cluster.
 
         Args:
             cluster: of particles.
-            heaviest: float64 (STARTS at most, 3), particles from which a match begins too if one does not fit well.
+            poses: float64 (any, 3), particles; a match begins also at the heaviest if one does not fit well.
+            share: float64 (any), their weights.
             points: float64 (beams, 2), where beams end in the frame of the laser [m].
         """
         match = self._matched(cluster.mean, cluster.covariance, points)
         if match.fit < GOOD:  # perhaps the far side of a thin wall: it may fit better from elsewhere in the cluster
+            heaviest = poses[np.argsort(-share, kind='stable')[:STARTS]]
             starts = [self._matched(start, cluster.covariance, points) for start in heaviest]
             match = max([match, *starts], key=lambda each: each.quality)
         return match
