@@ -20,7 +20,7 @@ MOST = 300_000  # poses that are tried at once: others at the next scan
 WRONG = 3.0  # beams that end at a wall are outweighed by one that would have to pass through a wall
 BEST = 100  # poses that are kept, and moved to where the scan fits best
 NEAR, NEAR_SPACING = 0.6, 0.1  # [m] around a place: twice as far as a robot slides in a second as it cleans
-BEST_NEAR = 20  # positions that are kept there, each with one heading
+BEST_NEAR = 30  # positions that are kept there, each with one heading
 APART = np.array([1.0, 1.0, 0.3]) ** 2  # variances of a pose that is kept: it may be moved far
 STEPS = np.geomspace(0.3, 0.05, 12)  # [m] sigmas of `match`
 
@@ -66,7 +66,7 @@ class Search:
         return poses, fits - WRONG * np.array([self._walls.through(pose, few) for pose in poses])
 
     def near(self, place: Pose, points: Array) -> Array:
-        """Poses at which a scan fits within NEAR of a place, with any heading.
+        """Poses at which a scan about fits within NEAR of a place, with any heading; they are not matched yet.
 
         Args:
             place: [m, rad], map frame.
@@ -78,7 +78,7 @@ class Search:
         tried, sums = self._tried(AROUND + place[:2], thinned(points, BEAMS))
         headings = np.argmax(sums.reshape(-1, HEADINGS), axis=1)
         best = np.arange(len(AROUND)) * HEADINGS + headings
-        return self._matched(tried[best[np.argsort(-sums[best], kind='stable')[:BEST_NEAR]]], points)[0]
+        return np.asarray(tried[best[np.argsort(-sums[best], kind='stable')[:BEST_NEAR]]])
 
     def _tried(self, positions: Array, points: Array) -> Tuple[Array, Array]:
         """All headings at each of some positions (any, 2), and the sums of the logarithms of how well a scan fits."""
