@@ -1,6 +1,8 @@
 """How exactly a robot localises itself, how fast it finds its place, and how missions by that pose go.
 
-`localisation.py [--seeds N]` runs seeds 1 to N, 20 by default, on all cores; times are simulated, but for the cost.
+`localisation.py [--seeds N] [--first M] [--troubles]` runs N seeds, 20 by default, from M on, 1 by default, on all
+cores; times are simulated, but for the cost. With --troubles it runs only the missions in which the laser is silent for
+a while, or the wheels slip.
 """
 
 import argparse
@@ -13,6 +15,7 @@ from typing import NamedTuple
 
 import numpy as np
 from common import figures
+from common.mishaps import SilentLaser, Slip
 
 from rumba_cleaning import control
 from rumba_cleaning.behaviour import Observation
@@ -35,6 +38,13 @@ HELD = 2.0  # [s] for which it must stay found
 LIMIT = 60.0  # [s] of a search
 WITHIN = 30.0  # [s]
 BEFORE = 10.0  # [s] of driving before the robot is carried away
+SILENCE, SLIPPING = 10.0, 1.0  # [s] for which the laser is silent, and for which the wheels slip
+WHEN = 0.05, 1.2  # between which multiples of T a mishap happens
+SOON = 5.0  # [s]
+MISHAPS = {
+    f'laser silent for {SILENCE:g} s': lambda trial, due: SilentLaser(trial, due, SILENCE),
+    f'wheels turn {SLIPPING:g} s, the robot does not move': lambda trial, due: Slip(trial, due, SLIPPING, False),
+    f'robot slides {SLIPPING:g} s, its wheels do not turn': lambda trial, due: Slip(trial, due, SLIPPING, True)}
 
 
 class Mission(NamedTuple):
@@ -48,6 +58,20 @@ class Mission(NamedTuple):
     lost: float  # share of the time in which the robot was not sure
     cost: float  # CPU time of the localisation per simulated second [s]
     speed: float  # simulated seconds per CPU second, all in all
+
+
+class Troubled(NamedTuple):
+    """A mission with a mishap."""
+
+    worst: float  # [m] largest error of position from the mishap on
+    unnoticed: float  # [m] the same while the robot was sure of its place
+    sigmas: float  # the same, in standard deviations
+    until: float  # [s] from the end of the mishap until the error was below FOUND for good
+    is_noticed: bool  # whether the robot was not sure of its place, at some time from the mishap on
+    driven: float  # [m] during the mishap
+    is_done: bool  # reached its target, as far as it knows
+    swept: float  # [0..1] true coverage at the end
+    is_home: bool
 
 
 @functools.lru_cache(maxsize=None)
@@ -68,7 +92,7 @@ class Watched:
 
     def __init__(self, source):
         """Watch a source."""
-        self.source, self.errors, self.lost, self.cost = source, [], 0, 0.0
+        self.source, self.errors, self.told, self.cost = source, [], [], 0.0
 
     def __call__(self, world, name):
         """What the source believes."""
@@ -76,8 +100,14 @@ class Watched:
         belief = self.source(world, name)
         self.cost += time.process_time() - begun
         self.errors.append(error(belief, world))
-        self.lost += Observation(0.0, belief.pose, covariance=belief.covariance).is_lost
+        self.told.append(belief)
         return belief
+
+    @property
+    def lost(self):
+        """Whether the robot was not sure of its place: bool (observations)."""
+        return np.array([Observation(0.0, each.pose, covariance=each.covariance, silence=each.silence).is_lost
+                         for each in self.told])
 
 
 def mission(name, pose, seed):
@@ -89,8 +119,30 @@ def mission(name, pose, seed):
         trial.step()
     errors, result = np.array(watched.errors), trial.result()
     return Mission(result.multiple_to(round(100 * TARGET)), result.docked == 1, *np.sqrt((errors ** 2).mean(axis=0)),
-                   errors[:, 0].max(), watched.lost / len(errors), watched.cost / result.time,
+                   errors[:, 0].max(), watched.lost.mean(), watched.cost / result.time,
                    result.time / (time.process_time() - begun))
+
+
+def troubled(name, title, seed):
+    """A mission on a map, with a mishap of this title."""
+    trial = Trial(floor(name), 'boustrophedon', Conditions(start=ANYWHERE, pose=LOCALISED, target=TARGET), seed)
+    due = trial.ideal_time * np.random.default_rng(seed).uniform(*WHEN)
+    mishap = MISHAPS[title](trial, due)
+    watched = trial.sources['rumba'] = Watched(trial.sources['rumba'])
+    times, driven = [], []
+    while not trial.is_over:
+        times.append(trial.world.time)
+        driven.append(trial.world.robots['rumba'].distance)
+        trial.step()
+    result = trial.result()
+    since = np.searchsorted(times, mishap.begun)
+    errors, lost, times = np.array(watched.errors)[since:, 0], watched.lost[since:], np.array(times)[since:]
+    sigmas = np.sqrt([max(belief.covariance[0][0], belief.covariance[1][1]) for belief in watched.told[since:]])
+    wrong = np.flatnonzero(errors >= FOUND[0])
+    until = times[wrong[-1]] - mishap.ended if len(wrong) else 0.0
+    end = np.searchsorted(times, mishap.ended)
+    return Troubled(errors.max(), errors[~lost].max(), (errors / sigmas).max(), max(until, 0.0), bool(lost.any()),
+                    driven[since + end] - driven[since], not result.has_failed, result.coverage, result.docked == 1)
 
 
 def search(name, is_carried, seed):
@@ -137,15 +189,27 @@ def main():
     """Print."""
     parser = argparse.ArgumentParser(description=__doc__.split('\n\n')[0])
     parser.add_argument('--seeds', type=int, default=20)
-    seeds = range(1, parser.parse_args().seeds + 1)
+    parser.add_argument('--first', type=int, default=1)
+    parser.add_argument('--troubles', action='store_true')
+    given = parser.parse_args()
+    seeds = range(given.first, given.first + given.seeds)
     with concurrent.futures.ProcessPoolExecutor() as executor:
         for name in NAMES:
-            figures.heading(f'Localisation on the map {name}, {len(seeds)} seeds')
-            told = list(executor.map(functools.partial(mission, name, LOCALISED), seeds))
-            true = list(executor.map(functools.partial(mission, name, TRUTH), seeds))
-            missions(told, true)
-            for title, is_carried in (('place found, told nothing', False), ('place found, carried away', True)):
-                searches(title, list(executor.map(functools.partial(search, name, is_carried), seeds)))
+            if not given.troubles:
+                undisturbed(name, seeds, executor)
+            for title in MISHAPS:
+                figures.heading(f'Localisation on the map {name}, {title}, {len(seeds)} seeds')
+                mishaps(list(executor.map(functools.partial(troubled, name, title), seeds)))
+
+
+def undisturbed(name, seeds, executor):
+    """Missions on a map without mishaps, and searches."""
+    figures.heading(f'Localisation on the map {name}, {len(seeds)} seeds')
+    told = list(executor.map(functools.partial(mission, name, LOCALISED), seeds))
+    true = list(executor.map(functools.partial(mission, name, TRUTH), seeds))
+    missions(told, true)
+    for title, is_carried in (('place found, told nothing', False), ('place found, carried away', True)):
+        searches(title, list(executor.map(functools.partial(search, name, is_carried), seeds)))
 
 
 def missions(told, true):
@@ -162,6 +226,23 @@ def missions(told, true):
     figures.row('home', sum(each.is_home for each in told), at_least=len(told))
     figures.row('CPU time at real time [%]', 100.0 * statistics.median(each.cost for each in told), below=10.0)
     figures.row('simulated seconds per CPU second, all', statistics.median(each.speed for each in told), at_least=200)
+
+
+def mishaps(results):
+    """Print how missions with a mishap went."""
+    figures.row('largest error of position [m], median', statistics.median(each.worst for each in results))
+    figures.row('    the same, worst mission', max(each.worst for each in results))
+    figures.row('    the same, while sure of its place', max(each.unnoticed for each in results), below=0.5)
+    figures.row('    the same, in standard deviations', max(each.sigmas for each in results))
+    figures.row('not sure of its place at some time [missions]', sum(each.is_noticed for each in results))
+    figures.row('driven during the mishap [m], farthest', max(each.driven for each in results))
+    figures.row('from its end until within 0.15 m for good [s], median', statistics.median(
+        each.until for each in results))
+    figures.row('    the same, longest', max(each.until for each in results), below=SOON)
+    figures.row(f'{100 * TARGET:.0f} % swept, as far as it knows [missions]', sum(each.is_done for each in results),
+                at_least=len(results))
+    figures.row('    truly swept [%], least', 100.0 * min(each.swept for each in results), at_least=97)
+    figures.row('home', sum(each.is_home for each in results), at_least=len(results))
 
 
 def searches(title, seconds):

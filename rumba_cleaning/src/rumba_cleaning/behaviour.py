@@ -19,6 +19,8 @@ Covariance = Tuple[Row, Row, Row]  # of x, y and heading
 CERTAIN: Covariance = ((0.0, 0.0, 0.0),) * 3
 UNKNOWN: Covariance = ((math.inf, 0.0, 0.0), (0.0, math.inf, 0.0), (0.0, 0.0, math.inf))
 LOST_AT, LOST_TURNED = 0.3, 0.5  # [m], [rad] standard deviations of a pose from which on the robot is lost; our choice
+SILENT = 1.0  # [s] without a scan, from which on the laser is silent: five scans at 5 Hz
+UNSURE_AT, UNSURE_TURNED = 0.1, 0.3  # [m], [rad] the same while the laser is silent; our choice
 NO_CLIFFS = (False, False, False, False)
 FALLEN = 'a wheel hangs over a cliff: the robot must be put elsewhere'
 # Methods of Behaviour that no subclass overrides.
@@ -38,12 +40,19 @@ class Observation(NamedTuple):
     has_fallen: bool = False  # a wheel hangs over a cliff: the robot cannot drive
     covariance: Covariance = CERTAIN  # of the pose [m^2, m rad, rad^2]
     scan: Optional[Scan] = None  # of the laser, if there is a new one
+    silence: float = 0.0  # [s] for which no scan has come to find the pose by; 0 if it is found by something else
+
+    @property
+    def is_silent(self) -> bool:
+        """Whether the laser is silent, so that the pose is that of the wheels, and becomes worse with each metre."""
+        return self.silence > SILENT
 
     @property
     def is_lost(self) -> bool:
-        """Whether the pose is too uncertain to drive by."""
+        """Whether the pose is too uncertain to drive by; it must be better if no scan can tell of a mistake."""
         (x, _, _), (_, y, _), (_, _, theta) = self.covariance
-        return not (max(x, y) < LOST_AT ** 2 and theta < LOST_TURNED ** 2)  # true of NaN too
+        most, turned = (UNSURE_AT, UNSURE_TURNED) if self.is_silent else (LOST_AT, LOST_TURNED)
+        return not (max(x, y) < most ** 2 and theta < turned ** 2)  # true of NaN too
 
     @property
     def contact(self) -> Tuple[bool, bool]:

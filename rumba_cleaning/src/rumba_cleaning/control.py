@@ -20,9 +20,9 @@ def observe(world: World, name: str, dt: float, source: PoseSource = truth) -> O
     Pose and charge are those that messages tell, bit for bit: the charge is a float32.
     """
     robot = world.robots[name]
-    pose, covariance, scan = source(world, name)
+    pose, covariance, scan, silence = source(world, name)
     return Observation(dt, pose, robot.bumper, world.cliffs(name), float(np.float32(robot.battery.state_of_charge)),
-                       robot.is_docked, world.infrared(name), robot.has_fallen, covariance, scan)
+                       robot.is_docked, world.infrared(name), robot.has_fallen, covariance, scan, silence)
 
 
 def act(behaviour: Behaviour, world: World, name: str, dt: float,

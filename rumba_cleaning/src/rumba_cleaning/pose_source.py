@@ -23,6 +23,7 @@ class Belief(NamedTuple):
     pose: Pose
     covariance: Covariance = CERTAIN
     scan: Optional[Scan] = None  # by which it was found
+    silence: float = 0.0  # [s] since the newest scan by which it was found, if a scan is due
 
 
 PoseSource = Callable[[World, str], Belief]  # called once for each observation of a robot, by its name
@@ -54,22 +55,28 @@ class Localised:
 
     Attributes:
         localiser: what it believes.
+        scans: what the laser of a robot tells, by its world and its name; None while it is silent.
     """
 
     def __init__(self, plan: FloorPlan, world: World, name: str, seed: Seed = 0) -> None:
         """Have a robot of a world know a map, and where it stands now."""
         config = world.config
+        self.scans: Callable[[World, str], Optional[Scan]] = scan_of_robot
+        self._scanned = world.time  # [s] of the newest scan
         self.localiser = Localiser(plan, config.drive.radius, config.laser.range_max, seed=seed)
         self.localiser.start_at(world.robots[name].pose)
 
     def __call__(self, world: World, name: str) -> Belief:
         """Scan, and see where that fits."""
         odometry = as_told(world.robots[name].odometry)
-        scan = _scan(world, name)
-        self.localiser.observe(odometry, scan.points)
+        scan = self.scans(world, name)
+        self.localiser.observe(odometry, None if scan is None else scan.points)
+        if scan is not None:
+            self._scanned = world.time
         estimate = self.localiser.estimate
         pose = compose(as_told(self.localiser.correction), odometry)
-        return Belief(pose, UNKNOWN if estimate is None else _rows(estimate.covariance), scan)
+        return Belief(pose, UNKNOWN if estimate is None else _rows(estimate.covariance), scan,
+                      world.time - self._scanned)
 
 
 class Mapped:
@@ -92,7 +99,7 @@ class Mapped:
     def __call__(self, world: World, name: str) -> Belief:
         """Scan, and see where that fits on the map."""
         odometry = as_told(world.robots[name].odometry)
-        scan = _scan(world, name)
+        scan = scan_of_robot(world, name)
         redrawn = self.mapper.redrawn
         self.mapper.observe(odometry, scan)
         if self.mapper.redrawn > redrawn:
@@ -113,11 +120,11 @@ def seeing(source: PoseSource) -> PoseSource:
     """The same belief, with a scan in any case."""
     def believe(world: World, name: str) -> Belief:
         belief = source(world, name)
-        return belief if belief.scan is not None else belief._replace(scan=_scan(world, name))
+        return belief if belief.scan is not None else belief._replace(scan=scan_of_robot(world, name))
     return believe
 
 
-def _scan(world: World, name: str) -> Scan:
+def scan_of_robot(world: World, name: str) -> Scan:
     """What the laser of a robot of a world tells, as by a sensor_msgs/LaserScan."""
     ranges = world.scan(name).astype(np.float32)
     return scan_of(ranges, float(np.float32(-math.pi)), float(np.float32(TURN / len(ranges))),

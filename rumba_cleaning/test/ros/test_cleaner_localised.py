@@ -2,6 +2,8 @@
 """A robot that localises itself cleans, through ROS as in process; and knows what to do if nobody tells its pose."""
 
 import os
+import re
+import threading
 import unittest
 
 import rospy
@@ -9,6 +11,7 @@ import rostest
 from cleaners import Cleaner
 from geometry_msgs.msg import PoseWithCovarianceStamped
 from localisers import Localiser, Mapper
+from sensor_msgs.msg import LaserScan
 from simulators import Heard, Simulator
 
 from rumba_cleaning.behaviour import Status
@@ -88,6 +91,27 @@ class CleanerLocalisedTest(unittest.TestCase):
         cleaner.commands.fresh(lambda twist: not twist.linear.x and not twist.angular.z)
         Localiser(self)
         cleaner.status.fresh(lambda status: status.state == MissionStatus.CLEANING and 'swept' in status.message)
+        self.assertFalse(goal.has_ended)
+
+    def test_a_robot_whose_laser_falls_silent_waits_until_it_is_back(self):
+        Simulator(self, '_map:=studio', '_speed:=4', '_brushes_up:=true', '_localisation:=none',
+                  '_lockstep_patience:=1')
+        relayed, is_on = rospy.Publisher('/relayed/scan', LaserScan, queue_size=10), threading.Event()
+        is_on.set()
+        relay = rospy.Subscriber('/rumba/scan', LaserScan, lambda scan: is_on.is_set() and relayed.publish(scan))
+        self.addCleanup(relay.unregister)
+        Localiser(self, 'rumba/scan:=/relayed/scan')
+        cleaner = Cleaner(self).connect()
+        Heard(self, '/rumba/amcl_pose', PoseWithCovarianceStamped).find()
+        goal = cleaner.send('clean', CleanGoal(target_coverage=0.5))
+        cleaner.status.find(lambda status: status.state == MissionStatus.CLEANING and '%' in status.message)
+        is_on.clear()
+        waits = re.compile(r'the laser has been silent for \d+ s: waits for it')
+        cleaner.status.fresh(lambda status: waits.fullmatch(status.message))
+        cleaner.commands.fresh(lambda twist: not twist.linear.x and not twist.angular.z)
+        is_on.set()
+        cleaner.status.fresh(lambda status: status.state == MissionStatus.CLEANING and 'swept' in status.message
+                             and 'silent' not in status.message)
         self.assertFalse(goal.has_ended)
 
     def test_a_floor_that_nobody_shows_is_explored_and_cleaned(self):

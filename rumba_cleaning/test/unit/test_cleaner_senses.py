@@ -369,6 +369,25 @@ def test_a_localisation_that_falls_silent_leaves_nothing_known_until_it_is_back(
     assert robot.senses.look().covariance == CERTAIN
 
 
+def test_the_laser_is_silent_for_as_long_as_the_pose_is_newer_than_the_correction(robot):
+    robot.reads(1.0)
+    assert robot.senses.look().silence == 0.0  # nobody tells a covariance
+    for stamp, silence in ((rospy.Time(0, 900_000_000), 0.0), (rospy.Time(1), 0.0), (rospy.Time(3, 500_000_000), 2.5)):
+        robot.tells('amcl_pose', believes(stamp, c0=0.04))
+        assert robot.senses.look().silence == silence
+    robot.reads(3.5)
+    assert robot.senses.look().is_lost
+    robot.transforms(transform('map', 'odom', Pose(0.0, 0.0, 0.0), rospy.Time(3, 500_000_000)))
+    assert robot.senses.look().silence == 0.0 and not robot.senses.look().is_lost
+
+
+def test_a_correction_that_is_static_is_never_too_old(robot):
+    robot.transforms(transform('map', 'odom', Pose(0.0, 0.0, 0.0), rospy.Time(1)), topic='/tf_static')
+    robot.reads(9.0)
+    robot.tells('amcl_pose', believes(rospy.Time(9), c0=0.04))
+    assert robot.senses.look().silence == 0.0
+
+
 @pytest.mark.parametrize('last', ['amcl_pose', 'correction', 'tick'])
 def test_in_lockstep_a_localisation_is_waited_for_if_there_is_one(monkeypatch, last):
     robot, stamp = Robot(monkeypatch, lockstep=WORLD), rospy.Time(1)

@@ -60,6 +60,23 @@ def test_without_any_pose_it_stands_still():
     assert Relocation(context_of(crooked())).command(Observation(0.1, HERE, covariance=UNKNOWN)) == STOP
 
 
+@pytest.mark.parametrize('deviation, turned, silence, is_lost', [
+    (0.2, 0.4, 0.9, False), (0.2, 0.0, 1.1, True), (0.0, 0.4, 1.1, True), (0.05, 0.2, 60.0, False)])
+def test_a_pose_must_be_better_while_the_laser_is_silent(deviation, turned, silence, is_lost):
+    covariance = (deviation ** 2, 0.0, 0.0), (0.0, 0.0, 0.0), (0.0, 0.0, turned ** 2)
+    assert Observation(0.1, HERE, covariance=covariance, silence=silence).is_lost is is_lost
+
+
+def test_while_the_laser_is_silent_it_waits_and_says_for_how_long():
+    lost = Relocation(context_of(crooked()))
+    for number in range(40):
+        silence = 3.0 + 0.1 * number
+        assert lost.command(Observation(0.1, HERE, is_docked=number == 3, covariance=LOST, silence=silence)) == STOP
+        assert lost.message == f'the laser has been silent for {silence:.0f} s: waits for it'
+    assert lost.command(Observation(0.1, HERE, covariance=LOST)).v == relocation.SPEED
+    assert lost.message == relocation.MESSAGE
+
+
 class Ahead(Behaviour):
     """Goes ahead with the brushes down, and counts what it notes meanwhile."""
 
@@ -82,6 +99,13 @@ def test_a_behaviour_stands_by_while_the_robot_is_lost():
         assert behaviour.step(known._replace(covariance=LOST)).brushes_up
     assert (behaviour.behaviour.noted, behaviour.message) == (5, relocation.MESSAGE)
     assert behaviour.step(known) == Command(0.3, 0.0)
+
+
+def test_a_behaviour_goes_on_by_odometry_while_that_is_certain_and_says_that_the_laser_is_silent():
+    behaviour = Bounded(Ahead(), 100.0, context_of(crooked()))
+    assert behaviour.step(Observation(0.1, HERE, silence=2.0)) == Command(0.3, 0.0)
+    assert behaviour.message == 'the laser has been silent for 2 s'
+    assert behaviour.step(Observation(0.1, HERE)) == Command(0.3, 0.0) and behaviour.message == ''
 
 
 def test_a_robot_that_stays_lost_gives_up():

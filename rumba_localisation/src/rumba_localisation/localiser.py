@@ -7,29 +7,22 @@ import numpy as np
 
 from rumba_localisation import compiled_matching, motion, particles
 from rumba_localisation.localiser_config import LocaliserConfig
+from rumba_localisation.matcher import DOUBT, FITS, Matcher
 from rumba_localisation.scan import is_blind, thinned
-from rumba_localisation.search import WRONG, Search
+from rumba_localisation.search import NEAR, WRONG, Search
 from rumba_localisation.walls import Walls
 from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.model.geometry import Pose, compose, inverse, wrap_angle
 from rumba_sim.model.kernel import Array
 
 Seed = Union[int, Sequence[int]]
-STEPS = np.geomspace(0.15, 0.03, 6)  # [m] sigmas of `match`
-MATCHED = 180  # beams, at most, by which the pose is refined
 SURE = 0.9  # share of the weight in one cluster from which on the robot knows where it is
 NARROW = 0.3  # [m], [rad] standard deviations in that cluster, at most
-FITS = 0.25  # share of beams that end at a wall, at least: what the map does not show may hide most of it
-DOUBT = 0.1  # the share by which scans fit worse than in the long run, from which on particles are drawn from the scan
+SPREAD = 0.03  # [m], [rad] standard deviations of particles that are drawn where a scan fits
 SOME = 20  # beams, by which particles are looked at that may be in the wrong place
 PLAUSIBLE = 0.75  # of how well scans went with the estimates before, at least
 LITTLE, RARELY = 0.005, 20  # [m], [rad] of movement after which one scan in so many is used: wheels may slip in place
-GOOD, STARTS = 0.85, 8  # a fit below which a match begins also at so many of the heaviest particles
-WORSE, SOON = 0.8, 0.1  # times the average fit, below which the wheels may have slipped; weight of each scan in it
-SLIPS = np.linspace(-0.4, 0.4, 5)  # [rad] by which they may have turned the robot ...
-SLIPPED = np.diag([0.1, 0.1, 0.1]) ** 2  # ... with such variances [m^2, m^2, rad^2]
-HELD = np.diag([0.02, 0.02, 0.02]) ** 2  # least variances of the prior of a match [m^2, m^2, rad^2]
-INDEPENDENT = 0.2  # share of the beams of a match that err independently: the map errs with its neighbours alike
+STILL = 0.001  # [m], [rad] that the wheels of a robot that stands turn from scan to scan: it may slide all the same
 START = np.diag([0.25, 0.25, math.radians(15.0) ** 2])  # covariance of a start that is told, as amcl's
 
 
@@ -37,17 +30,9 @@ class Estimate(NamedTuple):
     """Where the robot believes it is."""
 
     pose: Pose  # [m, rad] map frame
-    covariance: Array  # float64 (3, 3) of x, y, heading; that of a start at least if the robot is not sure
+    covariance: Array  # float64 (3, 3) of x, y, heading; that of a start at least if scans do not make it sure
     fit: float  # [0..1] share of the beams of the newest scan that end at a wall of the map
     is_sure: bool  # whether it knows its place: one hypothesis, narrow, to which the scans fit
-
-
-class Match(NamedTuple):
-    """Where a scan fits."""
-
-    pose: Array  # float64 (3) [m, m, rad]
-    covariance: Array  # float64 (3, 3)
-    fit: float  # [0..1]
 
 
 class Localiser:
@@ -78,6 +63,7 @@ class Localiser:
         self._field = self._walls.log_likelihood(config.laser_sigma_hit, config.laser_z_hit, config.laser_z_rand,
                                                  range_max)
         self._search = Search(plan, self._walls, radius, range_max)
+        self._matcher = Matcher(self._walls, self._search, config)
         self._generator = np.random.default_rng(seed)
         self.correction = Pose(0.0, 0.0, 0.0)
         self.estimate: Optional[Estimate] = None
@@ -103,9 +89,12 @@ class Localiser:
         self._logarithms = np.zeros(len(self.particles))
         self._last: Optional[Pose] = None  # odometry at the newest scan that was used
         self._unused = 0  # scans since then
-        self._slow = self._fast = 0.0  # averages of how well scans fit
-        self._fit = 0.0  # average share of beams that end at a wall
+        self._seen: Optional[Pose] = None  # odometry at the newest scan, even if it was not used
+        self._errors: Optional[Array] = None  # of the odometry of each particle, while no scan tells how it errs
+        self._was_sure = False  # of its place when that began
+        self._good: Optional[Pose] = None  # newest correction of which it was sure
         self._is_in_doubt = True
+        self._matcher.begin()
 
     # --- scans ----------------------------------------------------------------------------------------------------
 
@@ -113,34 +102,64 @@ class Localiser:
         """Where the robot is, from its odometry, by the newest correction."""
         return compose(self.correction, odometry)
 
-    def observe(self, odometry: Pose, points: Array, is_forced: bool = False) -> bool:
+    def observe(self, odometry: Pose, points: Optional[Array], is_forced: bool = False) -> bool:
         """Take a scan into account, if the robot has moved enough since the last one.
 
         Args:
             odometry: pose by odometry when the scan was taken.
-            points: float64 (beams, 2), where the beams that have an echo end, in the frame of the robot [m]; without
-                echoes the particles follow the odometry alone.
+            points: float64 (beams, 2), where the beams that have an echo end, in the frame of the robot [m]. Without
+                echoes the particles follow the odometry alone; the same if it is None: the laser is silent.
             is_forced: use it even if the robot has not moved.
 
         Returns:
-            Whether it was used: there is a new estimate and a new correction.
+            Whether it was used: there is a new estimate, and a new correction if there are echoes.
         """
+        if points is None or is_blind(points):
+            return self._reckon(odometry)
         self._unused += 1
-        config = self.config
-        if not (is_forced or self._has_moved(odometry, config.update_min_d, config.update_min_a)
-                or self._unused >= RARELY and self._has_moved(odometry, LITTLE, LITTLE)):
+        if not (is_forced or self._errors is not None or self._is_due(odometry, points)):
             return False
-        self._unused = 0
+        self._unused, self._errors = 0, None
         if self._last is not None:
-            self.particles = motion.moved(self.particles, self._last, odometry, self.config, self._generator)
-        elif is_blind(points):
-            return False
+            self._move(odometry, motion.noise(len(self.particles), self._generator))
         self._last = odometry
-        if not is_blind(points):
-            self._weigh(points)
-        self.estimate = self._estimated(points)
+        self._weigh(points)
+        self.estimate = self._estimated(odometry, points)
         self.correction = compose(self.estimate.pose, inverse(odometry))
+        if self.estimate.is_sure:
+            self._good = self.correction
         return True
+
+    def _reckon(self, odometry: Pose) -> bool:
+        """Follow the odometry alone, with one error for each particle: until a scan comes, wheels err in one way."""
+        config, known = self.config, self.estimate
+        if known is None or self._last is None or not self._has_moved(odometry, config.update_min_d,
+                                                                      config.update_min_a):
+            return False
+        if self._errors is None:
+            self._errors, self._was_sure = motion.noise(len(self.particles), self._generator), known.is_sure
+        self._move(odometry, self._errors)
+        self._last = odometry
+        covariance = particles.mean_and_covariance(self.particles, particles.weights(self._logarithms))[1]
+        is_sure = self._was_sure and float(np.sqrt(np.diag(covariance)).max()) < NARROW
+        self.estimate = Estimate(self.pose(odometry), covariance if self._was_sure else START + covariance, known.fit,
+                                 is_sure)
+        return True
+
+    def _move(self, odometry: Pose, errors: Array) -> None:
+        assert self._last is not None
+        self.particles = motion.moved(self.particles, self._last, odometry, self.config, errors)
+
+    def _is_due(self, odometry: Pose, points: Array) -> bool:
+        """Whether a scan is to be used: the robot has moved enough, or slides although its wheels stand still."""
+        config, seen = self.config, self._seen
+        self._seen = odometry
+        if self._has_moved(odometry, config.update_min_d, config.update_min_a):
+            return True
+        if self._unused >= RARELY and self._has_moved(odometry, LITTLE, LITTLE):
+            return True
+        return seen is not None and max(abs(now - then) for now, then in zip(odometry, seen)) < STILL and (
+            self._matcher.is_surprising(np.array(self.pose(odometry)), points))
 
     def _has_moved(self, odometry: Pose, distance: float, turn: float) -> bool:
         """Whether the robot has moved by a distance [m], or a turn [rad], since the newest scan that was used."""
@@ -157,20 +176,9 @@ class Localiser:
         sums = self._likelihoods(points)
         self._logarithms += sums
         share = particles.weights(self._logarithms)
-        fresh = 1.0 - self._fast / self._slow if self._slow > 0.0 else 0.0
+        fresh = self._matcher.decline
         if particles.effective(share) < 0.5 * len(share) or fresh > DOUBT:
             self._draw(share, fresh if fresh > DOUBT else 0.0, points)
-
-    def _plausibility(self, match: Match, points: Array) -> float:
-        """How well a scan goes with a match [0..1], whatever stands before the walls unless it hides most."""
-        through = self._walls.through(match.pose, thinned(points, self.config.laser_max_beams))
-        return min(max(1.0 - WRONG * through, 0.0), match.fit / FITS)
-
-    def _follow_fit(self, fit: float) -> None:
-        """Update the averages of how well scans fit."""
-        config = self.config
-        self._slow += (config.recovery_alpha_slow if self._slow > 0.0 else 1.0) * (fit - self._slow)
-        self._fast += (config.recovery_alpha_fast if self._fast > 0.0 else 1.0) * (fit - self._fast)
 
     def _draw(self, share: Array, fresh: float, points: Array) -> None:
         """Draw particles by their weight, and a part of them from the scan if it fits worse than others did before."""
@@ -185,7 +193,7 @@ class Localiser:
         """Particles at the places to which a scan fits, more where it fits better."""
         poses, fits = self._search.hypotheses(points, self._generator)
         chosen = poses[self._generator.choice(len(poses), count, p=particles.weights(fits / 0.05))]
-        return chosen + self._generator.standard_normal((count, 3)) * 0.03
+        return chosen + self._generator.standard_normal((count, 3)) * SPREAD
 
     def _likelihoods(self, points: Array) -> Array:
         """Logarithms of how likely a scan is at the particles: float64, at most 0.
@@ -201,22 +209,24 @@ class Localiser:
                 [self._walls.through(pose, few) for pose in self.particles])
         return sums * self.config.laser_independence
 
-    def _estimated(self, points: Array) -> Estimate:
-        """The heaviest cluster, moved to where the scan fits best; the particles follow, or they would lag behind.
-
-        While the laser sees nothing the cluster stays where the odometry has it, and spreads on the way.
-        """
+    def _estimated(self, odometry: Pose, points: Array) -> Estimate:
+        """The heaviest cluster, moved to where the scan fits best; the particles follow, or they would lag behind."""
+        matcher = self._matcher
         share = particles.weights(self._logarithms)
         cluster = particles.heaviest(self.particles, share)
-        match = self._best_match(cluster, share, points)
-        deviations = np.sqrt(np.diag(cluster.covariance))
-        is_sure = cluster.share >= SURE and float(deviations.max()) < NARROW
-        if not is_blind(points):
-            plausibility = self._plausibility(match, points)
-            is_sure = is_sure and match.fit >= FITS and plausibility >= PLAUSIBLE * max(self._slow, self._fast)
-            self._is_in_doubt = not is_sure or plausibility < 1.0 - DOUBT
-            self._follow_fit(plausibility)
-            self._fit += SOON * (match.fit - self._fit)
+        match = matcher.best(cluster, self.particles, share, points)
+        near = None if self._good is None else compose(self._good, odometry)
+        if near is not None and not matcher.is_good(match):
+            slipped = matcher.slipped(near, points)
+            if slipped is not None:
+                match, cluster = slipped, self._gather(slipped.pose)
+                share = particles.weights(self._logarithms)
+        is_near = near is None or math.hypot(match.pose[0] - near.x, match.pose[1] - near.y) <= NEAR
+        is_narrow = cluster.share >= SURE and float(np.sqrt(np.diag(cluster.covariance)).max()) < NARROW
+        is_sure = (is_narrow and match.fit >= FITS and match.plausibility >= PLAUSIBLE * matcher.usual
+                   and (is_near or matcher.is_good(match)))
+        self._is_in_doubt = not is_sure or match.plausibility < 1.0 - DOUBT
+        matcher.follow(match, is_sure)
         if is_sure:
             x, y, turn = (match.pose - cluster.mean).tolist()
             self.particles += (x, y, wrap_angle(turn))
@@ -224,24 +234,9 @@ class Localiser:
         covariance = match.covariance if is_sure else START + particles.mean_and_covariance(self.particles, share)[1]
         return Estimate(Pose(x, y, wrap_angle(theta)), covariance, match.fit, is_sure)
 
-    def _best_match(self, cluster: particles.Cluster, share: Array, points: Array) -> Match:
-        """Where a scan fits near a cluster; the cluster itself if there is no scan."""
-        if is_blind(points):
-            return Match(cluster.mean, cluster.covariance, 0.0)
-        match = self._matched(cluster, cluster.mean, points)
-        starts = []
-        if match.fit < GOOD:  # perhaps the far side of a thin wall: it may fit better from elsewhere in the cluster
-            starts += list(self.particles[np.argsort(-share, kind='stable')[:STARTS]])
-        if match.fit < WORSE * self._fit:  # perhaps the wheels slipped
-            starts += [cluster.mean + (0.0, 0.0, turn) for turn in SLIPS]
-            cluster = cluster._replace(covariance=cluster.covariance + SLIPPED)
-        few = thinned(points, self.config.laser_max_beams)
-        return max([match, *(self._matched(cluster, start, points) for start in starts)],
-                   key=lambda each: each.fit - WRONG * self._walls.through(each.pose, few)) if starts else match
-
-    def _matched(self, cluster: particles.Cluster, start: Array, points: Array) -> Match:
-        pose, covariance = np.empty(3), np.empty((3, 3))
-        fit = compiled_matching.match(start, cluster.covariance + HELD, thinned(points, MATCHED),
-                                      self._walls.distance, *self._walls.origin, self._walls.resolution, STEPS,
-                                      INDEPENDENT, pose, covariance)
-        return Match(pose, covariance, fit)
+    def _gather(self, pose: Array) -> particles.Cluster:
+        """Have all particles at a pose (3), since the robot slipped there; returns their cluster."""
+        count = self.config.min_particles
+        self.particles = pose + self._generator.standard_normal((count, 3)) * SPREAD
+        self._logarithms = np.zeros(count)
+        return particles.heaviest(self.particles, particles.weights(self._logarithms))

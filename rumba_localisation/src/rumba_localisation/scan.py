@@ -46,8 +46,11 @@ def scan_of(ranges: Array, angle_min: float, angle_increment: float, range_max: 
         angle_increment: from beam to beam [rad].
         range_max: up to which a beam without an echo met nothing [m].
     """
-    free = np.where(np.isposinf(ranges), range_max, np.nan)
-    return Scan(points(ranges, angle_min, angle_increment), points(free, angle_min, angle_increment))
+    met = points(ranges, angle_min, angle_increment)
+    has_none = ranges == math.inf
+    if not has_none.any():
+        return Scan(met, met[:0])
+    return Scan(met, points(np.where(has_none, range_max, np.nan), angle_min, angle_increment))
 
 
 def told(message: Any) -> Optional[Scan]:

@@ -9,7 +9,7 @@ from scans import drive, error, localiser_of, scanned, world_of
 
 from rumba_localisation.localiser import START
 from rumba_localisation.localiser_config import LocaliserConfig
-from rumba_localisation.scan import points, thinned
+from rumba_localisation.scan import points, scan_of, thinned
 from rumba_sim.model.errors import ConfigError
 from rumba_sim.model.geometry import Pose, compose
 from rumba_sim.model.obstacle import Obstacle
@@ -31,6 +31,13 @@ def under_way(seconds=5.0):
 def test_points_are_where_beams_end():
     found = points(np.array([1.0, np.inf, 2.0, -np.inf, np.nan]), -0.5 * math.pi, 0.5 * math.pi)
     assert found == pytest.approx(np.array([[0.0, -1.0], [0.0, 2.0]]))
+
+
+def test_only_beams_without_an_echo_reach_as_far_as_the_laser_does():
+    near, far = (scan_of(np.array(ranges, np.float32), -0.5 * math.pi, 0.5 * math.pi, 8.0)
+                 for ranges in ([1.0, 3.0, -np.inf], [1.0, np.inf, -np.inf]))
+    assert near.beyond.shape == (0, 2) and near.points.shape == (2, 2)
+    assert far.beyond == pytest.approx(np.array([[8.0, 0.0]])) and far.points == pytest.approx(np.array([[0.0, -1.0]]))
 
 
 def test_few_points_remain_and_are_spread():
@@ -142,6 +149,25 @@ def test_wheels_that_slip_for_a_second_do_not_lose_the_robot(slipped):
     assert max(map(max, errors[-30:])) < 0.05 and localiser.estimate.is_sure
 
 
+@pytest.mark.parametrize('v, w', [(0.25, 0.0), (0.0, 1.5), (0.0, -1.5)])
+@pytest.mark.parametrize('pose', [Pose(0.5, 0.5, 0.3), Pose(2.0, 1.3, 2.0), Pose(0.8, 2.4, 1.0), Pose(3.5, 2.5, -2.5)])
+def test_a_robot_that_slides_for_a_second_stays_near_where_it_is(pose, v, w):
+    """Its wheels stand meanwhile, so that the odometry tells of no movement."""
+    world = world_of(pose=pose)
+    localiser, robot = localiser_of(world.plan), world.robots['rumba']
+    localiser.start_at(robot.pose)
+    list(drive(world, localiser, 0.1, 0.3, 3.0))
+    counted = robot.odometry
+    for _ in range(10):
+        robot.command(v, w, world.tick)
+        world.step(5)
+        robot.state['odom_x'], robot.state['odom_y'], robot.state['odom_theta'] = counted
+        localiser.observe(counted, scanned(world))
+        away, turned = error(localiser.pose(counted), robot.pose)
+        assert away < 0.15 and turned < 0.25
+    assert max(map(max, drive(world, localiser, 0.1, 0.3, 3.0))) < 0.1 and localiser.estimate.is_sure
+
+
 def test_wheels_that_slip_in_place_are_noticed_within_seconds():
     """As those of a robot that drives against an obstacle, and moves less than what a scan is used after."""
     world, localiser = under_way()
@@ -153,6 +179,51 @@ def test_wheels_that_slip_in_place_are_noticed_within_seconds():
         errors.append(error(localiser.pose(slipped), robot.pose)[0])
     assert errors[0] > 0.02 and max(errors[20:]) < 0.01
     assert not any([localiser.observe(slipped, scanned(world)) for _ in range(50)])  # it stands
+
+
+def silenced():
+    """A world, and a localiser of many particles that knows its place, and looks along the x axis."""
+    world = world_of(pose=Pose(0.5, 0.6, 0.0))
+    localiser = localiser_of(world.plan, config=LocaliserConfig(min_particles=4000, max_particles=4000))
+    localiser.start_at(world.robots['rumba'].pose, np.diag([1e-6, 1e-6, 1e-6]))
+    assert localiser.observe(NOBODY, scanned(world))
+    return world, localiser
+
+
+@pytest.mark.parametrize('steps', [8, 4])
+def test_while_the_laser_is_silent_the_covariance_grows_as_the_motion_model_says(steps):
+    """After a way straight ahead of d: a3 d^2 along it, a2 d^2 of the heading, whatever its parts are."""
+    _, localiser = silenced()
+    config, known, before = localiser.config, np.cov(localiser.particles.T), localiser.estimate.pose
+    for step in range(1, steps + 1):
+        assert localiser.observe(Pose(step / steps, 0.0, 0.0), None)
+    found, pose = localiser.estimate.covariance - known, localiser.estimate.pose
+    assert found[0, 0] == pytest.approx(config.odom_alpha3, rel=0.15)
+    assert found[2, 2] == pytest.approx(config.odom_alpha2, rel=0.1)
+    assert found[1, 1] > 0.2 * found[2, 2] and localiser.estimate.is_sure
+    assert pose == pytest.approx(compose(before, Pose(1.0, 0.0, 0.0)))
+
+
+def test_while_the_laser_is_silent_a_robot_that_stands_stays_as_certain_and_one_that_drives_far_does_not():
+    _, localiser = silenced()
+    known = localiser.estimate
+    assert not any([localiser.observe(NOBODY, None) for _ in range(100)]) and localiser.estimate == known
+    for step in range(1, 40):
+        localiser.observe(Pose(0.1 * step, 0.0, 0.0), None)
+    assert not localiser.estimate.is_sure and localiser.estimate.covariance[0, 0] > 0.3 ** 2
+
+
+def test_the_first_scan_after_a_silence_is_used_although_the_robot_stands():
+    world, localiser = under_way()
+    robot = world.robots['rumba']
+    for _ in range(30):
+        robot.command(0.2, 0.8, world.tick)
+        world.step(5)
+        localiser.observe(robot.odometry, None)
+    assert localiser.estimate.covariance[2, 2] > 0.01
+    assert localiser.observe(robot.odometry, scanned(world))
+    assert max(error(localiser.pose(robot.odometry), robot.pose)) < 0.02
+    assert localiser.estimate.is_sure and localiser.estimate.covariance[2, 2] < 0.001
 
 
 def test_without_echoes_the_pose_becomes_uncertain_and_is_found_again():
@@ -199,6 +270,16 @@ def test_no_place_is_tried_where_the_robot_does_not_fit():
     plan = crooked()
     positions = localiser_of(plan)._search._positions
     assert len(positions) > 100 and min(plan.clearance_at(x, y) for x, y in positions) >= RADIUS - 0.03
+
+
+@pytest.mark.parametrize('away, turn', [(0.0, math.pi), (0.3, 1.5), (0.5, -2.5)])
+def test_a_robot_that_slipped_is_found_around_its_place_and_farther_away_it_is_not(away, turn):
+    plan, true = crooked(), Pose(2.0, 1.3, 0.7)
+    points, localiser = scanned(world_of(plan, true)), localiser_of(plan)
+    localiser.observe(NOBODY, points)
+    found = localiser._matcher.slipped(Pose(true.x + away, true.y, true.theta + turn), points)
+    assert max(error(Pose(*found.pose), true)) < 0.02
+    assert localiser._matcher.slipped(Pose(true.x + away + 1.0, true.y, true.theta), points) is None
 
 
 @pytest.mark.parametrize('given, message', [

@@ -10,7 +10,7 @@ from rooms import crooked, room
 from scans import scanned, world_of
 
 from rumba_localisation import compiled_matching
-from rumba_localisation.localiser import STEPS
+from rumba_localisation.matcher import STEPS
 from rumba_localisation.walls import Walls
 from rumba_sim.model.geometry import Pose
 

@@ -1,16 +1,20 @@
 """What the node makes of messages, without a master."""
 
 import math
+import types
 
 import numpy as np
 import pytest
 import rospy
 from geometry_msgs.msg import PoseWithCovariance
+from nav_msgs.msg import Odometry
 from rooms import crooked
+from scans import world_of
 from sensor_msgs.msg import LaserScan
 from std_msgs.msg import Header
 
-from rumba_localisation.ros import conversions
+from rumba_localisation.ros import conversions, scan_loop
+from rumba_localisation.ros import localiser as node
 from rumba_localisation.ros.localiser import Settings
 from rumba_localisation.ros.odometries import KEPT, Odometries
 from rumba_sim.model.errors import ConfigError, MapError
@@ -93,3 +97,58 @@ def test_a_start_needs_both_coordinates():
     assert Settings(initial_pose_x=1.0, initial_pose_y=2.0).start == Pose(1.0, 2.0, 0.0)
     with pytest.raises(ConfigError, match='^initial_pose_x and initial_pose_y must be given together, or neither$'):
         Settings(initial_pose_x=1.0)
+
+
+class Node:
+    """The node without ROS, for a robot in a world; it hears what the world tells, and keeps what the node tells."""
+
+    def __init__(self, monkeypatch, world):
+        self.told, self.warnings = {}, []
+        monkeypatch.setattr(scan_loop.rospy, 'Publisher', self._publisher)
+        monkeypatch.setattr(scan_loop.rospy, 'Subscriber', lambda *_, **__: None)
+        monkeypatch.setattr(node.rospy, 'Service', lambda *_: None)
+        monkeypatch.setattr(scan_loop, 'Participant', lambda _: None)
+        monkeypatch.setattr(node.rospy, 'loginfo', lambda _: None)
+        monkeypatch.setattr(node.rospy, 'logwarn_throttle', lambda _, line: self.warnings.append(line))
+        monkeypatch.setattr(scan_loop, 'SILENT_WALL', 0.0)
+        self._world, self._start = world, world.robots['rumba'].pose
+        x, y, theta = self._start
+        self._node = node.LocaliserNode(Settings(initial_pose_x=x, initial_pose_y=y, initial_pose_a=theta))
+        self._node._take_map(message_of(world.plan))
+
+    def _publisher(self, topic, *_, **__):
+        told = self.told.setdefault(topic.replace('rumba/', ''), [])
+        return types.SimpleNamespace(publish=told.append, get_num_connections=lambda: 1)
+
+    def drives(self, seconds, has_scans):
+        """Have the robot drive ahead, with an odometry each 0.02 s and a scan each 0.1 s; returns the stamps."""
+        world, stamps = self._world, []
+        robot = world.robots['rumba']
+        for _ in range(round(50 * seconds)):
+            robot.command(0.2, 0.2, world.tick)
+            world.step()
+            stamps.append(rospy.Time.from_sec(world.time + 1.0))
+            header = Header(stamp=stamps[-1])
+            if has_scans and world.tick % 5 == 0:
+                ranges = world.scan('rumba')
+                self._node._take_scan(LaserScan(header=header, angle_min=-math.pi, range_max=8.0,
+                                                angle_increment=2.0 * math.pi / len(ranges), ranges=ranges))
+            odometry = Odometry(header=header)
+            odometry.pose.pose = conversions.pose_message(*robot.odometry)
+            self._node._take_odom(odometry)
+        return stamps
+
+
+def test_while_the_laser_is_silent_the_node_tells_a_pose_by_odometry_and_no_correction(monkeypatch):
+    heard = Node(monkeypatch, world_of(pose=Pose(0.5, 0.6, 0.3)))
+    scanned = heard.drives(2.0, has_scans=True)[-1]
+    poses, corrections = heard.told['amcl_pose'], heard.told['/tf']
+    assert poses[-1].header.stamp == scanned and len(poses) == len(corrections) == 20 and not heard.warnings
+    silent = heard.drives(6.0, has_scans=False)
+    told, known = poses[20:], poses[19].pose.covariance
+    assert 45 <= len(told) <= 51 and len(corrections) == 20 and told[-1].header.stamp > silent[-6]
+    assert (told[0].header.stamp - scanned).to_sec() == pytest.approx(scan_loop.SILENT, abs=0.03)
+    assert told[-1].pose.covariance[0] > 20.0 * known[0] and told[-1].pose.covariance[35] > 20.0 * known[35]
+    assert heard.warnings[-1] == 'rumba: the laser has been silent for 6 s: goes by odometry alone'
+    heard.drives(0.2, has_scans=True)
+    assert poses[-1].pose.covariance[0] < 10.0 * known[0] and len(corrections) == 22

@@ -56,12 +56,15 @@ class Bounded(Behaviour):
     def _decide(self, observation: Observation) -> Command:
         if self._relocation is not None and observation.is_lost:
             self.behaviour.stand_by(observation)
-            self.message = relocation.MESSAGE
-            return self._relocation.command(observation)
+            command = self._relocation.command(observation)
+            self.message = self._relocation.message
+            return command
         if self._relocation is not None:
             self._relocation.rest()
         command = self.behaviour.step(observation)
         self.message = self.behaviour.message
+        if observation.is_silent:
+            self.message = relocation.while_silent(self.message, observation)
         return command
 
     def terminate(self) -> None:

@@ -1,4 +1,4 @@
-"""Drives about with care while the robot does not know where it is, until it does."""
+"""Drives about with care while the robot does not know where it is, until it does; waits while its laser is silent."""
 
 import math
 
@@ -14,11 +14,26 @@ MESSAGE = 'lost: drives about until it knows where it is'
 GIVEN_UP = f'lost: still does not know where it is after {PATIENCE:g} s'
 
 
+def while_silent(message: str, observation: Observation) -> str:
+    """What a robot does, in one line for a person, and that its laser is silent."""
+    return f'{message}{"; " if message else ""}{_silence(observation)}'
+
+
+def _silence(observation: Observation) -> str:
+    return f'the laser has been silent for {observation.silence:.0f} s'
+
+
 class Relocation:
     """Goes ahead and turns away from what it meets, by bumper and cliff sensors alone, with the brushes up.
 
-    What the laser sees on the way tells places apart that look alike from one spot.
+    What the laser sees on the way tells places apart that look alike from one spot. While it sees nothing at all, the
+    robot stands still: each movement would make the pose worse.
+
+    Attributes:
+        message: one line for a person: what it does.
     """
+
+    message = MESSAGE
 
     def __init__(self, context: Context) -> None:
         """Draw the turns from the generator of a context."""
@@ -40,6 +55,9 @@ class Relocation:
     def command(self, observation: Observation) -> Command:
         """What to do now: off the dock, which is found again by its beams, then about; stop if there is no pose."""
         self._lost += min(observation.dt, LONGEST)
+        self.message = f'{_silence(observation)}: waits for it' if observation.is_silent else MESSAGE
+        if observation.is_silent:
+            return STOP
         self._back = BACK / SPEED if observation.is_docked else max(self._back - observation.dt, 0.0)
         if math.isinf(observation.covariance[0][0]):
             return STOP

@@ -143,18 +143,21 @@ class Mission(Behaviour):
             return self._strand(f'{percent(self._context.swept.coverage)} swept: the robot is so near to edges that no '
                                 'way on is safe', Outcome.BLOCKED)
         self._brushes_up = command.brushes_up
+        if self.status is Status.RUNNING and observation.is_silent:
+            self.message = relocation.while_silent(self.message, observation)
         return command
 
     def _relocate(self, observation: Observation) -> Command:
-        """Drive about until the robot knows where it is; what its brushes pass over meanwhile counts for nothing."""
+        """Wait or drive about until the robot knows where it is; what its brushes pass over counts for nothing."""
         self._brushes_up = True
         self._is_undisturbed = False
         if self._part is not None:
             self._part.stand_by(observation)
         if self._relocation.is_hopeless:
             return self._strand(relocation.GIVEN_UP, Outcome.LOST)
-        self.message = relocation.MESSAGE
-        return self._guard.step(self._relocation.command, observation)
+        command = self._guard.step(self._relocation.command, observation)
+        self.message = self._relocation.message
+        return command
 
     def _decide(self, observation: Observation) -> Command:
         if self._context.mates.reports and self.state in (State.CLEANING, State.RETURNING):

@@ -6,10 +6,12 @@ from concurrent.futures import Future
 from typing import NamedTuple, Optional
 
 from rumba_cleaning.behaviour import STOP, Behaviour, Command, Observation
+from rumba_cleaning.behaviours import standstill
 from rumba_cleaning.behaviours.detour import detour
 from rumba_cleaning.behaviours.impasse import Impasse
-from rumba_cleaning.behaviours.travel import Going, Travel
+from rumba_cleaning.behaviours.travel import LONGEST, Going, Travel
 from rumba_cleaning.belief.context import Context
+from rumba_cleaning.outcome import Outcome
 from rumba_cleaning.route import Ahead, Relief, Route
 from rumba_cleaning.strategies import strategy
 from rumba_sim.model.geometry import Pose
@@ -74,7 +76,7 @@ class Boustrophedon(Behaviour):
         self._before = -1.0  # coverage when the round began
         self._driven = 0.0  # [m] since then
         self._last: Optional[Pose] = None  # where the robot was
-        self._impasse = Impasse()
+        self._impasse, self._standstill = Impasse(), standstill.Standstill()
         self._brushes_up = True
 
     def update(self, observation: Observation) -> Command:
@@ -97,6 +99,9 @@ class Boustrophedon(Behaviour):
             self._pause -= observation.dt
             self.message = 'waiting for what is in the way'
             return self._wait()
+        self._standstill.watch(pose, min(observation.dt, LONGEST))
+        if self._standstill.is_hopeless:
+            return self.fail(f'stuck: has not got away from one place for {standstill.LONGEST:g} s', Outcome.BLOCKED)
         self._brushes_up = False
         command = self._travel.command(observation, self._brushes_up)
         self.message = f'{self._travel.remaining:.0f} m of the plan to go'

@@ -3,7 +3,9 @@
 For each scan it publishes, with the stamp of that scan,
   /tf             tf2_msgs/TFMessage: map -> odom
 and below the robot's name
-  amcl_pose       geometry_msgs/PoseWithCovarianceStamped: latched; the covariance is large while it is not sure
+  amcl_pose       geometry_msgs/PoseWithCovarianceStamped: latched; the covariance is large while it is not sure. While
+                  no scan comes it is told by odometry alone, every 0.1 s, with a covariance that grows on the way;
+                  map -> odom stays as old as the newest scan then
   particlecloud   geometry_msgs/PoseArray: after each scan that it used
 It subscribes to
   /map            nav_msgs/OccupancyGrid
@@ -45,6 +47,8 @@ from rumba_sim.ros.common.conversions import plane_pose
 from rumba_sim.ros.common.frames import MAP
 from rumba_sim.ros.common.maps import floor_plan
 from rumba_sim.ros.common.names import check_names
+
+TOLD_EVERY = rospy.Duration(0.1)  # while the laser is silent
 
 
 @dataclasses.dataclass(frozen=True)
@@ -88,6 +92,7 @@ class LocaliserNode(ScanLoop):
         self._localiser: Optional[Localiser] = None  # None until there are a map and a scan
         self._is_forced = False
         self._was_sure: Optional[bool] = None
+        self._told = rospy.Time()  # stamp of the newest pose
         name = settings.robot
         self._pose = rospy.Publisher(f'{name}/amcl_pose', PoseWithCovarianceStamped, queue_size=QUEUE, latch=True)
         self._cloud = rospy.Publisher(f'{name}/particlecloud', PoseArray, queue_size=2)
@@ -156,12 +161,29 @@ class LocaliserNode(ScanLoop):
         stamp = scan.header.stamp
         self._is_forced = self._is_forced and not is_used
         self._correct(localiser.correction, stamp)
+        self._tell(localiser, odometry, stamp, is_used)
+        self._say(localiser)
+
+    def _reckon(self, odometry: Pose, stamp: rospy.Time) -> None:
+        """Go by odometry alone while the laser is silent."""
+        localiser = self._localiser
+        if localiser is None or localiser.estimate is None:
+            return
+        rospy.logwarn_throttle(COMPLAINT_PERIOD, f'{self._settings.robot}: the laser has been silent for '
+                                                 f'{self._silence(stamp):.0f} s: goes by odometry alone')
+        is_used = localiser.observe(odometry, None)
+        if stamp < self._told or stamp - self._told >= TOLD_EVERY:
+            self._tell(localiser, odometry, stamp, is_used)
+
+    def _tell(self, localiser: Localiser, odometry: Pose, stamp: rospy.Time, has_moved: bool) -> None:
+        """Publish the pose, and the particles if they have moved and somebody listens."""
+        assert localiser.estimate is not None
+        self._told = stamp
         header = Header(stamp=stamp, frame_id=MAP)
         self._pose.publish(conversions.pose_with_covariance(
             localiser.pose(odometry), localiser.estimate.covariance, header))
-        if is_used and self._cloud.get_num_connections():
+        if has_moved and self._cloud.get_num_connections():
             self._cloud.publish(conversions.cloud(localiser.particles, header))
-        self._say(localiser)
 
     def _say(self, localiser: Localiser) -> None:
         """Tell a person when the robot finds its place, or loses it."""

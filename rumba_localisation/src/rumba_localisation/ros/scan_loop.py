@@ -22,6 +22,8 @@ from rumba_sim.ros.common.requests import Requests
 PERIOD = 0.1  # [s] of the wall clock between two looks whether ROS shuts down
 QUEUE = 100  # messages that may wait to be read
 COMPLAINT_PERIOD = 10.0  # [s]
+SILENT = 1.0  # [s] of the robot's time without a scan, from which on the laser is silent: five scans at 5 Hz ...
+SILENT_WALL = 0.2  # ... and so many of the wall clock: at a high speed, scans may wait in a queue
 
 
 class ScanLoop(abc.ABC):
@@ -35,6 +37,7 @@ class ScanLoop(abc.ABC):
         self._waiting: Optional[LaserScan] = None  # for its odometry
         self._tick: Optional[Lockstep] = None  # that was not answered yet
         self._scanned = rospy.Time()  # stamp of the newest scan that was dealt with
+        self._heard = time.monotonic()  # when the newest scan came
         self._newest = Resent()
         self._tf = rospy.Publisher('/tf', TFMessage, self._newest, queue_size=QUEUE)
         self._participant = Participant(lambda tick: self._requests.post(lambda: self._take_tick(tick)))
@@ -63,14 +66,20 @@ class ScanLoop(abc.ABC):
     def _use(self, scan: LaserScan, odometry: Pose) -> None:
         """Called with each scan, and where the robot was then by its odometry."""
 
+    def _reckon(self, odometry: Pose, stamp: rospy.Time) -> None:
+        """Called with each odometry while the laser is silent."""
+
     def _take_odom(self, message: Odometry) -> None:
         pose = plane_pose(message.pose.pose)
         if all(math.isfinite(number) and abs(number) <= FARTHEST for number in pose):
             self._odometries.add(message.header.stamp, pose)
             self._look()
+            if self._silence(message.header.stamp) > SILENT and time.monotonic() - self._heard > SILENT_WALL:
+                self._reckon(pose, message.header.stamp)
 
     def _take_scan(self, message: LaserScan) -> None:
         self._waiting = message
+        self._heard = time.monotonic()
         self._look()
 
     def _take_tick(self, tick: Lockstep) -> None:
@@ -90,6 +99,10 @@ class ScanLoop(abc.ABC):
             self._use(scan, odometry)
         self._scanned = scan.header.stamp
         self._answer()
+
+    def _silence(self, stamp: rospy.Time) -> float:
+        """Time from the newest scan to a stamp [s]; 0 before the first scan."""
+        return 0.0 if self._scanned.is_zero() else float((stamp - self._scanned).to_sec())
 
     def _correct(self, correction: Pose, stamp: rospy.Time) -> None:
         """Publish map -> odom."""

@@ -72,6 +72,11 @@ class Location:
         correction, odometry = map(self._newest.get, self._links)
         return compose(correction[0], odometry[0]) if correction is not None and odometry is not None else None
 
+    def silence(self, stamp: rospy.Time) -> float:
+        """How much older the newest map -> odom is than a stamp [s]; 0 if it is newer, or was told once and for all."""
+        known = self._newest.get(self._links[0])
+        return 0.0 if known is None or known[1] else max(float((stamp - self.corrected).to_sec()), 0.0)
+
     def __str__(self) -> str:
         return f'{MAP} -> {self._frames.odom} -> {self._frames.base_footprint}'
 

@@ -204,7 +204,7 @@ class Senses:
             return None
         covariance = self._certainty.covariance(parts[CLOCK].header.stamp)
         return conversions.observation(pose, parts['bumper'], parts['cliff'], parts['dock_status'], battery.percentage,
-                                       covariance)
+                                       covariance)._replace(silence=self._location.silence(self._certainty.stamp))
 
     def pose(self) -> Optional[Pose]:
         """The pose of the robot in the map frame; None if tf does not have it."""
