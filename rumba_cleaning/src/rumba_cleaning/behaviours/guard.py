@@ -31,7 +31,8 @@ SAFE_SPEED = 0.35  # [m/s]
 SAFE_CURVATURE = 2.0  # [1/m]
 WARY_SPEED = 0.25  # [m/s] near a cliff that the map does not show: in 0.06 m the robot stops, whatever its shape is
 SLOW = 0.1  # [m/s] near such a cliff: no faster in bends, unless all of the floor in them is known
-TIGHT = 3.3  # [1/m] in tighter bends the sensors of one side look along the circle of the outer wheel
+TIGHT = 3.3  # [1/m] in tighter bends the sensors of one side look along the circle of the outer wheel, ...
+SWIFT_SPEED = 0.45  # [m/s] ... 0.17 m ahead of it: a wheel that is no faster stops within 0.15 m
 
 Wheels = Tuple[float, float]  # left and right
 Sides = Tuple[bool, bool]  # left and right
@@ -112,7 +113,8 @@ class Guard:
         if not (is_near or must_know) or fastest == 0.0:
             return command
         found, slips = [], self._slips(observation, wanted)
-        for share in (1.0, SAFE_SPEED / max(_faster(wanted), SAFE_SPEED), *SHARES):
+        limited = (limit / max(_faster(wanted), limit) for limit in (SWIFT_SPEED, SAFE_SPEED))
+        for share in (1.0, *limited, *SHARES):
             slower = command if share == 1.0 else command._replace(v=share * command.v, w=share * command.w)
             found.append(self._edges(pose, self._wanted(slower), slips, is_near, must_know))
             if found[-1] == NONE:
@@ -187,7 +189,8 @@ class Guard:
 
     def _guessed(self, pose: Pose, wanted: Wheels) -> int:
         """How many cells beside known floor are taken to be floor too: fewer where it is easier to fall."""
-        if max(wanted) > SAFE_SPEED + ROUNDING and _curvature(wanted, self._half) < TIGHT:
+        limit = SAFE_SPEED if _curvature(wanted, self._half) < TIGHT else SWIFT_SPEED
+        if max(wanted) > limit + ROUNDING:
             return 0
         if not self._is_wary(pose):
             return 2

@@ -309,10 +309,15 @@ class Ground:
         return np.concatenate([[start], inner[1:-1] if len(inner) > 2 else inner, [end]])
 
     def in_largest_part(self, points: Sequence[Tuple[float, float]]) -> Tuple[float, float]:
-        """Of the nodes nearest to points at which the robot can stand, that in the largest part of the floor [m]."""
-        parts = self._parts()
+        """Of the nodes nearest to points at which the robot can stand, that in the largest part of the floor [m].
+
+        It can stand there without squeezing past anything.
+        """
+        usual = self.copy()
+        usual.squeeze(False)
+        parts = usual._parts()
         sizes = np.bincount(parts.ravel())
-        node = max((self.standing_at(x, y) for x, y in points), key=lambda node: int(sizes[parts[node]]))
+        node = max((usual.standing_at(x, y) for x, y in points), key=lambda node: int(sizes[parts[node]]))
         (x, y), = self.points(np.array([node])).tolist()
         return x, y
 
