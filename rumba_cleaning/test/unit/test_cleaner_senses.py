@@ -402,6 +402,19 @@ def test_in_lockstep_a_localisation_is_waited_for_if_there_is_one(monkeypatch, l
     assert robot.readings == 1
 
 
+@pytest.mark.parametrize('silence, readings', [(0.5, 0), (1.5, 1)])
+def test_in_lockstep_a_correction_is_not_waited_for_while_the_laser_is_silent(monkeypatch, silence, readings):
+    robot, scanned = Robot(monkeypatch, lockstep=WORLD), rospy.Time(1)
+    stamp = scanned + rospy.Duration(silence)
+    robot.transforms(odometry(stamp=scanned, frame='map', child='odom'))
+    for topic, tell in {**parts_of(stamp), 'tf': lambda robot: robot.transforms(odometry(stamp=stamp))}.items():
+        if topic != 'tick':
+            tell(robot)
+    robot.tells('amcl_pose', believes(stamp))
+    robot.senses.on_tick(Lockstep(Header(stamp=stamp), *WORLD, stamp, stamp, stamp))
+    assert robot.readings == readings
+
+
 def test_in_lockstep_a_scan_without_a_localisation_is_not_waited_for(monkeypatch):
     robot, stamp = Robot(monkeypatch, lockstep=WORLD), rospy.Time(1)
     robot.connections = 0

@@ -4,8 +4,8 @@ For each scan it publishes, with the stamp of that scan,
   /tf             tf2_msgs/TFMessage: map -> odom
 and below the robot's name
   amcl_pose       geometry_msgs/PoseWithCovarianceStamped: latched; the covariance is large while it is not sure. While
-                  no scan comes it is told by odometry alone, every 0.1 s, with a covariance that grows on the way;
-                  map -> odom stays as old as the newest scan then
+                  no scan comes it is told by odometry alone, as often as that, with a covariance that grows on the
+                  way; map -> odom stays as old as the newest scan then
   particlecloud   geometry_msgs/PoseArray: after each scan that it used
 It subscribes to
   /map            nav_msgs/OccupancyGrid
@@ -47,8 +47,6 @@ from rumba_sim.ros.common.conversions import plane_pose
 from rumba_sim.ros.common.frames import MAP
 from rumba_sim.ros.common.maps import floor_plan
 from rumba_sim.ros.common.names import check_names
-
-TOLD_EVERY = rospy.Duration(0.1)  # while the laser is silent
 
 
 @dataclasses.dataclass(frozen=True)
@@ -92,7 +90,6 @@ class LocaliserNode(ScanLoop):
         self._localiser: Optional[Localiser] = None  # None until there are a map and a scan
         self._is_forced = False
         self._was_sure: Optional[bool] = None
-        self._told = rospy.Time()  # stamp of the newest pose
         name = settings.robot
         self._pose = rospy.Publisher(f'{name}/amcl_pose', PoseWithCovarianceStamped, queue_size=QUEUE, latch=True)
         self._cloud = rospy.Publisher(f'{name}/particlecloud', PoseArray, queue_size=2)
@@ -171,14 +168,11 @@ class LocaliserNode(ScanLoop):
             return
         rospy.logwarn_throttle(COMPLAINT_PERIOD, f'{self._settings.robot}: the laser has been silent for '
                                                  f'{self._silence(stamp):.0f} s: goes by odometry alone')
-        is_used = localiser.observe(odometry, None)
-        if stamp < self._told or stamp - self._told >= TOLD_EVERY:
-            self._tell(localiser, odometry, stamp, is_used)
+        self._tell(localiser, odometry, stamp, localiser.observe(odometry, None))
 
     def _tell(self, localiser: Localiser, odometry: Pose, stamp: rospy.Time, has_moved: bool) -> None:
         """Publish the pose, and the particles if they have moved and somebody listens."""
         assert localiser.estimate is not None
-        self._told = stamp
         header = Header(stamp=stamp, frame_id=MAP)
         self._pose.publish(conversions.pose_with_covariance(
             localiser.pose(odometry), localiser.estimate.covariance, header))

@@ -8,7 +8,7 @@ from typing import Any, Callable, Dict, List, Optional, Tuple
 import rospy
 from sensor_msgs.msg import BatteryState, LaserScan
 
-from rumba_cleaning.behaviour import Observation
+from rumba_cleaning.behaviour import SILENT, Observation
 from rumba_cleaning.ros.cleaner import conversions
 from rumba_cleaning.ros.cleaner.certainty import Certainty
 from rumba_cleaning.ros.cleaner.location import QUEUE, Location
@@ -140,7 +140,8 @@ class Senses:
         if self._has_laser:
             parts.append((self._scan, tick.scan))
         location, certainty = self._location, self._certainty
-        if certainty.is_told and min(location.corrected, certainty.stamp) < tick.scan:
+        is_silent = location.silence(certainty.stamp) > SILENT  # then map -> odom is as old as the newest scan
+        if certainty.is_told and (certainty.stamp < tick.scan or location.corrected < tick.scan and not is_silent):
             return False
         return location.stamp >= tick.odom and all(
             wanted.is_zero() or message is not None and message.header.stamp >= wanted
