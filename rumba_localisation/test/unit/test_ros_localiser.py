@@ -146,7 +146,7 @@ def test_while_the_laser_is_silent_the_node_tells_a_pose_by_odometry_and_no_corr
     assert poses[-1].header.stamp == scanned and len(poses) == len(corrections) == 20 and not heard.warnings
     silent = heard.drives(6.0, has_scans=False)
     told, known = poses[20:], poses[19].pose.covariance
-    assert 45 <= len(told) <= 51 and len(corrections) == 20 and told[-1].header.stamp > silent[-6]
+    assert [pose.header.stamp for pose in told] == silent[-len(told):] and len(corrections) == 20
     assert (told[0].header.stamp - scanned).to_sec() == pytest.approx(scan_loop.SILENT, abs=0.03)
     assert told[-1].pose.covariance[0] > 20.0 * known[0] and told[-1].pose.covariance[35] > 20.0 * known[35]
     assert heard.warnings[-1] == 'rumba: the laser has been silent for 6 s: goes by odometry alone'
