@@ -3,6 +3,7 @@
 from typing import Dict, List, Optional, Tuple
 
 import numpy as np
+from scipy import ndimage
 
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.belief.ground import Ground
@@ -101,7 +102,12 @@ def _by_region(ground: Ground, missed: Array, labels: Array) -> Dict[int, Array]
     nodes = ground.standing(cells)
     of_cells = np.zeros(missed.shape, labels.dtype)
     of_cells[missed] = labels[nodes[:, 0], nodes[:, 1]]
-    return {int(label): missed & (of_cells == label) for label in np.unique(of_cells[missed])}
+    found: Dict[int, Array] = {}
+    for label, window in enumerate(ndimage.find_objects(of_cells), 1):
+        if window is not None:
+            found[label] = np.zeros_like(missed)
+            found[label][window] = of_cells[window] == label
+    return found
 
 
 def _tours(context: Context, pose: Pose, labels: Array, by_region: Regional) -> List[Tuple[int, Tour]]:
