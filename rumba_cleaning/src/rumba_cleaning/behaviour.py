@@ -7,7 +7,7 @@ from typing import Any, NamedTuple, Optional, Sequence, Tuple, final
 
 from rumba_cleaning.outcome import Outcome
 from rumba_cleaning.route import Ahead
-from rumba_localisation.scan import Scan
+from rumba_localisation.scan import SILENT, Scan
 from rumba_sim.model.errors import CommandError, quoted
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.kernel import Array
@@ -19,7 +19,6 @@ Covariance = Tuple[Row, Row, Row]  # of x, y and heading
 CERTAIN: Covariance = ((0.0, 0.0, 0.0),) * 3
 UNKNOWN: Covariance = ((math.inf, 0.0, 0.0), (0.0, math.inf, 0.0), (0.0, 0.0, math.inf))
 LOST_AT, LOST_TURNED = 0.3, 0.5  # [m], [rad] standard deviations of a pose from which on the robot is lost; our choice
-SILENT = 1.0  # [s] without a scan, from which on the laser is silent: five scans at 5 Hz
 UNSURE_AT, UNSURE_TURNED = 0.1, 0.3  # [m], [rad] the same while the laser is silent; our choice
 NO_CLIFFS = (False, False, False, False)
 FALLEN = 'a wheel hangs over a cliff: the robot must be put elsewhere'

@@ -10,7 +10,7 @@ from rooms import RADIUS, inside, quiet, room
 
 from rumba_cleaning.behaviour import Behaviour, Command
 from rumba_cleaning.behaviours.bounded import Bounded
-from rumba_cleaning.behaviours.guard import Guard
+from rumba_cleaning.behaviours.guard import SWIFT_SPEED, Guard
 from rumba_cleaning.behaviours.travel import Going, Travel
 from rumba_cleaning.belief.footing import SEEN
 from rumba_cleaning.control import CONTROL_DT, CONTROL_TICKS, observe, steps
@@ -127,6 +127,17 @@ def test_it_is_faster_than_the_sensors_allow_only_over_floor_that_it_has_seen():
     world.teleport('rumba', Pose(robot.pose.x - 1.5, robot.pose.y, 0.0))
     again = [command.v for _, command in steps(Bounded(Always(0.45, 0.0), 1e3, context), world, seconds=1.5)]
     assert max(there[5:]) < 0.36 and max(again) == 0.45
+
+
+def test_in_a_tight_bend_the_outer_wheel_is_slow_over_floor_that_no_sensor_has_seen():
+    plan = room(6.0, 2.0, 0.02, start=Pose(3.0, 1.0, 0.0))
+    world = World(plan, quiet())
+    world.spawn('rumba')
+    half = 0.5 * world.config.drive.wheel_base
+    bend = Bounded(Always(0.3, 1.9), 1e3, context_of(plan, world))
+    outer = [command.v + half * command.w for _, command in steps(bend, world, seconds=8.0)]
+    assert min(outer[5:25]) == pytest.approx(SWIFT_SPEED) == np.median(outer[5:25])  # some of it is known
+    assert outer[-20:] == pytest.approx([0.3 + 1.9 * half] * 20)  # all of it
 
 
 def test_a_behaviour_that_an_edge_stops_sees_it_as_a_cliff():

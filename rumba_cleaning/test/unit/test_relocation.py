@@ -108,10 +108,14 @@ def test_a_behaviour_goes_on_by_odometry_while_that_is_certain_and_says_that_the
     assert behaviour.step(Observation(0.1, HERE)) == Command(0.3, 0.0) and behaviour.message == ''
 
 
-def test_a_line_tells_only_once_that_the_laser_is_silent():
-    quiet = Observation(0.1, HERE, silence=2.0)
-    line = relocation.while_silent('3 % swept', quiet)
-    assert line == relocation.while_silent(line, quiet) == '3 % swept; the laser has been silent for 2 s'
+@pytest.mark.parametrize('covariance, end', [(CERTAIN, ''), (LOST, ': waits for it')])
+def test_a_mission_says_once_that_the_laser_is_silent(covariance, end):
+    context = context_of(crooked())
+    behaviour = Bounded(Mission(context, 'boustrophedon', 0.9), 1000.0)  # as the cleaner has it
+    for _ in range(5):
+        behaviour.step(Observation(0.1, HERE, covariance=covariance, silence=2.0))
+    assert behaviour.message.count('silent') == 1
+    assert behaviour.message.endswith('the laser has been silent for 2 s' + end)
 
 
 def test_a_robot_that_stays_lost_gives_up():

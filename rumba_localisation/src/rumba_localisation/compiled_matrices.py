@@ -1,7 +1,7 @@
 """Symmetric matrices (3, 3) in closed form, compiled by numba.
 
 A library of linear algebra may share even so small a problem out among threads, which wait for each other for far
-longer than the problem takes: half of the time of a mission went into that.
+longer than the problem takes: more than a third of the CPU time of a mission by a map of its own went into that.
 """
 
 from typing import Any

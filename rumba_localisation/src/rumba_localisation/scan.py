@@ -9,6 +9,7 @@ import numpy as np
 from rumba_sim.model.kernel import Array
 
 FEWEST = 10  # beams with an echo, fewer tell nothing
+SILENT = 1.0  # [s] of the time of a robot without a scan, from which on its laser is silent: five scans at 5 Hz
 
 
 class Scan(NamedTuple):

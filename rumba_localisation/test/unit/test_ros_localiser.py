@@ -17,6 +17,7 @@ from rumba_localisation.ros import conversions, scan_loop
 from rumba_localisation.ros import localiser as node
 from rumba_localisation.ros.localiser import Settings
 from rumba_localisation.ros.odometries import KEPT, Odometries
+from rumba_localisation.scan import SILENT
 from rumba_sim.model.errors import ConfigError, MapError
 from rumba_sim.model.geometry import Pose
 from rumba_sim.ros.common.conversions import grid, quaternion
@@ -147,7 +148,7 @@ def test_while_the_laser_is_silent_the_node_tells_a_pose_by_odometry_and_no_corr
     silent = heard.drives(6.0, has_scans=False)
     told, known = poses[20:], poses[19].pose.covariance
     assert [pose.header.stamp for pose in told] == silent[-len(told):] and len(corrections) == 20
-    assert (told[0].header.stamp - scanned).to_sec() == pytest.approx(scan_loop.SILENT, abs=0.03)
+    assert (told[0].header.stamp - scanned).to_sec() == pytest.approx(SILENT, abs=0.03)
     assert told[-1].pose.covariance[0] > 20.0 * known[0] and told[-1].pose.covariance[35] > 20.0 * known[35]
     assert heard.warnings[-1] == 'rumba: the laser has been silent for 6 s: goes by odometry alone'
     heard.drives(0.2, has_scans=True)

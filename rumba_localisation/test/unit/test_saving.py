@@ -57,8 +57,8 @@ def test_what_is_found_twice_is_remembered_once():
 
 def test_a_switch_that_stays_pressed_tells_nothing_new():
     found = findings()
-    for x in (1.0, 1.1, 1.2):  # as the wheels have it, which slip
-        found.note(Grid(), Pose(x, 0.0, 0.0), (True, True), QUIET)
+    for x, is_left_pressed in ((1.0, True), (1.1, True), (1.2, False)):  # as the wheels have it, which slip
+        found.note(Grid(), Pose(x, 0.0, 0.0), (is_left_pressed, True), QUIET)
     assert len(found.touched) == 1
 
 

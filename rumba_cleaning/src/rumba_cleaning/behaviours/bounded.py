@@ -63,7 +63,7 @@ class Bounded(Behaviour):
             self._relocation.rest()
         command = self.behaviour.step(observation)
         self.message = self.behaviour.message
-        if observation.is_silent:
+        if self._relocation is not None and observation.is_silent:
             self.message = relocation.while_silent(self.message, observation)
         return command
 

@@ -101,10 +101,8 @@ class Guard:
     def _admitted(self, observation: Observation, command: Command) -> Command:
         self._held = NONE
         pose, wanted = observation.pose, self._wanted(command)
-        fastest = _faster(wanted)
-        if fastest > WARY_SPEED and self._is_wary(pose):
-            share = WARY_SPEED / fastest
-            command = command._replace(v=share * command.v, w=share * command.w)
+        if _faster(wanted) > WARY_SPEED and self._is_wary(pose):
+            command = self._limited(command, WARY_SPEED)
             wanted = self._wanted(command)
         fastest = max(_faster(self._speeds), _faster(wanted))
         braking = fastest * LONGEST + 0.5 * fastest ** 2 / self._drive.acceleration
@@ -113,9 +111,8 @@ class Guard:
         if not (is_near or must_know) or fastest == 0.0:
             return command
         found, slips = [], self._slips(observation, wanted)
-        limited = (limit / max(_faster(wanted), limit) for limit in (SWIFT_SPEED, SAFE_SPEED))
-        for share in (1.0, *limited, *SHARES):
-            slower = command if share == 1.0 else command._replace(v=share * command.v, w=share * command.w)
+        limited = [self._limited(command, limit) for limit in (SWIFT_SPEED, SAFE_SPEED)]
+        for slower in (command, *limited, *(_part_of(command, share) for share in SHARES)):
             found.append(self._edges(pose, self._wanted(slower), slips, is_near, must_know))
             if found[-1] == NONE:
                 return slower
@@ -200,6 +197,11 @@ class Guard:
         """Where the robot, its left and its right wheel are after a command, until it has stopped: see `path`."""
         return path(pose, self._speeds, wanted, slip, self._half, self._drive.acceleration)
 
+    def _limited(self, command: Command, speed: float) -> Command:
+        """The same bend, with the outer wheel no faster than a speed [m/s]."""
+        asked = abs(command.v) + abs(command.w) * self._half  # more than the drive can do, perhaps
+        return command if asked <= speed else _part_of(command, speed / asked)
+
     def _wanted(self, command: Command) -> Wheels:
         """The speeds of the wheels that a command asks for, within the limits of the drive [m/s]."""
         drive = self._drive
@@ -208,6 +210,11 @@ class Guard:
         left, right = v - w * self._half, v + w * self._half
         share = min(1.0, drive.max_speed / max(abs(left), abs(right), 1e-9))
         return share * left, share * right
+
+
+def _part_of(command: Command, share: float) -> Command:
+    """The same bend at a share of the speed."""
+    return command._replace(v=share * command.v, w=share * command.w)
 
 
 def _faster(speeds: Wheels) -> float:

@@ -15,9 +15,8 @@ GIVEN_UP = f'lost: still does not know where it is after {PATIENCE:g} s'
 
 
 def while_silent(message: str, observation: Observation) -> str:
-    """What a robot does, in one line for a person, and that its laser is silent, unless the line tells so already."""
-    silence = _silence(observation)
-    return message if silence in message else '; '.join(filter(None, [message, silence]))
+    """What a robot does, in one line for a person, and that its laser is silent."""
+    return '; '.join(filter(None, [message, _silence(observation)]))
 
 
 def _silence(observation: Observation) -> str:

@@ -50,8 +50,9 @@ class Findings:
             bumper: whether it is pressed on the left and on the right.
             cliffs: whether there is no floor under each sensor, from left to right.
         """
-        is_new, self._pressed = bumper != self._pressed, bumper
-        if is_new and any(bumper) and not self._is_known(grid, pose, bumper):
+        is_new = any(now and not before for now, before in zip(bumper, self._pressed))
+        self._pressed = bumper
+        if is_new and not self._is_known(grid, pose, bumper):
             _remember(self.touched, _ahead(pose, SIDES[bumper], self._away))
         for found in self._edges.met(pose, cliffs):
             _remember(self.cliffs, found)

@@ -11,6 +11,7 @@ from sensor_msgs.msg import LaserScan
 from tf2_msgs.msg import TFMessage
 
 from rumba_localisation.ros.odometries import Odometries
+from rumba_localisation.scan import SILENT
 from rumba_msg.msg import Lockstep
 from rumba_sim.model.geometry import Pose
 from rumba_sim.ros.common.conversions import plane_pose, transform
@@ -22,8 +23,7 @@ from rumba_sim.ros.common.requests import Requests
 PERIOD = 0.1  # [s] of the wall clock between two looks whether ROS shuts down
 QUEUE = 100  # messages that may wait to be read
 COMPLAINT_PERIOD = 10.0  # [s]
-SILENT = 1.0  # [s] of the robot's time without a scan, from which on the laser is silent: five scans at 5 Hz ...
-SILENT_WALL = 0.2  # ... and so many of the wall clock: at a high speed, scans may wait in a queue
+SILENT_WALL = 0.2  # [s] of the wall clock, too, for which a silent laser tells nothing: scans may wait in a queue
 
 
 class ScanLoop(abc.ABC):

@@ -8,11 +8,11 @@ from typing import Any, Callable, Dict, List, Optional, Tuple
 import rospy
 from sensor_msgs.msg import BatteryState, LaserScan
 
-from rumba_cleaning.behaviour import SILENT, Observation
+from rumba_cleaning.behaviour import Observation
 from rumba_cleaning.ros.cleaner import conversions
 from rumba_cleaning.ros.cleaner.certainty import Certainty
 from rumba_cleaning.ros.cleaner.location import QUEUE, Location
-from rumba_localisation.scan import told
+from rumba_localisation.scan import SILENT, told
 from rumba_msg.msg import Bumper, CleaningStatus, Cliff, DockStatus, Lockstep
 from rumba_sim.model.geometry import Pose
 from rumba_sim.ros.common.clock import LATEST
