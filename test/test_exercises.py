@@ -46,7 +46,7 @@ def test_the_solution_earns_all_points_and_each_wrong_submission_less(exercise, 
     rows = marked(workspace.space('devel'), tmp_path, f'{exercise}/hidden')
     assert len(rows) == 4
     assert {name for name, row in rows.items() if row['points'] == row['of']} == {'solution'}, '\n'.join(
-        f'{name}: {row}' for name, row in rows.items())
+        path.read_text() for path in sorted((tmp_path / 'marks').glob('*/*.[jl]*')))  # results and logs
 
 
 def test_an_examination_is_passed_by_what_a_robot_knows_and_void_for_who_looks_at_the_truth(workspace, tmp_path):
