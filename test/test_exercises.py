@@ -11,7 +11,7 @@ from workspaces import ROOT
 
 EXERCISES = sorted((ROOT / 'rumba_exercises').glob('[0-9]_*'))
 INDEX = (ROOT / 'rumba_exercises' / 'README.md').read_text()
-
+SLOW = 0.03  # [s] of the wall clock, many times as long as a world takes for a control tick
 
 # How a node that is being examined hears where the robot really is.
 SPY = """
@@ -63,6 +63,17 @@ def test_an_examination_is_passed_by_what_a_robot_knows_and_void_for_who_looks_a
     reason = json.loads((tmp_path / 'marks' / 'spy' / 'results.json').read_text())['tests'][0]['output']
     assert re.search(r': /simulator/examiner/rumba/ground_truth is heard by /student: in an examination nobody', reason)
     assert (tmp_path / 'marks' / 'honest' / 'bumper.recording.bag').stat().st_size > 0
+
+
+def test_a_submission_that_takes_its_time_for_each_answer_earns_all_points(workspace, tmp_path):
+    exercise = ROOT / 'rumba_exercises' / '1_status'
+    for overlay in ('starter', 'solution'):
+        shutil.copytree(exercise / overlay, tmp_path / 'class' / 'slow', dirs_exist_ok=True)
+    script = tmp_path / 'class' / 'slow' / 'status_exercise' / 'scripts' / 'status'
+    script.write_text(script.read_text().replace('status = BatteryStatus()', f'rospy.rostime.wallsleep({SLOW})\n'
+                                                                             '        status = BatteryStatus()'))
+    rows = marked(workspace.space('devel'), tmp_path, exercise / 'hidden')
+    assert rows['slow']['points'] == '10', rows
 
 
 @pytest.mark.parametrize('exercise', EXERCISES, ids=name_of)

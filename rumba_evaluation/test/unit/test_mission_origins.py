@@ -60,6 +60,11 @@ def test_without_a_state_nobody_knows_who_may_publish():
     assert found.unknown().startswith(f'{BUMPER} is published by {STUDENT}, but no node publishes {STATE}: ')
 
 
+def test_a_state_is_there_as_soon_as_a_node_publishes_it():
+    assert not origins((BUMPER, STUDENT), named=[]).has_state
+    assert origins((STATE, SIMULATOR), named=[]).has_state
+
+
 def test_a_node_that_is_given_needs_no_state():
     assert origins((BUMPER, STUDENT), (STATE, '/other'), named=[], publisher=STUDENT).problem() == ''
     assert origins((BUMPER, STUDENT), named=['/other'], publisher=STUDENT).is_complete

@@ -4,6 +4,7 @@
 import threading
 import unittest
 
+import rosgraph
 import rospy
 import rostest
 from simulators import TICK, Commands, Heard, Simulator, wait
@@ -19,6 +20,7 @@ CONTROL_TICKS = 5
 COUNT = 40  # control ticks of a test
 PATIENCE = 1  # [s] of the wall clock
 SLOW = 0.3  # [s] of the wall clock
+NOWHERE = 'http://localhost:1/'
 
 
 def command(number):
@@ -99,6 +101,31 @@ class SimulatorLockstepTest(unittest.TestCase):
         self.assertEqual(simulator.digest()[1], 0)
         Commands(self)
         self.assertEqual(ticks.find().header.stamp.to_nsec(), TICK)
+
+    def subscribed(self):
+        """A node of another name, as the master knows it, that has subscribed and does not connect."""
+        node, topic = rosgraph.Master('/late'), '/rumba/odom'
+        node.registerSubscriber(topic, 'nav_msgs/Odometry', NOWHERE)
+        self.addCleanup(node.unregisterSubscriber, topic, NOWHERE)
+        return lambda: node.unregisterSubscriber(topic, NOWHERE)
+
+    def test_a_world_begins_once_those_who_have_subscribed_are_connected(self):
+        unsubscribe = self.subscribed()
+        simulator = Simulator(self, '_map:=field', '_speed:=0', '_lockstep_patience:=60')
+        wait(self, lambda: simulator.digest()[1] == 1, 'the first tick')
+        rospy.rostime.wallsleep(SLOW)
+        self.assertEqual(simulator.digest()[1], 1)
+        unsubscribe()
+        wait(self, lambda: simulator.digest()[1] > 1, 'the world to go on')
+
+    def test_who_has_subscribed_and_does_not_connect_is_named_and_not_waited_for_again(self):
+        self.subscribed()
+        log = Heard(self, '/rosout')
+        simulator = self.start()
+        wait(self, lambda: simulator.digest()[1] > COUNT, 'the world to go on')
+        self.assertEqual([message.msg for message in log.messages if message.msg.startswith('lockstep')],
+                         ['lockstep: /late has subscribed to /rumba/odom, but does not connect: the world goes on '
+                          'without it'])
 
     def test_without_lockstep_nobody_is_waited_for(self):
         self.start('_wait_for:=rumba/cmd_vel', '_lockstep:=false')

@@ -30,7 +30,8 @@ from rumba_sim.ros.common.names import EXAMINER
 
 PERIOD = 0.05  # [s] of the wall clock
 LOOK_PERIOD = 0.5  # [s] of the wall clock from one look at the master to the next
-MODE_PATIENCE = 3.0  # [s] of the wall clock from the first message until it is assumed that there is no lockstep
+MODE_PATIENCE = 3.0  # [s] of the wall clock from the first message until it is assumed that there is no lockstep ...
+STATE_PATIENCE = 30.0  # ... if the master knows a publisher of the state, which tells
 TICK_PATIENCE = 5.0  # [s] of the wall clock to wait for the messages of a tick
 REST = 0.2  # [s] of the wall clock for what is on its way at the end
 PLACE, CLEANING = 'ground_truth', 'cleaning_status'
@@ -73,21 +74,24 @@ class MissionMonitor:
         self._unpublished = [(condition, number) for condition in found if isinstance(condition, FieldCondition)
                              for number in range(len(condition.paths))]
         self._awaited = Awaited(str(rospy.resolve_name(topic)) for topic in awaited)
-        readings: Dict[str, Tuple[Any, List[Tuple[Condition, Value]]]] = {self._full(PLACE): (Odometry, [])}
+        self._place = self._full(PLACE)
+        kinds = {self._place: Odometry}
+        self._taken: Dict[str, List[Tuple[Condition, Value]]] = {self._place: []}  # by topic
         for condition in found:
             for topic, kind, value in TOPICS.get(type(condition), []):
-                readings.setdefault(self._full(topic), (kind, []))[1].append((condition, value))
-        self._readings = TickReadings(list(readings))
+                kinds[self._full(topic)] = kind
+                self._taken.setdefault(self._full(topic), []).append((condition, value))
+        self._readings = TickReadings(list(kinds))
         self._is_lockstep: Optional[bool] = None  # not known yet
         self._first_message = self._tick_came = math.inf  # times of time.monotonic
         self._tick: Optional[Lockstep] = None  # that is not answered
-        self._expected = {topic: topic for topic in readings}  # topics by the key of what is taken from them
-        self._measured = [topic for topic, (_, values) in readings.items() if values]
+        self._has_looked = False  # whether it has looked for fields since the first tick came
+        self._expected = set(kinds)  # topics with a message for each tick, or for some
         state = rospy.resolve_name(simulator_client.TOPIC)
-        self._origins = Origins(self._measured, state, publisher)
+        self._origins = Origins([topic for topic, values in self._taken.items() if values], state, publisher)
         rospy.Subscriber(state, SimulatorState, self._on_state)
-        for topic, (kind, values) in readings.items():
-            self._subscribe(topic, kind, values)
+        for topic, kind in kinds.items():
+            self._subscribe(topic, kind)
         self._participant = Participant(self._on_tick)
 
     def _full(self, topic: str) -> str:
@@ -96,22 +100,22 @@ class MissionMonitor:
 
     # --- messages -------------------------------------------------------------------------------------------------
 
-    def _subscribe(self, topic: str, kind: Any, values: Sequence[Tuple[Condition, Value]], key: str = '') -> None:
-        """Subscribe to a topic from which conditions take values; `key` tells apart what is taken from one topic."""
+    def _subscribe(self, topic: str, kind: Any) -> None:
+        """Take what comes on a topic, once for all conditions: each message is one answer of who is awaited."""
         def act(message: Any) -> None:
-            if kind is Odometry and not key:
+            if topic == self._place and kind is Odometry:
                 self._judge.locate(conversions.plane_pose(message.pose.pose))
-            for condition, value in values:
+            for condition, value in self._taken[topic]:
                 self._judge.update(condition, value(message), self._now())
 
         def take(message: Any) -> None:
             with self._lock:
-                if values:
+                if self._taken[topic]:
                     self._last_message = time.monotonic()
                     self._origins.publishes(topic, peers.caller(message))
                 stamp = message.header.stamp.to_sec() if getattr(message, '_has_header', False) else 0.0
                 self._first_message = min(self._first_message, time.monotonic())
-                self._readings.take(key or topic, stamp, lambda: act(message))
+                self._readings.take(topic, stamp, lambda: act(message))
                 self._awaited.hear(topic)
                 self._settle()
         rospy.Subscriber(topic, kind, take)
@@ -131,14 +135,16 @@ class MissionMonitor:
             self._is_lockstep, self._tick, self._tick_came = True, tick, time.monotonic()
             due = {**dict.fromkeys(map(self._full, WITH_TICKS), tick.header.stamp), self._full(CLEANING): tick.cleaning,
                    self._full('odom'): tick.odom, self._full('scan'): tick.scan}
-            self._readings.expect({key: due[topic].to_sec() for key, topic in self._expected.items() if topic in due})
+            self._readings.expect({topic: due[topic].to_sec() for topic in self._expected if topic in due})
             self._settle()
 
     def _settle(self) -> None:
         """Judge what has come, in lockstep once everything of a tick is there, and answer for it."""
-        if self._is_lockstep is None and time.monotonic() < self._first_message + MODE_PATIENCE:
+        patience = STATE_PATIENCE if self._origins.has_state else MODE_PATIENCE
+        if self._is_lockstep is None and time.monotonic() < self._first_message + patience:
             return
-        if self._is_lockstep and (self._tick is None or self._readings.missing or self._awaited.silent):
+        if self._is_lockstep and (self._tick is None or not self._has_looked or self._readings.missing
+                                  or self._awaited.silent):
             return
         for _, act in self._readings.release():
             act()
@@ -155,8 +161,7 @@ class MissionMonitor:
             missing = self._readings.missing
             rospy.logwarn(f'{" and ".join(missing)}: no message for a control tick in {TICK_PATIENCE:g} s: the test '
                           'goes on without waiting for it')
-            for key in missing:
-                del self._expected[key]
+            self._expected -= set(missing)
             self._readings.expect({})
         if self._tick is not None:
             self._awaited.give_up(self._tick_came, time.monotonic())
@@ -221,6 +226,7 @@ class MissionMonitor:
 
     def _subscribe_to_fields(self) -> None:
         """Subscribe to the topics of those fields that have a publisher since the last call."""
+        is_ticking = self._tick is not None
         for condition, number in self._unpublished[:]:
             path = rospy.resolve_name(condition.paths[number])
             try:
@@ -230,16 +236,19 @@ class MissionMonitor:
                 continue
             if kind is not None:
                 self._unpublished.remove((condition, number))
-                with self._lock:
-                    self._origins.watch(topic)
-                    self._awaited.publishes(topic, time.monotonic())
-                self._subscribe_to_field(condition, number, topic, kind, value or (lambda message: message))
+                self._take_field(condition, number, topic, kind, value or (lambda message: message))
+        self._has_looked = self._has_looked or is_ticking
 
-    def _subscribe_to_field(self, condition: FieldCondition, number: int, topic: str, kind: Any, value: Value) -> None:
-        key = f'{topic} for {condition.name}'
+    def _take_field(self, condition: FieldCondition, number: int, topic: str, kind: Any, value: Value) -> None:
         with self._lock:
-            self._expected[key] = topic
-        self._subscribe(topic, kind, [(condition, lambda message: condition.reading(number, value(message)))], key)
+            self._origins.watch(topic)
+            self._awaited.publishes(topic, time.monotonic())
+            is_new = topic not in self._taken
+            self._taken.setdefault(topic, []).append(
+                (condition, lambda message: condition.reading(number, value(message))))
+            self._expected.add(topic)
+        if is_new:
+            self._subscribe(topic, kind)
 
     def verdicts(self) -> List[Verdict]:
         """The verdict on each condition."""

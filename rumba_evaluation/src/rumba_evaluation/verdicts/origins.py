@@ -47,6 +47,11 @@ class Origins:
         """Whether the node of the robot is known, or does not matter because nobody publishes what it measures."""
         return bool(self._publisher or self._named) or not any(self._publishers[topic] for topic in self._measured)
 
+    @property
+    def has_state(self) -> bool:
+        """Whether some node publishes the state, so that a message of it comes, or has come."""
+        return bool(self._publishers[self._state])
+
     def problem(self) -> str:
         """Why the run does not count, in words; empty if nothing is wrong so far, whether complete or not."""
         if len(self._publishers[CLOCK]) > 1:

@@ -5,10 +5,11 @@ import os
 import threading
 import xmlrpc.client
 import xmlrpc.server
-from typing import Any, List, Optional, Tuple
+from typing import Any, List, Optional, Set, Tuple
 
 import rosgraph
 import rospy
+from rospy.impl.registration import get_topic_manager
 
 from rumba_sim.model.errors import WorldError
 
@@ -59,6 +60,21 @@ def publishers(topic: str) -> List[str]:
         OSError: the master does not answer.
     """
     return dict(rosgraph.Master('/unnamed').getSystemState()[0]).get(topic, [])
+
+
+def unconnected() -> Set[Tuple[str, str]]:
+    """Topics of this node, and full names of nodes that subscribe to them, but to which it has no connection.
+
+    A node that has just subscribed connects soon; one that was killed, or expects another type, never does.
+
+    Raises:
+        OSError: the master does not answer.
+    """
+    manager = get_topic_manager()
+    ours = {topic for topic, _ in manager.get_publications()}
+    subscribers = hasty_master(rospy.get_name()).getSystemState()[1]
+    connected = {(topic, node) for _, node, _, _, topic, *_ in manager.get_pub_sub_info()}
+    return {(topic, node) for topic, nodes in subscribers if topic in ours for node in nodes} - connected
 
 
 class Reservation:

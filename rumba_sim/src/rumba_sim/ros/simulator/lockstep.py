@@ -1,13 +1,14 @@
 """The lockstep of a simulator: what it publishes after each control tick, and the answers."""
 
 import time
-from typing import Callable, Optional
+from typing import Callable, Optional, Set, Tuple
 
 import rospy
 from std_msgs.msg import Header
 
 from rumba_msg.msg import Lockstep as LockstepMessage
 from rumba_msg.msg import LockstepAnswer
+from rumba_sim.ros.common import peers
 from rumba_sim.ros.common.lockstep import ANSWERS, QUEUE, TOPIC
 from rumba_sim.ros.common.requests import Requests
 from rumba_sim.ros.robot.latecomers import Latecomers
@@ -34,6 +35,9 @@ class Lockstep:
         self._requests = requests
         self._has_publisher = has_publisher
         self._participants = Participants([rospy.resolve_name(name) for name in awaited.split()], patience)
+        self._is_connecting = False  # whether the world waits for connections
+        self._is_new = True  # whether it has not waited yet
+        self._lost: Set[Tuple[str, str]] = set()  # topics, and nodes that never connected to them
         self._tick = LockstepMessage(run=run)
         self._publisher = rospy.Publisher(TOPIC, LockstepMessage, Latecomers(requests, self._held), queue_size=QUEUE)
         self._subscriber = rospy.Subscriber(ANSWERS, LockstepAnswer, self._on_answer, queue_size=QUEUE)
@@ -70,10 +74,21 @@ class Lockstep:
     def wait(self, meanwhile: Callable[[], None], but: str = '') -> None:
         """Serve requests until no answer is missing.
 
+        Who takes long may be starting, and with it others: then those who have subscribed connect, before time passes.
+
         Args:
             meanwhile: called from time to time.
             but: name of a node for which not to wait.
         """
+        begin = time.monotonic()
+        self._wait_for_answers(meanwhile, but)
+        if self._is_new or time.monotonic() > begin + LOOK_PERIOD:
+            self._is_new = False
+            self._is_connecting = True
+            self._wait_for_connections(meanwhile)
+            self._is_connecting = False
+
+    def _wait_for_answers(self, meanwhile: Callable[[], None], but: str) -> None:
         while self._participants.missing(but) and not rospy.is_shutdown():
             self._requests.serve(time.monotonic() + LOOK_PERIOD, lambda: not self._participants.missing(but))
             for name, patience in self._participants.give_up(self._has_publisher):
@@ -81,6 +96,27 @@ class Lockstep:
                               'until it answers again')
             if self._participants.missing(but):
                 meanwhile()
+
+    def _wait_for_connections(self, meanwhile: Callable[[], None]) -> None:
+        """Serve requests, and so send this tick to new subscribers, until all who have subscribed are connected."""
+        end = time.monotonic() + self._participants.patience
+        lacking = self._unconnected()
+        self._requests.serve(time.monotonic())
+        while lacking and time.monotonic() < end and not rospy.is_shutdown():
+            self._requests.serve(time.monotonic() + LOOK_PERIOD)
+            meanwhile()
+            lacking = self._unconnected()
+            self._requests.serve(time.monotonic())
+        for topic, node in sorted(lacking):
+            rospy.logwarn(f'lockstep: {node} has subscribed to {topic}, but does not connect: the world goes on '
+                          'without it')
+        self._lost |= lacking
+
+    def _unconnected(self) -> Set[Tuple[str, str]]:
+        try:
+            return peers.unconnected() - self._lost
+        except peers.NO_ANSWER:  # the master has ended
+            return set()
 
     def wait_for_commanders(self, meanwhile: Callable[[], None]) -> None:
         """Serve requests until each topic that is waited for from the first tick on has a publisher, for its patience.
@@ -108,8 +144,8 @@ class Lockstep:
 
     @property
     def is_waiting(self) -> bool:
-        """Whether an answer is missing."""
-        return bool(self._participants.missing())
+        """Whether an answer or a connection is missing."""
+        return self._is_connecting or bool(self._participants.missing())
 
     def _held(self) -> Optional[LockstepMessage]:
         """What those who come late have missed."""
