@@ -10,7 +10,7 @@ from rooms import RADIUS, inside, quiet, room
 
 from rumba_cleaning.behaviour import Behaviour, Command
 from rumba_cleaning.behaviours.bounded import Bounded
-from rumba_cleaning.behaviours.guard import SWIFT_SPEED, Guard
+from rumba_cleaning.behaviours.guard import AWAY, SWIFT_SPEED, Guard
 from rumba_cleaning.behaviours.travel import Going, Travel
 from rumba_cleaning.belief.footing import SEEN
 from rumba_cleaning.control import CONTROL_DT, CONTROL_TICKS, observe, steps
@@ -168,6 +168,18 @@ def test_no_mission_among_islands_of_cliffs_falls(strategy, shown):
         robot = world.spawn('rumba', start, brushes_up=True)
         run(Mission(context_of(known, world), strategy, 0.99), world, seconds=250.0)
         assert not robot.has_fallen
+
+
+def test_a_robot_that_edges_hold_looks_for_a_way_out_itself():
+    plan = room(3.0, 2.0, 0.01)
+    world = World(plan, quiet())
+    half = 0.5 * world.config.drive.wheel_base
+    robot = world.spawn('rumba', Pose(1.5, 0.5 + half + 0.022, 0.0))
+    context = context_of(with_cliffs(plan, (0.5, 0.2, 2.5, 0.5)), world)
+    away = [context.footing.clearance_at(robot.pose.x + half * math.sin(robot.pose.theta),
+                                         robot.pose.y - half * math.cos(robot.pose.theta))
+            for _ in steps(Bounded(Always(0.1, -0.3), 1000.0, context), world, seconds=10.0)]
+    assert max(away[:15]) < 0.03 and max(away) > AWAY
 
 
 def test_a_robot_that_cannot_move_for_edges_ends_its_mission_and_says_so():

@@ -9,6 +9,7 @@ from rumba_sim.model.jit import compiled
 
 STEP = 0.02  # [s] of the simulation: one tick at 50 Hz
 HOLD_STEPS = 5  # for which a command holds: the control period
+ROUNDING = 1e-9  # [m/s]
 
 Array = Any  # numpy.ndarray
 Wheels = Tuple[float, float]  # left and right
@@ -36,7 +37,7 @@ def path(pose: Tuple[float, float, float], speeds: Wheels, wanted: Wheels, slip:
         goal = max(min(wanted[side], speeds[side] + HOLD_STEPS * change), speeds[side] - HOLD_STEPS * change)
         held = max(held, abs(goal))
     steps = HOLD_STEPS + math.ceil(held / change) + 1
-    fastest = max(abs(speeds[0]), abs(speeds[1]), abs(wanted[0]), abs(wanted[1]))
+    fastest = max(abs(speeds[0]), abs(speeds[1]), abs(wanted[0]), abs(wanted[1]), ROUNDING)
     points = np.empty((3, steps + 1, 2))
     (x, y, theta), (left, right) = pose, speeds
     for step in range(steps + 1):

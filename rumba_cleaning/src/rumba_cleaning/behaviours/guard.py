@@ -19,7 +19,7 @@ from rumba_sim.model.kernel import Array
 
 SHARES = (0.6, 0.3)  # of a command that are tried, after the whole and a slow one, before the robot stops; our choice
 LONGEST = 0.3  # [s] the same, at most, by the time since the last one: in a longer step the node was busy
-SPARE = 0.01  # [m] from a wheel to an edge: half a cell of a fine map
+SPARE = 0.02  # [m] from a wheel to an edge: a cell of a fine map; an edge that was seen is known no better
 SLIP = 0.02  # [m/s] sideways: the robot slides along a wall
 ROUNDING = 1e-6  # [m/s]
 AT_REST = 0.02  # [m/s] of both wheels
@@ -34,6 +34,12 @@ SLOW = 0.1  # [m/s] near such a cliff: no faster in bends, unless all of the flo
 TIGHT = 3.3  # [1/m] in tighter bends the sensors of one side look along the circle of the outer wheel, ...
 SWIFT_SPEED = 0.45  # [m/s] ... 0.17 m ahead of it: a wheel that is no faster stops within 0.15 m
 
+RELEASE = 2.0  # [s] held by edges, after which the guard looks for a way out itself
+WAYS_OUT = [(v, w) for v in (0.0, -SLOW, SLOW) for w in (0.25, -0.25, 0.5, -0.5, 1.0, -1.0)]  # [m/s], [rad/s]
+AWAY = 0.04  # [m] from both wheels to edges: out of there
+GAIN = 1e-3  # [m] that a way out brings at least
+ELSEWHERE = 0.3  # [m] from where edges held the robot
+
 Wheels = Tuple[float, float]  # left and right
 Sides = Tuple[bool, bool]  # left and right
 NONE = (False, False)
@@ -43,7 +49,7 @@ class Guard:
     """Watches what a robot sees and what it is commanded; a controller, for the behaviour that is in charge.
 
     Attributes:
-        held_time: for how long edges have kept the robot, which stands still, from what it was to do [s].
+        held_time: for how long edges have kept the robot, about where it is, from what it was to do [s].
     """
 
     def __init__(self, context: Context) -> None:
@@ -60,6 +66,9 @@ class Guard:
         self._command = Command(0.0, 0.0)  # the last one
         self._last: Optional[Pose] = None
         self._held = NONE  # the side on which an edge kept the robot from what it was to do
+        self._held_at: Optional[Pose] = None
+        self._leaves_at = RELEASE  # after what `held_time` it looks for a way out
+        self._is_leaving = False  # whether it is on a way out
         self.held_time = 0.0
 
     def see(self, observation: Observation) -> None:
@@ -91,12 +100,40 @@ class Guard:
         self._speeds = (min(max(left_goal, left_speed - change), left_speed + change),
                         min(max(right_goal, right_speed - change), right_speed + change))
         self._command = self._admitted(observation, command)
-        if _faster(self._speeds) > 0.0:
-            self.held_time = 0.0
-        elif self._held != NONE:
-            self.held_time += min(observation.dt, LONGEST)
+        self._note_held(observation)
+        if self._is_leaving:
+            self._command = self._way_out(observation.pose, command) or self._command
         self._last = observation.pose
         return self._command
+
+    def _note_held(self, observation: Observation) -> None:
+        """Measure for how long edges have held the robot, about where it is."""
+        pose, at = observation.pose, self._held_at
+        if at is not None and math.hypot(pose.x - at.x, pose.y - at.y) > ELSEWHERE:
+            self._held_at, self.held_time, self._leaves_at, self._is_leaving = None, 0.0, RELEASE, False
+        if self._held != NONE and _faster(self._speeds) == 0.0:
+            self._held_at = at or pose
+            self.held_time += min(observation.dt, LONGEST)
+        if self.held_time > self._leaves_at:
+            self._is_leaving = True
+            self._leaves_at = self.held_time + RELEASE
+
+    def _way_out(self, pose: Pose, command: Command) -> Optional[Command]:
+        """The slow command that brings the wheels farther from edges than others; None: there is none, or no need."""
+        now = self._least(self._path(pose, (0.0, 0.0), 0.0))
+        best, most = None, now + GAIN
+        for v, w in WAYS_OUT if now < AWAY else []:
+            slow = command._replace(v=v, w=w)
+            wanted = self._wanted(slow)
+            least = self._least(self._path(pose, wanted, 0.0))
+            if least > most and self._edge(pose, wanted, 0.0, is_near=True, must_know=True) == NONE:
+                best, most = slow, least
+        self._is_leaving = best is not None
+        return best
+
+    def _least(self, lines: Array) -> float:
+        """The distance of the nearer wheel from edges at the end of a path [m]."""
+        return float(self._footing.clearances(lines[1:, -1]).min())
 
     def _admitted(self, observation: Observation, command: Command) -> Command:
         self._held = NONE

@@ -1,7 +1,9 @@
 """Where there is floor under the wheels: by the map, by what the cliff sensors saw, and by where the robot has been."""
 
+import collections
 import math
-from typing import List, Optional, Sequence, Tuple
+import operator
+from typing import Deque, List, NamedTuple, Optional, Sequence, Tuple
 
 import numpy as np
 from scipy import ndimage
@@ -16,10 +18,22 @@ from rumba_sim.model.robot_config import RobotConfig
 
 FAR = 1.0  # [m] what is farther from a cliff than this is far enough for everything that a robot does
 SEEN = 0.015  # [m] radius that is assumed for an edge that a sensor saw: half of what a robot drives between readings
-SAME = 0.02  # [m] from a known cliff, a sensor sees that one
+SAME = 0.02  # [m] from a cliff of the map, a sensor sees that one
+INSIDE = 0.003  # [m] from a cliff that a sensor saw, another edge tells nothing new
 CELL = 0.015  # [m] side of the cells in which floor is remembered
 STEP = 0.012  # [m] between points that are remembered: less than a cell, so that no cell is left out
+LAG = 0.045  # [m] a corner of 90 degrees that begins between two sensors is under one of them when they are so far on
 BEHIND_DOCK = 0.45  # [m] of floor that a dock needs before it, as it is put up by a person: more than undocking takes
+
+
+class Between(NamedTuple):
+    """What the sensors passed on both sides."""
+
+    way: float  # [m] of the sensors until then
+    start: Pose
+    change: Tuple[float, float, float]  # of that pose
+    count: int  # of poses after the first one
+    lines: Tuple[bool, ...]  # between which neighbours there was floor on both sides
 
 
 class Footing:
@@ -36,9 +50,10 @@ class Footing:
         half, radius, sensors = 0.5 * robot.drive.wheel_base, robot.drive.radius, robot.cliff
         self._sensors = [(sensors.distance * math.cos(angle), sensors.distance * math.sin(angle))
                          for angle in sensors.angles]
-        self._axle = _line((0.0, half), (0.0, -half))
+        self._wheels = np.array([(0.0, half), (0.0, -half)])
         self._between = [_line(start, end) for start, end in zip(self._sensors, self._sensors[1:])]
-        self._everywhere = np.concatenate([self._axle, *self._between])
+        self._all_between = np.concatenate(self._between)
+        self._here = np.concatenate([self._wheels, self._sensors])
         side = np.arange(-radius, radius + STEP, STEP)
         square = np.stack(np.meshgrid(side, side), axis=-1).reshape(-1, 2)
         self._body = square[np.hypot(*square.T) <= radius]
@@ -54,6 +69,8 @@ class Footing:
         self._origin: Tuple[float, float] = (left, bottom)  # of what follows [m]
         self._floor: Array = np.zeros((int((top - bottom) / CELL) + 1, int((right - left) / CELL) + 1), np.bool_)
         self._noted: Optional[Tuple[Pose, Tuple[bool, ...], bool]] = None  # the last that was
+        self._way = 0.0  # [m] of the sensors, so far
+        self._unsure: Deque[Between] = collections.deque()
         self._readings = Edges(self._robot)
 
     def learn(self, plan: FloorPlan) -> None:
@@ -89,17 +106,31 @@ class Footing:
             self._stamp(self._before_dock, pose)
         if last is None or math.hypot(pose.x - last.x, pose.y - last.y) > JUMP:
             self._stamp(self._body, pose)
+            self._unsure.clear()
             last = pose
         turn = wrap_angle(pose.theta - last.theta)
-        count = int((math.hypot(pose.x - last.x, pose.y - last.y) + self._far * abs(turn)) / STEP) + 1
         change = pose.x - last.x, pose.y - last.y, turn
-        if not any(cliffs):
-            self._stamp(self._everywhere, last, change, count)
-            return
-        self._stamp(self._axle, last, change, count)
-        for line, is_over, is_next_over in zip(self._between, cliffs, cliffs[1:]):
-            if not (is_over or is_next_over):
-                self._stamp(line, pose)
+        count = int((math.hypot(change[0], change[1]) + self._far * abs(turn)) / STEP) + 1
+        self._stamp(self._wheels if any(cliffs) else self._here, last, change, count)
+        self._pass(pose, last, change, count, cliffs)
+
+    def _pass(self, pose: Pose, last: Pose, change: Tuple[float, float, float], count: int,
+              cliffs: Sequence[bool]) -> None:
+        """Remember floor between the sensors, once they are so far on that they would have seen an edge in it."""
+        ahead = change[0] * math.cos(pose.theta) + change[1] * math.sin(pose.theta)
+        if ahead < 0.0:
+            self._unsure.clear()
+        self._way += max(ahead, 0.0) + self._far * abs(change[2])
+        lines = tuple(not (one or other) for one, other in zip(cliffs, cliffs[1:]))
+        if not all(lines):
+            self._unsure = collections.deque(
+                each._replace(lines=tuple(map(operator.and_, each.lines, lines))) for each in self._unsure)
+        self._unsure.append(Between(self._way, last, change, count, lines))
+        while self._unsure[0].way + LAG <= self._way:
+            passed = self._unsure.popleft()
+            sure = [line for line, is_floor in zip(self._between, passed.lines) if is_floor]
+            for line in [self._all_between] if all(passed.lines) else sure:
+                self._stamp(line, passed.start, passed.change, passed.count)
 
     def _stamp(self, points: Array, pose: Pose, change: Tuple[float, float, float] = (0.0, 0.0, 0.0),
                count: int = 1) -> None:
@@ -115,7 +146,7 @@ class Footing:
 
     def _see(self, x: float, y: float) -> None:
         """Remember a cliff, unless it is a known one."""
-        if self.clearance_at(x, y) < SAME:
+        if self._clearance(self._mapped, x, y) < SAME or self.clearance_at(x, y) < INSIDE:
             return
         self.seen.append((x, y))
         rows, columns = self._plan.rows + 1, self._plan.columns + 1
@@ -131,10 +162,13 @@ class Footing:
 
     def clearance_at(self, x: float, y: float) -> float:
         """Distance from a point [m] to the nearest known cliff [m], interpolated; FAR or more if none is near."""
-        if self._edges is None:
+        return self._clearance(self._edges, x, y)
+
+    def _clearance(self, distances: Optional[Array], x: float, y: float) -> float:
+        if distances is None:
             return FAR
         left, bottom = self._plan.origin
-        value: float = fast.interpolated(self._edges, (x - left) / self._plan.resolution,
+        value: float = fast.interpolated(distances, (x - left) / self._plan.resolution,
                                          (y - bottom) / self._plan.resolution)[0]
         return value
 

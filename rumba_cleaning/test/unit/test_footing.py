@@ -1,0 +1,77 @@
+"""What a robot knows of the floor and its edges by its wheels and its cliff sensors."""
+
+import math
+
+import numpy as np
+import pytest
+from rooms import room
+
+from rumba_cleaning.belief.footing import LAG, SEEN, Footing
+from rumba_sim.model.geometry import Pose
+from rumba_sim.model.robot_config import RobotConfig
+
+ROBOT = RobotConfig()
+NONE = (False,) * 4
+STEP = 0.01  # [m] from one reading to the next
+
+
+def at(x):
+    """The robot, which drives along the x axis."""
+    return Pose(x, 1.0, 0.0)
+
+
+def passed(readings, start=0.5):
+    """A footing after so many readings (cliffs), and where the robot is then."""
+    footing = Footing(room(4.0, 2.0, 0.02), ROBOT)
+    footing.note(at(start), NONE, False)
+    for number, cliffs in enumerate(readings, 1):
+        footing.note(at(start + number * STEP), cliffs, False)
+    return footing, start + len(readings) * STEP
+
+
+def is_known(footing, x, y):
+    """Whether there is floor for sure at a point that is so far ahead, and to the left, of the axis of the wheels."""
+    return footing.are_known(np.array([(x, 1.0 + y)]), 0)
+
+
+def between(first):
+    """The middle between two neighbouring sensors, as x and y from the middle of the robot [m]."""
+    places = [(ROBOT.cliff.distance * math.cos(angle), ROBOT.cliff.distance * math.sin(angle))
+              for angle in ROBOT.cliff.angles[first:first + 2]]
+    return tuple(np.mean(places, axis=0))
+
+
+@pytest.mark.parametrize('first', [0, 1, 2])
+def test_floor_between_two_sensors_is_known_once_they_are_so_far_on_that_a_corner_would_be_under_one(first):
+    ahead, aside = between(first)
+    count = 20
+    footing, x = passed([NONE] * count)
+    assert not is_known(footing, x + ahead - 0.5 * LAG, aside)
+    assert is_known(footing, x + ahead - 1.5 * LAG, aside)
+
+
+def test_floor_between_two_sensors_is_not_known_if_one_of_them_then_sees_a_cliff():
+    ahead, aside = between(0)
+    footing, x = passed([NONE] * 20)
+    spot = x + ahead - 0.5 * LAG
+    for number in range(1, 15):
+        footing.note(at(x + number * STEP), (True, False, False, False), False)
+    assert not is_known(footing, spot, aside)
+    assert is_known(footing, spot, -aside)
+
+
+def test_a_robot_that_passes_an_edge_between_its_wheels_knows_no_floor_there():
+    footing, x = passed([(False, True, True, False)] * 60)
+    half = 0.5 * ROBOT.drive.wheel_base
+    assert is_known(footing, x, half) and is_known(footing, x, -half)
+    assert not is_known(footing, x, 0.0)
+
+
+def test_an_edge_beside_one_that_was_seen_is_no_edge_that_is_known_already():
+    footing, x = passed([NONE] * 20)
+    outer = ROBOT.cliff.distance * math.cos(ROBOT.cliff.angles[0]), ROBOT.cliff.distance * math.sin(ROBOT.cliff.angles[0])
+    for number, is_over in enumerate([True, False, False, True], 1):  # the last one 0.03 m farther
+        footing.note(at(x + number * STEP), (is_over, False, False, False), False)
+    first, last = (x + outer[0] + (number - 0.5) * STEP for number in (1, 4))
+    assert [place for place, _ in footing.seen] == pytest.approx([first, last])
+    assert footing.clearance_at(last, 1.0 + outer[1]) < 0.5 * SEEN
