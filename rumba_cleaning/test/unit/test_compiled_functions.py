@@ -8,13 +8,14 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from rumba_cleaning.behaviours.compiled_follower import nearest
-from rumba_cleaning.behaviours.compiled_guard import STEP, path
+from rumba_cleaning.behaviours.compiled_guard import HOLD_STEPS, STEP, path
 from rumba_cleaning.belief.compiled_footing import are_marked, stamp
 from rumba_cleaning.belief.compiled_ground import are_of_one_part
 from rumba_cleaning.belief.search import is_clear
 from rumba_cleaning.planning.compiled_lanes import NO_ROW, lowest, runs
 from rumba_cleaning.planning.compiled_ways import cornered_length
 
+NO_SLIP = (0.0, 1.0)
 ORIGIN, RESOLUTION = (-1.0, 2.0), 0.1
 
 
@@ -111,18 +112,18 @@ def test_only_a_part_of_a_route_is_looked_at():
 
 
 def test_a_command_leads_as_far_as_the_wheels_take_to_change_their_speed_and_to_stop():
-    middle, left, right = path((1.0, 2.0, 0.5 * math.pi), (0.2, 0.2), (0.2, 0.2), 0.0, 0.1, 1.0)
+    middle, left, right = path((1.0, 2.0, 0.5 * math.pi), (0.2, 0.2), (0.2, 0.2), NO_SLIP, 0.1, 1.0, HOLD_STEPS)
     held, braked = 0.1 * 0.2, 0.5 * 0.2 ** 2 / 1.0
     assert middle[-1] == pytest.approx([1.0, 2.0 + held + braked], abs=0.2 * STEP)
     assert (left - middle)[-1] == pytest.approx([-0.1, 0.0]) and (right - middle)[-1] == pytest.approx([0.1, 0.0])
-    middle, left, _ = path((0.0, 0.0, 0.0), (0.0, 0.0), (-0.1, 0.1), 0.0, 0.1, 1.0)
+    middle, left, _ = path((0.0, 0.0, 0.0), (0.0, 0.0), (-0.1, 0.1), NO_SLIP, 0.1, 1.0, HOLD_STEPS)
     assert np.abs(middle).max() < 1e-12
     assert np.hypot(*left.T) == pytest.approx(np.full(len(left), 0.1))
     assert left[-1][0] == pytest.approx(-0.1 * math.sin(0.1), abs=0.002)  # 0.1 s to full speed, and as long to stop
 
 
 def test_a_robot_that_slides_moves_aside():
-    middle, _, _ = path((0.0, 0.0, 0.0), (0.3, 0.3), (0.3, 0.3), 0.1, 0.1, 1.0)
-    straight, _, _ = path((0.0, 0.0, 0.0), (0.3, 0.3), (0.3, 0.3), 0.0, 0.1, 1.0)
+    middle, _, _ = path((0.0, 0.0, 0.0), (0.3, 0.3), (0.3, 0.3), (0.1, 0.5), 0.1, 1.0, HOLD_STEPS)
+    straight, _, _ = path((0.0, 0.0, 0.0), (0.3, 0.3), (0.3, 0.3), NO_SLIP, 0.1, 1.0, HOLD_STEPS)
     assert middle[:, 0] == pytest.approx(straight[:, 0])
     assert middle[-1, 1] == pytest.approx(straight[-1, 0] / 3.0)

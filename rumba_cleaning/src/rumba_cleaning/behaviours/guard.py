@@ -6,12 +6,12 @@ Approach to Collision Avoidance, 1997: a velocity is admissible if the robot can
 """
 
 import math
-from typing import Callable, List, Optional, Tuple
+from typing import Callable, List, NamedTuple, Optional, Tuple
 
 import numpy as np
 
 from rumba_cleaning.behaviour import Command, Observation
-from rumba_cleaning.behaviours.compiled_guard import path
+from rumba_cleaning.behaviours.compiled_guard import HOLD_STEPS, path
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.belief.footing import FAR
 from rumba_sim.model.geometry import Pose
@@ -36,13 +36,25 @@ SWIFT_SPEED = 0.45  # [m/s] ... 0.17 m ahead of it: a wheel that is no faster st
 
 RELEASE = 2.0  # [s] held by edges, after which the guard looks for a way out itself
 WAYS_OUT = [(v, w) for v in (0.0, -SLOW, SLOW) for w in (0.25, -0.25, 0.5, -0.5, 1.0, -1.0)]  # [m/s], [rad/s]
+AHEAD = 50  # [steps of a path] that it is looked at: 1 s
+RESERVE = 0.01  # [m] from a wheel to an edge on it
 AWAY = 0.04  # [m] from both wheels to edges: out of there
-GAIN = 1e-3  # [m] that a way out brings at least
+GAIN = 3e-3  # [m] that it brings at least
 ELSEWHERE = 0.3  # [m] from where edges held the robot
 
 Wheels = Tuple[float, float]  # left and right
 Sides = Tuple[bool, bool]  # left and right
 NONE = (False, False)
+
+
+class Slip(NamedTuple):
+    """How a robot slides."""
+
+    aside: float  # to its left [m/s]
+    share: float  # of the way of its wheels that it makes
+
+
+NO_SLIP = Slip(0.0, 1.0)
 
 
 class Guard:
@@ -102,7 +114,7 @@ class Guard:
         self._command = self._admitted(observation, command)
         self._note_held(observation)
         if self._is_leaving:
-            self._command = self._way_out(observation.pose, command) or self._command
+            self._command = self._way_out(observation, command) or self._command
         self._last = observation.pose
         return self._command
 
@@ -118,22 +130,28 @@ class Guard:
             self._is_leaving = True
             self._leaves_at = self.held_time + RELEASE
 
-    def _way_out(self, pose: Pose, command: Command) -> Optional[Command]:
+    def _way_out(self, observation: Observation, command: Command) -> Optional[Command]:
         """The slow command that brings the wheels farther from edges than others; None: there is none, or no need."""
-        now = self._least(self._path(pose, (0.0, 0.0), 0.0))
-        best, most = None, now + GAIN
-        for v, w in WAYS_OUT if now < AWAY else []:
+        pose = observation.pose
+        best, most = None, self._ways(pose, (0.0, 0.0), NO_SLIP)[0]
+        reserve = min(most - CREEP, RESERVE)
+        most = math.inf if most > AWAY else most + GAIN
+        for v, w in WAYS_OUT:
             slow = command._replace(v=v, w=w)
             wanted = self._wanted(slow)
-            least = self._least(self._path(pose, wanted, 0.0))
-            if least > most and self._edge(pose, wanted, 0.0, is_near=True, must_know=True) == NONE:
-                best, most = slow, least
+            found = [self._ways(pose, wanted, slip) for slip in self._slips(observation, wanted)]
+            if min(end for end, _ in found) > most and min(least for _, least in found) >= reserve:
+                best, most = slow, min(end for end, _ in found)
         self._is_leaving = best is not None
         return best
 
-    def _least(self, lines: Array) -> float:
-        """The distance of the nearer wheel from edges at the end of a path [m]."""
-        return float(self._footing.clearances(lines[1:, -1]).min())
+    def _ways(self, pose: Pose, wanted: Wheels, slip: Slip) -> Tuple[float, float]:
+        """How near to an edge a wheel is in the end, after a command, and at the least [m]; 0 over unknown floor."""
+        _, left, right = self._path(pose, wanted, slip, AHEAD)
+        if not self._footing.are_known(np.concatenate([left, right]), 1):
+            return 0.0, 0.0
+        near = np.minimum(self._footing.clearances(left), self._footing.clearances(right))
+        return float(near[-1]), float(near.min())
 
     def _admitted(self, observation: Observation, command: Command) -> Command:
         self._held = NONE
@@ -167,34 +185,39 @@ class Guard:
         return min(left, right) >= 0.0 and max(left, right) <= SAFE_SPEED and (
             left + right == 0.0 or _curvature(speeds, self._half) <= SAFE_CURVATURE)
 
-    def _slips(self, observation: Observation, wanted: Wheels) -> List[float]:
-        """How fast the robot may slide to its left after a command [m/s]: for each of these it must be safe.
+    def _slips(self, observation: Observation, wanted: Wheels) -> List[Slip]:
+        """How the robot may slide after a command: for each of these it must be safe.
 
         As it did last, and, if it drives forward, along what it touches: at an angle a from its front, that turns a
-        speed v into v * sin(a) * cos(a) sideways, away from the contact, at most half of it.
+        speed v into v * sin(a) * cos(a) sideways, away from the contact, and v * sin(a) ** 2 is left ahead; sideways
+        most at 45 degrees.
         """
         left, right = observation.bumper if max(sum(wanted), sum(self._speeds)) > 0.0 else NONE
         most = 0.5 * max(_faster(self._speeds), _faster(wanted))
-        return [self._slip(observation), *([-most] if left else []), *([most] if right else [])]
+        return [self._slip(observation), *([Slip(-most, 0.5)] if left else []), *([Slip(most, 0.5)] if right else [])]
 
-    def _slip(self, observation: Observation) -> float:
-        """How fast the robot slides to its left [m/s]."""
+    def _slip(self, observation: Observation) -> Slip:
+        """How the robot slid since the last command."""
         pose, last = observation.pose, self._last
         if last is None or not 0.0 < observation.dt < LONGEST:
-            return 0.0
+            return NO_SLIP
         along = last.theta + 0.5 * (pose.theta - last.theta)
-        slip = ((pose.y - last.y) * math.cos(along) - (pose.x - last.x) * math.sin(along)) / observation.dt
-        return slip if abs(slip) > SLIP else 0.0
+        x, y = (pose.x - last.x) / observation.dt, (pose.y - last.y) / observation.dt
+        aside = y * math.cos(along) - x * math.sin(along)
+        if abs(aside) <= SLIP:
+            return NO_SLIP
+        ahead, driven = x * math.cos(along) + y * math.sin(along), 0.5 * sum(self._speeds)
+        return Slip(aside, min(max(ahead / driven, 0.0), 1.0) if driven > SLIP else 1.0)
 
     # --- what a command leads to ----------------------------------------------------------------------------------
 
-    def _edges(self, pose: Pose, wanted: Wheels, slips: List[float], is_near: bool, must_know: bool) -> Sides:
+    def _edges(self, pose: Pose, wanted: Wheels, slips: List[Slip], is_near: bool, must_know: bool) -> Sides:
         """Whether an edge is too near on the left and on the right, before the robot can stop after a command.
 
         Args:
             pose: where the robot is.
             wanted: the speeds of the wheels that are commanded [m/s].
-            slips: speeds at which it may slide to its left [m/s].
+            slips: how it may slide.
             is_near: whether any cliff is near.
             must_know: whether the wheels may only go where the robot knows that there is floor.
         """
@@ -204,8 +227,8 @@ class Guard:
             left, right = left or is_left, right or is_right
         return left, right
 
-    def _edge(self, pose: Pose, wanted: Wheels, slip: float, is_near: bool, must_know: bool) -> Sides:
-        """As `_edges`, for a robot that slides to its left at one speed [m/s]."""
+    def _edge(self, pose: Pose, wanted: Wheels, slip: Slip, is_near: bool, must_know: bool) -> Sides:
+        """As `_edges`, for a robot that slides in one way."""
         middle, left, right = self._path(pose, wanted, slip)
         if is_near:
             near = [self._footing.clearances(line) for line in (middle, left, right)]
@@ -230,9 +253,9 @@ class Guard:
             return 2
         return 1 if -ROUNDING <= sum(wanted) <= 2.0 * SLOW else 0
 
-    def _path(self, pose: Pose, wanted: Wheels, slip: float) -> Array:
+    def _path(self, pose: Pose, wanted: Wheels, slip: Slip, hold: int = HOLD_STEPS) -> Array:
         """Where the robot, its left and its right wheel are after a command, until it has stopped: see `path`."""
-        return path(pose, self._speeds, wanted, slip, self._half, self._drive.acceleration)
+        return path(pose, self._speeds, wanted, slip, self._half, self._drive.acceleration, hold)
 
     def _limited(self, command: Command, speed: float) -> Command:
         """The same bend, with the outer wheel no faster than a speed [m/s]."""
