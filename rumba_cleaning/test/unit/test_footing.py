@@ -69,7 +69,8 @@ def test_a_robot_that_passes_an_edge_between_its_wheels_knows_no_floor_there():
 
 def test_an_edge_beside_one_that_was_seen_is_no_edge_that_is_known_already():
     footing, x = passed([NONE] * 20)
-    outer = ROBOT.cliff.distance * math.cos(ROBOT.cliff.angles[0]), ROBOT.cliff.distance * math.sin(ROBOT.cliff.angles[0])
+    reach, angle = ROBOT.cliff.distance, ROBOT.cliff.angles[0]
+    outer = reach * math.cos(angle), reach * math.sin(angle)
     for number, is_over in enumerate([True, False, False, True], 1):  # the last one 0.03 m farther
         footing.note(at(x + number * STEP), (is_over, False, False, False), False)
     first, last = (x + outer[0] + (number - 0.5) * STEP for number in (1, 4))

@@ -32,7 +32,7 @@ class Between(NamedTuple):
     way: float  # [m] of the sensors until then
     start: Pose
     change: Tuple[float, float, float]  # of that pose
-    count: int  # of poses after the first one
+    poses: int  # that count
     lines: Tuple[bool, ...]  # between which neighbours there was floor on both sides
 
 
@@ -130,7 +130,7 @@ class Footing:
             passed = self._unsure.popleft()
             sure = [line for line, is_floor in zip(self._between, passed.lines) if is_floor]
             for line in [self._all_between] if all(passed.lines) else sure:
-                self._stamp(line, passed.start, passed.change, passed.count)
+                self._stamp(line, passed.start, passed.change, passed.poses)
 
     def _stamp(self, points: Array, pose: Pose, change: Tuple[float, float, float] = (0.0, 0.0, 0.0),
                count: int = 1) -> None:
