@@ -32,7 +32,7 @@ SAFE_CURVATURE = 2.0  # [1/m]
 WARY_SPEED = 0.25  # [m/s] near a cliff that the map does not show: in 0.06 m the robot stops, whatever its shape is
 SLOW = 0.1  # [m/s] near such a cliff: no faster in bends, unless all of the floor in them is known
 TIGHT = 3.3  # [1/m] in tighter bends the sensors of one side look along the circle of the outer wheel, ...
-SWIFT_SPEED = 0.38  # [m/s] ... 0.17 m ahead of it: a wheel that is no faster stops within 0.15 m
+SWIFT_SPEED = 0.38  # [m/s] ... 0.17 m ahead of it: a wheel that is no faster stops within 0.12 m
 
 RELEASE = 2.0  # [s] held by edges, after which the guard looks for a way out itself
 WAYS_OUT = [(v, w) for v in (0.0, -SLOW, SLOW) for w in (0.25, -0.25, 0.5, -0.5, 1.0, -1.0)]  # [m/s], [rad/s]
