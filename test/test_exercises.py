@@ -70,8 +70,8 @@ def test_a_submission_that_takes_its_time_for_each_answer_earns_all_points(works
     for overlay in ('starter', 'solution'):
         shutil.copytree(exercise / overlay, tmp_path / 'class' / 'slow', dirs_exist_ok=True)
     script = tmp_path / 'class' / 'slow' / 'status_exercise' / 'scripts' / 'status'
-    script.write_text(script.read_text().replace('status = BatteryStatus()', f'rospy.rostime.wallsleep({SLOW})\n'
-                                                                             '        status = BatteryStatus()'))
+    before, after = script.read_text().split('        status = BatteryStatus()')
+    script.write_text(f'{before}        rospy.rostime.wallsleep({SLOW})\n        status = BatteryStatus(){after}')
     rows = marked(workspace.space('devel'), tmp_path, exercise / 'hidden')
     assert rows['slow']['points'] == '10', rows
 

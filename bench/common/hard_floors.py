@@ -10,11 +10,13 @@ from typing import Callable, NamedTuple, Optional
 import numpy as np
 
 from rumba_sim.model.floor_plan import FREE, OCCUPIED, FloorPlan
+from rumba_sim.model.geometry import Pose
 
 SAMPLE = 0.025  # [m] between the points that are looked at within a cell, at most
 WALL = 0.1  # [m] thickness
 LEG = 0.02  # [m] radius of the leg of a chair or a table
 DOOR = 0.8  # [m]
+DOCKING = 0.7  # [m] around a place before a dock, where there are no pits
 
 
 class Drawing(NamedTuple):
@@ -24,6 +26,7 @@ class Drawing(NamedTuple):
     height: float  # [m]
     is_wall: Callable  # of x and y, arrays [m]: bool
     is_cliff: Optional[Callable] = None
+    dock: Optional[Pose] = None
 
 
 def drawn(name, drawing, resolution):
@@ -40,7 +43,7 @@ def drawn(name, drawing, resolution):
             if drawing.is_cliff is not None:
                 cliff |= drawing.is_cliff(x, y)
     return FloorPlan(name, np.where(wall, OCCUPIED, FREE), resolution, (-resolution, -resolution),
-                     cliff=None if drawing.is_cliff is None else cliff & ~wall)
+                     cliff=None if drawing.is_cliff is None else cliff & ~wall, dock=drawing.dock)
 
 
 # --- shapes: functions of x and y -----------------------------------------------------------------------------------
@@ -63,6 +66,12 @@ def box(left, bottom, right, top):
 def disc(centre_x, centre_y, radius):
     """A disc."""
     return lambda x, y: np.hypot(x - centre_x, y - centre_y) < radius
+
+
+def pentagon(centre_x, centre_y, radius):
+    """A pentagon with equal sides; `radius` [m] is that of the circle in it."""
+    sides = [(math.cos(angle), math.sin(angle)) for angle in 0.4 * math.pi * np.arange(5)]
+    return lambda x, y: np.max([(x - centre_x) * cos + (y - centre_y) * sin for cos, sin in sides], axis=0) < radius
 
 
 def turned(shape, angle, about):
@@ -205,6 +214,28 @@ def cliffs(generator):
     return Drawing(width, height, box(1.5, 0.0, 1.9, 0.9), holes)
 
 
+def pits(generator):
+    """A room with up to five pits: boxes, angles, discs and pentagons; none is before the dock."""
+    width, height = generator.uniform(4.0, 6.5), generator.uniform(3.5, 5.0)
+    dock = Pose(0.19, 0.5 * height, math.pi)
+    angles = np.arange(0.0, 2.0 * math.pi, 0.05)
+    away = np.linspace(0.0, DOCKING, 30)[:, np.newaxis]
+    before_dock = dock.x + 0.4 + away * np.cos(angles), dock.y + away * np.sin(angles)
+    found = [_pit(generator, (generator.uniform(1.0, width - 0.4), generator.uniform(0.4, height - 0.4)))
+             for _ in range(generator.integers(2, 6))]
+    return Drawing(width, height, union([]), union([pit for pit in found if not pit(*before_dock).any()]), dock)
+
+
+def _pit(generator, centre):
+    """A pit about a point."""
+    x, y = centre
+    size, depth = generator.uniform(0.12, 0.6), generator.uniform(0.1, 0.5)
+    shapes = [box(x - size, y - depth, x + size, y + depth),
+              union([box(x - size, y - 0.12, x + size, y + 0.12), box(x + size - 0.12, y, x + size + 0.12, y + size)]),
+              disc(x, y, size), pentagon(x, y, size)]
+    return turned(shapes[generator.integers(4)], generator.uniform(0.0, math.pi), centre)
+
+
 def thin(generator):
     """Rooms between walls that are 2 cm thick."""
     width, height = generator.uniform(5.0, 8.0, 2)
@@ -278,7 +309,7 @@ KINDS = {
     'spiral of 0.8 m': lambda generator: spiral(generator, 0.8),
     'spiral of 0.5 m': lambda generator: spiral(generator, 0.5),
     'chairs': chairs, 'dining': dining, 'tiny': tiny, 'slanted': slanted, 'round': round_room, 'jagged': jagged,
-    'islands': islands, 'cliffs': cliffs, 'thin': thin, 'furnished': furnished, 'empty': empty,
+    'islands': islands, 'cliffs': cliffs, 'pits': pits, 'thin': thin, 'furnished': furnished, 'empty': empty,
     'furnished of 1,300 m2': lambda generator: furnished(generator, 1300.0), 'office': office,
 }
 

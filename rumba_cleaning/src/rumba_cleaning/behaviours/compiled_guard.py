@@ -9,7 +9,7 @@ from rumba_sim.model.jit import compiled
 
 STEP = 0.02  # [s] of the simulation: one tick at 50 Hz
 HOLD_STEPS = 5  # for which a command holds: the control period
-ROUNDING = 1e-9  # [m/s]
+ROUNDING = 1e-6  # [m/s]
 
 Array = Any  # numpy.ndarray
 Wheels = Tuple[float, float]  # left and right

@@ -11,7 +11,7 @@ from typing import Callable, List, NamedTuple, Optional, Tuple
 import numpy as np
 
 from rumba_cleaning.behaviour import Command, Observation
-from rumba_cleaning.behaviours.compiled_guard import HOLD_STEPS, path
+from rumba_cleaning.behaviours.compiled_guard import HOLD_STEPS, ROUNDING, path
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.belief.footing import FAR
 from rumba_sim.model.geometry import Pose
@@ -21,7 +21,6 @@ SHARES = (0.6, 0.3)  # of a command that are tried, after the whole and a slow o
 LONGEST = 0.3  # [s] the same, at most, by the time since the last one: in a longer step the node was busy
 SPARE = 0.02  # [m] from a wheel to an edge: a cell of a fine map; an edge that was seen is known no better
 SLIP = 0.02  # [m/s] sideways: the robot slides along a wall
-ROUNDING = 1e-6  # [m/s]
 AT_REST = 0.02  # [m/s] of both wheels
 CREEP = 1e-4  # [m] by which an edge may come nearer to the middle of a robot that is too near already: rounding
 
@@ -78,6 +77,10 @@ class Guard:
         self._command = Command(0.0, 0.0)  # the last one
         self._last: Optional[Pose] = None
         self._held = NONE  # the side on which an edge kept the robot from what it was to do
+        self._go_on()
+
+    def _go_on(self) -> None:
+        """Edges do not hold the robot."""
         self._held_at: Optional[Pose] = None
         self._leaves_at = RELEASE  # after what `held_time` it looks for a way out
         self._is_leaving = False  # whether it is on a way out
@@ -119,12 +122,12 @@ class Guard:
         return self._command
 
     def _note_held(self, observation: Observation) -> None:
-        """Measure for how long edges have held the robot, about where it is."""
+        """Measure for how long edges have held the robot, about where it is, and decide when to look for a way out."""
         pose, at = observation.pose, self._held_at
         if at is not None and math.hypot(pose.x - at.x, pose.y - at.y) > ELSEWHERE:
-            self._held_at, self.held_time, self._leaves_at, self._is_leaving = None, 0.0, RELEASE, False
+            self._go_on()
         if self._held != NONE and _faster(self._speeds) == 0.0:
-            self._held_at = at or pose
+            self._held_at = self._held_at or pose
             self.held_time += min(observation.dt, LONGEST)
         if self.held_time > self._leaves_at:
             self._is_leaving = True
@@ -139,9 +142,9 @@ class Guard:
         for v, w in WAYS_OUT:
             slow = command._replace(v=v, w=w)
             wanted = self._wanted(slow)
-            found = [self._ways(pose, wanted, slip) for slip in self._slips(observation, wanted)]
-            if min(end for end, _ in found) > most and min(least for _, least in found) >= reserve:
-                best, most = slow, min(end for end, _ in found)
+            ends, leasts = zip(*(self._ways(pose, wanted, slip) for slip in self._slips(observation, wanted)))
+            if min(ends) > most and min(leasts) >= reserve:
+                best, most = slow, min(ends)
         self._is_leaving = best is not None
         return best
 

@@ -100,13 +100,13 @@ class Lockstep:
     def _wait_for_connections(self, meanwhile: Callable[[], None]) -> None:
         """Serve requests, and so send this tick to new subscribers, until all who have subscribed are connected."""
         end = time.monotonic() + self._participants.patience
-        lacking = self._unconnected()
-        self._requests.serve(time.monotonic())
-        while lacking and time.monotonic() < end and not rospy.is_shutdown():
+        while True:
+            lacking = self._unconnected()
+            self._requests.serve(time.monotonic())  # also for those who connected just before that look
+            if not lacking or time.monotonic() > end or rospy.is_shutdown():
+                break
             self._requests.serve(time.monotonic() + LOOK_PERIOD)
             meanwhile()
-            lacking = self._unconnected()
-            self._requests.serve(time.monotonic())
         for topic, node in sorted(lacking):
             rospy.logwarn(f'lockstep: {node} has subscribed to {topic}, but does not connect: the world goes on '
                           'without it')
