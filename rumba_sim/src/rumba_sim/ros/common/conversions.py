@@ -138,10 +138,10 @@ def cleaning_status(robot: Robot, floor: Floor, header: Header) -> CleaningStatu
                           robot.distance, robot.brush_time)
 
 
-def grid(plan: FloorPlan, cells: Array, stamp: object) -> OccupancyGrid:
-    """Values (rows, columns) int8 on the cells of a plan: its occupancy, or what was swept."""
+def grid(plan: FloorPlan, cells: Array, stamp: object, frame: str = MAP) -> OccupancyGrid:
+    """Values (rows, columns) int8 on the cells of a plan in a frame: its occupancy, or what was swept."""
     left, bottom = plan.origin
     info = MapMetaData(map_load_time=stamp, resolution=plan.resolution, width=plan.columns, height=plan.rows,
                        origin=PoseMessage(Point(left, bottom, 0.0), quaternion(0.0)))
     # A list is packed several times faster than an array.
-    return OccupancyGrid(Header(stamp=stamp, frame_id=MAP), info, cells.ravel().tolist())
+    return OccupancyGrid(Header(stamp=stamp, frame_id=frame), info, cells.ravel().tolist())

@@ -5,6 +5,7 @@ from typing import NamedTuple
 from rumba_sim.model.robot import FIRST
 
 MAP = 'map'
+WORLD = 'world'  # of what only a simulator knows, while a robot makes a map of its own
 
 
 class Frames(NamedTuple):

@@ -2,6 +2,7 @@
 
 import atexit
 import math
+from typing import Optional
 
 import numpy as np
 import rospy
@@ -12,9 +13,12 @@ from rumba_sim.model import named_maps
 from rumba_sim.model.errors import MapError, WorldError
 from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.ros.common import conversions, master_watch, peers
+from rumba_sim.ros.common.frames import MAP
 from rumba_sim.ros.common.paths import absolute
 
 FARTHEST = 1e6  # [m] of a coordinate, at most
+TOPIC = '/map'
+TRUE_TOPIC = 'simulator/map'  # the true map for onlookers, while a robot makes the one on TOPIC
 
 
 def map_path(name: str) -> str:
@@ -66,17 +70,18 @@ def refuse_second() -> None:
                          'one a master of its own with ROS_MASTER_URI')
 
 
-def tell_map(plan: FloorPlan, stamp: rospy.Time, is_shown: bool = True) -> None:
+def tell_map(plan: FloorPlan, stamp: rospy.Time, topic: Optional[str] = TOPIC, frame: str = MAP) -> None:
     """Publish a map as map_server does, also at a master that is started later.
 
     Args:
         plan: the map.
         stamp: of the message.
-        is_shown: whether to publish it on /map; else a node that makes a map does so. The service is there anyway.
+        topic: on which to publish it; None: on none. The service is there anyway.
+        frame: of the map.
     """
-    message = conversions.grid(plan, plan.occupancy, stamp)
-    if is_shown:
-        rospy.Publisher('/map', OccupancyGrid, queue_size=1, latch=True).publish(message)
+    message = conversions.grid(plan, plan.occupancy, stamp, frame)
+    if topic is not None:
+        rospy.Publisher(topic, OccupancyGrid, queue_size=1, latch=True).publish(message)
     rospy.Service(SERVICE, GetMap, lambda _: GetMapResponse(message))
     _reservation.release()
     master_watch.before_return(refuse_second)

@@ -10,7 +10,6 @@ from visualization_msgs.msg import Marker, MarkerArray
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.obstacle import Obstacle
 from rumba_sim.ros.common.conversions import quaternion
-from rumba_sim.ros.common.frames import MAP
 
 TOPIC = 'simulator/obstacles'
 FIXED, MOVER = ColorRGBA(0.55, 0.4, 0.25, 1.0), ColorRGBA(0.7, 0.3, 0.5, 1.0)
@@ -18,7 +17,6 @@ FIXED, MOVER = ColorRGBA(0.55, 0.4, 0.25, 1.0), ColorRGBA(0.7, 0.3, 0.5, 1.0)
 
 def markers(obstacles: Iterable[Tuple[Obstacle, Pose]], header: Header) -> MarkerArray:
     """All obstacles where they are: each replaces what was shown before, and has its name as its namespace."""
-    header.frame_id = MAP
     return MarkerArray([Marker(header=header, action=Marker.DELETEALL),
                         *(_marker(obstacle, pose, header) for obstacle, pose in obstacles)])
 

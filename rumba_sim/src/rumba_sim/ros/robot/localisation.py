@@ -1,8 +1,10 @@
 """Who tells where a robot is on the map: the transform map -> odom."""
 
-from typing import Any
+from typing import Any, Optional
 
 from rumba_sim.model.config import setting
+from rumba_sim.ros.common.frames import MAP, WORLD
+from rumba_sim.ros.common.maps import TOPIC, TRUE_TOPIC
 
 TRUTH, SLAM = 'truth', 'slam'
 
@@ -12,3 +14,15 @@ def localisation_setting() -> Any:
     return setting(TRUTH, 'who publishes map -> odom: truth (this node: the exact correction of odometry), mcl '
                           '(localiser), slam (mapper, which also publishes /map), or none (a node of yours, or nobody)',
                    choices=(TRUTH, 'mcl', SLAM, 'none'))
+
+
+def true_frame(localisation: str) -> str:
+    """The frame of what only a simulator knows: with `SLAM`, `MAP` is that of the map which a robot makes."""
+    return WORLD if localisation == SLAM else MAP
+
+
+def map_topic(localisation: str, is_exam: bool) -> Optional[str]:
+    """The topic of the true map: one for onlookers if a robot makes its own map, and none if that is examined."""
+    if localisation != SLAM:
+        return TOPIC
+    return None if is_exam else TRUE_TOPIC

@@ -40,7 +40,8 @@ class RobotNode:
 
     def __init__(self, world: World, name: str, requests: Requests, has_localisation: bool,
                  stamp: rospy.Time, has_laser: bool = True, is_held: Callable[[], bool] = lambda: False,
-                 on_command: Callable[[str], None] = lambda _: None, is_exam: bool = False) -> None:
+                 on_command: Callable[[str], None] = lambda _: None, is_exam: bool = False,
+                 frame: str = MAP) -> None:
         """Open the robot's topics and services below its name.
 
         Args:
@@ -53,6 +54,7 @@ class RobotNode:
             is_held: whether the world waits for those who come late: they are sent what they have missed.
             on_command: called after each command, with the full name of its topic, in a thread of rospy.
             is_exam: whether to keep from others what only the world can know, and to let nobody teleport the robot.
+            frame: that of the world.
 
         Raises:
             WorldError: another node has a robot of that name.
@@ -60,8 +62,9 @@ class RobotNode:
         self._world = world
         self._name = name
         self._frames = frames(name)
+        self._frame = frame
         odom, base = self._frames.odom, self._frames.base_footprint
-        self._odometry, self._truth = OdometryPacker(odom, base), OdometryPacker(MAP, base)
+        self._odometry, self._truth = OdometryPacker(odom, base), OdometryPacker(frame, base)
         self._body, self._correction = TransformPacker(odom, base), TransformPacker(MAP, odom)
         self._has_localisation = has_localisation
         self._command: Optional[Tuple[float, float]] = None
@@ -169,7 +172,7 @@ class RobotNode:
                 robot.battery, pose, robot.brushes_up, conversions.trouble(robot)))
         if due.cleaning:
             self._tell('cleaning_status', lambda: conversions.cleaning_status(
-                robot, self._world.floor, self._header(MAP)))
+                robot, self._world.floor, self._header(self._frame)))
             self._tell('coverage', self._coverage_message)
 
     def _publish_sensors(self) -> None:
@@ -219,7 +222,7 @@ class RobotNode:
         return conversions.static_transforms(self._frames, self._stamp, self._robot.config.drive.wheel_diameter)
 
     def _coverage_message(self) -> OccupancyGrid:
-        return conversions.grid(self._world.plan, self._world.swept(), self._stamp)
+        return conversions.grid(self._world.plan, self._world.swept(), self._stamp, self._frame)
 
 
 def refuse_twin(name: str) -> None:

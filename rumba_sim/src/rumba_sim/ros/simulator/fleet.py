@@ -5,6 +5,7 @@ from typing import Callable, Dict, List, Optional
 
 import rosgraph
 import rospy
+from geometry_msgs.msg import TransformStamped
 from tf2_msgs.msg import TFMessage
 
 from rumba_sim.model.errors import WorldError
@@ -12,10 +13,13 @@ from rumba_sim.model.geometry import Pose
 from rumba_sim.model.name import check_name
 from rumba_sim.model.robot import nth_name
 from rumba_sim.model.world import World
+from rumba_sim.ros.common.conversions import transform
+from rumba_sim.ros.common.frames import MAP, WORLD
 from rumba_sim.ros.common.requests import Requests
 from rumba_sim.ros.robot import packed
 from rumba_sim.ros.robot.latecomers import Latecomers
-from rumba_sim.ros.robot.localisation import TRUTH
+from rumba_sim.ros.robot.localisation import SLAM, TRUTH, true_frame
+from rumba_sim.ros.robot.map_anchor import MapAnchor
 from rumba_sim.ros.robot.rates import EVERYTHING, Due
 from rumba_sim.ros.robot.robot_node import RobotNode
 from rumba_sim.ros.simulator.diagnostics import Diagnostics
@@ -54,6 +58,8 @@ class Fleet:
         self._is_held = is_held
         self._on_command = on_command
         self._robots: Dict[str, RobotNode] = {}
+        self._anchors: Dict[str, MapAnchor] = {}  # of robots that may make a map
+        self._map: List[TransformStamped] = []  # where that is; none if it is unknown
         self._kept: List[bytes] = []  # transforms that were not published yet
         self._tf = rospy.Publisher('/tf', TFMessage, Latecomers(requests, self._missed_transforms), queue_size=100)
         self._tf_static = rospy.Publisher('/tf_static', TFMessage, queue_size=10, latch=True)
@@ -76,6 +82,9 @@ class Fleet:
         """Publish what is due; transforms that are kept are published with those of a later tick."""
         for robot in self._robots.values():
             robot.publish(due, self.settings.rates, self._stamp())
+        if due.scan:
+            for name, anchor in self._anchors.items():
+                anchor.note(self._stamp(), self._world.robots[name].pose)
         if due.odom and self._tf.get_num_connections():
             self._kept += self._transforms()
         if not keep_transforms:
@@ -132,6 +141,8 @@ class Fleet:
         """
         self._world.kill(name)
         self._robots.pop(name).close()
+        if name in self._anchors:
+            self._anchors.pop(name).close()
         gc.collect()  # rospy leaves a file descriptor of each topic open until then
         self._diagnostics.remove(name)
         self._tell_static()
@@ -143,9 +154,17 @@ class Fleet:
     def _open(self, name: str) -> None:
         self._robots[name] = RobotNode(self._world, name, self._requests, self.settings.localisation == TRUTH,
                                        self._stamp(), is_held=self._is_held, on_command=self._on_command,
-                                       is_exam=self.settings.exam)
+                                       is_exam=self.settings.exam, frame=true_frame(self.settings.localisation))
+        if self.settings.localisation == SLAM and not self.settings.exam:
+            self._anchors[name] = MapAnchor(name, self._requests, self._place_map)
         self._diagnostics.add(name, lambda: self._world.robots[name])
         self._tell_static()
 
     def _tell_static(self) -> None:
-        self._tf_static.publish([part for robot in self._robots.values() for part in robot.static_transforms()])
+        parts = [part for robot in self._robots.values() for part in robot.static_transforms()]
+        self._tf_static.publish(self._map + parts)
+
+    def _place_map(self, pose: Pose) -> None:
+        """Tell where the map that a robot makes is in the world."""
+        self._map = [transform(WORLD, MAP, pose, self._stamp())]
+        self._tell_static()

@@ -19,16 +19,18 @@ RATE = 5  # [Hz] of simulated time, while something moves
 class ObstacleBoard:
     """Changes and publishes the obstacles of a world; only the owner of the world calls it."""
 
-    def __init__(self, world: World, requests: Requests, stamp: Callable[[], rospy.Time]) -> None:
+    def __init__(self, world: World, requests: Requests, stamp: Callable[[], rospy.Time], frame: str) -> None:
         """Open the topic.
 
         Args:
             world: where the obstacles are.
             requests: to the owner of the world.
             stamp: the time of the world.
+            frame: that of the world.
         """
         self._world = world
         self._stamp = stamp
+        self._frame = frame
         self._period = max(round(world.step_rate / RATE), 1)
         self._publisher = rospy.Publisher(TOPIC, MarkerArray, Latecomers(requests, self._message), queue_size=10)
 
@@ -63,7 +65,7 @@ class ObstacleBoard:
             self._publisher.publish(self._message())
 
     def _message(self) -> MarkerArray:
-        return markers(self._world.obstacles.poses(), Header(stamp=self._stamp()))
+        return markers(self._world.obstacles.poses(), Header(stamp=self._stamp(), frame_id=self._frame))
 
 
 def values(request: AddObstacleRequest) -> Dict[str, Any]:

@@ -15,7 +15,9 @@ It publishes simulator/state (rumba_msg/SimulatorState, latched), /map, /tf, /tf
 /clock if time is simulated: at any speed except 1, or if /use_sim_time is true. It serves /static_map and, below its
 own name, pause, resume, reset, digest (std_srvs/Trigger), step (rumba_msg/Step), spawn (rumba_msg/Spawn), kill
 (rumba_msg/Kill), add_obstacle (rumba_msg/AddObstacle) and remove_obstacle (rumba_msg/RemoveObstacle). It publishes
-simulator/obstacles (visualization_msgs/MarkerArray) for those who want to see them. In lockstep it publishes
+simulator/obstacles (visualization_msgs/MarkerArray) for those who want to see them. With localisation:=slam, /map is
+that of the robot: those who look on get the true one on simulator/map (nav_msgs/OccupancyGrid, latched), in the frame
+world of all that only the simulator knows, and world -> map on /tf_static. In lockstep it publishes
 simulator/lockstep (rumba_msg/Lockstep), and waits for those who answer on simulator/lockstep_answers
 (rumba_msg/LockstepAnswer). rqt_reconfigure shows it as NAME/tuning; the parameters NAME/settings are the settings in
 force.
@@ -46,7 +48,7 @@ from rumba_sim.ros.common.paths import absolute
 from rumba_sim.ros.common.peers import NO_ANSWER
 from rumba_sim.ros.common.requests import Requests
 from rumba_sim.ros.common.simulator_client import SETTINGS
-from rumba_sim.ros.robot.localisation import SLAM
+from rumba_sim.ros.robot.localisation import map_topic, true_frame
 from rumba_sim.ros.robot.state_publisher import StatePublisher, tell_settings
 from rumba_sim.ros.simulator import reconfigure
 from rumba_sim.ros.simulator.diagnostics import Diagnostics
@@ -93,11 +95,12 @@ class Simulator:
         self._diagnostics = Diagnostics(settings.map)
         self._fleet = Fleet(self._world, settings, self._requests, self._diagnostics, lambda: self._pace.stamp,
                             self._is_held, self._on_command)
-        self._obstacles = ObstacleBoard(self._world, self._requests, lambda: self._pace.stamp)
+        frame = true_frame(settings.localisation)
+        self._obstacles = ObstacleBoard(self._world, self._requests, lambda: self._pace.stamp, frame)
         for _ in range(0 if saved else settings.robots):
             self._fleet.spawn()
         self._file.begin(self._world, self._ticks)
-        tell_map(self._world.plan, self._pace.stamp, is_shown=settings.localisation != SLAM)
+        tell_map(self._world.plan, self._pace.stamp, map_topic(settings.localisation, settings.exam), frame)
         self._state = StatePublisher(settings, path, settings.step_rate, self._pace.is_simulated, self._run,
                                      self._lockstep is not None)
         self._serve()
