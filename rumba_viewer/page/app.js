@@ -3,6 +3,7 @@
 import {Driving} from './driving.js';
 import {Floor} from './floor.js';
 import {Link} from './link.js';
+import {onMap} from './own_map.js';
 import {Scene} from './scene.js';
 
 const ACTIONS = ['clean', 'dock', 'undock', 'go_to'];
@@ -60,7 +61,7 @@ function send(action, type, goal) {
 
 function goTo(point) {
   scene.selected.target = point;
-  send('go_to', 'GoTo', {target: {x: point.x, y: point.y, theta: null}});
+  send('go_to', 'GoTo', {target: {...onMap(scene.frame, point), theta: null}});
   news();
 }
 
@@ -122,7 +123,7 @@ at('access').onsubmit = event => {
 };
 at('robots').onchange = () => scene.select(scene.robots.find(robot => robot.name === at('robots').value));
 floor.canvas.onclick = choose;
-floor.canvas.ondblclick = event => { const point = choose(event); if (point && canClean()) goTo(point); };
+floor.canvas.ondblclick = event => { const point = choose(event); if (point && canGo()) goTo(point); };
 addEventListener('keydown', event => {
   if (event.key === 'Escape' && scene.selected) at('stop').click();
 });
@@ -132,6 +133,10 @@ matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => { fl
 
 function canClean() {
   return link.isOpen && Boolean(scene.selected?.mission);
+}
+
+function canGo() {
+  return canClean() && scene.frame !== null;
 }
 
 function text(id, value) {
@@ -172,7 +177,8 @@ function showControls() {
   const {state, hasSimulator, selected} = scene;
   text('pause', state?.is_paused ? 'Resume' : 'Pause');
   for (const id of ['pause', 'reset', 'speed']) at(id).disabled = !link.isOpen || !hasSimulator;
-  for (const id of ['clean', 'dock', 'undock', 'stop', 'go-to', 'x', 'y']) at(id).disabled = !canClean();
+  for (const id of ['clean', 'dock', 'undock', 'stop']) at(id).disabled = !canClean();
+  for (const id of ['go-to', 'x', 'y']) at(id).disabled = !canGo();
   text('brushes', selected?.brushesUp ? 'Brushes down' : 'Brushes up');
   at('brushes').disabled = !link.isOpen || (selected?.brushesUp ?? null) === null;
   for (const button of document.querySelectorAll('#drive button')) button.disabled = !link.isOpen || !selected;
@@ -208,6 +214,7 @@ function frame(now) {
     floor.map = scene.map;
     floor.paint(scene, now);
     at('stage').classList.toggle('has-map', Boolean(scene.map));
+    at('unmapped').hidden = !scene.hasTrueMap;
     text('waiting', scene.missing);
     showRobots();
     showRobot(scene.selected);

@@ -1,9 +1,13 @@
 // Paints the floor with its robots onto a canvas.
 
+import {laidOver, onFloor} from './own_map.js';
+
 const MARGIN = 16;  // [pixels] around the map
 const BODY = 0.175;  // [m] radius of a robot
 const SMALLEST = 7;  // [pixels] radius at which a robot is drawn, at least
 const STRIPE = 4;  // [cells] of the stripes of what is out of reach
+const WALL = 65;  // [%] from this probability on a cell is a wall
+const FAINT = 0.72;  // share of the background in the colour of what the robot's own map does not show
 export const ROBOT_COLOURS = ['#1f6fd6', '#d9580d', '#7a43c4', '#00857c', '#b3266e', '#7a6a00'];
 
 export class Floor {
@@ -12,7 +16,7 @@ export class Floor {
     this.context = canvas.getContext('2d');
     this.cells = document.createElement('canvas');
     this.map = null;
-    this.painted = null;
+    this.painted = this.known = null;
     this.readColours();
   }
 
@@ -53,26 +57,39 @@ export class Floor {
   }
 
   // One pixel for each cell.
-  paintCells(coverage) {
+  paintCells(coverage, known) {
     const {info, data} = this.map, {width, height} = info;
     const same = coverage && coverage.data.length === data.length ? coverage.data : null;
     Object.assign(this.cells, {width, height});
     const context = this.cells.getContext('2d'), image = context.createImageData(width, height);
     const pixels = new Uint32Array(image.data.buffer);
-    const [unknown, wall, dirty, swept, beyond, stripe] =
-      ['unknown', 'wall', 'dirty', 'swept', 'beyond', 'stripe'].map(name => packed(this.colour(name)));
-    const shades = Array.from({length: 101}, (_, share) => mixed(dirty, swept, share / 100));
+    const [background, dirty, swept, ...others] =
+      ['background', 'dirty', 'swept', 'unknown', 'wall', 'beyond', 'stripe'].map(name => packed(this.colour(name)));
+    const colours = [...Array.from({length: 101}, (_, share) => mixed(dirty, swept, share / 100)), ...others];
+    const faint = colours.map(colour => mixed(colour, background, FAINT)), [unknown, wall, beyond, stripe] = [101, 102, 103, 104];
     for (let row = 0, at = 0; row < height; row++) {
       let to = (height - 1 - row) * width;
       for (let column = 0; column < width; column++, at++, to++) {
-        if (data[at] < 0) pixels[to] = unknown;
-        else if (data[at] >= 65) pixels[to] = wall;
-        else if (!same) pixels[to] = swept;
-        else if (same[at] < 0) pixels[to] = (row + column) % (2 * STRIPE) < STRIPE ? beyond : stripe;
-        else pixels[to] = shades[Math.min(same[at], 100)];
+        let colour = 100;
+        if (data[at] < 0) colour = unknown;
+        else if (data[at] >= WALL) colour = wall;
+        else if (same && same[at] < 0) colour = (row + column) % (2 * STRIPE) < STRIPE ? beyond : stripe;
+        else if (same) colour = Math.min(same[at], 100);
+        if (!known) pixels[to] = colours[colour];
+        else if (known[at] >= WALL) pixels[to] = colours[wall];
+        else pixels[to] = (known[at] < 0 || colour === wall ? faint : colours)[colour];
       }
     }
     context.putImageData(image, 0, 0);
+  }
+
+  // What the robot's own map shows in each cell of the true one; null if that is shown itself.
+  knownCells({hasTrueMap, ownMap, ownFrame}) {
+    if (!hasTrueMap) return null;
+    const of = [this.map, ownMap, ownFrame];
+    if (!this.known || of.some((part, at) => part !== this.known.of[at]))
+      this.known = {of, cells: laidOver(ownMap, ownFrame, this.map)};
+    return this.known.cells;
   }
 
   paint(scene, now) {
@@ -81,16 +98,16 @@ export class Floor {
     context.fillStyle = this.colour('background');
     context.fillRect(0, 0, canvas.width, canvas.height);
     if (!this.map) return;
-    const coverage = scene.selected?.coverage ?? null;
-    if (this.painted?.map !== this.map || this.painted.coverage !== coverage) {
-      this.paintCells(coverage);
-      this.painted = {map: this.map, coverage};
+    const coverage = scene.selected?.coverage ?? null, known = this.knownCells(scene);
+    if (this.painted?.map !== this.map || this.painted.coverage !== coverage || this.painted.known !== known) {
+      this.paintCells(coverage, known);
+      this.painted = {map: this.map, coverage, known};
     }
     const view = this.view(), {cells} = this;
     context.imageSmoothingEnabled = view.scale * this.map.info.resolution < 3;
     context.drawImage(cells, view.left, view.top, cells.width * this.map.info.resolution * view.scale, view.height);
     for (const marker of scene.obstacles) this.paintObstacle(view, marker);
-    if (scene.selected) this.paintPlan(view, scene.selected);
+    if (scene.selected && scene.frame) this.paintPlan(view, scene.selected, scene.frame);
     if (scene.selected) this.paintTrail(view, scene.selected);
     if (scene.selected) this.paintLaser(view, scene.selected);
     if (scene.target) this.paintTarget(view, scene.target);
@@ -112,10 +129,13 @@ export class Floor {
     context.restore();
   }
 
-  paintPlan(view, robot) {
+  paintPlan(view, robot, frame) {
     const {context} = this;
     context.beginPath();
-    for (const point of robot.plan) context.lineTo(...this.toPixel(view, point.x, point.y));
+    for (const point of robot.plan) {
+      const {x, y} = onFloor(frame, point);
+      context.lineTo(...this.toPixel(view, x, y));
+    }
     context.strokeStyle = this.colour('plan');
     context.lineWidth = view.ratio;
     context.setLineDash([view.ratio, 3 * view.ratio]);

@@ -1,22 +1,39 @@
 // What there is to show: the map, the simulator and the robots that the master knows.
 
 import {ROBOT_COLOURS} from './floor.js';
+import {SAME, frameIn} from './own_map.js';
 import {Robot} from './robot.js';
 
 const LOOK = 2000;  // [ms] between two looks for robots
 const SILENCE = 4000;  // [ms] after which a silent simulator counts as gone
-const TRUTH = '/ground_truth';
+const TRUTH = '/ground_truth', TRUE_MAP = 'simulator/map';
 
 export class Scene {
   // `onNews` is called when there is something new to show, `onResult` with the line at the end of a task.
   constructor(link, onNews, onResult) {
-    Object.assign(this, {link, onNews, onResult, map: null, state: null, heard: 0, robots: [], selected: null,
+    Object.assign(this, {link, onNews, onResult, ownMap: null, trueMap: null, ownFrame: null, isTrueMapTold: false, state: null, heard: 0, robots: [], selected: null,
       markers: new Map(), trouble: '', wanted: sessionStorage.robot});
-    link.subscribe('/map', {compression: 'png', queue_length: 1}, msg => { this.map = msg; onNews(); });
+    link.subscribe('/map', {compression: 'png', queue_length: 1}, msg => { this.ownMap = msg; onNews(); });
+    link.subscribe(TRUE_MAP, {compression: 'png', queue_length: 1}, msg => { this.trueMap = msg; onNews(); });
+    link.subscribe('/tf_static', {}, msg => { this.ownFrame = frameIn(msg) ?? this.ownFrame; onNews(); });
     link.subscribe('simulator/state', {}, msg => this.learnState(msg));
     link.subscribe('simulator/obstacles', {throttle_rate: 200, newest: true}, msg => this.learnObstacles(msg));
     setInterval(() => this.look(), LOOK);
     setInterval(onNews, 1000);  // silence is news too
+  }
+
+  // The map of the floor: the true one, as long as a simulator tells it.
+  get map() {
+    return this.hasTrueMap ? this.trueMap : this.ownMap;
+  }
+
+  get hasTrueMap() {
+    return this.isTrueMapTold && this.trueMap !== null;
+  }
+
+  // Where the map by which robots work is on the floor; null if that is unknown.
+  get frame() {
+    return this.hasTrueMap ? this.ownFrame : SAME;
   }
 
   get obstacles() {
@@ -50,13 +67,15 @@ export class Scene {
     this.onNews();
   }
 
-  // Ask which robots there are.
+  // Ask which robots there are, and whether a simulator tells the true map.
   async look() {
     if (!this.link.isOpen) return;
     try {
-      const {topics} = await this.link.call('/rosapi/topics_for_type', {type: 'nav_msgs/Odometry'});
+      const [grids, odometries] = await Promise.all(['nav_msgs/OccupancyGrid', 'nav_msgs/Odometry'].map(
+        type => this.link.call('/rosapi/topics_for_type', {type})));
       this.trouble = '';
-      this.learnRobots(topics.filter(name => name.endsWith(TRUTH)).map(name => name.slice(0, -TRUTH.length)));
+      this.isTrueMapTold = grids.topics.some(name => name.endsWith(`/${TRUE_MAP}`));
+      this.learnRobots(odometries.topics.filter(name => name.endsWith(TRUTH)).map(name => name.slice(0, -TRUTH.length)));
     } catch (error) {
       this.trouble = error.message.replace(/^\/rosapi\/\w+: /, '');
     }

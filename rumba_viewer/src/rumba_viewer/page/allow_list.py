@@ -13,10 +13,11 @@ from rumba_sim.model.errors import ConfigError, quoted
 from rumba_viewer.page.errors import Refusal
 
 ACTIONS = ('clean', 'dock', 'undock', 'go_to')
-READ = ('/map', '/clock', '/tf', '/tf_static', 'simulator/state', 'simulator/obstacles', *(f'*/{name}' for name in (
-    'battery_status', 'battery_state', 'odom', 'ground_truth', 'scan', 'bumper', 'cliff', 'dock_status',
-    'cleaning_status', 'coverage', 'mission_status', 'plan', 'amcl_pose', 'particlecloud',
-    *(f'{action}/{part}' for action in ACTIONS for part in ('status', 'feedback', 'result')))))
+READ = ('/map', '/clock', '/tf', '/tf_static', 'simulator/state', 'simulator/map', 'simulator/obstacles',
+        *(f'*/{name}' for name in (
+            'battery_status', 'battery_state', 'odom', 'ground_truth', 'scan', 'bumper', 'cliff', 'dock_status',
+            'cleaning_status', 'coverage', 'mission_status', 'plan', 'amcl_pose', 'particlecloud',
+            *(f'{action}/{part}' for action in ACTIONS for part in ('status', 'feedback', 'result')))))
 WRITE = ('*/cmd_vel', '*/teleop/cmd_vel', *(f'*/{action}/{part}' for action in ACTIONS for part in ('goal', 'cancel')))
 CALL = ('*/set_brushes_up', '*/go_to_position', 'simulator/pause', 'simulator/resume', 'simulator/reset',
         'simulator/tuning/set_parameters', 'turtlesim_body/reset')

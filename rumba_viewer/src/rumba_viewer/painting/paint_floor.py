@@ -9,7 +9,7 @@ import numpy as np
 from PyQt5.QtCore import QPointF, QRectF, Qt
 from PyQt5.QtGui import QColor, QImage, QPainter, QPen, QPolygonF
 
-from rumba_sim.model.floor_plan import FREE, OCCUPIED
+from rumba_sim.model.floor_plan import FREE, OCCUPIED, UNKNOWN
 from rumba_viewer.scene.snapshot import Array, Grid, MapFeatures, Path, Snapshot
 from rumba_viewer.scene.theme import Theme, robot_colour
 from rumba_viewer.scene.view_transform import ViewTransform
@@ -35,18 +35,19 @@ class FloorPainter:
 
     def paint(self, painter: QPainter, snapshot: Snapshot, view: ViewTransform, theme: Theme) -> None:
         """Paint the floor of a snapshot that has a plan."""
-        plan, coverage, features = snapshot.plan, snapshot.coverage, snapshot.features
+        plan, known, coverage, features = snapshot.plan, snapshot.known, snapshot.coverage, snapshot.features
         assert plan is not None
-        content = (plan.number, coverage and coverage.number, id(features), theme)
+        content = (plan.number, known and known.number, coverage and coverage.number, id(features), theme)
         if self._cells[0] != content:
-            self._cells = content, floor_image(plan, coverage, features, theme)
+            self._cells = content, floor_image(plan, known, coverage, features, theme)
         if self._view[0] != (content, view):
             self._view = (content, view), _scaled(self._cells[1], plan, view, theme)
         painter.drawImage(0, 0, self._view[1])
 
 
-def floor_image(plan: Grid, coverage: Optional[Grid], features: MapFeatures, theme: Theme) -> QImage:
-    """The floor with one pixel for each cell; the top row has the highest y."""
+def floor_image(plan: Grid, known: Optional[Grid], coverage: Optional[Grid], features: MapFeatures,
+                theme: Theme) -> QImage:
+    """The floor with one pixel for each cell; the top row has the highest y. What is not `known` is faint."""
     colours = np.full(plan.cells.shape, _rgb(theme.unknown), np.uint32)
     free = plan.cells == FREE
     colours[plan.cells == OCCUPIED] = _rgb(theme.wall)
@@ -60,6 +61,9 @@ def floor_image(plan: Grid, coverage: Optional[Grid], features: MapFeatures, the
         rows, columns = np.nonzero(free & features.cliff)
         striped = (rows + columns) * plan.resolution % STRIPES < 0.5 * STRIPES
         colours[rows[striped], columns[striped]] = _rgb(theme.cliff)
+    if known is not None:
+        _tint(colours, (known.cells == UNKNOWN) | (plan.cells == OCCUPIED), QColor(theme.veil))
+        colours[known.cells == OCCUPIED] = _rgb(theme.wall)
     height, width = colours.shape
     pixels: Any = np.ascontiguousarray(colours[::-1]).data
     return QImage(pixels, width, height, 4 * width, QImage.Format_RGB32).copy()  # which owns its pixels

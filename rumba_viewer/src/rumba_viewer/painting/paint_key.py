@@ -5,19 +5,31 @@ from PyQt5.QtGui import QColor, QFont, QFontMetricsF, QPainter, QPen
 
 from rumba_viewer.scene.theme import Theme
 
-STATES = (('swept', 'swept'), ('to_sweep', 'still to sweep'), ('out_of_reach', 'out of reach'), ('wall', 'wall'))
+STATES = ((('swept',), 'swept'), (('to_sweep',), 'still to sweep'), (('out_of_reach',), 'out of reach'),
+          (('wall',), 'wall'))  # colours over one another, and what they mean
+UNMAPPED = (('wall', 'veil'), 'not on its map')
 PATCH, GAP, EDGE = 11.0, 12.0, 8.0  # [pixels] side of a patch; between two entries; around them
 
 
-def paint_key(painter: QPainter, left: float, width: float, height: float, theme: Theme) -> None:
-    """Paint a row of patches with words from a left edge on, if the picture is wide enough for it [pixels]."""
+def paint_key(painter: QPainter, left: float, width: float, height: float, theme: Theme,
+              has_own_map: bool = False) -> None:
+    """Paint a row of patches with words, if the picture is wide enough for it.
+
+    Args:
+        painter: what to paint with.
+        left: edge of the row [pixels].
+        width, height: of the picture [pixels].
+        theme: colours.
+        has_own_map: whether the floor shows what a robot's own map does not.
+    """
+    states = (*STATES, UNMAPPED) if has_own_map else STATES
     painter.save()
     font = QFont(painter.font())
     font.setPointSizeF(0.9 * font.pointSizeF())
     painter.setFont(font)
     metrics = QFontMetricsF(font)
-    widths = [PATCH + 5.0 + metrics.horizontalAdvance(words) for _, words in STATES]
-    wide, high = sum(widths) + GAP * (len(STATES) - 1) + 2.0 * EDGE, metrics.height() + 8.0
+    widths = [PATCH + 5.0 + metrics.horizontalAdvance(words) for _, words in states]
+    wide, high = sum(widths) + GAP * (len(states) - 1) + 2.0 * EDGE, metrics.height() + 8.0
     if left + wide <= width - 8.0:
         box = QRectF(left, height - high - 8.0, wide, high)
         card = QColor(theme.card)
@@ -26,10 +38,11 @@ def paint_key(painter: QPainter, left: float, width: float, height: float, theme
         painter.setBrush(card)
         painter.drawRoundedRect(box, 4.0, 4.0)
         x = box.left() + EDGE
-        for (name, words), entry in zip(STATES, widths):
+        for (colours, words), entry in zip(states, widths):
             painter.setPen(QPen(QColor(theme.faint_text), 1.0))
-            painter.setBrush(QColor(getattr(theme, name)))
-            painter.drawRect(QRectF(x, box.center().y() - 0.5 * PATCH, PATCH, PATCH))
+            for colour in colours:
+                painter.setBrush(QColor(getattr(theme, colour)))
+                painter.drawRect(QRectF(x, box.center().y() - 0.5 * PATCH, PATCH, PATCH))
             painter.setPen(QColor(theme.text))
             painter.drawText(QRectF(x + PATCH + 5.0, box.top(), entry, high), Qt.AlignLeft | Qt.AlignVCenter, words)
             x += entry + GAP

@@ -9,8 +9,6 @@ from typing import Any, Callable, Dict, NamedTuple, Optional, Tuple
 
 import rosgraph
 import rospy
-from nav_msgs.msg import OccupancyGrid
-from rospy.numpy_msg import numpy_msg
 from visualization_msgs.msg import MarkerArray
 
 from rumba_msg.msg import SimulatorState
@@ -20,10 +18,12 @@ from rumba_sim.model.robot_config import RobotConfig
 from rumba_sim.ros.common import obstacle_markers
 from rumba_sim.ros.common.simulator_client import TOPIC, robot_config
 from rumba_viewer.ros import readings, ros_graph
+from rumba_viewer.ros.map_listener import MapListener, Maps
 from rumba_viewer.ros.readings import State
 from rumba_viewer.ros.robot_listener import RobotListener
 from rumba_viewer.ros.subscription import Subscription
 from rumba_viewer.scene.dock_field import docks
+from rumba_viewer.scene.map_frame import on_floor
 from rumba_viewer.scene.snapshot import Grid, MapFeatures, Obstacle, Robot, Simulation, Size, Snapshot
 
 # What is raised if the master or the simulator ends during a call.
@@ -68,7 +68,7 @@ class Listener:
         self._master = ''  # the one at which this node is registered
         self._robots: Dict[str, RobotListener] = {}
         self._subscriptions: Tuple[Subscription[Any], ...] = ()
-        self._plan: Optional[Grid] = None
+        self._map_listener: Optional[MapListener] = None
         self._obstacles: Tuple[Obstacle, ...] = ()
         self._coverage: Tuple[Optional[Grid], float] = (None, 0.0)  # that is shown, and since when
         self._files, self._heard = MapFiles(), Heard()
@@ -130,15 +130,17 @@ class Listener:
             robot.close()
         for subscription in self._subscriptions:
             subscription.close()
+        if self._map_listener is not None:
+            self._map_listener.close()
+        self._map_listener = MapListener(self._on_floor, self._tell)
         self._subscriptions = (
-            Subscription('/map', numpy_msg(OccupancyGrid), readings.grid, self._on_map),
             Subscription(TOPIC, SimulatorState, readings.state, self._on_state, queue_size=10),
             Subscription(obstacle_markers.TOPIC, MarkerArray, readings.obstacles, self._on_obstacles))
         self._on_master()
 
     def _read_map_files(self) -> None:
         """Read the files of the simulator's map, once for each map."""
-        state, plan = self._heard.state, self._plan
+        state, plan = self._heard.state, self._maps.plan
         if state is None or (state.node, state.map, plan) == self._files.of:
             return
         config, features = self._files.config, MapFeatures()
@@ -153,8 +155,7 @@ class Listener:
 
     # --- callbacks ----------------------------------------------------------------------------------------------------
 
-    def _on_map(self, plan: Grid) -> None:
-        self._plan = plan
+    def _on_floor(self) -> None:
         for robot in self._robots.values():
             robot.forget()
         self._wake.set()
@@ -183,15 +184,21 @@ class Listener:
         listeners, (name, _) = self._robots, self._wanted
         features, config, _ = self._files
         size = Size(config.drive.radius, config.brush.width)
+        maps = self._maps
         there = (one.robot(now, size) for one in listeners.values() if self._is_there(one, now))
-        robots = tuple(robot for robot in there if robot is not None)
+        robots = tuple(on_floor(robot, maps.frame) for robot in there if robot is not None)
         selected = listeners.get(name)
         stamps = [stamp for stamp in (one.known.stamp for one in listeners.values()) if stamp is not None]
         simulation = self._simulation(now, max(stamps) if stamps else None)
         coverage = self._shown_coverage(selected.known.coverage if selected else None, now)
         obstacles = self._obstacles if self._has_simulator(now) else ()
-        return Snapshot(self._plan, coverage, features, robots, obstacles, name, simulation,
-                        missing=self._missing(robots, simulation))
+        return Snapshot(maps.plan, maps.known, maps.frame, coverage, features, robots, obstacles, name, simulation,
+                        missing=self._missing(robots, simulation, maps.plan is not None))
+
+    @property
+    def _maps(self) -> Maps:
+        listener = self._map_listener
+        return listener.maps if listener is not None else Maps()
 
     def _simulation(self, now: float, stamp: Optional[float]) -> Simulation:
         state, graph = self._heard.state, self._graph
@@ -220,9 +227,9 @@ class Listener:
             self._coverage = newest, now
         return newest
 
-    def _missing(self, robots: Tuple[Robot, ...], simulation: Simulation) -> str:
+    def _missing(self, robots: Tuple[Robot, ...], simulation: Simulation, has_map: bool) -> str:
         if robots:
-            return '' if self._plan is not None else 'Waiting for a map\nNo node publishes /map.'
+            return '' if has_map else 'Waiting for a map\nNo node publishes /map.'
         if not self._graph.master:
             return missing_master()
         names = [name for name, robot in self._robots.items() if robot.is_connected]

@@ -6,13 +6,14 @@ needs to doubt it.
 
 import itertools
 import math
-from typing import Any, NamedTuple, Tuple, Union
+from typing import Any, NamedTuple, Optional, Tuple, Union
 
 import numpy as np
 import rosgraph
 from geometry_msgs.msg import PoseArray, PoseWithCovarianceStamped
 from nav_msgs.msg import Odometry, Path
 from sensor_msgs.msg import BatteryState
+from tf2_msgs.msg import TFMessage
 from visualization_msgs.msg import Marker, MarkerArray
 
 from rumba_msg.msg import CleaningStatus, GoToActionGoal, MissionStatus, SimulatorState
@@ -20,7 +21,8 @@ from rumba_sim.model.errors import RumbaError, one_line, quoted
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.map_image import MAX_PIXELS
 from rumba_sim.model.obstacle import LASER_HEIGHT
-from rumba_sim.ros.common.conversions import plane_pose
+from rumba_sim.ros.common.conversions import heading, plane_pose
+from rumba_sim.ros.common.frames import MAP, WORLD
 from rumba_viewer.scene.snapshot import GOING_TO, YIELDING, Array, Battery, Cleaning, Grid, Mission, Obstacle, Point
 
 FAR = 1e7  # [m] larger coordinates are not valid
@@ -100,7 +102,10 @@ def believed(message: Union[Odometry, PoseWithCovarianceStamped]) -> Pose:
     Raises:
         OddMessage: it is not finite, or is too far away.
     """
-    pose = plane_pose(message.pose.pose)
+    return _checked(plane_pose(message.pose.pose))
+
+
+def _checked(pose: Pose) -> Pose:
     if not (abs(pose.x) < FAR and abs(pose.y) < FAR and math.isfinite(pose.theta)):
         raise OddMessage(f'the pose is {pose.x:g}, {pose.y:g} m, {pose.theta:g} rad: must be finite, within {FAR:g} m')
     return pose
@@ -189,6 +194,19 @@ def grid(message: Any) -> Grid:
         raise OddMessage(f'cells of {info.resolution:g} m at {origin.x:g}, {origin.y:g} m: must be {FINEST:g} m or '
                          f'more, within {FAR:g} m')
     return Grid(message.data.reshape(info.height, info.width), info.resolution, origin.x, origin.y, next(_numbers))
+
+
+def map_frame(message: TFMessage) -> Optional[Pose]:
+    """Where the frame of the map that a robot makes is in the world; None if the message does not tell it.
+
+    Raises:
+        OddMessage: it is not finite, or is too far away.
+    """
+    for link in message.transforms:
+        if (link.header.frame_id, link.child_frame_id) == (WORLD, MAP):
+            moved = link.transform.translation
+            return _checked(Pose(moved.x, moved.y, heading(link.transform.rotation)))
+    return None
 
 
 def state(message: SimulatorState) -> State:

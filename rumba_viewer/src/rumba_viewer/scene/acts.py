@@ -75,9 +75,14 @@ def interrupted_cleaning(now: Snapshot) -> str:
     return no_cleaning(now) or ('no cleaning was interrupted' if has_none else '')
 
 
+def way(now: Snapshot) -> str:
+    """It needs a cleaner, and a map in which a point can be named."""
+    return cleaner(now) or ('' if now.map_frame is not None else f'{now.selected} has not begun a map yet')
+
+
 def target(now: Snapshot) -> str:
     """It needs a cleaner and a target."""
-    return cleaner(now) or ('' if now.target is not None else 'there is no target: click on the floor first')
+    return way(now) or ('' if now.target is not None else 'there is no target: click on the floor first')
 
 
 def dock(now: Snapshot) -> str:

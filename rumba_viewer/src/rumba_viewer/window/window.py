@@ -9,7 +9,8 @@ from PyQt5.QtCore import QEvent, Qt, QTimer
 from PyQt5.QtWidgets import QHBoxLayout, QWidget
 
 from rumba_sim.model.geometry import Pose
-from rumba_viewer.scene.acts import ACTS, BY_NAME, Act, Steering, cleaner, next_speed, robot
+from rumba_viewer.scene.acts import ACTS, BY_NAME, Act, Steering, next_speed, robot, way
+from rumba_viewer.scene.map_frame import SAME, on_map
 from rumba_viewer.scene.snapshot import Point, Snapshot
 from rumba_viewer.window.floor_view import FloorView
 from rumba_viewer.window.keyboard import Keyboard
@@ -204,9 +205,7 @@ class Window(QWidget):
 
     def _choose_target(self, x: float, y: float) -> None:
         """Show where the robot could go; nothing is sent yet."""
-        lacks = cleaner(self.snapshot)
-        if lacks:
-            self.tell(f'Go there: {lacks}')
+        if not self._can_go():
             return
         self._clear_target()
         self.tell(f'{TARGET} {x:.2f}, {y:.2f} m: double click or Enter sends {self.snapshot.selected} there, '
@@ -225,13 +224,19 @@ class Window(QWidget):
         return had_one
 
     def _go_to(self, x: float, y: float) -> None:
-        lacks = cleaner(self.snapshot)
-        if lacks:
-            self.tell(f'Go there: {lacks}')
+        if not self._can_go():
             return
         self._clear_target()
+        target = on_map(Point(x, y), self.snapshot.map_frame or SAME)
         self.tell(f'Sent {self.snapshot.selected} to {x:.2f}, {y:.2f} m')
-        self._interrupt('go_there', lambda: self._actor.go_to(x, y))
+        self._interrupt('go_there', lambda: self._actor.go_to(*target))
+
+    def _can_go(self) -> bool:
+        """Whether the robot can be sent to a point; tells why if it cannot."""
+        lacks = way(self.snapshot)
+        if lacks:
+            self.tell(f'Go there: {lacks}')
+        return not lacks
 
     def _put(self, name: str, pose: Pose) -> None:
         self._actor.teleport(name, pose)
