@@ -100,6 +100,7 @@ class MissionRecord:
         target: share of the floor that the mission was to sweep [0..1].
         states: the mission's states, in order of time.
         floor: the map: 0 free, 100 wall.
+        known: what the robot's own map shows in each cell of the map, likewise; None if the map is its own.
         swept: at the end: 100 swept, 0 missed, -1 out of reach.
         remarks: sentences about the recording for the reader.
     """
@@ -120,6 +121,7 @@ class MissionRecord:
     target: float = CleaningConfig().target_coverage
     states: Sequence[MissionState] = ()
     floor: Optional[Grid] = None
+    known: Optional[Grid] = None
     swept: Optional[Grid] = None
     remarks: Sequence[str] = field(default_factory=tuple)
 

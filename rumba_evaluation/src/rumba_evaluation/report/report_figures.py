@@ -7,7 +7,7 @@ import html
 import io
 import math
 import re
-from typing import Any, Dict, NamedTuple, Sequence, Tuple
+from typing import Any, Dict, List, NamedTuple, Sequence, Tuple
 
 import matplotlib
 import numpy as np
@@ -43,6 +43,7 @@ MARGIN = 0.15  # [m] around the map
 MOST_CELLS = 800  # drawn in a row or column; finer grids are drawn with larger cells
 FEWEST_DOTS = 400  # in a row or column of a picture of cells; browsers blur pictures with fewer
 HALF = 50  # [%] of a cell that was swept, from which on it is drawn as swept
+FAINT = 0.3  # share of the opacity of what the robot's own map does not show
 OCCUPIED_PERCENT = 65  # [%] from this probability on a cell is a wall: occupied_thresh 0.65 of map_server's examples
 
 
@@ -70,10 +71,12 @@ def _path_over_map(record: MissionRecord) -> str:
     step = MultipleLocator(_round_step(max(right - left, top - bottom)))
     axes.xaxis.set_major_locator(step)
     axes.yaxis.set_major_locator(step)
-    if record.swept is not None:
-        _show(axes, record.swept, (('missed', 170, 0), ('swept', 90, HALF)))
+    for part, strength in swept_parts(record):
+        _show(axes, part, (('missed', round(170 * strength), 0), ('swept', round(90 * strength), HALF)))
     if record.floor is not None:
-        _show(axes, record.floor, (('wall', 255, OCCUPIED_PERCENT),))
+        _show(axes, record.floor, (('wall', 255 if record.known is None else round(255 * FAINT), OCCUPIED_PERCENT),))
+    if record.known is not None:
+        _show(axes, record.known, (('wall', 255, OCCUPIED_PERCENT),))
     points = np.insert(record.path.values, jumps(record.path), math.nan, axis=0)  # NaN makes a gap in the line
     axes.plot(*points.T, color=_colour('path'), linewidth=0.8, gid='path')
     axes.plot(*bump_positions(record).values.reshape(-1, 2).T, 'o', color=_colour('bump'), markersize=2.6,
@@ -85,6 +88,17 @@ def _path_over_map(record: MissionRecord) -> str:
         axes.plot(x, y, marker, color=_colour('ink'), markersize=size, fillstyle=fill, markeredgewidth=1.0)
     return _markup(figure, 'map', f'Map of {right - left:.1f} m by {top - bottom:.1f} m with the path of '
                                   f'{record.robot}, the swept and the missed floor, start, end, dock and bumps')
+
+
+def swept_parts(record: MissionRecord) -> List[Tuple[Grid, float]]:
+    """The swept floor in parts, each with its share of the full opacity: what the robot's own map lacks is faint."""
+    swept, known = record.swept, record.known
+    if swept is None:
+        return []
+    if known is None or known.cells.shape != swept.cells.shape:
+        return [(swept, 1.0)]
+    return [(swept._replace(cells=np.where((known.cells >= 0) == is_known, swept.cells, np.int8(-1))), strength)
+            for is_known, strength in ((True, 1.0), (False, FAINT))]
 
 
 def _coverage_over_time(record: MissionRecord) -> str:

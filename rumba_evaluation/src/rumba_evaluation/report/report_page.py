@@ -11,7 +11,7 @@ from rumba_cleaning.mission.mission import State
 from rumba_evaluation.report.mission_events import LOW, Event, bump_positions, contacts, events
 from rumba_evaluation.report.mission_record import MissionRecord, charging_spans, clock, state_spans
 from rumba_evaluation.report.mission_summary import Summary, summary
-from rumba_evaluation.report.report_figures import COLOURS, figures, state_colour
+from rumba_evaluation.report.report_figures import COLOURS, FAINT, figures, state_colour
 from rumba_evaluation.report.report_slider import SLIDER, scripts
 from rumba_evaluation.report.report_style import PAGE, STYLE
 
@@ -142,6 +142,8 @@ def _map_legend(record: MissionRecord) -> str:
     entries = [(_patch('var(--path)', 'line'), 'path'), (_sign('△', 'ink'), 'start'), (_sign('■', 'ink'), 'end')]
     if record.floor is not None:
         entries.append((_patch('var(--wall)'), 'wall'))
+    if record.known is not None:
+        entries.append((_patch('var(--wall)', opacity=FAINT), "not on the robot's map"))
     if record.swept is not None:
         entries += [(_patch('var(--swept)', opacity=0.4), 'swept'), (_patch('var(--missed)', opacity=0.7), 'missed')]
     if contacts(record):

@@ -13,7 +13,7 @@ import numpy as np
 from rumba_cleaning.mission.mission import State
 from rumba_evaluation.report.mission_events import bump_positions
 from rumba_evaluation.report.mission_record import MissionRecord, jumps, state_spans
-from rumba_evaluation.report.report_figures import HEIGHT, MARGINS, WIDTH, map_scale, on_map
+from rumba_evaluation.report.report_figures import HEIGHT, MARGINS, WIDTH, map_scale, on_map, swept_parts
 from rumba_sim.model.robot_config import BrushConfig, DriveConfig
 
 STEP = 0.04  # [m] from one point of the path to the next
@@ -134,7 +134,7 @@ def track(record: MissionRecord) -> Dict[str, Any]:
         'radius': round(scale * DriveConfig().radius, 2), 'chart': [left, top, WIDTH, HEIGHT],
         't': np.round(times, 1).tolist(), 'x': points[:, 0].tolist(), 'y': points[:, 1].tolist(),
         'breaks': np.searchsorted(kept, jumps(record.path)).tolist(),
-        'grids': int(record.swept is not None), 'clean': _is_cleaning(record, times),
+        'grids': len(swept_parts(record)), 'clean': _is_cleaning(record, times),
         'bumps': np.round(bump_positions(record).times, 1).tolist(),
         'charge': np.rint(record.charge.at(moments)).tolist(),
         'swept': np.round(100.0 * record.coverage.at(moments), 1).tolist() if len(record.coverage.times) else [],

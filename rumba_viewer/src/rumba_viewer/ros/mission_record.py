@@ -9,6 +9,7 @@ import rospkg
 import rospy
 
 from rumba_sim.model.errors import one_line
+from rumba_sim.ros.common.maps import TRUE_TOPIC
 
 TOPICS = ('ground_truth', 'battery_state', 'battery_status', 'cleaning_status', 'bumper', 'cliff', 'dock_status',
           'mission_status', 'coverage', 'clean/goal')  # of the robot, that docs/mission_report.md names
@@ -43,7 +44,8 @@ class MissionRecord:
             bag.unlink()
             self._process = subprocess.Popen(
                 ['setpriv', '--pdeathsig', 'INT', 'rosrun', 'rosbag', 'record', '--lz4', '--output-name', str(bag),
-                 '/map', *(rospy.resolve_name(f'{robot}/{topic}') for topic in TOPICS)],
+                 '/map', '/tf_static', rospy.resolve_name(TRUE_TOPIC),
+                 *(rospy.resolve_name(f'{robot}/{topic}') for topic in TOPICS)],
                 stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True)
         except OSError as error:
             raise RecordError(f'cannot be recorded: {error}') from error

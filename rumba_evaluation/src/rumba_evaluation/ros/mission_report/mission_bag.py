@@ -1,13 +1,15 @@
 """Reads a bag: finds the robots in it, checks that a report can be made, and makes the record of one robot."""
 
-from typing import Dict, Iterable, List
+from typing import Dict, Iterable
 
 import rosbag
 
 from rumba_evaluation.report.mission_record import MissionRecord
-from rumba_evaluation.ros.mission_report.recorded_robot import GRID, TYPES, RecordedRobot, Topics
+from rumba_evaluation.ros.mission_report.recorded_maps import read_maps
+from rumba_evaluation.ros.mission_report.recorded_robot import TYPES, RecordedRobot, Topics
 from rumba_sim.model.errors import RumbaError, one_line
 from rumba_sim.model.robot import FIRST
+from rumba_sim.ros.common.maps import TRUE_TOPIC
 
 POSITION, BATTERY = ('ground_truth', 'battery_status'), ('battery_status', 'battery_state')  # one of each is needed
 LONGEST = 3000  # [characters] of an error
@@ -55,7 +57,9 @@ def _read(bag: rosbag.Bag, path: str, wanted: str, target: float) -> MissionReco
     name = _choose(path, robots, wanted)
     _check(path, name, robots.get(name, {}), kinds)
     remarks = [f'Also in the bag: {_listed(other for other in robots if other != name)}.'] if len(robots) > 1 else []
-    record = RecordedRobot(bag, robots[name]).record(path, _shown(name), _map_topics(kinds, name), remarks, target)
+    maps = read_maps(bag, kinds, name)
+    record = RecordedRobot(bag, robots[name]).record(path, _shown(name), maps.floor, maps.known,
+                                                     [*remarks, *maps.remarks], target)
     for what, part in (('position', record.path), ('charge', record.charge)):
         if not len(part.times):
             raise ReportError(f'{path}: robot {record.robot}: no {what} is a finite number')
@@ -94,20 +98,13 @@ def _check(path: str, name: str, topics: Topics, kinds: Dict[str, str]) -> None:
     if lacks:
         found = ', '.join(list(kinds)[:SHOWN]) + (', ...' if len(kinds) > SHOWN else '')
         wanted = ' '.join(f'{name}/{short}' for short in TYPES)
+        simulator = f'{name.rpartition("/")[0]}/{TRUE_TOPIC}'
         raise ReportError(f'{path}: robot {_shown(name)} lacks {lacks}; the bag has {found or "no messages"}; '
-                          f'record a mission by: rosbag record /map {wanted}')
+                          f'record a mission by: rosbag record /map /tf_static {simulator} {wanted}')
 
 
 def _lacks(topics: Topics) -> str:
     return ' and '.join(' or '.join(either) for either in (POSITION, BATTERY) if not topics.keys() & set(either))
-
-
-def _map_topics(kinds: Dict[str, str], robot: str) -> List[str]:
-    """The map in the robot's namespace, or in the nearest namespace above it that has one."""
-    maps = [(f'/{topic.strip("/")}'[:-len('map')], topic) for topic, kind in kinds.items()
-            if kind == GRID and topic.rpartition('/')[2] == 'map']
-    around = [(namespace, topic) for namespace, topic in maps if f'{robot}/'.startswith(namespace)]
-    return [max(around, key=lambda pair: len(pair[0]))[1]] if around else []
 
 
 def _shown(namespace: str) -> str:

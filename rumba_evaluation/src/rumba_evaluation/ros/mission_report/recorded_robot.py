@@ -155,13 +155,13 @@ class RecordedRobot:
             if (count - 1 - index) % -(-count // most) == 0 and raw[0] == GRID:
                 message = raw[-1]()
                 message.deserialize(raw[1])
-                cells = _grid(message)
+                cells = grid_of(message)
                 if cells is not None:
                     yield float(self._on_time([time.to_sec()], [message.header.stamp.to_sec()])[0]), cells
 
-    def record(self, source: str, name: str, map_topics: Sequence[str], remarks: Sequence[str],
+    def record(self, source: str, name: str, floor: Optional[Grid], known: Optional[Grid], remarks: Sequence[str],
                target: float) -> MissionRecord:
-        """The record of the mission with the last map of `map_topics`; path and charge can be empty.
+        """The record of the mission on a map; path and charge can be empty.
 
         A target of 0 is that of the last goal that names one, or else the cleaner's default.
         """
@@ -170,9 +170,6 @@ class RecordedRobot:
                     for topic, nodes in self._publishers.items() if len(nodes) > 1]
         if self._was_set_back:
             remarks.append('The clock was set back during the recording: times are those of the recorder.')
-        maps = [cells for _, cells in self._grids(map_topics, 1)]
-        if map_topics and not maps:
-            remarks.append('The map is not drawn: it is damaged, or rotated against the axes.')
         coverage, areas, swept = self._cleaning()
         dirt = self._column('cleaning_status', 3).values
         return MissionRecord(
@@ -181,7 +178,7 @@ class RecordedRobot:
             docked=_first(self._column('dock_status', 0), self._column('battery_state', 3)),
             pressed=self._column('bumper', 0), fallen=self._column('cliff', 0), coverage=coverage,
             areas=areas, dirt=float(dirt[-1]) if len(dirt) else None, target=target or self._target(),
-            states=self._states(), floor=maps[-1] if maps else None, swept=swept,
+            states=self._states(), floor=floor, known=known, swept=swept,
             remarks=remarks)
 
     def _target(self) -> float:
@@ -223,7 +220,7 @@ def _first(*choices: Series) -> Series:
     return next((choice for choice in choices if len(choice.times)), NOTHING)
 
 
-def _grid(message: OccupancyGrid) -> Optional[Grid]:
+def grid_of(message: OccupancyGrid) -> Optional[Grid]:
     """The cells of a message; None if they are rotated against the axes, or their number or position is not valid."""
     info, origin = message.info, message.info.origin
     is_valid = (0 < info.width * info.height == len(message.data) and FINEST < info.resolution < FAR
