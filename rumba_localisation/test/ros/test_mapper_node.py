@@ -15,7 +15,7 @@ from simulators import Heard, Simulator, folder_of, shared, wait
 from std_srvs.srv import Trigger
 from tf2_msgs.msg import TFMessage
 
-from rumba_sim.model import map_file
+from rumba_sim.model import map_file, named_maps
 from rumba_sim.model.geometry import Pose, compose, inverse
 from rumba_sim.ros.common.conversions import heading, plane_pose
 
@@ -35,6 +35,7 @@ class MapperNodeTest(unittest.TestCase):
         cls.start = plane_pose(cls.truth.find().pose.pose)
         Mapper(test, f'_map_file:={cls.path}')
         cls.map, cls.tf = Heard(test, '/map', OccupancyGrid), Heard(test, '/tf', TFMessage)
+        cls.static = Heard(test, '/tf_static', TFMessage)
         cls.pose = Heard(test, '/rumba/amcl_pose', PoseWithCovarianceStamped)
         cls.dock = Heard(test, '/rumba/dock_pose', PoseStamped)
         cls.first = cls.map.find()
@@ -94,6 +95,17 @@ class MapperNodeTest(unittest.TestCase):
         plan = map_file.load(self.path)
         self.assertLess(max(map(abs, plan.dock)), CLOSE)
         self.assertGreater(plan.clearance_at(-0.5, 0.0), 0.15)
+
+    def test_onlookers_learn_the_true_map_and_where_that_of_the_robot_is_in_it(self):
+        true, home = Heard(self, '/simulator/map', OccupancyGrid).find(), map_file.load(named_maps.path('studio'))
+        self.assertEqual((true.header.frame_id, list(true.data)), ('world', home.occupancy.ravel().tolist()))
+        self.assertEqual(self.truth.find().header.frame_id, 'world')
+        link = wait(self, lambda: next((each for message in self.static.messages[:] for each in message.transforms
+                                        if each.child_frame_id == 'map'), None), 'world -> map')
+        moved = link.transform.translation
+        self.assertEqual(link.header.frame_id, 'world')
+        for a, b in zip((moved.x, moved.y, heading(link.transform.rotation)), self.start):
+            self.assertAlmostEqual(a, b, 6)
 
     def test_a_scan_that_makes_no_sense_is_ignored(self):
         log = Heard(self, '/rosout')
