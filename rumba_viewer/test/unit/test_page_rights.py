@@ -10,7 +10,8 @@ EVERYTHING, NOTHING = Rights(everything=True), Rights()
 
 
 @pytest.mark.parametrize('what, name, robot', [
-    ('read', '/map', None), ('read', '/rumba2/scan', '/rumba2'), ('write', '/rumba/teleop/cmd_vel', '/rumba'),
+    ('read', '/map', None), ('read', '/simulator/map', None),
+    ('read', '/rumba2/scan', '/rumba2'), ('write', '/rumba/teleop/cmd_vel', '/rumba'),
     ('write', '/rumba/go_to/goal', '/rumba'), ('call', '/rumba/set_brushes_up', '/rumba'),
     ('call', '/simulator/reset', None)])
 def test_what_the_page_needs_is_allowed_and_belongs_to_its_robot(what, name, robot):

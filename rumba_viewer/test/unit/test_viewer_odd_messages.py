@@ -15,6 +15,7 @@ from pytest import approx
 from rospy.numpy_msg import numpy_msg
 from sensor_msgs.msg import BatteryState, LaserScan
 from std_msgs.msg import Header
+from tf2_msgs.msg import TFMessage
 from visualization_msgs.msg import Marker, MarkerArray
 from windows import APPLICATION, Opened
 
@@ -22,6 +23,7 @@ from rumba_msg.msg import (BatteryStatus, Bumper, CleanActionResult, CleaningSta
                            Outcome, SimulatorState)
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.robot_config import RobotConfig
+from rumba_sim.ros.common.conversions import transform
 from rumba_viewer.ros import listener, subscription
 from rumba_viewer.ros.ros_graph import RosGraph
 from rumba_viewer.scene.snapshot import Obstacle, Snapshot
@@ -44,10 +46,12 @@ def grid(value):
                                     data=np.full(1200, value, np.int8))
 
 
+HERE = Pose(0.0, 0.0, 0.0)
 CUBE = Marker(type=Marker.CUBE, header=Header(frame_id='map'))
 CUBE.pose.orientation.w = CUBE.scale.x = CUBE.scale.y = CUBE.scale.z = 1.0
 GOOD = {
-    '/map': grid(0), 'rumba/ground_truth': odometry(1.0, 2.0), 'rumba/coverage': grid(100),
+    'simulator/map': grid(0), '/map': grid(0), '/tf_static': TFMessage([transform('world', 'map', HERE, None)]),
+    'rumba/ground_truth': odometry(1.0, 2.0), 'rumba/coverage': grid(100),
     'rumba/scan': numpy_msg(LaserScan)(angle_min=-3.0, angle_max=3.0, angle_increment=0.1, range_max=4.0,
                                        ranges=np.full(61, 2.0, np.float32), intensities=np.zeros(0, np.float32)),
     'rumba/battery_status': BatteryStatus(percentage_battery=50, debug_message='resting'),
@@ -128,6 +132,8 @@ def test_after_any_messages_the_window_shows_a_good_one(watched, monkeypatch, to
 
 @pytest.mark.parametrize('topic, change, line', [
     ('/map', {'data': np.zeros(7, np.int8)}, '/map: a message is ignored: 40 x 30 cells with 7 values: '),
+    ('/tf_static', {'transforms': [transform('world', 'map', HERE._replace(x=math.nan), None)]},
+     '/tf_static: a message is ignored: the pose is nan, 0 m, 0 rad: must be finite, within 1e+07 m'),
     ('rumba/plan', {'poses': [PoseStamped(pose=odometry(math.nan, 1.0).pose.pose)]},
      'rumba/plan: a message is ignored: a pose of the path is not finite, or not within 1e+07 m'),
     ('rumba/scan', {'range_max': math.nan}, 'rumba/scan: a message is ignored: 61 ranges up to nan m'),
