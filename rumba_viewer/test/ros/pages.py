@@ -171,6 +171,12 @@ class Browser:
         before, after = self.robot(), self.robot()
         return after if before == after else None
 
+    def colour_at(self, column, row):
+        """Red, green and blue of a pixel of the floor."""
+        return self.driver.execute_script(
+            'return [...document.getElementById("floor").getContext("2d").getImageData(...arguments, 1, 1).data]'
+            '.slice(0, 3)', round(column), round(row))
+
     def touch(self, kind, name):
         """`touchStart` on the middle of an element, or `touchEnd`."""
         box = self.driver.execute_script(

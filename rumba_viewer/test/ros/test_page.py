@@ -11,6 +11,8 @@ import unittest
 
 import rospy
 import rostest
+from geometry_msgs.msg import PoseWithCovarianceStamped
+from nav_msgs.msg import MapMetaData, OccupancyGrid
 from pages import DESK, PHONE, Browser, Client, Master, Page
 from simulators import TIMEOUT, Heard, Simulator, wait
 
@@ -19,6 +21,7 @@ from rumba_msg.msg import CleanActionGoal
 HAS_BROWSER = all(map(shutil.which, ('chromium', 'chromedriver'))) and importlib.util.find_spec('selenium')
 TELEOP = '/rumba/teleop/cmd_vel'
 MIDDLE = 5.54  # [m] x and y of the middle of the map field
+DIRTY, UNMAPPED = (160, 127, 105), (211, 189, 183)  # floor that is to sweep, on the robot's map or not, below its laser
 PYTHON_CLIENT = '''
 import sys, time, roslibpy
 ros = roslibpy.Ros(host="127.0.0.1", port=int(sys.argv[1]))
@@ -163,7 +166,11 @@ class BrowserTest(unittest.TestCase):
     """Chromium."""
 
     def check_pixels(self, simulator, browser):
-        """Check that the robot is drawn where it is; the map is a square, and lies in the middle of the floor."""
+        """Check that the robot is drawn where it is; the map is a square, and lies in the middle of the floor.
+
+        Returns:
+            The scale of the map [pixels/m].
+        """
         seen = []
         for x, y in ((MIDDLE, MIDDLE), (MIDDLE + 3.0, MIDDLE + 1.0)):
             simulator.teleport(x, y, 0.0)
@@ -174,18 +181,37 @@ class BrowserTest(unittest.TestCase):
         self.assertGreater(scale * 2 * MIDDLE, 0.8 * min(browser.floor_size()))
         self.assertAlmostEqual(x, browser.floor_size()[0] / 2, delta=2.0)
         self.assertAlmostEqual(to_y - y, -scale, delta=2.0)  # up on the screen
+        return scale
 
     def check_restarts(self, simulator, page, browser):
-        """Restart the page and the simulator under an open browser; returns the new simulator."""
+        """Restart the page and the simulator under an open browser; the new simulator leaves the map to the robot."""
         page.end()
         browser.wait_for('waiting', '^Connecting to ')
         Page(self, port=page.port)
         browser.wait_for('waiting', '^$')
         simulator.end()
         browser.wait_for('waiting', '^Waiting for a simulator|^There is no robot')
-        simulator = Simulator(self, '_map:=field')
+        Simulator(self, '_map:=field', '_localisation:=slam')
         browser.wait_for('waiting', '^$')
-        return simulator
+
+    def check_own_map(self, browser, scale):
+        """Check that the floor is faint but for the 2 m by 2 m around the robot that its own map shows."""
+        poses = rospy.Publisher('/rumba/amcl_pose', PoseWithCovarianceStamped, queue_size=1)
+        maps = rospy.Publisher('/map', OccupancyGrid, queue_size=1, latch=True)
+        wait(self, poses.get_num_connections, 'the simulator to listen')
+        here = PoseWithCovarianceStamped(header=Heard(self, '/rumba/ground_truth').fresh().header)
+        here.pose.pose.orientation.w = 1.0  # the robot is in the origin of its map
+        poses.publish(here)
+        own = OccupancyGrid(info=MapMetaData(resolution=0.5, width=4, height=4), data=16 * [0])
+        own.info.origin.position.x = own.info.origin.position.y = -1.0
+        maps.publish(own)
+        x, y = wait(self, browser.robot_at_rest, 'the robot on the floor')
+
+        def off(side, colour):
+            seen = browser.colour_at(x + side * scale, y - side * scale)
+            return max(abs(a - b) for a, b in zip(seen, colour))
+        wait(self, lambda: max(off(0.8, DIRTY), off(1.2, UNMAPPED)) <= 3, 'floor on the map, and floor that is not')
+        self.assertTrue(browser.element('unmapped').is_displayed())
 
     def test_a_desk_shows_the_robot_where_it_is_drives_it_by_keys_and_survives_restarts(self):
         from selenium.webdriver.common.action_chains import ActionChains
@@ -193,8 +219,10 @@ class BrowserTest(unittest.TestCase):
         simulator, page = Simulator(self, '_map:=field'), Page(self)
         browser = Browser(self, page, DESK)
         browser.wait_for('waiting', '^$')
-        self.check_pixels(simulator, browser)
+        self.assertFalse(browser.element('unmapped').is_displayed())
+        scale = self.check_pixels(simulator, browser)
         self.check_restarts(simulator, page, browser)
+        self.check_own_map(browser, scale)
         truth = Heard(self, '/rumba/ground_truth')
         ActionChains(browser.driver).key_down(Keys.ARROW_UP).perform()
         truth.find(lambda message: message.twist.twist.linear.x > 0.25)

@@ -9,7 +9,7 @@ from fake_topics import Topic
 from geometry_msgs.msg import Point as PointMessage
 from geometry_msgs.msg import PoseStamped, PoseWithCovarianceStamped
 from nav_msgs.msg import MapMetaData, OccupancyGrid, Odometry, Path
-from PyQt5.QtGui import QColor
+from PyQt5.QtGui import QColor, QImage, QPainter
 from pytest import approx
 from rospy.numpy_msg import numpy_msg
 from std_msgs.msg import Header
@@ -20,7 +20,7 @@ from rumba_sim.model.floor_plan import FREE, OCCUPIED, UNKNOWN
 from rumba_sim.model.geometry import Pose, compose
 from rumba_sim.model.robot_config import RobotConfig
 from rumba_sim.ros.common.conversions import transform
-from rumba_viewer.painting.paint_scene import picture
+from rumba_viewer.painting.paint_scene import ScenePainter, picture
 from rumba_viewer.ros import listener
 from rumba_viewer.ros.ros_graph import RosGraph
 from rumba_viewer.scene.acts import target, way
@@ -94,6 +94,7 @@ def test_without_a_true_map_that_of_the_topic_map_is_the_floor(heard):
 
 def test_the_own_map_is_laid_over_the_true_one_where_its_frame_is(heard):
     hear(**{'simulator/map': TRUE, '/map': OWN, '/tf_static': link()})
+    Topic.opened['/tf_static'].callback(link(parent='earth'))  # others publish there too
     now = shown(heard)
     wanted = np.full((6, 8), UNKNOWN)
     wanted[2, 3], wanted[3, 3] = FREE, OCCUPIED
@@ -155,6 +156,15 @@ def test_what_the_robot_does_not_know_is_faint_and_its_own_walls_are_painted(the
     assert has(0.5, 2.4, theme.swept) and has(0.5, 3.1, theme.to_sweep) and has(0.5, 4.0, theme.out_of_reach)
     assert faint(-0.9, 4.5), 'a wall that its map does not show'
     assert faint(1.5, 3.1) and faint(1.5, 4.0) and faint(2.45, 4.55), 'what it has not seen'
+
+
+def test_a_map_that_grows_is_painted_again():
+    image, painter = QImage(WIDTH, HEIGHT, QImage.Format_RGB32), ScenePainter()
+    for each in (Grid(np.full((30, 40), UNKNOWN, np.int8), 0.1, -1.0, 2.0, 4), known()):
+        to = QPainter(image)
+        painter.paint(to, snapshot(known=each), WHOLE, LIGHT)
+        to.end()
+    assert image == picture(snapshot(known=known()), WHOLE, LIGHT)
 
 
 @pytest.mark.parametrize('grid, is_named', [(known(), True), (None, False)])
