@@ -15,11 +15,14 @@ import rosbag
 from mission_bags import ALL, recorded, recorded_by_the_wall, write
 from pytest import approx
 from std_msgs.msg import String
+from tf2_msgs.msg import TFMessage
 
 from rumba_evaluation.report.mission_events import contacts, events
 from rumba_evaluation.report.mission_summary import summary
 from rumba_evaluation.ros.mission_report import mission_bag, mission_report
 from rumba_msg.msg import CleanActionGoal, CleanGoal, CleaningStatus
+from rumba_sim.model.geometry import Pose
+from rumba_sim.ros.common.conversions import transform
 
 SCRIPT = pathlib.Path(__file__).resolve().parents[2] / 'scripts' / 'mission_report'
 LEAST = ('ground_truth', 'battery_state')  # enough for a report
@@ -186,6 +189,46 @@ def test_stamps_that_were_never_set_and_a_rotated_map(tmp_path):
     assert (summary(record).duration, summary(record).distance) == approx((36.0, 12.0))
     assert record.floor is None and record.remarks == [
         'The map is not drawn: it is damaged, or rotated against the axes.']
+
+
+def with_own_map(path, true_map='/simulator/map', parent='world', robot='/rumba'):
+    """A mission whose robot made a map of its own, turned by a right angle and moved; returns the path of the bag."""
+    write(path, namespace=robot)  # with the robot's own map: its lower left corner is at (-1, 2) m, its cells are of 0.5 m
+    true = mission_bags.grid(np.zeros((6, 6), int))
+    true.info.origin.position.x, true.info.origin.position.y = 1.0, -2.0
+    link = transform(parent, 'map', Pose(5.0, 0.0, 0.5 * math.pi), None)
+    with rosbag.Bag(str(path), 'a') as bag:
+        bag.write(true_map, true, genpy.Time(100))
+        bag.write('/tf_static', TFMessage([transform('base_link', 'laser', Pose(9.0, 9.0, 1.0), None), link]),
+                  genpy.Time(100))
+    return str(path)
+
+
+@pytest.mark.parametrize('topic, robot', [
+    ('/simulator/map', '/rumba'), ('simulator/map', '/rumba'), ('/upstairs/simulator/map', '/upstairs/rumba')])
+def test_a_map_that_the_robot_made_lies_over_the_true_one(tmp_path, topic, robot):
+    record = mission_bag.read(with_own_map(tmp_path / 'a.bag', topic, robot=robot))
+    assert record.floor.cells.shape == (6, 6) and record.remarks == []
+    assert record.known.cells.tolist() == turned_own_map().tolist()
+    assert record.known[1:] == record.floor[1:] == (0.5, 1.0, -2.0)
+
+
+def turned_own_map():
+    """The map of the robot on the cells of the true one: x of its frame is y of the world, y is -x."""
+    shown = np.full((6, 6), -1)
+    for (row, column), value in np.ndenumerate(mission_bags.FLOOR):
+        x, y = 5.0 - (2.25 + 0.5 * row), -0.75 + 0.5 * column
+        shown[int((y + 2.0) / 0.5), int((x - 1.0) / 0.5)] = value
+    return shown
+
+
+@pytest.mark.parametrize('bag, remarks', [
+    ({'true_map': '/upstairs/simulator/map'}, []),
+    ({'parent': 'earth'}, ['The map of the robot is not drawn: it needs /map and /tf_static.'])])
+def test_a_map_is_not_laid_over_that_of_another_house_or_in_an_unknown_place(tmp_path, bag, remarks):
+    record = mission_bag.read(with_own_map(tmp_path / 'a.bag', **bag))
+    assert record.known is None and record.remarks == remarks
+    assert record.floor.cells.shape == ((6, 6) if remarks else mission_bags.FLOOR.shape)
 
 
 @pytest.mark.parametrize('topics', [['battery_status'], ['ground_truth', 'battery_state']])

@@ -14,7 +14,8 @@ from std_msgs.msg import String
 from rumba_evaluation.ros.mission_report import mission_report
 
 LEAST = ('ground_truth', 'battery_state')
-RECORD = 'record a mission by: rosbag record /map /rumba/ground_truth /rumba/battery_status /rumba/battery_state '
+RECORD = ('record a mission by: rosbag record /map /tf_static /simulator/map /rumba/ground_truth /rumba/battery_status '
+          '/rumba/battery_state ')
 
 
 @pytest.fixture

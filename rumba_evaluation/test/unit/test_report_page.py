@@ -88,6 +88,25 @@ def test_a_page_is_complete_and_needs_no_other_file(changes):
     assert {'main', 'h1', 'figure', 'table'} <= set(tags)
 
 
+def test_what_is_not_on_the_robots_own_map_is_faint(monkeypatch):
+    drawn = []
+    monkeypatch.setattr(report_figures, '_show', lambda _, grid, layers: drawn.append((grid.cells.tolist(), layers)))
+    floor = Grid(np.array([[0, 0, 100], [0, 0, 100]], np.int8), 1.0, 0.0, 0.0)
+    known = floor._replace(cells=np.array([[0, 100, 100], [-1, -1, -1]], np.int8))
+    swept = floor._replace(cells=np.array([[100, 0, -1], [0, 100, -1]], np.int8))
+    own = record(floor=floor, known=known, swept=swept)
+    text = page(own)
+    assert drawn == [
+        ([[100, 0, -1], [-1, -1, -1]], (('missed', 170, 0), ('swept', 90, 50))),
+        ([[-1, -1, -1], [0, 100, -1]], (('missed', 51, 0), ('swept', 27, 50))),
+        (floor.cells.tolist(), (('wall', 76, 65),)), (known.cells.tolist(), (('wall', 255, 65),))]
+    assert "not on the robot's map" in check(text).text and track(own)['grids'] == 2
+    drawn.clear()
+    assert "not on the robot's map" not in check(page(record(floor=floor, swept=swept))).text
+    assert drawn == [(swept.cells.tolist(), (('missed', 170, 0), ('swept', 90, 50))),
+                     (floor.cells.tolist(), (('wall', 255, 65),))]
+
+
 def test_all_references_have_a_target():
     text = page(record())
     wanted = set(re.findall(r'(?:url\(#|href="#)([^)"]+)', text))

@@ -30,7 +30,8 @@ FRAME = Pose(2.0, 1.0, 0.7)
 def run(name, *values):
     """What a function of the page's script returns."""
     done = subprocess.run(['node', '--input-type=module', '-e', PROGRAM, str(PAGE / 'own_map.js')],
-                          input=json.dumps([name, *values]), stdout=subprocess.PIPE, universal_newlines=True, check=True)
+                          input=json.dumps([name, *values]), stdout=subprocess.PIPE, check=True,
+                          universal_newlines=True)
     return json.loads(done.stdout)
 
 

@@ -49,9 +49,9 @@ def laid_over(upper: Cells, frame: Pose, lower: Cells) -> Array:
         there, is_there = _cells_at(upper, *points_in_parent(back, x, np.full(columns, y)))
         shown[row, is_there] = upper.cells[there]
     walls = np.nonzero(upper.cells >= OCCUPIED)
-    x, y = (start + (index + 0.5) * upper.resolution
-            for start, index in ((upper.left, walls[1]), (upper.bottom, walls[0])))
-    shown[_cells_at(lower, *points_in_parent(frame, x, y))[0]] = OCCUPIED
+    wall_x, wall_y = (start + (index + 0.5) * upper.resolution
+                      for start, index in ((upper.left, walls[1]), (upper.bottom, walls[0])))
+    shown[_cells_at(lower, *points_in_parent(frame, wall_x, wall_y))[0]] = OCCUPIED
     return shown
 
 

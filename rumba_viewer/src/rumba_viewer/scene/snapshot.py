@@ -232,7 +232,7 @@ class Snapshot:
 
     Attributes:
         plan: OCCUPIED, FREE or UNKNOWN for each cell, as in nav_msgs/OccupancyGrid.
-        known: what the robot's own map shows in each cell of the plan, in the same values; None if the plan is that map.
+        known: what the robot's own map shows in each cell of the plan, likewise; None if the plan is that map.
         map_frame: pose of the frame in which robots are sent somewhere, in that of the plan; None if it is unknown.
         coverage: 100 swept, 0 still to sweep, -1 out of reach, for each cell of the plan.
         obstacles: what stands or moves on the floor without being on the plan.
