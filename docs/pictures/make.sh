@@ -1,8 +1,8 @@
 #!/bin/sh
 # Makes the pictures of the documentation, about three minutes: ./rumba shell docs/pictures/make.sh
 # A mission in the apartment at twenty times the speed, in a roscore of its own, without a display: the window light and
-# dark, a GIF of it, the page in a phone and on a desk, and the report of the mission; and the paths of two robots that
-# share it. Needs chromium, chromium-driver and python3-selenium for page and report.
+# dark, a GIF of it, the page in a phone and on a desk, and the report of the mission; a robot that makes its own map; and
+# the paths of two robots that share it. Needs chromium, chromium-driver and python3-selenium for page and report.
 set -eu
 cd "$(dirname -- "$0")"
 port=${PORT:-11399}
@@ -36,6 +36,7 @@ viewer light
 viewer dark
 start rosrun rumba_viewer page _port:=$((port + 1))
 start roslaunch rumba_bringup demo.launch speed:=20 drain:=4 gui:=false
+demo=$!
 start rosbag record -O "$folder/mission.bag" /map /rumba/ground_truth /rumba/battery_state /rumba/cleaning_status \
     /rumba/bumper /rumba/dock_status /rumba/mission_status /rumba/coverage
 recorder=$!
@@ -57,7 +58,12 @@ while [ ! -e "$folder/mission.bag" ]; do sleep 0.2; done
 rosrun rumba_evaluation mission_report "$folder/mission.bag"
 shoot report "file://$folder/mission.html" report.png 1100x1250
 shoot gif "$folder"/frame*.png mission.gif
+kill -INT "$demo"
+wait "$demo" || true
+start roslaunch rumba_bringup demo.launch localisation:=slam speed:=5 gui:=false
+until value cleaning_status/distance | awk '{ exit !($1 >= 4 && $1 < 20) }'; do sleep 0.2; done
+mv "$(save light)" own_map.png
 rosrun rumba_evaluation evaluate --maps apartment_docks --strategies boustrophedon --robots 2 --seeds 1 \
     --output "$folder/team"
 cp "$folder/team/path_apartment_docks_boustrophedon_2.png" fleet.png
-shoot shrink window.png dark.png page.png phone.png report.png fleet.png
+shoot shrink window.png dark.png own_map.png page.png phone.png report.png fleet.png

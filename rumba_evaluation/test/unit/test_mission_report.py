@@ -192,8 +192,8 @@ def test_stamps_that_were_never_set_and_a_rotated_map(tmp_path):
 
 
 def with_own_map(path, true_map='/simulator/map', parent='world', robot='/rumba'):
-    """A mission whose robot made a map of its own, turned by a right angle and moved; returns the path of the bag."""
-    write(path, namespace=robot)  # with the robot's own map: its lower left corner is at (-1, 2) m, its cells are of 0.5 m
+    """A mission whose robot made a map, turned by a right angle and moved; returns the path of the bag."""
+    write(path, namespace=robot)  # its own map has its lower left corner at (-1, 2) m, and cells of 0.5 m
     true = mission_bags.grid(np.zeros((6, 6), int))
     true.info.origin.position.x, true.info.origin.position.y = 1.0, -2.0
     link = transform(parent, 'map', Pose(5.0, 0.0, 0.5 * math.pi), None)
