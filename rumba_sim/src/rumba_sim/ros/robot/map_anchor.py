@@ -9,6 +9,7 @@ from geometry_msgs.msg import PoseWithCovarianceStamped
 
 from rumba_sim.model.geometry import Pose, compose, inverse
 from rumba_sim.ros.common.conversions import plane_pose
+from rumba_sim.ros.common.maps import FARTHEST
 from rumba_sim.ros.common.requests import Requests
 
 KEPT = 100  # true poses: those of the scans with which a mapper may begin
@@ -47,6 +48,7 @@ class MapAnchor:
 
     def _compare(self, stamp: rospy.Time, believed: Pose) -> None:
         true = next((pose for when, pose in self._poses if when == stamp), None)
-        if true is not None and all(map(math.isfinite, believed)):
+        is_valid = all(math.isfinite(number) and abs(number) <= FARTHEST for number in believed)
+        if true is not None and is_valid:
             self._is_found = True
             self._on_found(compose(true, inverse(believed)))
