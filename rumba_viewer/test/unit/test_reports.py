@@ -110,3 +110,12 @@ def test_why_there_is_no_report_is_told(monkeypatch, tmp_path, content, said):
     with pytest.raises(RecordError) as error:
         record.report()
     assert str(error.value).startswith(said.format(bag=bag)) and '\n' not in str(error.value)
+
+
+def test_the_true_map_is_recorded_too_and_where_that_of_the_robot_lies_in_it(tmp_path, monkeypatch):
+    begun = []
+    monkeypatch.setattr(mission_record, '_check_installed', lambda: None)
+    monkeypatch.setattr(mission_record.subprocess, 'Popen', lambda command, **_: begun.append(command))
+    monkeypatch.setattr(mission_record.rospy, 'resolve_name', lambda name: f'/upstairs/{name}')
+    MissionRecord('rumba', tmp_path / 'a.bag')
+    assert {'/map', '/tf_static', '/upstairs/simulator/map', '/upstairs/rumba/coverage'} <= set(begun[0])
