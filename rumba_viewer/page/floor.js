@@ -66,7 +66,8 @@ export class Floor {
     const [background, dirty, swept, ...others] =
       ['background', 'dirty', 'swept', 'unknown', 'wall', 'beyond', 'stripe'].map(name => packed(this.colour(name)));
     const colours = [...Array.from({length: 101}, (_, share) => mixed(dirty, swept, share / 100)), ...others];
-    const faint = colours.map(colour => mixed(colour, background, FAINT)), [unknown, wall, beyond, stripe] = [101, 102, 103, 104];
+    const faint = colours.map(colour => mixed(colour, background, FAINT));
+    const [unknown, wall, beyond, stripe] = [101, 102, 103, 104];
     for (let row = 0, at = 0; row < height; row++) {
       let to = (height - 1 - row) * width;
       for (let column = 0; column < width; column++, at++, to++) {

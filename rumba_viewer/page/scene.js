@@ -11,8 +11,9 @@ const TRUTH = '/ground_truth', TRUE_MAP = 'simulator/map';
 export class Scene {
   // `onNews` is called when there is something new to show, `onResult` with the line at the end of a task.
   constructor(link, onNews, onResult) {
-    Object.assign(this, {link, onNews, onResult, ownMap: null, trueMap: null, ownFrame: null, isTrueMapTold: false, state: null, heard: 0, robots: [], selected: null,
-      markers: new Map(), trouble: '', wanted: sessionStorage.robot});
+    Object.assign(this, {link, onNews, onResult, ownMap: null, trueMap: null, ownFrame: null, isTrueMapTold: false,
+      state: null, heard: 0, robots: [], selected: null, markers: new Map(), trouble: '',
+      wanted: sessionStorage.robot});
     link.subscribe('/map', {compression: 'png', queue_length: 1}, msg => { this.ownMap = msg; onNews(); });
     link.subscribe(TRUE_MAP, {compression: 'png', queue_length: 1}, msg => { this.trueMap = msg; onNews(); });
     link.subscribe('/tf_static', {}, msg => { this.ownFrame = frameIn(msg) ?? this.ownFrame; onNews(); });
