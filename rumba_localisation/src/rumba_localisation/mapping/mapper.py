@@ -10,6 +10,7 @@ from rumba_localisation import compiled_matching
 from rumba_localisation.compiled_matrices import inverse as inverted
 from rumba_localisation.localiser import START, Estimate, Localiser
 from rumba_localisation.mapping.believed_plan import believed_plan
+from rumba_localisation.mapping.clear_match import clear_match
 from rumba_localisation.mapping.grid import RESOLUTION, Grid
 from rumba_localisation.mapping.key_frames import KeyFrames
 from rumba_localisation.mapping.loop_closure import LoopClosure
@@ -30,6 +31,7 @@ BETTER = 0.1  # ... whose fit must be better by so much: in a corridor all fit a
 SLIPPED = np.diag([0.1, 0.1, 0.05]) ** 2  # covariance of these
 LOST_FIT, LOST_AFTER = 0.6, 5  # the robot was carried away if, of the beams that end on known floor, so few fit in so
 #                                many scans, one after the other; meanwhile the map stays as it is
+SLID = 1.0  # [m] along each axis, by which a robot may be off that was not carried away
 FOUND_FIT = 0.6  # from which on a place that was looked for is believed
 DRIFT = np.diag([0.0003, 0.0003, 0.0002]) ** 2  # variances by which the map drifts with each scan [m^2, m^2, rad^2]: as
 #                                                 measured on the first 24 m of drives around an office
@@ -103,9 +105,8 @@ class Mapper:
             self._way += math.hypot(odometry.x - last.x, odometry.y - last.y)
         self._last = odometry
         self.correction = compose(self.estimate.pose, inverse(odometry))
-        if self._is_carried_away(self.estimate, scan.points):
-            self._search = Localiser(believed_plan(self.grid, 'the map so far'), self._radius, self._range_max)
-            self.estimate = self.estimate._replace(covariance=START, is_sure=False)
+        self._judge(self.estimate, odometry, scan.points)
+        if self._search is not None:
             return True
         if last is not None:
             self._drift += _leaked(self.estimate.covariance, self._spread(last, odometry)) + DRIFT
@@ -151,12 +152,21 @@ class Mapper:
         self._added = 0
         self._visits = dict(collections.Counter(_square(pose) for pose in frames.poses))
 
-    def _is_carried_away(self, estimate: Estimate, ends: Array) -> bool:
-        """Whether scans have not fitted for some time."""
+    def _judge(self, estimate: Estimate, odometry: Pose, ends: Array) -> None:
+        """If a scan does not fit, look nearby: wheels err along a bare corridor; in the end, look all over the map."""
         known = 1.0 - self.grid.share_unknown(estimate.pose, ends)
-        is_misfit = estimate.fit < LOST_FIT * known and not is_blind(ends)
-        self._misfits = self._misfits + 1 if is_misfit else 0
-        return self._misfits >= LOST_AFTER
+        if is_blind(ends) or estimate.fit >= LOST_FIT * known:
+            self._misfits = 0
+            return
+        near = clear_match(self.grid, estimate.pose, SLID, ends, LOST_FIT)
+        self._misfits += 1
+        if near is not None:
+            self.estimate = Estimate(near.pose, near.covariance, near.fit, True)
+            self.correction = compose(near.pose, inverse(odometry))
+            self._misfits, self._way = 0, math.inf
+        elif self._misfits >= LOST_AFTER:
+            self._search = Localiser(believed_plan(self.grid, 'the map so far'), self._radius, self._range_max)
+            self.estimate = estimate._replace(covariance=START, is_sure=False)
 
     def _find(self, search: Localiser, odometry: Pose, ends: Array) -> bool:
         """Look for the place all over the map so far, which stays as it is meanwhile."""
