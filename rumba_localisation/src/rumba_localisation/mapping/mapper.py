@@ -26,6 +26,7 @@ SPACING, VISITS = 0.25, 4  # [m] side of a square of the floor, and scans from t
 UNSEEN = 0.05  # share of the beams that end on unknown floor, from which on a scan from anywhere is added
 AT_ONCE = 4  # scans that are added before distances are measured again
 LEAST = np.array([0.005, 0.005, 0.005]) ** 2  # variances of any movement [m^2, m^2, rad^2]
+OPEN = 0.1  # [m] of standard deviation of the place, at most, that is left open: as far off a match finds it
 GOOD = 0.75  # a fit below which other starts of a match are tried ...
 BETTER = 0.1  # ... whose fit must be better by so much: in a corridor all fit alike
 SLIPPED = np.diag([0.1, 0.1, 0.05]) ** 2  # covariance of these
@@ -71,6 +72,7 @@ class Mapper:
         self.version = self.redrawn = 0
         self._frames = KeyFrames()
         self._closure = LoopClosure(self._frames)
+        self._open = np.zeros((3, 3))  # covariance of the errors of the odometry that scans left open
         self._drift = np.zeros((3, 3))  # covariance of the way since the newest key frame
         self._way = 0.0  # [m] since then; infinite if the robot was carried away
         self._visits: Dict[Tuple[int, int], int] = {}  # scans by the square of the floor in which they were taken
@@ -101,7 +103,9 @@ class Mapper:
         elif self._search is not None:
             return self._find(self._search, odometry, scan.points)
         else:
-            self.estimate = self._matched(last, odometry, scan.points)
+            prior = self._open + self._spread(last, odometry)
+            self.estimate = self._matched(last, odometry, scan.points, prior)
+            self._open = _bounded(_leaked(self.estimate.covariance, prior))
             self._way += math.hypot(odometry.x - last.x, odometry.y - last.y)
         self._last = odometry
         self.correction = compose(self.estimate.pose, inverse(odometry))
@@ -188,16 +192,21 @@ class Mapper:
         return (math.hypot(odometry.x - last.x, odometry.y - last.y) >= self.config.update_min_d
                 or abs(wrap_angle(odometry.theta - last.theta)) >= self.config.update_min_a)
 
-    def _matched(self, last: Pose, odometry: Pose, ends: Array) -> Estimate:
+    def _matched(self, last: Pose, odometry: Pose, ends: Array, prior: Array) -> Estimate:
         """Where a scan fits, near where the odometry has the robot.
 
         If it does not fit there, perhaps the wheels slipped, or the robot was pushed: it may fit better near the place
         where the robot was before, or farther away from where the odometry has it.
+
+        Args:
+            last, odometry: pose by odometry at the scan before, and now.
+            ends: where the beams end, in the frame of the laser [m].
+            prior: covariance (3, 3) of where the odometry has the robot; along a bare corridor it grows.
         """
-        supposed, spread = self.pose(odometry), self._spread(last, odometry)
+        supposed = self.pose(odometry)
         if is_blind(ends):
-            return Estimate(supposed, spread, 0.0, True)
-        best = self._match(supposed, spread, ends)
+            return Estimate(supposed, prior, 0.0, True)
+        best = self._match(supposed, prior, ends)
         if best.fit < GOOD:
             before = self.pose(last)._replace(theta=supposed.theta)
             others = [self._match(start, SLIPPED, ends) for start in (supposed, before)]
@@ -235,6 +244,11 @@ def _leaked(covariance: Array, prior: Array) -> Array:
     seen = (inverted(covariance) - held) / INDEPENDENT
     gain = inverted(seen + held)
     return np.asarray(gain @ held @ gain)
+
+
+def _bounded(covariance: Array) -> Array:
+    """A covariance (3, 3), scaled so that the standard deviation of the place is at most OPEN."""
+    return covariance * min(1.0, OPEN ** 2 / max(float(covariance[0, 0] + covariance[1, 1]), OPEN ** 2))
 
 
 def _square(pose: Pose) -> Tuple[int, int]:
