@@ -2,7 +2,7 @@
 
 import collections
 import math
-from typing import Dict, Optional, Tuple
+from typing import Dict, Optional, Sequence, Tuple
 
 import numpy as np
 
@@ -118,6 +118,11 @@ class Mapper:
             self._add(self.estimate, scan)
             self.correction = compose(self.estimate.pose, inverse(odometry))
         return True
+
+    @property
+    def frames(self) -> Sequence[Pose]:
+        """Where the scans were taken that the map shows, map frame; each keeps its number if it moves."""
+        return self._frames.poses
 
     def moved(self, pose: Pose) -> Pose:
         """Where on the redrawn map is what was at a pose before [m, rad]."""
