@@ -6,6 +6,7 @@ from typing import Any, Callable, Dict, NamedTuple, Optional, Tuple
 import numpy as np
 
 from rumba_cleaning.behaviour import CERTAIN, UNKNOWN, Covariance
+from rumba_cleaning.belief.survey import Survey
 from rumba_localisation.localiser import Localiser, Seed
 from rumba_localisation.mapping.believed_plan import believed_plan
 from rumba_localisation.mapping.findings import Findings
@@ -13,6 +14,7 @@ from rumba_localisation.mapping.mapper import Mapper
 from rumba_localisation.scan import Scan, scan_of
 from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.model.geometry import Pose, as_told, compose, inverse
+from rumba_sim.model.kernel import Array
 from rumba_sim.model.robot_config import TURN
 from rumba_sim.model.world import World
 
@@ -79,7 +81,7 @@ class Localised:
                       world.time - self._scanned)
 
 
-class Mapped:
+class Mapped(Survey):
     """A robot that makes a map by its laser, as the node `mapper` does, from the place where it is at first.
 
     Attributes:
@@ -94,6 +96,7 @@ class Mapped:
         self.findings = Findings(config)
         self._dock = dock
         self._known: Optional[Tuple[int, FloorPlan]] = None  # the newest plan, after its version
+        self._frames: Optional[Tuple[int, Array]] = None  # the newest key frames, after the version of the mapper
         self(world, name)
 
     def __call__(self, world: World, name: str) -> Belief:
@@ -109,11 +112,17 @@ class Mapped:
         return Belief(pose, UNKNOWN if estimate is None else _rows(estimate.covariance), scan)
 
     def plan(self) -> FloorPlan:
-        """The map so far; the same object as long as the map is the same."""
+        """The map so far, with the dock."""
         version = self.mapper.version + self.findings.version
         if self._known is None or self._known[0] != version:
             self._known = version, believed_plan(self.mapper.grid, 'the map so far', self._dock, self.findings)
         return self._known[1]
+
+    def frames(self) -> Array:
+        """The poses of the key frames of the mapper."""
+        if self._frames is None or self._frames[0] != self.mapper.version:
+            self._frames = self.mapper.version, np.array(self.mapper.frames)
+        return self._frames[1]
 
 
 def seeing(source: PoseSource) -> PoseSource:

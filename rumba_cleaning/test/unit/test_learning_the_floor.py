@@ -7,7 +7,9 @@ import pytest
 from rooms import room
 
 from rumba_cleaning.behaviour import Status
+from rumba_cleaning.belief import redrawing
 from rumba_cleaning.belief.context import Context
+from rumba_cleaning.belief.survey import Survey
 from rumba_cleaning.cleaning_config import CleaningConfig
 from rumba_cleaning.control import act
 from rumba_cleaning.mission.mission import Mission
@@ -28,11 +30,25 @@ def part(left, right):
     return FloorPlan('a part', WHOLE.occupancy[:, first:last], 0.02, (WHOLE.origin[0] + first * 0.02, WHOLE.origin[1]))
 
 
+class Told(Survey):
+    """Tells plan after plan, and the key frames that a test sets."""
+
+    def __init__(self, *plans):
+        """Tell the last of the plans for ever."""
+        self.rest, self.poses = list(plans), np.zeros((1, 3))
+
+    def plan(self):
+        """The next plan."""
+        return self.rest.pop(0) if len(self.rest) > 1 else self.rest[0]
+
+    def frames(self):
+        """The key frames."""
+        return self.poses
+
+
 def context_of(*plans):
     """What a robot knows that learns plan after plan."""
-    rest = list(plans)
-    return Context(plans[0], RobotConfig(), CleaningConfig(),
-                   survey=lambda: rest.pop(0) if len(rest) > 1 else rest[0])
+    return Context(plans[0], RobotConfig(), CleaningConfig(), survey=Told(*plans))
 
 
 def test_without_a_survey_the_plan_stays():
@@ -109,7 +125,7 @@ def test_a_floor_that_the_robot_was_not_shown_is_mapped_cleaned_and_left_for_the
     world.spawn('rumba', plan.dock, brushes_up=True)
     world.step()
     source = Mapped(world, 'rumba', plan.dock)
-    context = Context(source.plan(), RobotConfig(), CleaningConfig(), survey=source.plan)
+    context = Context(source.plan(), RobotConfig(), CleaningConfig(), survey=source)
     assert np.count_nonzero(context.plan.free) < 0.9 * np.count_nonzero(plan.free)
     mission, dt = Mission(context, 'explore_and_clean', 0.95), 0.0
     while mission.status is Status.RUNNING and world.time < 400.0:
@@ -119,3 +135,67 @@ def test_a_floor_that_the_robot_was_not_shown_is_mapped_cleaned_and_left_for_the
     assert mission.status is Status.SUCCEEDED, mission.message
     assert world.floor.coverage > 0.92
     assert world.robots['rumba'].is_docked
+
+
+# --- maps that are redrawn ----------------------------------------------------------------------------------------
+
+LEFT, RIGHT = Pose(1.0, 1.0, 0.3), Pose(4.5, 1.0, 0.0)  # key frames
+
+
+def redrawn(by):
+    """A robot that swept at both key frames, and whose map was then redrawn with the right one moved [m, m, rad]."""
+    survey = Told(WHOLE, WHOLE)
+    survey.poses = np.array([LEFT, RIGHT])
+    context = Context(WHOLE, RobotConfig(), CleaningConfig(), survey=survey)
+    context.swept.begin(1.0, 1.0)
+    for x, y, _ in (LEFT, RIGHT):
+        context.swept.follow(Pose(x, y, 0.0), False)
+        context.swept.follow(Pose(x + 0.4, y, 0.0), False)
+    context.ground.mark(1.5, 2.0, 0.05)
+    context.footing.note(HERE, (False, True, False, False), False)
+    survey.poses = np.array([LEFT, Pose(*np.add(RIGHT, by))])
+    return context
+
+
+def is_swept(context, x, y):
+    """Whether the floor about a point is swept [m]."""
+    cells = context.swept.missing_share()
+    row, column = (int((at - low) / context.plan.resolution) for at, low in zip((y, x), context.plan.origin[::-1]))
+    return bool((cells[row - 1:row + 2, column - 1:column + 2] == 0.0).all())
+
+
+def test_what_was_swept_stays_at_the_key_frames_of_a_redrawn_map():
+    context = redrawn((-0.5, 0.6, 0.5 * math.pi))
+    area = context.swept.coverage
+    assert context.follow(HERE) and not context.follow(HERE)
+    assert is_swept(context, 1.2, 1.0)  # beside the left frame, as before
+    assert is_swept(context, 4.0, 1.8) and not is_swept(context, 4.7, 1.0)  # which lay ahead of the right one, to its left
+    assert not is_swept(context, 4.0, 1.4) and not is_swept(context, 4.2, 1.6)
+    assert context.swept.coverage == pytest.approx(area, rel=0.03)
+
+
+def test_obstacles_and_edges_are_forgotten_with_the_map_on_which_they_were_met():
+    context = redrawn((0.1, 0.0, 0.0))
+    context.follow(HERE)
+    assert not context.ground.has_marks and not context.footing.seen
+    assert not context.footing.are_known(np.array([[1.0, 1.0]]), 1)
+
+
+def test_a_jump_of_the_pose_with_the_map_sweeps_nothing():
+    context = redrawn((0.1, 0.0, 0.0))
+    context.follow(HERE)
+    swept = context.swept.coverage
+    context.swept.follow(Pose(5.2, 1.0, 0.0), False)
+    assert context.swept.coverage == swept
+
+
+def test_more_key_frames_or_the_same_ones_move_nothing():
+    context = redrawn((0.0, 0.0, 2.0 * math.pi))
+    assert not context.follow(HERE) and context.ground.has_marks
+    context.survey.poses = np.array([LEFT, RIGHT, HERE])
+    assert not context.follow(HERE) and context.ground.has_marks
+
+
+def test_the_way_back_leads_from_a_moved_frame_to_where_it_was():
+    back = redrawing.way_back(np.array([LEFT, RIGHT]), np.array([LEFT, Pose(4.0, 1.5, 0.5 * math.pi)]))
+    assert back(np.array([[1.1, 0.9], [3.9, 1.8]])) == pytest.approx(np.array([[1.1, 0.9], [4.8, 1.1]]))

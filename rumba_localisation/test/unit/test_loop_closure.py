@@ -42,13 +42,13 @@ class Recorder:
 
 @functools.lru_cache(maxsize=None)
 def drive_around():
-    """What a robot is told on its way around the ring, and where it is in the end."""
-    world, recorder = world_of(ring(), START, seed=2), Recorder()
+    """What a robot is told on its way around the ring, and where it is each time."""
+    world, recorder, poses = world_of(ring(), START, seed=2), Recorder(), [START]
     recorder.observe(world.robots['rumba'].odometry, scan(world))
     for _ in drive(world, recorder, [(25.0, 1.0), (25.0, 7.0), (1.0, 7.0), (1.0, 1.0), (4.0, 1.0)]):
-        pass
-    assert error(reckoned(world, START), world.robots['rumba'].pose)[0] > 3.0
-    return recorder.told, world.robots['rumba'].pose
+        poses.append(world.robots['rumba'].pose)
+    assert error(reckoned(world, START), poses[-1])[0] > 3.0
+    return recorder.told, poses
 
 
 def mapped():
@@ -63,7 +63,7 @@ def test_a_loop_that_comes_back_with_a_large_error_closes(monkeypatch):
     closed = mapped()
     monkeypatch.setattr(LoopClosure, 'closes', lambda *_: False)
     broken = mapped()
-    (*_, (odometry, _)), true = drive_around()
+    (*_, (odometry, _)), (*_, true) = drive_around()
     assert closed.redrawn == 1 and broken.redrawn == 0
     assert off_walls(broken, ring()).max() > 0.25 and error(broken.pose(odometry), true)[0] > 0.2
     assert off_walls(closed, ring()).max() < 0.13 and error(closed.pose(odometry), true)[0] < 0.03

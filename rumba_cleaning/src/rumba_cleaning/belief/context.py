@@ -11,6 +11,7 @@ from rumba_cleaning.behaviour import Observation
 from rumba_cleaning.belief.footing import Footing
 from rumba_cleaning.belief.ground import Ground
 from rumba_cleaning.belief.mates import Mates, Report
+from rumba_cleaning.belief.survey import Survey
 from rumba_cleaning.belief.swept import Swept
 from rumba_cleaning.cleaning_config import CleaningConfig
 from rumba_sim.model.floor_plan import FloorPlan
@@ -26,7 +27,6 @@ Result = TypeVar('Result')
 Seed = Union[int, Sequence[int]]
 CUT_OFF = 0.02  # of the reachable floor: less than a room, more than corners beside things; our choice
 OPENED = 0.05  # [m^2] half of what a robot covers: a gap that opens less is not worth squeezing through; our choice
-Survey = Callable[[], FloorPlan]  # the same object as long as the plan is the same
 
 
 class InPlace(Executor):
@@ -82,7 +82,7 @@ class Context:
     """One robot's knowledge, shared by all its behaviours.
 
     Attributes:
-        survey: tells the newest plan of a floor that is being mapped; None if the plan does not change.
+        survey: of a floor that is being mapped; None if the plan does not change.
         robot: what the robot is like.
         config: speeds and thresholds for its work.
         target_coverage: share of the reachable floor to sweep [0..1].
@@ -109,6 +109,7 @@ class Context:
         self.generator = np.random.default_rng(seed)
         self.executor = executor if executor is not None else InPlace()
         self.survey = survey
+        self._frames = None if survey is None else survey.frames()  # of the map that is known
         self.mates = mates if mates is not None else Mates()
         self._berth = self.mates.rank  # number of the dock to which the robot returns; past the last, from the first on
         self.ground = Ground(plan, robot)
@@ -132,15 +133,39 @@ class Context:
         """
         if self.survey is None:
             return False
-        plan = self.survey()
+        plan = self.survey.plan()
         if plan is self.plan:
             return False
+        self._take(plan, pose)
+        return True
+
+    def follow(self, pose: Pose) -> bool:
+        """If the map was redrawn, have what was swept move with it; returns whether it was.
+
+        Obstacles and edges are forgotten: the map shows those that the robot has met.
+
+        Args:
+            pose: of the robot, on the map as it is now.
+        """
+        if self.survey is None or self.survey.frames() is self._frames:
+            return False
+        from rumba_cleaning.belief import redrawing  # here, where loops have closed: a cleaner starts sooner without it
+        before, after = self._frames, self.survey.frames()
+        self._frames = after
+        if before is None or not redrawing.is_redrawn(before, after):
+            return False
+        self.forget_obstacles()
+        self._take(self.survey.plan(), pose, redrawing.way_back(before, after))
+        self.footing.forget()
+        return True
+
+    def _take(self, plan: FloorPlan, pose: Pose, way_back: Optional[Callable[[Array], Array]] = None) -> None:
+        """Go on with a newer plan; see `Swept.learn`."""
         self.ground.learn(plan)
         self.footing.learn(plan)
         if self.sight is not None:
             self.sight.learn(plan)
-        self.swept.learn(plan, *self.ground.in_largest_part([pose[:2], self.swept.start]))
-        return True
+        self.swept.learn(plan, *self.ground.in_largest_part([pose[:2], self.swept.start]), way_back)
 
     def moor(self, pose: Pose) -> None:
         """Make the dock that is nearest to a pose the home of the robot."""

@@ -2,7 +2,7 @@
 
 import copy
 import math
-from typing import Dict
+from typing import Callable, Dict, Optional
 
 import numpy as np
 
@@ -41,16 +41,20 @@ class Swept:
         self._last = {}
         self.start = x, y
 
-    def learn(self, plan: FloorPlan, x: float, y: float) -> None:
+    def learn(self, plan: FloorPlan, x: float, y: float,
+              way_back: Optional[Callable[[Array], Array]] = None) -> None:
         """Go on with a newer plan of the same floor, and find out what can be reached from (x, y) [m] on that.
 
         Args:
             plan: its cells are those of the plan before, or lie beside them.
             x, y: where the robot fits, map frame [m].
+            way_back: if the map was redrawn, where on it was before what is at points now: (any, 2) [m].
         """
         before, self._sweep = self._sweep, Sweep(plan, self._config)
         self._sweep.begin(x, y)
-        self._sweep.take_over(before)
+        self._sweep.take_over(before, way_back)
+        if way_back is not None:
+            self._last = {}
         self.start = x, y
 
     def copy(self) -> 'Swept':

@@ -199,6 +199,8 @@ class Mission(Behaviour):
         if last is not None and math.hypot(pose.x - last.x, pose.y - last.y) > JUMP and self._part is not None:
             self._is_undisturbed = False
             self._part.restart()
+        if self._context.follow(pose) and self._part is not None:
+            self._part.restart()
         if self.state is State.CHARGING:
             self.charging_time += observation.dt
         self._last, self._had_brushes_up = pose, self._brushes_up

@@ -163,7 +163,7 @@ def _context(plan: FloorPlan, source: PoseSource, config: RobotConfig, cleaning:
              executor: Executor, mates: Mates) -> Context:
     """What a robot knows at first: the floor plan, or only what it has mapped itself so far."""
     if isinstance(source, Mapped):
-        return Context(source.plan(), config, cleaning, seed, executor, source.plan, mates)
+        return Context(source.plan(), config, cleaning, seed, executor, source, mates)
     return Context(plan, config, cleaning, seed, executor, mates=mates)
 
 

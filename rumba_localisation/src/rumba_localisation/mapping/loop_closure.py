@@ -1,22 +1,16 @@
 """Notices that a robot has come back to where it was long ago, by another way than it went."""
 
-import itertools
 import math
 from typing import NamedTuple, Optional, Tuple
 
 import numpy as np
 
-from rumba_localisation import compiled_matching
-from rumba_localisation.mapping.grid import RESOLUTION, Grid
+from rumba_localisation.mapping.clear_match import INDEPENDENT, Match, clear_match
 from rumba_localisation.mapping.key_frames import KeyFrames
-from rumba_localisation.scan import is_blind, thinned
+from rumba_localisation.scan import is_blind
 from rumba_sim.model.geometry import Pose, compose, inverse, wrap_angle
 from rumba_sim.model.kernel import Array
 
-STEPS = np.geomspace(0.1, 0.02, 6)  # [m] sigmas of a match
-BEAMS, INDEPENDENT = 180, 0.2  # of a match, at most, and the share of them that err independently
-HELD = np.diag([0.1, 0.1, 0.05]) ** 2  # covariance of each start of a match [m^2, m^2, rad^2]
-STRIDE = 0.15  # [m] between these starts: a match finds what is as far off
 # All these are our choice:
 LOOP = 12.0  # [m] of way along links from which on frames are old: shorter loops close by matching with the map
 DOUBT = 0.05  # [m] of standard deviation along that way, below which no error is looked for: a smaller one looks for it
@@ -25,20 +19,8 @@ NEAR = 5.0  # [m] to an old frame, at most: a longer way off, the laser sees too
 PAUSE, REST = 0.4, 2.0  # [m] between two scans that are compared with old ones, if the first needs one that agrees, and
 #                         if it does not: nearer ones err alike, and each takes 0.1 s
 DRIFT, LEAST, MOST = 0.03, 0.3, 1.0  # errors that are looked for: share of the way, at least and at most [m]
-KNOWN = 0.5  # share of the beams that end where the old frames saw something, at least: others prove nothing
-FITS = 0.8  # share of these that end at walls, at least: with noise alone it is 0.9
-RIVAL = 0.03  # by so much it must fit better than anywhere else: in a bare corridor all places fit alike
-ELSEWHERE = 0.1  # [m] from there on, a place is another
 SAME = (0.05, 0.02)  # [m], [rad] by which two scans may differ on what is wrong
 SMALL = (0.03, 0.01)  # [m], [rad] of error that the map bears; smaller ones are not worth a new map
-
-
-class Match(NamedTuple):
-    """Where a scan fits on a map."""
-
-    pose: Pose  # map frame
-    covariance: Array  # float64 (3, 3)
-    fit: float  # share of all its beams that end at a wall, less those that end at the wrong side of one
 
 
 class Found(NamedTuple):
@@ -105,32 +87,8 @@ class LoopClosure:
         frames, nearest = self._frames, int(old[0])
         centre, pose = frames.poses[nearest], frames.poses[frame]
         around = np.sort(np.intersect1d(frames.near(centre.x, centre.y, NEAR), old))
-        best = _clear(frames.drawn(around), pose, reach, points)
+        best = clear_match(frames.drawn(around), pose, reach, points)
         return None if best is None else Found(nearest, frame, best, compose(best.pose, inverse(pose)))
-
-
-def _clear(grid: Grid, pose: Pose, reach: float, points: Array) -> Optional[Match]:
-    """Where a scan fits on a map near a pose, and fits well, and nowhere else as well."""
-    few = thinned(points, BEAMS)
-    offsets = np.arange(-math.ceil(reach / STRIDE), math.ceil(reach / STRIDE) + 1) * STRIDE
-    matches = [_match(grid, Pose(pose.x + float(x), pose.y + float(y), pose.theta), few)
-               for x, y in itertools.product(offsets, offsets)]
-    best = max(matches, key=lambda each: each.fit)
-    known = 1.0 - grid.share_unknown(best.pose, few)
-    if known < KNOWN or best.fit < FITS * known:
-        return None
-    rivals = [each for each in matches if each.fit > best.fit - RIVAL]
-    is_clear = all(math.hypot(each.pose.x - best.pose.x, each.pose.y - best.pose.y) < ELSEWHERE for each in rivals)
-    return best if is_clear else None
-
-
-def _match(grid: Grid, start: Pose, points: Array) -> Match:
-    found, covariance = np.empty(3), np.empty((3, 3))
-    fit = compiled_matching.match(np.array(start), HELD, points, grid.field, *grid.origin, RESOLUTION, STEPS,
-                                  INDEPENDENT, found, covariance)
-    fit -= compiled_matching.from_behind(found, points, grid.field, *grid.origin, RESOLUTION, STEPS[-1])
-    x, y, theta = found.tolist()
-    return Match(Pose(x, y, wrap_angle(theta)), covariance, fit)
 
 
 def _is_small(change: Pose, pose: Pose, most: Tuple[float, float]) -> bool:

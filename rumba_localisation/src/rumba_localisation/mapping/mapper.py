@@ -2,7 +2,7 @@
 
 import collections
 import math
-from typing import Dict, Optional, Tuple
+from typing import Dict, Optional, Sequence, Tuple
 
 import numpy as np
 
@@ -10,6 +10,7 @@ from rumba_localisation import compiled_matching
 from rumba_localisation.compiled_matrices import inverse as inverted
 from rumba_localisation.localiser import START, Estimate, Localiser
 from rumba_localisation.mapping.believed_plan import believed_plan
+from rumba_localisation.mapping.clear_match import clear_match
 from rumba_localisation.mapping.grid import RESOLUTION, Grid
 from rumba_localisation.mapping.key_frames import KeyFrames
 from rumba_localisation.mapping.loop_closure import LoopClosure
@@ -25,11 +26,13 @@ SPACING, VISITS = 0.25, 4  # [m] side of a square of the floor, and scans from t
 UNSEEN = 0.05  # share of the beams that end on unknown floor, from which on a scan from anywhere is added
 AT_ONCE = 4  # scans that are added before distances are measured again
 LEAST = np.array([0.005, 0.005, 0.005]) ** 2  # variances of any movement [m^2, m^2, rad^2]
+OPEN = 0.1  # [m] of standard deviation of the place, at most, that is left open: as far off a match finds it
 GOOD = 0.75  # a fit below which other starts of a match are tried ...
 BETTER = 0.1  # ... whose fit must be better by so much: in a corridor all fit alike
 SLIPPED = np.diag([0.1, 0.1, 0.05]) ** 2  # covariance of these
 LOST_FIT, LOST_AFTER = 0.6, 5  # the robot was carried away if, of the beams that end on known floor, so few fit in so
 #                                many scans, one after the other; meanwhile the map stays as it is
+SLID = 1.0  # [m] along each axis, by which a robot may be off that was not carried away
 FOUND_FIT = 0.6  # from which on a place that was looked for is believed
 DRIFT = np.diag([0.0003, 0.0003, 0.0002]) ** 2  # variances by which the map drifts with each scan [m^2, m^2, rad^2]: as
 #                                                 measured on the first 24 m of drives around an office
@@ -69,6 +72,7 @@ class Mapper:
         self.version = self.redrawn = 0
         self._frames = KeyFrames()
         self._closure = LoopClosure(self._frames)
+        self._open = np.zeros((3, 3))  # covariance of the errors of the odometry that scans left open
         self._drift = np.zeros((3, 3))  # covariance of the way since the newest key frame
         self._way = 0.0  # [m] since then; infinite if the robot was carried away
         self._visits: Dict[Tuple[int, int], int] = {}  # scans by the square of the floor in which they were taken
@@ -99,13 +103,14 @@ class Mapper:
         elif self._search is not None:
             return self._find(self._search, odometry, scan.points)
         else:
-            self.estimate = self._matched(last, odometry, scan.points)
+            prior = self._open + self._spread(last, odometry)
+            self.estimate = self._matched(last, odometry, scan.points, prior)
+            self._open = _bounded(_leaked(self.estimate.covariance, prior))
             self._way += math.hypot(odometry.x - last.x, odometry.y - last.y)
         self._last = odometry
         self.correction = compose(self.estimate.pose, inverse(odometry))
-        if self._is_carried_away(self.estimate, scan.points):
-            self._search = Localiser(believed_plan(self.grid, 'the map so far'), self._radius, self._range_max)
-            self.estimate = self.estimate._replace(covariance=START, is_sure=False)
+        self._judge(self.estimate, odometry, scan.points)
+        if self._search is not None:
             return True
         if last is not None:
             self._drift += _leaked(self.estimate.covariance, self._spread(last, odometry)) + DRIFT
@@ -113,6 +118,11 @@ class Mapper:
             self._add(self.estimate, scan)
             self.correction = compose(self.estimate.pose, inverse(odometry))
         return True
+
+    @property
+    def frames(self) -> Sequence[Pose]:
+        """Where the scans were taken that the map shows, map frame; each keeps its number if it moves."""
+        return self._frames.poses
 
     def moved(self, pose: Pose) -> Pose:
         """Where on the redrawn map is what was at a pose before [m, rad]."""
@@ -151,12 +161,21 @@ class Mapper:
         self._added = 0
         self._visits = dict(collections.Counter(_square(pose) for pose in frames.poses))
 
-    def _is_carried_away(self, estimate: Estimate, ends: Array) -> bool:
-        """Whether scans have not fitted for some time."""
+    def _judge(self, estimate: Estimate, odometry: Pose, ends: Array) -> None:
+        """If a scan does not fit, look nearby: wheels err along a bare corridor; in the end, look all over the map."""
         known = 1.0 - self.grid.share_unknown(estimate.pose, ends)
-        is_misfit = estimate.fit < LOST_FIT * known and not is_blind(ends)
-        self._misfits = self._misfits + 1 if is_misfit else 0
-        return self._misfits >= LOST_AFTER
+        if is_blind(ends) or estimate.fit >= LOST_FIT * known:
+            self._misfits = 0
+            return
+        near = clear_match(self.grid, estimate.pose, SLID, ends, LOST_FIT)
+        self._misfits += 1
+        if near is not None:
+            self.estimate = Estimate(near.pose, near.covariance, near.fit, True)
+            self.correction = compose(near.pose, inverse(odometry))
+            self._misfits, self._way = 0, math.inf
+        elif self._misfits >= LOST_AFTER:
+            self._search = Localiser(believed_plan(self.grid, 'the map so far'), self._radius, self._range_max)
+            self.estimate = estimate._replace(covariance=START, is_sure=False)
 
     def _find(self, search: Localiser, odometry: Pose, ends: Array) -> bool:
         """Look for the place all over the map so far, which stays as it is meanwhile."""
@@ -178,16 +197,21 @@ class Mapper:
         return (math.hypot(odometry.x - last.x, odometry.y - last.y) >= self.config.update_min_d
                 or abs(wrap_angle(odometry.theta - last.theta)) >= self.config.update_min_a)
 
-    def _matched(self, last: Pose, odometry: Pose, ends: Array) -> Estimate:
+    def _matched(self, last: Pose, odometry: Pose, ends: Array, prior: Array) -> Estimate:
         """Where a scan fits, near where the odometry has the robot.
 
         If it does not fit there, perhaps the wheels slipped, or the robot was pushed: it may fit better near the place
         where the robot was before, or farther away from where the odometry has it.
+
+        Args:
+            last, odometry: pose by odometry at the scan before, and now.
+            ends: where the beams end, in the frame of the laser [m].
+            prior: covariance (3, 3) of where the odometry has the robot; along a bare corridor it grows.
         """
-        supposed, spread = self.pose(odometry), self._spread(last, odometry)
+        supposed = self.pose(odometry)
         if is_blind(ends):
-            return Estimate(supposed, spread, 0.0, True)
-        best = self._match(supposed, spread, ends)
+            return Estimate(supposed, prior, 0.0, True)
+        best = self._match(supposed, prior, ends)
         if best.fit < GOOD:
             before = self.pose(last)._replace(theta=supposed.theta)
             others = [self._match(start, SLIPPED, ends) for start in (supposed, before)]
@@ -225,6 +249,11 @@ def _leaked(covariance: Array, prior: Array) -> Array:
     seen = (inverted(covariance) - held) / INDEPENDENT
     gain = inverted(seen + held)
     return np.asarray(gain @ held @ gain)
+
+
+def _bounded(covariance: Array) -> Array:
+    """A covariance (3, 3), scaled so that the standard deviation of the place is at most OPEN."""
+    return covariance * min(1.0, OPEN ** 2 / max(float(covariance[0, 0] + covariance[1, 1]), OPEN ** 2))
 
 
 def _square(pose: Pose) -> Tuple[int, int]:

@@ -6,6 +6,8 @@ It publishes
 and below the robot's name
   amcl_pose       geometry_msgs/PoseWithCovarianceStamped: latched; the pose at each scan
   dock_pose       geometry_msgs/PoseStamped: latched; where the robot stood on the contacts of its dock
+  key_frames      geometry_msgs/PoseArray: latched; with each /map, where the scans were taken that it shows; each keeps
+                  its place in the array, so that it tells how the map moved if it was redrawn
 It subscribes, below the robot's name, to
   scan            sensor_msgs/LaserScan: of a laser in the centre of the robot that looks forward
   odom            nav_msgs/Odometry
@@ -25,7 +27,7 @@ from typing import Optional
 
 import numpy as np
 import rospy
-from geometry_msgs.msg import PoseStamped, PoseWithCovarianceStamped
+from geometry_msgs.msg import PoseArray, PoseStamped, PoseWithCovarianceStamped
 from nav_msgs.msg import OccupancyGrid
 from sensor_msgs.msg import LaserScan
 from std_msgs.msg import Header
@@ -93,6 +95,7 @@ class MapperNode(ScanLoop):
         self._map = rospy.Publisher('/map', OccupancyGrid, queue_size=1, latch=True)
         self._pose = rospy.Publisher(f'{name}/amcl_pose', PoseWithCovarianceStamped, queue_size=QUEUE, latch=True)
         self._docked = rospy.Publisher(f'{name}/dock_pose', PoseStamped, queue_size=1, latch=True)
+        self._frames_told = rospy.Publisher(f'{name}/key_frames', PoseArray, queue_size=1, latch=True)
         super().__init__(name)
         self._subscribe(f'{name}/bumper', Bumper, self._take_bumper)
         self._subscribe(f'{name}/cliff', Cliff, self._take_cliff)
@@ -131,7 +134,8 @@ class MapperNode(ScanLoop):
         self._tell_map(stamp)
 
     def _follow(self, stamp: rospy.Time) -> None:
-        """Move what was found on the map to where that is since the map was redrawn."""
+        """Move what was found on the map to where that is since the map was redrawn, and have that told at once."""
+        self._told = None
         self._findings.move(self._mapper.moved)
         if self._dock is not None:
             self._dock = self._mapper.moved(self._dock)
@@ -149,6 +153,7 @@ class MapperNode(ScanLoop):
         self._told, self._told_version = stamp, self._version
         plan = self._plan()
         cells = plan.occupancy if plan.cliff is None else np.where(plan.cliff, np.int8(OCCUPIED), plan.occupancy)
+        self._frames_told.publish(conversions.cloud(np.array(self._mapper.frames), Header(stamp=stamp, frame_id=MAP)))
         self._map.publish(grid(plan, cells, stamp))
 
     @property

@@ -1,6 +1,6 @@
 """Which part of a floor a brush has passed over: the one rule by which coverage is counted everywhere."""
 
-from typing import NamedTuple, Tuple
+from typing import Callable, NamedTuple, Optional, Tuple
 
 import numpy as np
 
@@ -68,16 +68,37 @@ class Sweep:
         other.samples, other.tally, other.reachable = self.samples.copy(), self.tally.copy(), self.reachable
         return other
 
-    def take_over(self, other: 'Sweep') -> None:
-        """Count what was swept on another plan of the same floor, whose cells are those of this one, or lie beside."""
+    def take_over(self, other: 'Sweep', way_back: Optional[Callable[[Array], Array]] = None) -> None:
+        """Count what was swept on another plan of the same floor.
+
+        Args:
+            other: the floor by that plan.
+            way_back: where on that plan is what is at points of this one: float64 (any, 2) [m]; None if its cells are
+                those of this one, or lie beside them.
+        """
+        if way_back is None:
+            self._take_window(other)
+        else:
+            self._take_moved(other, way_back)
+        self.tally[0]['swept'] = np.count_nonzero(
+            (self.samples & REACHABLE > 0) & (self.samples >= PASS))
+
+    def _take_window(self, other: 'Sweep') -> None:
         pitch = self._plan.sample_pitch
         across, up = (round((theirs - ours) / pitch) for theirs, ours in zip(other._plan.origin, self._plan.origin))
         ours, theirs = _common(self.samples.shape, other.samples.shape, (up, across))
         passes = other.samples[theirs] & ~np.uint8(PASS - 1)
         window = self.samples[ours]
         window += np.where(window & SWEEPABLE, passes, 0).astype(np.uint8)
-        self.tally[0]['swept'] = np.count_nonzero(
-            (self.samples & REACHABLE > 0) & (self.samples >= PASS))
+
+    def _take_moved(self, other: 'Sweep', way_back: Callable[[Array], Array]) -> None:
+        """To half a square, since the points of samples lie anywhere in theirs."""
+        pitch, ours = self._plan.sample_pitch, np.argwhere(self.samples & SWEEPABLE)
+        there = way_back((ours[:, ::-1] + 0.5) * pitch + self._plan.origin)
+        theirs = np.floor((there - other._plan.origin) / pitch).astype(np.intp)[:, ::-1]
+        is_inside = ((theirs >= 0) & (theirs < other.samples.shape)).all(axis=1)
+        passes = other.samples[tuple(theirs[is_inside].T)] & ~np.uint8(PASS - 1)
+        self.samples[tuple(ours[is_inside].T)] += passes
 
     def pass_over(self, starts: Array, ends: Array) -> None:
         """Let a brush pass from poses to others that are near, map frame.

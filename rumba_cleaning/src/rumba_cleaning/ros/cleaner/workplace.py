@@ -64,7 +64,7 @@ class Workplace:
             ConfigError: the settings of the simulator were changed to invalid ones.
         """
         if self.survey is not None:
-            return self.survey(), self._newest_robot()
+            return self.survey.plan(), self._newest_robot()
         path = self._named or self._simulator.wait().map
         state = self._simulator.state
         wanted = path, state.run if state is not None else ''
