@@ -6,7 +6,7 @@ from typing import Any, Callable, Dict, NamedTuple, Optional, Tuple
 import numpy as np
 
 from rumba_cleaning.behaviour import CERTAIN, UNKNOWN, Covariance
-from rumba_cleaning.belief.survey import Survey
+from rumba_cleaning.survey import Survey
 from rumba_localisation.localiser import Localiser, Seed
 from rumba_localisation.mapping.believed_plan import believed_plan
 from rumba_localisation.mapping.findings import Findings

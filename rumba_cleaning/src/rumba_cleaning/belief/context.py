@@ -11,9 +11,9 @@ from rumba_cleaning.behaviour import Observation
 from rumba_cleaning.belief.footing import Footing
 from rumba_cleaning.belief.ground import Ground
 from rumba_cleaning.belief.mates import Mates, Report
-from rumba_cleaning.belief.survey import Survey
 from rumba_cleaning.belief.swept import Swept
 from rumba_cleaning.cleaning_config import CleaningConfig
+from rumba_cleaning.survey import Survey
 from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.kernel import Array

@@ -8,7 +8,7 @@ import rospy
 from geometry_msgs.msg import PoseArray, PoseStamped
 from nav_msgs.msg import OccupancyGrid
 
-from rumba_cleaning.belief import survey
+from rumba_cleaning import survey
 from rumba_sim.model.errors import MapError
 from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.model.kernel import Array
