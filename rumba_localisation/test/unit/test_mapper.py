@@ -8,6 +8,8 @@ from rooms import crooked, room
 from scans import error
 
 from rumba_localisation.mapping.believed_plan import believed_plan
+from rumba_localisation.mapping.key_frames import KeyFrames
+from rumba_localisation.mapping.loop_closure import LoopClosure
 from rumba_localisation.mapping.mapper import Mapper
 from rumba_localisation.scan import scan_of
 from rumba_sim.model.config import updated
@@ -17,6 +19,7 @@ from rumba_sim.model.robot_config import RobotConfig
 from rumba_sim.model.world import World
 
 BAD = updated(RobotConfig(), {'odometry': {'scale_error': 0.03}}, 'wheels that err more than those of a Rumba')
+WHEELS = 0.006  # [m] standard deviation of a movement from scan to scan, at most
 
 
 def scan(world):
@@ -112,6 +115,30 @@ def test_a_long_corridor_that_dead_reckoning_bends_is_straight():
     assert off_walls(mapper, plan).max() < 0.2
 
 
+def test_along_a_bare_corridor_it_is_less_and_less_sure_how_far_it_has_come_until_it_sees_the_end():
+    plan, start = room(30.0, 1.2, boxes=[(1.5, 0.0, 1.8, 0.2), (28.0, 1.0, 28.4, 1.2)]), Pose(1.0, 0.6, 0.0)
+    world, mapper = world_of(plan, start), Mapper(start)
+    for _ in drive(world, mapper, [(28.8, 0.6), (15.0, 0.6)]):
+        pass
+    middle = np.sqrt(np.diag(mapper.estimate.covariance))
+    for _ in drive(world, mapper, [(1.2, 0.6)]):
+        pass
+    end = np.sqrt(np.diag(mapper.estimate.covariance))
+    assert 0.025 < middle[0] < 0.12 and middle[1] < 0.01 and end[0] < 0.01
+
+
+def test_scans_never_add_to_the_error_of_the_wheels_between_two_key_frames(monkeypatch):
+    plan, start, links = room(30.0, 1.2), Pose(1.0, 0.6, 0.0), []
+    monkeypatch.setattr(KeyFrames, 'link', lambda *told: links.append(told[4]))
+    monkeypatch.setattr(LoopClosure, 'closes', lambda *_: False)
+    world, mapper = world_of(plan, start), Mapper(start)
+    for _ in drive(world, mapper, [(15.0, 0.6)]):
+        pass
+    along = np.sqrt([covariance[0, 0] for covariance in links])
+    assert len(along) > 80 and along[:20].max() < 0.003  # the end is in sight
+    assert 0.002 < along[-20:].min() and along.max() < WHEELS
+
+
 @pytest.mark.parametrize('seed', [1, 3])
 def test_a_map_does_not_bend_the_way_that_the_wheels_err(seed):
     plan, start = room(20.0, 1.6, boxes=[(6.0, 0.0, 6.3, 0.2), (13.0, 1.4, 13.4, 1.6)]), Pose(0.5, 0.8, 0.0)
@@ -161,6 +188,18 @@ def test_a_robot_that_is_carried_away_finds_its_place_on_its_own_map():
     assert error(mapper.pose(robot.odometry), robot.pose)[0] < 0.05
     is_wall = before > 1.0
     assert np.mean(mapper.grid.odds[is_wall] > 0.0) > 0.97  # it did not draw the map over at the wrong place
+
+
+def test_a_robot_that_was_moved_by_less_than_a_metre_is_found_at_once_and_without_doubt():
+    plan, start = crooked(), Pose(1.0, 1.0, 0.3)
+    world, mapper = world_of(plan, start), Mapper(start)
+    for _ in drive(world, mapper, [(2.0, 1.3), (1.0, 1.0)]):
+        pass
+    robot = world.robots['rumba']
+    world.teleport('rumba', robot.pose._replace(x=robot.pose.x + 0.5, y=robot.pose.y + 0.3))
+    for number, _ in enumerate(drive(world, mapper, [(2.0, 1.3)])):
+        assert mapper.estimate.is_sure
+        assert number < 3 or error(mapper.pose(robot.odometry), robot.pose)[0] < 0.03
 
 
 def test_a_mirrored_laser_does_not_fit():

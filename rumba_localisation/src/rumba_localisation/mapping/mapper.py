@@ -103,21 +103,22 @@ class Mapper:
         elif self._search is not None:
             return self._find(self._search, odometry, scan.points)
         else:
-            prior = self._open + self._spread(last, odometry)
-            self.estimate = self._matched(last, odometry, scan.points, prior)
-            self._open = _bounded(_leaked(self.estimate.covariance, prior))
-            self._way += math.hypot(odometry.x - last.x, odometry.y - last.y)
+            self._follow(last, odometry, scan.points)
         self._last = odometry
         self.correction = compose(self.estimate.pose, inverse(odometry))
-        self._judge(self.estimate, odometry, scan.points)
-        if self._search is not None:
-            return True
-        if last is not None:
-            self._drift += _leaked(self.estimate.covariance, self._spread(last, odometry)) + DRIFT
-        if self._misfits == 0 and self._is_news(self.estimate.pose, scan.points):
+        self._judge(odometry, scan.points)
+        if self._search is None and self._misfits == 0 and self._is_news(self.estimate.pose, scan.points):
             self._add(self.estimate, scan)
             self.correction = compose(self.estimate.pose, inverse(odometry))
         return True
+
+    def _follow(self, last: Pose, odometry: Pose, ends: Array) -> None:
+        """Match a scan, and keep account of the errors of the odometry since the last one."""
+        self.estimate, movement = self._matched(last, odometry, ends)
+        left = _share_left(self.estimate.covariance, self._open + movement)
+        self._open = _bounded(left @ (self._open + movement) @ left.T)
+        self._drift += left @ movement @ left.T + DRIFT
+        self._way += math.hypot(odometry.x - last.x, odometry.y - last.y)
 
     @property
     def frames(self) -> Sequence[Pose]:
@@ -161,21 +162,22 @@ class Mapper:
         self._added = 0
         self._visits = dict(collections.Counter(_square(pose) for pose in frames.poses))
 
-    def _judge(self, estimate: Estimate, odometry: Pose, ends: Array) -> None:
-        """If a scan does not fit, look nearby: wheels err along a bare corridor; in the end, look all over the map."""
-        known = 1.0 - self.grid.share_unknown(estimate.pose, ends)
-        if is_blind(ends) or estimate.fit >= LOST_FIT * known:
+    def _judge(self, odometry: Pose, ends: Array) -> None:
+        """If the scan does not fit, look nearby: wheels err along a bare corridor; in the end, look all over the map."""
+        assert self.estimate is not None
+        known = 1.0 - self.grid.share_unknown(self.estimate.pose, ends)
+        if is_blind(ends) or self.estimate.fit >= LOST_FIT * known:
             self._misfits = 0
             return
-        near = clear_match(self.grid, estimate.pose, SLID, ends, LOST_FIT)
         self._misfits += 1
+        near = clear_match(self.grid, self.estimate.pose, SLID, ends, LOST_FIT)
         if near is not None:
             self.estimate = Estimate(near.pose, near.covariance, near.fit, True)
             self.correction = compose(near.pose, inverse(odometry))
             self._misfits, self._way = 0, math.inf
         elif self._misfits >= LOST_AFTER:
             self._search = Localiser(believed_plan(self.grid, 'the map so far'), self._radius, self._range_max)
-            self.estimate = estimate._replace(covariance=START, is_sure=False)
+            self.estimate = self.estimate._replace(covariance=START, is_sure=False)
 
     def _find(self, search: Localiser, odometry: Pose, ends: Array) -> bool:
         """Look for the place all over the map so far, which stays as it is meanwhile."""
@@ -197,27 +199,29 @@ class Mapper:
         return (math.hypot(odometry.x - last.x, odometry.y - last.y) >= self.config.update_min_d
                 or abs(wrap_angle(odometry.theta - last.theta)) >= self.config.update_min_a)
 
-    def _matched(self, last: Pose, odometry: Pose, ends: Array, prior: Array) -> Estimate:
-        """Where a scan fits, near where the odometry has the robot.
+    def _matched(self, last: Pose, odometry: Pose, ends: Array) -> Tuple[Estimate, Array]:
+        """Where a scan fits, near where the odometry has the robot, and the covariance (3, 3) of the movement.
 
         If it does not fit there, perhaps the wheels slipped, or the robot was pushed: it may fit better near the place
-        where the robot was before, or farther away from where the odometry has it.
+        where the robot was before, or farther away from where the odometry has it. Along a bare corridor errors of
+        earlier movements are still open, and are corrected together.
 
         Args:
             last, odometry: pose by odometry at the scan before, and now.
             ends: where the beams end, in the frame of the laser [m].
-            prior: covariance (3, 3) of where the odometry has the robot; along a bare corridor it grows.
         """
-        supposed = self.pose(odometry)
+        supposed, spread = self.pose(odometry), self._spread(last, odometry)
+        prior = self._open + spread
         if is_blind(ends):
-            return Estimate(supposed, prior, 0.0, True)
+            return Estimate(supposed, prior, 0.0, True), spread
         best = self._match(supposed, prior, ends)
         if best.fit < GOOD:
             before = self.pose(last)._replace(theta=supposed.theta)
             others = [self._match(start, SLIPPED, ends) for start in (supposed, before)]
             better = max(others, key=lambda each: each.fit)
-            best = better if better.fit > best.fit + BETTER else best
-        return best
+            if better.fit > best.fit + BETTER:
+                return better, SLIPPED
+        return best, spread
 
     def _match(self, start: Pose, prior: Array, ends: Array) -> Estimate:
         """Where a scan fits near a pose, which has a covariance (3, 3)."""
@@ -236,19 +240,18 @@ class Mapper:
         return np.diag(LEAST + (place, place, config.odom_alpha1 * turn + config.odom_alpha2 * way))
 
 
-def _leaked(covariance: Array, prior: Array) -> Array:
-    """Covariance (3, 3) of the part of an estimate's error that comes from the odometry: it adds up from scan to scan.
+def _share_left(covariance: Array, prior: Array) -> Array:
+    """Which part (3, 3) of the error of the odometry is left in an estimate: it adds up from scan to scan.
 
     The rest is noise of the scan. It does not add up, since all scans in sight were matched with the same map.
 
     Args:
         covariance: float64 (3, 3), of the estimate.
-        prior: float64 (3, 3), of the movement before it.
+        prior: float64 (3, 3), of what the odometry told before it.
     """
     held = inverted(prior)
     seen = (inverted(covariance) - held) / INDEPENDENT
-    gain = inverted(seen + held)
-    return np.asarray(gain @ held @ gain)
+    return np.asarray(inverted(seen + held) @ held)
 
 
 def _bounded(covariance: Array) -> Array:
