@@ -13,7 +13,7 @@ from rumba_cleaning.cleaning_config import CleaningConfig
 from rumba_cleaning.control import act
 from rumba_cleaning.mission.mission import Mission
 from rumba_cleaning.planning.frontiers import frontiers, route_to_frontier
-from rumba_cleaning.pose_source import Mapped
+from rumba_cleaning.pose_source import Belief, Mapped
 from rumba_cleaning.survey import Survey
 from rumba_sim.model.floor_plan import UNKNOWN, FloorPlan
 from rumba_sim.model.geometry import Pose
@@ -200,3 +200,29 @@ def test_more_key_frames_or_the_same_ones_move_nothing():
 def test_the_way_back_leads_from_a_moved_frame_to_where_it_was():
     back = redrawing.way_back(np.array([LEFT, RIGHT]), np.array([LEFT, Pose(4.0, 1.5, 0.5 * math.pi)]))
     assert back(np.array([[1.1, 0.9], [3.9, 1.8]])) == pytest.approx(np.array([[1.1, 0.9], [4.8, 1.1]]))
+
+
+BY = 0.3  # [m] along x
+
+
+def test_a_mission_goes_on_when_the_map_is_redrawn_and_its_account_stays_right():
+    shifted = FloorPlan('redrawn', WHOLE.occupancy, 0.02, (WHOLE.origin[0] + BY, WHOLE.origin[1]))
+    world, survey, is_shifted = World(WHOLE, RobotConfig(), seed=2), Told(WHOLE), False
+    world.spawn('rumba', HERE)
+    context = Context(WHOLE, RobotConfig(), CleaningConfig(), survey=survey)
+    mission, dt = Mission(context, 'explore_and_clean', 0.9), 0.0
+
+    def believe(world, name):
+        pose = world.robots[name].pose
+        return Belief(pose._replace(x=pose.x + BY) if is_shifted else pose)
+
+    while mission.status is Status.RUNNING and world.time < 600.0:
+        act(mission, world, 'rumba', dt, believe)
+        world.step(5)
+        dt = 0.1
+        if not is_shifted and world.floor.coverage > 0.4:
+            is_shifted, survey.rest = True, [shifted]
+            survey.poses = survey.poses + (BY, 0.0, 0.0)
+    assert is_shifted and mission.status is Status.SUCCEEDED, mission.message
+    assert world.floor.coverage == pytest.approx(context.swept.coverage, abs=0.01)
+    assert world.robots['rumba'].bumps < 30

@@ -1,0 +1,30 @@
+"""Missions on floors that the robot was not shown, in which something goes wrong on the way."""
+
+import math
+import pathlib
+
+from rumba_cleaning.outcome import Outcome
+from rumba_evaluation.trials.cases import SLAM, Conditions
+from rumba_evaluation.trials.trial import Trial
+from rumba_sim.model import map_file
+from rumba_sim.model.geometry import Pose
+
+STUDIO = pathlib.Path(__file__).resolve().parents[3] / 'rumba_sim' / 'maps' / 'studio.yaml'
+ELSEWHERE = Pose(2.5, 2.0, 2.0)  # [m, rad]
+
+
+def test_a_robot_that_is_carried_away_finds_its_place_goes_on_and_comes_home():
+    trial = Trial(map_file.load(STUDIO), 'explore_and_clean', Conditions(pose=SLAM, target=0.95), seed=1)
+    robot, mapper = trial.world.robots['rumba'], trial.sources['rumba'].mapper
+    while trial.world.floor.coverage < 0.4:
+        trial.step()
+    assert math.hypot(robot.pose.x - ELSEWHERE.x, robot.pose.y - ELSEWHERE.y) > 1.5
+    trial.world.teleport('rumba', ELSEWHERE)
+    was_lost = False
+    while not trial.is_over:
+        trial.step()
+        was_lost |= not mapper.estimate.is_sure
+    result, believed = trial.result(), mapper.pose(robot.odometry)
+    assert was_lost and result.outcome is Outcome.SUCCEEDED and result.docked == 1
+    assert math.hypot(believed.x - robot.pose.x, believed.y - robot.pose.y) < 0.02
+    assert 0.93 < result.coverage < 0.97
