@@ -16,7 +16,7 @@ from rumba_cleaning.outcome import Outcome
 from rumba_cleaning.ros.cleaner import certainty, conversions, location, senses
 from rumba_msg.msg import Bumper, CleaningStatus, Cliff, DockStatus, Lockstep
 from rumba_sim.model.geometry import Pose
-from rumba_sim.ros.common.conversions import transform
+from rumba_sim.ros.common.conversions import transform, transform_pose
 
 
 class Robot:
@@ -217,9 +217,9 @@ def test_the_floor_is_what_was_told_last(robot):
 def test_a_tilted_transform_has_the_heading_of_its_forward_axis():
     half = math.radians(25.0)
     turned = Transform(Vector3(1.0, 2.0, 3.0), Quaternion(0.0, 0.0, math.sin(half), math.cos(half)))
-    assert conversions.transform_pose(turned) == pytest.approx((1.0, 2.0, math.radians(50.0)))
+    assert transform_pose(turned) == pytest.approx((1.0, 2.0, math.radians(50.0)))
     upside = Transform(Vector3(), Quaternion(1.0, 0.0, 0.0, 0.0))
-    assert conversions.transform_pose(upside).theta == pytest.approx(0.0)
+    assert transform_pose(upside).theta == pytest.approx(0.0)
 
 
 def test_commands_missions_and_outcomes_become_messages():

@@ -40,7 +40,7 @@ def frames_of(poses, second):
 def _survey(monkeypatch):
     """One that listens to nobody, and has heard a map with its key frames."""
     monkeypatch.setattr(module.rospy, 'Subscriber', lambda *_, **__: None)
-    survey = module.Survey('rumba')
+    survey = module.SurveyListener('rumba')
     with pytest.raises(MapError, match='^no map came on /map yet$'):
         survey.plan()
     survey._take_frames(frames_of([LEFT, RIGHT], 1))

@@ -109,7 +109,7 @@ class Context:
         self.generator = np.random.default_rng(seed)
         self.executor = executor if executor is not None else InPlace()
         self.survey = survey
-        self._frames = None if survey is None else survey.frames()  # of the map that is known
+        self._frames: Array = np.empty((0, 3)) if survey is None else survey.frames()  # of the map that is known
         self.mates = mates if mates is not None else Mates()
         self._berth = self.mates.rank  # number of the dock to which the robot returns; past the last, from the first on
         self.ground = Ground(plan, robot)
@@ -152,7 +152,7 @@ class Context:
         from rumba_cleaning.belief import redrawing  # here, where loops have closed: a cleaner starts sooner without it
         before, after = self._frames, self.survey.frames()
         self._frames = after
-        if before is None or not redrawing.is_redrawn(before, after):
+        if not redrawing.is_redrawn(before, after):
             return False
         self.forget_obstacles()
         self._take(self.survey.plan(), pose, redrawing.way_back(before, after))

@@ -97,28 +97,28 @@ class Mapper:
         """
         last = self._last
         if last is None:
-            self.estimate = Estimate(self._start, CERTAIN, 1.0, True)
+            estimate = Estimate(self._start, CERTAIN, 1.0, True)
         elif not self._has_moved(last, odometry):
             return False
         elif self._search is not None:
             return self._find(self._search, odometry, scan.points)
         else:
-            self._follow(last, odometry, scan.points)
-        self._last = odometry
-        self.correction = compose(self.estimate.pose, inverse(odometry))
-        self._judge(odometry, scan.points)
-        if self._search is None and self._misfits == 0 and self._is_news(self.estimate.pose, scan.points):
-            self._add(self.estimate, scan)
+            estimate = self._judged(self._followed(last, odometry, scan.points), scan.points)
+        self._last, self.estimate = odometry, estimate
+        self.correction = compose(estimate.pose, inverse(odometry))
+        if self._search is None and self._misfits == 0 and self._is_news(estimate.pose, scan.points):
+            self._add(estimate, scan)
             self.correction = compose(self.estimate.pose, inverse(odometry))
         return True
 
-    def _follow(self, last: Pose, odometry: Pose, ends: Array) -> None:
-        """Match a scan, and keep account of the errors of the odometry since the last one."""
-        self.estimate, movement = self._matched(last, odometry, ends)
-        left = _share_left(self.estimate.covariance, self._open + movement)
+    def _followed(self, last: Pose, odometry: Pose, ends: Array) -> Estimate:
+        """Where a scan fits; keeps account of the errors of the odometry since the last one."""
+        estimate, movement = self._matched(last, odometry, ends)
+        left = _share_left(estimate.covariance, self._open + movement)
         self._open = _bounded(left @ (self._open + movement) @ left.T)
         self._drift += left @ movement @ left.T + DRIFT
         self._way += math.hypot(odometry.x - last.x, odometry.y - last.y)
+        return estimate
 
     @property
     def frames(self) -> Sequence[Pose]:
@@ -162,22 +162,21 @@ class Mapper:
         self._added = 0
         self._visits = dict(collections.Counter(_square(pose) for pose in frames.poses))
 
-    def _judge(self, odometry: Pose, ends: Array) -> None:
-        """If the scan does not fit, look nearby: wheels err along a bare corridor; in the end, look all over the map."""
-        assert self.estimate is not None
-        known = 1.0 - self.grid.share_unknown(self.estimate.pose, ends)
-        if is_blind(ends) or self.estimate.fit >= LOST_FIT * known:
+    def _judged(self, estimate: Estimate, ends: Array) -> Estimate:
+        """If a scan does not fit, look nearby: wheels err along a bare corridor; in the end, look all over the map."""
+        known = 1.0 - self.grid.share_unknown(estimate.pose, ends)
+        if is_blind(ends) or estimate.fit >= LOST_FIT * known:
             self._misfits = 0
-            return
+            return estimate
         self._misfits += 1
-        near = clear_match(self.grid, self.estimate.pose, SLID, ends, LOST_FIT)
+        near = clear_match(self.grid, estimate.pose, SLID, ends, LOST_FIT)
         if near is not None:
-            self.estimate = Estimate(near.pose, near.covariance, near.fit, True)
-            self.correction = compose(near.pose, inverse(odometry))
             self._misfits, self._way = 0, math.inf
-        elif self._misfits >= LOST_AFTER:
-            self._search = Localiser(believed_plan(self.grid, 'the map so far'), self._radius, self._range_max)
-            self.estimate = self.estimate._replace(covariance=START, is_sure=False)
+            return Estimate(near.pose, near.covariance, near.fit, True)
+        if self._misfits < LOST_AFTER:
+            return estimate
+        self._search = Localiser(believed_plan(self.grid, 'the map so far'), self._radius, self._range_max)
+        return estimate._replace(covariance=START, is_sure=False)
 
     def _find(self, search: Localiser, odometry: Pose, ends: Array) -> bool:
         """Look for the place all over the map so far, which stays as it is meanwhile."""

@@ -21,8 +21,7 @@ from rumba_sim.model.errors import RumbaError, one_line, quoted
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.map_image import MAX_PIXELS
 from rumba_sim.model.obstacle import LASER_HEIGHT
-from rumba_sim.ros.common.conversions import heading, plane_pose
-from rumba_sim.ros.common.frames import MAP, WORLD
+from rumba_sim.ros.common.conversions import map_pose, plane_pose
 from rumba_viewer.scene.snapshot import GOING_TO, YIELDING, Array, Battery, Cleaning, Grid, Mission, Obstacle, Point
 
 FAR = 1e7  # [m] larger coordinates are not valid
@@ -202,11 +201,8 @@ def map_frame(message: TFMessage) -> Optional[Pose]:
     Raises:
         OddMessage: it is not finite, or is too far away.
     """
-    for link in message.transforms:
-        if (link.header.frame_id, link.child_frame_id) == (WORLD, MAP):
-            moved = link.transform.translation
-            return _checked(Pose(moved.x, moved.y, heading(link.transform.rotation)))
-    return None
+    pose = map_pose(message)
+    return None if pose is None else _checked(pose)
 
 
 def state(message: SimulatorState) -> State:

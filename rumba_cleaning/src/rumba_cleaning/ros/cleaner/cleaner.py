@@ -50,7 +50,7 @@ from rumba_cleaning.ros.cleaner.go_to_position import GoToPosition
 from rumba_cleaning.ros.cleaner.robot import Robot
 from rumba_cleaning.ros.cleaner.run import Run, describe
 from rumba_cleaning.ros.cleaner.settings import Settings
-from rumba_cleaning.ros.cleaner.survey import Survey
+from rumba_cleaning.ros.cleaner.survey import SurveyListener
 from rumba_cleaning.ros.cleaner.workplace import Workplace, World
 from rumba_msg.msg import CleanActionGoal
 from rumba_sim.model.errors import RumbaError
@@ -88,7 +88,7 @@ class Cleaner:
         self._events: 'queue.Queue[Callable[[], None]]' = queue.Queue()
         self._has_ended = threading.Event()
         self._workplace = Workplace(settings.map, lambda: self._events.put(self._look_at_world),
-                                    Survey(settings.robot) if settings.mapping else None)
+                                    SurveyListener(settings.robot) if settings.mapping else None)
         self._world: Optional[World] = self._workplace.world  # that of the goal and of the cleaning below
         self._run: Optional[Run] = None
         self._interrupted: Optional[Cleaning] = None  # what a goal of clean with `resume` goes on with

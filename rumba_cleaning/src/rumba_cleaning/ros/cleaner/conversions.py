@@ -2,7 +2,7 @@
 
 import math
 
-from geometry_msgs.msg import Pose2D, Transform, Twist, Vector3
+from geometry_msgs.msg import Pose2D, Twist, Vector3
 from std_msgs.msg import Header
 
 from rumba_cleaning.behaviour import CERTAIN, Command, Covariance, Observation
@@ -12,13 +12,7 @@ from rumba_msg.msg import Bumper, CleaningStatus, Cliff, DockStatus, MissionStat
 from rumba_msg.msg import Outcome as OutcomeMessage
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.robot import Infrared
-from rumba_sim.ros.common.conversions import heading
 from rumba_sim.ros.common.frames import MAP
-
-
-def transform_pose(transform: Transform) -> Pose:
-    """A transform as a pose in the plane."""
-    return Pose(transform.translation.x, transform.translation.y, heading(transform.rotation))
 
 
 def observation(pose: Pose, bumper: Bumper, cliff: Cliff, dock: DockStatus, state_of_charge: float,

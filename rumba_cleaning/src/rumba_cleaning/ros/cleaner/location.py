@@ -6,8 +6,8 @@ import rospy
 from geometry_msgs.msg import TransformStamped
 from tf2_msgs.msg import TFMessage
 
-from rumba_cleaning.ros.cleaner import conversions
 from rumba_sim.model.geometry import Pose, compose
+from rumba_sim.ros.common.conversions import transform_pose
 from rumba_sim.ros.common.frames import MAP, frames
 
 QUEUE = 100  # messages that may wait to be read
@@ -51,7 +51,7 @@ class Location:
             if each is None:
                 continue
             if is_valid(each):
-                self._newest[link] = conversions.transform_pose(each.transform), is_static
+                self._newest[link] = transform_pose(each.transform), is_static
                 if link == self._links[1]:
                     self.stamp = each.header.stamp
                 else:

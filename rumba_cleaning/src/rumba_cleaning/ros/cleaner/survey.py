@@ -8,7 +8,7 @@ import rospy
 from geometry_msgs.msg import PoseArray, PoseStamped
 from nav_msgs.msg import OccupancyGrid
 
-from rumba_cleaning import survey
+from rumba_cleaning.survey import Survey
 from rumba_sim.model.errors import MapError
 from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.model.kernel import Array
@@ -20,7 +20,7 @@ COMPLAIN_AFTER = 5.0  # [s] of the wall clock without a map
 PERIOD = 0.05  # [s] between two looks for the first one
 
 
-class Survey(survey.Survey):
+class SurveyListener(Survey):
     """Tells the newest plan that came."""
 
     def __init__(self, robot: str) -> None:

@@ -4,7 +4,7 @@ from typing import Callable, NamedTuple, Optional, Tuple
 
 import rospy
 
-from rumba_cleaning.ros.cleaner.survey import Survey
+from rumba_cleaning.ros.cleaner.survey import SurveyListener
 from rumba_msg.msg import SimulatorState
 from rumba_sim.model import map_file
 from rumba_sim.model.errors import ConfigError
@@ -32,7 +32,7 @@ class Workplace:
     """
 
     def __init__(self, name: str, on_new_world: Callable[[], None] = lambda: None,
-                 survey: Optional[Survey] = None) -> None:
+                 survey: Optional[SurveyListener] = None) -> None:
         """Take the map of this name or path, or, if `name` is empty, that of the simulator, and wait for it.
 
         Args:

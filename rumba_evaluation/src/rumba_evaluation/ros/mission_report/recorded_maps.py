@@ -10,8 +10,7 @@ from rumba_evaluation.report.mission_record import Grid
 from rumba_evaluation.ros.mission_report.recorded_robot import FAR, GRID, grid_of
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.laid_over import laid_over
-from rumba_sim.ros.common.conversions import heading
-from rumba_sim.ros.common.frames import MAP, WORLD
+from rumba_sim.ros.common.conversions import map_pose
 from rumba_sim.ros.common.maps import TRUE_TOPIC
 
 STATIC = 'tf_static'
@@ -70,8 +69,7 @@ def _last_grid(bag: rosbag.Bag, topics: List[str]) -> Optional[Grid]:
 
 def _map_frame(bag: rosbag.Bag) -> Optional[Pose]:
     """Where the map that a robot made is in the world; None if the bag does not tell it."""
-    poses = [Pose(link.transform.translation.x, link.transform.translation.y, heading(link.transform.rotation))
-             for _, message, _ in bag.read_messages([STATIC, f'/{STATIC}']) for link in message.transforms
-             if (link.header.frame_id, link.child_frame_id) == (WORLD, MAP)]
-    good = [pose for pose in poses if abs(pose.x) < FAR and abs(pose.y) < FAR and math.isfinite(pose.theta)]
+    poses = [map_pose(message) for _, message, _ in bag.read_messages([STATIC, f'/{STATIC}'])]
+    good = [pose for pose in poses if pose is not None
+            and abs(pose.x) < FAR and abs(pose.y) < FAR and math.isfinite(pose.theta)]
     return good[-1] if good else None

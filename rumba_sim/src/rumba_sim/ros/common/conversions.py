@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, List, Sequence
+from typing import TYPE_CHECKING, List, Optional, Sequence
 
 from geometry_msgs.msg import Point
 from geometry_msgs.msg import Pose as PoseMessage
@@ -18,9 +18,11 @@ from rumba_sim.model.geometry import Pose, half_angle, yaw
 from rumba_sim.model.kernel import Array
 from rumba_sim.model.robot import Infrared, Robot
 from rumba_sim.model.robot_config import TURN, LaserConfig, OdometryConfig
-from rumba_sim.ros.common.frames import MAP, Frames
+from rumba_sim.ros.common.frames import MAP, WORLD, Frames
 
 if TYPE_CHECKING:  # with numba and SciPy, they take longer to import than all the rest of battery_status_publisher
+    from tf2_msgs.msg import TFMessage
+
     from rumba_sim.model.floor import Floor
     from rumba_sim.model.floor_plan import FloorPlan
 
@@ -86,6 +88,17 @@ def heading(rotation: Quaternion) -> float:
 def plane_pose(pose: PoseMessage) -> Pose:
     """A pose in space as one in the plane."""
     return Pose(pose.position.x, pose.position.y, heading(pose.orientation))
+
+
+def transform_pose(transform: Transform) -> Pose:
+    """A transform as a pose in the plane."""
+    return Pose(transform.translation.x, transform.translation.y, heading(transform.rotation))
+
+
+def map_pose(message: TFMessage) -> Optional[Pose]:
+    """Where the frame of a map that a robot makes is in the world; None if a message of /tf_static does not tell it."""
+    return next((transform_pose(link.transform) for link in message.transforms
+                 if (link.header.frame_id, link.child_frame_id) == (WORLD, MAP)), None)
 
 
 def odometry_variance(distance: float, config: OdometryConfig, wheel_base: float) -> Sequence[float]:
