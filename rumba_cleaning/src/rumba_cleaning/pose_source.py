@@ -96,7 +96,7 @@ class Mapped(Survey):
         self.findings = Findings(config)
         self._dock = dock
         self._known: Optional[Tuple[int, FloorPlan]] = None  # the newest plan, after its version
-        self._frames: Optional[Tuple[int, Array]] = None  # the newest key frames, after the version of the mapper
+        self._frames: Tuple[int, Array] = 0, np.empty((0, 3))  # key frames, after how often the map was redrawn
         self(world, name)
 
     def __call__(self, world: World, name: str) -> Belief:
@@ -119,9 +119,12 @@ class Mapped(Survey):
         return self._known[1]
 
     def frames(self) -> Array:
-        """The poses of the key frames of the mapper."""
-        if self._frames is None or self._frames[0] != self.mapper.version:
-            self._frames = self.mapper.version, np.array(self.mapper.frames)
+        """The poses of the key frames of the mapper: unless the map was redrawn, only new ones have to be added."""
+        poses, (redrawn, known) = self.mapper.frames, self._frames
+        if redrawn != self.mapper.redrawn:
+            known = known[:0]
+        if len(known) < len(poses):
+            self._frames = self.mapper.redrawn, np.concatenate([known, np.array(poses[len(known):])])
         return self._frames[1]
 
 

@@ -202,6 +202,23 @@ def test_the_way_back_leads_from_a_moved_frame_to_where_it_was():
     assert back(np.array([[1.1, 0.9], [3.9, 1.8]])) == pytest.approx(np.array([[1.1, 0.9], [4.8, 1.1]]))
 
 
+def test_the_key_frames_that_a_mapping_robot_tells_are_those_of_its_map_when_that_grows_and_when_it_is_redrawn():
+    plan = room(6.0, 5.0, 0.02, boxes=[(3.1, 0.0, 3.2, 3.2)])
+    world = World(plan, RobotConfig(), seed=2)
+    robot = world.spawn('rumba', HERE)
+    source = Mapped(world, 'rumba', HERE)
+    before, mapper = source.frames(), source.mapper
+    assert before is source.frames() and len(before) == 1
+    for _ in range(40):
+        robot.command(0.3, 0.2, world.tick)
+        world.step(5)
+        source(world, 'rumba')
+    assert len(source.frames()) > 5 and source.frames() == pytest.approx(np.array(mapper.frames))
+    mapper.redrawn += 1
+    mapper.frames[:] = [pose._replace(x=pose.x + 0.1) for pose in mapper.frames]
+    assert source.frames() == pytest.approx(np.array(mapper.frames)) and source.frames() is source.frames()
+
+
 BY = 0.3  # [m] along x
 
 
