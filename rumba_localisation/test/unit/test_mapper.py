@@ -9,8 +9,7 @@ from scans import error
 
 from rumba_localisation.mapping.believed_plan import believed_plan
 from rumba_localisation.mapping.key_frames import KeyFrames
-from rumba_localisation.mapping.loop_closure import LoopClosure
-from rumba_localisation.mapping.mapper import Mapper
+from rumba_localisation.mapping.mapper import DRIFT, Mapper
 from rumba_localisation.scan import scan_of
 from rumba_sim.model.config import updated
 from rumba_sim.model.floor_plan import OCCUPIED
@@ -19,7 +18,6 @@ from rumba_sim.model.robot_config import RobotConfig
 from rumba_sim.model.world import World
 
 BAD = updated(RobotConfig(), {'odometry': {'scale_error': 0.03}}, 'wheels that err more than those of a Rumba')
-WHEELS = 0.006  # [m] standard deviation of a movement from scan to scan, at most
 
 
 def scan(world):
@@ -127,18 +125,6 @@ def test_along_a_bare_corridor_it_is_less_and_less_sure_how_far_it_has_come_unti
     assert 0.025 < middle[0] < 0.12 and middle[1] < 0.01 and end[0] < 0.01
 
 
-def test_scans_never_add_to_the_error_of_the_wheels_between_two_key_frames(monkeypatch):
-    plan, start, links = room(30.0, 1.2), Pose(1.0, 0.6, 0.0), []
-    monkeypatch.setattr(KeyFrames, 'link', lambda *told: links.append(told[4]))
-    monkeypatch.setattr(LoopClosure, 'closes', lambda *_: False)
-    world, mapper = world_of(plan, start), Mapper(start)
-    for _ in drive(world, mapper, [(15.0, 0.6)]):
-        pass
-    along = np.sqrt([covariance[0, 0] for covariance in links])
-    assert len(along) > 80 and along[:20].max() < 0.003  # the end is in sight
-    assert 0.002 < along[-20:].min() and along.max() < WHEELS
-
-
 @pytest.mark.parametrize('seed', [1, 3])
 def test_a_map_does_not_bend_the_way_that_the_wheels_err(seed):
     plan, start = room(20.0, 1.6, boxes=[(6.0, 0.0, 6.3, 0.2), (13.0, 1.4, 13.4, 1.6)]), Pose(0.5, 0.8, 0.0)
@@ -214,6 +200,21 @@ def test_a_mirrored_laser_does_not_fit():
         mapper.observe(robot.odometry, seen._replace(points=seen.points * (1.0, -1.0)))
         fits.append(mapper.estimate.fit)
     assert np.mean(fits) < 0.8
+
+
+def test_scans_without_an_echo_leave_all_of_the_error_of_the_wheels_between_key_frames(monkeypatch):
+    movements, shares, spread = [], [], Mapper._spread
+
+    def link(_, one, other, pose, covariance):
+        shares.append(covariance[0, 0] / sum(each[0, 0] + DRIFT[0, 0] for each in movements))
+        movements.clear()
+
+    monkeypatch.setattr(Mapper, '_spread', lambda *told: movements.append(spread(*told)) or movements[-1])
+    monkeypatch.setattr(KeyFrames, 'link', link)
+    mapper = Mapper()
+    for number in range(20):
+        mapper.observe(Pose(0.15 * number, 0.0, 0.0), scan_of(np.full(360, np.inf), -math.pi, math.pi / 180.0, 8.0))
+    assert shares == pytest.approx([1.0] * 19)
 
 
 def test_scans_without_an_echo_leave_the_pose_to_the_odometry():
