@@ -5,7 +5,7 @@ import pathlib
 import numpy as np
 from PIL import Image, ImageDraw
 
-from rumba_cleaning.mission.mission import State
+from rumba_cleaning.mission.stages import State
 from rumba_evaluation.trials.cases import SLAM, Conditions
 from rumba_evaluation.trials.trial import Trial
 from rumba_sim.model import map_file, named_maps

@@ -33,4 +33,6 @@ class CleaningConfig:
                                0.1, 1.0)
     laser: bool = setting(False, 'whether to drive around what the laser sees and the map does not show; without, the '
                                  'robot finds it by its bumper')
+    cleaning_time: float = setting(2700.0, 'for which a robot without a map cleans, without the time to charge and '
+                                           'to look for the dock (our choice)', 's', 1.0, 1e7)
     time_limit: TimeLimits = section(TimeLimits, 'when an action is given up; simulated time')

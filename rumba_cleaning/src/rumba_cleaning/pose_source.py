@@ -52,6 +52,11 @@ class DeadReckoning:
         return Belief(_told(start, robot.odometry))
 
 
+def reckoned(world: World, name: str) -> Belief:
+    """What the odometry tells, in a frame of its own that has nothing to do with the map."""
+    return Belief(as_told(world.robots[name].odometry))
+
+
 class Localised:
     """A robot that localises itself by its laser, as the node `localiser` does, bit for bit.
 

@@ -17,7 +17,9 @@ from rumba_cleaning.behaviour import Status
 from rumba_cleaning.belief.context import BeforeNextStep, Context, own_seed
 from rumba_cleaning.cleaning_config import CleaningConfig
 from rumba_cleaning.control import CONTROL_TICKS, STEP_RATE, steps
+from rumba_cleaning.mission.mapless import MaplessMission
 from rumba_cleaning.mission.mission import Mission
+from rumba_cleaning.pose_source import reckoned, truth
 from rumba_msg.msg import CleanGoal, MissionStatus, Outcome
 from rumba_sim.model import map_file
 from rumba_sim.model.robot import FIRST
@@ -31,6 +33,7 @@ BUSY = 4  # loops beside the nodes
 STOPPED = 1.5  # [s] of the wall clock
 PATIENCE = 1  # [s] of the wall clock
 SIMULATOR = '_map:=studio', f'_seed:={SEED}', '_speed:=0', '_brushes_up:=true'
+MAPLESS = '_mapless:=true', '_strategy:=wander', '_cleaning_time:=60'
 CLEANER = f'_seed:={SEED}', f'_target_coverage:={TARGET}'
 
 
@@ -42,7 +45,21 @@ def digest_in_process(ticks, begin=1):
     world.step(begin)
     mission = Mission(Context(plan, RobotConfig(), CleaningConfig(), own_seed(SEED, FIRST), planners), 'boustrophedon',
                       TARGET)
-    for _ in steps(mission, world, FIRST, 3600.0):
+    return digest_of(mission, world, ticks, truth, planners)
+
+
+def digest_without_map(ticks):
+    """The same of a mission without a map, which begins at the first tick."""
+    world = World(map_file.load(map_path('studio')), RobotConfig(), STEP_RATE, SEED)
+    world.spawn(FIRST, brushes_up=True)
+    world.step()
+    context = Context.without_map(RobotConfig(), CleaningConfig(cleaning_time=60.0), own_seed(SEED, FIRST))
+    return digest_of(MaplessMission(context, 'wander'), world, ticks, reckoned)
+
+
+def digest_of(mission, world, ticks, source, planners=BeforeNextStep()):
+    """The digest so many ticks after the start, by poses of a source."""
+    for _ in steps(mission, world, FIRST, 3600.0, source):
         planners.work()
     assert mission.status is Status.SUCCEEDED, mission.message
     world.step(ticks - world.tick)
@@ -76,6 +93,16 @@ class CleanerLockstepTest(unittest.TestCase):
 
     def test_a_mission_is_the_same_beside_busy_loops(self):
         self.ends_as_in_process(*self.autostarted(BUSY))
+
+    def test_a_mission_without_a_map_is_the_same(self):
+        simulator = Simulator(self, *SIMULATOR, '_wait_for:=cleaner', '_localisation:=none')
+        status = Heard(self, '/rumba/mission_status', MissionStatus, waits=False)
+        Cleaner(self, *MAPLESS, f'_seed:={SEED}', '_autostart:=true')
+        status.find(lambda status: status.state == MissionStatus.CLEANING)
+        ended = status.find(lambda status: status.state == MissionStatus.IDLE and 'cleaned' in status.message)
+        self.assertEqual(ended.message, 'cleaned for 1 min')
+        digest, tick = simulator.digest()
+        self.assertEqual(digest, digest_without_map(tick))
 
     def test_a_mission_is_the_same_although_its_processes_are_stopped_for_a_while(self):
         simulator, cleaner = self.autostarted()

@@ -9,7 +9,8 @@ from rooms import RADIUS, quiet, room
 
 from rumba_cleaning.behaviour import Status
 from rumba_cleaning.control import steps
-from rumba_cleaning.mission.mission import Mission, State
+from rumba_cleaning.mission.mission import Mission
+from rumba_cleaning.mission.stages import State
 from rumba_cleaning.outcome import Outcome
 from rumba_cleaning.pose_source import seeing, truth
 from rumba_cleaning.strategies.boustrophedon import Boustrophedon

@@ -17,7 +17,7 @@ from std_msgs.msg import Header
 from rumba_cleaning.behaviour import Command, Observation
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.cleaning_config import CleaningConfig
-from rumba_cleaning.mission.mission import State
+from rumba_cleaning.mission.stages import State
 from rumba_cleaning.ros.cleaner import activities, actuators, executor, teleop, workplace
 from rumba_cleaning.ros.cleaner.go_to_position import heading_toward, velocity_toward
 from rumba_cleaning.ros.cleaner.settings import Settings
@@ -60,6 +60,15 @@ def test_robots_that_make_their_own_maps_are_no_team():
     Settings(team='rumba', mapping=True)
     with pytest.raises(ConfigError, match='^team is .rumba rumba2.: must be empty with mapping: '):
         Settings(team='rumba rumba2', mapping=True)
+
+
+def test_a_cleaner_without_a_map_works_alone_and_by_its_bumper():
+    Settings(team='rumba', mapless=True)
+    with pytest.raises(ConfigError, match='^team is .rumba rumba2.: must be empty with mapless: '):
+        Settings(team='rumba rumba2', mapless=True)
+    for other in ('mapping', 'laser'):
+        with pytest.raises(ConfigError, match=f'^{other} is true: must be false with mapless$'):
+            Settings(mapless=True, **{other: True})
 
 
 def test_an_unknown_answer_of_go_to_position_is_refused():

@@ -9,7 +9,7 @@ import pytest
 import rospy
 
 from rumba_cleaning.behaviour import STOP, Behaviour, Command, Observation
-from rumba_cleaning.mission.mission import State
+from rumba_cleaning.mission.stages import State
 from rumba_cleaning.outcome import Outcome
 from rumba_cleaning.ros.cleaner import run as module
 from rumba_cleaning.ros.cleaner.activities import Activity

@@ -11,7 +11,7 @@ from std_msgs.msg import Header
 from tf2_msgs.msg import TFMessage
 
 from rumba_cleaning.behaviour import CERTAIN, UNKNOWN, Command
-from rumba_cleaning.mission.mission import State
+from rumba_cleaning.mission.stages import State
 from rumba_cleaning.outcome import Outcome
 from rumba_cleaning.ros.cleaner import certainty, conversions, location, senses
 from rumba_msg.msg import Bumper, CleaningStatus, Cliff, DockStatus, Lockstep

@@ -6,7 +6,7 @@ from missions import mission, percent_swept, states, until
 
 from rumba_cleaning.behaviour import Status
 from rumba_cleaning.control import steps
-from rumba_cleaning.mission.mission import State
+from rumba_cleaning.mission.stages import State
 from rumba_cleaning.outcome import Outcome
 from rumba_sim.model.errors import CommandError
 from rumba_sim.model.geometry import Pose

@@ -11,7 +11,8 @@ from rooms import RADIUS, crooked, room
 
 from rumba_cleaning.behaviour import STOP, Observation, Status
 from rumba_cleaning.control import steps
-from rumba_cleaning.mission.mission import Mission, State
+from rumba_cleaning.mission.mission import Mission
+from rumba_cleaning.mission.stages import State
 from rumba_cleaning.outcome import Outcome
 from rumba_sim.model.errors import ConfigError, StrategyError
 from rumba_sim.model.geometry import Pose

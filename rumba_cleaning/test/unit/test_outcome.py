@@ -5,7 +5,7 @@ import re
 
 import pytest
 
-from rumba_cleaning.mission.mission import State
+from rumba_cleaning.mission.stages import State
 from rumba_cleaning.outcome import Outcome
 
 MESSAGES = pathlib.Path(__file__).resolve().parents[3] / 'rumba_msg' / 'msg'

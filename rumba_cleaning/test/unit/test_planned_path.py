@@ -12,7 +12,8 @@ from rooms import RADIUS, crooked, quiet
 from rumba_cleaning.behaviours.bounded import Bounded
 from rumba_cleaning.behaviours.go_to import GoTo
 from rumba_cleaning.control import steps
-from rumba_cleaning.mission.mission import Mission, State
+from rumba_cleaning.mission.mission import Mission
+from rumba_cleaning.mission.stages import State
 from rumba_cleaning.ros.cleaner import plan_topic
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.world import World

@@ -15,7 +15,8 @@ from rumba_cleaning.behaviour import STOP, Observation, Status
 from rumba_cleaning.behaviours.dock import Dock
 from rumba_cleaning.behaviours.go_to import GoTo
 from rumba_cleaning.control import steps
-from rumba_cleaning.mission.mission import Mission, State
+from rumba_cleaning.mission.mission import Mission
+from rumba_cleaning.mission.stages import State
 from rumba_cleaning.outcome import Outcome
 from rumba_cleaning.strategies.boustrophedon import Boustrophedon
 from rumba_sim.model.geometry import Pose

@@ -12,7 +12,8 @@ from rumba_cleaning.behaviours.relocation import Relocation
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.cleaning_config import CleaningConfig
 from rumba_cleaning.control import CONTROL_TICKS, STEP_RATE, act
-from rumba_cleaning.mission.mission import Mission, State
+from rumba_cleaning.mission.mission import Mission
+from rumba_cleaning.mission.stages import State
 from rumba_cleaning.outcome import Outcome
 from rumba_cleaning.pose_source import Belief, truth
 from rumba_sim.model.geometry import Pose

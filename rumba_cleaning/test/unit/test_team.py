@@ -11,7 +11,7 @@ from teams import Crew
 
 from rumba_cleaning.behaviour import Status
 from rumba_cleaning.belief.mates import Task
-from rumba_cleaning.mission.mission import State
+from rumba_cleaning.mission.stages import State
 from rumba_cleaning.outcome import Outcome
 from rumba_sim.model.geometry import Pose
 

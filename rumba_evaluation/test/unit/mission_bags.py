@@ -15,7 +15,7 @@ import rosbag
 from nav_msgs.msg import OccupancyGrid, Odometry
 from sensor_msgs.msg import BatteryState
 
-from rumba_cleaning.mission.mission import State
+from rumba_cleaning.mission.stages import State
 from rumba_evaluation.report.mission_record import Grid, MissionRecord, MissionState, series
 from rumba_msg.msg import BatteryStatus, Bumper, CleaningStatus, Cliff, DockStatus, MissionStatus
 

@@ -8,7 +8,7 @@ import pytest
 from mission_bags import CORNERS, record
 from pytest import approx
 
-from rumba_cleaning.mission.mission import State
+from rumba_cleaning.mission.stages import State
 from rumba_evaluation.report import report_figures
 from rumba_evaluation.report.mission_events import events
 from rumba_evaluation.report.mission_record import Grid, MissionRecord, MissionState, Series, series

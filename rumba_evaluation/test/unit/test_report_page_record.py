@@ -5,7 +5,7 @@ import pytest
 from mission_bags import record
 from pytest import approx
 
-from rumba_cleaning.mission.mission import State
+from rumba_cleaning.mission.stages import State
 from rumba_evaluation.report.mission_events import events
 from rumba_evaluation.report.mission_record import MissionState, Series, charging_spans, clock, rises, series, spans
 from rumba_evaluation.report.mission_summary import summary

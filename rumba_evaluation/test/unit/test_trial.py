@@ -10,7 +10,7 @@ from evaluations import register_simple_strategies
 from rooms import room
 
 from rumba_cleaning.control import observe
-from rumba_cleaning.mission.mission import State
+from rumba_cleaning.mission.stages import State
 from rumba_cleaning.outcome import Outcome
 from rumba_evaluation.trials.cases import ANYWHERE, Conditions
 from rumba_evaluation.trials.trial import Trial
@@ -276,6 +276,21 @@ def test_a_robot_that_makes_its_map_must_start_at_its_dock():
         Conditions(start=ANYWHERE, pose='slam')
 
 
+def test_robots_without_a_map_do_not_know_what_they_miss_and_are_no_team():
+    plan = room(8.0, 1.0, start=Pose(0.5, 0.5, 0.0))
+    trial = ran(plan, 'spiral', conditions=Conditions(pose='mapless', target=0.5), robots=2)
+    assert [mission.outcome for mission in trial.missions] == [Outcome.SUCCEEDED] * 2
+    assert trial.result().outcome is Outcome.INCOMPLETE and not trial.contexts[0].mates.reports
+    assert ran(plan, 'spiral', conditions=Conditions(pose='mapless', target=0.01)).result().outcome is Outcome.SUCCEEDED
+
+
+def test_a_mission_without_a_map_is_not_bounded_by_t_but_ends_by_itself():
+    trial = Trial(room(1.0, 1.0), 'bounce', Conditions(pose='mapless', bound=0.1))
+    for _ in range(100):
+        trial.step()
+    assert not trial.is_over and trial.working_time > 0.1 * trial.ideal_time
+
+
 def test_a_robot_that_makes_its_map_is_not_shown_the_floor():
     plan = room(3.0, 2.0, 0.02, boxes=[(1.5, 0.0, 1.6, 1.2)], dock=Pose(0.21, 1.0, math.pi))
     known = Trial(plan, 'explore_and_clean', Conditions(pose='slam')).contexts[0].plan
@@ -284,5 +299,6 @@ def test_a_robot_that_makes_its_map_is_not_shown_the_floor():
 
 
 def test_a_pose_of_no_known_kind_is_refused():
-    with pytest.raises(ConfigError, match='^pose is .dreamt.: must be one of truth, localised, odometry, slam$'):
+    with pytest.raises(ConfigError, match='^pose is .dreamt.: must be one of truth, localised, odometry, slam, '
+                                          'mapless$'):
         Conditions(pose='dreamt')

@@ -12,9 +12,9 @@ from rumba_viewer.scene.snapshot import Battery, Cleaning, Mission
 REACHABLE = 20.0  # [m^2]
 
 
-def mission(state='cleaning'):
-    """A mission in a state."""
-    return Mission(state, state not in ('idle', 'stranded'), 'spiral' if state != 'idle' else '', '')
+def mission(state='cleaning', strategy='boustrophedon'):
+    """A mission in a state, by a strategy unless it is over."""
+    return Mission(state, state not in ('idle', 'stranded'), strategy if state != 'idle' else '', '')
 
 
 def cleaning(time, area, distance=math.nan):
@@ -39,6 +39,13 @@ def test_what_is_left_follows_from_the_rate_so_far_and_the_rest_is_slower():
     forecast = after((0.0, 0.0, 1.0, 'cleaning'), (50.0, 5.0, 0.9, 'cleaning'))
     # Of 18 m^2 there are 13 left, the last one of which takes three times as long: 15 m^2 at 0.1 m^2/s.
     assert forecast.left == approx(150.0) and forecast.elapsed == 50.0
+
+
+def test_what_is_left_is_unknown_if_the_robot_drives_about_at_random():
+    forecast = Forecast(0.9)
+    for time, area in ((0.0, 0.0), (50.0, 5.0)):
+        forecast.add(cleaning(time, area), battery(0.9), mission(strategy='wander'))
+    assert forecast.left is None and forecast.elapsed == 50.0
 
 
 def test_a_charge_that_is_needed_counts():
@@ -103,7 +110,7 @@ def test_a_share_below_a_target_does_not_read_like_it():
 
 def test_the_live_line_begins_with_what_matters_most():
     assert wording.live_line(mission(), cleaning(50.0, 5.0), battery(0.64), 50.0, 1290.0) == (
-        '25.0 % swept   cleaning by spiral   battery 64 %   0:50, about 22 min left')
+        '25.0 % swept   cleaning by boustrophedon   battery 64 %   0:50, about 22 min left')
     assert wording.live_line(mission('idle'), cleaning(50.0, 1.0), battery(0.64), None, None) == (
         ' 5.0 % swept   idle   battery 64 %')
     assert wording.live_line(None, None, battery(math.nan), None, None) == 'no floor   no cleaner   battery -'

@@ -3,8 +3,7 @@
 from typing import Optional
 
 from rumba_cleaning.behaviour import Behaviour, Command, Observation, Status
-from rumba_cleaning.behaviours import relocation
-from rumba_cleaning.behaviours.guard import Guard
+from rumba_cleaning.behaviours import recent_guard, relocation
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.outcome import Outcome
 from rumba_cleaning.route import Ahead
@@ -26,7 +25,7 @@ class Bounded(Behaviour):
         With a context, it is kept from edges, and it waits while the robot is lost; a mission sees to that itself.
         """
         self.behaviour = behaviour
-        self._guard = None if context is None else Guard(context)
+        self._guard = None if context is None else recent_guard.guard(context)
         self._relocation = None if context is None else relocation.Relocation(context)
         self._time_limit = time_limit
 

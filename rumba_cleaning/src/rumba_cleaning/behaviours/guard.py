@@ -63,8 +63,14 @@ class Guard:
         held_time: for how long edges have kept the robot, about where it is, from what it was to do [s].
     """
 
-    def __init__(self, context: Context) -> None:
-        """Guard the robot of a context."""
+    def __init__(self, context: Context, safe_speed: float = SAFE_SPEED) -> None:
+        """Guard the robot of a context.
+
+        Args:
+            context: of the robot.
+            safe_speed: of its wheels, at which it need not remember the floor ahead [m/s].
+        """
+        self._safe_speed = safe_speed
         self._ground, self._footing = context.ground, context.footing
         self._drive = context.robot.drive
         self._half = 0.5 * context.robot.drive.wheel_base
@@ -169,7 +175,7 @@ class Guard:
         if not (is_near or must_know) or fastest == 0.0:
             return command
         found, slips = [], self._slips(observation, wanted)
-        limited = [self._limited(command, limit) for limit in (SWIFT_SPEED, SAFE_SPEED)]
+        limited = [self._limited(command, limit) for limit in (SWIFT_SPEED, self._safe_speed)]
         for slower in (command, *limited, *(_part_of(command, share) for share in SHARES)):
             found.append(self._edges(pose, self._wanted(slower), slips, is_near, must_know))
             if found[-1] == NONE:
@@ -185,7 +191,7 @@ class Guard:
     def _sees_ahead(self, speeds: Wheels) -> bool:
         """Whether the cliff sensors see the floor under the wheels before it is too late, with no need to remember."""
         left, right = speeds
-        return min(left, right) >= 0.0 and max(left, right) <= SAFE_SPEED and (
+        return min(left, right) >= 0.0 and max(left, right) <= self._safe_speed and (
             left + right == 0.0 or _curvature(speeds, self._half) <= SAFE_CURVATURE)
 
     def _slips(self, observation: Observation, wanted: Wheels) -> List[Slip]:
@@ -249,7 +255,7 @@ class Guard:
 
     def _guessed(self, pose: Pose, wanted: Wheels) -> int:
         """How many cells beside known floor are taken to be floor too: fewer where it is easier to fall."""
-        limit = SAFE_SPEED if _curvature(wanted, self._half) < TIGHT else SWIFT_SPEED
+        limit = self._safe_speed if _curvature(wanted, self._half) < TIGHT else SWIFT_SPEED
         if max(wanted) > limit + ROUNDING:
             return 0
         if not self._is_wary(pose):

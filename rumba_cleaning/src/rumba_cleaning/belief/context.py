@@ -1,6 +1,7 @@
 """What a behaviour knows of the floor that it works on, and what it remembers of it."""
 
 import copy
+import dataclasses
 import math
 from concurrent.futures import Executor, Future
 from typing import TYPE_CHECKING, Any, Callable, List, Optional, Sequence, Tuple, TypeVar, Union
@@ -11,6 +12,7 @@ from rumba_cleaning.behaviour import Observation
 from rumba_cleaning.belief.footing import Footing
 from rumba_cleaning.belief.ground import Ground
 from rumba_cleaning.belief.mates import Mates, Report
+from rumba_cleaning.belief.surroundings import blank
 from rumba_cleaning.belief.swept import Swept
 from rumba_cleaning.cleaning_config import CleaningConfig
 from rumba_cleaning.survey import Survey
@@ -93,7 +95,11 @@ class Context:
         swept: what its brush passed over, and those of its mates.
         footing: where the floor ends.
         sight: what its laser sees; None if it does without.
+        has_map: whether the plan, and the pose of the robot on it, can be relied on; without, the plan is blank, and
+            poses are those of the odometry, which err more with every metre.
     """
+
+    has_map = True
 
     def __init__(self, plan: FloorPlan, robot: RobotConfig, config: CleaningConfig, seed: Seed = 0,
                  executor: Optional[Executor] = None, survey: Optional[Survey] = None,
@@ -116,6 +122,13 @@ class Context:
         self.swept = Swept(plan, robot)
         self.footing = Footing(plan, robot)
         self.sight = _sight(plan) if config.laser else None
+
+    @classmethod
+    def without_map(cls, robot: RobotConfig, config: CleaningConfig, seed: Seed = 0) -> 'Context':
+        """What a robot knows that has neither a map nor a laser."""
+        context = cls(blank(Pose(0.0, 0.0, 0.0)), robot, dataclasses.replace(config, laser=False), seed)
+        context.has_map = False
+        return context
 
     @property
     def plan(self) -> FloorPlan:
@@ -166,6 +179,14 @@ class Context:
         if self.sight is not None:
             self.sight.learn(plan)
         self.swept.learn(plan, *self.ground.in_largest_part([pose[:2], self.swept.start]), way_back)
+
+    def begin_anew(self, pose: Pose) -> None:
+        """Without a map, know nothing of the floor around a pose: nothing was met there, or seen."""
+        plan = blank(pose)
+        self.ground.learn(plan)
+        self.footing.learn(plan)
+        self.forget_obstacles()
+        self.footing.forget()
 
     def moor(self, pose: Pose) -> None:
         """Make the dock that is nearest to a pose the home of the robot."""

@@ -1,13 +1,12 @@
 """A whole mission: undock, clean, return when the battery runs low, charge, go on, and return at the end."""
 
-import enum
 import math
 from typing import Optional, Tuple
 
 import numpy as np
 
 from rumba_cleaning import strategies
-from rumba_cleaning.behaviour import CERTAIN, STOP, Behaviour, Command, Observation, Status
+from rumba_cleaning.behaviour import CERTAIN, STOP, Command, Observation, Status
 from rumba_cleaning.behaviours import relocation
 from rumba_cleaning.behaviours.dock import Dock
 from rumba_cleaning.behaviours.guard import Guard
@@ -17,55 +16,25 @@ from rumba_cleaning.belief.context import Context
 from rumba_cleaning.belief.mates import Report, Task
 from rumba_cleaning.mission.battery_watch import BatteryWatch
 from rumba_cleaning.mission.second_try import SecondTry
+from rumba_cleaning.mission.stages import EMPTY, HELD, START, StagedMission, State
 from rumba_cleaning.mission.wording import percent, swept
 from rumba_cleaning.outcome import Outcome
-from rumba_cleaning.route import Ahead
-from rumba_sim.model.errors import CommandError, ConfigError
+from rumba_sim.model.errors import ConfigError
 from rumba_sim.model.geometry import Pose
 
 JUMP = 0.5  # [m] from one observation to the next: the robot did not drive there, somebody moved it; as in `Swept`
-OFF = 1.0  # [s] off the contacts while charging: the robot was moved; contacts that bounce are closed again sooner
 EXACT = 0.0002  # of coverage beyond the target: by so much the account of a robot may differ from the truth
 INEXACT = 0.0008  # the same by a pose that is not certain: twice what an error of 2 mm brings, as localiser's
 GAIN = 0.002  # of coverage: a charge that brings less brings nothing; as boustrophedon judges its rounds
 VAIN = 3  # charges, one after the other, that brought nothing: the mission is given up; our choice
 HOMES = 2  # attempts to return to the dock, each with the tries of `Dock`; our choice
-HELD = 60.0  # [s] for which edges may hold the robot at one place: it has tried other ways by then; our choice
 WAITING = 'waiting for mates, which clean what is left'
-START = 0.1  # charge beyond what the way to the dock needs, without which a mission begins with charging; our choice
 
 
-class State(enum.IntEnum):
-    """What the robot does; the constants of rumba_msg/MissionStatus."""
+class Mission(StagedMission):
+    """Cleans a floor until its target is met, with as many charges as it takes."""
 
-    IDLE = 0
-    UNDOCKING = 1
-    CLEANING = 2
-    RETURNING = 3
-    DOCKING = 4
-    CHARGING = 5
-    GOING_TO = 6
-    STRANDED = 7
-    YIELDING = 8
-
-
-class Mission(Behaviour):
-    """Cleans a floor until its target is met, with as many charges as it takes.
-
-    Attributes:
-        state: what the robot does.
-        strategy: name of the cleaning strategy.
-        charging_time: time spent at the contacts to charge [s].
-        charges: how often it returned to charge.
-    """
-
-    state = State.IDLE
-    charging_time = 0.0
-    charges = 0
-    _part: Optional[Behaviour] = None
     _last: Optional[Pose] = None
-    _has_memory = False  # of a floor on which it has begun
-    _resumes = False  # the next run goes on with that memory
 
     def __init__(self, context: Context, strategy: str, target_coverage: float) -> None:
         """Clean with a strategy until a share of the reachable floor is swept [0..1]; the context stays as it is.
@@ -85,29 +54,12 @@ class Mission(Behaviour):
         self._right_of_way = RightOfWay(self._context)
         self.strategy = strategy
 
-    def resume(self) -> None:
-        """Have the next run go on with the memory of the last one, which was stopped: the swept floor, the charges.
-
-        Raises:
-            CommandError: the mission has ended.
-        """
-        if self.status is not Status.RUNNING:
-            raise CommandError(f'a mission that has ended cannot be resumed: {self.message}')
-        self._resumes = self._has_memory and not self._is_under_way
-
-    def forget(self) -> None:
-        """Have the next run begin with a floor that is not swept, even if it was to go on with the last one."""
-        self._resumes = False
-
     def initialise(self) -> None:
         """Begin with a floor that is not swept, unless the mission is resumed."""
-        self.state = State.IDLE
-        self._part = None
+        self._rest()
         self._last = None
         self._brushes_up = self._had_brushes_up = True  # now, and on the way to the last pose
         self._waits = False  # for mates that may leave something to it
-        self._closing: Optional[Tuple[Status, str, Outcome]] = None  # how the mission ends once the robot is back
-        self._off = 0.0  # [s] off the contacts
         self._homes = 0  # failed attempts to return to the dock
         self._second_try = SecondTry(self._context)
         self._vain = 0  # charges that brought little, one after the other
@@ -132,7 +84,7 @@ class Mission(Behaviour):
             self._relocation.rest()
             self._track(observation)
         if observation.state_of_charge <= 0.0 and not observation.is_docked:
-            return self._strand('the battery is empty', Outcome.BATTERY_EMPTY)
+            return self._strand(EMPTY, Outcome.BATTERY_EMPTY)
         if is_lost:
             return self._relocate(observation)
         if not self._watch.is_ready:
@@ -166,16 +118,9 @@ class Mission(Behaviour):
                 self.message = 'giving way to a mate'
                 return command
         return {
-            State.IDLE: self._begin, State.UNDOCKING: self._undock, State.CLEANING: self._clean,
+            State.IDLE: self._begin, State.UNDOCKING: self._leave_dock, State.CLEANING: self._clean,
             State.RETURNING: self._return, State.DOCKING: self._return, State.CHARGING: self._charge,
         }[self.state](observation)
-
-    def terminate(self) -> None:
-        """Stop the part that is under way."""
-        if self.outcome is Outcome.FALLEN:
-            self.state = State.STRANDED
-        if self._part is not None:
-            self._part.stop()
 
     def take_note(self, observation: Observation) -> None:
         """Follow the robot; what it passes over does not count as swept, since the person may move the brushes."""
@@ -185,10 +130,6 @@ class Mission(Behaviour):
         self._track(observation)
         if self._part is not None:
             self._part.stand_by(observation)
-
-    def plan_ahead(self) -> Optional[Ahead]:
-        """The plan of the part that is under way."""
-        return None if self._part is None else self._part.plan_ahead()
 
     def _track(self, observation: Observation) -> None:
         pose, last = observation.pose, self._last
@@ -236,14 +177,6 @@ class Mission(Behaviour):
 
     # --- states ---------------------------------------------------------------------------------------------------
 
-    def _enter(self, state: State, part: Optional[Behaviour]) -> Command:
-        if self._part is not None:
-            self._part.stop()
-        self.state, self._part = state, part
-        if part is not None:
-            part.restart()
-        return STOP
-
     def _begin(self, observation: Observation) -> Command:
         if not observation.is_docked:
             return self._enter(State.CLEANING, self._cleaning)
@@ -251,14 +184,8 @@ class Mission(Behaviour):
             return self._enter(State.CHARGING, None)
         return self._enter(State.UNDOCKING, Undock(self._context, turns=False))
 
-    def _undock(self, observation: Observation) -> Command:
-        assert self._part is not None
-        command = self._part.step(observation)
-        if self._part.status is Status.FAILED:
-            return self._strand(self._part.message, self._part.outcome)
-        if self._part.status is Status.SUCCEEDED:
-            return self._enter(State.CLEANING, self._cleaning)
-        return command
+    def _leave_dock(self, observation: Observation) -> Command:
+        return self._undock(observation, self._cleaning)
 
     def _clean(self, observation: Observation) -> Command:
         coverage = self._context.swept.coverage
@@ -353,8 +280,7 @@ class Mission(Behaviour):
             self.message = WAITING
             return STOP
         self.message = f'charging, {percent(observation.state_of_charge)}'
-        self._off = 0.0 if observation.is_docked else self._off + observation.dt
-        if self._off > OFF:
+        if self._was_moved(observation):
             self._is_undisturbed = False
             return self._enter(State.CLEANING, self._cleaning)
         if self._waits and observation.state_of_charge >= self._watch.needed(observation.pose) + START or (
@@ -381,13 +307,3 @@ class Mission(Behaviour):
         if self._last is None or not math.isfinite(self._watch.needed(self._last)):
             return self._end()
         return self._enter(State.RETURNING, Dock(self._context))
-
-    def _end(self) -> Command:
-        assert self._closing is not None
-        self.state = State.IDLE
-        status, message, outcome = self._closing
-        return self.succeed(message, outcome) if status is Status.SUCCEEDED else self.fail(message, outcome)
-
-    def _strand(self, message: str, outcome: Outcome) -> Command:
-        self.state = State.STRANDED
-        return self.fail(message, outcome)

@@ -2,10 +2,10 @@
 
 from typing import Mapping
 
-from rumba_cleaning.mission.mission import Mission
+from rumba_cleaning.mission.stages import StagedMission
 
 
-def tell_mates(missions: Mapping[str, Mission]) -> None:
+def tell_mates(missions: Mapping[str, StagedMission]) -> None:
     """Have each mission hear what the others, by the names of their robots, do; as nodes do before the next step."""
     if len(missions) == 1:
         return

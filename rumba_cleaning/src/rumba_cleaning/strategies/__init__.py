@@ -9,7 +9,7 @@ A decorator registers a strategy: that of a function, or a class, which makes it
 import importlib
 import os
 import traceback
-from typing import Callable, Dict, List, TypeVar
+from typing import Callable, Dict, List, Set, TypeVar
 
 from rumba_cleaning.behaviour import Behaviour
 from rumba_cleaning.belief.context import Context
@@ -17,13 +17,15 @@ from rumba_sim.model.errors import StrategyError, quoted
 
 Factory = Callable[[Context], Behaviour]
 Made = TypeVar('Made', bound=Factory)
-OWN = ('bounce', 'spiral', 'wall_follow', 'boustrophedon', 'explore_and_clean')  # modules of rumba_cleaning.strategies
+# Modules of rumba_cleaning.strategies.
+OWN = ('bounce', 'spiral', 'wall_follow', 'wander', 'boustrophedon', 'explore_and_clean')
 
 _factories: Dict[str, Factory] = {}
+_needing_map: Set[str] = set()
 
 
-def strategy(name: str) -> Callable[[Made], Made]:
-    """Register a strategy by a name.
+def strategy(name: str, needs_map: bool = False) -> Callable[[Made], Made]:
+    """Register a strategy by a name, and say whether it is of no use to robots without a map.
 
     Raises:
         StrategyError: the name is taken.
@@ -32,6 +34,8 @@ def strategy(name: str) -> Callable[[Made], Made]:
         if name in _factories:
             raise StrategyError(f'two strategies are named {name!r}: {_factories[name]} and {factory}')
         _factories[name] = factory
+        if needs_map:
+            _needing_map.add(name)
         return factory
     return register
 
@@ -79,6 +83,18 @@ def check(name: str) -> None:
     """
     if name not in known():
         raise StrategyError(f'unknown strategy {quoted(name)}: known are {", ".join(known())}')
+
+
+def check_mapless(name: str) -> None:
+    """Refuse a strategy that is not registered, or that needs a map.
+
+    Raises:
+        StrategyError: it is one of these.
+    """
+    check(name)
+    if name in _needing_map:
+        others = ', '.join(each for each in known() if each not in _needing_map)
+        raise StrategyError(f'strategy {quoted(name)} needs a map: without one there are {others}')
 
 
 def make(name: str, context: Context) -> Behaviour:

@@ -44,7 +44,7 @@ class Planned(NamedTuple):
     relief: Optional[Relief] = None  # what it takes over from a mate
 
 
-@strategy('boustrophedon')
+@strategy('boustrophedon', needs_map=True)
 class Boustrophedon(Behaviour):
     """Cleans what was missed, round by round, until a round gains nothing more.
 

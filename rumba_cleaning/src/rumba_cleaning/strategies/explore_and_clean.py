@@ -18,7 +18,7 @@ LOOK = 2.0  # [s] of driving, after which the robot plans again: in that it driv
 NEAR = 0.3  # [m] from a frontier the robot has seen what is behind it
 
 
-@strategy('explore_and_clean')
+@strategy('explore_and_clean', needs_map=True)
 class ExploreAndClean(Behaviour):
     """Explores, then cleans; when a plan was cleaned, what was found meanwhile is explored and cleaned too.
 

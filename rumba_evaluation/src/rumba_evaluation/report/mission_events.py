@@ -7,7 +7,7 @@ from typing import Iterator, List, NamedTuple, Tuple
 
 import numpy as np
 
-from rumba_cleaning.mission.mission import State
+from rumba_cleaning.mission.stages import State
 from rumba_evaluation.report.mission_record import (MissionRecord, MissionState, Series, charging_spans, clock, jumps,
                                                     rises, spans, state_spans)
 

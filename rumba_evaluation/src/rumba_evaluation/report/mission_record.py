@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Dict, List, NamedTuple, Optional, Sequenc
 import numpy as np
 
 from rumba_cleaning.cleaning_config import CleaningConfig
-from rumba_cleaning.mission.mission import State
+from rumba_cleaning.mission.stages import State
 
 if TYPE_CHECKING:  # NumPy 1.17 of Ubuntu 20.04 has no numpy.typing
     from numpy.typing import NDArray

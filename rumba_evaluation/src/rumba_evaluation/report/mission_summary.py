@@ -8,7 +8,7 @@ from typing import Optional, Tuple
 import numpy as np
 
 from rumba_cleaning.cleaning_config import CleaningConfig
-from rumba_cleaning.mission.mission import State
+from rumba_cleaning.mission.stages import State
 from rumba_evaluation.report.mission_record import (MOVING, MissionRecord, Series, charging_spans, clock, jumps, rises,
                                                     state_spans, steps)
 from rumba_sim.model.robot_config import BrushConfig

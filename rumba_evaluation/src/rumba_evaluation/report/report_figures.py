@@ -14,7 +14,7 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator, MultipleLocator
 
-from rumba_cleaning.mission.mission import State
+from rumba_cleaning.mission.stages import State
 from rumba_evaluation.report.mission_events import LOW, bump_positions, contacts
 from rumba_evaluation.report.mission_record import Grid, MissionRecord, charging_spans, jumps, state_spans
 from rumba_evaluation.report.mission_summary import ideal_time

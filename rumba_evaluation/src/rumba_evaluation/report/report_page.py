@@ -7,7 +7,7 @@ import html
 import os
 from typing import Dict, Iterable, Optional, Sequence, Tuple
 
-from rumba_cleaning.mission.mission import State
+from rumba_cleaning.mission.stages import State
 from rumba_evaluation.report.mission_events import LOW, Event, bump_positions, contacts, events
 from rumba_evaluation.report.mission_record import MissionRecord, charging_spans, clock, state_spans
 from rumba_evaluation.report.mission_summary import Summary, summary

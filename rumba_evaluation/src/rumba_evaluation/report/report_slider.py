@@ -10,7 +10,7 @@ from typing import Any, Dict, List
 
 import numpy as np
 
-from rumba_cleaning.mission.mission import State
+from rumba_cleaning.mission.stages import State
 from rumba_evaluation.report.mission_events import bump_positions
 from rumba_evaluation.report.mission_record import MissionRecord, jumps, state_spans
 from rumba_evaluation.report.report_figures import HEIGHT, MARGINS, WIDTH, map_scale, on_map, swept_parts

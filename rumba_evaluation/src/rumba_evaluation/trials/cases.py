@@ -10,7 +10,7 @@ from rumba_cleaning.outcome import Outcome
 from rumba_sim.model.config import setting
 from rumba_sim.model.errors import ConfigError
 
-TRUTH, LOCALISED, ODOMETRY, SLAM = POSES = 'truth', 'localised', 'odometry', 'slam'
+TRUTH, LOCALISED, ODOMETRY, SLAM, MAPLESS = POSES = 'truth', 'localised', 'odometry', 'slam', 'mapless'
 DOCK, ANYWHERE = 'dock', 'anywhere'
 LEVELS = (80, 90, 95, 98, 99)  # [%] of coverage; the time to each is reported
 SEVERITY = {Outcome.SUCCEEDED: 0, Outcome.INCOMPLETE: 1, Outcome.TIMED_OUT: 3, Outcome.FALLEN: 4}
@@ -33,15 +33,17 @@ class Conditions:
 
     start: str = setting(DOCK, f'where robots start: {DOCK} (the start of the map) or {ANYWHERE} (drawn from the seed)')
     pose: str = setting(TRUTH, f'by what robots know where they are: {TRUTH}, {LOCALISED} (by laser and odometry, from '
-                               f'a start that is told roughly), {ODOMETRY} (alone, from a start that is told) or '
-                               f'{SLAM} (by a map that they make themselves, from the dock on)')
+                               f'a start that is told roughly), {ODOMETRY} (alone, from a start that is told), '
+                               f'{SLAM} (by a map that they make themselves, from the dock on) or {MAPLESS} (they do '
+                               'not know it: without map and laser, they clean for a time)')
     drain: float = setting(1.0, 'how many times faster than a real one the battery discharges and charges', '', 0.0,
                            1e4)
     target: float = setting(CleaningConfig().target_coverage, 'share of the reachable floor at which a mission ends',
                             '', 0.0, 1.0)
     obstacles: str = setting('', 'path of a YAML file of obstacles that the maps do not show; robots do not know them')
     laser: bool = setting(False, 'whether robots drive around what their lasers see and the maps do not show')
-    bound: float = setting(12.0, 'working time, in multiples of T, after which a mission is stopped', '', 0.01, 1e6)
+    bound: float = setting(12.0, 'working time, in multiples of T, after which a mission is stopped; '
+                                 f'with pose {MAPLESS} they end by themselves', '', 0.01, 1e6)
 
     def __post_init__(self) -> None:
         """Check the kinds of start and pose."""

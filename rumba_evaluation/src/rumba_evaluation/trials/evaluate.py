@@ -85,7 +85,8 @@ def _parser() -> argparse.ArgumentParser:
     add('--start', choices=(DOCK, ANYWHERE), default=DOCK,
         help='where robots start: at the start of the map, or anywhere, drawn from the seed; default %(default)s')
     add('--pose', choices=POSES, default=TRUTH,
-        help='by what robots know where they are: the truth, laser and odometry, or odometry; default %(default)s')
+        help='by what robots know where they are: the truth, laser and odometry, odometry, a map of their own, or '
+             'not at all, without map and laser; default %(default)s')
     add('--obstacles', type=_path, default='', metavar='FILE',
         help='YAML file of obstacles that the maps do not show, and that the robots do not know')
     add('--laser', action='store_true', help='robots drive around what their lasers see and the maps do not show')

@@ -17,13 +17,15 @@ from rumba_cleaning.belief.mates import Mates
 from rumba_cleaning.cleaning_config import CleaningConfig
 from rumba_cleaning.control import CONTROL_DT, CONTROL_TICKS, STEP_RATE, act
 from rumba_cleaning.mission.duration import longest
-from rumba_cleaning.mission.mission import Mission, State
+from rumba_cleaning.mission.mapless import MaplessMission
+from rumba_cleaning.mission.mission import Mission
+from rumba_cleaning.mission.stages import StagedMission, State
 from rumba_cleaning.mission.team import tell_mates
 from rumba_cleaning.outcome import Outcome
-from rumba_cleaning.pose_source import DeadReckoning, Localised, Mapped, PoseSource, seeing, truth
+from rumba_cleaning.pose_source import DeadReckoning, Localised, Mapped, PoseSource, reckoned, seeing, truth
 from rumba_evaluation.scoring.meter import Meter
 from rumba_evaluation.trials import starts
-from rumba_evaluation.trials.cases import ANYWHERE, LOCALISED, ODOMETRY, SLAM, Conditions, Result, severity
+from rumba_evaluation.trials.cases import ANYWHERE, LOCALISED, MAPLESS, ODOMETRY, SLAM, Conditions, Result, severity
 from rumba_sim.model.config import updated
 from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.model.geometry import Pose
@@ -31,6 +33,9 @@ from rumba_sim.model.obstacle import Obstacle
 from rumba_sim.model.robot import nth_name
 from rumba_sim.model.robot_config import TURN, RobotConfig
 from rumba_sim.model.world import World
+
+
+OWN_FRAME = (SLAM, MAPLESS)  # of each robot, where it says it is
 
 
 class Trial:
@@ -77,8 +82,9 @@ class Trial:
         self.contexts = [_context(plan, source, config, cleaning, own_seed(seed, name), self._planners,
                                   _mates(name, list(self.sources), conditions.pose))
                          for name, source in self.sources.items()]
-        self._time_limit = longest(self.contexts[0] if conditions.pose != SLAM else Context(plan, config, cleaning))
-        self.missions = [Mission(context, strategy, conditions.target) for context in self.contexts]
+        shown = Context(plan, config, cleaning) if conditions.pose in OWN_FRAME else self.contexts[0]
+        self._time_limit = longest(shown)
+        self.missions = [_mission(context, strategy, conditions.target) for context in self.contexts]
         self.ideal_time = self.world.floor.reachable_area / (config.brush.width * cleaning.speed)
         self.curve: List[float] = []
         self.advance: Callable[[int], None] = self.world.step
@@ -96,11 +102,11 @@ class Trial:
     @property
     def is_over(self) -> bool:
         """Whether all missions have ended, or the bound or the time limit is reached."""
-        return not self._running or self.working_time >= self._conditions.bound * self.ideal_time or (
-            self.world.time >= self._time_limit)
+        bound = np.inf if self._conditions.pose == MAPLESS else self._conditions.bound
+        return not self._running or self.working_time >= bound * self.ideal_time or self.world.time >= self._time_limit
 
     @property
-    def _running(self) -> Dict[str, Mission]:
+    def _running(self) -> Dict[str, StagedMission]:
         """The missions that have not ended, by the name of the robot; a fall ends a mission."""
         return {name: mission for (name, robot), mission in zip(self.world.robots.items(), self.missions)
                 if mission.status is Status.RUNNING and not robot.has_fallen}
@@ -143,8 +149,12 @@ class Trial:
 
     def _outcome(self) -> Outcome:
         running = self._running
-        return max((Outcome.FALLEN if robot.has_fallen else Outcome.TIMED_OUT if name in running else mission.outcome
-                    for (name, robot), mission in zip(self.world.robots.items(), self.missions)), key=severity)
+        worst = max((Outcome.FALLEN if robot.has_fallen else Outcome.TIMED_OUT if name in running else mission.outcome
+                     for (name, robot), mission in zip(self.world.robots.items(), self.missions)), key=severity)
+        if worst is Outcome.SUCCEEDED and self._conditions.pose == MAPLESS and (
+                self.world.floor.coverage < self._conditions.target):
+            return Outcome.INCOMPLETE  # which the robot cannot know
+        return worst
 
     def _message(self) -> str:
         messages = {name: f'fell over a cliff; {mission.message}' if robot.has_fallen else mission.message
@@ -154,14 +164,21 @@ class Trial:
         return '; '.join(f'{name}: {message}' for name, message in messages.items())
 
 
+def _mission(context: Context, strategy: str, target: float) -> StagedMission:
+    """The mission of a robot: until a target is met, or for a time if it cannot know that."""
+    return Mission(context, strategy, target) if context.has_map else MaplessMission(context, strategy)
+
+
 def _mates(name: str, names: List[str], pose: str) -> Mates:
-    """The mates of a robot; with maps that robots make themselves, each in a frame of its own, there are none."""
-    return Mates() if pose == SLAM else Mates(name, names)
+    """The mates of a robot; if each has a frame of its own, there are none."""
+    return Mates() if pose in OWN_FRAME else Mates(name, names)
 
 
 def _context(plan: FloorPlan, source: PoseSource, config: RobotConfig, cleaning: CleaningConfig, seed: Seed,
              executor: Executor, mates: Mates) -> Context:
-    """What a robot knows at first: the floor plan, or only what it has mapped itself so far."""
+    """What a robot knows at first: the floor plan, or only what it has mapped itself so far, or nothing."""
+    if source is reckoned:
+        return Context.without_map(config, cleaning, seed)
     if isinstance(source, Mapped):
         return Context(source.plan(), config, cleaning, seed, executor, source, mates)
     return Context(plan, config, cleaning, seed, executor, mates=mates)
@@ -173,6 +190,8 @@ def _source(plan: FloorPlan, world: World, name: str, conditions: Conditions, se
         return Localised(plan, world, name, own_seed(seed, name))
     if conditions.pose == SLAM:
         return Mapped(world, name, plan.dock)
+    if conditions.pose == MAPLESS:
+        return reckoned
     source: PoseSource = truth
     if conditions.pose == ODOMETRY:
         source = DeadReckoning()

@@ -12,6 +12,7 @@ CLEANING, CHARGING, TO_DOCK = 'cleaning', 'charging', ('returning', 'docking')  
 ENOUGH = 20.0  # [s] of cleaning, or of charging, until its rate is known
 GAP = 60.0  # [s] without news, after which what happened meanwhile is not counted
 REST, SLOW = 0.05, 3.0  # the last share of the floor takes so many times as long: leftovers far apart (the apartment)
+AIMLESS = ('wander', 'bounce', 'spiral', 'wall_follow')  # strategies by which less and less of what is swept is new
 LEAST = 0.12  # charge at which a robot is back on its dock, with the default reserve; measured in the apartment
 
 
@@ -35,7 +36,7 @@ class Forecast:
         self._cleaned = self._used = self._cleaning_time = 0.0
         self._charged = self._charging_time = 0.0
         self._share = math.nan
-        self._state = ''
+        self._state = self._strategy = ''
 
     def add(self, cleaning: Cleaning, battery: Battery, mission: Mission) -> None:
         """Take what is known at one moment; moments without a new `cleaning` are ignored."""
@@ -50,6 +51,7 @@ class Forecast:
         if mission.state == CHARGING != self._state and self._is_active:
             self.charges += 1
         self._is_active, self._state, self._share = mission.is_active, mission.state, battery.share
+        self._strategy = mission.strategy
 
     def _count(self, time: float, area: float, charge: float) -> None:
         self.elapsed += time
@@ -64,6 +66,8 @@ class Forecast:
     @property
     def left(self) -> Optional[float]:
         """How long the mission still takes [s], with all charging; None: unknown, or there is no cleaning."""
+        if self._strategy in AIMLESS:
+            return None
         if not self._is_active or self._last is None or self._cleaning_time < ENOUGH or self._cleaned <= 0.0:
             return None
         still = max(self._target * self._last.reachable_area - self._last.cleaned_area, 0.0)

@@ -2,7 +2,7 @@
 
 import abc
 import math
-from typing import Any, Callable, Dict, NamedTuple, Optional
+from typing import Any, Callable, Dict, NamedTuple, Optional, Union
 
 from rumba_cleaning.behaviour import Behaviour, Status
 from rumba_cleaning.behaviours.bounded import Bounded
@@ -12,14 +12,17 @@ from rumba_cleaning.behaviours.undock import Undock
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.belief.mates import Report, Task
 from rumba_cleaning.mission.duration import longest
-from rumba_cleaning.mission.mission import Mission, State
+from rumba_cleaning.mission.mapless import MaplessMission
+from rumba_cleaning.mission.mission import Mission
+from rumba_cleaning.mission.seek import Seek
+from rumba_cleaning.mission.stages import StagedMission, State
 from rumba_cleaning.ros.cleaner import conversions
 from rumba_cleaning.ros.cleaner.go_to_position import check_finite
 from rumba_cleaning.ros.cleaner.senses import Senses
 from rumba_msg.msg import (CleanAction, CleanFeedback, CleaningStatus, CleanResult, DockAction, DockFeedback,
                            DockResult, GoToAction, GoToFeedback, GoToResult, MissionStatus, Outcome, UndockAction,
                            UndockFeedback, UndockResult)
-from rumba_sim.model.errors import ConfigError
+from rumba_sim.model.errors import ConfigError, MapError
 from rumba_sim.model.geometry import Pose
 
 UNKNOWN_POSE = Pose(math.nan, math.nan, math.nan)
@@ -91,7 +94,8 @@ class Cleaning(Activity):
 
     needs_figures = True
 
-    def __init__(self, mission: Mission, time_limit: float, default_limit: float, is_resumed: bool = False) -> None:
+    def __init__(self, mission: StagedMission, time_limit: float, default_limit: float,
+                 is_resumed: bool = False) -> None:
         """Carry out a mission; if `is_resumed` is true, go on with what it knows of the swept floor.
 
         Raises:
@@ -108,13 +112,17 @@ class Cleaning(Activity):
         """A new mission as a goal asks for it, with the defaults of the context for what the goal leaves open.
 
         Raises:
-            StrategyError: there is no strategy of this name.
-            ConfigError: the target or the time limit is out of its range.
+            StrategyError: there is no strategy of this name, or it needs a map and there is none.
+            ConfigError: the target or the time limit is out of its range, or there is a target and no map.
         """
         config = context.config
-        target = config.target_coverage if goal.target_coverage == 0.0 else goal.target_coverage
-        return cls(Mission(context, goal.strategy or config.strategy, target), goal.time_limit,
-                   longest(context))
+        strategy, target = goal.strategy or config.strategy, goal.target_coverage or config.target_coverage
+        if context.has_map:
+            return cls(Mission(context, strategy, target), goal.time_limit, longest(context))
+        if goal.target_coverage:
+            raise ConfigError(f'target_coverage is {target:g}: must be 0, since a robot without a map does not know '
+                              f'what share is swept; it cleans for {config.cleaning_time:g} s')
+        return cls(MaplessMission(context, strategy), goal.time_limit, config.time_limit.clean)
 
     def resumed(self, time_limit: float) -> 'Cleaning':
         """The rest of this mission, under a time limit of its own.
@@ -175,7 +183,7 @@ class Docking(Activity):
             MapError: the plan has no dock, or the robot does not fit in front of it.
             ConfigError: the time limit is negative or not finite.
         """
-        self._dock = Dock(context)
+        self._dock: Union[Dock, Seek] = Dock(context) if context.has_map else Seek(context)
         super().__init__(self._dock, goal.time_limit, context.config.time_limit.dock, context)
 
     @property
@@ -228,9 +236,11 @@ class GoingTo(Activity):
         """Prepare to go there.
 
         Raises:
-            MapError: the robot cannot stand at the target.
+            MapError: the robot cannot stand at the target, or has no map.
             ConfigError: the time limit is negative or not finite.
         """
+        if not context.has_map:
+            raise MapError('go_to needs a map, and this cleaner works without one (parameter mapless)')
         target = Pose(goal.target.x, goal.target.y, goal.target.theta)
         check_finite(target, may_face_anywhere=True)
         self._go_to = GoTo(context, target)

@@ -6,7 +6,7 @@ from typing import Optional
 
 import rospy
 
-from rumba_cleaning.mission.mission import State
+from rumba_cleaning.mission.stages import State
 from rumba_cleaning.ros.cleaner import conversions
 from rumba_msg.msg import MissionStatus
 from rumba_sim.model.errors import WorldError

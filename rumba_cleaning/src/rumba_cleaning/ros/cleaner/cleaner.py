@@ -7,7 +7,7 @@ of which one runs at a time: a new goal preempts the one before. A goal of clean
 cleaning that was preempted or cancelled. After a reset of the simulator, the goal that is active begins again, and no
 cleaning can be resumed; a goal ends if the simulator is started again, or if this node ends. It serves
   go_to_position    rumba_msg/TargetPosition: which velocity, or heading, now leads toward a target; a node that serves
-                    it already keeps it
+                    it already keeps it; not served without a map (mapless)
 publishes
   mission_status    rumba_msg/MissionStatus: latched; at each change, and at 1 Hz while a goal is active
   team_report       rumba_msg/TeamReport: what it tells its mates
@@ -20,8 +20,9 @@ subscribes to
   teleop/cmd_vel    geometry_msgs/Twist: while a person drives, and for 0.5 s after, the cleaner commands nothing
 to scan (sensor_msgs/LaserScan) if it goes by its laser,
 to team_report and team_plan of its mates, the robots of its team,
-and to /tf and /tf_static for map -> odom -> base_footprint. It takes part in a lockstep by simulator/lockstep and
-simulator/lockstep_answers (rumba_msg/Lockstep, LockstepAnswer), and uses the service
+and to /tf and /tf_static for map -> odom -> base_footprint; without a map, the pose is odom -> base_footprint. It takes
+part in a lockstep by simulator/lockstep and simulator/lockstep_answers (rumba_msg/Lockstep, LockstepAnswer), and uses
+the service
   set_brushes_up    std_srvs/SetBool
 The map and the shape of the robot are those of the simulator in the same namespace, from
   simulator/state   rumba_msg/SimulatorState
@@ -83,12 +84,13 @@ class Cleaner:
                 cleaner works for the robot.
         """
         strategies.load(settings.strategies)
-        strategies.check(settings.strategy)
+        (strategies.check_mapless if settings.mapless else strategies.check)(settings.strategy)
         self._settings = settings
         self._events: 'queue.Queue[Callable[[], None]]' = queue.Queue()
         self._has_ended = threading.Event()
         self._workplace = Workplace(settings.map, lambda: self._events.put(self._look_at_world),
-                                    SurveyListener(settings.robot) if settings.mapping else None)
+                                    SurveyListener(settings.robot) if settings.mapping else None,
+                                    has_map=not settings.mapless)
         self._world: Optional[World] = self._workplace.world  # that of the goal and of the cleaning below
         self._run: Optional[Run] = None
         self._interrupted: Optional[Cleaning] = None  # what a goal of clean with `resume` goes on with
@@ -99,8 +101,9 @@ class Cleaner:
                                   lambda: self._events.put(self._read_postponed))
         self._robot = Robot(settings.robot, self._on_reading, settings.team.split(),
                             lambda: self._events.put(self._read_postponed), lambda: self._workplace.lockstep,
-                            lambda: self._planners.are_at_work, settings.laser)
-        GoToPosition(settings, self._workplace, self._robot.senses)
+                            lambda: self._planners.are_at_work, settings.laser, settings.mapless)
+        if not settings.mapless:
+            GoToPosition(settings, self._workplace, self._robot.senses)
         self._servers = {name: self._serve(name) for name in ACTIONS}
         if not rospy.core.is_shutdown_requested():
             rospy.on_shutdown(self._end)
@@ -260,14 +263,24 @@ class Cleaner:
         """
         if name == 'clean' and goal.resume:
             return self._rest_of_cleaning(goal.time_limit)
-        plan, robot = self._workplace.look()
+        return ACTIONS[name].activity(self._context(), goal)
+
+    def _context(self) -> Context:
+        """What the robot knows at first.
+
+        Raises:
+            RumbaError: the map cannot be read, or the settings of the simulator are invalid.
+        """
         seed = own_seed(self._settings.seed, self._settings.robot)
+        if self._settings.mapless:
+            return Context.without_map(self._workplace.robot(), self._settings.cleaning, seed)
+        plan, robot = self._workplace.look()
         context = Context(plan, robot, self._settings.cleaning, seed, self._planners, self._workplace.survey,
                           self._robot.team.mates())
         pose = self._robot.senses.pose()
         if self._robot.team.is_alone and pose is not None:
             context.moor(pose)
-        return ACTIONS[name].activity(context, goal)
+        return context
 
     def _rest_of_cleaning(self, time_limit: float) -> Cleaning:
         """What is left of the cleaning that was interrupted, or is going on.

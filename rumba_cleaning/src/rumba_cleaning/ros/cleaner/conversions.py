@@ -6,7 +6,7 @@ from geometry_msgs.msg import Pose2D, Twist, Vector3
 from std_msgs.msg import Header
 
 from rumba_cleaning.behaviour import CERTAIN, Command, Covariance, Observation
-from rumba_cleaning.mission.mission import State
+from rumba_cleaning.mission.stages import State
 from rumba_cleaning.outcome import Outcome
 from rumba_msg.msg import Bumper, CleaningStatus, Cliff, DockStatus, MissionStatus
 from rumba_msg.msg import Outcome as OutcomeMessage

@@ -32,13 +32,17 @@ class Location:
         corrected: the same of map -> odom.
     """
 
-    def __init__(self, robot: str, on_change: Callable[[], None]) -> None:
-        """Listen to the transforms of a robot, by its name; `on_change` is called in a thread of rospy."""
+    def __init__(self, robot: str, on_change: Callable[[], None], is_mapless: bool = False) -> None:
+        """Listen to the transforms of a robot, by its name; `on_change` is called in a thread of rospy.
+
+        If `is_mapless` is true, the pose is that of the odometry: its frame is taken for that of the map.
+        """
         self.stamp = self.corrected = rospy.Time()
         self._on_change = on_change
         self._frames = frames(robot)
         self._links = (MAP, self._frames.odom), (self._frames.odom, self._frames.base_footprint)
-        self._newest: Dict[Link, Known] = {}
+        self._newest: Dict[Link, Known] = {self._links[0]: (Pose(0.0, 0.0, 0.0), True)} if is_mapless else {}
+        self._listens_to = self._links[1:] if is_mapless else self._links
         for topic in ('/tf', STATIC):
             rospy.Subscriber(topic, TFMessage, self._on_transforms, topic == STATIC, queue_size=QUEUE)
 
@@ -46,7 +50,7 @@ class Location:
         before = self.stamp, self.corrected
         last = {(each.header.frame_id.lstrip('/'), each.child_frame_id.lstrip('/')): each
                 for each in message.transforms}
-        for link in self._links:
+        for link in self._listens_to:
             each = last.get(link)
             if each is None:
                 continue

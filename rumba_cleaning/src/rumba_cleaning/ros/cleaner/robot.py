@@ -28,14 +28,15 @@ class Robot:
     def __init__(self, name: str, on_reading: Callable[[], None], team: Sequence[str] = (),
                  on_news: Callable[[], None] = lambda: None,
                  lockstep: Callable[[], Optional[Tuple[str, int]]] = lambda: None,
-                 is_busy: Callable[[], bool] = lambda: False, has_laser: bool = False) -> None:
+                 is_busy: Callable[[], bool] = lambda: False, has_laser: bool = False,
+                 is_mapless: bool = False) -> None:
         """Connect to a robot.
 
         Args:
             name: its name.
             on_reading: called after each complete reading, in a thread of rospy.
             team, on_news: as for `Team`.
-            lockstep, has_laser: as for `Senses`.
+            lockstep, has_laser, is_mapless: as for `Senses`.
             is_busy: as for `Participant`.
         """
         self.announcer = Announcer(name)
@@ -44,7 +45,7 @@ class Robot:
         self.wheels = Wheels(name)
         self.brushes = Brushes(name)
         self.team = Team(name, team, on_news)
-        self.senses = Senses(name, on_reading, lockstep, has_laser)
+        self.senses = Senses(name, on_reading, lockstep, has_laser, is_mapless)
         self.participant = Participant(self.senses.on_tick, is_busy)
         self._lockstep = lockstep
 

@@ -7,7 +7,7 @@ from typing import Any, Callable, List, Optional
 import rospy
 
 from rumba_cleaning.behaviour import FALLEN, Observation, Status
-from rumba_cleaning.mission.mission import State
+from rumba_cleaning.mission.stages import State
 from rumba_cleaning.outcome import Outcome
 from rumba_cleaning.ros.cleaner import conversions
 from rumba_cleaning.ros.cleaner.activities import Activity

@@ -40,7 +40,8 @@ class Senses:
     """
 
     def __init__(self, robot: str, on_reading: Callable[[], None],
-                 lockstep: Callable[[], Optional[Tuple[str, int]]] = lambda: None, has_laser: bool = False) -> None:
+                 lockstep: Callable[[], Optional[Tuple[str, int]]] = lambda: None, has_laser: bool = False,
+                 is_mapless: bool = False) -> None:
         """Listen to a robot.
 
         Args:
@@ -48,6 +49,7 @@ class Senses:
             on_reading: called after each complete reading, in a thread of rospy.
             lockstep: run and resets of the world that is known, if it is in lockstep; else None.
             has_laser: whether observations have scans.
+            is_mapless: whether the pose is that of the odometry, whatever localisation there is.
         """
         self._robot = robot
         self._on_reading = on_reading
@@ -65,7 +67,7 @@ class Senses:
         self.heard = -math.inf
         self.unread = 0
         self.cleaning: Optional[CleaningStatus] = None
-        self._location = Location(robot, self._check_in_lockstep)
+        self._location = Location(robot, self._check_in_lockstep, is_mapless)
         self._certainty = Certainty(robot, self._check_in_lockstep)
         self._has_laser = has_laser
         if has_laser:

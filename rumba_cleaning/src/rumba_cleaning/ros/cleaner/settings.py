@@ -32,6 +32,9 @@ class Settings(CleaningConfig):
                            'simulator')
     mapping: bool = setting(False, 'whether the floor is being mapped: its plan is that of the topic map, as it grows, '
                                    'and not that of a file')
+    mapless: bool = setting(False, 'whether the robot works without a map, without a localisation and without a laser, '
+                                   'by bumper, cliff sensors, odometry and the beams of the dock: by the strategies '
+                                   'wander, bounce, spiral or wall_follow, for cleaning_time')
     seed: int = setting(1, 'of all that is random', '', 0, 2 ** 31 - 1)
     strategies: str = setting('', 'Python modules to import for further strategies, with commas between them')
     autostart: bool = setting(False, 'whether to begin with a goal of clean, without waiting for one')
@@ -45,6 +48,11 @@ class Settings(CleaningConfig):
                 map(is_legal_base_name, names)):
             raise ConfigError(f'team is {self.team!r}: must be names of robots, each of them once, and {self.robot!r} '
                               'among them')
+        if self.mapless and (self.mapping or self.laser):
+            raise ConfigError(f'{"mapping" if self.mapping else "laser"} is true: must be false with mapless')
+        if self.mapless and len(names) > 1:
+            raise ConfigError(f'team is {self.team!r}: must be empty with mapless: a robot that does not know where it '
+                              'is cannot tell its mates')
         if self.mapping and len(names) > 1:
             raise ConfigError(f'team is {self.team!r}: must be empty with mapping: each robot would make a map of its '
                               'own, in a frame of its own')

@@ -32,13 +32,14 @@ class Workplace:
     """
 
     def __init__(self, name: str, on_new_world: Callable[[], None] = lambda: None,
-                 survey: Optional[SurveyListener] = None) -> None:
+                 survey: Optional[SurveyListener] = None, has_map: bool = True) -> None:
         """Take the map of this name or path, or, if `name` is empty, that of the simulator, and wait for it.
 
         Args:
             name: of the map, or empty.
             on_new_world: called after each change of `world`, in a thread of rospy.
             survey: tells the plan instead, of a floor that is being mapped.
+            has_map: whether `look` will be called; it finds out now whether there is a plan.
 
         Raises:
             MapError: the map cannot be read, or there is no simulator.
@@ -52,7 +53,18 @@ class Workplace:
         self._simulator = SimulatorClient(self._on_state)
         if survey is not None:
             survey.wait()
-        self.look()
+        if has_map:
+            self.look()
+
+    def robot(self) -> RobotConfig:
+        """What the robot is like; waits for the simulator.
+
+        Raises:
+            MapError: there is no simulator.
+            ConfigError: its settings were changed to invalid ones.
+        """
+        self._simulator.wait()
+        return self._newest_robot()
 
     def look(self) -> Tuple[FloorPlan, RobotConfig]:
         """The floor plan, the same object until map or simulator are other ones, and what the robot is like.
