@@ -1,4 +1,4 @@
-"""Growth of memory: a simulated day in process, then the node at speed 0, without and with subscribers."""
+"""Growth of memory: a day in process, hours of making a map, the node at speed 0 without and with subscribers."""
 
 import math
 import os
@@ -6,8 +6,12 @@ import random
 import subprocess
 import sys
 
+import numpy as np
 from common import figures, ros_session
 
+from rumba_cleaning.behaviours.bounce import Bounce
+from rumba_cleaning.control import steps
+from rumba_cleaning.pose_source import Mapped
 from rumba_sim.model import map_file
 from rumba_sim.model.config import updated
 from rumba_sim.model.robot_config import RobotConfig
@@ -19,13 +23,14 @@ HOUR, DAY = 3600, 86400  # [s]
 STEP_RATE, SCAN_RATE = 50, 10  # [Hz]
 GROWTH = 5.0  # [%] the upper bound
 WARM, LONG = 5.0, 45.0  # [s] of the wall clock, before and during the measurement of the node
-IN_PROCESS = '--in-process'
+MAPPING = 4  # [h] of a robot that makes a map
+IN_PROCESS, WITH_MAP = '--in-process', '--with-map'
 
 
 def main():
     """Measure and print."""
-    # In a process of its own, without rospy and its threads.
-    subprocess.run([sys.executable, os.path.abspath(__file__), IN_PROCESS], check=True)
+    for what in (IN_PROCESS, WITH_MAP):  # each in a process of its own, without rospy and its threads
+        subprocess.run([sys.executable, os.path.abspath(__file__), what], check=True)
     with ros_session.master(), ros_session.simulator(map=MAP, speed=0) as node:
         figures.heading(f'Memory of the node at speed 0, one robot on the map {MAP}')
         through_node('no subscriber', node)
@@ -74,8 +79,30 @@ def day():
     figures.row('  growth [%]', 100.0 * (last / first - 1.0), below=GROWTH)
 
 
+def with_map():
+    """Print the memory of this process while a robot bounces around the floor of which it has made a map."""
+    config = updated(RobotConfig(), {'battery': {'drain': 0.0}}, 'bench')
+    plan = map_file.load(map_path(MAP))
+    world = World(plan, config, STEP_RATE, seed=1)
+    world.spawn('rumba')
+    source = Mapped(world, 'rumba', plan.dock)
+    memory = []
+    for hour in range(MAPPING):
+        for _ in steps(Bounce(np.random.default_rng(hour)), world, seconds=HOUR, source=source):
+            pass
+        assert source.plan().free.any()
+        memory.append((figures.resident_megabytes(), len(source.mapper.frames)))
+    figures.heading(f'Memory of a process in which a robot makes a map of {MAP}, 10 scans a second')
+    for title, (megabytes, frames) in (('after an hour', memory[0]), (f'after {MAPPING} hours', memory[-1])):
+        figures.row(f'{title} [MB]', megabytes)
+        figures.row('  scans that the map shows', frames)
+    figures.row('  growth [%]', 100.0 * (memory[-1][0] / memory[0][0] - 1.0), below=GROWTH)
+
+
 if __name__ == '__main__':
     if IN_PROCESS in sys.argv:
         day()
+    elif WITH_MAP in sys.argv:
+        with_map()
     else:
         main()
