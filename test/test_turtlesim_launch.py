@@ -100,10 +100,9 @@ class TestBesideNodesOfTheLesson:
         with workspace.space('devel').running(f'{LAUNCH} speed:=5 autostart:=false percentage:=64'):
             yield
 
-    def test_the_publisher_of_the_lesson_and_ours_are_heard_by_the_same_listener(self, overlay, turtle):
-        here = overlay.space('devel')
-        with here.running('$LIB/battery_cpp/publisher'), \
-                here.running('$LIB/rumba_sim/battery_status_listener') as listener:
+    def test_the_publisher_of_the_lesson_and_ours_are_heard_by_the_same_listener(self, workspace, overlay, turtle):
+        with overlay.space('devel').running('$LIB/battery_cpp/publisher'), \
+                workspace.space('devel').running('$LIB/rumba_sim/battery_status_listener') as listener:
             seen = set()
             for line in lines(listener):
                 found = re.match(r'battery +(\d+) % .* brushes (up|down) +(.*)$', line)
