@@ -1,4 +1,4 @@
-"""Workspaces that the tests share: that of ./rumba, and those of strangers, each built from nothing once."""
+"""Workspaces that the tests share: that of ./rumba, and one of strangers over it, built from nothing once."""
 
 import contextlib
 import fcntl
@@ -8,7 +8,7 @@ import signal
 import subprocess
 
 import pytest
-from workspaces import BUILD_TIMEOUT, ROOT, UNDERLAY, WS, Space, Workspace, clean_environment, roscore
+from workspaces import BUILD_TIMEOUT, ROOT, SPEED_GUARD, UNDERLAY, WS, Space, Workspace, clean_environment, master
 
 STRANGERS = sorted((ROOT / 'test' / 'packages').iterdir())
 
@@ -18,9 +18,9 @@ signal.signal(signal.SIGINT, signal.default_int_handler)
 
 @pytest.fixture(scope='session')
 def environment():
-    """An environment without other workspaces, in which a roscore runs."""
+    """An environment without other workspaces, in which a master runs."""
     environment = clean_environment()
-    with roscore(environment):
+    with master(environment):
         yield environment
 
 
@@ -38,26 +38,13 @@ def workspace(tmp_path_factory, environment):
 
 
 @pytest.fixture(scope='session')
-def beside(tmp_path_factory, environment):
-    """A stranger's packages and the package of messages that they use side by side, built from nothing."""
-    packages = [ROOT / 'rumba_msg', *(path for path in STRANGERS if path.name.startswith('battery_'))]
-    return built(tmp_path_factory, 'beside', lambda path: Workspace(path, packages, environment))
-
-
-@pytest.fixture(scope='session')
 def overlay(tmp_path_factory, environment, workspace):
-    """A stranger's packages alone, built from nothing over the install space of this repository's."""
-    return built(tmp_path_factory, 'overlay',
-                 lambda path: Workspace(path, STRANGERS, environment, workspace.setup('install')))
-
-
-def built(tmp_path_factory, name, workspace_at):
-    """A workspace with its install space, built by the first that wants it."""
-    with once(tmp_path_factory, name) as (path, is_first):
-        workspace = workspace_at(path)
+    """A stranger's packages, and that of the lessons with a library below it, built over our install space."""
+    with once(tmp_path_factory, 'overlay') as (path, is_first):
+        overlay = Workspace(path, [*STRANGERS, SPEED_GUARD], environment, workspace.setup('install'))
         if is_first:
-            workspace.make('install')  # after it has built all
-    return workspace
+            overlay.make('install')  # after it has built all
+    return overlay
 
 
 @contextlib.contextmanager

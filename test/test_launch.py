@@ -6,7 +6,7 @@ import xml.etree.ElementTree
 
 import pytest
 from sockets import wait_for
-from workspaces import OURS, ROOT, TIMEOUT, last_of, lines
+from workspaces import OURS, ROOT, TIMEOUT, lines
 
 from rumba_viewer.scene.snapshot import Battery, Cleaning, Mission
 from rumba_viewer.scene.wording import live_line
@@ -18,7 +18,8 @@ BATTERY = re.compile(r'battery +(\d+) %   at \((-?[\d.]+), (-?[\d.]+)\) m')
 README = (ROOT / 'README.md').read_text()
 LIVE = re.search(r'^.* % swept .* left$', README, re.MULTILINE).group(0)
 REPORT = re.search(r'^```\n(rumba: .*?)^```$', README, re.MULTILINE | re.DOTALL).group(1)
-LINE = re.compile(r'[ \d.]+ % swept   ')
+LINE = r'^[ \d.]+ % swept   '
+BARE = 'env -u DISPLAY -u WAYLAND_DISPLAY -u QT_QPA_PLATFORM'
 NUMBER = re.compile(r'[\d.:]+')
 
 
@@ -36,66 +37,109 @@ def test_the_page_of_interfaces_names_its_arguments(path):
         argument.attrib['name'] for argument in arguments if 'value' not in argument.attrib]
 
 
-def test_the_robot_in_the_demo_moves_bumps_and_drains(workspace):
-    here = workspace.space('devel')
-    with here.running(f'{DEMO} drain:=100 strategy:=bounce'), \
-            here.running('rosrun rumba_sim battery_status_listener') as listener:
-        seen, bumped = [], False
-        for line in lines(listener):
-            if BATTERY.match(line):
-                seen.append([float(figure) for figure in BATTERY.match(line).groups()])
-                bumped = bumped or 'bumper pressed' in line
-                places = {(round(x), round(y)) for _, x, y in seen}
-                if bumped and len(places) > 3 and seen[-1][0] < seen[0][0] - 2:
-                    return
-    raise AssertionError(f'the demo ended, or not: {seen[-1:]}')
+def shape(line):
+    """A line of the report, whatever its numbers are."""
+    return NUMBER.sub('#', line).replace('charges', 'charge')
 
 
-def test_the_demo_shows_a_mission_from_dock_to_dock_and_reports(workspace):
-    with workspace.space('devel').running(f'{DEMO} target_coverage:=0.1') as demo:
-        report = last_of(demo, 'rumba: undocking', 'rumba: cleaning by boustrophedon', 'rumba: going home',
-                         'rumba: docking', 'rumba: done after ')
-        first, *rest = REPORT.splitlines()
-        told = next(line for line in lines(demo) if line.startswith('rumba: '))
-        for line in [first, *rest]:
-            assert NUMBER.sub('#', told).rstrip('\n').replace('charges', 'charge') == NUMBER.sub('#', line).replace(
-                'charges', 'charge')
-            told = next(lines(demo), '')
-    assert re.search(r'm, 0 charges; the floor is 1\d\.\d % clean: 10\.\d % swept$', report), report
+def open_sockets(reachable):
+    """How many sockets of each node other machines can reach; roscpp has one that is always open."""
+    return {**dict.fromkeys(('simulator', 'cleaner', 'console'), reachable),
+            'robot_state_publisher': max(1, reachable)}
+
+
+class TestWithoutADisplayAndAnAddress:
+    """A demo as it is started on a machine without a display."""
+
+    @pytest.fixture(scope='class')
+    def demo(self, workspace):
+        """What it prints, with half of its charge."""
+        command = f'{BARE} -u ROS_HOSTNAME {DEMO} percentage:=50 drain:=0 2>&1'
+        with workspace.space('devel').printing(command) as demo:
+            yield demo
+
+    def test_it_says_in_a_line_that_there_is_no_window_and_goes_on(self, demo):
+        demo.find('the simulation runs without a window: there is no display')
+        demo.fresh(LINE)
+
+    def test_it_shows_live_status_and_publishes_at_the_name_of_the_lesson(self, workspace, demo):
+        demo.find('   battery 50 %')
+        status = workspace.space('devel').run('rostopic echo -n1 /rumba/battery_status')
+        assert status.startswith('percentage_battery: 50\n')
+
+    def test_other_machines_cannot_reach_it(self, demo):
+        wait_for(demo.process, open_sockets(0))
+
+
+class TestAWindowWithoutADisplay:
+    """A demo that shall open the window but cannot, with an address that only this machine can reach."""
+
+    @pytest.fixture(scope='class')
+    def demo(self, workspace):
+        """What it prints, with a robot that bounces and drains fast."""
+        command = f'{BARE} ROS_IP=127.0.0.1 {DEMO} gui:=true drain:=100 strategy:=bounce 2>&1'
+        with workspace.space('devel').printing(command) as demo:
+            yield demo
+
+    def test_it_says_so_in_a_line_and_goes_on(self, demo):
+        demo.find('^viewer: no window: there is no display')
+        demo.fresh(LINE)
+
+    def test_the_robot_moves_bumps_and_drains(self, workspace, demo):
+        demo.find(LINE)
+        with workspace.space('devel').running('$LIB/rumba_sim/battery_status_listener') as listener:
+            seen, bumped = [], False
+            for line in lines(listener):
+                if BATTERY.match(line):
+                    seen.append([float(figure) for figure in BATTERY.match(line).groups()])
+                    bumped = bumped or 'bumper pressed' in line
+                    places = {(round(x), round(y)) for _, x, y in seen}
+                    if bumped and len(places) > 3 and seen[-1][0] < seen[0][0] - 2:
+                        return
+        raise AssertionError(f'the demo ended, or not: {seen[-1:]}')
+
+    def test_other_machines_cannot_reach_it(self, demo):
+        wait_for(demo.process, open_sockets(0))
+
+
+class TestWithAWindow:
+    """A demo with a window, with an address of all interfaces."""
+
+    @pytest.fixture(scope='class')
+    def demo(self, workspace):
+        """What it prints, until a part of the floor is clean, and then."""
+        command = f'env -u ROS_HOSTNAME ROS_IP=0.0.0.0 QT_QPA_PLATFORM=offscreen {DEMO} target_coverage:=0.1'
+        with workspace.space('devel').printing(command) as demo:
+            yield demo
+
+    def test_it_opens_the_window_and_goes_on_when_the_window_is_closed(self, workspace, demo):
+        here = workspace.space('devel')
+        deadline = time.monotonic() + TIMEOUT
+        while '/viewer/save_png' not in here.run('rosservice list'):
+            assert time.monotonic() < deadline, 'no viewer'
+        here.run('rosnode kill /viewer')
+        demo.fresh(LINE)
+
+    def test_other_machines_can_reach_it(self, demo):
+        wait_for(demo.process, open_sockets(2))
+
+    def test_it_shows_a_mission_from_dock_to_dock_and_reports(self, demo):
+        number = -1
+        for word in ('undocking', 'cleaning by boustrophedon', 'going home', 'docking', 'done after '):
+            number = demo.find(f'rumba: {word}', number + 1)
+        told = demo.lines[number]
+        assert re.search(r'm, 0 charges; the floor is 1\d\.\d % clean: 10\.\d % swept$', told), told
+        number = demo.find('^rumba: ', number + 1)
+        wanted = REPORT.splitlines()
+        demo.find('', number + len(wanted) - 1)
+        for line, promised in zip(demo.lines[number:], wanted):
+            assert shape(line.rstrip('\n')) == shape(promised)
 
 
 def test_the_live_line_of_the_readme_is_one_of_a_mission():
     """Whether the node prints such lines is tested with the others of the demo."""
     cleaning, battery = Cleaning(0.546, 15.3, 28.0, 0.5, 120.0, 438.0), Battery(0.256, 15.0, -1.5, 'on battery')
     assert LIVE == live_line(Mission('cleaning', True, 'boustrophedon', ''), cleaning, battery, 438.0, 1310.0)
-
-
-@pytest.mark.parametrize('gui, line', [
-    ('auto', r'the simulation runs without a window: there is no display'),
-    ('true', r'^viewer: no window: there is no display')])
-def test_without_a_display_the_demo_says_so_in_a_line_and_goes_on(workspace, gui, line):
-    bare = 'env -u DISPLAY -u WAYLAND_DISPLAY -u QT_QPA_PLATFORM'
-    with workspace.space('devel').running(f'{bare} {DEMO} gui:={gui} 2>&1') as demo:
-        assert any(re.search(line, text) for text in lines(demo)), 'the demo ended'
-        assert any(LINE.match(text) for text in lines(demo)), 'the demo ended'
-
-
-def test_the_demo_opens_the_window_if_it_can_and_goes_on_when_the_window_is_closed(workspace):
-    here = workspace.space('devel')
-    with here.running(f'env QT_QPA_PLATFORM=offscreen {DEMO}') as demo:
-        assert any(LINE.match(text) for text in lines(demo))
-        deadline = time.monotonic() + TIMEOUT
-        while '/viewer/save_png' not in here.run('rosservice list'):
-            assert time.monotonic() < deadline, 'no viewer'
-        here.run('rosnode kill /viewer')
-        assert any(LINE.match(text) for text in lines(demo)), 'the demo ended'
-
-
-def test_what_the_demo_starts_cannot_be_reached_from_other_machines_unless_an_address_is_given(workspace):
-    for address, reachable in (('', 0), ('ROS_IP=127.0.0.1', 0), ('ROS_IP=0.0.0.0', 2)):
-        with workspace.space('devel').running(f'env -u ROS_HOSTNAME {address} {DEMO} gui:=false') as demo:
-            wait_for(demo, {'simulator': reachable, 'cleaner': reachable, 'console': reachable,
-                            'robot_state_publisher': max(1, reachable)})
 
 
 def test_the_configuration_file_is_what_the_simulator_prints(workspace):

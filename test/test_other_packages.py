@@ -1,16 +1,20 @@
-"""A stranger's Python and C++ packages use BatteryStatus, in a workspace beside ours and over an installed one."""
+"""Python and C++ packages of others use BatteryStatus, in a workspace beside ours and over an installed one."""
+
+import re
 
 import pytest
 from workspaces import ROOT
 
 
 @pytest.mark.parametrize('space', ['devel', 'install'])
-@pytest.mark.parametrize('name', ['beside', 'overlay'])
-def test_a_python_node_reads_what_a_cpp_node_publishes(request, name, space):
-    stranger = request.getfixturevalue(name).space(space)
+@pytest.mark.parametrize('name, publisher, reader', [
+    ('workspace', '$LIB/battery_report/publish_battery', ROOT / 'test/packages/battery_python/scripts/reader'),
+    ('overlay', '$LIB/battery_cpp/publisher', '$LIB/battery_python/reader')], ids=['beside', 'overlay'])
+def test_a_python_node_reads_what_a_cpp_node_publishes(request, name, publisher, reader, space):
+    here = request.getfixturevalue(name).space(space)
     namespace = f'__ns:=/{name}_{space}'
-    with stranger.running(f'rosrun battery_cpp publisher {namespace}'):
-        assert stranger.run(f'rosrun battery_python reader {namespace}') == '42, 1.5, -2.5, 0.75, True, from C++\n'
+    with here.running(f'{publisher} {namespace}'):
+        assert re.fullmatch(r'\d+, 1\.5, -2\.5, 0\.75, True, from C\+\+\n', here.run(f'{reader} {namespace}'))
 
 
 def test_what_was_compiled_is_installed_and_not_compiled_again(workspace):

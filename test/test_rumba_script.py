@@ -47,16 +47,30 @@ APT_WITHOUT_NETWORK = '''#!/bin/sh
 '''
 
 
-@pytest.fixture
-def checkout(tmp_path):
-    """A checkout with spaces in its path that holds one small package of one passing and one failing test."""
-    folder = tmp_path / 'a checkout'
+def make_checkout(folder):
+    """A checkout that holds one small package of one passing and one failing test."""
     (folder / 'sample').mkdir(parents=True)
     for name in ('rumba', 'packages.txt'):
         shutil.copy(ROOT / name, folder)
     for name, text in SAMPLE.items():
         (folder / 'sample' / name).write_text(text)
     return folder
+
+
+@pytest.fixture
+def checkout(tmp_path):
+    """A checkout with spaces in its path."""
+    return make_checkout(tmp_path / 'a checkout')
+
+
+@pytest.fixture(scope='module')
+def built(tmp_path_factory):
+    """Another one that is built, for tests that change nothing in it, and the environment in which it was built."""
+    folder = make_checkout(tmp_path_factory.mktemp('built') / 'a checkout')
+    environment = {'XDG_CACHE_HOME': str(folder.parent / 'cache')}
+    code, _, error = rumba(folder, 'shell', 'true', **environment)
+    assert code == 0, error
+    return folder, environment
 
 
 def write_package(folder):
@@ -169,11 +183,11 @@ def test_a_command_installs_what_its_roles_need_and_no_more(checkout, tmp_path, 
     assert set(wanted) <= set(asked) and not set(unwanted) & set(asked)
 
 
-def test_if_nothing_is_missing_nothing_is_asked_for(checkout, tmp_path):
+def test_if_nothing_is_missing_nothing_is_asked_for(built, tmp_path):
+    checkout, environment = built
     forbidden = f'#!/bin/sh\ntouch {tmp_path}/asked\nexit 1\n'
     path = commands(tmp_path / 'bin', **{'apt-get': forbidden, 'sudo': forbidden})
-    code, out, _ = rumba(checkout, 'shell', 'pwd', PATH=f'{path}:{os.environ["PATH"]}',
-                         XDG_CACHE_HOME=str(tmp_path / 'cache'))
+    code, out, _ = rumba(checkout, 'shell', 'pwd', PATH=f'{path}:{os.environ["PATH"]}', **environment)
     assert (code, out) == (0, os.getcwd() + '\n')
     assert not (tmp_path / 'asked').exists()
 
@@ -192,16 +206,17 @@ def test_a_python_that_shadows_the_system_s_does_no_harm(checkout, tmp_path):
     ({'ROS_MASTER_URI': 'http://[::1]:11311'}, 'localhost'), ({'ROS_MASTER_URI': 'http://robot:11311'}, ''),
     ({'ROS_MASTER_URI': 'http://localhost.lab:11311'}, ''), ({'ROS_IP': '10.0.0.1'}, ''),
     ({'ROS_HOSTNAME': 'desk'}, 'desk')], ids=str)
-def test_ros_keeps_to_this_machine_unless_an_address_or_a_master_elsewhere_is_given(checkout, tmp_path, given, found):
-    environment = {'ROS_HOSTNAME': '', 'ROS_IP': '', 'ROS_MASTER_URI': '', 'XDG_CACHE_HOME': str(tmp_path / 'cache')}
-    code, out, error = rumba(checkout, 'shell', 'sh', '-c', 'echo "$ROS_HOSTNAME"', **{**environment, **given})
+def test_ros_keeps_to_this_machine_unless_an_address_or_a_master_elsewhere_is_given(built, given, found):
+    checkout, environment = built
+    environment = {**environment, 'ROS_HOSTNAME': '', 'ROS_IP': '', 'ROS_MASTER_URI': '', **given}
+    code, out, error = rumba(checkout, 'shell', 'sh', '-c', 'echo "$ROS_HOSTNAME"', **environment)
     assert (code, out) == (0, found + '\n'), error
 
 
-def test_a_roscore_and_a_node_in_the_shell_cannot_be_reached_from_other_machines(checkout, tmp_path):
+def test_a_roscore_and_a_node_in_the_shell_cannot_be_reached_from_other_machines(built, tmp_path):
+    checkout, environment = built
     node = commands(tmp_path / 'bin', node=NODE) / 'node'
-    environment = {**clean_environment(), 'ROS_HOSTNAME': '', 'XDG_CACHE_HOME': str(tmp_path / 'cache')}
-    assert rumba(checkout, 'shell', 'true', **environment)[0] == 0  # which takes longer than all that follows
+    environment = {**clean_environment(), 'ROS_HOSTNAME': '', **environment}
     shell = Space(f'cd "{checkout}";', environment)
     with shell.running(f'./rumba shell roscore -p {environment["ROS_MASTER_URI"].rpartition(":")[2]}') as core:
         wait_for(core, {'rosmaster': 0, 'roscore': 0, 'rosout': 1})

@@ -13,7 +13,7 @@ import sys
 from typing import NamedTuple
 
 import pytest
-from workspaces import ROOT, TIMEOUT, UNDERLAY, Space, Workspace, clean_environment, last_of, lines, roscore
+from workspaces import ROOT, TIMEOUT, UNDERLAY, Space, Workspace, clean_environment, last_of, lines, master
 
 DOC = (ROOT / 'docs' / 'troubleshooting.md').read_text()
 MESSAGES = re.findall('^### `(.*)`$', DOC, re.MULTILINE)
@@ -176,9 +176,9 @@ def lonely(workspace):
 
 def test_two_cleaners_of_one_robot(workspace):
     here, environment = lonely(workspace)
-    with roscore(environment), here.running('rosrun rumba_cleaning cleaner _map:=studio'):
+    with master(environment), here.running('$LIB/rumba_cleaning/cleaner _map:=studio'):
         here.run('rostopic echo -n1 /rumba/mission_status')
-        second = 'rosrun rumba_cleaning cleaner __name:=second _map:=studio'
+        second = '$LIB/rumba_cleaning/cleaner __name:=second _map:=studio'
         says(SECOND_CLEANER, fails(here, second))
         with here.running(f'{second} _robot:=rumba2'):
             here.run('rostopic echo -n1 /rumba2/mission_status')
@@ -186,8 +186,8 @@ def test_two_cleaners_of_one_robot(workspace):
 
 def test_simulated_time_without_a_clock(workspace):
     here, environment = lonely(workspace)
-    publisher = 'rosrun rumba_sim battery_status_publisher'
-    with roscore(environment):
+    publisher = '$LIB/rumba_sim/battery_status_publisher'
+    with master(environment):
         here.run('rosparam set /use_sim_time true')
         says('/use_sim_time is true, but nothing publishes /clock', first_line_with('use_sim_time', here, publisher))
         here.run('rosparam delete /use_sim_time')
@@ -198,12 +198,12 @@ def test_simulated_time_without_a_clock(workspace):
 def test_a_master_that_ends_and_comes_again(workspace):
     here, environment = lonely(workspace)
     with contextlib.ExitStack() as stack:
-        with roscore(environment):
-            node = stack.enter_context(here.running('rosrun rumba_sim battery_status_publisher 2>&1'))
+        with master(environment):
+            node = stack.enter_context(here.running('$LIB/rumba_sim/battery_status_publisher 2>&1'))
             here.run('rostopic echo -n1 /rumba/battery_status')
         says('the master at ... does not answer: this node goes on, and registers again when there is a master',
              last_of(node, 'the master at'))
-        with roscore(environment):
+        with master(environment):
             assert '`the master was restarted: this node has registered again`' in DOC
             last_of(node, 'the master was restarted: this node has registered again')
             here.run('rostopic echo -n1 /rumba/battery_status')
@@ -211,8 +211,8 @@ def test_a_master_that_ends_and_comes_again(workspace):
 
 def test_a_saved_world_that_does_not_fit(workspace, tmp_path):
     here, environment = lonely(workspace)
-    simulator = f'rosrun rumba_sim simulator _map:=studio _state:={tmp_path}/state'
-    with roscore(environment):
+    simulator = f'$LIB/rumba_sim/simulator _map:=studio _state:={tmp_path}/state'
+    with master(environment):
         with here.running(f'{simulator} _battery/drain:=5'):
             here.run('rostopic echo -n1 /simulator/state')
         says(OTHER_WORLD, fails(here, f'{simulator} _battery/drain:=20'))

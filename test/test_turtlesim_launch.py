@@ -3,43 +3,11 @@
 import re
 import time
 
-from workspaces import TIMEOUT, last_of, lines
+import pytest
+from workspaces import TIMEOUT, lines
 
 LAUNCH = 'roslaunch rumba_bringup turtlesim.launch gui:=false'
-
-
-def test_a_turtle_cleans_and_comes_home(workspace):
-    with workspace.space('devel').running(f'{LAUNCH} speed:=5 target_coverage:=0.01') as launch:
-        report = last_of(launch, 'rumba: cleaning by boustrophedon', 'rumba: going home', 'rumba: docking',
-                         'rumba: done after ')
-    assert re.search(r'm, 0 charges; the floor is 1\.\d % clean: 1\.\d % swept$', report), report
-
-
-def test_the_lessons_publisher_and_ours_are_heard_by_the_same_listener(overlay):
-    here = overlay.space('devel')
-    with here.running(f'{LAUNCH} autostart:=false percentage:=64'), here.running('rosrun battery_cpp publisher'), \
-            here.running('rosrun rumba_sim battery_status_listener') as listener:
-        seen = set()
-        for line in lines(listener):
-            found = re.match(r'battery +(\d+) % .* brushes (up|down) +(.*)$', line)
-            if found:
-                seen.add((found.group(1), found.group(2), found.group(3)[-13:]))
-            if seen >= {('42', 'up', 'from C++'), ('64', 'down', ', discharging')}:
-                return
-    raise AssertionError(f'the listener ended, or not: {seen}')
-
-
-def test_without_its_turtle_the_mission_ends_and_says_why(workspace):
-    here = workspace.space('devel')
-    with here.running(f'{LAUNCH} speed:=5 2>&1') as launch:
-        last_of(launch, 'rumba: cleaning by boustrophedon')
-        here.run('rosservice call /kill turtle1')
-        last_of(launch, 'no turtle: nothing publishes /turtle1/pose', 'rumba has no body')
-        assert re.search(r'rumba: given up after .*: the robot is gone', last_of(launch, 'rumba: given up'))
-
-
-# --- /go_to_position --------------------------------------------------------------------------------------------
-
+CLEAN = 'rostopic pub -1 /rumba/clean/goal rumba_msg/CleanActionGoal {}'
 STUDENT = """
 import rospy
 from rumba_msg.srv import TargetPosition
@@ -94,25 +62,55 @@ def number(name, answer):
     return float(re.search(rf'{name}: (\S+)', answer).group(1))
 
 
-def test_a_server_of_a_student_keeps_its_name(workspace, tmp_path):
+def test_a_turtle_cleans_and_comes_home_and_a_server_of_a_student_keeps_its_name(workspace, tmp_path):
     here = workspace.space('devel')
     with here.running(script(tmp_path, STUDENT)):
         answered(here, 1, 1, 0)
-        with here.running(f'{LAUNCH} autostart:=false 2>&1') as launch:
-            last_of(launch, '/go_to_position is served by /student, which keeps it')
+        with here.printing(f'{LAUNCH} speed:=5 target_coverage:=0.01 2>&1') as launch:
+            launch.find('/go_to_position is served by /student, which keeps it')
             assert 'message: "mine"' in answered(here, 8.5, 5.5, 0)
+            place = -1
+            for word in ('cleaning by boustrophedon', 'going home', 'docking', 'done after '):
+                place = launch.find(f'rumba: {word}', place + 1)
+    report = launch.lines[place]
+    assert re.search(r'm, 0 charges; the floor is 1\.\d % clean: 1\.\d % swept$', report), report
 
 
-def test_a_controller_of_the_lesson_drives_by_the_headings(workspace, tmp_path):
+def test_the_service_answers_with_a_velocity_if_it_is_told_to_and_a_mission_without_its_turtle_ends(workspace):
     here = workspace.space('devel')
-    with here.running(f'{LAUNCH} speed:=5 autostart:=false'):
-        assert here.run(script(tmp_path, CONTROLLER), 3 * TIMEOUT) == 'there\n'
-
-
-def test_the_service_answers_with_a_velocity_if_it_is_told_to(workspace):
-    here = workspace.space('devel')
-    with here.running(f'{LAUNCH} autostart:=false answer:=velocity'):
+    with here.printing(f'{LAUNCH} speed:=5 autostart:=false answer:=velocity 2>&1') as launch:
         answer = answered(here, 8.5, 5.5, 0)
         assert number('linear_x', answer) > 0.2
         assert abs(number('angular_z', answer)) < 0.3
         assert re.search(r'message: "2\.9\d m to go"', answer), answer
+        here.run(CLEAN)
+        launch.find('rumba: cleaning by boustrophedon')
+        here.run('rosservice call /kill turtle1')
+        reason = launch.find('no turtle: nothing publishes /turtle1/pose')
+        launch.find('rumba has no body', reason)
+        launch.find(r'rumba: given up after .*: the robot is gone')
+
+
+class TestBesideNodesOfTheLesson:
+    """A turtle that waits for nodes of the lesson."""
+
+    @pytest.fixture(scope='class')
+    def turtle(self, workspace):
+        """It runs."""
+        with workspace.space('devel').running(f'{LAUNCH} speed:=5 autostart:=false percentage:=64'):
+            yield
+
+    def test_the_publisher_of_the_lesson_and_ours_are_heard_by_the_same_listener(self, workspace, overlay, turtle):
+        with overlay.space('devel').running('$LIB/battery_cpp/publisher'), \
+                workspace.space('devel').running('$LIB/rumba_sim/battery_status_listener') as listener:
+            seen = set()
+            for line in lines(listener):
+                found = re.match(r'battery +(\d+) % .* brushes (up|down) +(.*)$', line)
+                if found:
+                    seen.add((found.group(1), found.group(2), found.group(3)[-13:]))
+                if seen >= {('42', 'up', 'from C++'), ('64', 'down', ', discharging')}:
+                    return
+        raise AssertionError(f'the listener ended, or not: {seen}')
+
+    def test_a_controller_of_the_lesson_drives_by_the_headings(self, workspace, turtle, tmp_path):
+        assert workspace.space('devel').run(script(tmp_path, CONTROLLER), 3 * TIMEOUT) == 'there\n'

@@ -7,7 +7,7 @@ import xml.etree.ElementTree
 
 import consoles
 import pytest
-from workspaces import ROOT, TUTORIALS, UNDERLAY, Space, Workspace, clean_environment
+from workspaces import ROOT, SPEED_GUARD, TUTORIALS, UNDERLAY, Space, clean_environment
 
 FOLDER = ROOT / 'rumba_tutorials'
 METAPACKAGE = FOLDER / 'rumba_tutorials'
@@ -33,11 +33,9 @@ def test_a_workspace_grows_from_nothing(tmp_path):
         consoles.play(ROOT / 'docs' / 'building.md', space)
 
 
-def test_a_library_and_its_header_serve_from_the_install_space(workspace, environment, tmp_path):
-    guard = [path for path in PACKAGES if path.name == 'speed_guard']
-    above = Workspace(tmp_path / 'ws', guard, environment, workspace.setup('install'))
-    above.make()
-    consoles.play(guard[0].parent / 'README.md', above.space('devel', clean_environment()))
+def test_a_library_and_its_header_serve_from_the_install_space(overlay):
+    assert (overlay.path / 'build' / SPEED_GUARD.name).is_dir()
+    consoles.play(SPEED_GUARD.parent / 'README.md', overlay.space('devel', clean_environment()))
 
 
 @OF_LESSON

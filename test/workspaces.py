@@ -1,20 +1,24 @@
-"""Scratch catkin workspaces and a roscore of their own, untouched by the workspace that runs the tests."""
+"""Scratch catkin workspaces and a master of their own, untouched by the workspace that runs the tests."""
 
 import contextlib
 import os
 import pathlib
+import re
 import signal
 import socket
 import subprocess
 import threading
 import time
-from typing import Dict, Iterator, Optional
+import uuid
+import xmlrpc.client
+from typing import Dict, Iterator, List, Optional
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 WS = (ROOT / '.ws').resolve()  # a link if the path of the checkout has spaces
 OURS = [path.parent for path in sorted(ROOT.glob('*/package.xml'))]
 STAND_INS = [path.parent for path in sorted(ROOT.glob('compat/*/package.xml'))]
 TUTORIALS = [path.parent for path in sorted(ROOT.glob('rumba_tutorials/**/package.xml'))]
+SPEED_GUARD = ROOT / 'rumba_tutorials' / '04_cpp_library' / 'speed_guard'  # which uses the library beside it
 TIMEOUT = 60.0
 BUILD_TIMEOUT = 900.0
 FROM_OTHER_WORKSPACES = ('CMAKE_PREFIX_PATH', 'ROS_PACKAGE_PATH', 'PYTHONPATH', 'PKG_CONFIG_PATH', 'LD_LIBRARY_PATH')
@@ -51,6 +55,50 @@ class Space:
             process.send_signal(signal.SIGINT)
             process.communicate(timeout=TIMEOUT)
 
+    @contextlib.contextmanager
+    def printing(self, command: str) -> Iterator['Printed']:
+        """What a node prints that runs as long as the block."""
+        printed = Printed(self.start(command))
+        try:
+            yield printed
+        finally:
+            printed.process.send_signal(signal.SIGINT)
+            printed.process.wait(TIMEOUT)
+            printed.reader.join()
+            printed.process.stdout.close()
+
+
+class Printed:
+    """A process, and the lines that it has printed, for tests that share it."""
+
+    def __init__(self, process: subprocess.Popen) -> None:
+        self.process = process
+        self.lines: List[str] = []
+        self._news = threading.Condition()
+        self.reader = threading.Thread(target=self._read)
+        self.reader.start()
+
+    def _read(self) -> None:
+        for line in self.process.stdout:
+            with self._news:
+                self.lines.append(line)
+                self._news.notify_all()
+
+    def find(self, pattern: str, begin: int = 0) -> int:
+        """The number of the first line from `begin` on in which a pattern is found, once it is printed."""
+        with self._news:
+            assert self._news.wait_for(lambda: self._first(pattern, begin) is not None, 3.0 * TIMEOUT), (
+                f'waited in vain for: {pattern}')
+            return self._first(pattern, begin)
+
+    def fresh(self, pattern: str) -> int:
+        """The same for lines that are printed from now on."""
+        return self.find(pattern, len(self.lines))
+
+    def _first(self, pattern: str, begin: int) -> Optional[int]:
+        found = re.compile(pattern)
+        return next((number for number in range(begin, len(self.lines)) if found.search(self.lines[number])), None)
+
 
 class Workspace:
     """A catkin workspace in a new folder, with links to packages."""
@@ -75,8 +123,12 @@ class Workspace:
         return self.path / space / 'setup.sh'
 
     def space(self, space: str, environment: Optional[Dict[str, str]] = None) -> Space:
-        """What a user has in `devel` or `install`; `environment` is one with another master."""
-        return Space(f'. {self.setup(space)};', environment or self._environment)
+        """What a user has in `devel` or `install`; `environment` is one with another master.
+
+        A command finds the nodes of the workspace in the folder $LIB: rosrun takes longer to look for a node than most
+        nodes take to start.
+        """
+        return Space(f'. {self.setup(space)}; LIB={self.path / space}/lib;', environment or self._environment)
 
 
 def lines(process: subprocess.Popen) -> Iterator[str]:
@@ -100,7 +152,7 @@ def last_of(process: subprocess.Popen, *wanted: str) -> str:
 
 
 def clean_environment() -> Dict[str, str]:
-    """This process's environment without other workspaces, for a roscore of its own on this machine."""
+    """This process's environment without other workspaces, for a master of its own on this machine."""
     with socket.socket() as free:
         free.bind(('localhost', 0))
         port = free.getsockname()[1]
@@ -109,12 +161,21 @@ def clean_environment() -> Dict[str, str]:
 
 
 @contextlib.contextmanager
-def roscore(environment: Dict[str, str]) -> Iterator[None]:
-    """A master at the environment's ROS_MASTER_URI, as long as the block."""
-    port = environment['ROS_MASTER_URI'].rpartition(':')[2]
-    space = Space(UNDERLAY, environment)
-    with space.running(f'roscore -p {port}'):
+def master(environment: Dict[str, str]) -> Iterator[None]:
+    """A master at the environment's ROS_MASTER_URI, as long as the block; roscore takes several times as long."""
+    uri = environment['ROS_MASTER_URI']
+    with Space(UNDERLAY, environment).running(f'rosmaster --core -p {uri.rpartition(":")[2]}'):
         deadline = time.monotonic() + TIMEOUT
-        while space.start('rosparam get /run_id', stderr=subprocess.DEVNULL).wait(TIMEOUT) != 0:
-            assert time.monotonic() < deadline, 'roscore does not come up'
+        while not has_begun(xmlrpc.client.ServerProxy(uri)):
+            assert time.monotonic() < deadline, 'the master does not come up'
+            time.sleep(0.02)
         yield
+
+
+def has_begun(api: xmlrpc.client.ServerProxy) -> bool:
+    """Whether a master answers; it then bears a name of its own, as those that roscore starts."""
+    try:
+        api.setParam('/test', '/run_id', str(uuid.uuid4()))
+    except OSError:
+        return False
+    return True

@@ -32,7 +32,7 @@ SEED, TARGET = 3, 0.05
 SIMULATOR = '_map:=studio', f'_seed:={SEED}', '_speed:=0', '_brushes_up:=true', '_localisation:=none'
 
 
-def digest_in_process(ticks, obstacles=(), laser=False):
+def digest_in_process(ticks, obstacles, laser):
     """The digest of the world so many ticks after the start of a mission by a pose that is localised."""
     plan = map_file.load(map_path('studio'))
     world, planners = World(plan, RobotConfig(), STEP_RATE, SEED, obstacles), BeforeNextStep()
@@ -54,29 +54,20 @@ def digest_in_process(ticks, obstacles=(), laser=False):
 class CleanerLocalisedTest(unittest.TestCase):
     """Each test has its own nodes."""
 
-    def clean(self, simulator_arguments, cleaner_arguments):
-        """A mission in lockstep by a pose that is localised; returns the simulator."""
-        simulator = Simulator(self, *SIMULATOR, '_wait_for:=cleaner localiser', '_lockstep_patience:=60',
-                              *simulator_arguments)
+    def test_a_mission_by_a_localised_pose_and_by_laser_among_obstacles_is_the_same_as_in_process(self):
+        path = os.path.join(os.path.dirname(map_path('studio')), '..', 'config', 'obstacles_studio.yaml')
+        simulator = Simulator(self, *SIMULATOR, f'_obstacles:={path}', '_wait_for:=cleaner localiser',
+                              '_lockstep_patience:=60')
         start = map_file.load(map_path('studio')).dock
         Localiser(self, f'_seed:={SEED}', f'_initial_pose_x:={start.x}', f'_initial_pose_y:={start.y}',
                   f'_initial_pose_a:={start.theta}')
         cleaner = Cleaner(self, f'_seed:={SEED}', f'_target_coverage:={TARGET}', '_autostart:=true',
-                          *cleaner_arguments).connect()
+                          '_laser:=true').connect()
         ended = cleaner.status.find(lambda status: status.state == MissionStatus.IDLE and 'swept' in status.message)
         self.assertRegex(ended.message, r'^5\.\d % swept$')
-        return simulator
-
-    def test_a_mission_by_a_pose_that_is_localised_is_the_same_as_in_process(self):
-        digest, tick = self.clean([], []).digest()
-        self.assertEqual(digest, digest_in_process(tick))
-
-    def test_a_mission_by_laser_among_obstacles_is_the_same_as_in_process(self):
-        path = os.path.join(os.path.dirname(map_path('studio')), '..', 'config', 'obstacles_studio.yaml')
-        obstacles = obstacle_file.load(path)
-        digest, tick = self.clean([f'_obstacles:={path}'], ['_laser:=true']).digest()
+        (digest, tick), obstacles = simulator.digest(), obstacle_file.load(path)
         self.assertEqual(digest, digest_in_process(tick, obstacles, laser=True))
-        self.assertNotEqual(digest, digest_in_process(tick, obstacles))  # it saw something
+        self.assertNotEqual(digest, digest_in_process(tick, obstacles, laser=False))  # it saw something
 
     def test_a_robot_whose_localisation_falls_silent_stands_still_until_it_is_back(self):
         Simulator(self, '_map:=studio', '_speed:=10', '_brushes_up:=true', '_localisation:=none',

@@ -11,10 +11,32 @@ from simulators import TICK, Heard, Simulator
 from tf2_msgs.msg import TFMessage
 
 HALF = 0.5 * math.pi
+RATES = {'odom': 50.0, 'scan': 10.0, 'battery_status': 5.0, 'cleaning_status': 1.0}  # [Hz]
 
 
 class SimulatorTopicsTest(unittest.TestCase):
     """A simulator for each test."""
+
+    def measure_rates(self, seconds, *arguments):
+        """The shares of RATES at which topics come for some seconds of the stamps of odometry."""
+        Simulator(self, '_map:=field', *arguments)
+        heard = {topic: Heard(self, f'/rumba/{topic}') for topic in RATES}
+        for each in heard.values():
+            each.find()
+        begin = heard['odom'].fresh().header.stamp
+        for each in heard.values():
+            each.messages.clear()
+        end = heard['odom'].last(lambda message: (message.header.stamp - begin).to_sec() >= seconds).header.stamp
+        return {topic: len(each.messages) / (end - begin).to_sec() / RATES[topic] for topic, each in heard.items()}
+
+    def test_topics_come_at_their_rates_of_simulated_time(self):
+        for topic, share in self.measure_rates(30.0, '_speed:=10').items():
+            self.assertAlmostEqual(share, 1.0, delta=0.1, msg=topic)
+
+    def test_topics_come_at_their_rates_in_real_time(self):
+        """What a busy machine makes late is left out, so the bounds are wide."""
+        for topic, share in self.measure_rates(4.0).items():
+            self.assertAlmostEqual(share, 1.0, delta=0.3, msg=topic)
 
     def test_the_battery_follows_the_conventions(self):
         simulator = Simulator(self, '_map:=studio', '_speed:=10', '_percentage:=97', '_battery/drain:=500',
