@@ -7,14 +7,14 @@ from workspaces import ROOT
 
 
 @pytest.mark.parametrize('space', ['devel', 'install'])
-@pytest.mark.parametrize('name, publisher, reader', [
-    ('workspace', '$LIB/battery_report/publish_battery', ROOT / 'test/packages/battery_python/scripts/reader'),
-    ('overlay', '$LIB/battery_cpp/publisher', '$LIB/battery_python/reader')], ids=['beside', 'overlay'])
-def test_a_python_node_reads_what_a_cpp_node_publishes(request, name, publisher, reader, space):
+@pytest.mark.parametrize('name, publisher, reader, percentage', [
+    ('workspace', '$LIB/battery_report/publish_battery', ROOT / 'test/packages/battery_python/scripts/reader', r'\d+'),
+    ('overlay', '$LIB/battery_cpp/publisher', '$LIB/battery_python/reader', '42')], ids=['beside', 'overlay'])
+def test_a_python_node_reads_what_a_cpp_node_publishes(request, name, publisher, reader, percentage, space):
     here = request.getfixturevalue(name).space(space)
     namespace = f'__ns:=/{name}_{space}'
     with here.running(f'{publisher} {namespace}'):
-        assert re.fullmatch(r'\d+, 1\.5, -2\.5, 0\.75, True, from C\+\+\n', here.run(f'{reader} {namespace}'))
+        assert re.fullmatch(fr'{percentage}, 1\.5, -2\.5, 0\.75, True, from C\+\+\n', here.run(f'{reader} {namespace}'))
 
 
 def test_what_was_compiled_is_installed_and_not_compiled_again(workspace):

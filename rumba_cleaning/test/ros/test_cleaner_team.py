@@ -14,8 +14,8 @@ from rumba_msg.msg import MissionStatus, TeamPlan, TeamReport
 from rumba_sim.model import map_file
 from rumba_sim.model.robot_config import RobotConfig
 
-MAP = FLOOR + 'docks: [[2.8, 0.75, 0.0], [0.2, 0.75, 3.14159]]\n'
-PICTURE = b'P5 60 30 255\n' + 60 * 30 * b'\xff'  # 3 m x 1.5 m
+MAP = FLOOR + 'docks: [[3.8, 1.0, 0.0], [0.2, 1.0, 3.14159]]\n'
+PICTURE = b'P5 80 40 255\n' + 80 * 40 * b'\xff'  # 4 m x 2 m
 SEED, TARGET = 5, 0.9
 TEAM = '_team:=rumba rumba2'
 
