@@ -5,6 +5,7 @@ import time
 import xml.etree.ElementTree
 
 import pytest
+import yaml
 from sockets import wait_for
 from workspaces import OURS, ROOT, TIMEOUT, lines
 
@@ -35,6 +36,20 @@ def test_the_page_of_interfaces_names_its_arguments(path):
     arguments = xml.etree.ElementTree.parse(str(path)).getroot().findall('arg')
     assert re.findall(r'`([\w.]+)`', row.split(';')[0])[1:] == [
         argument.attrib['name'] for argument in arguments if 'value' not in argument.attrib]
+
+
+@pytest.mark.parametrize('arguments, wanted', [
+    ('', {'mapless': False, 'laser': False, 'strategy': 'boustrophedon', 'drain': 10, 'localisation': 'truth'}),
+    ('obstacles:=some.yaml', {'mapless': False, 'laser': True, 'strategy': 'boustrophedon', 'drain': 10}),
+    ('laser:=none', {'mapless': True, 'laser': False, 'strategy': 'wander', 'drain': 1, 'localisation': 'none'}),
+    ('laser:=none strategy:=bounce drain:=2', {'mapless': True, 'strategy': 'bounce', 'drain': 2}),
+    ('localisation:=slam', {'mapless': False, 'mapping': True, 'strategy': 'explore_and_clean',
+                            'localisation': 'slam'})])
+def test_what_the_arguments_of_the_demo_bring(workspace, arguments, wanted):
+    told = workspace.space('devel').run(f'roslaunch --dump-params rumba_bringup demo.launch {arguments}')
+    parameters = {name.rsplit('/', 1)[-1]: value for name, value in yaml.safe_load(told).items()
+                  if name.startswith(('/cleaner/', '/simulator/'))}
+    assert {name: parameters[name] for name in wanted} == wanted
 
 
 def shape(line):
