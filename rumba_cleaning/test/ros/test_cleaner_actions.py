@@ -154,7 +154,7 @@ class CleanerActionsTest(unittest.TestCase):
         self.assertLess(abs(theta - 1.0), 0.05)
 
     def test_a_goal_that_cannot_be_carried_out_is_refused_and_nothing_moves(self):
-        known = r"^unknown strategy 'zigzag': known are .*\bbounce, boustrophedon\b.*\bspiral, wall_follow$"
+        known = r"^unknown strategy 'zigzag': known are .*\bbounce, boustrophedon\b.*\bspiral, wall_follow, wander$"
         for pattern, action, goal in (
                 (known, 'clean', CleanGoal(strategy='zigzag')),
                 (r'^target_coverage is 1\.5: must be 0 to 1$', 'clean', CleanGoal(target_coverage=1.5)),

@@ -18,8 +18,8 @@ from simulators import TIMEOUT, Heard, Simulator, folder_of, shared
 from rumba_msg.msg import CleanGoal, MissionStatus, Outcome, UndockGoal
 
 BAD_STARTS = (
-    (r"^cleaner: unknown strategy 'zigzag': known are bounce, boustrophedon, explore_and_clean, spiral, wall_follow\n$",
-     '_strategy:=zigzag'),
+    (r"^cleaner: unknown strategy 'zigzag': known are bounce, boustrophedon, explore_and_clean, spiral, wall_follow, "
+     'wander\n$', '_strategy:=zigzag'),
     (r"^cleaner: strategies of 'no\.such': No module named 'no'; a module is named as in Python, ",
      '_strategies:=no.such'),
     (r"^cleaner: strategies of 'misspelt': NameError: name 'spede' is not defined \(misspelt\.py:1\)\n$",

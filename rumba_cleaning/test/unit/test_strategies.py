@@ -38,10 +38,10 @@ def package(tmp_path, monkeypatch):
 
 
 def test_those_of_this_package_are_known():
-    assert {'bounce', 'boustrophedon', 'spiral', 'wall_follow'} <= set(strategies.known())
+    assert {'bounce', 'boustrophedon', 'spiral', 'wall_follow', 'wander'} <= set(strategies.known())
 
 
-@pytest.mark.parametrize('name', ['bounce', 'boustrophedon', 'spiral', 'wall_follow'])
+@pytest.mark.parametrize('name', ['bounce', 'boustrophedon', 'spiral', 'wall_follow', 'wander'])
 def test_each_call_makes_a_new_one(name):
     context = context_of(PLAN, World(PLAN))
     one, other = strategies.make(name, context), strategies.make(name, context)

@@ -3,7 +3,7 @@
 from rumba_viewer.scene.mission_watch import MissionWatch
 from rumba_viewer.scene.snapshot import Battery, Cleaning, Mission
 
-CLEANING, DOCKING = Mission('cleaning', True, 'spiral', ''), Mission('docking', True, 'spiral', '')
+CLEANING, DOCKING = Mission('cleaning', True, 'boustrophedon', ''), Mission('docking', True, 'boustrophedon', '')
 IDLE, GOING = Mission('idle', False, '', 'done'), Mission('going to', True, '', '')
 
 

@@ -139,20 +139,27 @@ class Simulator:
     # --- the loop -------------------------------------------------------------------------------------------------
 
     def run(self) -> None:
-        """Simulate until ROS shuts down."""
+        """Simulate until ROS shuts down; then save, also if that closes a topic while this publishes."""
         wake_on_time()
         gc.freeze()  # what there is now remains: collections of garbage need not look at it, and take no time
         if self._lockstep is not None:
             self._lockstep.wait_for_commanders(self._report_and_hold)
-        while not rospy.is_shutdown():
-            if self._is_paused:
-                self._pace.hold()
-            else:
-                self._tick()
-                self._pace.next_tick()
-            self._serve_requests()
-            self._wait_for_answers()
+        try:
+            while not rospy.is_shutdown():
+                self._go_on()
+        except Exception:
+            if not rospy.core.is_shutdown_requested():
+                raise
         self._file.save(self._world, self._ticks)
+
+    def _go_on(self) -> None:
+        if self._is_paused:
+            self._pace.hold()
+        else:
+            self._tick()
+            self._pace.next_tick()
+        self._serve_requests()
+        self._wait_for_answers()
 
     def _serve_requests(self) -> None:
         """Carry out requests until the next tick is due, and report when a report is due."""
