@@ -12,6 +12,7 @@ from typing import NamedTuple
 
 from common import figures
 
+from rumba_cleaning.control import CONTROL_DT
 from rumba_cleaning.mission.stages import State
 from rumba_cleaning.outcome import Outcome
 from rumba_evaluation.trials.cases import MAPLESS, Conditions
@@ -46,7 +47,7 @@ def mission(name, strategy, seed):
             searches.append(trial.world.time - began)
             began = None
     result = trial.result()
-    return Mission(result.coverage, 0.1 * cleaned / result.ideal_time, searches, result.docked == 1,
+    return Mission(result.coverage, CONTROL_DT * cleaned / result.ideal_time, searches, result.docked == 1,
                    result.outcome is Outcome.FALLEN)
 
 

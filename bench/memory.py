@@ -90,7 +90,7 @@ def with_map():
     for hour in range(MAPPING):
         for _ in steps(Bounce(np.random.default_rng(hour)), world, seconds=HOUR, source=source):
             pass
-        assert source.plan().free.any()
+        source.plan()  # as missions ask for it
         memory.append((figures.resident_megabytes(), len(source.mapper.frames)))
     figures.heading(f'Memory of a process in which a robot makes a map of {MAP}, 10 scans a second')
     for title, (megabytes, frames) in (('after an hour', memory[0]), (f'after {MAPPING} hours', memory[-1])):

@@ -63,15 +63,17 @@ def open_sockets(reachable):
             'robot_state_publisher': max(1, reachable)}
 
 
-class TestWithoutADisplayAndAnAddress:
-    """A demo as it is started on a machine without a display."""
+@pytest.fixture(scope='class')
+def demo(request, workspace):
+    """What the demo of a class of tests prints."""
+    with workspace.space('devel').printing(request.cls.COMMAND) as printed:
+        yield printed
 
-    @pytest.fixture(scope='class')
-    def demo(self, workspace):
-        """What it prints, with half of its charge."""
-        command = f'{BARE} -u ROS_HOSTNAME {DEMO} percentage:=50 drain:=0 2>&1'
-        with workspace.space('devel').printing(command) as demo:
-            yield demo
+
+class TestWithoutADisplayAndAnAddress:
+    """A demo as it is started on a machine without a display, with half of its charge."""
+
+    COMMAND = f'{BARE} -u ROS_HOSTNAME {DEMO} percentage:=50 drain:=0 2>&1'
 
     def test_it_says_in_a_line_that_there_is_no_window_and_goes_on(self, demo):
         demo.find('the simulation runs without a window: there is no display')
@@ -87,14 +89,9 @@ class TestWithoutADisplayAndAnAddress:
 
 
 class TestAWindowWithoutADisplay:
-    """A demo that shall open the window but cannot, with an address that only this machine can reach."""
+    """A demo that shall open the window but cannot, at an address of this machine. Its robot bounces, drained fast."""
 
-    @pytest.fixture(scope='class')
-    def demo(self, workspace):
-        """What it prints, with a robot that bounces and drains fast."""
-        command = f'{BARE} ROS_IP=127.0.0.1 {DEMO} gui:=true drain:=100 strategy:=bounce 2>&1'
-        with workspace.space('devel').printing(command) as demo:
-            yield demo
+    COMMAND = f'{BARE} ROS_IP=127.0.0.1 {DEMO} gui:=true drain:=100 strategy:=bounce 2>&1'
 
     def test_it_says_so_in_a_line_and_goes_on(self, demo):
         demo.find('^viewer: no window: there is no display')
@@ -118,14 +115,9 @@ class TestAWindowWithoutADisplay:
 
 
 class TestWithAWindow:
-    """A demo with a window, with an address of all interfaces."""
+    """A demo with a window, with an address of all interfaces, until a part of the floor is clean, and then."""
 
-    @pytest.fixture(scope='class')
-    def demo(self, workspace):
-        """What it prints, until a part of the floor is clean, and then."""
-        command = f'env -u ROS_HOSTNAME ROS_IP=0.0.0.0 QT_QPA_PLATFORM=offscreen {DEMO} target_coverage:=0.1'
-        with workspace.space('devel').printing(command) as demo:
-            yield demo
+    COMMAND = f'env -u ROS_HOSTNAME ROS_IP=0.0.0.0 QT_QPA_PLATFORM=offscreen {DEMO} target_coverage:=0.1'
 
     def test_it_opens_the_window_and_goes_on_when_the_window_is_closed(self, workspace, demo):
         here = workspace.space('devel')

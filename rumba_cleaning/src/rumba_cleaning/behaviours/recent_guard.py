@@ -12,8 +12,8 @@ from rumba_sim.model.geometry import Pose
 # [m] of way at least, and twice that at most: with wheels that differ by 1 %, the heading errs by 0.04 rad after a
 # metre, and what was seen at its beginning is 0.02 m off, as much as the guard spares.
 REMEMBERED = 1.0
-# A robot that forgets comes to every edge as if it had never seen it. At 0.28 m/s 4 of 120 fell, or saw no safe way on,
-# in 45 minutes beside the stairs of the apartment, at this speed none of 120 (strategies wander and bounce).
+# A robot that forgets comes to every edge as if it had never seen it: faster ones fell down the stairs of the
+# apartment, at this speed none does in bench/mapless.py.
 SAFE_SPEED = 0.25  # [m/s]
 
 

@@ -16,7 +16,6 @@ from rumba_sim.model.kernel import Array
 DOCKING = 40.0  # [s] from before the dock onto its contacts; the median of bench/docking.py is 31 s
 SLOWNESS = 1.6  # times longer than its length at full speed the drive to the dock takes at most, with turns and detours
 FALL = 0.05  # of the charge: a smaller fall is no measurement, since a battery may report whole percents
-SECONDS = 3600.0  # in an hour
 
 
 class BatteryWatch:
@@ -30,8 +29,7 @@ class BatteryWatch:
         """Assume the loads of the robot's settings until its charge falls faster."""
         self._context = context
         battery = context.robot.battery
-        load = battery.idle_current + battery.wheel_current + battery.brush_current
-        self._usual = load * battery.drain / (battery.capacity * SECONDS)  # [1/s] of the state of charge
+        self._usual = battery.discharge_rate(battery.cleaning_current)  # [1/s]
         self._rate = self._usual
         self._since: Optional[float] = None  # state of charge when it began to fall
         self._time = 0.0  # [s] since then

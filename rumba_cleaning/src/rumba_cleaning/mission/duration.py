@@ -17,5 +17,5 @@ def longest(context: Context) -> float:
     area = float(np.count_nonzero(plan.free)) * plan.resolution ** 2
     working = area / (robot.brush.width * config.speed)
     battery = robot.battery
-    load = battery.idle_current + battery.wheel_current + battery.brush_current
-    return max(config.time_limit.clean, PATIENCE * working * (1.0 + TAPER * load / battery.charge_current))
+    charging = TAPER * battery.cleaning_current / battery.charge_current  # times the time of working
+    return max(config.time_limit.clean, PATIENCE * working * (1.0 + charging))

@@ -17,7 +17,7 @@ from rumba_cleaning.outcome import Outcome
 
 SEEKING = 1200.0  # [s] that the way home may take, for which charge is kept: few of bench/mapless.py take longer
 MOST = 0.5  # of the charge, at most, is kept for that
-SECONDS, MINUTE = 3600.0, 60.0  # in an hour; in a minute
+MINUTE = 60.0  # [s]
 
 
 class MaplessMission(StagedMission):
@@ -34,8 +34,7 @@ class MaplessMission(StagedMission):
         self._cleaning = strategies.make(strategy, context)
         self._guard = recent_guard.guard(context)
         battery = context.robot.battery
-        load = battery.idle_current + battery.wheel_current
-        rate = load * battery.drain / (battery.capacity * SECONDS)  # [1/s] of the charge, with brushes up
+        rate = battery.discharge_rate(battery.cleaning_current - battery.brush_current)  # [1/s] with brushes up
         self._needed = min(rate * SEEKING, MOST) + context.config.reserve  # state of charge for the way home
         self.strategy = strategy
 
@@ -54,7 +53,7 @@ class MaplessMission(StagedMission):
         self._track(observation)
         if observation.state_of_charge <= 0.0 and not observation.is_docked:
             return self._strand(f'{self._done()}: {EMPTY}', Outcome.BATTERY_EMPTY)
-        command = self._guard.step(self._decide, observation)
+        command = self._guard.step(self._act, observation)
         if self._guard.held_time > HELD:
             return self._strand(f'{self._done()}: the robot is so near to edges that no way on is safe',
                                 Outcome.BLOCKED)
@@ -72,12 +71,6 @@ class MaplessMission(StagedMission):
         if self.state is State.CHARGING:
             self.charging_time += observation.dt
 
-    def _decide(self, observation: Observation) -> Command:
-        return {
-            State.IDLE: self._begin, State.UNDOCKING: self._leave_dock, State.CLEANING: self._clean,
-            State.RETURNING: self._return, State.DOCKING: self._return, State.CHARGING: self._charge,
-        }[self.state](observation)
-
     # --- states ---------------------------------------------------------------------------------------------------
 
     def _begin(self, observation: Observation) -> Command:
@@ -86,9 +79,6 @@ class MaplessMission(StagedMission):
         if observation.state_of_charge < self._needed + START:
             return self._enter(State.CHARGING, None)
         return self._enter(State.UNDOCKING, Undock(self._context))
-
-    def _leave_dock(self, observation: Observation) -> Command:
-        return self._undock(observation, self._cleaning)
 
     def _clean(self, observation: Observation) -> Command:
         self._cleaned += observation.dt

@@ -117,10 +117,7 @@ class Mission(StagedMission):
             if command is not None:
                 self.message = 'giving way to a mate'
                 return command
-        return {
-            State.IDLE: self._begin, State.UNDOCKING: self._leave_dock, State.CLEANING: self._clean,
-            State.RETURNING: self._return, State.DOCKING: self._return, State.CHARGING: self._charge,
-        }[self.state](observation)
+        return self._act(observation)
 
     def take_note(self, observation: Observation) -> None:
         """Follow the robot; what it passes over does not count as swept, since the person may move the brushes."""
@@ -183,9 +180,6 @@ class Mission(StagedMission):
         if observation.state_of_charge < self._watch.needed(observation.pose) + START:
             return self._enter(State.CHARGING, None)
         return self._enter(State.UNDOCKING, Undock(self._context, turns=False))
-
-    def _leave_dock(self, observation: Observation) -> Command:
-        return self._undock(observation, self._cleaning)
 
     def _clean(self, observation: Observation) -> Command:
         coverage = self._context.swept.coverage

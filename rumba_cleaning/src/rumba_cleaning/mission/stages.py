@@ -1,5 +1,6 @@
 """What missions have in common, with a map and without: their states, the part that is under way, and their end."""
 
+import abc
 import enum
 from typing import Optional, Tuple
 
@@ -43,6 +44,7 @@ class StagedMission(Behaviour):
     strategy = ''
     charging_time = 0.0
     charges = 0
+    _cleaning: Behaviour  # by the strategy
     _part: Optional[Behaviour] = None
     _closing: Optional[Tuple[Status, str, Outcome]] = None  # how the mission ends once the robot is back
     _has_memory = False  # of a floor on which it has begun
@@ -93,14 +95,36 @@ class StagedMission(Behaviour):
             part.restart()
         return STOP
 
-    def _undock(self, observation: Observation, cleaning: Behaviour) -> Command:
-        """Leave the dock, then clean."""
+    def _act(self, observation: Observation) -> Command:
+        """Do what the state asks for."""
+        return {
+            State.IDLE: self._begin, State.UNDOCKING: self._undock, State.CLEANING: self._clean,
+            State.RETURNING: self._return, State.DOCKING: self._return, State.CHARGING: self._charge,
+        }[self.state](observation)
+
+    @abc.abstractmethod
+    def _begin(self, observation: Observation) -> Command:
+        """Leave the dock, charge, or clean, by where the robot is."""
+
+    @abc.abstractmethod
+    def _clean(self, observation: Observation) -> Command:
+        """Clean, until there is a reason to return."""
+
+    @abc.abstractmethod
+    def _return(self, observation: Observation) -> Command:
+        """Get onto the contacts of the dock."""
+
+    @abc.abstractmethod
+    def _charge(self, observation: Observation) -> Command:
+        """Wait on them."""
+
+    def _undock(self, observation: Observation) -> Command:
         assert self._part is not None
         command = self._part.step(observation)
         if self._part.status is Status.FAILED:
             return self._strand(self._part.message, self._part.outcome)
         if self._part.status is Status.SUCCEEDED:
-            return self._enter(State.CLEANING, cleaning)
+            return self._enter(State.CLEANING, self._cleaning)
         return command
 
     def _was_moved(self, observation: Observation) -> bool:

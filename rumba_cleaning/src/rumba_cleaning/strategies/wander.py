@@ -11,7 +11,7 @@ from rumba_cleaning.strategies.spiral import Spiral
 from rumba_cleaning.strategies.wall_follow import WallFollow
 from rumba_sim.model.geometry import Pose
 
-# Chosen together with bench/mapless.py, by how much of the package's homes is swept after 45 minutes.
+# The figures are our choice; bench/mapless.py shows what they bring.
 LINES, WALLS = 40.0, 25.0  # [s] of straight lines, and along walls, before the other one has its turn
 ROOMY = 3.0  # [m] straight ahead without a touch: there is space for a spiral ...
 SPARSE = 120.0  # [s] ... if the last one was so long ago

@@ -11,6 +11,7 @@ CELLS = 12
 # end. The pack has its nominal 14.4 V at 10 % and about 18 V at the end of a charge (iRobot Roomba 600 Open Interface
 # specification; data of battery makers).
 REST_VOLTAGE = ((0.0, 1.00), (0.1, 1.20), (0.5, 1.27), (0.9, 1.34), (1.0, 1.47))
+HOUR = 3600.0  # [s]
 ROUNDING = 1e-6  # [%] so that 29 %, converted to ampere-hours and back, does not become 30 %
 
 
@@ -36,6 +37,15 @@ class BatteryConfig:
                                  low=0.0, high=0.99)
     drain: float = setting(1.0, 'how many times faster than a real battery this one discharges and charges',
                            low=0.0, high=1e4)
+
+    @property
+    def cleaning_current(self) -> float:
+        """Of all loads while a robot cleans at its usual speed [A]."""
+        return self.idle_current + self.wheel_current + self.brush_current
+
+    def discharge_rate(self, current: float) -> float:
+        """How fast the state of charge falls with a current [A]: [1/s]."""
+        return current * self.drain / (self.capacity * HOUR)
 
 
 class Battery:

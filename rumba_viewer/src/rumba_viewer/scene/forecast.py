@@ -93,5 +93,6 @@ class Forecast:
         if self._charging_time >= ENOUGH and self._charged > 0.0:
             return self._charging_time / self._charged
         battery = BatteryConfig()
-        load = battery.idle_current + battery.wheel_current + battery.brush_current
-        return self._cleaning_time / self._used * TAPER * load / battery.charge_current if self._used > 0.0 else 0.0
+        if self._used <= 0.0:
+            return 0.0
+        return self._cleaning_time / self._used * TAPER * battery.cleaning_current / battery.charge_current
