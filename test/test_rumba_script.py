@@ -104,10 +104,13 @@ def commands(folder, **scripts):
     return folder
 
 
-def test_a_failing_test_fails_the_whole_and_the_last_line_counts(checkout, tmp_path):
+def test_a_failing_test_fails_the_whole_and_is_named_and_the_last_line_counts(checkout, tmp_path):
     code, out, _ = rumba(checkout, 'test', XDG_CACHE_HOME=str(tmp_path / 'cache'))
     # The rostest counts twice: the parameter test, and its launch file.
     assert (code, out.splitlines()[-1]) == (1, '3 passed, 1 failed')
+    verdict = out[out.index('failure: '):]
+    assert verdict.startswith('failure: test_unit.test_fails\n')
+    assert 'AssertionError: on purpose' in verdict
 
 
 def test_help_names_every_command():

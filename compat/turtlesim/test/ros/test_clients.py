@@ -16,6 +16,15 @@ from nodes import TIMEOUT, Heard, Node, Turtlesim, commander, executable, wait
 MIDDLE = 5.544444
 
 
+def passes(poses, corners):
+    """Whether poses come by these corners of the field, in this order."""
+    left = list(corners)
+    for pose in poses[:]:
+        if left and math.dist((pose.x - MIDDLE, pose.y - MIDDLE), left[0]) < 0.2:
+            left.pop(0)
+    return not left
+
+
 class ClientsTest(unittest.TestCase):
     """Each test starts its own nodes."""
 
@@ -74,13 +83,12 @@ class ClientsTest(unittest.TestCase):
         os.close(theirs)
 
     def test_draw_square_resets_the_field_and_draws_a_square_of_2_m(self):
-        node = Turtlesim(self, '_speed:=5')
+        node = Turtlesim(self, '_speed:=2')
         node.call('turtle1/teleport_absolute', 1.0, 1.0, 2.0)
         pose = Heard(self, '/turtle1/pose')
         Node(self, executable('draw_square'))
-        for x, y in ((0.0, 0.0), (2.0, 0.0), (2.0, 2.0), (0.0, 2.0), (0.0, 0.0)):
-            pose.messages.clear()
-            pose.find(lambda pose, x=x, y=y: abs(pose.x - MIDDLE - x) < 0.1 and abs(pose.y - MIDDLE - y) < 0.1)
+        corners = [(0.0, 0.0), (2.0, 0.0), (2.0, 2.0), (0.0, 2.0), (0.0, 0.0)]
+        wait(self, lambda: passes(pose.messages, corners), 'a square')
 
     def test_mimic_moves_a_turtle_as_one_of_another_field_moves(self):
         Node(self, 'roslaunch', 'turtlesim', 'multisim.launch', stdout=subprocess.DEVNULL)
@@ -91,9 +99,9 @@ class ClientsTest(unittest.TestCase):
         moving = second.find(lambda pose: pose.linear_velocity != 0.0)
         self.assertAlmostEqual(moving.linear_velocity, 1.0, places=6)
         self.assertAlmostEqual(moving.angular_velocity, 0.8, places=6)
-        # On a busy machine the copy may stop some steps later than the turtle, but on the same circle.
+        # On a busy machine the copy may start and stop some steps later than the turtle, but on the same circle.
         for heard in (first, second):
-            end = heard.find(lambda pose: pose.theta > 0.7 and pose.linear_velocity == 0.0)
+            end = heard.find(lambda pose: pose.theta > 0.0 and pose.linear_velocity == 0.0)
             self.assertAlmostEqual(end.x, MIDDLE + 1.25 * math.sin(end.theta), delta=0.02)
             self.assertAlmostEqual(end.y, MIDDLE + 1.25 * (1.0 - math.cos(end.theta)), delta=0.02)
 
