@@ -16,6 +16,7 @@ from rumba_cleaning.belief.footing import SEEN
 from rumba_cleaning.control import CONTROL_DT, CONTROL_TICKS, observe, steps
 from rumba_cleaning.mission.mission import Mission
 from rumba_cleaning.outcome import Outcome
+from rumba_cleaning.pose_source import DeadReckoning, scan_of_robot
 from rumba_cleaning.route import Route
 from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.model.geometry import Pose
@@ -213,6 +214,41 @@ def test_a_robot_that_slides_along_an_obstacle_beside_an_edge_does_not_fall(gap,
     robot = world.spawn('rumba', Pose(1.2, y, 0.0))
     run(Bounded(Always(v, 0.0), 1000.0, context_of(plan, world)), world, seconds=12.0)
     assert robot.bumps >= 1 and not robot.has_fallen
+
+
+class SometimesRight(DeadReckoning):
+    """Counts the turns of its wheels, also while they slip, and finds its true place every second."""
+
+    def __init__(self, has_laser):
+        super().__init__()
+        self._has_laser = has_laser
+        self._looks = 0
+
+    def __call__(self, world, name):
+        if self._looks % 10 == 0:
+            self._corrections.clear()
+        self._looks += 1
+        return super().__call__(world, name)._replace(scan=scan_of_robot(world, name) if self._has_laser else None)
+
+
+@pytest.mark.parametrize('has_laser', [False, True])
+@pytest.mark.parametrize('off_back', [0.2, 0.3, 0.4, 0.5])
+@pytest.mark.parametrize('heading', [0.2, 0.3, 0.4])
+def test_a_robot_that_backs_off_against_something_beside_an_edge_does_not_slide_over_it(heading, off_back, has_laser):
+    """A sensor sees the edge on its left; of what somebody puts behind it, more to the right, it knows nothing."""
+    plan = with_cliffs(room(4.0, 2.0, 0.02, start=Pose(0.5, 0.5, 0.0)), (0.0, 1.4, 4.0, 2.0))
+    world = World(plan, quiet())
+    robot = world.spawn('rumba', Pose(1.5, 1.2, heading))
+    while not any(world.cliffs('rumba')):
+        robot.command(0.05, 0.0, world.tick)
+        world.step()
+    pose, away, direction = robot.pose, RADIUS + 0.135, heading + math.pi + off_back
+    world.add_obstacle(Obstacle('post', Pose(pose.x + away * math.cos(direction), pose.y + away * math.sin(direction),
+                                             0.0), 0.3, 0.128))
+    run(Bounded(Always(-0.1, 0.0), 1000.0, context_of(plan, world)), world, seconds=20.0, source=SometimesRight(has_laser))
+    assert not robot.has_fallen
+    if has_laser:  # it does not even push
+        assert math.dist(robot.pose[:2], pose[:2]) < 0.02
 
 
 def test_a_contact_beside_an_edge_is_one_with_something_unknown():

@@ -12,13 +12,13 @@ import numpy as np
 
 from rumba_cleaning.behaviour import Command, Observation
 from rumba_cleaning.behaviours.compiled_guard import HOLD_STEPS, ROUNDING, path
+from rumba_cleaning.behaviours.rear import LONGEST, Rear
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.belief.footing import FAR
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.kernel import Array
 
 SHARES = (0.6, 0.3)  # of a command that are tried, after the whole and a slow one, before the robot stops; our choice
-LONGEST = 0.3  # [s] the same, at most, by the time since the last one: in a longer step the node was busy
 SPARE = 0.02  # [m] from a wheel to an edge: a cell of a fine map; an edge that was seen is known no better
 SLIP = 0.02  # [m/s] sideways: the robot slides along a wall
 AT_REST = 0.02  # [m/s] of both wheels
@@ -43,7 +43,7 @@ ELSEWHERE = 0.3  # [m] from where edges held the robot
 
 Wheels = Tuple[float, float]  # left and right
 Sides = Tuple[bool, bool]  # left and right
-NONE = (False, False)
+NONE, BOTH = (False, False), (True, True)
 
 
 class Slip(NamedTuple):
@@ -75,6 +75,7 @@ class Guard:
         self._drive = context.robot.drive
         self._half = 0.5 * context.robot.drive.wheel_base
         self._clear = self._half + SPARE  # [m] from the middle to an edge: the robot can turn on the spot
+        self._rear = Rear(context.robot.drive.radius)
         self.rest()
 
     def rest(self) -> None:
@@ -83,6 +84,7 @@ class Guard:
         self._command = Command(0.0, 0.0)  # the last one
         self._last: Optional[Pose] = None
         self._held = NONE  # the side on which an edge kept the robot from what it was to do
+        self._rear.rest()
         self._go_on()
 
     def _go_on(self) -> None:
@@ -111,6 +113,7 @@ class Guard:
         What decides gets the observation; if an edge stopped the robot, as if the cliff sensors saw it.
         """
         self.see(observation)
+        self._rear.watch(observation, self._speeds)
         left, right = self._held
         if left or right:
             far_left, near_left, near_right, far_right = observation.cliffs
@@ -145,7 +148,10 @@ class Guard:
         best, most = None, self._ways(pose, (0.0, 0.0), NO_SLIP)[0]
         reserve = min(most - CREEP, RESERVE)
         most = math.inf if most > AWAY else most + GAIN
+        is_closed = self._rear.is_closed(observation)
         for v, w in WAYS_OUT:
+            if v < 0.0 and is_closed:
+                continue
             slow = command._replace(v=v, w=w)
             wanted = self._wanted(slow)
             ends, leasts = zip(*(self._ways(pose, wanted, slip) for slip in self._slips(observation, wanted)))
@@ -174,6 +180,9 @@ class Guard:
         must_know = self._is_wary(pose) or not (self._sees_ahead(wanted) and self._sees_ahead(self._speeds))
         if not (is_near or must_know) or fastest == 0.0:
             return command
+        if is_near and sum(wanted) < 0.0 and self._rear.is_closed(observation):
+            self._held = BOTH if _faster(self._speeds) < AT_REST else NONE
+            return command._replace(v=0.0, w=0.0)
         found, slips = [], self._slips(observation, wanted)
         limited = [self._limited(command, limit) for limit in (SWIFT_SPEED, self._safe_speed)]
         for slower in (command, *limited, *(_part_of(command, share) for share in SHARES)):

@@ -3,7 +3,7 @@
 from rumba_cleaning.belief.context import Context
 from rumba_sim.model.geometry import Pose
 
-MUCH = 0.85  # of what lies beside obstacles: who swept so much was not shut in; our choice
+MUCH = 0.97  # of what lies beside obstacles: who swept so much left crumbs, and was not shut in; our choice
 
 
 class SecondTry:

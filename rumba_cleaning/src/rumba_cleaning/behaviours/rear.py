@@ -1,0 +1,46 @@
+"""What is behind a robot that backs off from an edge: one that pushes against that slides aside, over the edge.
+
+The wheels turn meanwhile, so that a pose that is reckoned from them is that of a robot that backs off well.
+"""
+
+from typing import Tuple
+
+import numpy as np
+
+from rumba_cleaning.behaviour import Observation
+
+# All figures below are our choice.
+GAP = 0.03  # [m] from the body to what a beam met: three standard deviations of its range
+BEHIND = 0.5  # of a beam, the least cosine of its angle to the back: to 60 degrees off
+MOST = 0.06  # [m] back while the sensors see an edge: a robot that moves sees it no more by then, or drives along it
+LONGEST = 0.3  # [s] of one observation: in a longer one the node was busy
+
+
+class Rear:
+    """Watches how far a robot backs off, and what its laser sees behind it."""
+
+    def __init__(self, radius: float) -> None:
+        """Watch for a body of this radius [m]."""
+        self._reach = radius + GAP
+        self.rest()
+
+    def rest(self) -> None:
+        """The robot stands still, or somebody else drives it."""
+        self._backed = 0.0  # [m] since the cliff sensors saw no edge
+
+    def watch(self, observation: Observation, speeds: Tuple[float, float]) -> None:
+        """Take note of an observation, and of the speeds of the wheels before it [m/s]."""
+        back = max(-0.5 * sum(speeds), 0.0) * min(observation.dt, LONGEST)
+        self._backed = self._backed + back if any(observation.cliffs) else 0.0
+
+    def is_closed(self, observation: Observation) -> bool:
+        """Whether the robot must not go back."""
+        return self._backed > MOST or self._is_seen(observation)
+
+    def _is_seen(self, observation: Observation) -> bool:
+        """Whether the laser sees something right behind."""
+        if observation.scan is None:
+            return False
+        points = observation.scan.points
+        ranges = np.hypot(points[:, 0], points[:, 1])
+        return bool(((ranges < self._reach) & (points[:, 0] < -BEHIND * ranges)).any())
