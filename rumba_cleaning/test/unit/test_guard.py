@@ -245,7 +245,8 @@ def test_a_robot_that_backs_off_against_something_beside_an_edge_does_not_slide_
     pose, away, direction = robot.pose, RADIUS + 0.135, heading + math.pi + off_back
     world.add_obstacle(Obstacle('post', Pose(pose.x + away * math.cos(direction), pose.y + away * math.sin(direction),
                                              0.0), 0.3, 0.128))
-    run(Bounded(Always(-0.1, 0.0), 1000.0, context_of(plan, world)), world, seconds=20.0, source=SometimesRight(has_laser))
+    run(Bounded(Always(-0.1, 0.0), 1000.0, context_of(plan, world)), world, seconds=20.0,
+        source=SometimesRight(has_laser))
     assert not robot.has_fallen
     if has_laser:  # it does not even push
         assert math.dist(robot.pose[:2], pose[:2]) < 0.02
