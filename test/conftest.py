@@ -41,7 +41,8 @@ def workspace(tmp_path_factory, environment):
 def overlay(tmp_path_factory, environment, workspace):
     """A stranger's packages, and that of the lessons with a library below it, built over our install space."""
     with once(tmp_path_factory, 'overlay') as (path, is_first):
-        overlay = Workspace(path, [*STRANGERS, SPEED_GUARD], environment, workspace.setup('install'))
+        overlay = Workspace(path, [*STRANGERS, SPEED_GUARD], environment,
+                            [*UNDERLAY, workspace.setup('install')])
         if is_first:
             overlay.make('install')  # after it has built all
     return overlay

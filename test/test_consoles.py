@@ -17,7 +17,7 @@ def play(tmp_path, *fences):
     """Play a page of these fences in a shell without ROS."""
     page = tmp_path / 'README.md'
     page.write_text('\n'.join(f'Text.\n\n```console\n{fence}\n```\n' for fence in fences) + '\n```sh\nfalse\n```\n')
-    consoles.play(page, Space('', clean_environment()))
+    consoles.play(page, Space([], clean_environment()))
 
 
 @pytest.mark.parametrize('fence', [

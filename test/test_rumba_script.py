@@ -220,7 +220,7 @@ def test_a_roscore_and_a_node_in_the_shell_cannot_be_reached_from_other_machines
     checkout, environment = built
     node = commands(tmp_path / 'bin', node=NODE) / 'node'
     environment = {**clean_environment(), 'ROS_HOSTNAME': '', **environment}
-    shell = Space(f'cd "{checkout}";', environment)
+    shell = Space([], environment, f'cd "{checkout}";')
     with shell.running(f'./rumba shell roscore -p {environment["ROS_MASTER_URI"].rpartition(":")[2]}') as core:
         wait_for(core, {'rosmaster': 0, 'roscore': 0, 'rosout': 1})
         with shell.running(f'./rumba shell {node}') as process:

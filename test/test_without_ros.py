@@ -108,7 +108,7 @@ def test_every_module_can_be_imported_without_ros(venv):
 
 
 def test_the_commands_of_the_page_print_what_it_shows(venv, tmp_path):
-    play(PAGE, Space(f'cd {tmp_path}; PATH={venv}/bin:$PATH;', environment()))
+    play(PAGE, Space([], environment(), f'cd {tmp_path}; PATH={venv}/bin:$PATH;'))
 
 
 def test_the_map_becomes_a_picture_in_ten_lines(venv, tmp_path):

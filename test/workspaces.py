@@ -1,6 +1,7 @@
 """Scratch catkin workspaces and a master of their own, untouched by the workspace that runs the tests."""
 
 import contextlib
+import functools
 import os
 import pathlib
 import re
@@ -11,7 +12,7 @@ import threading
 import time
 import uuid
 import xmlrpc.client
-from typing import Dict, Iterator, List, Optional
+from typing import Dict, FrozenSet, Iterator, List, Optional, Sequence, Tuple
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 WS = (ROOT / '.ws').resolve()  # a link if the path of the checkout has spaces
@@ -23,20 +24,21 @@ TIMEOUT = 60.0
 BUILD_TIMEOUT = 900.0
 FROM_OTHER_WORKSPACES = ('CMAKE_PREFIX_PATH', 'ROS_PACKAGE_PATH', 'PYTHONPATH', 'PKG_CONFIG_PATH', 'LD_LIBRARY_PATH')
 NOETIC_SETUP = pathlib.Path('/opt/ros/noetic/setup.sh')
-UNDERLAY = f'. {NOETIC_SETUP}; ' if NOETIC_SETUP.exists() else ''
+UNDERLAY = [NOETIC_SETUP] if NOETIC_SETUP.exists() else []  # the setup files below every workspace
 
 
 class Space:
-    """What a user has after sourcing a setup file."""
+    """What a user has after sourcing setup files, and after the shell commands of a preamble."""
 
-    def __init__(self, setup: str, environment: Dict[str, str]) -> None:
-        self._setup = setup
+    def __init__(self, setups: Sequence[pathlib.Path], environment: Dict[str, str], preamble: str = '') -> None:
+        self._setups = tuple(setups)
         self._environment = environment
+        self._preamble = preamble
 
     def start(self, command: str, **options) -> subprocess.Popen:
         """Start a shell command in this space; `options` go to Popen."""
-        return subprocess.Popen(['bash', '-c', f'{self._setup} exec {command}'], universal_newlines=True,
-                                env=self._environment, **{'stdout': subprocess.PIPE, **options})
+        return subprocess.Popen(['bash', '-c', f'{self._preamble} exec {command}'], universal_newlines=True,
+                                env=sourced(self._setups, self._environment), **{'stdout': subprocess.PIPE, **options})
 
     def run(self, command: str, timeout: float = TIMEOUT, **options) -> str:
         """Output of a shell command in this space, which must succeed."""
@@ -100,14 +102,30 @@ class Printed:
         return next((number for number in range(begin, len(self.lines)) if found.search(self.lines[number])), None)
 
 
+def sourced(setups: Tuple[pathlib.Path, ...], environment: Dict[str, str]) -> Dict[str, str]:
+    """An environment, with ROS_MASTER_URI, after sourcing setup files, which leave ROS_MASTER_URI as it is."""
+    if not setups:
+        return environment
+    others = frozenset(item for item in environment.items() if item[0] != 'ROS_MASTER_URI')
+    return {**_sourced(setups, others), 'ROS_MASTER_URI': environment['ROS_MASTER_URI']}
+
+
+@functools.lru_cache(maxsize=None)  # to source them takes longer than many a command of the tests
+def _sourced(setups: Tuple[pathlib.Path, ...], environment: FrozenSet[Tuple[str, str]]) -> Dict[str, str]:
+    script = ' && '.join([*(f'. {setup}' for setup in setups), 'exec env -0'])
+    variables = subprocess.check_output(['bash', '-c', script], env=dict(environment), universal_newlines=True)
+    return dict(variable.split('=', 1) for variable in variables.split('\0') if variable)
+
+
 class Workspace:
     """A catkin workspace in a new folder, with links to packages."""
 
-    def __init__(self, path: pathlib.Path, packages, environment: Dict[str, str], over: str = '') -> None:
-        """Make the folder if there is none; `over` is the setup file of a workspace below this one, if any."""
+    def __init__(self, path: pathlib.Path, packages, environment: Dict[str, str],
+                 over: Sequence[pathlib.Path] = UNDERLAY) -> None:
+        """Make the folder if there is none; `over` are the setup files of what is below this workspace."""
         self.path = path
         self._environment = environment
-        self._below = Space(UNDERLAY + (f'. {over};' if over else ''), environment)
+        self._below = Space(over, environment)
         if not path.exists():
             (path / 'src').mkdir(parents=True)
             for package in packages:
@@ -128,7 +146,7 @@ class Workspace:
         A command finds the nodes of the workspace in the folder $LIB: rosrun takes longer to look for a node than most
         nodes take to start.
         """
-        return Space(f'. {self.setup(space)}; LIB={self.path / space}/lib;', environment or self._environment)
+        return Space([self.setup(space)], environment or self._environment, f'LIB={self.path / space}/lib;')
 
 
 def lines(process: subprocess.Popen) -> Iterator[str]:

@@ -14,8 +14,8 @@ from rumba_msg.msg import MissionStatus, TeamPlan, TeamReport
 from rumba_sim.model import map_file
 from rumba_sim.model.robot_config import RobotConfig
 
-MAP = FLOOR + 'docks: [[3.8, 1.0, 0.0], [0.2, 1.0, 3.14159]]\n'
-PICTURE = b'P5 80 40 255\n' + 80 * 40 * b'\xff'  # 4 m x 2 m
+MAP = FLOOR + 'docks: [[2.2, 0.65, 0.0], [0.2, 0.65, 3.14159]]\n'
+PICTURE = b'P5 48 26 255\n' + 48 * 26 * b'\xff'  # 2.4 m x 1.3 m
 SEED, TARGET = 5, 0.9
 TEAM = '_team:=rumba rumba2'
 
@@ -27,7 +27,7 @@ class CleanerTeamTest(unittest.TestCase):
         """A simulator with two robots, and their cleaners, which begin to clean."""
         folder = folder_of(self, {'floor.yaml': MAP.encode(), 'floor.pgm': PICTURE})
         self.path = f'{folder}/floor.yaml'
-        simulator = Simulator(self, f'_map:={self.path}', '_robots:=2', f'_seed:={SEED}', '_speed:=0',
+        simulator = Simulator(self, f'_map:={self.path}', '_robots:=2', f'_seed:={SEED}', '_speed:=50',
                               '_brushes_up:=true', *arguments)
         common = TEAM, f'_seed:={SEED}', f'_target_coverage:={TARGET}', '_autostart:=true'
         first = Cleaner(self, *common)

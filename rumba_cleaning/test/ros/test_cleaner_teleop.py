@@ -33,7 +33,7 @@ class CleanerTeleopTest(unittest.TestCase):
         return self.cleaner.status.fresh(lambda message: message.state == MissionStatus.YIELDING)
 
     def test_a_mission_yields_to_a_person_and_then_goes_on_to_its_target(self):
-        goal = self.cleaner.send('clean', CleanGoal(target_coverage=0.4))
+        goal = self.cleaner.send('clean', CleanGoal(target_coverage=0.15))
         self.battery.fresh(lambda message: not message.brushes_up)
         self.person.press(0.1, 1.0)
         self.assertEqual(self.yields().strategy, 'boustrophedon')
@@ -50,7 +50,7 @@ class CleanerTeleopTest(unittest.TestCase):
         self.cleaner.status.find(lambda message: message.state == MissionStatus.CLEANING)
         self.battery.fresh(lambda message: not message.brushes_up)
         answer = goal.ends(Outcome.SUCCEEDED)
-        self.assertAlmostEqual(answer.cleaning.coverage, 0.4, delta=0.03)
+        self.assertAlmostEqual(answer.cleaning.coverage, 0.15, delta=0.03)
 
     def test_go_to_arrives_although_a_person_drives_away_from_the_target(self):
         goal = self.cleaner.send('go_to', go_to(1.0, 2.5, -2.0))

@@ -1,7 +1,8 @@
 """What all nodes of this package share: help, parameters, one line and exit code 2 for bad input, a clean end.
 
-This module, `pace` and `requests` resemble modules of rumba_sim. They are repeated because this package takes the place
-of one that a distribution ships: it must build and run in a workspace without any other package of Rumba.
+This module, `pace`, `prompt_end` and `requests` resemble modules of rumba_sim. They are repeated because this package
+takes the place of one that a distribution ships: it must build and run in a workspace without any other package of
+Rumba.
 """
 
 import inspect
@@ -22,6 +23,7 @@ import rospy
 import yaml
 
 from turtlesim.model.errors import TurtlesimError
+from turtlesim.ros import prompt_end
 
 BAD_INPUT = 2
 LOOK_PERIOD = 0.5  # [s] between two looks for a master
@@ -110,6 +112,7 @@ def _wait_for_master(name: str) -> None:
 
 def _register(name: str, own_clock: bool) -> None:
     _log_trouble_once(name)
+    prompt_end.use()
     try:
         rospy.init_node(name, disable_rostime=own_clock)
     except OSError as error:  # of the log file that the argument __log names
