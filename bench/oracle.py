@@ -21,8 +21,10 @@ from rumba_cleaning.cleaning_config import CleaningConfig
 from rumba_cleaning.pose_source import Localised
 from rumba_sim.model import map_file, named_maps
 from rumba_sim.model.geometry import Pose, as_told, compose, inverse, wrap_angle
+from rumba_sim.model.robot_config import LaserConfig
 from rumba_sim.model.world import World
 
+LASER = LaserConfig()
 NAMES = ('studio', 'apartment')
 RMS = 0.03  # [m] at most
 PARTICLES = 500
@@ -30,10 +32,10 @@ SPREAD = 0.003, math.radians(0.3)  # [m], [rad] that MRPT adds to each movement:
 
 
 class Drive(NamedTuple):
-    """What was told, what was true, and what was believed, at each control tick of a drive: poses [m, rad], ranges."""
+    """What was told, what was true, and what was believed, at each control tick of a drive: poses [m, rad], scans."""
 
     odometry: list
-    ranges: list
+    scans: list
     truth: list
     believed: list
     cost: float  # CPU time of our localisation [s]
@@ -51,7 +53,7 @@ def drive(name, seed, seconds):
         begun = time.process_time()
         believed = source(world, 'rumba')
         cost += time.process_time() - begun
-        for values, value in zip(found, (as_told(robot.odometry), world.scan('rumba'), robot.pose, believed.pose)):
+        for values, value in zip(found, (as_told(robot.odometry), believed.scan, robot.pose, believed.pose)):
             values.append(value)
         command = bounce.step(control.observe(world, 'rumba', control.CONTROL_DT, lambda *_: believed))
         robot.command(command.v, command.w, world.tick)
@@ -62,9 +64,9 @@ def drive(name, seed, seconds):
 class Oracle:
     """The Monte Carlo localisation of MRPT, told where the robot begins."""
 
-    def __init__(self, mrpt, name, start, config):
+    def __init__(self, mrpt, name, start):
         """Know a map of rumba_sim, and where the robot is on it."""
-        self._mrpt, self._config = mrpt, config
+        self._mrpt = mrpt
         self._map = mrpt.maps.COccupancyGridMap2D.FromROSMapServerYAML(str(named_maps.path(name)))
         likelihood = self._map.likelihoodOptions
         likelihood.likelihoodMethod = mrpt.maps.COccupancyGridMap2D.TLikelihoodMethod.lmLikelihoodField_Thrun
@@ -77,29 +79,32 @@ class Oracle:
         gaussian = self._motion.gaussianModel
         gaussian.minStdXY, gaussian.minStdPHI = SPREAD
 
-    def observe(self, moved, ranges):
+    def observe(self, moved, scan):
         """Take a movement (x, y [m], theta [rad]), and a scan at its end; returns the mean of the particles."""
         mrpt = self._mrpt
         movement = mrpt.obs.CActionRobotMovement2D()
         movement.computeFromOdometry(mrpt.poses.CPose2D(*moved), self._motion)
         actions, frame = mrpt.obs.CActionCollection(), mrpt.obs.CSensoryFrame()
         actions.insert(movement)
-        frame.insert(self._scan(ranges))
+        frame.insert(self._converted(scan))
         self._filter.executeOn(self._pdf, actions, frame)
         mean = self._pdf.getMeanVal()
         return Pose(mean.x(), mean.y(), mean.phi())
 
-    def _scan(self, ranges):
-        mrpt = self._mrpt
-        scan = mrpt.obs.CObservation2DRangeScan()
-        step = 2.0 * math.pi / len(ranges)  # ours begin straight back; those of MRPT lie evenly on both sides of ahead
-        scan.aperture, scan.sensorPose = 2.0 * math.pi - step, mrpt.poses.CPose3D(0.0, 0.0, 0.0, -0.5 * step, 0.0, 0.0)
-        scan.maxRange, scan.rightToLeft = self._config.laser.range_max, True
-        scan.resizeScan(len(ranges))
-        for beam, distance in enumerate(ranges.tolist()):
-            scan.setScanRange(beam, distance if math.isfinite(distance) else 0.0)
-            scan.setScanRangeValidity(beam, math.isfinite(distance))
-        return scan
+    def _converted(self, scan):
+        mrpt, x, y = self._mrpt, *scan.points.T
+        converted = mrpt.obs.CObservation2DRangeScan()
+        step = 2.0 * math.pi / LASER.beams  # ours begin straight back; those of MRPT lie evenly on both sides of ahead
+        converted.aperture, converted.maxRange, converted.rightToLeft = 2.0 * math.pi - step, LASER.range_max, True
+        converted.sensorPose = mrpt.poses.CPose3D(0.0, 0.0, 0.0, -0.5 * step, 0.0, 0.0)
+        converted.resizeScan(LASER.beams)
+        for beam in range(LASER.beams):
+            converted.setScanRangeValidity(beam, False)
+        beams = np.rint((np.arctan2(y, x) + math.pi) / step).astype(int) % LASER.beams
+        for beam, distance in zip(beams.tolist(), np.hypot(x, y).tolist()):
+            converted.setScanRange(beam, distance)
+            converted.setScanRangeValidity(beam, True)
+        return converted
 
 
 def show(title, poses, truth, cost, seconds):
@@ -128,9 +133,9 @@ def main():
         found = drive(name, seed, arguments.seconds)
         show('localiser', found.believed, found.truth, found.cost, arguments.seconds)
         begun, before, poses = time.process_time(), found.odometry[0], []
-        oracle = Oracle(mrpt, name, found.truth[0], World(map_file.load(named_maps.path(name))).config)
-        for odometry, ranges in zip(found.odometry, found.ranges):
-            poses.append(oracle.observe(compose(inverse(before), odometry), ranges))
+        oracle = Oracle(mrpt, name, found.truth[0])
+        for odometry, scan in zip(found.odometry, found.scans):
+            poses.append(oracle.observe(compose(inverse(before), odometry), scan))
             before = odometry
         show(f'MRPT, {PARTICLES} particles', poses, found.truth, time.process_time() - begun, arguments.seconds)
 

@@ -12,13 +12,14 @@ import numpy as np
 
 from rumba_cleaning.behaviour import Command, Observation
 from rumba_cleaning.behaviours.compiled_guard import HOLD_STEPS, ROUNDING, path
-from rumba_cleaning.behaviours.rear import LONGEST, Rear
+from rumba_cleaning.behaviours.rear import Rear
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.belief.footing import FAR
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.kernel import Array
 
 SHARES = (0.6, 0.3)  # of a command that are tried, after the whole and a slow one, before the robot stops; our choice
+LONGEST = 0.3  # [s] the same, at most, by the time since the last one: in a longer step the node was busy
 SPARE = 0.02  # [m] from a wheel to an edge: a cell of a fine map; an edge that was seen is known no better
 SLIP = 0.02  # [m/s] sideways: the robot slides along a wall
 AT_REST = 0.02  # [m/s] of both wheels
@@ -113,7 +114,7 @@ class Guard:
         What decides gets the observation; if an edge stopped the robot, as if the cliff sensors saw it.
         """
         self.see(observation)
-        self._rear.watch(observation, self._speeds)
+        self._rear.watch(observation, 0.5 * sum(self._speeds) * min(observation.dt, LONGEST))
         left, right = self._held
         if left or right:
             far_left, near_left, near_right, far_right = observation.cliffs

@@ -3,8 +3,6 @@
 The wheels turn meanwhile, so that a pose that is reckoned from them is that of a robot that backs off well.
 """
 
-from typing import Tuple
-
 import numpy as np
 
 from rumba_cleaning.behaviour import Observation
@@ -13,7 +11,6 @@ from rumba_cleaning.behaviour import Observation
 GAP = 0.03  # [m] from the body to what a beam met: three standard deviations of its range
 BEHIND = 0.5  # of a beam, the least cosine of its angle to the back: to 60 degrees off
 MOST = 0.06  # [m] back while the sensors see an edge: a robot that moves sees it no more by then, or drives along it
-LONGEST = 0.3  # [s] of one observation: in a longer one the node was busy
 
 
 class Rear:
@@ -28,10 +25,9 @@ class Rear:
         """The robot stands still, or somebody else drives it."""
         self._backed = 0.0  # [m] since the cliff sensors saw no edge
 
-    def watch(self, observation: Observation, speeds: Tuple[float, float]) -> None:
-        """Take note of an observation, and of the speeds of the wheels before it [m/s]."""
-        back = max(-0.5 * sum(speeds), 0.0) * min(observation.dt, LONGEST)
-        self._backed = self._backed + back if any(observation.cliffs) else 0.0
+    def watch(self, observation: Observation, driven: float) -> None:
+        """Take note of an observation, and of how far the wheels have driven forward since the one before [m]."""
+        self._backed = self._backed + max(-driven, 0.0) if any(observation.cliffs) else 0.0
 
     def is_closed(self, observation: Observation) -> bool:
         """Whether the robot must not go back."""
