@@ -1,6 +1,7 @@
 """How much sooner several robots clean a floor that they share, from their docks and from anywhere.
 
-`fleet.py [--seeds N]` runs seeds 1 to N, 20 by default, on all cores; times are simulated, those of charging left out.
+`fleet.py [--seeds N] [--starts START ...] [--poses POSE ...]` runs seeds 1 to N, 20 by default, on all cores; times are
+simulated, those of charging left out.
 """
 
 import argparse
@@ -51,10 +52,11 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.split('\n\n')[0])
     parser.add_argument('--seeds', type=int, default=20)
     parser.add_argument('--poses', nargs='+', choices=POSES, default=(TRUTH, LOCALISED))
+    parser.add_argument('--starts', nargs='+', choices=(DOCK, ANYWHERE), default=(DOCK, ANYWHERE))
     arguments = parser.parse_args()
     seeds = range(1, arguments.seeds + 1)
     with concurrent.futures.ProcessPoolExecutor() as executor:
-        for pose, start in itertools.product(arguments.poses, (DOCK, ANYWHERE)):
+        for pose, start in itertools.product(arguments.poses, arguments.starts):
             figures.heading(f'Robots that share the map {MAP} to 99 %: start {start}, pose {pose}, {len(seeds)} seeds')
             found = {robots: list(executor.map(functools.partial(mission, robots, start, pose), seeds))
                      for robots in ROBOTS}

@@ -51,6 +51,23 @@ def planned(context, pose, rounds=1):
     return routes, context.swept
 
 
+@pytest.mark.parametrize('end, left, right', [(Pose(0.5, 0.5, 0.0), 0.0, 1.9), (Pose(5.5, 0.5, 0.0), 4.1, 6.0)])
+def test_a_plan_ends_near_where_it_should(end, left, right):
+    context = knowing(FLOORS['two doors'](), Pose(3.0, 1.2, 0.0))
+    route = plan(context, Pose(3.0, 1.2, 0.0), end)
+    assert left < route.waypoints[-1][0] < right
+    assert driven(context, route).coverage == approx(driven(context, plan(context, Pose(3.0, 1.2, 0.0))).coverage,
+                                                     abs=0.01)
+
+
+def test_within_a_room_too_a_plan_ends_near_where_it_should():
+    start, corners = Pose(0.3, 0.3, 0.0), [Pose(0.3, 2.2, 0.0), Pose(3.7, 2.2, 0.0)]
+    context = knowing(room(4.0, 2.5, 0.05, [(1.9, 1.1, 2.1, 1.3)]), start)
+    ends = [plan(context, start, corner).waypoints[-1] for corner in corners]
+    for corner, mine, other in zip(corners, ends, ends[::-1]):
+        assert math.dist(mine, corner[:2]) < math.dist(other, corner[:2])
+
+
 @pytest.mark.parametrize('name', list(FLOORS))
 def test_plans_reach_the_target_by_short_routes_that_keep_off_walls(name):
     floor_plan = FLOORS[name]()

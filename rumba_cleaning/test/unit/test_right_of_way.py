@@ -7,7 +7,7 @@ import pytest
 from rooms import quiet, room
 
 from rumba_cleaning.behaviour import STOP, Observation
-from rumba_cleaning.behaviours.right_of_way import PATIENCE, RightOfWay
+from rumba_cleaning.behaviours.right_of_way import PATIENCE, SHUT_IN, RightOfWay
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.belief.mates import Mates, Report, Task
 from rumba_cleaning.cleaning_config import CleaningConfig
@@ -25,13 +25,18 @@ def along(*points):
     return Ahead(route, route.length)
 
 
-def command(name, pose, ahead, mate, task=Task.SWEEPING, mates_way=None, plan=PLAN, steps=1):
-    """What a robot of the team does while its mate is at a pose; the last of some steps at one place."""
+def command(name, pose, ahead, mate, task=Task.SWEEPING, mates_way=None, plan=PLAN, steps=1, bumper=(False, False)):
+    """What a robot of the team does while its mate is at a pose; the last of some steps at one place.
+
+    The bumper is pressed in the last one only.
+    """
     context = Context(plan, quiet(), CleaningConfig(), mates=Mates(name, TEAM))
     other = TEAM[1 - TEAM.index(name)]
     context.mates.hear(other, Report(mate, True, task, mates_way))
     controller = RightOfWay(context)
-    return [controller.command(Observation(0.1, pose), ahead) for _ in range(steps)][-1]
+    for _ in range(steps - 1):
+        controller.command(Observation(0.1, pose), ahead)
+    return controller.command(Observation(0.1, pose, bumper), ahead)
 
 
 HERE, THERE = Pose(2.0, 2.0, 0.0), Pose(2.8, 2.0, math.pi)
@@ -89,3 +94,29 @@ def test_patience_ends():
     crossing = along((2.0, 2.0), (2.0, 3.5))
     assert command('rumba2', HERE, crossing, Pose(1.5, 2.5, 0.0), steps=steps - 1, **way) == STOP
     assert command('rumba2', HERE, crossing, Pose(1.5, 2.5, 0.0), steps=steps + 1, **way) is None
+
+
+# --- neither gets on -----------------------------------------------------------------------------------------------
+
+def test_a_robot_that_leaves_the_way_of_the_first_goes_on_so_that_the_first_need_not_wait():
+    pose, leading_off = Pose(2.2, 2.1, math.pi / 2.0), along((2.2, 2.1), (2.2, 3.5))
+    assert command('rumba2', pose, leading_off, THERE, mates_way=THEIRS) is None
+    assert command('rumba2', pose, along((2.2, 2.1), (2.2, 2.2)), THERE, mates_way=THEIRS) is not None
+
+
+@pytest.mark.parametrize('bumper', [(True, False), (False, True)])
+def test_who_touches_something_on_the_way_aside_drives_on_instead(bumper):
+    assert command('rumba2', HERE, MINE, THERE, mates_way=THEIRS, steps=5) is not None
+    assert command('rumba2', HERE, MINE, THERE, mates_way=THEIRS, steps=5, bumper=bumper) is None
+
+
+def test_of_two_in_a_dead_end_the_second_soon_drives_on_and_the_first_moves_aside():
+    pose, mate = Pose(0.4, 0.25, 0.0), Pose(1.2, 0.25, math.pi)
+    mine, theirs = along((0.4, 0.25), (2.4, 0.25)), along((1.2, 0.25), (0.2, 0.25))
+    soon, late = round(SHUT_IN / 0.1) - 1, round(SHUT_IN / 0.1) + 2
+    assert command('rumba2', pose, mine, mate, mates_way=theirs, plan=CORRIDOR, steps=soon) == STOP
+    assert command('rumba2', pose, mine, mate, mates_way=theirs, plan=CORRIDOR, steps=late) is None
+    waiting = dict(ahead=along((0.85, 0.25), (0.2, 0.25)), mate=pose, mates_way=mine, plan=CORRIDOR)
+    assert command('rumba', Pose(0.85, 0.25, math.pi), steps=soon, **waiting) == STOP
+    aside = command('rumba', Pose(0.85, 0.25, math.pi), steps=late, **waiting)
+    assert aside is not None and aside.brushes_up and (aside.v, aside.w) != (0.0, 0.0)

@@ -11,8 +11,10 @@ from teams import Crew
 
 from rumba_cleaning.behaviour import Status
 from rumba_cleaning.belief.mates import Task
+from rumba_cleaning.mission import mission as missions
 from rumba_cleaning.mission.stages import State
 from rumba_cleaning.outcome import Outcome
+from rumba_cleaning.planning import helping
 from rumba_sim.model.geometry import Pose
 
 WALL = (3.0, 0.0, 3.1, 2.0)  # with a door of 1 m above it
@@ -67,6 +69,35 @@ def test_each_takes_a_share_of_the_floor_and_nobody_plans_what_another_does():
     assert max(times) < 1.4 * min(times)
     means = [mission.plan_ahead().route.waypoints.mean(axis=0) for mission in crew.missions.values()]
     assert np.hypot(*(means[0] - means[1])) > 1.2
+
+
+@pytest.mark.parametrize('mate, left, right', [(0.5, 1.6, 6.0), (5.5, 0.0, 4.4)])
+def test_a_robot_leaves_to_a_mate_what_is_near_it(mate, left, right):
+    walls = [(x, y, x + 0.1, y + 0.8) for x in (1.9, 4.0) for y in (0.0, 1.6)]
+    rooms = room(6.0, 2.4, 0.05, walls)
+    crew = Crew(rooms, quiet(), poses=[Pose(3.0, 1.2, 0.0), Pose(mate, 1.2, 0.0)])
+    while crew.missions['rumba'].plan_ahead() is None:
+        crew.step()
+    x = crew.missions['rumba'].plan_ahead().route.waypoints[:, 0]
+    assert left < x.min() and x.max() < right
+
+
+def test_who_waits_on_its_dock_for_mates_that_find_nothing_more_ends_there(monkeypatch):
+    monkeypatch.setattr(missions, 'EXACT', 0.5)  # nobody is ever sure to have met the target
+    monkeypatch.setattr(helping, 'LEAST', math.inf)  # and who comes late finds no work
+    crew = Crew(TWO_ROOMS, quiet())
+    crew.silent.add('rumba2')
+    while crew.missions['rumba'].plan_ahead() is None:
+        crew.step()
+    crew.silent.clear()
+    states = []
+    while crew.missions['rumba2'].status is Status.RUNNING:
+        crew.step()
+        states.append(crew.missions['rumba2'].state)
+    assert crew.missions['rumba2'].outcome is Outcome.SUCCEEDED
+    assert [state for state, _ in itertools.groupby(states)] == [
+        State.IDLE, State.UNDOCKING, State.CLEANING, State.RETURNING, State.DOCKING, State.CHARGING, State.RETURNING,
+        State.IDLE]
 
 
 def test_what_a_robot_leaves_that_falls_silent_is_cleaned_by_its_mate():

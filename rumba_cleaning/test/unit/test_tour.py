@@ -146,6 +146,20 @@ def test_places_are_visited_once_each_by_a_short_way():
     assert sorted(order(costs)) == list(range(7))
 
 
+def test_a_way_over_places_to_a_point_is_short_too():
+    places = np.random.default_rng(4).uniform(0.0, 10.0, (7, 2))
+    times = np.hypot(*(places[:, np.newaxis] - places).transpose(2, 0, 1))
+    costs = np.concatenate([times, np.hypot(*places.T)[np.newaxis]])
+    last = np.append(np.hypot(*(places - 10.0).T), 14.0)
+
+    def taken(which):
+        return costs[[7, *which[:-1]], list(which)].sum() + last[which[-1]]
+
+    best = min(itertools.permutations(range(7)), key=taken)
+    assert taken(order(costs, last)) == approx(taken(best), rel=0.05)
+    assert taken(order(costs)) > 1.1 * taken(best)
+
+
 def uncompiled(module, **names):
     """A module of the planner as plain Python, with other values for some of its names."""
     source = pathlib.Path(module.__file__).read_text().replace('@compiled', '')

@@ -1,9 +1,11 @@
 """Keeps robots that share a floor out of each other's way: each gives way to the mates that come before it.
 
 A robot waits while its way crosses that of a mate with precedence, and moves aside if it stands on that way; so of any
-two robots one always goes on. A mate that does not move by itself is an obstacle like any other.
+two robots one always goes on. One that finds no place aside, or touches something on its way there, soon drives on, and
+its mate moves aside for it. A mate that does not move by itself is an obstacle like any other.
 """
 
+import enum
 import math
 from typing import List, Optional
 
@@ -26,10 +28,19 @@ SPACING = 0.05  # [m] between the points that are compared: a fraction of GAP
 GAP = 0.08  # [m] between two bodies that pass: large waits more often, small touches
 CLOSER = 0.02  # [m] by which a way must come nearer to a robot to lead toward it: more than the noise of a pose
 STANDING = 0.4  # [m] of the way ahead on which a mate without precedence stands: it is waited for, since it gives way
+SHUT_IN = 5.0  # [s] that a robot waits which finds no place aside, and a mate for it, which moves aside then
 PATIENCE = 30.0  # [s] that a robot waits or stands aside for one mate, then it goes on: a plan takes shorter
 REFUGE = 2.5  # [m] to a place aside, at most: large finds one more often, small comes back sooner
 TRIES = 12  # of such places, to which a path is looked for: large finds one more often, small saves time
 MOVING = (Task.SEEKING, Task.SWEEPING, Task.RETURNING, Task.DOCKING)
+
+
+class Duty(enum.Enum):
+    """What a robot owes to a mate."""
+
+    NONE = 'it may go on'
+    WAIT = 'it lets the mate pass'
+    MOVE_ASIDE = 'it stands on the way of the mate, or the mate cannot get off its own'
 
 
 class RightOfWay:
@@ -44,7 +55,7 @@ class RightOfWay:
     def rest(self) -> None:
         """The robot is free to go on."""
         self._follower: Optional[Follower] = None  # of the way aside
-        self._waited = 0.0  # [s]
+        self._waited, self._patience = 0.0, PATIENCE  # [s]
 
     def command(self, observation: Observation, ahead: Optional[Ahead]) -> Optional[Command]:
         """What to do for the sake of mates, or None if the robot may go on along its way."""
@@ -55,21 +66,25 @@ class RightOfWay:
             self.rest()
             return None
         mine = _points(ahead, pose, MINE)
-        command = None
-        for name, report in mates.items():
-            theirs = _points(report.ahead, report.pose, THEIRS)
-            comes_before = self._context.mates.has_precedence(name) or report.task is Task.DOCKING
-            if comes_before and self._leads_to(theirs, pose) and not self._leaves(mine, theirs):
-                command = self._aside(observation, report)
-                break
-            if comes_before and self._meet(mine, theirs) or not comes_before and self._leads_to(
-                    mine[:int(STANDING / SPACING)], report.pose):
-                command = STOP
-        if command is None:
+        duties = {name: self._duty(pose, mine, name, report) for name, report in mates.items()}
+        in_way = [mates[name] for name, duty in duties.items() if duty is Duty.MOVE_ASIDE]
+        if not in_way and Duty.WAIT not in duties.values():
             self.rest()
             return None
+        command = self._aside(observation, in_way[0]) if in_way else STOP
         self._waited += observation.dt
-        return command if self._waited < PATIENCE else None
+        return command if self._waited < self._patience else None
+
+    def _duty(self, pose: Pose, mine: Array, name: str, report: Report) -> Duty:
+        """What the robot, at a pose and with a way (any, 2) [m] ahead, owes to one mate."""
+        theirs = _points(report.ahead, report.pose, THEIRS)
+        if self._context.mates.has_precedence(name) or report.task is Task.DOCKING:
+            if self._leads_to(theirs, pose):
+                return Duty.NONE if self._leaves(mine, theirs) else Duty.MOVE_ASIDE
+            return Duty.WAIT if self._meet(mine, theirs) else Duty.NONE
+        if not self._leads_to(mine[:int(STANDING / SPACING)], report.pose):
+            return Duty.NONE
+        return Duty.MOVE_ASIDE if self._waited > SHUT_IN else Duty.WAIT
 
     def _leads_to(self, way: Array, pose: Pose) -> bool:
         """Whether a way (any, 2) [m] leads toward a robot and too near to it."""
@@ -88,9 +103,12 @@ class RightOfWay:
 
     def _aside(self, observation: Observation, mate: Report) -> Command:
         """Toward a place where the robot is in nobody's way, or wait if there is none."""
+        if self._follower is not None and any(observation.bumper):
+            self._follower, self._patience = None, 0.0
         if self._follower is None:
             route = self._way_aside(observation.pose, mate)
             if route is None:
+                self._patience = min(self._patience, SHUT_IN)
                 return STOP
             self._follower = Follower(route, self._context.robot.drive)
         v, w = self._follower.velocity(observation.pose, observation.dt)

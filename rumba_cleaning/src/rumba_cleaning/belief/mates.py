@@ -6,7 +6,7 @@ what all of them swept, and what is left. Nobody is in charge: who needs work pl
 
 import copy
 import enum
-from typing import Dict, NamedTuple, Optional, Sequence
+from typing import Dict, List, NamedTuple, Optional, Sequence
 
 from rumba_cleaning.route import Ahead
 from rumba_sim.model.geometry import Pose
@@ -76,9 +76,9 @@ class Mates:
         return any(name in self._before and report.task is Task.SEEKING for name, report in self.reports.items())
 
     @property
-    def seeking(self) -> int:
-        """How many of them need work."""
-        return sum(report.task is Task.SEEKING for report in self.reports.values())
+    def seeking(self) -> List[Pose]:
+        """Where those of them are that need work."""
+        return [report.pose for report in self.reports.values() if report.task is Task.SEEKING]
 
     def relief(self, name: str, plan: int) -> float:
         """Length [m] of the end of a plan, by the name of a robot and its number, that mates drive in its place."""

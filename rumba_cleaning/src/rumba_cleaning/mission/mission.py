@@ -287,6 +287,8 @@ class Mission(StagedMission):
 
     def _is_target_met(self, observation: Observation) -> bool:
         margin = EXACT if observation.covariance == CERTAIN else INEXACT
+        if self._waits and not self._context.mates.are_busy:
+            margin = 0.0  # each of them has found that nothing more is worth while
         return self._context.swept.coverage >= min(self._context.target_coverage + margin, 1.0)
 
     def _success(self) -> Tuple[Status, str, Outcome]:

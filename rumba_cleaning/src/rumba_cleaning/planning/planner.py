@@ -35,7 +35,7 @@ SLOW = 0.15  # [m] ... except for its end: the robot has slowed down and lowered
 Regional = Dict[int, List[Stretch]]  # by the label of their region
 
 
-def plan(context: Context, pose: Pose) -> Optional[Route]:
+def plan(context: Context, pose: Pose, end: Optional[Pose] = None) -> Optional[Route]:
     """A route that cleans what was missed; None if nothing was missed, or none of it can be reached.
 
     As long as lanes and rings clean most of it, crumbs are cleaned on detours from these. The routes after that know
@@ -44,6 +44,7 @@ def plan(context: Context, pose: Pose) -> Optional[Route]:
     Args:
         context: with the floor that was swept before; it is not changed.
         pose: from which the route begins, map frame.
+        end: near which it should end; None: anywhere.
     """
     ground, swept = context.ground, context.swept
     labels = regions(ground)
@@ -53,10 +54,10 @@ def plan(context: Context, pose: Pose) -> Optional[Route]:
     found = _stretches(context, paper, around, labels, main_direction(walls.outlines))
     missing = swept.missing_share() * around
     if paper.coverage - swept.coverage > MOST * missing.sum() * ground.plan.resolution ** 2 / swept.reachable_area:
-        route = _through(context, pose, labels, found)
+        route = _through(context, pose, end, labels, found)
         if route is not None:
             return with_crumbs(context, walls, route, paper, around, labels)
-    return _through(context, pose, labels, crumbs(ground, walls, missing, labels))
+    return _through(context, pose, end, labels, crumbs(ground, walls, missing, labels))
 
 
 def _around(context: Context, pose: Pose) -> Array:
@@ -67,14 +68,15 @@ def _around(context: Context, pose: Pose) -> Array:
     return ground.around(pose.x, pose.y, 0.5 * context.robot.brush.width + BEYOND)
 
 
-def _through(context: Context, pose: Pose, labels: Array, found: List[Stretch]) -> Optional[Route]:
-    """A route over stretches from a pose; of crumbs, only over as many as the target needs. None: there is none."""
+def _through(context: Context, pose: Pose, end: Optional[Pose], labels: Array,
+             found: List[Stretch]) -> Optional[Route]:
+    """A route over stretches between poses; of crumbs, only over as many as the target needs. None: there is none."""
     if not found:
         return None
     by_region: Regional = {}
     for part in found:
         by_region.setdefault(part.region, []).append(part)
-    tours = _tours(context, pose, labels, by_region)
+    tours = _tours(context, pose, end, labels, by_region)
     if all(part.is_crumb for part in found):
         _cull(context, tours, by_region)
     return _route(context, pose, tours, by_region)
@@ -110,22 +112,26 @@ def _by_region(ground: Ground, missed: Array, labels: Array) -> Dict[int, Array]
     return found
 
 
-def _tours(context: Context, pose: Pose, labels: Array, by_region: Regional) -> List[Tuple[int, Tour]]:
+def _tours(context: Context, pose: Pose, end: Optional[Pose], labels: Array,
+           by_region: Regional) -> List[Tuple[int, Tour]]:
     """The regions in the order in which they are cleaned, with a tour in each from door to door."""
     ground, speed = context.ground, context.config.transit_speed
-    start = np.array([pose.x, pose.y])
+    fixed = [pose] if end is None else [pose, end]
     names = list(by_region)
-    places = np.array([*(_middle(by_region[name]) for name in names), start])
-    node = ground.standing_at(pose.x, pose.y)
-    ways = Ways(doors(ground, labels), places, [*names, int(labels[node])])
-    metres = np.concatenate([ways.metres[:-1, :-1], ways.metres[-1:, :-1]])
-    visits = tour.order(metres / speed)
-    tours, here, entry = [], len(names), start
-    for place, following in zip(visits, [*visits[1:], None]):
-        if here != len(names) or names[place] != int(labels[node]):
+    places = np.array([*(_middle(by_region[name]) for name in names), *(each[:2] for each in fixed)])
+    of_fixed = [int(labels[ground.standing_at(each.x, each.y)]) for each in fixed]
+    ways = Ways(doors(ground, labels), places, [*names, *of_fixed])
+    start, goal = len(names), None if end is None else len(names) + 1
+    seconds = ways.metres[:start + 1] / speed
+    visits = tour.order(seconds[:, :start], None if goal is None else seconds[:, goal])
+    tours, here, entry = [], start, places[start]
+    for place, following in zip(visits, [*visits[1:], goal]):
+        if here != start or names[place] != of_fixed[0]:
             door = ways.doors(here, place)[1]
             entry = places[here] if door is None else door
         leave = None if following is None else ways.doors(place, following)[0]
+        if leave is None and following is not None and following == goal:
+            leave = places[goal]
         tours.append((names[place], Tour(ground, entry, by_region[names[place]], leave, speed)))
         here = place
     return tours

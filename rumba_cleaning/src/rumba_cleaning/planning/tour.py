@@ -157,15 +157,16 @@ def _headings(points: Array, ahead: Array) -> Array:
     return np.where(np.hypot(*along.T) > 0.0, np.arctan2(along[:, 1], along[:, 0]), np.nan)
 
 
-def order(costs: Array) -> List[int]:
+def order(costs: Array, last: Optional[Array] = None) -> List[int]:
     """The order in which to visit places once each, so that it takes little time.
 
     Args:
         costs: float64 (places + 1, places) [s], from each place to each other; the last row belongs to the start.
+        last: float64 (places + 1) [s], from each place to where it ends; None: anywhere.
     """
     count = costs.shape[1]
     alone = np.arange(count + 1)
-    costs, last = np.minimum(costs, FAR), np.zeros(count + 1)
+    costs, last = np.minimum(costs, FAR), np.zeros(count + 1) if last is None else np.minimum(last, FAR)
     found = compiled_tours.built(costs, last, alone)
     compiled_tours.improved(costs, last, alone[:-1], alone, found, ROUNDS)
     return [int(place) for place in found]

@@ -205,31 +205,31 @@ class Boustrophedon(Behaviour):
         return STOP._replace(brushes_up=self._brushes_up)
 
 
-def plan(context: Context, pose: Pose) -> Optional[Route]:
+def plan(context: Context, pose: Pose, end: Optional[Pose] = None) -> Optional[Route]:
     """As `planner.plan`, which is imported here, where nobody waits: otherwise a cleaner would take longer to start."""
     from rumba_cleaning.planning import planner
-    return planner.plan(context, pose)
+    return planner.plan(context, pose, end)
 
 
 def _round(context: Context, pose: Pose, is_worth: bool, may_retry: bool) -> Planned:
     """A route that cleans what was missed; if there is none, one without the obstacles that may have gone."""
     from rumba_cleaning.planning import helping, paper  # here for the same reason
     is_cut_off = context.is_cut_off(pose)
-    if context.beside_obstacles().coverage >= context.target_coverage and not is_cut_off:
-        return Planned(None)
+    is_met = context.beside_obstacles().coverage >= context.target_coverage and not is_cut_off
     paper.leave_to_mates(context)
-    share = 1.0 / (1 + context.mates.seeking)
-    route = plan(context, pose) if is_worth else None
+    route = _own_part(context, pose) if is_worth and not is_met else None
     if route is not None:
-        return Planned(_part_of(route, share))
+        return Planned(route)
     help_for_mate = helping.help_mate(context, pose)
     if help_for_mate is not None:
         return Planned(help_for_mate[0], relief=help_for_mate[1])
+    if is_met:
+        return Planned(None)
     if context.may_squeeze(pose):
         context.ground.squeeze(True)
-        route = plan(context, pose)
+        route = _own_part(context, pose)
         if route is not None:
-            return Planned(_part_of(route, share), squeezes=True)
+            return Planned(route, squeezes=True)
     retry = _retry(context, is_cut_off) if may_retry else Retry.NONE
     if retry is Retry.NONE:
         return Planned(None)
@@ -237,7 +237,7 @@ def _round(context: Context, pose: Pose, is_worth: bool, may_retry: bool) -> Pla
         context.ground.forget_barring(pose.x, pose.y)
     elif retry is Retry.FORGOT_DOUBTFUL:
         context.ground.forget_doubtful()
-    return Planned(_part_of(plan(context, pose), share), retry=retry)
+    return Planned(_own_part(context, pose), retry=retry)
 
 
 def _retry(context: Context, is_cut_off: bool) -> Retry:
@@ -247,9 +247,12 @@ def _retry(context: Context, is_cut_off: bool) -> Retry:
     return Retry.FORGOT_DOUBTFUL if context.ground.has_doubtful else Retry.NONE
 
 
-def _part_of(route: Optional[Route], share: float) -> Optional[Route]:
-    """The share of a route that the robot drives itself."""
-    return route if route is None or share == 1.0 else route.beginning(share)
+def _own_part(context: Context, pose: Pose) -> Optional[Route]:
+    """A route that cleans the robot's share of what was missed; what is near mates that need work is left to them."""
+    others = context.mates.seeking
+    farthest = max(others, key=lambda other: math.hypot(other.x - pose.x, other.y - pose.y), default=None)
+    route = plan(context, pose, farthest)
+    return route if route is None or not others else route.beginning(1.0 / (1 + len(others)))
 
 
 def _detour(context: Context, pose: Pose, rest: Route) -> Planned:
