@@ -15,6 +15,7 @@ from rumba_cleaning.mission import mission as missions
 from rumba_cleaning.mission.stages import State
 from rumba_cleaning.outcome import Outcome
 from rumba_cleaning.planning import helping
+from rumba_cleaning.strategies.boustrophedon import MORE
 from rumba_sim.model.geometry import Pose
 
 WALL = (3.0, 0.0, 3.1, 2.0)  # with a door of 1 m above it
@@ -80,6 +81,23 @@ def test_a_robot_leaves_to_a_mate_what_is_near_it(mate, left, right):
         crew.step()
     x = crew.missions['rumba'].plan_ahead().route.waypoints[:, 0]
     assert left < x.min() and x.max() < right
+
+
+def test_the_first_of_three_takes_somewhat_more_than_a_third():
+    crew = Crew(TWO_ROOMS, quiet(), 3, poses=[Pose(0.6, 0.6, 0.0), Pose(2.4, 2.4, 0.0), Pose(5.5, 2.4, 0.0)])
+    while any(mission.plan_ahead() is None for mission in crew.missions.values()):
+        crew.step()
+    first, second, third = (mission.plan_ahead().route.times()[-1] for mission in crew.missions.values())
+    assert first == approx(MORE / 3.0 * plan_alone(Pose(0.6, 0.6, 0.0)), rel=0.1)
+    assert max(first, second, third) < 1.6 * min(first, second, third)
+
+
+def plan_alone(pose):
+    """How long the plan of a robot takes that has no mates [s]."""
+    crew = Crew(TWO_ROOMS, quiet(), 1, poses=[pose])
+    while crew.missions['rumba'].plan_ahead() is None:
+        crew.step()
+    return crew.missions['rumba'].plan_ahead().route.times()[-1]
 
 
 def test_who_waits_on_its_dock_for_mates_that_find_nothing_more_ends_there(monkeypatch):

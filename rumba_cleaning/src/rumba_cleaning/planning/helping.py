@@ -8,7 +8,7 @@ from rumba_cleaning.belief.context import Context
 from rumba_cleaning.route import Relief, Route, lengths_along
 from rumba_sim.model.geometry import Pose
 
-LEAST = 15.0  # [s] of work that are taken over, at least: our choice, less is hardly worth the way there
+LEAST = 7.0  # [s] of work that are taken over, at least: our choice, less is hardly worth the way there
 
 
 def help_mate(context: Context, pose: Pose) -> Optional[Tuple[Route, Relief]]:

@@ -23,6 +23,7 @@ HELPED = 0.01  # of coverage: a retry that gained less was in vain: to touch all
 VAIN = 1  # retries in vain, one after the other, after which it ends ...
 PATIENT, MUCH = 5, 0.9  # ... and so many while less than this share is swept of what lies beside obstacles
 PAUSE = 20.0  # [s] after the first of these times, twice that after the second ...: who stands there may walk on
+MORE = 1.15  # times an equal share for a robot that several mates plan after: they drive farther for what others leave
 TURN = 20.0  # [s] that a mate may take to plan, before it is the turn of the robot all the same; our choice
 ROUNDS = 20  # at most, each with what was missed before: far more than the maps of rumba_sim need
 
@@ -252,7 +253,9 @@ def _own_part(context: Context, pose: Pose) -> Optional[Route]:
     others = context.mates.seeking
     farthest = max(others, key=lambda other: math.hypot(other.x - pose.x, other.y - pose.y), default=None)
     route = plan(context, pose, farthest)
-    return route if route is None or not others else route.beginning(1.0 / (1 + len(others)))
+    if route is None or not others:
+        return route
+    return route.beginning((MORE if len(others) > 1 else 1.0) / (1 + len(others)))
 
 
 def _detour(context: Context, pose: Pose, rest: Route) -> Planned:
