@@ -44,10 +44,10 @@ class Stopwatch:
         """Nothing was planned yet."""
         self.seconds = self.first = 0.0
 
-    def __call__(self, context, pose):
+    def __call__(self, context, *poses):
         """Plan, and measure that."""
         begin = time.process_time()
-        route = planner.plan(context, pose)
+        route = planner.plan(context, *poses)
         seconds = time.process_time() - begin
         self.first = self.first or seconds
         self.seconds += seconds

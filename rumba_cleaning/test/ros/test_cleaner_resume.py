@@ -21,10 +21,10 @@ SLOW_PLANNER = """import pathlib
 import time
 from rumba_cleaning.strategies import boustrophedon
 plan = boustrophedon.plan
-def slow_plan(context, pose):
+def slow_plan(context, *poses):
     while pathlib.Path(__file__).with_name('slow').exists():
         time.sleep(0.01)
-    return plan(context, pose)
+    return plan(context, *poses)
 boustrophedon.plan = slow_plan
 """
 SOON = 2.0  # [s] of the wall clock
