@@ -252,27 +252,6 @@ def test_a_robot_that_backs_off_against_something_beside_an_edge_does_not_slide_
         assert math.dist(robot.pose[:2], pose[:2]) < 0.02
 
 
-@pytest.mark.parametrize('has_laser', [False, True])
-@pytest.mark.parametrize('wall', [None, 0.9, 1.2])
-def test_a_robot_that_came_far_over_an_edge_gets_back_although_its_sensors_still_see_it(wall, has_laser):
-    """The wall is behind it, but for so many rad, and hardly in its way: it slides along it."""
-    plan = with_cliffs(room(4.0, 2.0, 0.02, start=Pose(0.5, 0.5, 0.0)), (2.0, 0.0, 4.0, 2.0))
-    world = World(plan, quiet())
-    robot = world.spawn('rumba', Pose(1.7, 1.0, 0.0))
-    while robot.pose.x < 1.92:
-        robot.command(0.1, 0.0, world.tick)
-        world.step()
-    robot.command(0.0, 0.0, world.tick)
-    world.step(20)
-    if wall is not None:
-        away, direction = RADIUS + 0.11, math.pi + wall
-        world.add_obstacle(Obstacle('post', Pose(robot.pose.x + away * math.cos(direction), robot.pose.y + away *
-                                                 math.sin(direction), 0.0), 0.3, 0.1))
-    run(Bounded(Always(-0.1, 0.0), 1000.0, context_of(plan, world)), world, seconds=2.0,
-        source=SometimesRight(has_laser))
-    assert not any(world.cliffs('rumba')) and robot.pose.x < 1.8
-
-
 def test_a_contact_beside_an_edge_is_one_with_something_unknown():
     plan = with_cliffs(room(4.0, 2.0, 0.02, start=Pose(0.5, 0.5, 0.0)), (0.0, 1.4, 4.0, 2.0))
     world = World(plan, quiet(), obstacles=[Obstacle('post', Pose(2.0, 1.06, 0.0), 0.05, 0.09)])

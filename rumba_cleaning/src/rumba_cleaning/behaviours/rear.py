@@ -9,8 +9,8 @@ from rumba_cleaning.behaviour import Observation
 
 # All figures below are our choice.
 GAP = 0.03  # [m] from the body to what a beam met: three standard deviations of its range
-BEHIND = 0.8  # of a beam, the least cosine of its angle to the back: to 37 degrees off
-MOST = 0.09  # [m] back while the sensors see an edge: as far as a robot drives until it has stopped
+BEHIND = 0.5  # of a beam, the least cosine of its angle to the back: to 60 degrees off
+MOST = 0.06  # [m] back while the sensors see an edge: a robot that moves sees it no more by then, or drives along it
 
 
 class Rear:
@@ -31,8 +31,12 @@ class Rear:
 
     def is_closed(self, observation: Observation) -> bool:
         """Whether the robot must not go back."""
+        return self._backed > MOST or self._is_seen(observation)
+
+    def _is_seen(self, observation: Observation) -> bool:
+        """Whether the laser sees something right behind."""
         if observation.scan is None:
-            return self._backed > MOST
+            return False
         points = observation.scan.points
         ranges = np.hypot(points[:, 0], points[:, 1])
         return bool(((ranges < self._reach) & (points[:, 0] < -BEHIND * ranges)).any())
