@@ -45,6 +45,12 @@ class Crew:
         self._dt = CONTROL_DT
         self.world.step(CONTROL_TICKS)
 
+    def plan(self, *names):
+        """Step until all of these robots have a plan; returns how long each takes [s]."""
+        while any(self.missions[name].plan_ahead() is None for name in names):
+            self.step()
+        return [float(self.missions[name].plan_ahead().route.times()[-1]) for name in names]
+
     def run(self, seconds=4000.0):
         """Step until all missions have ended; returns the time that it took [s]."""
         begin = self.world.time

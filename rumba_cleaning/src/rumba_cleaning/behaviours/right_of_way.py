@@ -71,8 +71,10 @@ class RightOfWay:
         if not in_way and Duty.WAIT not in duties.values():
             self.rest()
             return None
-        command = self._aside(observation, in_way[0]) if in_way else STOP
         self._waited += observation.dt
+        if self._waited >= self._patience:
+            return None
+        command = self._aside(observation, in_way[0]) if in_way else STOP
         return command if self._waited < self._patience else None
 
     def _duty(self, pose: Pose, mine: Array, name: str, report: Report) -> Duty:
@@ -105,6 +107,7 @@ class RightOfWay:
         """Toward a place where the robot is in nobody's way, or wait if there is none."""
         if self._follower is not None and any(observation.bumper):
             self._follower, self._patience = None, 0.0
+            return STOP
         if self._follower is None:
             route = self._way_aside(observation.pose, mate)
             if route is None:
