@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """turtle_teleop_key, draw_square and mimic."""
 
+import itertools
 import math
 import os
 import pty
@@ -16,13 +17,10 @@ from nodes import TIMEOUT, Heard, Node, Turtlesim, commander, executable, wait
 MIDDLE = 5.544444
 
 
-def passes(poses, corners):
-    """Whether poses come by these corners of the field, in this order."""
-    left = list(corners)
-    for pose in poses[:]:
-        if left and math.dist((pose.x - MIDDLE, pose.y - MIDDLE), left[0]) < 0.2:
-            left.pop(0)
-    return not left
+def movements(poses):
+    """The poses of a turtle that moves, in lists: one for each side that it drives, and for each turn."""
+    moving = [pose for pose in poses[:] if pose.linear_velocity or pose.angular_velocity]
+    return [list(group) for _, group in itertools.groupby(moving, lambda pose: pose.angular_velocity != 0.0)]
 
 
 class ClientsTest(unittest.TestCase):
@@ -87,8 +85,21 @@ class ClientsTest(unittest.TestCase):
         node.call('turtle1/teleport_absolute', 1.0, 1.0, 2.0)
         pose = Heard(self, '/turtle1/pose')
         Node(self, executable('draw_square'))
-        corners = [(0.0, 0.0), (2.0, 0.0), (2.0, 2.0), (0.0, 2.0), (0.0, 0.0)]
-        wait(self, lambda: passes(pose.messages, corners), 'a square')
+        for count in range(2, 9):  # a movement is complete when the next one has begun
+            wait(self, lambda: len(movements(pose.messages)) >= count, f'movement {count}')
+        found = movements(pose.messages)[:8]
+        first, before = found[0][0], (MIDDLE, MIDDLE, 0.0)
+        self.assertLess(math.dist((first.x, first.y), before[:2]), 0.5)
+        # A command that comes late, on a busy machine, makes a movement longer, never shorter.
+        for number, movement in enumerate(found[:-1]):
+            end = movement[-1]
+            turned = math.remainder(end.theta - before[2], 2.0 * math.pi)
+            driven = math.dist((end.x, end.y), before[:2])
+            if number % 2:
+                self.assertTrue(0.5 * math.pi - 0.03 < turned < 2.9 and driven < 1e-3, (turned, driven))
+            else:
+                self.assertTrue(1.97 < driven < 3.1 and abs(turned) < 1e-3, (turned, driven))
+            before = end.x, end.y, end.theta
 
     def test_mimic_moves_a_turtle_as_one_of_another_field_moves(self):
         Node(self, 'roslaunch', 'turtlesim', 'multisim.launch', stdout=subprocess.DEVNULL)

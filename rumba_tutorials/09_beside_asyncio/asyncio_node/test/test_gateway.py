@@ -25,6 +25,7 @@ class GatewayTest(unittest.TestCase):
     def setUp(self):
         self.gateway = subprocess.Popen(['rosrun', 'asyncio_node', 'gateway'], stdout=subprocess.PIPE,
                                         universal_newlines=True)
+        self.addCleanup(self.forget_port)
         self.addCleanup(self.gateway.communicate)
         self.addCleanup(self.gateway.kill)
         self.port = int(self.gateway.stdout.readline().split()[-1])
@@ -35,6 +36,11 @@ class GatewayTest(unittest.TestCase):
         self.addCleanup(self.publisher.unregister)
         self.wait(lambda: subscriber.get_num_connections() == 2 and self.publisher.get_num_connections() == 2)
         self.client = self.connect()
+
+    def forget_port(self):
+        """Have the next gateway take a port of its own: one that was killed leaves its port, which may be taken now."""
+        if rospy.has_param('/gateway/port'):
+            rospy.delete_param('/gateway/port')
 
     def wait(self, condition):
         """Wait until a condition holds."""

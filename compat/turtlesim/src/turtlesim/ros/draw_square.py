@@ -42,5 +42,7 @@ def draw() -> None:
             pose = poses.get(timeout=0.5)
         except queue.Empty:
             continue
+        while not poses.empty():  # those that came while the node was late are old
+            pose = poses.get()
         speed, turn_rate = square.command(pose.x, pose.y, pose.theta)
         publisher.publish(Twist(Vector3(speed, 0.0, 0.0), Vector3(0.0, 0.0, turn_rate)))
