@@ -18,8 +18,6 @@ import socket
 import subprocess
 import sys
 
-import roslib.packages
-
 PR_SET_CHILD_SUBREAPER = 36  # prctl(2): a process whose parent has ended becomes a child of this one
 LARGEST = 1 << 17  # [bytes] of a request
 # Modules to load; test modules add theirs before they start a node. The main of a warm_up is called too.
@@ -33,6 +31,7 @@ LIBRARIES = [
 @functools.lru_cache(maxsize=None)
 def executable(package, node):
     """Path of a node, which `rosrun` would look for at each start, longer than some nodes take to start."""
+    import roslib.packages  # programs that are no nodes need no ROS
     return roslib.packages.find_node(package, node)[0]
 
 
@@ -41,11 +40,13 @@ def start(package, node, *arguments, **options):
     return start_script(executable(package, node), *arguments, **options)
 
 
-def start_script(path, *arguments, **options):
-    """Start a program, in the same way if it is in Python."""
+def start_script(path, *arguments, libraries=LIBRARIES, **options):
+    """Start a program, in the same way if it is in Python; `libraries` are loaded before."""
     with open(path, 'rb') as file:
         is_script = file.read(2) == b'#!'
-    return (_Program if is_script else subprocess.Popen)([str(path), *arguments], **options)
+    if not is_script:
+        return subprocess.Popen([str(path), *arguments], **options)
+    return _Program(_nursery(tuple(libraries)), [str(path), *arguments], **options)
 
 
 def run(package, node, *arguments, timeout, **options):
@@ -60,14 +61,18 @@ def run(package, node, *arguments, timeout, **options):
 
 
 class _Program(subprocess.Popen):
-    """A process that the nursery makes instead of this one."""
+    """A process that a nursery makes instead of this one."""
+
+    def __init__(self, nursery, arguments, **options):
+        self._nursery = nursery
+        super().__init__(arguments, **options)
 
     def _execute_child(self, args, _executable, _preexec_fn, _close_fds, _pass_fds, cwd, env, _startupinfo,
                        _creationflags, _shell, p2cread, p2cwrite, c2pread, c2pwrite, errread, errwrite, *_):
         files = [given if given != -1 else usual for usual, given in enumerate((p2cread, c2pwrite, errwrite))]
         request = {'arguments': args, 'folder': os.fspath(cwd or os.getcwd()),
                    'environment': dict(os.environ if env is None else env)}
-        self.pid = _nursery().make(request, files)
+        self.pid = self._nursery.make(request, files)
         self._child_created = True
         for ours, theirs in ((p2cwrite, p2cread), (c2pread, c2pwrite), (errread, errwrite)):
             if ours != -1:
@@ -77,20 +82,20 @@ class _Program(subprocess.Popen):
 
 
 @functools.lru_cache(maxsize=None)
-def _nursery():
-    return _Nursery()
+def _nursery(libraries):
+    return _Nursery(libraries)
 
 
 class _Nursery:
     """The process that has loaded the libraries; it ends with this one."""
 
-    def __init__(self):
+    def __init__(self, libraries):
         ctypes.CDLL(None).prctl(PR_SET_CHILD_SUBREAPER, 1)
         self._channel, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
         with theirs:
             for end in (self._channel, theirs):
                 end.setblocking(True)  # whatever the usual timeout of this process is
-            subprocess.Popen([sys.executable, __file__, str(theirs.fileno()), *LIBRARIES], pass_fds=[theirs.fileno()])
+            subprocess.Popen([sys.executable, __file__, str(theirs.fileno()), *libraries], pass_fds=[theirs.fileno()])
 
     def make(self, request, files):
         """Have it make a process with these files as its first; returns its number."""

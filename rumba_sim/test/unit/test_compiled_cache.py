@@ -4,8 +4,8 @@ import os
 import pathlib
 import shutil
 import subprocess
-import sys
 
+import programs
 import pytest
 
 from rumba_sim.model import compiled
@@ -32,12 +32,15 @@ def source(tmp_path):
 
 
 def run(source, code=TURN, here='/', **changes):
-    """Result and error output of Python code that uses the copy."""
+    """Result and error output of Python code that uses the copy, in a process that has loaded numba but no model."""
     environment = {name: value for name, value in os.environ.items()
                    if name not in ('NUMBA_CACHE_DIR', 'XDG_CACHE_HOME', 'HOME')}
-    done = subprocess.run([sys.executable, '-c', code], stdout=subprocess.PIPE, stderr=subprocess.PIPE, cwd=str(here),
-                          universal_newlines=True, env={**environment, 'PYTHONPATH': str(source), **changes})
-    return done.stdout, done.stderr
+    program = source.parent / 'program'
+    program.write_text(f'#!/usr/bin/env python3\nimport numba; numba.config.reload_config(); {code}\n')
+    process = programs.start_script(program, libraries=['numba_at_work'], stdout=subprocess.PIPE,
+                                    stderr=subprocess.PIPE, cwd=str(here), universal_newlines=True,
+                                    env={**environment, 'PYTHONPATH': str(source), **changes})
+    return process.communicate(timeout=300.0)
 
 
 def test_if_neither_the_install_nor_the_home_can_be_written_the_kernel_works_without_a_cache(source):

@@ -2,14 +2,12 @@
 
 import json
 import os
-import pathlib
 import signal
 import subprocess
-import sys
 
+import programs
 import pytest
 
-ROS_TESTS = str(pathlib.Path(__file__).parents[1] / 'ros')
 TELLS = """#!/usr/bin/env python3
 import json, os, signal, sys
 told = {
@@ -26,15 +24,6 @@ sys.exit(3)
 """
 
 
-@pytest.fixture(scope='module')
-def programs():
-    """The module that starts them."""
-    sys.path.insert(0, ROS_TESTS)
-    import programs
-    sys.path.remove(ROS_TESTS)
-    return programs
-
-
 @pytest.fixture
 def script(tmp_path):
     """A function that writes a program and returns its path."""
@@ -46,7 +35,7 @@ def script(tmp_path):
     return write
 
 
-def test_what_a_program_sees_is_what_it_sees_if_it_is_started_as_usual(programs, script, tmp_path):
+def test_what_a_program_sees_is_what_it_sees_if_it_is_started_as_usual(script, tmp_path):
     path = script(TELLS)
     options = {'stdin': subprocess.PIPE, 'stdout': subprocess.PIPE, 'stderr': subprocess.PIPE, 'cwd': str(tmp_path),
                'universal_newlines': True,
@@ -67,7 +56,7 @@ def test_what_a_program_sees_is_what_it_sees_if_it_is_started_as_usual(programs,
     ('import os; os._exit(7)', 7), ('import os, signal; os.kill(os.getpid(), signal.SIGTERM)', -signal.SIGTERM),
     ('import os, signal; os.kill(os.getpid(), signal.SIGKILL)', -signal.SIGKILL),
     ('import atexit; atexit.register(print, "at exit")', 0)])
-def test_it_ends_as_it_would(programs, script, text, code):
+def test_it_ends_as_it_would(script, text, code):
     path = script(f'#!/usr/bin/env python3\n{text}\n')
     options = {'stdout': subprocess.PIPE, 'stderr': subprocess.PIPE, 'universal_newlines': True}
     usual = subprocess.run([path], check=False, **options)
@@ -78,7 +67,7 @@ def test_it_ends_as_it_would(programs, script, text, code):
     assert error.splitlines()[-1:] == usual.stderr.splitlines()[-1:]
 
 
-def test_signals_reach_it_and_it_is_a_process_of_its_own(programs, script):
+def test_signals_reach_it_and_it_is_a_process_of_its_own(script):
     path = script('#!/usr/bin/env python3\nimport time\nprint("on", flush=True)\ntime.sleep(600.0)\n')
     one, other = (programs.start_script(path, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL) for _ in range(2))
     assert one.stdout.readline() == other.stdout.readline() == b'on\n'

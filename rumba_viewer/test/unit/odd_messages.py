@@ -55,10 +55,11 @@ def _places(message, path=()):
 
 
 def _changed(good, values):
-    message = copy.deepcopy(good)
+    message = copy.copy(good)
     for path, value in values.items():
         part = message
-        for name in path[:-1]:
+        for name in path[:-1]:  # what is changed is copied; the rest is only read
+            setattr(part, name, copy.copy(getattr(part, name)))
             part = getattr(part, name)
         setattr(part, path[-1], value)
     return message

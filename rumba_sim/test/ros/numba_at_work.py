@@ -1,0 +1,5 @@
+"""numba once it has compiled something: it loads a part of itself, and all types that it knows, only then."""
+
+import numba
+
+numba.njit(lambda x: x)(1.0)
