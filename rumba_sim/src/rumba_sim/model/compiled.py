@@ -114,9 +114,13 @@ class _Cache:
         return getattr(self._cache, name)
 
     def load_overload(self, *what: Any) -> Any:
-        """The compiled code, or None if it is not in the cache or cannot be read."""
+        """The compiled code, or None if it is not in the cache or cannot be read.
+
+        Before, numba's own method loads all that it takes to compile anything, for a fifth of a second: whatever is
+        not in the cache is compiled all the same, since the compiler begins with that too.
+        """
         try:
-            return self._cache.load_overload(*what)
+            return self._cache._load_overload(*what)
         except Exception as exc:  # whatever reading a damaged file leads to
             _say(f'{self.cache_path}: {exc}')
             with contextlib.suppress(OSError):
