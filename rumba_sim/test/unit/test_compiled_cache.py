@@ -13,6 +13,8 @@ from rumba_sim.model import compiled
 LINE = 'rumba_sim: the kernel is compiled anew, which takes some seconds: '
 ADVICE = '; NUMBA_CACHE_DIR can name a writable folder for its cache\n'
 TURN = 'from rumba_sim.model.compiled import fast; print(fast.wrap(7.0) == 7.0 - 6.283185307179586)'
+# numba has read another environment; and Python's bytecode of a source would outlive a change within the same second.
+BEGIN = 'import numba, sys; numba.config.reload_config(); sys.dont_write_bytecode = True; '
 SMALL_FILES = 'import resource; resource.setrlimit(resource.RLIMIT_FSIZE, (0, 0)); '
 GEOMETRY = pathlib.Path('rumba_sim', 'model', 'kernel', 'geometry.py')
 NOBODY = 'import os, pwd; os.access = lambda *_: False; pwd.getpwuid = {}.__getitem__; '
@@ -36,7 +38,7 @@ def run(source, code=TURN, here='/', **changes):
     environment = {name: value for name, value in os.environ.items()
                    if name not in ('NUMBA_CACHE_DIR', 'XDG_CACHE_HOME', 'HOME')}
     program = source.parent / 'program'
-    program.write_text(f'#!/usr/bin/env python3\nimport numba; numba.config.reload_config(); {code}\n')
+    program.write_text(f'#!/usr/bin/env python3\n{BEGIN}{code}\n')
     process = programs.start_script(program, libraries=['numba_at_work'], stdout=subprocess.PIPE,
                                     stderr=subprocess.PIPE, cwd=str(here), universal_newlines=True,
                                     env={**environment, 'PYTHONPATH': str(source), **changes})
