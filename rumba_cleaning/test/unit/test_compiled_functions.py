@@ -7,13 +7,14 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from rumba_cleaning.behaviours.compiled_follower import nearest
+from rumba_cleaning.behaviours.compiled_follower import drive_of, nearest, piece_of
 from rumba_cleaning.behaviours.compiled_guard import HOLD_STEPS, STEP, path
 from rumba_cleaning.belief.compiled_footing import are_marked, stamp
 from rumba_cleaning.belief.compiled_ground import are_of_one_part
 from rumba_cleaning.belief.search import is_clear
 from rumba_cleaning.planning.compiled_lanes import NO_ROW, lowest, runs
 from rumba_cleaning.planning.compiled_ways import cornered_length
+from rumba_sim.model.robot_config import DriveConfig
 
 NO_SLIP = (0.0, 1.0)
 ORIGIN, RESOLUTION = (-1.0, 2.0), 0.1
@@ -91,24 +92,28 @@ def test_floor_is_marked_along_the_way_of_a_robot_but_not_where_it_began():
     assert np.argwhere(floor).tolist() == [[0, 1], [0, 2], [0, 3]]
 
 
+def piece_over(waypoints):
+    return piece_of(waypoints, np.full(len(waypoints) - 1, 0.3), drive_of(DriveConfig()))
+
+
 @settings(deadline=None, max_examples=100)
 @given(st.lists(st.tuples(st.floats(-1.0, 1.0), st.floats(-1.0, 1.0)), min_size=2, max_size=8, unique=True),
        st.floats(-1.5, 1.5), st.floats(-1.5, 1.5))
 def test_the_nearest_point_of_a_route_is_nearer_than_all_its_others(corners, x, y):
     waypoints = np.array(corners)
-    legs = np.hypot(*np.diff(waypoints, axis=0).T)
-    assume(legs.min() > 1e-3)
-    lengths = np.concatenate([[0.0], np.cumsum(legs)])
-    distance, off = nearest(waypoints, legs, lengths, 0, x, y, 0.0, 100.0)
+    assume(np.hypot(*np.diff(waypoints, axis=0).T).min() > 1e-3)
+    piece = piece_over(waypoints)
+    lengths = piece.lengths
+    distance, off = nearest(piece, x, y, 0.0, 100.0)
     along = np.append(np.linspace(0.0, lengths[-1], 2000), distance)
     offs = np.hypot(np.interp(along, lengths, waypoints[:, 0]) - x, np.interp(along, lengths, waypoints[:, 1]) - y)
     assert off == pytest.approx(offs[-1], abs=1e-9) and off <= offs.min() + 1e-8
 
 
 def test_only_a_part_of_a_route_is_looked_at():
-    waypoints, legs, lengths = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]), np.ones(3), np.arange(4.0)
-    assert nearest(waypoints, legs, lengths, 0, 0.1, 0.9, 0.0, 0.5) == pytest.approx((0.1, 0.9))
-    assert nearest(waypoints, legs, lengths, 1, 0.1, 0.2, 1.5, 0.5) == pytest.approx((2.9, 0.8))
+    piece = piece_over(np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]))
+    assert nearest(piece, 0.1, 0.9, 0.0, 0.5) == pytest.approx((0.1, 0.9))
+    assert nearest(piece, 0.1, 0.2, 1.5, 0.5) == pytest.approx((2.9, 0.8))
 
 
 def test_a_command_leads_as_far_as_the_wheels_take_to_change_their_speed_and_to_stop():

@@ -5,7 +5,9 @@ import pytest
 from floors import knowing, length, wiped_but
 from rooms import room
 
-from rumba_cleaning.planning.detours import APART, DEAREST, FARTHEST, SURPLUS, with_crumbs
+from rumba_cleaning.planning.detours import FARTHEST
+from rumba_cleaning.planning.edits import APART
+from rumba_cleaning.planning.improvement import DEAREST_ON_PAPER, SURPLUS, Surroundings, with_detours
 from rumba_cleaning.planning.paper import drive
 from rumba_cleaning.planning.regions import regions
 from rumba_cleaning.planning.walls import Walls
@@ -22,7 +24,8 @@ def detoured(*boxes, target=1.0, route=ACROSS, plan=None):
     context = wiped_but(knowing(plan or room(4.0, 3.0, 0.02), START, target_coverage=target), *boxes)
     floor = context.swept.copy()
     everywhere = np.ones(context.plan.free.shape, bool)
-    found = with_crumbs(context, Walls(context.ground), route, floor, everywhere, regions(context.ground))
+    surroundings = Surroundings(context, START, everywhere, regions(context.ground), Walls(context.ground))
+    found = with_detours(surroundings, route, floor)
     drive(floor, found.waypoints)
     return found, floor
 
@@ -59,7 +62,7 @@ def test_crumbs_that_cost_less_come_first_and_no_more_than_the_target_needs():
 def test_crumbs_that_cost_too_much_for_their_area_are_left_whatever_the_target():
     worth = (2.0, 1.7, 2.2, 1.9)
     small = (3.0, 1.9, 3.05, 1.95)
-    assert 2.0 * (small[1] - 1.5) > DEAREST * 0.05 ** 2  # there and back
+    assert 2.0 * (small[1] - 1.5) / 0.3 > DEAREST_ON_PAPER * 0.05 ** 2  # there and back
     found, _ = detoured(worth, small)
     assert passes(found, worth) and not passes(found, small)
 

@@ -15,12 +15,11 @@ PLAN = crooked(0.02)
 SPEED = 0.3
 
 
-def chosen(tried, monkeypatch, among=LAYOUTS):
+def chosen(among=LAYOUTS):
     """The paths of the best of some layouts, and what is swept when they were driven on paper."""
-    monkeypatch.setattr(layouts, 'LAYOUTS', among)
     context = knowing(PLAN, Pose(1.0, 1.0, 0.0))
     paper = context.swept.copy()
-    found = laid_out(context, paper, context.swept.missed(), 1, 0.0, tried)
+    found = laid_out(context, paper, context.swept.missed(), 1, 0.0, among)
     return [stretch.variants[0].path() for stretch in found], paper
 
 
@@ -35,17 +34,17 @@ def cost(paths, paper):
     return sum(lengths.sum() for lengths in legs) / SPEED + 3.0 * len(legs) + 3.0 * turns + left
 
 
-def test_of_all_layouts_the_one_is_chosen_that_costs_least(monkeypatch):
+def test_of_all_layouts_the_one_is_chosen_that_costs_least():
     among = (Layout(overlap=0.4), *LAYOUTS, Layout(needed=0.7))  # the first takes long, the last leaves much
-    costs = [cost(*chosen(1, monkeypatch, (layout,))) for layout in among]
+    costs = [cost(*chosen((layout,))) for layout in among]
     assert min(costs[0], costs[-1]) > max(costs[1:-1]) + 10.0
     for tried in (among, among[::-1]):
-        assert cost(*chosen(len(among), monkeypatch, tried)) < min(costs) + 3.0
+        assert cost(*chosen(tried)) < min(costs) + 3.0
 
 
-def test_what_the_lanes_sweep_is_swept_on_paper_once(monkeypatch):
+def test_what_the_lanes_sweep_is_swept_on_paper_once():
     context = knowing(PLAN, Pose(1.0, 1.0, 0.0))
-    paths, paper = chosen(len(LAYOUTS), monkeypatch)
+    paths, paper = chosen()
     assert context.swept.coverage == 0.0 and paper.coverage > 0.5
     again = context.swept.copy()
     for path in paths:
@@ -53,9 +52,9 @@ def test_what_the_lanes_sweep_is_swept_on_paper_once(monkeypatch):
     assert again.coverage == paper.coverage
 
 
-def test_with_a_single_try_the_first_layout_is_taken(monkeypatch):
+def test_a_single_layout_is_taken_as_it_is():
     context = knowing(PLAN, Pose(1.0, 1.0, 0.0))
-    paths, _ = chosen(1, monkeypatch)
+    paths, _ = chosen(LAYOUTS[:1])
     found = blocks(context.ground, context.swept.missed(), BRUSH, SPEED, 0.0, LAYOUTS[0])
     assert len(paths) == len(found) and [path[0].tolist() for path in paths] == [
         block.lanes[0][0].tolist() for block in found]
@@ -79,4 +78,4 @@ def test_each_layout_lays_lanes_its_own_way(change, fewer):
 def test_lanes_of_a_floor_that_is_swept_are_none():
     context = knowing(PLAN, Pose(1.0, 1.0, 0.0))
     paper = context.swept.copy()
-    assert laid_out(context, paper, np.zeros_like(PLAN.free), 1, 0.0, 4) == [] and paper.coverage == approx(0.0)
+    assert laid_out(context, paper, np.zeros_like(PLAN.free), 1, 0.0, LAYOUTS) == [] and paper.coverage == approx(0.0)

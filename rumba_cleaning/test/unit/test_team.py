@@ -14,7 +14,7 @@ from rumba_cleaning.belief.mates import Task
 from rumba_cleaning.mission import mission as missions
 from rumba_cleaning.mission.stages import State
 from rumba_cleaning.outcome import Outcome
-from rumba_cleaning.planning import helping
+from rumba_cleaning.planning import helping, improvement
 from rumba_cleaning.strategies.boustrophedon import MORE
 from rumba_sim.model.geometry import Pose
 
@@ -89,7 +89,8 @@ def test_the_first_of_three_takes_somewhat_more_than_a_third():
 
 def test_a_robot_helps_a_mate_although_the_target_is_met_but_for_what_poses_may_be_off(monkeypatch):
     monkeypatch.setattr(missions, 'EXACT', 0.5)  # nobody is ever sure to have met the target
-    crew = Crew(TWO_ROOMS, quiet(), target=0.5)  # their plans lead over all of the floor
+    monkeypatch.setattr(improvement, 'MARGIN', 0.45)  # their plans lead over almost all of the floor
+    crew = Crew(TWO_ROOMS, quiet(), target=0.5)
     crew.plan('rumba', 'rumba2')
     crew.silent.add('rumba2')
     while crew.world.time < 60.0:

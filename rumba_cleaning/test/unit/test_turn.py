@@ -7,7 +7,8 @@ import pytest
 from pytest import approx
 from rooms import alone, drive, drove, quiet
 
-from rumba_cleaning.behaviours.follower import STOPPING, Turn, fastest, turn_rate
+from rumba_cleaning.behaviours.compiled_follower import STOPPING, fastest
+from rumba_cleaning.behaviours.follower import Turn, turn_rate
 from rumba_sim.model.geometry import Pose, wrap_angle
 
 DRIVE = quiet().drive

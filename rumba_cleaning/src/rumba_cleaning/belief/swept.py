@@ -10,7 +10,7 @@ from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.kernel import Array
 from rumba_sim.model.robot_config import RobotConfig
-from rumba_sim.model.sweep import Part, Sweep
+from rumba_sim.model.sweep import Brush, Part, Sweep
 
 # Our choice: ten times what a robot drives at the default transit speed, 0.45 m/s, from one observation to the next.
 JUMP = 0.5  # [m] |dx| + |dy| from pose to pose: the robot did not drive there, somebody moved it
@@ -92,6 +92,16 @@ class Swept:
     def coverage(self) -> float:
         """Share of the reachable floor that was swept [0..1]; 1 if nothing can be reached."""
         return self._sweep.coverage
+
+    @property
+    def brush(self) -> Brush:
+        """What the kernel sweeps this floor with: what that sweeps counts here."""
+        return self._sweep.brush
+
+    @property
+    def reachable(self) -> int:
+        """Number of samples that the brush can reach."""
+        return self._sweep.reachable
 
     def within(self, clearance: Array) -> Part:
         """What can be reached on the same floor with less clearance.

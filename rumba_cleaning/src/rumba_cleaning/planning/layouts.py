@@ -1,6 +1,6 @@
 """Chooses how the lanes of a region are laid out: several layouts are driven on paper."""
 
-from typing import List
+from typing import List, Sequence
 
 import numpy as np
 
@@ -14,7 +14,7 @@ from rumba_cleaning.route import Route
 from rumba_sim.model.kernel import Array
 
 # Our choice: which of these is best differs from region to region. More save less and less time, and take as long to
-# compare. Less overlap, or lanes for wider strips only, look better on paper, but leave slivers for the last round.
+# compare. Lanes for wider strips only look better on paper, but leave slivers for the last round.
 LAYOUTS = (Layout(), Layout(usual=0.15, alike=2.5), Layout(usual=0.7))
 AREA = 600.0  # [m^2] to clean, times the layouts that are compared: large drives less, small plans faster
 LITTLE = 1.0  # [m^2] to clean, for which no layouts are compared: most of that is left to the crumbs
@@ -22,7 +22,8 @@ TURN = 3.0  # [s] for each turn, beyond its length: the wheels limit the turn ra
 LEFT = 50.0  # times as long as a lane takes a crumb to clean an area, about: large leaves less to the crumbs
 
 
-def laid_out(context: Context, paper: Swept, missed: Array, region: int, angle: float, count: int) -> List[Stretch]:
+def laid_out(context: Context, paper: Swept, missed: Array, region: int, angle: float,
+             layouts: Sequence[Layout]) -> List[Stretch]:
     """Blocks of lanes that clean a region, by the best layout of those tried.
 
     Args:
@@ -31,13 +32,15 @@ def laid_out(context: Context, paper: Swept, missed: Array, region: int, angle: 
         missed: the cells to clean in the region, bool (rows, columns).
         region: its label.
         angle: between the lanes and the map's axes [rad].
-        count: how many layouts to compare.
+        layouts: those to compare.
     """
     ground, brush, speed = context.ground, context.robot.brush.width, context.config.speed
-    options = [blocks(ground, missed, brush, speed, angle, layout) for layout in LAYOUTS[:count]]
+    options = [blocks(ground, missed, brush, speed, angle, layout) for layout in layouts]
     paths = [[through(ground, block.lanes, 0) for block in option] for option in options]
     turns = [sum(len(block.lanes) - 1 for block in option) for option in options]
-    best = 0 if count == 1 else int(np.argmin([_cost(context, paper.copy(), *each) for each in zip(paths, turns)]))
+    best = 0
+    if len(layouts) > 1:
+        best = int(np.argmin([_cost(context, paper.copy(), *each) for each in zip(paths, turns)]))
     for path in paths[best]:
         drive(paper, path)
     return [Stretch(block_variants(ground, block.lanes), region, block.area, False) for block in options[best]]

@@ -10,8 +10,8 @@ from rumba_cleaning.belief.ground import Ground
 from rumba_cleaning.belief.swept import Swept
 from rumba_cleaning.planning import tour
 from rumba_cleaning.planning.crumbs import crumbs
-from rumba_cleaning.planning.detours import with_crumbs
-from rumba_cleaning.planning.layouts import laid_out, tries
+from rumba_cleaning.planning.improvement import Surroundings, improved, rounds, with_detours
+from rumba_cleaning.planning.layouts import LAYOUTS, laid_out, tries
 from rumba_cleaning.planning.regions import Ways, doors, regions, shapes
 from rumba_cleaning.planning.rings import chains, rings, stretch
 from rumba_cleaning.planning.stretches import Stretch
@@ -28,6 +28,9 @@ MISSED = 0.3  # share of a cell, for a lane to clean it: small drives over swept
 BEYOND = 0.03  # [m] from what the brush reaches, where an obstacle may leave more floor free than the robot knows
 YIELD = 0.7  # share of a crumb that is swept in passing, about: small plans for more crumbs than the target needs
 SPARE = 0.0005  # of coverage that is planned beyond the target, once the robot is past the lanes and rings
+# Of two lanes, share of the brush's width: small drives less, large leaves nothing between. Which is best differs from
+# floor to floor: routes with each are rehearsed, except on a floor that is worth fewer than MANY rounds of edits.
+OVERLAPS, MANY = (0.05, 0.0), 3
 CULLS = 4  # rounds in which crumbs are left out that cost much time for their area: more make better choices
 TRANSIT = 0.5  # [m] of a way between two stretches: a longer one is driven at the speed of transit, ...
 SLOW = 0.15  # [m] ... except for its end: the robot has slowed down and lowered the brushes before its path begins
@@ -38,26 +41,39 @@ Regional = Dict[int, List[Stretch]]  # by the label of their region
 def plan(context: Context, pose: Pose, end: Optional[Pose] = None) -> Optional[Route]:
     """A route that cleans what was missed; None if nothing was missed, or none of it can be reached.
 
-    As long as lanes and rings clean most of it, crumbs are cleaned on detours from these. The routes after that know
-    where the robot really drove, and visit crumb after crumb. All visit only as many crumbs as the target needs.
+    As long as lanes and rings clean most of it, crumbs are cleaned on detours from these, and the route is improved by
+    rehearsal. The routes after that know where the robot really drove, and visit crumb after crumb. All visit only as
+    many crumbs as the target needs.
 
     Args:
         context: with the floor that was swept before; it is not changed.
         pose: from which the route begins, map frame.
         end: near which it should end; None: anywhere.
     """
-    ground, swept = context.ground, context.swept
-    labels = regions(ground)
-    walls = Walls(ground)
-    paper = swept.copy()
-    around = _around(context, pose)
-    found = _stretches(context, paper, around, labels, main_direction(walls.outlines))
-    missing = swept.missing_share() * around
-    if paper.coverage - swept.coverage > MOST * missing.sum() * ground.plan.resolution ** 2 / swept.reachable_area:
-        route = _through(context, pose, end, labels, found)
+    ground, labels = context.ground, regions(context.ground)
+    surroundings = Surroundings(context, pose, _around(context, pose), labels, Walls(ground))
+    drafts = _drafts(surroundings, end)
+    if not drafts:
+        missing = context.swept.missing_share() * surroundings.around
+        return _through(surroundings, end, crumbs(ground, surroundings.walls, missing, labels))
+    if rounds(context.swept.reachable_area) == 0:
+        return with_detours(surroundings, *drafts[0])
+    return improved(surroundings, [route for route, _ in drafts])
+
+
+def _drafts(surroundings: Surroundings, end: Optional[Pose]) -> List[Tuple[Route, Swept]]:
+    """Routes over lanes and rings, and what is swept after each on paper; none, if these clean little of it."""
+    swept, area = surroundings.context.swept, surroundings.context.swept.reachable_area
+    missing = float((swept.missing_share() * surroundings.around).sum()) * surroundings.context.plan.resolution ** 2
+    found = []
+    for overlap in OVERLAPS if rounds(area) >= MANY else OVERLAPS[:1]:
+        paper = swept.copy()
+        stretches = _stretches(surroundings, paper, overlap)
+        is_much = paper.coverage - swept.coverage > MOST * missing / area
+        route = _through(surroundings, end, stretches) if is_much else None
         if route is not None:
-            return with_crumbs(context, walls, route, paper, around, labels)
-    return _through(context, pose, end, labels, crumbs(ground, walls, missing, labels))
+            found.append((route, paper))
+    return found
 
 
 def _around(context: Context, pose: Pose) -> Array:
@@ -68,30 +84,32 @@ def _around(context: Context, pose: Pose) -> Array:
     return ground.around(pose.x, pose.y, 0.5 * context.robot.brush.width + BEYOND)
 
 
-def _through(context: Context, pose: Pose, end: Optional[Pose], labels: Array,
-             found: List[Stretch]) -> Optional[Route]:
+def _through(surroundings: Surroundings, end: Optional[Pose], found: List[Stretch]) -> Optional[Route]:
     """A route over stretches between poses; of crumbs, only over as many as the target needs. None: there is none."""
     if not found:
         return None
     by_region: Regional = {}
     for part in found:
         by_region.setdefault(part.region, []).append(part)
-    tours = _tours(context, pose, end, labels, by_region)
+    context, pose = surroundings.context, surroundings.pose
+    tours = _tours(context, pose, end, surroundings.labels, by_region)
     if all(part.is_crumb for part in found):
         _cull(context, tours, by_region)
     return _route(context, pose, tours, by_region)
 
 
-def _stretches(context: Context, paper: Swept, around: Array, labels: Array, angle: float) -> List[Stretch]:
+def _stretches(surroundings: Surroundings, paper: Swept, overlap: float) -> List[Stretch]:
     """Rings, and lanes where those are better, that clean what was missed, but for crumbs; they are driven on paper.
 
-    The lanes are at an angle [rad] to the map's axes.
+    The lanes overlap by a share of the width of the brush.
     """
+    context, labels = surroundings.context, surroundings.labels
     ground, brush = context.ground, context.robot.brush.width
-    shape = shapes(ground, labels)
+    shape, angle = shapes(ground, labels), main_direction(surroundings.walls.outlines)
     found = [stretch(chain, brush) for chain in chains(rings(ground, paper, labels, shape, brush))]
-    missed = (paper.missing_share() > MISSED) & around
-    layouts = tries(float(missed.sum()) * ground.plan.resolution ** 2)
+    missed = (paper.missing_share() > MISSED) & surroundings.around
+    layouts = [layout._replace(overlap=overlap)
+               for layout in LAYOUTS[:tries(float(missed.sum()) * ground.plan.resolution ** 2)]]
     for region, part in _by_region(ground, missed, labels).items():
         if shape.has_lanes[region]:
             found += laid_out(context, paper, part, region, angle, layouts)

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from rumba_cleaning.behaviours.follower import Follower, turn_rate
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.cleaning_config import CleaningConfig
 from rumba_cleaning.planning.paper import drive
@@ -21,6 +22,10 @@ def main() -> None:
     context.swept.begin(pose.x, pose.y)
     route = plan(context, pose)
     assert route is not None
+    follower = Follower(route, context.robot.drive)
+    follower.velocity(pose, 0.1)
+    follower.ahead(0.1)
+    turn_rate(1.0, 0.1, context.robot.drive)
     drive(context.swept, route.waypoints)
     plan(context, pose)
     context.ground.path(np.array([1.0, 1.0]), np.array([1.0, 5.0]))

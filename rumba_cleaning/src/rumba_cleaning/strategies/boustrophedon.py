@@ -16,7 +16,8 @@ from rumba_cleaning.route import Ahead, Relief, Route
 from rumba_cleaning.strategies import strategy
 from rumba_sim.model.geometry import Pose
 
-WORTH = 0.0005  # of coverage: a round that gains less is the last: a round for the last spots gains little more
+WORTH = 0.0005  # of coverage: a round that gains less, and less than half of what was missing, is the last: a round for
+#                 the last spots gains little more
 DEAR = 150.0  # [m/m^2] that a round beside obstacles drives for what it gains, beyond which it is the last: five times
 #               what the planner drives for a crumb, so most of what it planned for cannot be reached
 HELPED = 0.01  # of coverage: a retry that gained less was in vain: to touch all obstacles again takes long
@@ -76,6 +77,7 @@ class Boustrophedon(Behaviour):
         self._most = 0.0  # coverage of what lies beside obstacles, at most: those that are forgotten still stand there
         self._pause = 0.0  # [s] still to wait
         self._before = -1.0  # coverage when the round began
+        self._missing = 1.0  # of coverage to the target then
         self._driven = 0.0  # [m] since then
         self._last: Optional[Pose] = None  # where the robot was
         self._impasse, self._standstill = Impasse(), standstill.Standstill()
@@ -140,7 +142,8 @@ class Boustrophedon(Behaviour):
         coverage = context.swept.coverage
         gain = coverage - self._before
         is_dear = context.ground.has_marks and self._driven > DEAR * gain * context.swept.reachable_area
-        is_worth = gain > WORTH and self._rounds < ROUNDS and not is_dear
+        is_worth = gain > min(WORTH, 0.5 * self._missing) and self._rounds < ROUNDS and not is_dear
+        self._missing = context.target_coverage - coverage
         is_cut_off = context.is_cut_off(pose)
         if not is_cut_off:
             self._most = max(self._most, context.beside_obstacles().coverage)

@@ -16,6 +16,15 @@ from rumba_sim.model.robot_config import RobotConfig
 ANY_RATE = 50  # [Hz] `constants` asks for a rate, but the constants of a brush do not depend on it
 
 
+class Brush(NamedTuple):
+    """What the kernel sweeps with, for compiled callers; `samples` and `tally` change as is swept."""
+
+    constants: Array  # one record, in an array
+    samples: Array  # see `Sweep`
+    no_dirt: Array  # float32 (rows, columns) of the plan
+    tally: Array  # see `Sweep`
+
+
 class Part(NamedTuple):
     """A part of the reachable floor."""
 
@@ -107,6 +116,11 @@ class Sweep:
             starts, ends: x [m], y [m] and theta [rad] of each, float64 (any, 3).
         """
         fast.sweep_moves(self._constants, self.samples, self._no_dirt, self.tally, starts, ends)
+
+    @property
+    def brush(self) -> Brush:
+        """The brush that sweeps this floor."""
+        return Brush(self._constants, self.samples, self._no_dirt, self.tally)
 
     @property
     def reachable_area(self) -> float:

@@ -7,7 +7,8 @@ from typing import Any, List, Optional, Tuple
 import numpy as np
 import rospy
 
-from rumba_cleaning.behaviours.follower import HEADING, LEAST_AHEAD, Follower, turn_rate
+from rumba_cleaning.behaviours.compiled_follower import LEAST_AHEAD
+from rumba_cleaning.behaviours.follower import HEADING, Follower, turn_rate
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.ros.cleaner.senses import Senses
 from rumba_cleaning.ros.cleaner.settings import Settings

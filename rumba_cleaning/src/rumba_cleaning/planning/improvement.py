@@ -1,0 +1,90 @@
+"""Improves routes by edits until they meet the target, and take less time."""
+
+from typing import List, NamedTuple, Sequence, Tuple
+
+from rumba_cleaning.belief.context import Context
+from rumba_cleaning.belief.swept import Swept
+from rumba_cleaning.planning.crumbs import crumbs
+from rumba_cleaning.planning.detours import detours
+from rumba_cleaning.planning.edits import Edit, applied, chosen, dense
+from rumba_cleaning.planning.rehearsal import Rehearsal
+from rumba_cleaning.planning.shifts import shifts
+from rumba_cleaning.planning.shortcuts import shortcuts
+from rumba_cleaning.planning.walls import Walls
+from rumba_cleaning.route import Route
+from rumba_sim.model.geometry import Pose
+from rumba_sim.model.kernel import Array
+
+# All figures are our choice; each comment says what speaks for a larger and for a smaller value.
+SURPLUS = 0.005  # of coverage that is planned beyond the target on paper, since no robot drives exactly as planned ...
+MARGIN = 0.0015  # ... and by rehearsal: large sweeps too much, small may need another route for a few last spots
+EDITED = 0.0004  # of coverage that edits are to bring beyond that: together they bring a little less than one by one
+ROUNDS = 3  # of edits at most, each after another rehearsal: more make shorter routes, and take more time
+WORK = 100.0  # [m^2] of floor, times rounds: large makes shorter routes, small plans faster
+# [s/m^2] a lane takes 20: dearer edits are left out on paper, where they clean less than it seems, and by rehearsal.
+DEAREST_ON_PAPER, DEAREST = 200.0, 3000.0
+# [s/m^2] that edits save for what they leave, if there is more than the target needs, and take for what is missing.
+SAVED, ADDED = 120.0, 600.0
+CHEAP = 0.5  # share of the last price that a shortcut must save to be judged: small tries more
+SHORTCUTS = 1500  # that are judged in a round, at most
+
+
+class Surroundings(NamedTuple):
+    """Where a robot that plans is, and what it knows."""
+
+    context: Context  # where the robot can stand, the target, and the floor that was swept before
+    pose: Pose  # of the robot
+    around: Array  # the cells that it can sweep, bool (rows, columns)
+    labels: Array  # the region of each node, int (rows + 1, columns + 1)
+    walls: Walls  # of the ground of the context
+
+    def detours(self, route: Route, swept: Swept) -> List[Edit]:
+        """Detours from a route past the crumbs that are left when it is driven."""
+        missing = swept.missing_share() * self.around
+        return detours(self.context, route, crumbs(self.context.ground, self.walls, missing, self.labels))
+
+    def need(self, swept: Swept, surplus: float) -> float:
+        """Area that is missing to the target and a surplus [m^2]."""
+        return (self.context.target_coverage + surplus - swept.coverage) * swept.reachable_area
+
+
+def with_detours(surroundings: Surroundings, route: Route, paper: Swept) -> Route:
+    """A route with detours, so that it meets the target on paper, where that was swept after it."""
+    route = dense(route)
+    edits, _ = chosen(surroundings.detours(route, paper), surroundings.need(paper, SURPLUS), DEAREST_ON_PAPER)
+    return applied(route, edits, surroundings.context.config.speed)
+
+
+def rounds(area: float) -> int:
+    """How many rounds of edits a floor is worth, by its area [m^2]; 0: its routes are not rehearsed."""
+    return min(int(WORK / area), ROUNDS)
+
+
+def improved(surroundings: Surroundings, routes: Sequence[Route]) -> Route:
+    """The best of several routes, with edits, so that it meets the target by rehearsal in as little time as it can."""
+    context = surroundings.context
+    best = rehearsal = min((Rehearsal(context, surroundings.pose, dense(route)) for route in routes),
+                           key=lambda rehearsal: _cost(surroundings, rehearsal))
+    price = SAVED
+    for _ in range(rounds(rehearsal.swept.reachable_area)):
+        if not rehearsal.is_complete:
+            break
+        found = [*shortcuts(context, rehearsal, CHEAP * price)[:SHORTCUTS], *shifts(context, rehearsal.route),
+                 *surroundings.detours(rehearsal.route, rehearsal.swept)]
+        need = surroundings.need(rehearsal.swept, MARGIN + EDITED)
+        edits, price = chosen(rehearsal.judged(found), need, DEAREST)
+        rehearsal = Rehearsal(context, surroundings.pose, dense(applied(rehearsal.route, edits, context.config.speed)))
+        best = max(best, rehearsal, key=lambda rehearsal: _merit(surroundings, rehearsal))
+    return best.route
+
+
+def _cost(surroundings: Surroundings, rehearsal: Rehearsal) -> float:
+    """The time that a route will take, about, once edits have it meet the target [s]."""
+    need = surroundings.need(rehearsal.swept, MARGIN)
+    return rehearsal.seconds + need * (ADDED if need > 0.0 else SAVED)
+
+
+def _merit(surroundings: Surroundings, rehearsal: Rehearsal) -> Tuple[bool, float]:
+    """Compares rehearsals: the quickest one that meets the target, or that which comes nearest to it."""
+    is_met = surroundings.need(rehearsal.swept, MARGIN) <= 0.0
+    return is_met, -rehearsal.seconds if is_met else rehearsal.swept.coverage

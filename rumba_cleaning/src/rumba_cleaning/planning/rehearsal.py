@@ -1,0 +1,73 @@
+"""A rehearsal of a route: how the robot would drive along it, what it would sweep, and what edits would change.
+
+A drive on paper goes exactly along the route. A robot cuts corners and swings out of them: what it leaves there is half
+of all that a plan leaves, and rehearsals foresee it to about 0.1 % of the floor.
+"""
+
+from typing import List, Sequence
+
+import numpy as np
+
+from rumba_cleaning.behaviours.compiled_follower import drive_of
+from rumba_cleaning.behaviours.guard import SWIFT_SPEED
+from rumba_cleaning.belief.context import Context
+from rumba_cleaning.planning import compiled_rehearsal
+from rumba_cleaning.planning.compiled_rehearsal import ALONG, COLUMNS, DT, Walls
+from rumba_cleaning.planning.edits import Edit
+from rumba_cleaning.route import Route, lengths_along
+from rumba_sim.model.geometry import Pose
+
+NO_PATH = np.zeros((0, 2))  # as that of an edit
+
+
+class Rehearsal:
+    """A drive along a route from a pose, on a floor without obstacles that the ground does not show.
+
+    The wheels are no faster than the guard lets them be in bends over floor that the robot has not seen.
+
+    Attributes:
+        route: what is followed.
+        swept: the floor afterwards.
+        is_complete: whether the robot would get to the end.
+        seconds: that it takes.
+        reached: when each waypoint is reached: float64 (waypoints) [s].
+        alone: what is swept until then, and at no other time: float64 (waypoints) [m^2].
+    """
+
+    def __init__(self, context: Context, pose: Pose, route: Route) -> None:
+        """Drive along the route."""
+        ground = context.ground
+        self.route = route
+        self._speed = context.config.speed
+        drive = drive_of(context.robot.drive)
+        self._drive = drive._replace(max_speed=min(drive.max_speed, SWIFT_SPEED))
+        self._walls = Walls(ground.plan.clearance, ground.plan.origin, ground.plan.resolution, ground.reach)
+        begin = np.zeros(COLUMNS)
+        begin[:3] = pose
+        self.is_complete, self._trace = compiled_rehearsal.rehearse(
+            route.waypoints, route.speeds, self._drive, self._walls, begin, True, np.inf)
+        self._trace[:, ALONG] = np.maximum.accumulate(self._trace[:, ALONG])
+        self.swept = context.swept.copy()
+        brush = self.swept.brush
+        compiled_rehearsal.sweep_trace(brush, brush.samples, self._trace, self._speed)
+        self._square = self.swept.reachable_area / max(self.swept.reachable, 1)  # [m^2] of a sample
+        self.seconds = (len(self._trace) - 1) * DT
+        rows = np.minimum(np.searchsorted(self._trace[:, ALONG], lengths_along(route.waypoints)),
+                          len(self._trace) - 1)
+        self.reached = rows * DT
+        once = brush._replace(samples=brush.samples.copy(), tally=brush.tally.copy())
+        self.alone = compiled_rehearsal.alone(once, self._trace, self._speed)[rows] * self._square
+
+    def judged(self, edits: Sequence[Edit]) -> List[Edit]:
+        """Edits with what each costs and brings, if it were the only one; without those that lead astray."""
+        if not edits:
+            return []
+        brush = self.swept.brush
+        brush = brush._replace(tally=brush.tally.copy())
+        seconds, samples = compiled_rehearsal.changes(
+            *self.route, self._drive, self._walls, self._speed, self._trace, brush,
+            np.zeros((2, *brush.samples.shape), np.uint8), np.array([edit[:2] for edit in edits]),
+            np.concatenate([NO_PATH, *(edit.path for edit in edits)]),
+            np.cumsum([0, *(len(edit.path) for edit in edits)]))
+        return [edit._replace(seconds=time, area=count * self._square)
+                for edit, time, count in zip(edits, seconds.tolist(), samples.tolist()) if np.isfinite(time)]

@@ -1,0 +1,70 @@
+"""Routes are improved until they meet the target: they take less time then, or sweep what they would have left."""
+
+import numpy as np
+from floors import knowing
+from rooms import crooked, room
+
+from rumba_cleaning.planning import planner
+from rumba_cleaning.planning.edits import dense
+from rumba_cleaning.planning.improvement import Surroundings, improved
+from rumba_cleaning.planning.regions import regions
+from rumba_cleaning.planning.rehearsal import Rehearsal
+from rumba_cleaning.planning.walls import Walls
+from rumba_cleaning.route import Route
+from rumba_sim.model.geometry import Pose
+
+START = Pose(0.5, 0.5, 0.3)
+
+
+def surroundings_of(floor, pose=START, **config):
+    context = knowing(floor, pose, **config)
+    around = np.ones(context.plan.free.shape, bool)
+    return Surroundings(context, pose, around, regions(context.ground), Walls(context.ground))
+
+
+def first_draft(surroundings, overlap=0.05):
+    """The route of a planner that improves nothing."""
+    paper = surroundings.context.swept.copy()
+    found = planner._stretches(surroundings, paper, overlap)
+    return planner._through(surroundings, None, found)
+
+
+def test_an_improved_route_meets_the_target_sooner_than_one_with_all_lanes():
+    surroundings = surroundings_of(crooked(0.02), target_coverage=0.95)
+    draft = first_draft(surroundings)
+    before = Rehearsal(surroundings.context, START, dense(draft))
+    after = Rehearsal(surroundings.context, START, improved(surroundings, [draft]))
+    assert before.swept.coverage > 0.96 and after.is_complete
+    assert after.swept.coverage >= 0.95 and after.seconds < 0.97 * before.seconds
+
+
+def test_an_improved_route_sweeps_what_lanes_without_overlap_and_corners_would_leave():
+    surroundings = surroundings_of(crooked(0.02), target_coverage=0.993)
+    draft = first_draft(surroundings, 0.0)
+    before = Rehearsal(surroundings.context, START, dense(draft))
+    after = Rehearsal(surroundings.context, START, improved(surroundings, [draft]))
+    assert before.swept.coverage < 0.992 and after.swept.coverage >= 0.993
+    assert after.seconds < 1.15 * before.seconds
+
+
+def test_the_better_of_two_routes_is_improved():
+    surroundings = surroundings_of(crooked(0.02), target_coverage=0.95)
+    good = first_draft(surroundings)
+    bad = Route(np.concatenate([good.waypoints, good.waypoints[-2::-1]]),
+                np.concatenate([good.speeds, good.speeds[::-1]]))
+    chosen = Rehearsal(surroundings.context, START, improved(surroundings, [bad, good]))
+    alone = Rehearsal(surroundings.context, START, improved(surroundings, [good]))
+    assert chosen.seconds == alone.seconds and chosen.swept.coverage == alone.swept.coverage
+
+
+def test_a_route_that_nobody_can_follow_stays_as_it_is():
+    surroundings = surroundings_of(room(4.0, 3.0, 0.02, [(1.9, 0.0, 2.1, 3.0)]))
+    through = Route(np.array([[0.5, 0.5], [3.5, 0.5]]), np.array([0.3]))
+    assert improved(surroundings, [through]).waypoints.tolist() == dense(through).waypoints.tolist()
+
+
+def test_plans_repeat():
+    surroundings = surroundings_of(crooked(0.05))
+    draft = first_draft(surroundings)
+    one, other = improved(surroundings, [draft]), improved(surroundings, [draft])
+    assert np.array_equal(one.waypoints, other.waypoints) and np.array_equal(one.speeds, other.speeds)
