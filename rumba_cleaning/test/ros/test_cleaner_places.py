@@ -72,15 +72,15 @@ class CleanerPlacesTest(unittest.TestCase):
     def test_two_robots_in_two_rooms_without_a_dock_or_a_door(self):
         if rospy.has_param('/upstairs'):
             rospy.delete_param('/upstairs')
-        cleaners = {robot: Cleaner(self, '__ns:=/upstairs', f'__name:=cleaner_of_{robot}', f'_robot:={robot}',
-                                   name=f'/upstairs/cleaner_of_{robot}', robot=f'/upstairs/{robot}')
-                    for robot in ('rumba', 'rumba2')}
         path = folder_of(self, ROOMS) / 'rooms.yaml'
         process = subprocess.Popen(['rosrun', 'rumba_sim', 'simulator', '__ns:=/upstairs', f'_map:={path}',
                                     '_robots:=2', '_speed:=10'])
         self.addCleanup(process.wait)
         self.addCleanup(process.terminate)
         wait_for_service(self, '/upstairs/simulator/spawn')
+        cleaners = {robot: Cleaner(self, '__ns:=/upstairs', f'__name:=cleaner_of_{robot}', f'_robot:={robot}',
+                                   name=f'/upstairs/cleaner_of_{robot}', robot=f'/upstairs/{robot}')
+                    for robot in ('rumba', 'rumba2')}
         for robot, x in (('rumba2', 3.0), ('rumba', 1.0)):
             rospy.ServiceProxy(f'/upstairs/{robot}/teleport', Teleport)(Pose2D(x, 1.0, 0.0))
             cleaners[robot].connect()
