@@ -1,1 +1,26 @@
-../../../rumba_sim/test/unit/conftest.py
+"""Hypothesis tries the same examples in every run, has no time limit, and writes no files; plans are made quickly."""
+
+import signal
+
+import hypothesis
+import pytest
+
+from rumba_cleaning.planning import improvement
+
+hypothesis.settings.register_profile('rumba', derandomize=True, database=None, deadline=None)
+hypothesis.settings.load_profile('rumba')
+
+# If a shell runs the tests in the background, they and the processes that they start would ignore Ctrl-C.
+signal.signal(signal.SIGINT, signal.default_int_handler)
+
+ABOUT_PLANS = ('test_planner', 'test_improvement')  # modules
+
+
+@pytest.fixture(autouse=True, scope='module')
+def quick_plans(request):
+    """Edit routes in one round: only tests of plans look at how short these are."""
+    usual = improvement.ROUNDS
+    if request.module.__name__ not in ABOUT_PLANS:
+        improvement.ROUNDS = 1
+    yield
+    improvement.ROUNDS = usual

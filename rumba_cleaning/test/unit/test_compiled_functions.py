@@ -7,8 +7,9 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from rumba_cleaning.behaviours.compiled_follower import drive_of, nearest, piece_of
+from rumba_cleaning.behaviours.compiled_follower import nearest, piece_of
 from rumba_cleaning.behaviours.compiled_guard import HOLD_STEPS, STEP, path
+from rumba_cleaning.behaviours.follower import drive_of
 from rumba_cleaning.belief.compiled_footing import are_marked, stamp
 from rumba_cleaning.belief.compiled_ground import are_of_one_part
 from rumba_cleaning.belief.search import is_clear

@@ -1,1 +1,1 @@
-../../../rumba_sim/test/unit/conftest.py
+../../../rumba_cleaning/test/unit/conftest.py

@@ -12,7 +12,6 @@ from typing import Any, NamedTuple, Tuple
 import numpy as np
 
 from rumba_sim.model.jit import compiled
-from rumba_sim.model.robot_config import DriveConfig
 
 Array = Any  # numpy.ndarray
 
@@ -67,11 +66,6 @@ class Piece(NamedTuple):
     lengths: Array  # float64 (n), from the first waypoint to each, along the piece [m]
     speeds: Array  # float64 (n - 1), on the lines, at most [m/s]
     limits: Array  # float64 (any), speeds at samples, from which the robot can still slow down for bends ahead [m/s]
-
-
-def drive_of(config: DriveConfig) -> Drive:
-    """The limits of a drive."""
-    return Drive(config.max_speed, config.max_turn_rate, config.acceleration, config.wheel_base, config.dead_band)
 
 
 @compiled

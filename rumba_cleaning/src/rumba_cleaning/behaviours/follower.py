@@ -36,7 +36,7 @@ class Follower:
 
     def __init__(self, route: Route, drive: DriveConfig) -> None:
         """Follow a route of two waypoints or more with a drive's limits."""
-        self._drive = compiled_follower.drive_of(drive)
+        self._drive = drive_of(drive)
         self._pieces = _pieces(route, self._drive)
         self._state = compiled_follower.start(0.0, 0.0)  # on the first piece
         self.is_done = not self._pieces
@@ -109,13 +109,18 @@ class Follower:
         return 0.0, 0.0
 
 
+def drive_of(config: DriveConfig) -> Drive:
+    """The limits of a drive, for compiled code."""
+    return Drive(config.max_speed, config.max_turn_rate, config.acceleration, config.wheel_base, config.dead_band)
+
+
 def _length(piece: Piece) -> float:
     return float(piece.lengths[-1])
 
 
 def turn_rate(angle: float, dt: float, drive: DriveConfig) -> float:
     """The rate [rad/s] at which to turn on the spot while an angle [rad] is left, so as to stop at its end."""
-    return compiled_follower.turn_rate(angle, dt, compiled_follower.drive_of(drive))
+    return compiled_follower.turn_rate(angle, dt, drive_of(drive))
 
 
 class Turn:

@@ -14,9 +14,9 @@ from rumba_cleaning.behaviours.compiled_follower import (DISTANCE, IS_TURNING, D
 from rumba_sim.model.compiled import fast
 from rumba_sim.model.jit import compiled
 from rumba_sim.model.kernel.samples import PASS, REACHABLE, SWEEPABLE
-from rumba_sim.model.sweep import Brush
 
 Array = Any  # numpy.ndarray
+Brush = Any  # rumba_sim.model.sweep.Brush
 arc, interpolated, sweep = fast.arc, fast.interpolated, fast.sweep
 
 DT, TICKS = 0.1, 5  # [s] from command to command, and the parts in each of which the wheels change their speeds
