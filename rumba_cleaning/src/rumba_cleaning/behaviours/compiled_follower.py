@@ -3,7 +3,7 @@
 Arguments that many functions share:
     piece: what is followed.
     drive: limits of the wheels.
-    state: float64 (STATE_SIZE), how far the robot has come; `start` makes it, and `follow` changes it.
+    state: float64 (5), how far the robot has come; `start` makes it, and `follow` changes it.
 """
 
 import math
@@ -45,7 +45,6 @@ TIE = 1e-9  # [m] a leg farther on must be nearer by this
 # Indices of a state: [m] driven along the piece, [s] turned on the spot since the last progress along it, whether it
 # turns on the spot (0 or 1), and the last command [m/s, rad/s].
 DISTANCE, TURNED, IS_TURNING, V, W = range(5)
-STATE_SIZE = 5
 
 
 class Drive(NamedTuple):

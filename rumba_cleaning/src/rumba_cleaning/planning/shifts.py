@@ -8,6 +8,7 @@ from typing import Iterator, Optional
 
 import numpy as np
 
+from rumba_cleaning.behaviours.compiled_follower import HAIRPIN
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.planning.compiled_ways import kept
 from rumba_cleaning.planning.edits import Edit
@@ -19,7 +20,7 @@ STRAIGHT = 0.01  # [m] by which waypoints may be off a straight part
 LONG = 0.4  # [m] of a straight part, at least: short ones belong to bends
 ASIDE = (-0.02, -0.01, 0.01, 0.02)  # [m] to the left, for straight parts
 SHORT = 0.05  # [m] of a part, at least, for it to have a direction at its end
-BENT, BACK = 0.5, 2.6  # [rad] a corner turns by; at sharper ones the robot turns on the spot
+BENT = 0.5  # [rad] that a corner turns, at least; at a hairpin the robot turns on the spot
 OUTWARD = (-0.04, -0.015, 0.02, 0.05)  # [m], for corners
 
 
@@ -49,7 +50,7 @@ def _outward(points: Array) -> Optional[Array]:
     if sizes.min() < SHORT:
         return None
     (x, y), (to_x, to_y) = legs / sizes[:, np.newaxis]
-    if not BENT <= abs(math.atan2(x * to_y - y * to_x, x * to_x + y * to_y)) <= BACK:
+    if not BENT <= abs(math.atan2(x * to_y - y * to_x, x * to_x + y * to_y)) <= HAIRPIN:
         return None
     out = np.array([x - to_x, y - to_y])
     return np.asarray(out / math.hypot(*out))
