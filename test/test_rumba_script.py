@@ -173,7 +173,7 @@ def test_no_root_and_no_sudo_says_what_an_administrator_must_do(checkout, tmp_pa
     (['build'], ':0', ['python3-matplotlib', 'python3-venv'], ['python3-pyqt5', 'xvfb', 'mypy']),
     (['test'], '', ['python3-pyqt5', 'python3-matplotlib', 'python3-venv', 'xvfb', 'python3-rosidl'], ['mypy']),
     (['deb'], '', ['catkin', 'python3-yaml'], ['python3-skimage', 'python3-pyqt5', 'rviz']),
-    (['lint'], '', ['mypy', 'python3-skimage'], ['python3-pyqt5', 'xvfb'])], ids=str)
+    (['lint'], '', ['mypy', 'python3-skimage', 'python3-tornado', 'python3-pyqt5'], ['xvfb'])], ids=str)
 def test_a_command_installs_what_its_roles_need_and_no_more(checkout, tmp_path, command, display, wanted, unwanted):
     (checkout / 'rumba_bringup' / 'launch').mkdir(parents=True)
     shutil.copy(ROOT / 'rumba_bringup' / 'launch' / 'demo.launch', checkout / 'rumba_bringup' / 'launch')
