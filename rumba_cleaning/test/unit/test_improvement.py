@@ -4,10 +4,12 @@ import numpy as np
 from floors import knowing
 from rooms import crooked, room
 
-from rumba_cleaning.planning import planner
+from rumba_cleaning.planning import improvement, planner
 from rumba_cleaning.planning.edits import dense
 from rumba_cleaning.planning.improvement import Surroundings, improved
-from rumba_cleaning.planning.regions import regions
+from rumba_cleaning.planning.lanes import Layout
+from rumba_cleaning.planning.layouts import Draft
+from rumba_cleaning.planning.regions import regions, shapes
 from rumba_cleaning.planning.rehearsal import Rehearsal
 from rumba_cleaning.planning.walls import Walls
 from rumba_cleaning.route import Route
@@ -24,8 +26,9 @@ def surroundings_of(floor, pose=START, **config):
 
 def first_draft(surroundings, overlap=0.05):
     """The route of a planner that improves nothing."""
-    paper = surroundings.context.swept.copy()
-    found = planner._stretches(surroundings, paper, overlap)
+    paper, shape = surroundings.context.swept.copy(), shapes(surroundings.context.ground, surroundings.labels)
+    found = planner._rings(surroundings, paper, shape)
+    found += planner._lanes(surroundings, paper, shape, Draft([Layout(overlap)], 0.3))
     return planner._through(surroundings, None, found)
 
 
@@ -45,6 +48,16 @@ def test_an_improved_route_sweeps_what_lanes_without_overlap_and_corners_would_l
     after = Rehearsal(surroundings.context, START, improved(surroundings, [draft]))
     assert before.swept.coverage < 0.992 and after.swept.coverage >= 0.993
     assert after.seconds < 1.15 * before.seconds
+
+
+def test_a_route_that_edits_leave_short_of_the_target_is_mended_by_detours(monkeypatch):
+    monkeypatch.setattr(improvement, 'ROUNDS', 1)
+    surroundings = surroundings_of(crooked(0.02), target_coverage=0.93)
+    draft = first_draft(surroundings)
+    mended = Rehearsal(surroundings.context, START, improved(surroundings, [draft]))
+    monkeypatch.setattr(improvement, 'MENDS', 0)
+    short = Rehearsal(surroundings.context, START, improved(surroundings, [draft]))
+    assert mended.swept.coverage >= 0.93 and mended.seconds < 0.95 * short.seconds
 
 
 def test_the_better_of_two_routes_is_improved():

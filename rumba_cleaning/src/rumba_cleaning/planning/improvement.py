@@ -19,8 +19,9 @@ from rumba_sim.model.kernel import Array
 SURPLUS = 0.005  # of coverage that is planned beyond the target on paper, since no robot drives exactly as planned ...
 MARGIN = 0.0015  # ... and by rehearsal: large sweeps too much, small may need another route for a few last spots
 EDITED = 0.0004  # of coverage that edits are to bring beyond that: together they bring a little less than one by one
-ROUNDS = 3  # of edits at most, each after another rehearsal: more make shorter routes, and take more time
-WORK = 100.0  # [m^2] of floor, times rounds: large makes shorter routes, small plans faster
+ROUNDS = 5  # of edits at most, each after another rehearsal: more make shorter routes, and take more time
+MENDS = 2  # times that detours are added, at most, to a route that edits left short of the target: that takes little
+WORK = 150.0  # [m^2] of floor, times rounds: large makes shorter routes, small plans faster
 # [s/m^2] a lane takes 20: dearer edits are left out on paper, where they clean less than it seems, and by rehearsal.
 DEAREST_ON_PAPER, DEAREST = 200.0, 3000.0
 # [s/m^2] that edits save for what they leave, if there is more than the target needs, and take for what is missing.
@@ -63,19 +64,30 @@ def rounds(area: float) -> int:
 def improved(surroundings: Surroundings, routes: Sequence[Route]) -> Route:
     """The best of several routes, with edits, so that it meets the target by rehearsal in as little time as it can."""
     context = surroundings.context
-    best = rehearsal = min((Rehearsal(context, surroundings.pose, dense(route)) for route in routes),
-                           key=lambda rehearsal: _cost(surroundings, rehearsal))
-    price = SAVED
+    rehearsal = min((Rehearsal(context, surroundings.pose, dense(route)) for route in routes),
+                    key=lambda rehearsal: _cost(surroundings, rehearsal))
+    tried, price = [rehearsal], SAVED
     for _ in range(rounds(rehearsal.swept.reachable_area)):
         if not rehearsal.is_complete:
             break
         found = [*shortcuts(context, rehearsal, CHEAP * price)[:SHORTCUTS], *shifts(context, rehearsal.route),
                  *surroundings.detours(rehearsal.route, rehearsal.swept)]
-        need = surroundings.need(rehearsal.swept, MARGIN + EDITED)
-        edits, price = chosen(rehearsal.judged(found), need, DEAREST)
-        rehearsal = Rehearsal(context, surroundings.pose, dense(applied(rehearsal.route, edits, context.config.speed)))
-        best = max(best, rehearsal, key=lambda rehearsal: _merit(surroundings, rehearsal))
-    return best.route
+        rehearsal, price = _edited(surroundings, rehearsal, found)
+        tried.append(rehearsal)
+    for _ in range(MENDS if len(tried) > 1 else 0):
+        if not rehearsal.is_complete or _is_met(surroundings, rehearsal):
+            break
+        rehearsal, _ = _edited(surroundings, rehearsal, surroundings.detours(rehearsal.route, rehearsal.swept))
+        tried.append(rehearsal)
+    return max(tried, key=lambda rehearsal: _merit(surroundings, rehearsal)).route
+
+
+def _edited(surroundings: Surroundings, rehearsal: Rehearsal, found: Sequence[Edit]) -> Tuple[Rehearsal, float]:
+    """A rehearsal of the route with those of some edits that have it meet the target; their price [s/m^2]."""
+    context = surroundings.context
+    edits, price = chosen(rehearsal.judged(found), surroundings.need(rehearsal.swept, MARGIN + EDITED), DEAREST)
+    route = dense(applied(rehearsal.route, edits, context.config.speed))
+    return Rehearsal(context, surroundings.pose, route), price
 
 
 def _cost(surroundings: Surroundings, rehearsal: Rehearsal) -> float:
@@ -84,7 +96,12 @@ def _cost(surroundings: Surroundings, rehearsal: Rehearsal) -> float:
     return rehearsal.seconds + need * (ADDED if need > 0.0 else SAVED)
 
 
+def _is_met(surroundings: Surroundings, rehearsal: Rehearsal) -> bool:
+    """Whether a route meets the target."""
+    return surroundings.need(rehearsal.swept, MARGIN) <= 0.0
+
+
 def _merit(surroundings: Surroundings, rehearsal: Rehearsal) -> Tuple[bool, float]:
     """Compares rehearsals: the quickest one that meets the target, or that which comes nearest to it."""
-    is_met = surroundings.need(rehearsal.swept, MARGIN) <= 0.0
+    is_met = _is_met(surroundings, rehearsal)
     return is_met, -rehearsal.seconds if is_met else rehearsal.swept.coverage

@@ -1,6 +1,6 @@
 """Chooses how the lanes of a region are laid out: several layouts are driven on paper."""
 
-from typing import List, Sequence
+from typing import List, NamedTuple, Sequence
 
 import numpy as np
 
@@ -13,9 +13,25 @@ from rumba_cleaning.planning.stretches import Stretch
 from rumba_cleaning.route import Route
 from rumba_sim.model.kernel import Array
 
-# Our choice: which of these is best differs from region to region. More save less and less time, and take as long to
-# compare. Lanes for wider strips only look better on paper, but leave slivers for the last round.
-LAYOUTS = (Layout(), Layout(usual=0.15, alike=2.5), Layout(usual=0.7))
+
+class Draft(NamedTuple):
+    """How the lanes of a floor are laid out."""
+
+    layouts: Sequence[Layout]  # those that are compared, on paper, in each region
+    missed: float  # share of a cell, for a lane to clean it: small drives over swept floor
+
+
+def _usual(overlap: float) -> List[Layout]:
+    """The usual layouts, with an overlap."""
+    return [Layout(overlap), Layout(overlap, usual=0.15, alike=2.5), Layout(overlap, usual=0.7)]
+
+
+# All figures are our choice. Which draft is best differs from floor to floor, as the best layout from region to region:
+# routes by the drafts are rehearsed, only by the first ones where that takes long. Lanes for wider strips only look
+# better on paper, but leave slivers for the last round.
+DRAFTS = (Draft(_usual(0.05), 0.3), Draft([Layout(0.0, needed=0.15, gap=0.4, alike=2.7)], 0.4), Draft(_usual(0.0), 0.3),
+          Draft([Layout(0.08, needed=0.17, usual=0.5, gap=0.65)], 0.45),
+          Draft([Layout(0.09, needed=0.15, usual=0.7, gap=0.55, alike=1.35)], 0.4))
 AREA = 600.0  # [m^2] to clean, times the layouts that are compared: large drives less, small plans faster
 LITTLE = 1.0  # [m^2] to clean, for which no layouts are compared: most of that is left to the crumbs
 TURN = 3.0  # [s] for each turn, beyond its length: the wheels limit the turn rate, and it leaves crumbs beside it
@@ -48,7 +64,7 @@ def laid_out(context: Context, paper: Swept, missed: Array, region: int, angle: 
 
 def tries(area: float) -> int:
     """How many layouts are compared for an area to clean [m^2]."""
-    return 1 if area < LITTLE else int(np.clip(AREA / area, 1, len(LAYOUTS)))
+    return 1 if area < LITTLE else max(int(AREA / area), 1)
 
 
 def _cost(context: Context, paper: Swept, paths: List[Array], turns: int) -> float:

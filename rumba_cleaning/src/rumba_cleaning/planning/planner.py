@@ -11,8 +11,8 @@ from rumba_cleaning.belief.swept import Swept
 from rumba_cleaning.planning import tour
 from rumba_cleaning.planning.crumbs import crumbs
 from rumba_cleaning.planning.improvement import Surroundings, improved, rounds, with_detours
-from rumba_cleaning.planning.layouts import LAYOUTS, laid_out, tries
-from rumba_cleaning.planning.regions import Ways, doors, regions, shapes
+from rumba_cleaning.planning.layouts import DRAFTS, Draft, laid_out, tries
+from rumba_cleaning.planning.regions import Shapes, Ways, doors, regions, shapes
 from rumba_cleaning.planning.rings import chains, rings, stretch
 from rumba_cleaning.planning.stretches import Stretch
 from rumba_cleaning.planning.tour import Tour
@@ -24,13 +24,9 @@ from rumba_sim.model.kernel import Array
 
 # Our choice.
 MOST = 0.5  # share of what was missed that lanes and rings must clean, for them to be driven
-MISSED = 0.3  # share of a cell, for a lane to clean it: small drives over swept floor
 BEYOND = 0.03  # [m] from what the brush reaches, where an obstacle may leave more floor free than the robot knows
 YIELD = 0.7  # share of a crumb that is swept in passing, about: small plans for more crumbs than the target needs
 SPARE = 0.0005  # of coverage that is planned beyond the target, once the robot is past the lanes and rings
-# Of two lanes, share of the brush's width: small drives less, large leaves nothing between. Which is best differs from
-# floor to floor: routes with each are rehearsed, except on a floor that is worth fewer than MANY rounds of edits.
-OVERLAPS, MANY = (0.05, 0.0), 3
 CULLS = 4  # rounds in which crumbs are left out that cost much time for their area: more make better choices
 TRANSIT = 0.5  # [m] of a way between two stretches: a longer one is driven at the speed of transit, ...
 SLOW = 0.15  # [m] ... except for its end: the robot has slowed down and lowered the brushes before its path begins
@@ -65,10 +61,13 @@ def _drafts(surroundings: Surroundings, end: Optional[Pose]) -> List[Tuple[Route
     """Routes over lanes and rings, and what is swept after each on paper; none, if these clean little of it."""
     swept, area = surroundings.context.swept, surroundings.context.swept.reachable_area
     missing = float((swept.missing_share() * surroundings.around).sum()) * surroundings.context.plan.resolution ** 2
+    beside_walls = swept.copy()
+    shape = shapes(surroundings.context.ground, surroundings.labels)
+    ringed = _rings(surroundings, beside_walls, shape)
     found = []
-    for overlap in OVERLAPS if rounds(area) >= MANY else OVERLAPS[:1]:
-        paper = swept.copy()
-        stretches = _stretches(surroundings, paper, overlap)
+    for draft in DRAFTS[:max(2 * rounds(area) - 1, 1)]:
+        paper = beside_walls.copy()
+        stretches = ringed + _lanes(surroundings, paper, shape, draft)
         is_much = paper.coverage - swept.coverage > MOST * missing / area
         route = _through(surroundings, end, stretches) if is_much else None
         if route is not None:
@@ -98,18 +97,19 @@ def _through(surroundings: Surroundings, end: Optional[Pose], found: List[Stretc
     return _route(context, pose, tours, by_region)
 
 
-def _stretches(surroundings: Surroundings, paper: Swept, overlap: float) -> List[Stretch]:
-    """Rings, and lanes where those are better, that clean what was missed, but for crumbs; they are driven on paper.
+def _rings(surroundings: Surroundings, paper: Swept, shape: Shapes) -> List[Stretch]:
+    """Rings that clean what was missed along walls, and where there are to be no lanes; they are driven on paper."""
+    ground, brush = surroundings.context.ground, surroundings.context.robot.brush.width
+    return [stretch(chain, brush) for chain in chains(rings(ground, paper, surroundings.labels, shape, brush))]
 
-    The lanes overlap by a share of the width of the brush.
-    """
+
+def _lanes(surroundings: Surroundings, paper: Swept, shape: Shapes, draft: Draft) -> List[Stretch]:
+    """Lanes that clean what was missed beside the rings, but for crumbs; they are driven on paper."""
     context, labels = surroundings.context, surroundings.labels
-    ground, brush = context.ground, context.robot.brush.width
-    shape, angle = shapes(ground, labels), main_direction(surroundings.walls.outlines)
-    found = [stretch(chain, brush) for chain in chains(rings(ground, paper, labels, shape, brush))]
-    missed = (paper.missing_share() > MISSED) & surroundings.around
-    layouts = [layout._replace(overlap=overlap)
-               for layout in LAYOUTS[:tries(float(missed.sum()) * ground.plan.resolution ** 2)]]
+    ground, angle = context.ground, main_direction(surroundings.walls.outlines)
+    missed = (paper.missing_share() > draft.missed) & surroundings.around
+    layouts = draft.layouts[:tries(float(missed.sum()) * ground.plan.resolution ** 2)]
+    found: List[Stretch] = []
     for region, part in _by_region(ground, missed, labels).items():
         if shape.has_lanes[region]:
             found += laid_out(context, paper, part, region, angle, layouts)
