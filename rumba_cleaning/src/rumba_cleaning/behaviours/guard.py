@@ -13,6 +13,7 @@ import numpy as np
 from rumba_cleaning.behaviour import Command, Observation
 from rumba_cleaning.behaviours.compiled_guard import HOLD_STEPS, ROUNDING, path
 from rumba_cleaning.behaviours.rear import Rear
+from rumba_cleaning.behaviours.trail import Trail
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.belief.footing import FAR
 from rumba_sim.model.geometry import Pose
@@ -77,6 +78,7 @@ class Guard:
         self._half = 0.5 * context.robot.drive.wheel_base
         self._clear = self._half + SPARE  # [m] from the middle to an edge: the robot can turn on the spot
         self._rear = Rear(context.robot.drive.radius)
+        self._trail = Trail(self._half)
         self.rest()
 
     def rest(self) -> None:
@@ -86,6 +88,8 @@ class Guard:
         self._last: Optional[Pose] = None
         self._held = NONE  # the side on which an edge kept the robot from what it was to do
         self._rear.rest()
+        self._trail.forget()
+        self._is_on_trail = False  # whether the last command leads back along it
         self._go_on()
 
     def _go_on(self) -> None:
@@ -119,7 +123,7 @@ class Guard:
         if left or right:
             far_left, near_left, near_right, far_right = observation.cliffs
             observation = observation._replace(cliffs=(far_left or left, near_left, near_right, far_right or right))
-        command = decide(observation)
+        command = self._on_trail(decide(observation), observation.pose)
         change = self._drive.acceleration * min(observation.dt, LONGEST)
         (left_speed, right_speed), (left_goal, right_goal) = self._speeds, self._wanted(self._command)
         self._speeds = (min(max(left_goal, left_speed - change), left_speed + change),
@@ -130,6 +134,22 @@ class Guard:
             self._command = self._way_out(observation, command) or self._command
         self._last = observation.pose
         return self._command
+
+    def _on_trail(self, command: Command, pose: Pose) -> Command:
+        """Have a robot that backs off where an edge may be anywhere go back by the way that it came.
+
+        Straight back from a bend, a wheel comes where no sensor has looked, or nearer to an edge beside the way.
+        """
+        is_braking = sum(self._speeds) > 0.0 and not self._is_on_trail
+        is_back = command.v < 0.0 and not is_braking and self._is_wary(pose)
+        motion = self._trail.back(pose) if is_back else None
+        self._is_on_trail = motion is not None
+        if motion is None:
+            self._trail.note(pose)
+            return command
+        ahead, turn = motion
+        share = -command.v / max(abs(ahead) + self._half * abs(turn), ROUNDING)
+        return command._replace(v=share * ahead, w=share * turn)
 
     def _note_held(self, observation: Observation) -> None:
         """Measure for how long edges have held the robot, about where it is, and decide when to look for a way out."""
@@ -181,7 +201,7 @@ class Guard:
         must_know = self._is_wary(pose) or not (self._sees_ahead(wanted) and self._sees_ahead(self._speeds))
         if not (is_near or must_know) or fastest == 0.0:
             return command
-        if is_near and sum(wanted) < 0.0 and self._rear.is_closed(observation):
+        if is_near and sum(wanted) < 0.0 and self._rear.is_closed(observation, self._is_on_trail):
             self._held = BOTH if _faster(self._speeds) < AT_REST else NONE
             return command._replace(v=0.0, w=0.0)
         found, slips = [], self._slips(observation, wanted)
@@ -270,6 +290,8 @@ class Guard:
             return 0
         if not self._is_wary(pose):
             return 2
+        if self._is_on_trail:
+            return 1  # points of the way of a wheel are known, and cells that it passed between them are not
         return 1 if -ROUNDING <= sum(wanted) <= 2.0 * SLOW else 0
 
     def _path(self, pose: Pose, wanted: Wheels, slip: Slip, hold: int = HOLD_STEPS) -> Array:

@@ -10,6 +10,7 @@ from rumba_cleaning.behaviour import Observation
 # All figures below are our choice.
 GAP = 0.03  # [m] from the body to what a beam met: three standard deviations of its range
 BEHIND = 0.5  # of a beam, the least cosine of its angle to the back: to 60 degrees off
+STRAIGHT = 0.8  # the same on its trail, to 37 degrees off: what stands more beside it was there as the robot came by
 MOST = 0.06  # [m] back while the sensors see an edge: a robot that moves sees it no more by then, or drives along it
 
 
@@ -29,14 +30,19 @@ class Rear:
         """Take note of an observation, and of how far the wheels have driven forward since the one before [m]."""
         self._backed = self._backed + max(-driven, 0.0) if any(observation.cliffs) else 0.0
 
-    def is_closed(self, observation: Observation) -> bool:
-        """Whether the robot must not go back."""
-        return self._backed > MOST or self._is_seen(observation)
+    def is_closed(self, observation: Observation, is_on_trail: bool = False) -> bool:
+        """Whether the robot must not go back.
 
-    def _is_seen(self, observation: Observation) -> bool:
-        """Whether the laser sees something right behind."""
+        On its trail, nothing is behind it that it did not pass, but for what moves; that is seen by a laser.
+        """
+        if is_on_trail and observation.scan is not None:
+            return self._is_seen(observation, STRAIGHT)
+        return self._backed > MOST or self._is_seen(observation, BEHIND)
+
+    def _is_seen(self, observation: Observation, least: float) -> bool:
+        """Whether the laser sees something behind, by a beam whose angle to the back has at least that cosine."""
         if observation.scan is None:
             return False
         points = observation.scan.points
         ranges = np.hypot(points[:, 0], points[:, 1])
-        return bool(((ranges < self._reach) & (points[:, 0] < -BEHIND * ranges)).any())
+        return bool(((ranges < self._reach) & (points[:, 0] < -least * ranges)).any())

@@ -1,0 +1,95 @@
+"""Near an edge that no map shows, a robot backs off along the way that it came by."""
+
+import itertools
+import math
+
+import numpy as np
+import pytest
+from drivers import context_of
+from rooms import RADIUS, inside, quiet, room
+
+from rumba_cleaning.behaviour import Command
+from rumba_cleaning.behaviours.guard import Guard
+from rumba_cleaning.control import CONTROL_DT, CONTROL_TICKS, observe
+from rumba_cleaning.pose_source import seeing, truth
+from rumba_sim.model.floor_plan import FloorPlan
+from rumba_sim.model.geometry import Pose
+from rumba_sim.model.obstacle import Obstacle
+from rumba_sim.model.world import World
+
+BACK = (-0.1, 0.0)
+
+
+def world_with(pits, start):
+    """A world with pits in boxes [m] that the context does not know, and both."""
+    plan = room(3.0, 2.0, 0.01, start=Pose(0.5, 0.5, 0.0))
+    cliff = np.any([inside(box, plan.rows, plan.columns, plan.resolution) for box in pits], axis=0)
+    world = World(FloorPlan(plan.name, plan.occupancy, plan.resolution, plan.origin, cliff=cliff), quiet())
+    world.spawn('rumba', start)
+    return world, context_of(plan, world)
+
+
+def poses(world, guard, command, seconds, until=lambda observation: False):
+    """Where the robot is while the guard is asked for one command, until something is so."""
+    for _ in range(round(seconds / CONTROL_DT)):
+        observation = observe(world, 'rumba', CONTROL_DT, seeing(truth))
+        if until(observation):
+            return
+        given = guard.step(lambda _: Command(*command), observation)
+        world.robots['rumba'].command(given.v, given.w, world.tick)
+        world.step(CONTROL_TICKS)
+        yield world.robots['rumba'].pose
+
+
+def sees_edge(observation):
+    """Whether a cliff sensor does."""
+    return any(observation.cliffs)
+
+
+@pytest.mark.parametrize('turned', [0.5, 0.8, 1.1])
+def test_after_a_bend_it_goes_back_by_the_bend_and_comes_no_nearer_to_a_pit_beside_its_way(turned):
+    """The outer sensor passes the pit on its left 5 mm off, and so never sees it; ahead, it sees another one."""
+    start = Pose(1.139, 0.5, 0.5 * math.pi)
+    world, context = world_with([(0.3, 0.75, 1.0, 1.4), (1.0, 1.3, 2.5, 1.6)], start)
+    guard, robot = Guard(context), world.robots['rumba']
+    list(poses(world, guard, (0.2, 0.0), 2.0))
+    list(poses(world, guard, (0.15, -1.0), turned))
+    list(poses(world, guard, (0.15, 0.0), 4.0, sees_edge))
+    way = list(poses(world, guard, BACK, 6.0))
+    list(poses(world, guard, (0.0, 1.9), 2.0))
+    assert context.footing.seen and not robot.has_fallen
+    assert way[-1].theta == pytest.approx(start.theta, abs=0.03) and min(pose.x for pose in way) > start.x - 0.01
+
+
+@pytest.mark.parametrize('turned', [0.5, 0.8])
+def test_a_wall_along_its_way_does_not_keep_it_from_going_back(turned):
+    """It has turned from the wall, which is behind it at a slant then, and very near."""
+    y = 2.0 - RADIUS - 0.015
+    world, context = world_with([(1.5, 0.5, 2.5, 2.0)], Pose(0.6, y, 0.0))
+    guard, robot = Guard(context), world.robots['rumba']
+    list(poses(world, guard, (0.2, 0.0), 8.0, sees_edge))
+    list(poses(world, guard, (0.0, -1.0), turned))
+    start = robot.pose
+    way = list(poses(world, guard, BACK, 4.0))
+    assert sees_edge(observe(world, 'rumba', CONTROL_DT)) is False
+    assert start.x - robot.pose.x > 0.15 and max(abs(pose.y - y) for pose in way) < 0.01 and not robot.has_fallen
+
+
+def test_what_moved_behind_it_meanwhile_keeps_it_from_going_back():
+    world, context = world_with([(1.5, 0.5, 2.5, 1.8)], Pose(0.6, 1.0, 0.0))
+    guard, robot = Guard(context), world.robots['rumba']
+    list(poses(world, guard, (0.2, 0.0), 8.0, sees_edge))
+    list(poses(world, guard, (0.0, 0.0), 1.0))
+    world.add_obstacle(Obstacle('pet', Pose(robot.pose.x - RADIUS - 0.11, 1.0, 0.0), 0.3, 0.1))
+    start = robot.pose
+    list(poses(world, guard, BACK, 4.0))
+    assert math.dist(start[:2], robot.pose[:2]) < 0.01
+
+
+def test_far_from_edges_it_backs_off_as_it_is_told():
+    world, context = world_with([(2.6, 0.1, 2.8, 0.3)], Pose(0.6, 1.0, 0.0))
+    guard, robot = Guard(context), world.robots['rumba']
+    list(itertools.chain(poses(world, guard, (0.1, 1.0), 1.0), poses(world, guard, (0.0, 0.0), 0.5)))
+    heading = robot.pose.theta
+    list(poses(world, guard, BACK, 2.0))
+    assert robot.pose.theta == pytest.approx(heading, abs=1e-9)
