@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from rumba_cleaning.behaviours.compiled_follower import nearest, piece_of
 from rumba_cleaning.behaviours.compiled_guard import HOLD_STEPS, STEP, path
 from rumba_cleaning.behaviours.follower import drive_of
-from rumba_cleaning.belief.compiled_footing import are_marked, stamp
+from rumba_cleaning.belief.compiled_footing import DRIVEN, SEEN, are_marked, stamp
 from rumba_cleaning.belief.compiled_ground import are_of_one_part
 from rumba_cleaning.belief.search import is_clear
 from rumba_cleaning.planning.compiled_lanes import NO_ROW, lowest, runs
@@ -68,15 +68,24 @@ def test_a_line_is_clear_if_all_nodes_along_it_are(ends, seed):
 
 
 def test_floor_is_marked_where_a_robot_has_its_points_and_found_beside_them():
-    floor = np.zeros((6, 8), np.bool_)
+    floor = np.zeros((6, 8), np.uint8)
     stamp(floor, *ORIGIN, RESOLUTION, (-0.5, 2.25, 0.5 * math.pi), (0.0, 0.0, 0.0), 1,
-          np.array([[0.1, 0.15], [9.0, -0.05]]))
+          np.array([[0.1, 0.15], [9.0, -0.05]]), SEEN)
     assert np.argwhere(floor).tolist() == [[3, 3], [5, 5]]  # the second point is off the floor, above its edge
     points = np.array([[-0.65, 2.35], [-0.55, 2.25], [-0.35, 2.35], [-9.0, 2.35]])
     for cells, found in ((0, [True, False, False, False]), (1, [True, True, False, False]),
                          (2, [True, True, True, False]), (3, [True, True, True, True])):
-        assert [are_marked(floor, *ORIGIN, RESOLUTION, points[[index]], cells) for index in range(4)] == found
-        assert are_marked(floor, *ORIGIN, RESOLUTION, points, cells) == all(found)
+        assert [are_marked(floor, *ORIGIN, RESOLUTION, points[[index]], cells, SEEN) for index in range(4)] == found
+        assert are_marked(floor, *ORIGIN, RESOLUTION, points, cells, SEEN) == all(found)
+
+
+def test_floor_beside_cells_counts_only_if_their_marks_are_high_enough_and_no_mark_becomes_less():
+    floor = np.zeros((6, 8), np.uint8)
+    here, beside = np.array([[-0.65, 2.35]]), np.array([[-0.55, 2.35]])
+    for mark, found in ((DRIVEN, (True, True, False)), (SEEN, (True, True, True)), (DRIVEN, (True, True, True))):
+        stamp(floor, *ORIGIN, RESOLUTION, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0), 1, here, mark)
+        assert found == tuple(are_marked(floor, *ORIGIN, RESOLUTION, points, 1, least)
+                              for points, least in ((here, SEEN), (beside, DRIVEN), (beside, SEEN)))
 
 
 def test_the_nodes_of_a_window_are_of_one_part_if_those_that_are_free_have_one_number():
@@ -87,9 +96,9 @@ def test_the_nodes_of_a_window_are_of_one_part_if_those_that_are_free_have_one_n
 
 
 def test_floor_is_marked_along_the_way_of_a_robot_but_not_where_it_began():
-    floor = np.zeros((6, 8), np.bool_)
+    floor = np.zeros((6, 8), np.uint8)
     stamp(floor, *ORIGIN, RESOLUTION, (ORIGIN[0] + 0.05, ORIGIN[1] + 0.05, 0.0), (0.3, 0.0, 0.0), 3,
-          np.array([[0.0, 0.0]]))
+          np.array([[0.0, 0.0]]), SEEN)
     assert np.argwhere(floor).tolist() == [[0, 1], [0, 2], [0, 3]]
 
 

@@ -67,6 +67,14 @@ def test_a_robot_that_passes_an_edge_between_its_wheels_knows_no_floor_there():
     assert not is_known(footing, x, 0.0)
 
 
+def test_beside_floor_that_only_a_wheel_was_on_a_wary_robot_knows_none():
+    footing, x = passed([(False, True, True, False)] * 60)
+    beside = np.array([(x, 1.0 + 0.5 * ROBOT.drive.wheel_base + 0.02)])
+    assert footing.are_known(beside, 2) and not footing.are_known(beside, 2, True)
+    footing, x = passed([NONE] * 60)
+    assert footing.are_known(beside, 2, True)
+
+
 def test_an_edge_beside_one_that_was_seen_is_no_edge_that_is_known_already():
     footing, x = passed([NONE] * 20)
     reach, angle = ROBOT.cliff.distance, ROBOT.cliff.angles[0]

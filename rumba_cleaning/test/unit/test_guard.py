@@ -171,6 +171,24 @@ def test_no_mission_among_islands_of_cliffs_falls(strategy, shown):
         assert not robot.has_fallen
 
 
+def test_a_wary_robot_does_not_creep_over_an_edge_inside_its_bend_that_no_sensor_passes_over():
+    """Around a pit, its inner wheel is on a circle of 3 cm, and the sensor before that on one of 10 cm."""
+    pit_x, pit_y = 1.5, 1.2
+    plan = room(3.0, 2.4, 0.01)
+    world = World(with_cliffs(plan, (pit_x - 0.04, pit_y + 0.02, pit_x + 0.04, pit_y + 0.05)), quiet())
+    robot = world.spawn('rumba', Pose(0.6, pit_y - 0.15, 0.0))
+    context = context_of(plan, world)
+    context.footing._see(pit_x + 0.5, pit_y - 0.6)
+    guard, given = Guard(context), []
+    for _ in range(300):
+        asked = Command(0.06, 0.4 if robot.pose.x > pit_x else 0.0)
+        given.append(guard.step(lambda _, asked=asked: asked, observe(world, 'rumba', CONTROL_DT)))
+        world.robots['rumba'].command(given[-1].v, given[-1].w, world.tick)
+        world.step(CONTROL_TICKS)
+    assert not robot.has_fallen
+    assert any(command.v == 0.0 and command.w > 0.0 for command in given)  # so that it can go straight on
+
+
 def test_a_robot_that_edges_hold_looks_for_a_way_out_itself():
     plan = room(3.0, 2.0, 0.01)
     world = World(plan, quiet())

@@ -206,7 +206,10 @@ class Guard:
             return command._replace(v=0.0, w=0.0)
         found, slips = [], self._slips(observation, wanted)
         limited = [self._limited(command, limit) for limit in (SWIFT_SPEED, self._safe_speed)]
-        for slower in (command, *limited, *(_part_of(command, share) for share in SHARES)):
+        # In a bend, a wheel may cut inside the way of its sensor: once it has turned, the robot drives behind that.
+        turns = self._is_wary(pose) and command.w != 0.0
+        on_the_spot = [self._limited(command._replace(v=0.0), WARY_SPEED)] if turns else []
+        for slower in (command, *limited, *(_part_of(command, share) for share in SHARES), *on_the_spot):
             found.append(self._edges(pose, self._wanted(slower), slips, is_near, must_know))
             if found[-1] == NONE:
                 return slower
@@ -279,8 +282,9 @@ class Guard:
             if any(over):
                 return over
         if must_know:
-            cells = self._guessed(pose, wanted)
-            return not self._footing.are_known(left[1:], cells), not self._footing.are_known(right[1:], cells)
+            cells, is_new = self._guessed(pose, wanted), self._is_wary(pose) and not self._is_on_trail
+            is_left, is_right = (self._footing.are_known(line[1:], cells, is_new) for line in (left, right))
+            return not is_left, not is_right
         return NONE
 
     def _guessed(self, pose: Pose, wanted: Wheels) -> int:

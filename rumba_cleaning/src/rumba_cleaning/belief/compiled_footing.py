@@ -7,6 +7,7 @@ from rumba_sim.model.jit import compiled
 
 Array = Any  # numpy.ndarray
 Triple = Tuple[float, float, float]
+DRIVEN, SEEN = 1, 2  # marks of floor: a wheel was on it, or a sensor saw it
 
 
 @compiled
@@ -25,16 +26,17 @@ def cell_at(shape: Tuple[int, int], left: float, bottom: float, size: float, x: 
 
 @compiled
 def stamp(floor: Array, left: float, bottom: float, size: float, start: Triple, change: Triple, count: int,
-          points: Array) -> None:
+          points: Array, mark: int) -> None:
     """Mark the cells that hold points in the frame of a robot, at some of its poses on a way.
 
     Args:
-        floor: bool (rows, columns), changed.
+        floor: uint8 (rows, columns), changed; a mark never becomes less.
         left, bottom, size: see `cell_at`.
         start: x, y [m], theta [rad] at which the way begins.
         change: of them, from there to its end.
         count: poses that count: the last one, and others at equal distances after the first.
         points: float64 (any, 2) [m].
+        mark: DRIVEN or SEEN.
     """
     for index in range(1, count + 1):
         share = index / count
@@ -42,15 +44,21 @@ def stamp(floor: Array, left: float, bottom: float, size: float, start: Triple, 
         cos, sin = math.cos(theta), math.sin(theta)
         for number in range(len(points)):
             ahead, aside = points[number, 0], points[number, 1]
-            floor[cell_at(floor.shape, left, bottom, size, x + ahead * cos - aside * sin,
-                          y + ahead * sin + aside * cos)] = True
+            row, column = cell_at(floor.shape, left, bottom, size, x + ahead * cos - aside * sin,
+                                  y + ahead * sin + aside * cos)
+            floor[row, column] = max(floor[row, column], mark)
 
 
 @compiled
-def are_marked(floor: Array, left: float, bottom: float, size: float, points: Array, cells: int) -> bool:
-    """Whether each cell that holds one of the points (any, 2) [m], or one so many cells beside it, is marked."""
+def are_marked(floor: Array, left: float, bottom: float, size: float, points: Array, cells: int,
+               least: int) -> bool:
+    """Whether each cell that holds one of the points (any, 2) [m] is marked, or one beside it by `least` or more.
+
+    Beside it are those that are no more than so many cells away.
+    """
     for index in range(len(points)):
         row, column = cell_at(floor.shape, left, bottom, size, points[index, 0], points[index, 1])
-        if not floor[max(row - cells, 0):row + cells + 1, max(column - cells, 0):column + cells + 1].any():
+        if floor[row, column] == 0 and not (floor[max(row - cells, 0):row + cells + 1,
+                                                  max(column - cells, 0):column + cells + 1] >= least).any():
             return False
     return True

@@ -8,7 +8,8 @@ from typing import Deque, List, NamedTuple, Optional, Sequence, Tuple
 import numpy as np
 from scipy import ndimage
 
-from rumba_cleaning.belief.compiled_footing import are_marked, stamp
+from rumba_cleaning.belief import compiled_footing
+from rumba_cleaning.belief.compiled_footing import DRIVEN
 from rumba_localisation.edges import JUMP, Edges
 from rumba_sim.model.compiled import fast
 from rumba_sim.model.floor_plan import FloorPlan
@@ -48,12 +49,11 @@ class Footing:
         self._robot = robot
         self._far = robot.cliff.distance
         half, radius, sensors = 0.5 * robot.drive.wheel_base, robot.drive.radius, robot.cliff
-        self._sensors = [(sensors.distance * math.cos(angle), sensors.distance * math.sin(angle))
-                         for angle in sensors.angles]
+        self._sensors = np.array([(sensors.distance * math.cos(angle), sensors.distance * math.sin(angle))
+                                  for angle in sensors.angles])
         self._wheels = np.array([(0.0, half), (0.0, -half)])
         self._between = [_line(start, end) for start, end in zip(self._sensors, self._sensors[1:])]
         self._all_between = np.concatenate(self._between)
-        self._here = np.concatenate([self._wheels, self._sensors])
         side = np.arange(-radius, radius + STEP, STEP)
         square = np.stack(np.meshgrid(side, side), axis=-1).reshape(-1, 2)
         self._body = square[np.hypot(*square.T) <= radius]
@@ -67,7 +67,7 @@ class Footing:
         self._edges: Optional[Array] = None if self._mapped is None else self._mapped.copy()
         left, bottom, right, top = self._plan.bounds
         self._origin: Tuple[float, float] = (left, bottom)  # of what follows [m]
-        self._floor: Array = np.zeros((int((top - bottom) / CELL) + 1, int((right - left) / CELL) + 1), np.bool_)
+        self._floor: Array = np.zeros((int((top - bottom) / CELL) + 1, int((right - left) / CELL) + 1), np.uint8)
         self._noted: Optional[Tuple[Pose, Tuple[bool, ...], bool]] = None  # the last that was
         self._way = 0.0  # [m] of the sensors, so far
         self._unsure: Deque[Between] = collections.deque()
@@ -111,7 +111,9 @@ class Footing:
         turn = wrap_angle(pose.theta - last.theta)
         change = pose.x - last.x, pose.y - last.y, turn
         count = int((math.hypot(change[0], change[1]) + self._far * abs(turn)) / STEP) + 1
-        self._stamp(self._wheels if any(cliffs) else self._here, last, change, count)
+        self._stamp(self._wheels, last, change, count, DRIVEN)
+        if not any(cliffs):
+            self._stamp(self._sensors, last, change, count)
         self._pass(pose, last, change, count, cliffs)
 
     def _pass(self, pose: Pose, last: Pose, change: Tuple[float, float, float], count: int,
@@ -133,7 +135,7 @@ class Footing:
                 self._stamp(line, passed.start, passed.change, passed.poses)
 
     def _stamp(self, points: Array, pose: Pose, change: Tuple[float, float, float] = (0.0, 0.0, 0.0),
-               count: int = 1) -> None:
+               count: int = 1, mark: int = compiled_footing.SEEN) -> None:
         """Remember floor under points of a robot that moves.
 
         Args:
@@ -141,8 +143,9 @@ class Footing:
             pose: where it began.
             change: of its pose.
             count: poses that count: the last one, and others at equal distances after the first.
+            mark: how the floor is known.
         """
-        stamp(self._floor, *self._origin, CELL, pose, change, count, points)
+        compiled_footing.stamp(self._floor, *self._origin, CELL, pose, change, count, points, mark)
 
     def _see(self, x: float, y: float) -> None:
         """Remember a cliff, unless it is a known one."""
@@ -178,9 +181,14 @@ class Footing:
             return np.full(len(points), FAR)
         return np.asarray(fast.interpolated_at(self._edges, *self._plan.origin, self._plan.resolution, points))
 
-    def are_known(self, points: Array, cells: int) -> bool:
-        """Whether wheels or sensors found floor at all points (any, 2) [m], or so many cells beside them."""
-        return bool(are_marked(self._floor, *self._origin, CELL, points, cells))
+    def are_known(self, points: Array, cells: int, is_wary: bool = False) -> bool:
+        """Whether wheels or sensors found floor at all points (any, 2) [m], or so many cells beside them.
+
+        To a wary robot, floor that only a wheel was on tells nothing of what is beside: cell by cell, it would creep on
+        over an edge.
+        """
+        least = compiled_footing.SEEN if is_wary else DRIVEN
+        return bool(compiled_footing.are_marked(self._floor, *self._origin, CELL, points, cells, least))
 
 
 def _line(start: Tuple[float, float], end: Tuple[float, float]) -> Array:
