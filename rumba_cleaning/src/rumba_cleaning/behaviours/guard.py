@@ -282,8 +282,8 @@ class Guard:
             if any(over):
                 return over
         if must_know:
-            cells, is_new = self._guessed(pose, wanted), self._is_wary(pose) and not self._is_on_trail
-            is_left, is_right = (self._footing.are_known(line[1:], cells, is_new) for line in (left, right))
+            cells, is_wary = self._guessed(pose, wanted), self._is_wary(pose) and not self._is_on_trail
+            is_left, is_right = (self._footing.are_known(line[1:], cells, is_wary) for line in (left, right))
             return not is_left, not is_right
         return NONE
 

@@ -9,7 +9,6 @@ import numpy as np
 from scipy import ndimage
 
 from rumba_cleaning.belief import compiled_footing
-from rumba_cleaning.belief.compiled_footing import DRIVEN
 from rumba_localisation.edges import JUMP, Edges
 from rumba_sim.model.compiled import fast
 from rumba_sim.model.floor_plan import FloorPlan
@@ -111,7 +110,7 @@ class Footing:
         turn = wrap_angle(pose.theta - last.theta)
         change = pose.x - last.x, pose.y - last.y, turn
         count = int((math.hypot(change[0], change[1]) + self._far * abs(turn)) / STEP) + 1
-        self._stamp(self._wheels, last, change, count, DRIVEN)
+        self._stamp(self._wheels, last, change, count, compiled_footing.DRIVEN)
         if not any(cliffs):
             self._stamp(self._sensors, last, change, count)
         self._pass(pose, last, change, count, cliffs)
@@ -187,7 +186,7 @@ class Footing:
         To a wary robot, floor that only a wheel was on tells nothing of what is beside: cell by cell, it would creep on
         over an edge.
         """
-        least = compiled_footing.SEEN if is_wary else DRIVEN
+        least = compiled_footing.SEEN if is_wary else compiled_footing.DRIVEN
         return bool(compiled_footing.are_marked(self._floor, *self._origin, CELL, points, cells, least))
 
 
