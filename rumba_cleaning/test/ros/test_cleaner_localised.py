@@ -64,7 +64,7 @@ class CleanerLocalisedTest(unittest.TestCase):
         cleaner = Cleaner(self, f'_seed:={SEED}', f'_target_coverage:={TARGET}', '_autostart:=true',
                           '_laser:=true').connect()
         ended = cleaner.status.find(lambda status: status.state == MissionStatus.IDLE and 'swept' in status.message)
-        self.assertRegex(ended.message, r'^8\.\d % swept$')
+        self.assertRegex(ended.message, rf'^{100.0 * TARGET:.0f}\.\d % swept$')
         (digest, tick), obstacles = simulator.digest(), obstacle_file.load(path)
         self.assertEqual(digest, digest_in_process(tick, obstacles, laser=True))
         self.assertNotEqual(digest, digest_in_process(tick, obstacles, laser=False))  # it saw something
@@ -113,7 +113,7 @@ class CleanerLocalisedTest(unittest.TestCase):
                           '_autostart:=true').connect()
         cleaner.status.find(lambda status: status.message.endswith('exploring'))
         ended = cleaner.status.find(lambda status: status.state == MissionStatus.IDLE and 'swept' in status.message)
-        self.assertRegex(ended.message, r'^8\.\d % swept$')
+        self.assertRegex(ended.message, rf'^{100.0 * TARGET:.0f}\.\d % swept$')
         self.assertTrue(Heard(self, '/rumba/dock_status', DockStatus).find().is_docked)
         self.assertIsNone(simulator.process.poll())
 

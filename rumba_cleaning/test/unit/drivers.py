@@ -3,6 +3,9 @@
 import math
 from concurrent.futures import Executor, Future
 
+import numpy as np
+from rooms import inside
+
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.cleaning_config import CleaningConfig
 from rumba_cleaning.control import CONTROL_DT, CONTROL_TICKS, observe, steps
@@ -31,6 +34,22 @@ def drive_by_hand(behaviour, world, v, w, seconds, name='rumba'):
         behaviour.stand_by(observe(world, name, CONTROL_DT))
         world.robots[name].command(v, w, world.tick)
         world.step(CONTROL_TICKS)
+
+
+def guarded(guard, world, decide, seconds=math.inf, source=truth):
+    """Have a guard watch what is decided for the robot rumba; what it commands, after each has been carried out."""
+    robot, end = world.robots['rumba'], world.time + seconds
+    while world.time < end - 0.5 * CONTROL_DT:
+        command = guard.step(decide, observe(world, 'rumba', CONTROL_DT, source))
+        robot.command(command.v, command.w, world.tick)
+        world.step(CONTROL_TICKS)
+        yield command
+
+
+def with_cliffs(plan, *boxes):
+    """The plan with cliffs in boxes (left, bottom, right, top) [m]."""
+    cliff = np.any([inside(box, plan.rows, plan.columns, plan.resolution) for box in boxes], axis=0)
+    return FloorPlan(plan.name, plan.occupancy, plan.resolution, plan.origin, cliff=cliff, dock=plan.dock)
 
 
 def with_box(plan, box):

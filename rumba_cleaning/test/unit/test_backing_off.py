@@ -3,16 +3,14 @@
 import itertools
 import math
 
-import numpy as np
 import pytest
-from drivers import context_of
-from rooms import RADIUS, inside, quiet, room
+from drivers import context_of, guarded, with_cliffs
+from rooms import RADIUS, quiet, room
 
 from rumba_cleaning.behaviour import Command
 from rumba_cleaning.behaviours.guard import Guard
-from rumba_cleaning.control import CONTROL_DT, CONTROL_TICKS, observe
+from rumba_cleaning.control import CONTROL_DT, observe
 from rumba_cleaning.pose_source import seeing, truth
-from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.obstacle import Obstacle
 from rumba_sim.model.world import World
@@ -23,22 +21,17 @@ BACK = (-0.1, 0.0)
 def world_with(pits, start):
     """A world with pits in boxes [m] that the context does not know, and both."""
     plan = room(3.0, 2.0, 0.01, start=Pose(0.5, 0.5, 0.0))
-    cliff = np.any([inside(box, plan.rows, plan.columns, plan.resolution) for box in pits], axis=0)
-    world = World(FloorPlan(plan.name, plan.occupancy, plan.resolution, plan.origin, cliff=cliff), quiet())
+    world = World(with_cliffs(plan, *pits), quiet())
     world.spawn('rumba', start)
     return world, context_of(plan, world)
 
 
 def poses(world, guard, command, seconds, until=lambda observation: False):
     """Where the robot is while the guard is asked for one command, until something is so."""
-    for _ in range(round(seconds / CONTROL_DT)):
-        observation = observe(world, 'rumba', CONTROL_DT, seeing(truth))
-        if until(observation):
-            return
-        given = guard.step(lambda _: Command(*command), observation)
-        world.robots['rumba'].command(given.v, given.w, world.tick)
-        world.step(CONTROL_TICKS)
+    for _ in guarded(guard, world, lambda _: Command(*command), seconds, seeing(truth)):
         yield world.robots['rumba'].pose
+        if until(observe(world, 'rumba', CONTROL_DT)):
+            return
 
 
 def sees_edge(observation):

@@ -5,15 +5,15 @@ import math
 
 import numpy as np
 import pytest
-from drivers import context_of, run
-from rooms import RADIUS, inside, quiet, room
+from drivers import context_of, guarded, run, with_cliffs
+from rooms import RADIUS, quiet, room
 
 from rumba_cleaning.behaviour import Behaviour, Command
 from rumba_cleaning.behaviours.bounded import Bounded
 from rumba_cleaning.behaviours.guard import AWAY, SWIFT_SPEED, Guard
 from rumba_cleaning.behaviours.travel import Going, Travel
 from rumba_cleaning.belief.footing import SEEN
-from rumba_cleaning.control import CONTROL_DT, CONTROL_TICKS, observe, steps
+from rumba_cleaning.control import observe, steps
 from rumba_cleaning.mission.mission import Mission
 from rumba_cleaning.outcome import Outcome
 from rumba_cleaning.pose_source import DeadReckoning, scan_of_robot
@@ -25,12 +25,6 @@ from rumba_sim.model.world import World
 
 STAIRS = (2.0, 0.0, 3.0, 2.0)
 ISLANDS = ((0.8, 0.7, 1.1, 1.0), (1.9, 0.6, 2.4, 0.9), (1.3, 1.6, 1.6, 2.1))
-
-
-def with_cliffs(plan, *boxes):
-    """The plan with cliffs in boxes [m]."""
-    cliff = np.any([inside(box, plan.rows, plan.columns, plan.resolution) for box in boxes], axis=0)
-    return FloorPlan(plan.name, plan.occupancy, plan.resolution, plan.origin, cliff=cliff, dock=plan.dock)
 
 
 class Always(Behaviour):
@@ -145,16 +139,13 @@ def test_a_behaviour_that_an_edge_stops_sees_it_as_a_cliff():
     plan = with_cliffs(room(3.0, 2.0, 0.02, start=Pose(1.0, 1.0, 0.0)), STAIRS)
     world = World(plan, quiet())
     world.spawn('rumba')
-    guard, seen = Guard(context_of(plan, world)), []
+    seen = []
 
     def decide(observation):
         seen.append(any(observation.cliffs))
         return Command(0.3, 0.0)
 
-    for _ in range(100):
-        command = guard.step(decide, observe(world, 'rumba', CONTROL_DT))
-        world.robots['rumba'].command(command.v, command.w, world.tick)
-        world.step(CONTROL_TICKS)
+    list(guarded(Guard(context_of(plan, world)), world, decide, seconds=10.0))
     assert seen[-1] and not seen[0]
 
 
@@ -179,12 +170,8 @@ def test_a_wary_robot_does_not_creep_over_an_edge_inside_its_bend_that_no_sensor
     robot = world.spawn('rumba', Pose(0.6, pit_y - 0.15, 0.0))
     context = context_of(plan, world)
     context.footing._see(pit_x + 0.5, pit_y - 0.6)
-    guard, given = Guard(context), []
-    for _ in range(300):
-        asked = Command(0.06, 0.4 if robot.pose.x > pit_x else 0.0)
-        given.append(guard.step(lambda _, asked=asked: asked, observe(world, 'rumba', CONTROL_DT)))
-        world.robots['rumba'].command(given[-1].v, given[-1].w, world.tick)
-        world.step(CONTROL_TICKS)
+    given = list(guarded(Guard(context), world, lambda observation: Command(
+        0.06, 0.4 if observation.pose.x > pit_x else 0.0), seconds=30.0))
     assert not robot.has_fallen
     assert any(command.v == 0.0 and command.w > 0.0 for command in given)  # so that it can go straight on
 
@@ -276,11 +263,10 @@ def test_a_contact_beside_an_edge_is_one_with_something_unknown():
     robot = world.spawn('rumba', Pose(1.2, 1.22, 0.0))
     context = context_of(plan, world)
     travel = Travel(context, Route(np.array([[1.2, 1.22], [3.5, 1.22]]), np.array([0.3])))
-    guard, farthest = Guard(context), 0.0
-    while travel.going is Going.ON:
+    farthest = 0.0
+    for _ in guarded(Guard(context), world, lambda observation: travel.command(observation, True)):
+        if travel.going is not Going.ON:
+            break
         farthest = max(farthest, robot.pose.x)
-        command = guard.step(lambda observation: travel.command(observation, True), observe(world, 'rumba', CONTROL_DT))
-        robot.command(command.v, command.w, world.tick)
-        world.step(CONTROL_TICKS)
     assert travel.going is Going.BLOCKED and robot.pose.y == pytest.approx(1.22, abs=0.05) and not robot.has_fallen
     assert robot.pose.x < farthest - 0.02  # it backed off, although the contact and the edge are still near

@@ -6,13 +6,14 @@ Approach to Collision Avoidance, 1997: a velocity is admissible if the robot can
 """
 
 import math
-from typing import Callable, List, NamedTuple, Optional, Tuple
+from typing import Callable, List, Optional, Tuple
 
 import numpy as np
 
 from rumba_cleaning.behaviour import Command, Observation
 from rumba_cleaning.behaviours.compiled_guard import HOLD_STEPS, ROUNDING, path
 from rumba_cleaning.behaviours.rear import Rear
+from rumba_cleaning.behaviours.slip import NO_SLIP, Slip, along_contacts, slipped
 from rumba_cleaning.behaviours.trail import Trail
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.belief.footing import FAR
@@ -22,7 +23,6 @@ from rumba_sim.model.kernel import Array
 SHARES = (0.6, 0.3)  # of a command that are tried, after the whole and a slow one, before the robot stops; our choice
 LONGEST = 0.3  # [s] the same, at most, by the time since the last one: in a longer step the node was busy
 SPARE = 0.02  # [m] from a wheel to an edge: a cell of a fine map; an edge that was seen is known no better
-SLIP = 0.02  # [m/s] sideways: the robot slides along a wall
 AT_REST = 0.02  # [m/s] of both wheels
 CREEP = 1e-4  # [m] by which an edge may come nearer to the middle of a robot that is too near already: rounding
 
@@ -46,16 +46,6 @@ ELSEWHERE = 0.3  # [m] from where edges held the robot
 Wheels = Tuple[float, float]  # left and right
 Sides = Tuple[bool, bool]  # left and right
 NONE, BOTH = (False, False), (True, True)
-
-
-class Slip(NamedTuple):
-    """How a robot slides."""
-
-    aside: float  # to its left [m/s]
-    share: float  # of the way of its wheels that it makes
-
-
-NO_SLIP = Slip(0.0, 1.0)
 
 
 class Guard:
@@ -228,28 +218,12 @@ class Guard:
             left + right == 0.0 or _curvature(speeds, self._half) <= SAFE_CURVATURE)
 
     def _slips(self, observation: Observation, wanted: Wheels) -> List[Slip]:
-        """How the robot may slide after a command: for each of these it must be safe.
-
-        As it did last, and, if it drives forward, along what it touches: at an angle a from its front, that turns a
-        speed v into v * sin(a) * cos(a) sideways, away from the contact, and v * sin(a) ** 2 is left ahead; sideways
-        most at 45 degrees.
-        """
-        left, right = observation.bumper if max(sum(wanted), sum(self._speeds)) > 0.0 else NONE
-        most = 0.5 * max(_faster(self._speeds), _faster(wanted))
-        return [self._slip(observation), *([Slip(-most, 0.5)] if left else []), *([Slip(most, 0.5)] if right else [])]
-
-    def _slip(self, observation: Observation) -> Slip:
-        """How the robot slid since the last command."""
-        pose, last = observation.pose, self._last
-        if last is None or not 0.0 < observation.dt < LONGEST:
-            return NO_SLIP
-        along = last.theta + 0.5 * (pose.theta - last.theta)
-        x, y = (pose.x - last.x) / observation.dt, (pose.y - last.y) / observation.dt
-        aside = y * math.cos(along) - x * math.sin(along)
-        if abs(aside) <= SLIP:
-            return NO_SLIP
-        ahead, driven = x * math.cos(along) + y * math.sin(along), 0.5 * sum(self._speeds)
-        return Slip(aside, min(max(ahead / driven, 0.0), 1.0) if driven > SLIP else 1.0)
+        """How the robot may slide after a command: as it did last, and, if it drives forward, along what it touches."""
+        last = self._last if observation.dt < LONGEST else None
+        fastest = max(_faster(self._speeds), _faster(wanted))
+        pushes = max(sum(wanted), sum(self._speeds)) > 0.0
+        return [slipped(last, observation, 0.5 * sum(self._speeds)),
+                *(along_contacts(observation, fastest) if pushes else [])]
 
     # --- what a command leads to ----------------------------------------------------------------------------------
 
@@ -282,21 +256,24 @@ class Guard:
             if any(over):
                 return over
         if must_know:
-            cells, is_wary = self._guessed(pose, wanted), self._is_wary(pose) and not self._is_on_trail
-            is_left, is_right = (self._footing.are_known(line[1:], cells, is_wary) for line in (left, right))
-            return not is_left, not is_right
+            guess = self._guess(pose, wanted)
+            return not self._footing.are_known(left[1:], *guess), not self._footing.are_known(right[1:], *guess)
         return NONE
 
-    def _guessed(self, pose: Pose, wanted: Wheels) -> int:
-        """How many cells beside known floor are taken to be floor too: fewer where it is easier to fall."""
+    def _guess(self, pose: Pose, wanted: Wheels) -> Tuple[int, bool]:
+        """How many cells beside known floor are taken to be floor too, and whether only beside what a sensor saw.
+
+        They are fewer where it is easier to fall.
+        """
+        is_wary = self._is_wary(pose)
         limit = self._safe_speed if _curvature(wanted, self._half) < TIGHT else SWIFT_SPEED
         if max(wanted) > limit + ROUNDING:
-            return 0
-        if not self._is_wary(pose):
-            return 2
+            return 0, is_wary
         if self._is_on_trail:
-            return 1  # points of the way of a wheel are known, and cells that it passed between them are not
-        return 1 if -ROUNDING <= sum(wanted) <= 2.0 * SLOW else 0
+            return 1, False  # points of the way of a wheel are known, and cells that it passed between them are not
+        if not is_wary:
+            return 2, False
+        return int(-ROUNDING <= sum(wanted) <= 2.0 * SLOW), True
 
     def _path(self, pose: Pose, wanted: Wheels, slip: Slip, hold: int = HOLD_STEPS) -> Array:
         """Where the robot, its left and its right wheel are after a command, until it has stopped: see `path`."""

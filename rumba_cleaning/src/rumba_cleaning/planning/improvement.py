@@ -74,7 +74,7 @@ def improved(surroundings: Surroundings, routes: Sequence[Route]) -> Route:
                  *surroundings.detours(rehearsal.route, rehearsal.swept)]
         rehearsal, price = _edited(surroundings, rehearsal, found)
         tried.append(rehearsal)
-    for _ in range(MENDS if len(tried) > 1 else 0):
+    for _ in range(MENDS):
         if not rehearsal.is_complete or _is_met(surroundings, rehearsal):
             break
         rehearsal, _ = _edited(surroundings, rehearsal, surroundings.detours(rehearsal.route, rehearsal.swept))

@@ -27,7 +27,7 @@ def _usual(overlap: float) -> List[Layout]:
 
 
 # All figures are our choice. Which draft is best differs from floor to floor, as the best layout from region to region:
-# routes by the drafts are rehearsed, only by the first ones where that takes long. Lanes for wider strips only look
+# routes by several are rehearsed. Lanes for wider strips only look
 # better on paper, but leave slivers for the last round.
 DRAFTS = (Draft(_usual(0.05), 0.3), Draft([Layout(0.0, needed=0.15, gap=0.4, alike=2.7)], 0.4), Draft(_usual(0.0), 0.3),
           Draft([Layout(0.08, needed=0.17, usual=0.5, gap=0.65)], 0.45),
@@ -60,6 +60,11 @@ def laid_out(context: Context, paper: Swept, missed: Array, region: int, angle: 
     for path in paths[best]:
         drive(paper, path)
     return [Stretch(block_variants(ground, block.lanes), region, block.area, False) for block in options[best]]
+
+
+def drafts(rounds: int) -> Sequence[Draft]:
+    """The drafts to rehearse on a floor that is worth so many rounds of edits: two more for each after the first."""
+    return DRAFTS[:max(2 * rounds - 1, 1)]
 
 
 def tries(area: float) -> int:

@@ -11,7 +11,7 @@ from rumba_cleaning.belief.swept import Swept
 from rumba_cleaning.planning import tour
 from rumba_cleaning.planning.crumbs import crumbs
 from rumba_cleaning.planning.improvement import Surroundings, improved, rounds, with_detours
-from rumba_cleaning.planning.layouts import DRAFTS, Draft, laid_out, tries
+from rumba_cleaning.planning.layouts import Draft, drafts, laid_out, tries
 from rumba_cleaning.planning.regions import Shapes, Ways, doors, regions, shapes
 from rumba_cleaning.planning.rings import chains, rings, stretch
 from rumba_cleaning.planning.stretches import Stretch
@@ -65,7 +65,7 @@ def _drafts(surroundings: Surroundings, end: Optional[Pose]) -> List[Tuple[Route
     shape = shapes(surroundings.context.ground, surroundings.labels)
     ringed = _rings(surroundings, beside_walls, shape)
     found = []
-    for draft in DRAFTS[:max(2 * rounds(area) - 1, 1)]:
+    for draft in drafts(rounds(area)):
         paper = beside_walls.copy()
         stretches = ringed + _lanes(surroundings, paper, shape, draft)
         is_much = paper.coverage - swept.coverage > MOST * missing / area

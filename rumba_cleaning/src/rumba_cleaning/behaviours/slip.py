@@ -1,0 +1,43 @@
+"""How a robot slides along what it touches, while its wheels tell it that it drives straight on."""
+
+import math
+from typing import List, NamedTuple, Optional
+
+from rumba_cleaning.behaviour import Observation
+from rumba_sim.model.geometry import Pose
+
+LEAST = 0.02  # [m/s] sideways, for it to count: more than the noise of a pose; our choice
+
+
+class Slip(NamedTuple):
+    """How a robot slides."""
+
+    aside: float  # to its left [m/s]
+    share: float  # of the way of its wheels that it makes
+
+
+NO_SLIP = Slip(0.0, 1.0)
+
+
+def slipped(last: Optional[Pose], observation: Observation, driven: float) -> Slip:
+    """How a robot slid since it was at its last pose; its wheels drove forward at a speed [m/s]. None: not known."""
+    pose, dt = observation.pose, observation.dt
+    if last is None or dt <= 0.0:
+        return NO_SLIP
+    along = last.theta + 0.5 * (pose.theta - last.theta)
+    x, y = (pose.x - last.x) / dt, (pose.y - last.y) / dt
+    aside = y * math.cos(along) - x * math.sin(along)
+    if abs(aside) <= LEAST:
+        return NO_SLIP
+    ahead = x * math.cos(along) + y * math.sin(along)
+    return Slip(aside, min(max(ahead / driven, 0.0), 1.0) if driven > LEAST else 1.0)
+
+
+def along_contacts(observation: Observation, speed: float) -> List[Slip]:
+    """How a robot may slide that pushes forward with its wheels at a speed [m/s]; nothing if it touches nothing.
+
+    At an angle a from its front, what it touches turns a speed v into v * sin(a) * cos(a) sideways, away from it, and
+    v * sin(a) ** 2 is left ahead; sideways most at 45 degrees.
+    """
+    left, right = observation.bumper
+    return [*([Slip(-0.5 * speed, 0.5)] if left else []), *([Slip(0.5 * speed, 0.5)] if right else [])]
