@@ -1,8 +1,8 @@
 """Other nodes at the same master: who is alive, who serves what, and who was first if several want the same."""
 
 import http.client
-import os
 import threading
+import urllib.parse
 import xmlrpc.client
 import xmlrpc.server
 from typing import Any, List, Optional, Set, Tuple
@@ -35,12 +35,23 @@ def hasty_master(name: str) -> rosgraph.Master:
 
 
 def is_alive(name: str) -> bool:
-    """Whether a node answers, given by its full name: the master still knows nodes that were killed."""
+    """Whether a node answers, given by its full name: the master still knows nodes that were killed.
+
+    The port of such a node may belong to another one by now, perhaps to one of the same name at another master. Nodes of
+    rospy tell their name and their master; those of roscpp tell neither, and count.
+    """
     try:
-        xmlrpc.client.ServerProxy(rosgraph.Master(name).lookupNode(name), _Hasty()).getPid(name)
+        node = xmlrpc.client.ServerProxy(rosgraph.Master(name).lookupNode(name), _Hasty())
+        answered, master = node.getName(name)[-1], node.getMasterUri(name)[-1]
+    except xmlrpc.client.Fault:
+        return True
     except NO_ANSWER:
         return False
-    return True
+    return bool(answered == name and _port(master) == _port(rosgraph.get_master_uri()))
+
+
+def _port(uri: Any) -> Optional[int]:
+    return urllib.parse.urlsplit(str(uri)).port
 
 
 def is_served(service: str) -> bool:
@@ -97,9 +108,10 @@ class Reservation:
             OSError: the master does not answer.
         """
         server = xmlrpc.server.SimpleXMLRPCServer((rosgraph.network.get_bind_address(), 0), logRequests=False)
-        server.register_function(lambda _: (1, '', os.getpid()), 'getPid')
-        threading.Thread(target=server.serve_forever, args=[RELEASE_TIME], daemon=True).start()
         name = rosgraph.names.anonymous_name('/reservation')
+        server.register_function(lambda _: (1, '', name), 'getName')
+        server.register_function(lambda _: (1, '', rosgraph.get_master_uri()), 'getMasterUri')
+        threading.Thread(target=server.serve_forever, args=[RELEASE_TIME], daemon=True).start()
         uri = rosgraph.network.create_local_xmlrpc_uri(server.server_address[1])
         master = rosgraph.Master(name)
         self._held = server, master, uri
