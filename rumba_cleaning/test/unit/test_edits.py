@@ -46,6 +46,24 @@ def test_what_saves_time_and_sweeps_more_is_always_chosen_and_what_is_too_dear_n
     assert chosen([edit(0, -0.5 * BETTER, 0.0)], 0.0, DEAREST)[0] == []
 
 
+def test_an_edit_has_the_same_place_in_routes_that_are_equal_there_and_another_one_if_anything_differs():
+    path = np.array([[7.5, 1.0]])
+    place = Edit(5, 8, path).place(LINE)
+    longer = Route(np.concatenate([[[-1.0, 5.0]], LINE.waypoints]), np.append(LINE.speeds, 0.3))
+    assert Edit(6, 9, path, 1.0, 2.0).place(longer) == place
+    for other, route in ((Edit(5, 8, NONE), LINE), (Edit(5, 9, path), LINE), (Edit(4, 8, path), LINE),
+                         (Edit(5, 8, path + 0.001), LINE), (Edit(5, 8, path), longer)):
+        assert other.place(route) != place
+
+
+@pytest.mark.parametrize('seconds, area, is_near', [
+    (1.9, 0.01, True), (2.1, 0.01, False),  # at twice the price it would be worth it
+    (-0.4, -0.01, False), (-0.6, -0.01, True),  # at half the price
+    (-1.0, 0.01, True), (1.0, -0.01, False)])
+def test_an_edit_is_near_a_price_if_half_or_twice_of_it_would_do(seconds, area, is_near):
+    assert edit(0, seconds, area).is_near(100.0) is is_near
+
+
 @given(EDITS, st.floats(-0.2, 0.2))
 def test_chosen_edits_are_apart_and_sweep_enough_if_that_can_be(rows, need):
     edits = [edit(first, seconds, area, first + span) for first, span, seconds, area in rows]

@@ -4,7 +4,7 @@ import numpy as np
 from floors import knowing
 from rooms import crooked, room
 
-from rumba_cleaning.planning import improvement, planner
+from rumba_cleaning.planning import edits, improvement, planner
 from rumba_cleaning.planning.edits import dense
 from rumba_cleaning.planning.improvement import Surroundings, improved
 from rumba_cleaning.planning.lanes import Layout
@@ -58,6 +58,22 @@ def test_a_route_that_edits_leave_short_of_the_target_is_mended_by_detours(monke
     monkeypatch.setattr(improvement, 'MENDS', 0)
     short = Rehearsal(surroundings.context, START, improved(surroundings, [draft]))
     assert mended.swept.coverage >= 0.93 and mended.seconds < 0.95 * short.seconds
+
+
+def test_edits_that_were_far_from_worth_it_are_not_judged_again(monkeypatch):
+    counts, judged = [], Rehearsal.judged
+
+    def counted(rehearsal, edits):
+        counts[-1] += len(edits)
+        return judged(rehearsal, edits)
+    monkeypatch.setattr(Rehearsal, 'judged', counted)
+    surroundings = surroundings_of(crooked(0.02), target_coverage=0.95)
+    draft, seconds = first_draft(surroundings), []
+    for near in (edits.NEAR, 1e9):
+        monkeypatch.setattr(edits, 'NEAR', near)
+        counts.append(0)
+        seconds.append(Rehearsal(surroundings.context, START, improved(surroundings, [draft])).seconds)
+    assert counts[0] < 0.95 * counts[1] and seconds[0] < 1.02 * seconds[1], (counts, seconds)
 
 
 def test_the_better_of_two_routes_is_improved():

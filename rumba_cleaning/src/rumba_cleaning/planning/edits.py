@@ -12,6 +12,7 @@ from rumba_sim.model.kernel import Array
 APART = 0.1  # [m] between the waypoints at which an edit may begin, at most: small makes detours shorter
 BETWEEN = 6  # waypoints between two edits, at least: each was judged as if it were the only one
 BETTER = 0.02  # [s] that an edit is worth, at least
+NEAR = 2.0  # times a price: large judges more edits again, small may miss some that become worth it
 HALVINGS = 14  # of the range in which the price is looked for
 
 
@@ -23,6 +24,14 @@ class Edit(NamedTuple):
     path: Array  # float64 (any, 2) [m] that replaces it
     seconds: float = 0.0  # that the route takes longer
     area: float = 0.0  # [m^2] that is swept more
+
+    def place(self, route: Route) -> bytes:
+        """What it replaces by what: the same for edits of several routes if these are the same there."""
+        return bytes(route.waypoints[[self.first, self.last]].tobytes() + self.path.tobytes())
+
+    def is_near(self, price: float) -> bool:
+        """Whether it would be worth it at a price near to a given one [s/m^2]."""
+        return max(price * NEAR * self.area, price / NEAR * self.area) > self.seconds
 
 
 def dense(route: Route) -> Route:

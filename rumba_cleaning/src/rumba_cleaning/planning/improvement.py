@@ -1,6 +1,6 @@
 """Improves routes by edits until they meet the target, and take less time."""
 
-from typing import List, NamedTuple, Sequence, Tuple
+from typing import List, NamedTuple, Sequence, Set, Tuple
 
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.belief.swept import Swept
@@ -67,27 +67,34 @@ def improved(surroundings: Surroundings, routes: Sequence[Route]) -> Route:
     rehearsal = min((Rehearsal(context, surroundings.pose, dense(route)) for route in routes),
                     key=lambda rehearsal: _cost(surroundings, rehearsal))
     tried, price = [rehearsal], SAVED
+    poor: Set[bytes] = set()  # edits, by their places, that were far from worth it when they were judged
     for _ in range(rounds(rehearsal.swept.reachable_area)):
         if not rehearsal.is_complete:
             break
         found = [*shortcuts(context, rehearsal, CHEAP * price)[:SHORTCUTS], *shifts(context, rehearsal.route),
                  *surroundings.detours(rehearsal.route, rehearsal.swept)]
-        rehearsal, price = _edited(surroundings, rehearsal, found)
+        rehearsal, price = _edited(surroundings, rehearsal, found, poor)
         tried.append(rehearsal)
     for _ in range(MENDS):
         if not rehearsal.is_complete or _is_met(surroundings, rehearsal):
             break
-        rehearsal, _ = _edited(surroundings, rehearsal, surroundings.detours(rehearsal.route, rehearsal.swept))
+        rehearsal, _ = _edited(surroundings, rehearsal, surroundings.detours(rehearsal.route, rehearsal.swept), set())
         tried.append(rehearsal)
     return max(tried, key=lambda rehearsal: _merit(surroundings, rehearsal)).route
 
 
-def _edited(surroundings: Surroundings, rehearsal: Rehearsal, found: Sequence[Edit]) -> Tuple[Rehearsal, float]:
-    """A rehearsal of the route with those of some edits that have it meet the target; their price [s/m^2]."""
-    context = surroundings.context
-    edits, price = chosen(rehearsal.judged(found), surroundings.need(rehearsal.swept, MARGIN + EDITED), DEAREST)
-    route = dense(applied(rehearsal.route, edits, context.config.speed))
-    return Rehearsal(context, surroundings.pose, route), price
+def _edited(surroundings: Surroundings, rehearsal: Rehearsal, found: Sequence[Edit],
+            poor: Set[bytes]) -> Tuple[Rehearsal, float]:
+    """A rehearsal of the route with those of some edits that have it meet the target; their price [s/m^2].
+
+    Poor edits are not judged again, although the route beside them may have changed; those that turn out poor are added.
+    """
+    context, route = surroundings.context, rehearsal.route
+    fresh = [edit for edit in found if edit.place(route) not in poor]
+    judged = rehearsal.judged(fresh)
+    edits, price = chosen(judged, surroundings.need(rehearsal.swept, MARGIN + EDITED), DEAREST)
+    poor.update({edit.place(route) for edit in fresh} - {edit.place(route) for edit in judged if edit.is_near(price)})
+    return Rehearsal(context, surroundings.pose, dense(applied(route, edits, context.config.speed))), price
 
 
 def _cost(surroundings: Surroundings, rehearsal: Rehearsal) -> float:
