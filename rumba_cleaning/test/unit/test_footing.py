@@ -50,6 +50,18 @@ def test_floor_between_two_sensors_is_known_once_they_are_so_far_on_that_a_corne
     assert is_known(footing, x + ahead - 1.5 * LAG, aside)
 
 
+@pytest.mark.parametrize('first', [0, 1, 2])
+@pytest.mark.parametrize('turn, is_seen', [(0.4, False), (0.8, True)])
+def test_if_it_turns_there_it_is_known_once_one_of_them_came_to_where_the_other_was(first, turn, is_seen):
+    left, right = ROBOT.cliff.angles[first:first + 2]
+    angle = left - 0.1
+    away = ROBOT.cliff.distance * math.cos(0.5 * (left - right)) / math.cos(angle - 0.5 * (left + right))
+    footing, x = passed([NONE] * 20)
+    for theta in np.arange(0.0, turn, 0.04):
+        footing.note(at(x)._replace(theta=theta), NONE, False)
+    assert is_known(footing, x + away * math.cos(angle), away * math.sin(angle)) is is_seen
+
+
 def test_floor_between_two_sensors_is_not_known_if_one_of_them_then_sees_a_cliff():
     ahead, aside = between(0)
     footing, x = passed([NONE] * 20)

@@ -29,7 +29,7 @@ BEHIND_DOCK = 0.45  # [m] of floor that a dock needs before it, as it is put up 
 class Between(NamedTuple):
     """What the sensors passed on both sides."""
 
-    way: float  # [m] of the sensors until then
+    way: float  # [m] that the sensors had come on by then
     start: Pose
     change: Tuple[float, float, float]  # of that pose
     poses: int  # that count
@@ -47,6 +47,8 @@ class Footing:
         """Know the cliffs of a plan."""
         self._robot = robot
         self._far = robot.cliff.distance
+        # [rad] Sensors that only turn see no corner that begins between two of them until one is where the other was.
+        self._spacing = max(left - right for left, right in zip(robot.cliff.angles, robot.cliff.angles[1:]))
         half, radius, sensors = 0.5 * robot.drive.wheel_base, robot.drive.radius, robot.cliff
         self._sensors = np.array([(sensors.distance * math.cos(angle), sensors.distance * math.sin(angle))
                                   for angle in sensors.angles])
@@ -68,7 +70,7 @@ class Footing:
         self._origin: Tuple[float, float] = (left, bottom)  # of what follows [m]
         self._floor: Array = np.zeros((int((top - bottom) / CELL) + 1, int((right - left) / CELL) + 1), np.uint8)
         self._noted: Optional[Tuple[Pose, Tuple[bool, ...], bool]] = None  # the last that was
-        self._way = 0.0  # [m] of the sensors, so far
+        self._way = 0.0  # [m] that the sensors have come on; turning counts less
         self._unsure: Deque[Between] = collections.deque()
         self._readings = Edges(self._robot)
 
@@ -121,7 +123,7 @@ class Footing:
         ahead = change[0] * math.cos(pose.theta) + change[1] * math.sin(pose.theta)
         if ahead < 0.0:
             self._unsure.clear()
-        self._way += max(ahead, 0.0) + self._far * abs(change[2])
+        self._way += max(ahead, 0.0) + LAG * abs(change[2]) / self._spacing
         lines = tuple(not (one or other) for one, other in zip(cliffs, cliffs[1:]))
         if not all(lines):
             self._unsure = collections.deque(
