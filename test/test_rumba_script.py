@@ -113,6 +113,17 @@ def test_a_failing_test_fails_the_whole_and_is_named_and_the_last_line_counts(ch
     assert 'AssertionError: on purpose' in verdict
 
 
+def test_the_tests_of_a_package_run_alone_and_an_unknown_one_is_refused(checkout, tmp_path):
+    (checkout / 'twin').mkdir()
+    for name, text in SAMPLE.items():
+        (checkout / 'twin' / name.replace('sample', 'twin')).write_text(text.replace('sample', 'twin'))
+    code, out, _ = rumba(checkout, 'test', 'twin', XDG_CACHE_HOME=str(tmp_path / 'cache'))
+    assert (code, out.splitlines()[-1]) == (1, '3 passed, 1 failed')
+    assert 'twin/pytest.xml' in out and 'sample/pytest.xml' not in out
+    code, _, error = rumba(checkout, 'test', 'sample', 'twn', XDG_CACHE_HOME=str(tmp_path / 'cache'))
+    assert (code, error) == (2, "rumba: there is no package 'twn' with tests: give names of packages, or nothing\n")
+
+
 def test_help_names_every_command():
     code, out, _ = rumba(ROOT, 'help')
     assert code == 0

@@ -16,6 +16,8 @@ from common import figures
 from rumba_msg.msg import SimulatorState
 
 PATIENCE = 60.0  # [s] for what should take a second or two
+# What a shell runs in its background would ignore SIGINT, and so would all that it starts.
+signal.signal(signal.SIGINT, signal.default_int_handler)
 LISTENER = pathlib.Path(__file__).with_name('listener.py')
 
 
