@@ -106,7 +106,8 @@ def test_a_robot_helps_a_mate_although_the_target_is_met_but_for_what_poses_may_
 
 def test_who_waits_on_its_dock_for_mates_that_find_nothing_more_ends_there(monkeypatch):
     monkeypatch.setattr(missions, 'EXACT', 0.5)  # nobody is ever sure to have met the target
-    monkeypatch.setattr(helping, 'LEAST', math.inf)  # and who comes late finds no work
+    monkeypatch.setattr(helping, 'LEAST', math.inf)  # and who comes late finds no work, ...
+    monkeypatch.setattr(improvement, 'WORK', 0.0)  # ... nor corners that a mate will leave
     crew = Crew(TWO_ROOMS, quiet())
     crew.silent.add('rumba2')
     crew.plan('rumba')
@@ -175,7 +176,7 @@ def test_at_the_only_dock_the_second_robot_waits_apart_and_says_who_is_there():
 
 
 def test_robots_charge_one_after_the_other_at_the_only_dock():
-    crew = Crew(ONE_DOCK, quiet(battery={'drain': 60.0}))
+    crew = Crew(ONE_DOCK, quiet(battery={'drain': 50.0}))
     states = {name: [] for name in crew.missions}
     while any(mission.status is Status.RUNNING for mission in crew.missions.values()):
         assert crew.world.time < 4000.0, {name: mission.message for name, mission in crew.missions.items()}

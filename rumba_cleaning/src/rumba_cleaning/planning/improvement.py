@@ -87,7 +87,7 @@ def _edited(surroundings: Surroundings, rehearsal: Rehearsal, found: Sequence[Ed
             poor: Set[bytes]) -> Tuple[Rehearsal, float]:
     """A rehearsal of the route with those of some edits that have it meet the target; their price [s/m^2].
 
-    Poor edits are not judged again, although the route beside them may have changed; those that turn out poor are added.
+    Poor edits are not judged again, although the route beside them may have changed; what turns out poor is added.
     """
     context, route = surroundings.context, rehearsal.route
     fresh = [edit for edit in found if edit.place(route) not in poor]

@@ -4,7 +4,6 @@ import math
 
 import numpy as np
 
-from rumba_cleaning.belief.context import Context
 from rumba_cleaning.belief.swept import Swept
 from rumba_cleaning.planning import compiled_ways
 from rumba_cleaning.route import lengths_along
@@ -30,17 +29,6 @@ def drive(swept: Swept, path: Array) -> None:
 def _poses(points: Array, headings: Array) -> Array:
     """x [m], y [m] and theta [rad] at each point: float64 (any, 3)."""
     return np.concatenate([points, headings[:, np.newaxis]], axis=1)
-
-
-def leave_to_mates(context: Context) -> None:
-    """Count as swept what the mates of a context will sweep by their plans; the memory of the context is changed."""
-    for ahead in context.mates.sweeping().values():
-        waypoints, speeds = ahead.rest()
-        sweeps = speeds <= context.config.speed
-        ends = np.flatnonzero(np.diff(sweeps)) + 1
-        for first, last in zip([0, *ends], [*ends, len(speeds)]):
-            if sweeps[first]:
-                drive(context.swept, waypoints[first:last + 1])
 
 
 def strides(path: Array, longest: float) -> Array:

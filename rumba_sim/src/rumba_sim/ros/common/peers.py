@@ -37,11 +37,11 @@ def hasty_master(name: str) -> rosgraph.Master:
 def is_alive(name: str) -> bool:
     """Whether a node answers, given by its full name: the master still knows nodes that were killed.
 
-    The port of such a node may belong to another one by now, perhaps to one of the same name at another master. Nodes of
-    rospy tell their name and their master; those of roscpp tell neither, and count.
+    The port of such a node may belong to another one by now, perhaps to one of the same name at another master. Nodes
+    of rospy tell their name and their master; those of roscpp tell neither, and count.
     """
     try:
-        node = xmlrpc.client.ServerProxy(rosgraph.Master(name).lookupNode(name), _Hasty())
+        node: Any = xmlrpc.client.ServerProxy(rosgraph.Master(name).lookupNode(name), _Hasty())
         answered, master = node.getName(name)[-1], node.getMasterUri(name)[-1]
     except xmlrpc.client.Fault:
         return True
