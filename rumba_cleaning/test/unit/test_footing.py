@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from rooms import room
+from rooms import quiet, room
 
 from rumba_cleaning.belief.footing import LAG, SEEN, Footing
 from rumba_sim.model.geometry import Pose
@@ -60,6 +60,14 @@ def test_if_it_turns_there_it_is_known_once_one_of_them_came_to_where_the_other_
     for theta in np.arange(0.0, turn, 0.04):
         footing.note(at(x)._replace(theta=theta), NONE, False)
     assert is_known(footing, x + away * math.cos(angle), away * math.sin(angle)) is is_seen
+
+
+def test_sensors_may_all_be_at_one_place():
+    robot = quiet(cliff={'inner_angle': 0.0, 'outer_angle': 0.0})
+    footing = Footing(room(4.0, 2.0, 0.02), robot)
+    for theta in (0.0, 0.1, 0.2):
+        footing.note(at(2.0)._replace(theta=theta), NONE, False)
+    assert footing.are_known(np.array([(2.0, 1.0)]), 0)
 
 
 def test_floor_between_two_sensors_is_not_known_if_one_of_them_then_sees_a_cliff():

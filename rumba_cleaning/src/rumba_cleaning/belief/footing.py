@@ -23,6 +23,7 @@ INSIDE = 0.003  # [m] from a cliff that a sensor saw, another edge tells nothing
 CELL = 0.015  # [m] side of the cells in which floor is remembered
 STEP = 0.012  # [m] between points that are remembered: less than a cell, so that no cell is left out
 LAG = 0.045  # [m] a corner of 90 degrees that begins between two sensors is under one of them when they are so far on
+CLOSE = 0.01  # [rad] between two sensors: those that are nearer see the same
 BEHIND_DOCK = 0.45  # [m] of floor that a dock needs before it, as it is put up by a person: more than undocking takes
 
 
@@ -48,7 +49,8 @@ class Footing:
         self._robot = robot
         self._far = robot.cliff.distance
         # [rad] Sensors that only turn see no corner that begins between two of them until one is where the other was.
-        self._spacing = max(left - right for left, right in zip(robot.cliff.angles, robot.cliff.angles[1:]))
+        angles = robot.cliff.angles
+        self._spacing = max(CLOSE, *(left - right for left, right in zip(angles, angles[1:])))
         half, radius, sensors = 0.5 * robot.drive.wheel_base, robot.drive.radius, robot.cliff
         self._sensors = np.array([(sensors.distance * math.cos(angle), sensors.distance * math.sin(angle))
                                   for angle in sensors.angles])
