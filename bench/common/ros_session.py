@@ -16,8 +16,6 @@ from common import figures
 from rumba_msg.msg import SimulatorState
 
 PATIENCE = 60.0  # [s] for what should take a second or two
-# What a shell runs in its background would ignore SIGINT, and so would all that it starts.
-signal.signal(signal.SIGINT, signal.default_int_handler)
 LISTENER = pathlib.Path(__file__).with_name('listener.py')
 
 
@@ -46,6 +44,8 @@ def free_port():
 @contextlib.contextmanager
 def master():
     """A roscore for this process, which becomes a node of it, and for those that it starts."""
+    # What a shell runs in its background would ignore SIGINT, and so would all that it starts.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
     port = free_port()
     os.environ.pop('ROS_IP', None)
     os.environ.update(ROS_MASTER_URI=f'http://localhost:{port}', ROS_HOSTNAME='localhost')

@@ -27,8 +27,7 @@ def _usual(overlap: float) -> List[Layout]:
 
 
 # All figures are our choice. Which draft is best differs from floor to floor, as the best layout from region to region:
-# routes by several are rehearsed. Lanes for wider strips only look
-# better on paper, but leave slivers for the last round.
+# routes by several are rehearsed. Lanes for wider strips look better only on paper: they leave slivers for the end.
 DRAFTS = (Draft(_usual(0.05), 0.3), Draft([Layout(0.0, needed=0.15, gap=0.4, alike=2.7)], 0.4), Draft(_usual(0.0), 0.3),
           Draft([Layout(0.08, needed=0.17, usual=0.5, gap=0.65)], 0.45),
           Draft([Layout(0.09, needed=0.15, usual=0.7, gap=0.55, alike=1.35)], 0.4))
