@@ -22,14 +22,15 @@ class Edges:
     def met(self, pose: Pose, cliffs: Sequence[bool]) -> List[Tuple[float, float]]:
         """Take a reading, and tell where edges are.
 
-        A sensor that saw floor before came over an edge since then: that lies half way.
+        A sensor that saw floor before came over an edge since then: that lies half way. One that saw none before either
+        was beyond the edge at the last reading, and need not be now: it may tell of what it saw since then.
 
         Args:
             pose: of the robot, map frame.
             cliffs: whether there is no floor under each sensor, from left to right.
 
         Returns:
-            Points (x, y) [m], map frame; for a sensor that stays beyond an edge, where it is now.
+            Points (x, y) [m], map frame.
         """
         last, before = (pose, ()) if self._last is None else self._last
         if not before or math.hypot(pose.x - last.x, pose.y - last.y) > JUMP:
@@ -38,7 +39,7 @@ class Edges:
         found = []
         for sensor, is_over, was_over in zip(self._sensors, cliffs, before):
             if is_over:
-                here = compose(pose, sensor)
-                since = here if was_over else compose(last, sensor)
+                since = compose(last, sensor)
+                here = since if was_over else compose(pose, sensor)
                 found.append((0.5 * (since.x + here.x), 0.5 * (since.y + here.y)))
         return found

@@ -10,6 +10,7 @@ from rumba_sim.model.errors import WorldError
 from rumba_sim.model.geometry import Pose
 
 HOLE = (2.0, 1.0, 3.0, 2.5)
+SMALL = (1.4, 1.04, 1.42, 1.06)
 AT_ONCE = {'acceleration': 1000.0}
 
 
@@ -26,6 +27,34 @@ def test_each_cliff_sensor_sees_the_floor_under_it(theta, sensor, angle):
     assert world.cliffs('rumba') == [False] * 4
     robot.state['x'], robot.state['y'] = 2.0, 1.5  # where a teleport would be refused
     assert world.cliffs('rumba') == [index == sensor for index in range(4)]
+
+
+def test_a_sensor_tells_of_a_cliff_for_as_long_as_it_holds_that():
+    """A hole of 2 cm passes under a front sensor between two readings, and between the wheels."""
+    world, _ = alone(Pose(1.0, 1.0, 0.0), room(4.0, 2.0, 0.01, cliff=SMALL), cliff={'hold': 0.1})
+    seen, over = [], []
+    for pose in drive(world, 0.4, 0.0, 70):
+        x = pose.x + 0.165 * math.cos(0.32)
+        seen.append(world.cliffs('rumba')[1])
+        over.append(1.4 <= x < 1.42)
+    assert 2 <= sum(over) <= 3  # at 8 mm a tick
+    first = over.index(True)
+    assert seen == [first <= tick < first + sum(over) + 4 for tick in range(70)]
+
+
+def test_a_teleport_has_sensors_forget_what_they_held():
+    world, _ = alone(Pose(1.6, 1.8, 0.0), room(4.0, 3.0, 0.02, cliff=HOLE), cliff={'hold': 1.0})
+    drove(world, 0.3, 0.0, 80)
+    assert world.cliffs('rumba')[1]
+    world.teleport('rumba', Pose(1.0, 0.5, 0.0))
+    world.step()
+    assert world.cliffs('rumba') == [False] * 4
+
+
+def test_a_sensor_without_hold_tells_of_what_it_is_over():
+    world, _ = alone(Pose(1.0, 1.0, 0.0), room(4.0, 2.0, 0.01, cliff=SMALL), cliff={'hold': 0.0})
+    for pose in drive(world, 0.4, 0.0, 70):
+        assert world.cliffs('rumba')[1] == (1.4 <= pose.x + 0.165 * math.cos(0.32) < 1.42)
 
 
 def test_front_sensors_warn_before_a_wheel_is_over_the_edge():

@@ -14,7 +14,6 @@ from rumba_sim.model.kernel.records import OBSTACLE, ROBOT
 from rumba_sim.model.kernel.samples import REACHABLE, SWEEPABLE
 from rumba_sim.model.obstacle import Obstacle, walk
 from rumba_sim.model.reachability import stands
-from rumba_sim.model.robot_config import CliffConfig
 from rumba_sim.model.world import World
 
 DOCK = Pose(3.8, 1.0, 0.0)
@@ -27,7 +26,6 @@ OBSTACLES = [
     Obstacle('crate', Pose(0.5, 2.0, 0.0), height=0.3, length=0.2, width=0.1, stops=walk(
         [Pose(0.5, 2.0, 0.0), Pose(0.5, 0.4, 1.0)], 0.3, False, 0.0, 0.5))]
 ROUNDING = 1e-12
-CLIFF = CliffConfig()
 FUNCTIONS = [function for module in kernel_modules() for function in functions_of(module)]
 PLAIN = types.SimpleNamespace(**{function.__name__: function for function in FUNCTIONS})
 
@@ -70,18 +68,17 @@ class Copy:
                 robot.command_v, robot.command_w = rng.uniform(-0.1, 0.5), rng.uniform(-1.9, 1.9)
                 robot.command_tick = tick
             self.advance(functions, tick, 10)
-            states.append(np.array([[float(robot[name]) for name in ROBOT.names] for robot in self.robots]))
+            states.append(self.robots.copy())
             for me in range(len(STARTS)):
-                cliffs = np.zeros(len(CLIFF.angles), np.bool_)
-                functions.cliffs(self.robots, me, self.constants, self.floor.cells, CLIFF.distance,
-                                 np.array(CLIFF.angles), cliffs)
+                cliffs = np.zeros(4, np.bool_)
+                functions.cliffs(self.robots, me, self.constants, self.floor.cells, cliffs)
                 seen.append((*functions.infrared(self.robots, me, self.constants, self.docks, self.plan.skips),
                              *cliffs))
         ranges = np.empty((len(STARTS), len(self.fan)))
         for me in range(len(STARTS)):
             functions.scan(self.robots, me, self.constants, self.obstacles, self.plan.skips, self.fan,
                            self.noise.reshape(-1)[:len(self.fan)], ranges[me])
-        return np.array(states), seen, ranges
+        return np.concatenate(states), seen, ranges
 
 
 @pytest.mark.parametrize('charge', [1.0, 0.00001])
@@ -89,8 +86,8 @@ def test_compiled_and_plain_kernel_agree_except_for_rounding(charge):
     plain, compiled = Copy(charge), Copy(charge)
     states, seen, ranges = plain.run(PLAIN, 400)
     fast_states, fast_seen, fast_ranges = compiled.run(fast, 400)
-    for place, name in enumerate(ROBOT.names):
-        np.testing.assert_allclose(fast_states[..., place], states[..., place], ROUNDING, ROUNDING, err_msg=name)
+    for name in ROBOT.names:
+        np.testing.assert_allclose(fast_states[name], states[name], ROUNDING, ROUNDING, err_msg=name)
     assert fast_seen == seen
     np.testing.assert_allclose(fast_ranges, ranges, ROUNDING, ROUNDING)
     for name in OBSTACLE.names:
@@ -98,24 +95,24 @@ def test_compiled_and_plain_kernel_agree_except_for_rounding(charge):
     np.testing.assert_array_equal(compiled.floor.sweep.samples, plain.floor.sweep.samples)
     np.testing.assert_allclose(compiled.floor.sweep.tally[0].tolist(), plain.floor.sweep.tally[0].tolist(), 1e-9)
     if charge == 1.0:  # every kind of event happened
-        columns = dict(zip(ROBOT.names, states.transpose(2, 0, 1)))
-        assert columns['bumps'].max() > 0 and columns['docked'].any() and columns['fallen'].any()
+        assert states['bumps'].max() > 0 and states['docked'].any() and states['fallen'].any()
+        assert states['cliff_ticks'].any()
         assert any(beams != (0, 0, 0) for beams in seen) and np.isfinite(ranges).any()
         assert plain.obstacles['visits'][2:].min() > 0
-        assert np.isnan(columns['contact_angle']).any() and not np.isnan(columns['contact_angle']).all()
+        assert np.isnan(states['contact_angle']).any() and not np.isnan(states['contact_angle']).all()
 
 
 def test_compiled_and_plain_kernel_move_led_robots_in_the_same_way():
     led = np.array([[x + 0.004, y - 0.002, theta + 0.01, me % 2] for me, (x, y, theta) in enumerate(STARTS)])
-    states = []
-    for functions in (PLAIN, fast):
-        copy = Copy(1.0)
+    copies = [Copy(1.0), Copy(1.0)]
+    halted = []
+    for functions, copy in zip((PLAIN, fast), copies):
         functions.follow(*copy.ground, 0, led)
         assert [(robot.x, robot.y, robot.theta) for robot in copy.robots] == [tuple(to) for to in led[:, :3]]
-        states.append(np.array([[float(robot[name]) for name in ROBOT.names] for robot in copy.robots]))
-        halted = [functions.halted(robot, copy.constants[0], copy.plan.clearance, 0.3) for robot in copy.robots]
-        states[-1] = np.column_stack([states[-1], halted])
-    np.testing.assert_allclose(states[1], states[0], ROUNDING, ROUNDING)
+        halted.append([functions.halted(robot, copy.constants[0], copy.plan.clearance, 0.3) for robot in copy.robots])
+    for name in ROBOT.names:
+        np.testing.assert_allclose(copies[1].robots[name], copies[0].robots[name], ROUNDING, ROUNDING, err_msg=name)
+    np.testing.assert_allclose(halted[1], halted[0], ROUNDING, ROUNDING)
 
 
 def test_compiled_and_plain_kernel_find_the_same_floor_in_reach():

@@ -115,27 +115,28 @@ def test_the_constants_have_the_values_of_the_configuration_and_of_the_plan():
     assert k.takes[:3] == approx((0.9, 0.09, 0.009))
     for name in k.dtype.names:
         assert np.all(np.isfinite(k[name]))
-        if name not in ('origin_x', 'origin_y', 'has_layers', 'noise'):
+        if name not in ('origin_x', 'origin_y', 'has_layers', 'has_cliffs', 'noise'):
             assert np.all(k[name] != 0.0), name
 
 
-@pytest.mark.parametrize('section', ['drive', 'battery', 'odometry', 'bumper', 'laser', 'dock', 'brush'])
+@pytest.mark.parametrize('section', ['drive', 'battery', 'odometry', 'bumper', 'cliff', 'laser', 'dock', 'brush'])
 def test_every_setting_changes_the_constants_or_is_used_elsewhere(section):
     """Settings are changed one by one: a setting that no constant is computed from would be noticed."""
     elsewhere = {'odometry/scale_error', 'laser/beams', 'battery/resistance'}
     plan = crooked(dock=Pose(3.8, 1.0, 0.5))
-    before = constants(RobotConfig(), plan, 50)[0]
+    before = constants(RobotConfig(), plan, 1000)[0]
     for path, field in LEAVES.items():
         if path.startswith(section) and path not in elsewhere:
             value = field.default * (1.05 if path.startswith('dock/release') else 0.95)
-            after = constants(from_mapping(RobotConfig, nested(path, value), 'here'), plan, 50)[0]
+            after = constants(from_mapping(RobotConfig, nested(path, value), 'here'), plan, 1000)[0]
             assert any(np.any(before[name] != after[name]) for name in Constants._fields), path
 
 
-def test_a_plan_tells_the_constants_whether_it_has_layers():
-    for plan, has_layers in ((crooked(), False), (crooked(cliff=(0.0, 0.0, 1.0, 1.0)), True),
-                             (crooked(carpet=(0.0, 0.0, 1.0, 1.0)), True)):
-        assert bool(constants(RobotConfig(), plan, 50)[0].has_layers) == has_layers
+@pytest.mark.parametrize('layers, has_layers, has_cliffs', [
+    ({}, False, False), ({'cliff': (0.0, 0.0, 1.0, 1.0)}, True, True), ({'carpet': (0.0, 0.0, 1.0, 1.0)}, True, False)])
+def test_a_plan_tells_the_constants_whether_it_has_layers(layers, has_layers, has_cliffs):
+    k = constants(RobotConfig(), crooked(**layers), 50)[0]
+    assert (bool(k.has_layers), bool(k.has_cliffs)) == (has_layers, has_cliffs)
 
 
 @pytest.mark.parametrize('resolution', [0.02, 0.05, 0.1])

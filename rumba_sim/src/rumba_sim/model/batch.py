@@ -93,18 +93,16 @@ def infrared(first: int, last: int, order: Array, rows: Array, robots: Array, co
 
 
 def cliffs(first: int, last: int, order: Array, rows: Array, robots: Array, constants: Array, plans: Array,
-           shapes: Array, cells: Array, distances: Array, angles: Array, seen: Array) -> None:
-    """Whether there is no floor under the cliff sensors of each robot.
+           shapes: Array, cells: Array, seen: Array) -> None:
+    """Whether the cliff sensors of each robot see a cliff, or hold one that they saw.
 
     Args, apart from those above:
-        distances: float64 (worlds), of the sensors from the centre of the robot [m].
-        angles: float64 (worlds, 4), of the sensors from straight ahead [rad].
         seen: bool (any, 4), receives the answer.
     """
     for index in range(first, last):
         world, row = order[index], rows[index]
         floor = floor_of(cells[plans[world]], shapes[world])
-        ground.cliffs(robots, world, constants[world:world + 1], floor, distances[world], angles[world], seen[row])
+        ground.cliffs(robots, world, constants[world:world + 1], floor, seen[row])
 
 
 def surroundings(first: int, last: int, order: Array, rows: Array, robots: Array, constants: Array, plans: Array,

@@ -37,6 +37,12 @@ class Constants(NamedTuple):
     noise: float  # standard deviation of a wheel after 1 m [m]
     floor_traction: float  # driven distance / counted distance
     carpet_traction: float
+    # cliff sensors
+    has_cliffs: bool  # whether the floor has any
+    cliff_distance: float  # from the centre of the robot [m]
+    cliff_inner: float  # angle from straight ahead to the inner ones [rad]
+    cliff_outer: float  # and to the outer ones [rad]
+    cliff_hold: int  # a sensor tells of a cliff for so many ticks
     # bumper and laser
     bumper_half: float  # half of the angle that the bumper covers [rad]
     overlap_half: float  # half of the angle in which a contact presses both switches [rad]
@@ -108,6 +114,9 @@ def _values(config: RobotConfig, plan: FloorPlan, step_rate: float) -> Constants
         max_turn_rate=drive.max_turn_rate, acceleration=drive.acceleration, dead_band=drive.dead_band,
         timeout_ticks=max(round(drive.command_timeout * step_rate), 1), noise=odometry.noise,
         floor_traction=odometry.floor_traction, carpet_traction=odometry.carpet_traction,
+        has_cliffs=plan.cliff is not None, cliff_distance=config.cliff.distance,
+        cliff_inner=config.cliff.inner_angle, cliff_outer=config.cliff.outer_angle,
+        cliff_hold=round(config.cliff.hold * step_rate),
         bumper_half=0.5 * bumper.field, overlap_half=0.5 * bumper.overlap,
         range_min=laser.range_min, range_max=laser.range_max, range_noise=laser.noise,
         contact_distance=dock.contact_distance, contact_angle=dock.contact_angle,

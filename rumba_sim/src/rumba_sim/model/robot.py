@@ -195,7 +195,7 @@ def put(state: Record, pose: Pose) -> None:
     state['x'], state['y'], state['theta'] = pose
     state['command_tick'] = NEVER
     state['contact_angle'] = math.nan
-    for name in ('bumper', 'fallen', 'docked', 'sweeps'):
+    for name in ('bumper', 'fallen', 'docked', 'sweeps', 'cliff_ticks'):
         state[name] = 0
 
 

@@ -84,7 +84,6 @@ class World:
         self.start = self._space.start
         self.noise = Noise(seed)
         self.fan = _fan(self._config.laser.beams)
-        self._cliff_angles = np.array(self._config.cliff.angles)
         self._docks: Array = np.reshape(np.array(plan.docks, np.float64), (-1, 3))
         self._begin()
 
@@ -174,7 +173,6 @@ class World:
         self._states['charge'] = np.minimum(self._states['charge'], config.battery.capacity)
         self._take(self._states)  # robots that were far apart may meet sooner now
         self.fan = _fan(config.laser.beams)
-        self._cliff_angles = np.array(config.cliff.angles)
         for member in self.robots.values():
             member.config = config
 
@@ -314,11 +312,13 @@ class World:
                                        self.terrain.skips))
 
     def cliffs(self, name: str) -> List[bool]:
-        """Whether there is no floor under the left, front left, front right and right sensor of a robot."""
-        seen = np.zeros(len(self._cliff_angles), np.bool_)
-        if self.terrain.cliff is not None:
-            fast.cliffs(self._states, self._index(name), self.constants, self.floor.cells,
-                        self._config.cliff.distance, self._cliff_angles, seen)
+        """Whether the left, front left, front right and right sensor of a robot see no floor, or did just now.
+
+        Raises:
+            WorldError: there is no robot of that name.
+        """
+        seen = np.zeros(4, np.bool_)
+        fast.cliffs(self._states, self._index(name), self.constants, self.floor.cells, seen)
         found: List[bool] = seen.tolist()
         return found
 

@@ -18,7 +18,6 @@ class WorldRows:
 
     Attributes, apart from those:
         reachable: int64 (worlds), how many samples can be reached.
-        cliff_distances, cliff_angles: where the cliff sensors are.
         fan: directions of the beams, the same in all worlds.
     """
 
@@ -39,7 +38,6 @@ class WorldRows:
         self.counts, self.plans, self.reachable = np.zeros((3, number), np.int64)
         self.moving = np.zeros(number, np.bool_)
         self.shapes = np.zeros((number, 3), np.int64)
-        self.cliff_distances, self.cliff_angles = np.zeros(number), np.zeros((number, 4))
         self.fan = worlds[0].fan
         most = max(world.terrain.skips.size for world in plans.values())
         nodes = max(world.terrain.clearance.size for world in plans.values())
@@ -78,7 +76,6 @@ class WorldRows:
         self.counts[index], self.moving[index] = len(before.obstacles), world.obstacles.has_movers
         self.known[index] = np.nan
         self.reachable[index] = world.floor.sweep.reachable
-        self.cliff_distances[index], self.cliff_angles[index] = world.config.cliff.distance, world.config.cliff.angles
         alone = slice(index, index + 1)
         after = WorldArrays(
             self.robots[alone], self.constants[alone], _begin_of(self.obstacles[index], before.obstacles),

@@ -19,7 +19,7 @@ from rumba_sim.model.obstacle import Obstacle, Stop
 from rumba_sim.model.regular_file import opened
 from rumba_sim.model.robot import Start
 
-FORMAT, VERSION = 'world of rumba_sim', 3
+FORMAT, VERSION = 'world of rumba_sim', 4
 HEADER = 'header'
 
 

@@ -171,7 +171,7 @@ class Worlds:
         here = self._rows
         seen = np.empty((len(order), 4), np.bool_)
         self._run(many.cliffs, order, rows, here.robots, here.constants, here.plans, here.shapes, here.cells,
-                  here.cliff_distances, here.cliff_angles, seen)
+                  seen)
         return seen
 
     def surroundings(self, size: int, pitches: Sequence[float], which: Optional[Array] = None) -> Array:

@@ -24,17 +24,28 @@ def stand(robot: Record, k: Record, cells: Array) -> float:
     return k.carpet_traction if left & right & CARPET else k.floor_traction
 
 
-def cliffs(robots: Array, me: int, constants: Array, cells: Array, distance: float, angles: Array,
-           seen: Array) -> None:
-    """Whether there is no floor under each cliff sensor of the robot with index `me`.
+def look_down(robot: Record, k: Record, cells: Array) -> None:
+    """Have each cliff sensor hold what it sees at the end of a tick, if that is a cliff."""
+    for sensor, angle in enumerate((k.cliff_outer, k.cliff_inner, -k.cliff_inner, -k.cliff_outer)):
+        if is_over_cliff(robot, k, cells, angle):
+            robot.cliff_ticks[sensor] = k.cliff_hold
+        elif robot.cliff_ticks[sensor] > 0:
+            robot.cliff_ticks[sensor] -= 1
+
+
+def is_over_cliff(robot: Record, k: Record, cells: Array, angle: float) -> bool:
+    """Whether there is no floor under the cliff sensor at an angle from straight ahead [rad]."""
+    along = robot.theta + angle
+    x, y = robot.x + k.cliff_distance * math.cos(along), robot.y + k.cliff_distance * math.sin(along)
+    return cell_bits(k, cells, x, y) & CLIFF != 0
+
+
+def cliffs(robots: Array, me: int, constants: Array, cells: Array, seen: Array) -> None:
+    """Whether each cliff sensor of the robot with index `me` sees a cliff, or holds one that it saw.
 
     Args, apart from those of the package:
-        distance: of the sensors from the centre of the robot [m].
-        angles: float64 (sensors), from straight ahead [rad].
-        seen: bool (sensors), receives the answer.
+        seen: bool (4), from left to right, receives the answer.
     """
     robot, k = robots[me], constants[0]
-    for sensor in range(len(angles)):
-        along = robot.theta + angles[sensor]
-        seen[sensor] = k.has_layers and cell_bits(
-            k, cells, robot.x + distance * math.cos(along), robot.y + distance * math.sin(along)) & CLIFF != 0
+    for sensor, angle in enumerate((k.cliff_outer, k.cliff_inner, -k.cliff_inner, -k.cliff_outer)):
+        seen[sensor] = k.has_cliffs and (robot.cliff_ticks[sensor] > 0 or is_over_cliff(robot, k, cells, angle))

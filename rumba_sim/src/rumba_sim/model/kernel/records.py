@@ -8,7 +8,8 @@ ROBOT = np.dtype((np.record, np.dtype([(name, 'f8') for name in (
     'left_path', 'right_path', 'odom_x', 'odom_y', 'odom_theta', 'odom_v', 'odom_w', 'charge', 'current', 'distance',
     'brush_time', 'contact_angle', 'swept_x', 'swept_y', 'swept_theta', 'swept_distance')] + [
         (name, 'i8') for name in ('command_tick', 'left_ticks', 'right_ticks', 'bumps', 'alone_until')] + [
-            (name, 'u1') for name in ('bumper', 'brushes_up', 'docked', 'fallen', 'sweeps')], align=True)))
+            (name, 'u1') for name in ('bumper', 'brushes_up', 'docked', 'fallen', 'sweeps')] + [
+                ('cliff_ticks', 'i8', 4)], align=True)))  # for so many ticks more each sensor tells of a cliff
 # A disc has a radius, and halves that are 0; a box has halves, and a radius that is 0. `reach` is the distance from its
 # centre to its farthest point. A mover has `stops` stops from row `first` of the array of stops on; it has left number
 # `stop` of them, `moved` [ticks] ago, or stands there for `rest` ticks more; it has reached stops `visits` times. For

@@ -5,7 +5,7 @@ from rumba_sim.model.kernel.brush import brush
 from rumba_sim.model.kernel.bumper import touch
 from rumba_sim.model.kernel.dock import at_contacts
 from rumba_sim.model.kernel.energy import battery_current, charge_after, load
-from rumba_sim.model.kernel.ground import stand
+from rumba_sim.model.kernel.ground import look_down, stand
 from rumba_sim.model.kernel.motion import lead, move
 from rumba_sim.model.kernel.wheels import count, drive
 
@@ -27,6 +27,8 @@ def advance(robots: Array, constants: Array, obstacles: Array, docks: Array, fie
             start = robot.x, robot.y, robot.theta
             toward_x, toward_y = move(robots, me, k, obstacles, field, now)
             traction = stand(robot, k, cells) if k.has_layers else k.floor_traction
+            if k.has_cliffs:
+                look_down(robot, k, cells)
             count(robot, k, traction, noise[me, now % noise.shape[1]])
             touch(robots, me, k, obstacles, field, now, toward_x, toward_y)
             work(robot, k, docks, samples, dirt, tally, start)
@@ -45,6 +47,8 @@ def follow(robots: Array, constants: Array, obstacles: Array, docks: Array, fiel
         robot = robots[me]
         start = lead(robot, k, led[me])
         traction = stand(robot, k, cells) if k.has_layers else k.floor_traction
+        if k.has_cliffs:
+            look_down(robot, k, cells)
         count(robot, k, traction, noise[me, tick % noise.shape[1]])
         touch(robots, me, k, obstacles, field, tick, 0.0, 0.0)
         work(robot, k, docks, samples, dirt, tally, start)
