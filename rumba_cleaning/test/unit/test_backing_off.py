@@ -68,6 +68,20 @@ def test_a_wall_along_its_way_does_not_keep_it_from_going_back(turned):
     assert start.x - robot.pose.x > 0.15 and max(abs(pose.y - y) for pose in way) < 0.01 and not robot.has_fallen
 
 
+def test_a_wall_right_behind_it_does_not_keep_it_from_turning_back():
+    """Nearly on the spot: its middle comes back by no more than a centimetre, along the wall."""
+    y = RADIUS + 0.015
+    world, context = world_with([(1.5, 0.0, 2.5, 1.0)], Pose(0.6, y, 0.0))
+    guard, robot = Guard(context), world.robots['rumba']
+    list(poses(world, guard, (0.2, 0.0), 8.0, sees_edge))
+    list(poses(world, guard, BACK, 0.8))
+    list(poses(world, guard, (0.01, 1.0), 1.5))
+    turned = robot.pose
+    list(poses(world, guard, BACK, 1.0))
+    assert turned.theta > 1.2 and robot.pose.theta < turned.theta - 0.3
+    assert math.dist(turned[:2], robot.pose[:2]) < 0.015
+
+
 def test_what_moved_behind_it_meanwhile_keeps_it_from_going_back():
     world, context = world_with([(1.5, 0.5, 2.5, 1.8)], Pose(0.6, 1.0, 0.0))
     guard, robot = Guard(context), world.robots['rumba']

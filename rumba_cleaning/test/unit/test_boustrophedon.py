@@ -3,6 +3,7 @@
 import math
 import re
 
+import numpy as np
 import pytest
 from drivers import context_of, drive_by_hand, run, slanted_gap, with_box
 from rooms import RADIUS, quiet, room
@@ -13,6 +14,8 @@ from rumba_cleaning.mission.mission import Mission
 from rumba_cleaning.mission.stages import State
 from rumba_cleaning.outcome import Outcome
 from rumba_cleaning.pose_source import seeing, truth
+from rumba_cleaning.route import Route
+from rumba_cleaning.strategies import boustrophedon
 from rumba_cleaning.strategies.boustrophedon import Boustrophedon
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.obstacle import Obstacle
@@ -29,6 +32,24 @@ def test_a_closed_door_does_not_keep_it_busy_for_ever():
     assert re.fullmatch('.* of what lies beside obstacles, the target is 99.0 %: nothing more can be reached',
                         mission.message)
     assert world.floor.coverage >= 0.98
+
+
+@pytest.mark.parametrize('vain, is_enough', [(boustrophedon.IDLE - 1, True), (boustrophedon.IDLE, False)])
+def test_while_much_is_left_it_plans_again_after_some_rounds_that_gained_nothing(vain, is_enough, monkeypatch):
+    """As if something unknown ended these rounds where they began."""
+    plan = room(2.0, 1.5, start=Pose(0.5, 0.5, 0.0))
+    world = World(plan, quiet())
+    world.spawn('rumba')
+    planned, rounds, nowhere = boustrophedon.plan, [], Route(np.full((2, 2), 0.5), np.array([0.3]))
+
+    def vainly(context, pose, end=None):
+        rounds.append(pose)
+        return nowhere if len(rounds) <= vain else planned(context, pose, end)
+    monkeypatch.setattr(boustrophedon, 'plan', vainly)
+    mission = Mission(context_of(plan, world), 'boustrophedon', 0.98)
+    run(mission, world)
+    assert (mission.outcome is Outcome.SUCCEEDED) == is_enough
+    assert (len(rounds) == vain) != is_enough
 
 
 @pytest.mark.parametrize('v, seconds', [(0.2, 1.0), (0.3, 6.0)])

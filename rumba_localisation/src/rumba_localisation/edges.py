@@ -23,7 +23,7 @@ class Edges:
         """Take a reading, and tell where edges are.
 
         A sensor that saw floor before came over an edge since then: that lies half way. One that saw none before either
-        was beyond the edge at the last reading, and need not be now: it may tell of what it saw since then.
+        was beyond an edge at that reading; it need not be any more, since it holds what it saw since then.
 
         Args:
             pose: of the robot, map frame.

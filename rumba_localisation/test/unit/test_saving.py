@@ -72,7 +72,7 @@ def test_both_switches_are_pressed_by_what_the_map_shows_ahead_or_at_both_sides(
     assert not found.touched if is_known else len(found.touched) == 1
 
 
-def test_a_cliff_is_where_the_sensor_is_at_first_and_half_way_from_where_it_saw_floor():
+def test_a_cliff_is_where_the_sensor_is_at_first_then_half_way_from_where_it_saw_floor_then_where_it_saw_it_last():
     found, cliff = findings(), RobotConfig().cliff
     found.note(Grid(), Pose(1.0, 2.0, 0.0), (False, False), (True, False, False, False))
     angle = cliff.angles[0]
@@ -81,9 +81,10 @@ def test_a_cliff_is_where_the_sensor_is_at_first_and_half_way_from_where_it_saw_
                                            2.0 + cliff.distance * math.sin(angle)))]
     found = findings()
     found.note(Grid(), Pose(1.0, 2.0, 0.0), (False, False), QUIET)
-    found.note(Grid(), Pose(1.03, 2.0, 0.0), (False, False), (True, False, False, False))
-    assert found.cliffs == [pytest.approx((1.015 + cliff.distance * math.cos(angle),
-                                           2.0 + cliff.distance * math.sin(angle)))]
+    for x in (1.1, 1.4):
+        found.note(Grid(), Pose(x, 2.0, 0.0), (False, False), (True, False, False, False))
+    assert found.cliffs == [pytest.approx((x + cliff.distance * math.cos(angle),
+                                           2.0 + cliff.distance * math.sin(angle))) for x in (1.05, 1.1)]
 
 
 def test_a_plan_shows_what_was_found():

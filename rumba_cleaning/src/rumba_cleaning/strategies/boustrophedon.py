@@ -23,6 +23,8 @@ DEAR = 150.0  # [m/m^2] that a round beside obstacles drives for what it gains, 
 HELPED = 0.01  # of coverage: a retry that gained less was in vain: to touch all obstacles again takes long
 VAIN = 1  # retries in vain, one after the other, after which it ends ...
 PATIENT, MUCH = 5, 0.9  # ... and so many while less than this share is swept of what lies beside obstacles
+IDLE = 5  # rounds that gain too little, one after the other, after which there is no other while that little is swept:
+#           something unknown in the way ends a round, and the next plan knows it; our choice
 PAUSE = 20.0  # [s] after the first of these times, twice that after the second ...: who stands there may walk on
 MORE = 1.15  # times an equal share for a robot that several mates plan after: they drive farther for what others leave;
 #              our choice, by the apartment with three docks, where 1.1 gains nothing, and 1.2 less
@@ -73,6 +75,7 @@ class Boustrophedon(Behaviour):
         self._waited = 0.0  # [s] for the turn to plan
         self._rounds = 0
         self._tried_at = -1.0  # coverage at the last retry
+        self._idle = 0  # rounds, one after the other, that gained too little
         self._vain = 0  # retries, one after the other, that did not help
         self._most = 0.0  # coverage of what lies beside obstacles, at most: those that are forgotten still stand there
         self._pause = 0.0  # [s] still to wait
@@ -142,11 +145,13 @@ class Boustrophedon(Behaviour):
         coverage = context.swept.coverage
         gain = coverage - self._before
         is_dear = context.ground.has_marks and self._driven > DEAR * gain * context.swept.reachable_area
-        is_worth = gain > min(WORTH, 0.5 * self._missing) and self._rounds < ROUNDS and not is_dear
+        is_gain = gain > min(WORTH, 0.5 * self._missing) and not is_dear
+        self._idle = 0 if is_gain else self._idle + 1
         self._missing = context.target_coverage - coverage
         is_cut_off = context.is_cut_off(pose)
         if not is_cut_off:
             self._most = max(self._most, context.beside_obstacles().coverage)
+        is_worth = self._rounds < ROUNDS and self._idle < (IDLE if self._most <= MUCH else 1)
         tries = PATIENT if is_cut_off or self._most <= MUCH else VAIN
         may_retry = context.ground.has_marks and (self._has_helped(coverage) or self._vain < tries)
         self._before, self._driven = coverage, 0.0
