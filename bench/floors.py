@@ -6,6 +6,7 @@ Figures of the planner are tuned on seeds below 100; those from 100 on are kept 
 """
 
 import argparse
+import collections
 import concurrent.futures
 import itertools
 import math
@@ -13,9 +14,10 @@ import multiprocessing
 import os
 import statistics
 import time
+from typing import NamedTuple
 
 import numpy as np
-from common import hard_floors
+from common import figures, hard_floors
 
 from rumba_cleaning.planning import planner
 from rumba_cleaning.strategies import boustrophedon
@@ -30,6 +32,15 @@ THIN = ('thin', 'chairs', 'dining', 'spiral of 0.5 m')  # on cells of 10 cm litt
 COARSEST = 5.0  # [cm] for those
 WORST, MEDIAN = 1.7, 1.3  # bounds of the time to 98 % in multiples of T
 ROW = '{:<36}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>6}{:>6}{:>6}  {}'
+
+
+class Mission(NamedTuple):
+    """How one mission went."""
+
+    line: str  # about it
+    to_98: float = math.inf  # [T]
+    is_hurt: bool = False  # whether the robot fell, or was in a wall
+    outcome: str = 'refused'
 
 
 class Stopwatch:
@@ -61,13 +72,23 @@ def main():
              if is_sensible(case[0], case[2])]
     print(ROW.format('floor', 'm2', '% of', 'plan s', 'all s', '98 %', '99 %', 'true %', 'hits', 'falls',
                      'outcome'), flush=True)
-    times = []
+    missions = []
     context = multiprocessing.get_context('spawn')
     with concurrent.futures.ProcessPoolExecutor(arguments.jobs, context) as executor:
-        for to_98, line in executor.map(run, *zip(*cases), itertools.repeat(arguments.start)):
-            print(line, flush=True)
-            times.append(to_98)
-    print(f'98 %: median {statistics.median(times):.2f} T (below {MEDIAN}), worst {max(times):.2f} T (below {WORST})')
+        for mission in executor.map(run, *zip(*cases), itertools.repeat(arguments.start)):
+            print(mission.line, flush=True)
+            missions.append(mission)
+    summarise(missions)
+
+
+def summarise(missions):
+    """Print what all missions have in common."""
+    figures.heading(f'{len(missions)} missions')
+    figures.row('time to 98 %, median [T]', statistics.median(mission.to_98 for mission in missions), below=MEDIAN)
+    figures.row('      the same, worst [T]', max(mission.to_98 for mission in missions), below=WORST)
+    figures.row('fallen, or in a wall', sum(mission.is_hurt for mission in missions), below=1)
+    for outcome, count in collections.Counter(mission.outcome for mission in missions).most_common():
+        figures.row(outcome, count)
 
 
 def parsed():
@@ -93,7 +114,7 @@ def is_sensible(kind, resolution):
 
 
 def run(kind, seed, resolution, start):
-    """One mission: working time to 98 % [T], and a line about it."""
+    """One mission."""
     plan = hard_floors.floor(kind, seed, 0.01 * resolution)
     free = float(np.count_nonzero(plan.free)) * plan.resolution ** 2
     try:
@@ -102,15 +123,17 @@ def run(kind, seed, resolution, start):
         while not trial.is_over:
             trial.step()
     except RumbaError as error:
-        return math.inf, f'{plan.name}: {error}'
+        return Mission(f'{plan.name}: {error}')
     result = trial.result()
     fallen = sum(robot.has_fallen for robot in trial.world.robots.values())
+    outcome = result.outcome.name.lower()
     in_wall = ' IN A WALL' if result.penetrated else ''
     times = [result.multiple_to(percent) for percent in (98, 99)]
-    return times[0], ROW.format(
+    line = ROW.format(
         plan.name, f'{result.area:.1f}', f'{100.0 * result.area / free:.1f}', f'{watch.first:.2f}',
         f'{watch.seconds:.2f}', *(f'{multiple:.3f}' if math.isfinite(multiple) else '-' for multiple in times),
-        f'{100.0 * result.coverage:.1f}', result.collisions, fallen, f'{result.outcome.name.lower()}{in_wall}')
+        f'{100.0 * result.coverage:.1f}', result.collisions, fallen, f'{outcome}{in_wall}')
+    return Mission(line, times[0], fallen > 0 or result.penetrated, outcome)
 
 
 if __name__ == '__main__':
