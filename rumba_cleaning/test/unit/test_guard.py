@@ -10,7 +10,7 @@ from rooms import RADIUS, quiet, room
 
 from rumba_cleaning.behaviour import Behaviour, Command
 from rumba_cleaning.behaviours.bounded import Bounded
-from rumba_cleaning.behaviours.guard import SWIFT_SPEED, Guard
+from rumba_cleaning.behaviours.guard import FOUND_SPEED, SWIFT_SPEED, Guard
 from rumba_cleaning.behaviours.travel import Going, Travel
 from rumba_cleaning.belief.footing import SEEN
 from rumba_cleaning.control import observe, steps
@@ -133,6 +133,18 @@ def test_in_a_tight_bend_the_outer_wheel_is_slow_over_floor_that_no_sensor_has_s
     outer = [command.v + half * command.w for _, command in steps(bend, world, seconds=8.0)]
     assert min(outer[5:25]) == pytest.approx(SWIFT_SPEED) == np.median(outer[5:25])  # some of it is known
     assert outer[-20:] == pytest.approx([0.3 + 1.9 * half] * 20)  # all of it
+
+
+@pytest.mark.parametrize('v, w', [(0.45, 0.0), (0.3, 1.9), (0.4, 0.6)])
+def test_where_one_cliff_was_found_wheels_are_slow_over_floor_that_no_sensor_has_seen(v, w):
+    plan = room(6.0, 2.0, 0.02, start=Pose(3.0, 1.0, 0.0))
+    world = World(plan, quiet())
+    world.spawn('rumba')
+    half, context = 0.5 * world.config.drive.wheel_base, context_of(plan, world)
+    context.footing._see(0.5, 0.5)
+    given = [command for _, command in steps(Bounded(Always(v, w), 1e3, context), world, seconds=2.0)]
+    outer = [command.v + half * command.w for command in given]
+    assert min(outer[5:]) == pytest.approx(FOUND_SPEED) == np.median(outer[5:])  # some of it is known
 
 
 def test_a_behaviour_that_an_edge_stops_sees_it_as_a_cliff():
