@@ -95,6 +95,27 @@ def test_beside_floor_that_only_a_wheel_was_on_a_wary_robot_knows_none():
     assert footing.are_known(beside, 2, True)
 
 
+@pytest.mark.parametrize('hole, is_open, is_closed', [
+    (0.03, False, True), (0.06, False, False), (0.03, True, False)])  # [m]; a way of unknown floor leads out of it
+def test_small_holes_in_the_floor_that_sensors_saw_are_closed(hole, is_open, is_closed):
+    footing = Footing(room(4.0, 2.0, 0.02), ROBOT)
+    x, y = np.mgrid[-0.15:0.15:0.005, -0.15:0.15:0.005]
+    is_seen = (np.hypot(x, y) > hole) & ~(is_open & (abs(y) < 0.015) & (x > 0.0))
+    footing._stamp(np.stack([x[is_seen], y[is_seen]], axis=-1), Pose(1.0, 1.0, 0.0))
+    middle = np.array([(1.0, 1.0)])
+    assert not footing.are_known(middle, 0)
+    footing.close_holes(1.1, 1.05)
+    assert footing.are_known(middle, 0, True) == is_closed
+    assert not footing.are_known(middle + (0.2, 0.0), 0)
+
+
+def test_holes_are_closed_at_the_rim_of_the_map_too():
+    footing = Footing(room(4.0, 2.0, 0.02), ROBOT)
+    for x, y in ((0.0, 0.0), (4.0, 2.0)):
+        footing.close_holes(x, y)
+        assert not footing.are_known(np.array([(x, y)]), 0)
+
+
 def test_an_edge_beside_one_that_was_seen_is_no_edge_that_is_known_already():
     footing, x = passed([NONE] * 20)
     reach, angle = ROBOT.cliff.distance, ROBOT.cliff.angles[0]

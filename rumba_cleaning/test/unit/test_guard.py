@@ -12,8 +12,8 @@ from rumba_cleaning.behaviour import Behaviour, Command
 from rumba_cleaning.behaviours.bounded import Bounded
 from rumba_cleaning.behaviours.guard import FOUND_SPEED, SWIFT_SPEED, Guard
 from rumba_cleaning.behaviours.travel import Going, Travel
-from rumba_cleaning.belief.footing import SEEN
-from rumba_cleaning.control import observe, steps
+from rumba_cleaning.belief.footing import CELL, SEEN
+from rumba_cleaning.control import CONTROL_DT, observe, steps
 from rumba_cleaning.mission.mission import Mission
 from rumba_cleaning.outcome import Outcome
 from rumba_cleaning.pose_source import DeadReckoning, scan_of_robot
@@ -198,6 +198,22 @@ def test_a_robot_that_edges_hold_looks_for_a_way_out_itself():
                                          robot.pose.y - half * math.cos(robot.pose.theta))
             for _ in steps(Bounded(Always(0.1, -0.3), 1000.0, context), world, seconds=10.0)]
     assert max(away[:15]) < 0.03 and max(away) > 0.1
+
+
+def test_a_small_hole_in_the_floor_that_was_seen_does_not_hold_a_robot_for_long():
+    plan = room(3.0, 2.0, 0.01)
+    world = World(plan, quiet())
+    robot = world.spawn('rumba', Pose(1.5, 1.0, 0.0))
+    context = context_of(plan, world)
+    footing, guard = context.footing, Guard(context)
+    footing._see(1.9, 1.0)
+    guard.see(observe(world, 'rumba', CONTROL_DT))
+    row, column = ((np.array([1.0, 1.5]) - footing._origin[::-1] - 0.5 * world.config.drive.wheel_base / math.sqrt(2.0))
+                   / CELL).astype(int)
+    footing._floor[row - 1:row + 2, column - 1:column + 2] = 0  # on the way of the left wheel
+    for _ in guarded(guard, world, lambda observation: Command(0.0, 1.0), seconds=3.0):
+        pass
+    assert robot.pose.theta > 2.0
 
 
 def test_a_turn_on_the_spot_that_is_too_slow_for_the_drive_does_not_stand_for_what_edges_forbid():

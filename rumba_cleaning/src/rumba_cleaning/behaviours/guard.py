@@ -108,6 +108,8 @@ class Guard:
         self._speeds = self._preview.after(self._speeds, self._preview.wanted(self._command), dt)
         self._command = self._admitted(observation, command)
         is_held = self._held != NONE and faster(self._speeds) == 0.0
+        if is_held:
+            self._footing.close_holes(observation.pose.x, observation.pose.y)
         if self._release.is_due(observation.pose, is_held, dt):
             self._command = self._way_out(observation, command) or self._command
         self._last = observation.pose

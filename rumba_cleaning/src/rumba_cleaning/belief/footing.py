@@ -24,6 +24,8 @@ CELL = 0.01  # [m] side of the cells in which floor is remembered
 STEP = 0.008  # [m] between points that are remembered: less than a cell, so that no cell is left out
 LAG = 0.045  # [m] a corner of 90 degrees that begins between two sensors is under one of them when they are so far on
 CLOSE = 0.01  # [rad] between two sensors: those that are nearer see the same
+HOLE = 0.006  # [m^2] of floor that no sensor passed, within floor that they saw: smaller than any cliff; our choice
+AROUND = 0.35  # [m] from the middle of the robot: to what its sensors pass, and once more
 BEHIND_DOCK = 0.45  # [m] of floor that a dock needs before it, as it is put up by a person: more than undocking takes
 
 
@@ -149,6 +151,18 @@ class Footing:
             mark: how the floor is known.
         """
         compiled_footing.stamp(self._floor, *self._origin, CELL, pose, change, count, points, mark)
+
+    def close_holes(self, x: float, y: float) -> None:
+        """Take holes in the floor that the sensors saw around a point [m] for floor: no cliff is as small."""
+        reach = int(AROUND / CELL)
+        column, row = int((x - self._origin[0]) / CELL), int((y - self._origin[1]) / CELL)
+        window = self._floor[max(row - reach, 0):row + reach + 1, max(column - reach, 0):column + reach + 1]
+        holes, count = ndimage.label(window != compiled_footing.SEEN)
+        rim = np.unique(np.concatenate([holes[0], holes[-1], holes[:, 0], holes[:, -1]]))
+        sizes = np.bincount(holes.ravel(), minlength=count + 1)
+        is_small = sizes * CELL ** 2 <= HOLE
+        is_small[rim] = is_small[0] = False
+        window[is_small[holes]] = compiled_footing.SEEN
 
     def _see(self, x: float, y: float) -> None:
         """Remember a cliff, unless it is a known one."""
