@@ -208,8 +208,8 @@ def test_a_small_hole_in_the_floor_that_was_seen_does_not_hold_a_robot_for_long(
     footing, guard = context.footing, Guard(context)
     footing._see(1.9, 1.0)
     guard.see(observe(world, 'rumba', CONTROL_DT))
-    row, column = ((np.array([1.0, 1.5]) - footing._origin[::-1] - 0.5 * world.config.drive.wheel_base / math.sqrt(2.0))
-                   / CELL).astype(int)
+    aside = 0.5 * world.config.drive.wheel_base / math.sqrt(2.0)
+    row, column = int((1.0 + aside - footing._origin[1]) / CELL), int((1.5 - aside - footing._origin[0]) / CELL)
     footing._floor[row - 1:row + 2, column - 1:column + 2] = 0  # on the way of the left wheel
     for _ in guarded(guard, world, lambda observation: Command(0.0, 1.0), seconds=3.0):
         pass
