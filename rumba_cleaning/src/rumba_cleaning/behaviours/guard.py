@@ -13,7 +13,7 @@ from rumba_cleaning.behaviour import Command, Observation
 from rumba_cleaning.behaviours.compiled_guard import ROUNDING, Wheels
 from rumba_cleaning.behaviours.preview import Preview, faster, goes_back, part_of
 from rumba_cleaning.behaviours.rear import Rear
-from rumba_cleaning.behaviours.release import Release
+from rumba_cleaning.behaviours.release import SLOW, Release
 from rumba_cleaning.behaviours.slip import Slip, along_contacts, slipped
 from rumba_cleaning.behaviours.trail import Trail
 from rumba_cleaning.belief.context import Context
@@ -46,21 +46,23 @@ NONE, BOTH = (False, False), (True, True)
 class Guard:
     """Watches what a robot sees and what it is commanded; a controller, for the behaviour that is in charge."""
 
-    def __init__(self, context: Context, safe_speed: float = SAFE_SPEED) -> None:
+    def __init__(self, context: Context, safe_speed: float = SAFE_SPEED, wary_guess: int = 0) -> None:
         """Guard the robot of a context.
 
         Args:
             context: of the robot.
             safe_speed: of its wheels, at which it need not remember the floor ahead [m/s].
+            wary_guess: how many cells beside floor that it knows it takes for floor too, as it creeps near a cliff
+                that the map does not show, and on its way out.
         """
-        self._safe_speed = safe_speed
+        self._safe_speed, self._wary_guess = safe_speed, wary_guess
         self._ground, self._footing = context.ground, context.footing
         self._acceleration = context.robot.drive.acceleration
         self._preview = Preview(context.robot.drive)
         self._clear = self._preview.half + SPARE  # [m] from the middle to an edge: the robot can turn on the spot
         self._rear = Rear(context.robot.drive.radius)
         self._trail = Trail(self._preview.half)
-        self._release = Release(self._footing, self._preview)
+        self._release = Release(self._footing, self._preview, wary_guess)
         self.rest()
 
     def rest(self) -> None:
@@ -235,4 +237,7 @@ class Guard:
             return 0, is_wary
         if self._is_on_trail:
             return ON_TRAIL, False
-        return (0, True) if is_wary else (GUESS, False)
+        if not is_wary:
+            return GUESS, False
+        is_creeping = -ROUNDING <= sum(wanted) <= 2.0 * SLOW
+        return self._wary_guess if is_creeping else 0, True

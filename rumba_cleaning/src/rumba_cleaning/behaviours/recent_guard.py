@@ -15,6 +15,7 @@ REMEMBERED = 1.0
 # A robot that forgets comes to every edge as if it had never seen it: faster ones fell down the stairs of the
 # apartment, at this speed none does in bench/mapless.py.
 SAFE_SPEED = 0.25  # [m/s]
+WARY_GUESS = 1  # cells: without these, what it has forgotten holds it beside edges, until it gives up; our choice
 
 
 class RecentGuard(Guard):
@@ -22,7 +23,7 @@ class RecentGuard(Guard):
 
     def __init__(self, context: Context) -> None:
         """Guard the robot of a context, whose plan is always that of a few metres around it."""
-        super().__init__(context, SAFE_SPEED)
+        super().__init__(context, SAFE_SPEED, WARY_GUESS)
         self._context = context
         self._at: Optional[Pose] = None
         self._way = 0.0  # [m]

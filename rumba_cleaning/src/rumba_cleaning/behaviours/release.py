@@ -30,9 +30,9 @@ class Release:
         held_time: for how long edges have kept the robot, about where it is, from what it was to do [s].
     """
 
-    def __init__(self, footing: Footing, preview: Preview) -> None:
-        """Watch a robot that knows this floor."""
-        self._footing, self._preview = footing, preview
+    def __init__(self, footing: Footing, preview: Preview, guess: int) -> None:
+        """Watch a robot that knows this floor, and takes so many cells beside it for floor too."""
+        self._footing, self._preview, self._guess = footing, preview, guess
         self.rest()
 
     def rest(self) -> None:
@@ -79,7 +79,7 @@ class Release:
     def _ways(self, pose: Pose, speeds: Wheels, wanted: Wheels, slip: Slip) -> Tuple[float, float]:
         """How near to an edge a wheel is in the end, after a command, and at the least [m]; 0 over unknown floor."""
         _, left, right = self._preview.path(pose, speeds, wanted, slip, AHEAD)
-        if not self._footing.are_known(np.concatenate([left, right]), 0):
+        if not self._footing.are_known(np.concatenate([left, right]), self._guess):
             return 0.0, 0.0
         near = np.minimum(self._footing.clearances(left), self._footing.clearances(right))
         return float(near[-1]), float(near.min())
