@@ -34,7 +34,7 @@ def test_a_closed_door_does_not_keep_it_busy_for_ever():
     assert world.floor.coverage >= 0.98
 
 
-@pytest.mark.parametrize('vain, is_enough', [(boustrophedon.IDLE - 1, True), (boustrophedon.IDLE, False)])
+@pytest.mark.parametrize('vain, is_enough', [(boustrophedon.PATIENT - 1, True), (boustrophedon.PATIENT, False)])
 def test_while_much_is_left_it_plans_again_after_some_rounds_that_gained_nothing(vain, is_enough, monkeypatch):
     """As if something unknown ended these rounds where they began."""
     plan = room(2.0, 1.5, start=Pose(0.5, 0.5, 0.0))

@@ -7,7 +7,8 @@ from rumba_sim.model.geometry import Pose
 from rumba_sim.model.kernel import Array
 from rumba_sim.model.robot_config import DriveConfig
 
-MOSTLY = 0.5  # [m/s of the middle of a robot / m/s between its wheels] it goes back, rather than that it turns
+MOSTLY = 0.25  # speed of the middle of a robot, as a share of the difference of its wheels, beyond which it does not
+#                just turn; our choice
 
 
 class Preview:
@@ -71,4 +72,4 @@ def faster(speeds: Wheels) -> float:
 def goes_back(speeds: Wheels) -> bool:
     """Whether the middle of a robot goes back; not if it turns, nearly on the spot."""
     left, right = speeds
-    return 0.5 * (left + right) < -0.5 * MOSTLY * abs(right - left)
+    return 0.5 * (left + right) < -MOSTLY * abs(right - left)

@@ -21,10 +21,10 @@ WORTH = 0.0005  # of coverage: a round that gains less, and less than half of wh
 DEAR = 150.0  # [m/m^2] that a round beside obstacles drives for what it gains, beyond which it is the last: five times
 #               what the planner drives for a crumb, so most of what it planned for cannot be reached
 HELPED = 0.01  # of coverage: a retry that gained less was in vain: to touch all obstacles again takes long
-VAIN = 1  # retries in vain, one after the other, after which it ends ...
+# Rounds that gain too little, since something unknown in the way ends them, or retries in vain, one after the other,
+# after which it ends ...
+VAIN = 1
 PATIENT, MUCH = 5, 0.9  # ... and so many while less than this share is swept of what lies beside obstacles
-IDLE = 5  # rounds that gain too little, one after the other, after which there is no other while that little is swept:
-#           something unknown in the way ends a round, and the next plan knows it; our choice
 PAUSE = 20.0  # [s] after the first of these times, twice that after the second ...: who stands there may walk on
 MORE = 1.15  # times an equal share for a robot that several mates plan after: they drive farther for what others leave;
 #              our choice, by the apartment with three docks, where 1.1 gains nothing, and 1.2 less
@@ -151,8 +151,9 @@ class Boustrophedon(Behaviour):
         is_cut_off = context.is_cut_off(pose)
         if not is_cut_off:
             self._most = max(self._most, context.beside_obstacles().coverage)
-        is_worth = self._rounds < ROUNDS and self._idle < (IDLE if self._most <= MUCH else 1)
-        tries = PATIENT if is_cut_off or self._most <= MUCH else VAIN
+        patience = PATIENT if self._most <= MUCH else VAIN
+        is_worth = self._rounds < ROUNDS and self._idle < patience
+        tries = PATIENT if is_cut_off else patience
         may_retry = context.ground.has_marks and (self._has_helped(coverage) or self._vain < tries)
         self._before, self._driven = coverage, 0.0
         self._rounds += 1

@@ -1,6 +1,7 @@
 """What is under a robot: cliffs and carpet under its wheels, and what its cliff sensors see."""
 
 import math
+from typing import Tuple
 
 from rumba_sim.model.kernel import Array, Record
 
@@ -24,9 +25,14 @@ def stand(robot: Record, k: Record, cells: Array) -> float:
     return k.carpet_traction if left & right & CARPET else k.floor_traction
 
 
+def cliff_angles(k: Record) -> Tuple[float, float, float, float]:
+    """Of the cliff sensors, from left to right, from straight ahead [rad]."""
+    return k.cliff_outer, k.cliff_inner, -k.cliff_inner, -k.cliff_outer
+
+
 def look_down(robot: Record, k: Record, cells: Array) -> None:
     """Have each cliff sensor hold what it sees at the end of a tick, if that is a cliff."""
-    for sensor, angle in enumerate((k.cliff_outer, k.cliff_inner, -k.cliff_inner, -k.cliff_outer)):
+    for sensor, angle in enumerate(cliff_angles(k)):
         if is_over_cliff(robot, k, cells, angle):
             robot.cliff_ticks[sensor] = k.cliff_hold
         elif robot.cliff_ticks[sensor] > 0:
@@ -47,5 +53,5 @@ def cliffs(robots: Array, me: int, constants: Array, cells: Array, seen: Array) 
         seen: bool (4), from left to right, receives the answer.
     """
     robot, k = robots[me], constants[0]
-    for sensor, angle in enumerate((k.cliff_outer, k.cliff_inner, -k.cliff_inner, -k.cliff_outer)):
+    for sensor, angle in enumerate(cliff_angles(k)):
         seen[sensor] = k.has_cliffs and (robot.cliff_ticks[sensor] > 0 or is_over_cliff(robot, k, cells, angle))
