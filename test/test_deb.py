@@ -65,6 +65,7 @@ def contents(deb):
         yield mode, owner, path
 
 
+@pytest.mark.thorough
 def test_each_package_becomes_one_with_its_name_version_and_words(debs):
     assert sorted(debs) == [path.name for path in OURS]
     for package in OURS:
@@ -77,6 +78,7 @@ def test_each_package_becomes_one_with_its_name_version_and_words(debs):
         assert fields['Maintainer'] == f'{root.findtext("maintainer")} <{root.find("maintainer").get("email")}>'
 
 
+@pytest.mark.thorough
 def test_packages_need_what_they_declare_under_its_name_in_debian(debs):
     # Messages come with their modules and, for those who compile against them, with headers.
     assert names(control(debs['rumba_msg'])['Depends']) == [
@@ -93,6 +95,7 @@ def test_packages_need_what_they_declare_under_its_name_in_debian(debs):
     assert {control(deb).get('Suggests', '') for deb in debs.values()} == {'', 'rviz'}
 
 
+@pytest.mark.thorough
 def test_apt_knows_all_that_the_packages_need(debs):
     found = [control(deb) for deb in debs.values()]
     needed = {name for fields in found for name in names(fields['Depends']) + names(fields.get('Recommends', ''))}
@@ -103,6 +106,7 @@ def test_apt_knows_all_that_the_packages_need(debs):
         *needed} - {fields['Package'] for fields in found}
 
 
+@pytest.mark.thorough
 def test_each_file_is_root_s_below_usr_and_in_a_place_that_bears_the_name_of_its_package(debs):
     for name, deb in debs.items():
         for mode, owner, path in contents(deb):
@@ -115,6 +119,7 @@ def test_each_file_is_root_s_below_usr_and_in_a_place_that_bears_the_name_of_its
                 assert mode == 'drwxr-xr-x' and not path.endswith('__pycache__/'), path
 
 
+@pytest.mark.thorough
 def test_scripts_modules_messages_headers_and_maps_are_where_ros_of_debian_looks(debs):
     files = {name: {path: mode for mode, _, path in contents(deb)} for name, deb in debs.items()}
     for package in OURS:
@@ -130,6 +135,7 @@ def test_scripts_modules_messages_headers_and_maps_are_where_ros_of_debian_looks
     assert './usr/share/rumba_bringup/launch/demo.launch' in files['rumba_bringup']
 
 
+@pytest.mark.thorough
 def test_no_file_names_a_folder_of_the_machine_and_all_have_their_sums(debs, tmp_path):
     for name, deb in debs.items():
         assert run('dpkg-deb', '-R', deb, tmp_path / name)[0] == 0
@@ -142,6 +148,7 @@ def test_no_file_names_a_folder_of_the_machine_and_all_have_their_sums(debs, tmp
             [path for path in files if path.parent.name != 'DEBIAN'])
 
 
+@pytest.mark.thorough
 def test_modules_are_compiled_by_the_python_that_runs_them_and_that_is_undone(debs, tmp_path):
     run('dpkg-deb', '-e', debs['rumba_sim'], tmp_path / 'sim')
     assert 'py3compile -p ros-rumba-sim\n' in (tmp_path / 'sim' / 'postinst').read_text()
@@ -150,6 +157,7 @@ def test_modules_are_compiled_by_the_python_that_runs_them_and_that_is_undone(de
     assert sorted(os.listdir(str(tmp_path / 'bringup'))) == ['control', 'md5sums']
 
 
+@pytest.mark.thorough
 def test_another_checkout_gives_the_same_bytes(debs, tmp_path):
     checkout = tmp_path / 'a checkout'
     for name in ('packaging', 'rumba_msg', 'rumba_sim'):

@@ -40,6 +40,7 @@ def marked(space, folder, tests, arguments=''):
         return {row['submission']: row for row in csv.DictReader(file)}
 
 
+@pytest.mark.thorough(except_for=['4_home'])
 @pytest.mark.parametrize('exercise', EXERCISES, ids=name_of)
 def test_the_solution_earns_all_points_and_each_wrong_submission_less(exercise, workspace, tmp_path):
     class_of(exercise, tmp_path / 'class')
@@ -65,6 +66,7 @@ def test_an_examination_is_passed_by_what_a_robot_knows_and_void_for_who_looks_a
     assert (tmp_path / 'marks' / 'honest' / 'bumper.recording.bag').stat().st_size > 0
 
 
+@pytest.mark.thorough
 def test_a_submission_that_takes_its_time_for_each_answer_earns_all_points(workspace, tmp_path):
     exercise = ROOT / 'rumba_exercises' / '1_status'
     for overlay in ('starter', 'solution'):

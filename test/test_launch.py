@@ -88,6 +88,7 @@ class TestWithoutADisplayAndAnAddress:
         wait_for(demo.process, open_sockets(0))
 
 
+@pytest.mark.thorough
 class TestAWindowWithoutADisplay:
     """A demo that shall open the window but cannot, at an address of this machine. Its robot bounces, drained fast."""
 

@@ -25,6 +25,7 @@ def test_the_page_shows_the_file():
     assert shown == (HOMEWORK / 'test' / 'homework.test').read_text()
 
 
+@pytest.mark.thorough
 def test_good_homework_meets_every_condition(mark):
     code, output = mark('sweeper')
     assert code == 0, output
@@ -33,6 +34,7 @@ def test_good_homework_meets_every_condition(mark):
         for name in ('battery', 'collisions', 'coverage', 'field_rumba_odom_twist_twist_linear_x')]
 
 
+@pytest.mark.thorough
 def test_bad_homework_fails_only_in_the_condition_that_it_does_not_meet(mark):
     code, output = mark('sleeper')
     assert code != 0, output

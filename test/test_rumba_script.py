@@ -2,6 +2,7 @@
 
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 
@@ -24,6 +25,21 @@ SAMPLE = {
           WORKING_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR})
         add_rostest(sample.test)''',
     'test_unit.py': '''
+import pytest
+
+
+@pytest.mark.thorough
+@pytest.mark.parametrize('number', [1, 2, 3])
+def test_takes_long(number):
+    pass
+
+
+@pytest.mark.thorough(except_for=['2'])
+@pytest.mark.parametrize('number', [1, 2, 3])
+def test_takes_long_but_for_one(number):
+    pass
+
+
 def test_passes():
     pass
 
@@ -50,7 +66,7 @@ APT_WITHOUT_NETWORK = '''#!/bin/sh
 def make_checkout(folder):
     """A checkout that holds one small package of one passing and one failing test."""
     (folder / 'sample').mkdir(parents=True)
-    for name in ('rumba', 'packages.txt'):
+    for name in ('rumba', 'packages.txt', 'conftest.py', 'pyproject.toml'):
         shutil.copy(ROOT / name, folder)
     for name, text in SAMPLE.items():
         (folder / 'sample' / name).write_text(text)
@@ -107,18 +123,19 @@ def commands(folder, **scripts):
 def test_a_failing_test_fails_the_whole_and_is_named_and_the_last_line_counts(checkout, tmp_path):
     code, out, _ = rumba(checkout, 'test', XDG_CACHE_HOME=str(tmp_path / 'cache'))
     # The rostest counts twice: the parameter test, and its launch file.
-    assert (code, out.splitlines()[-1]) == (1, '3 passed, 1 failed')
+    assert (code, out.splitlines()[-2:]) == (1, [
+        'the tests that take longest were left out: ./rumba test --thorough', '4 passed, 1 failed'])
     verdict = out[out.index('failure: '):]
-    assert verdict.startswith('failure: test_unit.test_fails\n')
+    assert verdict.startswith('failure: sample.test_unit.test_fails\n')
     assert 'AssertionError: on purpose' in verdict
 
 
-def test_the_tests_of_a_package_run_alone_and_an_unknown_one_is_refused(checkout, tmp_path):
+def test_the_tests_of_a_package_run_alone_thoroughly_if_wanted_and_an_unknown_one_is_refused(checkout, tmp_path):
     (checkout / 'twin').mkdir()
     for name, text in SAMPLE.items():
         (checkout / 'twin' / name.replace('sample', 'twin')).write_text(text.replace('sample', 'twin'))
-    code, out, _ = rumba(checkout, 'test', 'twin', XDG_CACHE_HOME=str(tmp_path / 'cache'))
-    assert (code, out.splitlines()[-1]) == (1, '3 passed, 1 failed')
+    code, out, _ = rumba(checkout, 'test', '--thorough', 'twin', XDG_CACHE_HOME=str(tmp_path / 'cache'))
+    assert (code, out.splitlines()[-1]) == (1, '9 passed, 1 failed') and 'left out' not in out
     assert 'twin/pytest.xml' in out and 'sample/pytest.xml' not in out
     code, _, error = rumba(checkout, 'test', 'sample', 'twn', XDG_CACHE_HOME=str(tmp_path / 'cache'))
     assert (code, error) == (2, "rumba: there is no package 'twn' with tests: give names of packages, or nothing\n")
@@ -127,7 +144,7 @@ def test_the_tests_of_a_package_run_alone_and_an_unknown_one_is_refused(checkout
 def test_help_names_every_command():
     code, out, _ = rumba(ROOT, 'help')
     assert code == 0
-    assert [line.split()[0] for line in out.splitlines() if line.startswith('  ')] == [
+    assert [line.split()[0] for line in out.splitlines() if re.match('  [a-z]', line)] == [
         'run', 'test', 'build', 'shell', 'lint', 'bench', 'deb', 'docs', 'stress', 'help']
 
 
@@ -248,6 +265,7 @@ def test_if_a_path_has_spaces_and_there_is_no_home_nothing_is_put_where_others_c
     assert done.stderr == f'rumba: {checkout} has spaces, so that the workspace belongs below HOME, which is not set\n'
 
 
+@pytest.mark.thorough
 def test_a_package_of_compat_is_built_only_if_the_system_has_none(checkout, tmp_path):
     for name in ('lacking', 'std_srvs'):
         write_package(checkout / 'compat' / name)
@@ -287,6 +305,7 @@ def test_lessons_are_built_once_they_are_asked_for_and_remain(checkout, tmp_path
     assert rumba(checkout, *find, **cache)[1].endswith('/src/a_lesson\n')
 
 
+@pytest.mark.thorough
 def test_a_shell_builds_again_only_if_something_changed(checkout, tmp_path):
     def has_built():
         code, out, error = rumba(checkout, 'shell', 'rospack', 'find', 'sample', XDG_CACHE_HOME=str(tmp_path / 'cache'))

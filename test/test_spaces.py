@@ -34,6 +34,7 @@ def test_ros_tools_show_the_definitions_of_the_lesson(workspace, space):
     assert here.run('rossrv md5 rumba_msg/TargetPosition') == 'dd76aff00a72b33e8d77950fa07ebddf\n'
 
 
+@pytest.mark.thorough(except_for=['install'])
 @IN_BOTH
 def test_publisher_and_listener_meet(workspace, space):
     here = workspace.space(space)
@@ -52,6 +53,7 @@ def test_the_demo_runs_from_the_install_space_too(workspace):
         assert here.run('rostopic echo -n1 /rumba/battery_status').startswith('percentage_battery: 50\n')
 
 
+@pytest.mark.thorough(except_for=['install'])
 @IN_BOTH
 def test_the_stand_in_for_turtlesim_runs(workspace, space):
     here = workspace.space(space)

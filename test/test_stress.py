@@ -77,6 +77,7 @@ def verdict(fault, publishers, monkeypatch):
     return stream.getvalue(), told.failures
 
 
+@pytest.mark.thorough(except_for=[r'raises-traceback: /frail: .*ValueError: a planted fault'])
 @pytest.mark.parametrize('fault, seen', [
     ('dies', r'ended: /frail: exit code 0: it printed nothing'),
     ('leaks', r'leak: /frail: \d+ files of which \d+ sockets'),
@@ -167,6 +168,7 @@ def test_wrong_arguments_are_refused(arguments, said):
     assert error.startswith('usage: ./rumba stress') and said in error and error.count('\n') == 2
 
 
+@pytest.mark.thorough
 def test_the_real_nodes_bear_the_first_ten_seconds():
     code, out, error = stress('0.17', '--seed', '1')
     assert code == 0, out + error

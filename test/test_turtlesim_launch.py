@@ -62,6 +62,7 @@ def number(name, answer):
     return float(re.search(rf'{name}: (\S+)', answer).group(1))
 
 
+@pytest.mark.thorough
 def test_a_turtle_cleans_and_comes_home_and_a_server_of_a_student_keeps_its_name(workspace, tmp_path):
     here = workspace.space('devel')
     with here.running(script(tmp_path, STUDENT)):
@@ -76,6 +77,7 @@ def test_a_turtle_cleans_and_comes_home_and_a_server_of_a_student_keeps_its_name
     assert re.search(r'm, 0 charges; the floor is 1\.\d % clean: 1\.\d % swept$', report), report
 
 
+@pytest.mark.thorough
 def test_the_service_answers_with_a_velocity_if_it_is_told_to_and_a_mission_without_its_turtle_ends(workspace):
     here = workspace.space('devel')
     with here.printing(f'{LAUNCH} speed:=5 autostart:=false answer:=velocity 2>&1') as launch:

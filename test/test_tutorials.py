@@ -19,12 +19,14 @@ OF_LESSON = pytest.mark.parametrize('lesson', LESSONS, ids=lambda path: path.nam
 OF_PACKAGE = pytest.mark.parametrize('package', PACKAGES, ids=lambda path: path.name)
 
 
+@pytest.mark.thorough(except_for=['01_own_message', '10_service_and_action'])
 @pytest.mark.parametrize('lesson', [path for path in LESSONS if path != FROM_NOTHING], ids=lambda path: path.name)
 def test_the_terminals_show_what_the_page_shows(workspace, lesson):
     # A master of its own: the first roslaunch, or roscore, starts it, as at the reader's.
     consoles.play(lesson / 'README.md', workspace.space('devel', clean_environment()))
 
 
+@pytest.mark.thorough
 def test_a_workspace_grows_from_nothing(tmp_path):
     # Without a workspace below it, as in an ordinary terminal; ~ is an empty folder.
     space = Space(UNDERLAY, {**clean_environment(), 'HOME': str(tmp_path)})

@@ -91,6 +91,7 @@ def programs():
     return re.findall(r'^```python\n(.*?)^```$', PAGE.read_text(), re.MULTILINE | re.DOTALL)
 
 
+@pytest.mark.thorough
 def test_pip_installs_the_same_modules_as_catkin_and_nothing_that_needs_ros(venv):
     [packages] = venv.glob('lib/python3*/site-packages')
     for name in PURE:
@@ -111,6 +112,7 @@ def test_the_commands_of_the_page_print_what_it_shows(venv, tmp_path):
     play(PAGE, Space([], environment(), f'cd {tmp_path}; PATH={venv}/bin:$PATH;'))
 
 
+@pytest.mark.thorough
 def test_the_map_becomes_a_picture_in_ten_lines(venv, tmp_path):
     program, _ = programs()
     promised, picture = re.search(r'It prints `(.*)`, and the picture is `(.*)`\.', PAGE.read_text()).groups()

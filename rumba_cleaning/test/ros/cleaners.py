@@ -1,5 +1,6 @@
 """What the tests of the cleaner share: a cleaner as a user starts it, and clients of its actions."""
 
+import functools
 import signal
 import threading
 import time
@@ -9,7 +10,7 @@ import programs
 import rospy
 from actionlib_msgs.msg import GoalStatus
 from geometry_msgs.msg import Pose2D, Twist
-from simulators import ENDS_WITHIN, TIMEOUT, Heard, wait, wait_for_service
+from simulators import ENDS_WITHIN, LOOK_PERIOD, TIMEOUT, Heard, wait, wait_for_service
 
 from rumba_msg.msg import CleanAction, DockAction, GoToAction, GoToGoal, MissionStatus, Outcome, UndockAction
 
@@ -22,6 +23,7 @@ negate: 0
 occupied_thresh: 0.65
 free_thresh: 0.196
 """
+AT_ONCE = rospy.Duration(nsecs=1)
 KEY_PERIOD = 0.1  # [s] from one command of a person to the next, as of teleop_key
 ACTIONS = {'clean': CleanAction, 'dock': DockAction, 'undock': UndockAction, 'go_to': GoToAction}
 # Statuses of actionlib by the code of the outcome; goals with any other code are aborted.
@@ -60,7 +62,8 @@ class Cleaner:
         for action, kind in ACTIONS.items():
             self.clients[action] = actionlib.ActionClient(f'{self._robot}/{action}', kind)
             test.addCleanup(self.clients[action].stop)
-            test.assertTrue(self.clients[action].wait_for_server(rospy.Duration(TIMEOUT)), action)
+            # Its own time limit is in simulated time, in which a second may be over at once.
+            wait(test, functools.partial(self.clients[action].wait_for_server, AT_ONCE), action, LOOK_PERIOD)
         self.status = Heard(test, f'{self._robot}/mission_status', MissionStatus)
         self.commands = Heard(test, f'{self._robot}/cmd_vel', Twist)
         return self

@@ -13,6 +13,7 @@ from geometry_msgs.msg import PoseWithCovarianceStamped
 from localisers import Localiser, Mapper
 from sensor_msgs.msg import LaserScan
 from simulators import Heard, Simulator
+from tiers import thorough
 
 from rumba_cleaning.behaviour import Status
 from rumba_cleaning.behaviours import relocation
@@ -54,6 +55,7 @@ def digest_in_process(ticks, obstacles, laser):
 class CleanerLocalisedTest(unittest.TestCase):
     """Each test has its own nodes."""
 
+    @thorough
     def test_a_mission_by_a_localised_pose_and_by_laser_among_obstacles_is_the_same_as_in_process(self):
         path = os.path.join(os.path.dirname(map_path('studio')), '..', 'config', 'obstacles_studio.yaml')
         simulator = Simulator(self, *SIMULATOR, f'_obstacles:={path}', '_wait_for:=cleaner localiser',

@@ -11,7 +11,8 @@ import rospy
 import rostest
 from actionlib_msgs.msg import GoalStatus
 from cleaners import Cleaner, go_to
-from simulators import Heard, Simulator, wait
+from simulators import TICK, Heard, Simulator, wait
+from tiers import thorough
 
 from rumba_cleaning.behaviour import Status
 from rumba_cleaning.belief.context import BeforeNextStep, Context, own_seed
@@ -20,7 +21,7 @@ from rumba_cleaning.control import CONTROL_TICKS, STEP_RATE, steps
 from rumba_cleaning.mission.mapless import MaplessMission
 from rumba_cleaning.mission.mission import Mission
 from rumba_cleaning.pose_source import reckoned, truth
-from rumba_msg.msg import CleanGoal, MissionStatus, Outcome
+from rumba_msg.msg import CleanGoal, LockstepAnswer, MissionStatus, Outcome
 from rumba_sim.model import map_file
 from rumba_sim.model.robot import FIRST
 from rumba_sim.model.robot_config import RobotConfig
@@ -91,6 +92,7 @@ class CleanerLockstepTest(unittest.TestCase):
         digest, tick = simulator.digest()
         self.assertEqual(digest, digest_in_process(tick, begin))
 
+    @thorough
     def test_a_mission_is_the_same_beside_busy_loops(self):
         self.ends_as_in_process(*self.autostarted(BUSY))
 
@@ -128,7 +130,10 @@ class CleanerLockstepTest(unittest.TestCase):
     def test_the_world_does_not_wait_for_a_cleaner_without_a_goal(self):
         simulator, log = Simulator(self, *SIMULATOR, f'_lockstep_patience:={PATIENCE}'), Heard(self, '/rosout')
         cleaner = Cleaner(self).connect()
+        answers = Heard(self, '/simulator/lockstep_answers', LockstepAnswer)
         cleaner.send('go_to', go_to(2.5, 2.0)).ends(Outcome.SUCCEEDED)
+        rests = answers.last(lambda answer: answer.state == LockstepAnswer.RESTS).header.stamp.to_nsec() // TICK
+        wait(self, lambda: simulator.digest()[1] > rests, 'the world to hear that it rests', period=0.1)
         cleaner.process.send_signal(signal.SIGSTOP)
         self.addCleanup(cleaner.process.send_signal, signal.SIGCONT)
         _, tick = simulator.digest()

@@ -10,6 +10,7 @@ import rostest
 from cleaners import Cleaner, go_to
 from geometry_msgs.msg import Twist
 from simulators import Heard, Simulator, folder_of, shared, wait
+from tiers import thorough
 
 from rumba_msg.msg import CleanGoal, MissionStatus, Outcome
 
@@ -69,6 +70,7 @@ class CleanerResumeTest(unittest.TestCase):
         wait(self, lambda: self.cleaner.commands.messages[-1:] == [Twist()], 'a stop')
         self.is_nothing_to_resume()
 
+    @thorough
     def test_2_a_preempted_cleaning_is_resumed_and_sweeps_little_again(self):
         self.cleaner.send('clean', CleanGoal(target_coverage=TARGET)).ends(Outcome.SUCCEEDED)
         seconds = self.figures.fresh().time

@@ -9,6 +9,7 @@ import rostest
 from cleaners import FLOOR, Cleaner
 from simulators import Heard, Simulator, folder_of, wait
 from teams import Crew
+from tiers import thorough
 
 from rumba_msg.msg import MissionStatus, TeamPlan, TeamReport
 from rumba_sim.model import map_file
@@ -40,6 +41,7 @@ class CleanerTeamTest(unittest.TestCase):
         return cleaner.status.find(lambda status: status.state in (MissionStatus.IDLE, MissionStatus.STRANDED)
                                    and 'swept' in status.message)
 
+    @thorough
     def test_a_team_cleans_in_lockstep_as_in_process(self):
         simulator, *cleaners = self.started('_wait_for:=cleaner cleaner2')
         for cleaner in cleaners:
@@ -60,6 +62,7 @@ class CleanerTeamTest(unittest.TestCase):
         # What stands on the floor without moving may keep a robot from its dock, or from the last of the floor.
         self.assertRegex(self.has_ended(first).message, r'^[89]\d\.\d % swept')
 
+    @thorough
     def test_nonsense_of_a_mate_is_ignored_with_a_line(self):
         log = Heard(self, '/rosout')
         simulator, first, second = self.started()

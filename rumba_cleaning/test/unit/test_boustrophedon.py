@@ -22,6 +22,7 @@ from rumba_sim.model.obstacle import Obstacle
 from rumba_sim.model.world import World
 
 
+@pytest.mark.thorough
 def test_a_closed_door_does_not_keep_it_busy_for_ever():
     plan = room(7.0, 5.0, boxes=[(3.4, 0.0, 3.6, 2.0), (3.4, 2.9, 3.6, 5.0)], start=Pose(1.0, 1.0, 0.0))
     world = World(with_box(plan, (3.4, 1.9, 3.6, 3.0)), quiet())
@@ -115,6 +116,7 @@ def test_somebody_who_stands_in_the_only_door_now_and_then_does_not_end_it_early
     assert times >= 3 and context.swept.coverage > 0.98
 
 
+@pytest.mark.thorough
 def test_it_squeezes_through_a_gap_that_leads_to_more_of_the_floor():
     plan = room(4.0, 2.4, 0.02, start=Pose(0.5, 1.0, 0.0))
     world = World(plan, quiet(), obstacles=slanted_gap(2.0 * RADIUS + 0.02, 0.4))
@@ -155,6 +157,7 @@ def test_a_robot_that_parks_in_the_way_is_cleaned_around_and_under_once_it_is_go
     assert world.floor.coverage >= 0.99
 
 
+@pytest.mark.thorough
 def test_a_laser_saves_half_of_the_touches_that_outline_obstacles():
     plan = room(4.0, 3.0, 0.02, start=Pose(0.5, 0.5, 0.0))
     bumps = []

@@ -1,6 +1,7 @@
 """Routes are improved until they meet the target: they take less time then, or sweep what they would have left."""
 
 import numpy as np
+import pytest
 from floors import knowing
 from rooms import crooked, room
 
@@ -60,6 +61,7 @@ def test_a_route_that_edits_leave_short_of_the_target_is_mended_by_detours(monke
     assert mended.swept.coverage >= 0.93 and mended.seconds < 0.95 * short.seconds
 
 
+@pytest.mark.thorough
 def test_edits_that_were_far_from_worth_it_are_not_judged_again(monkeypatch):
     counts, judged = [], Rehearsal.judged
 

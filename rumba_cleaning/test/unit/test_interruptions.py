@@ -120,6 +120,7 @@ def test_moved_while_a_person_drives_it_cleans_from_there():
     assert behaviour.status is Status.SUCCEEDED and world.floor.coverage >= 0.97
 
 
+@pytest.mark.thorough
 def test_charges_that_a_person_cuts_short_are_not_in_vain():
     world, behaviour = mission(start=Pose(0.4, 0.4, 0.0), charge=0.3, drain=60.0)
     for charges in range(1, 6):

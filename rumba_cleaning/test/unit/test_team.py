@@ -175,6 +175,7 @@ def test_at_the_only_dock_the_second_robot_waits_apart_and_says_who_is_there():
     assert math.hypot(one.x - other.x, one.y - other.y) > 0.5
 
 
+@pytest.mark.thorough
 def test_robots_charge_one_after_the_other_at_the_only_dock():
     crew = Crew(ONE_DOCK, quiet(battery={'drain': 50.0}))
     states = {name: [] for name in crew.missions}

@@ -16,6 +16,7 @@ from rumba_sim.model.geometry import Pose
 MAPS = pathlib.Path(__file__).resolve().parents[3] / 'rumba_sim' / 'maps'
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize('seed', [1, 2])
 @pytest.mark.parametrize('name, most, longest', [
     ('apartment', 1.75, 2.3), ('studio', 1.7, 2.15), ('field', 1.04, 1.06)])

@@ -3,6 +3,8 @@
 import math
 import pathlib
 
+import pytest
+
 from rumba_cleaning.outcome import Outcome
 from rumba_evaluation.trials.cases import SLAM, Conditions
 from rumba_evaluation.trials.trial import Trial
@@ -13,6 +15,7 @@ STUDIO = pathlib.Path(__file__).resolve().parents[3] / 'rumba_sim' / 'maps' / 's
 ELSEWHERE = Pose(2.5, 2.0, 2.0)  # [m, rad]
 
 
+@pytest.mark.thorough
 def test_a_robot_that_is_carried_away_finds_its_place_goes_on_and_comes_home():
     trial = Trial(map_file.load(STUDIO), 'explore_and_clean', Conditions(pose=SLAM, target=0.95), seed=1)
     robot, mapper = trial.world.robots['rumba'], trial.sources['rumba'].mapper

@@ -126,6 +126,7 @@ def replay(path, step=0.004):
     return visits, step ** 2
 
 
+@pytest.mark.thorough
 def test_a_replay_by_other_means_finds_the_same_area_and_the_same_overlap():
     lanes = [(x, y) for index, x in enumerate(np.arange(0.6, 3.4, 0.13)) for y in ((0.6, 3.4), (3.4, 0.6))[index % 2]]
     ride = driven(lanes)

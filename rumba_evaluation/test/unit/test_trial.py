@@ -256,6 +256,7 @@ def test_a_result_has_the_digest_of_its_last_tick():
     assert first.result().ticks == first.world.tick
 
 
+@pytest.mark.thorough
 def test_a_mission_by_a_pose_that_is_localised_meets_its_target_and_one_by_odometry_is_lost():
     """The floor is the studio's, where the laser sees furniture and odometry drifts by metres."""
     plan = map_file.load(STUDIO)

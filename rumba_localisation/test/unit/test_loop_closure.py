@@ -65,6 +65,7 @@ def closed_map():
     return mapped()
 
 
+@pytest.mark.thorough
 def test_a_loop_that_comes_back_with_a_large_error_closes(monkeypatch):
     closed = closed_map()
     monkeypatch.setattr(LoopClosure, 'closes', lambda *_: False)
@@ -75,6 +76,7 @@ def test_a_loop_that_comes_back_with_a_large_error_closes(monkeypatch):
     assert off_walls(closed, ring()).max() < 0.13 and error(closed.pose(odometry), true)[0] < 0.03
 
 
+@pytest.mark.thorough
 def test_the_same_scans_close_a_loop_in_the_same_way():
     one, other = closed_map(), mapped()
     assert one.correction == other.correction and one.version == other.version

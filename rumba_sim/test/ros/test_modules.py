@@ -10,13 +10,14 @@ import unittest
 
 import rospy
 import rostest
+from tiers import wanted
 
 PACKAGE, NAME, *MODULES = (argument for argument in sys.argv[1:] if argument[0].isalpha())
 
 
 def suite():
-    """All tests of the modules, in their order."""
-    return unittest.defaultTestLoader.loadTestsFromNames(MODULES)
+    """The tests of the modules, in their order."""
+    return wanted(unittest.defaultTestLoader.loadTestsFromNames(MODULES))
 
 
 if __name__ == '__main__':

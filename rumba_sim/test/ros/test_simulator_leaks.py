@@ -11,6 +11,7 @@ import rospy
 import rostest
 from geometry_msgs.msg import Pose2D
 from simulators import SERVICES, Simulator, wait
+from tiers import thorough
 
 TIMES = 300
 WARM_UP = 20
@@ -20,6 +21,7 @@ MEMORY = 10_000  # [kB] of all that; one robot that stays takes more than 100
 class SimulatorLeaksTest(unittest.TestCase):
     """One simulator with one robot that stays."""
 
+    @thorough
     def test_hundreds_of_spawns_and_kills_leave_nothing(self):
         simulator = Simulator(self, '_map:=field', '_speed:=10')
         process = pathlib.Path('/proc', str(simulator.process.pid))

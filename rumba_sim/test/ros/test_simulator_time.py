@@ -10,7 +10,7 @@ import rospy
 import rostest
 from simulators import STEP_RATE, TICK, Heard, Simulator, forget_parameters, wait, wait_for_service
 from tf2_msgs.msg import TFMessage
-
+from tiers import thorough
 
 PER_READING = STEP_RATE // 10  # ticks from one reading of the sensors to the next
 
@@ -178,6 +178,7 @@ class SimulatorTimeTest(unittest.TestCase):
                 self.assertEqual(rospy.get_param('/use_sim_time', False), found)
                 again.end()
 
+    @thorough
     def test_simulator_launch_leaves_use_sim_time_as_it_was(self):
         self.addCleanup(forget_parameters, '/use_sim_time')
         for found, speed in ((True, 1), (True, 10), (False, 10), (False, 1)):

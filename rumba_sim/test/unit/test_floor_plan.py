@@ -202,6 +202,7 @@ def test_a_refined_plan_is_the_same_floor_in_cells_of_at_most_25_mm(resolution, 
     assert plan.sample_pitch <= 0.01 and plan.sample_pitch * plan.sample_squares == plan.resolution
 
 
+@pytest.mark.thorough
 def test_a_huge_plan_is_not_refined_beyond_the_limit_of_cells():
     plan = FloorPlan('hall', np.zeros((3000, 4000), np.int8), 0.1, (0.0, 0.0))
     assert plan.refined() is plan and plan.sample_squares == 1

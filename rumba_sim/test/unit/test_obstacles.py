@@ -100,6 +100,7 @@ def clutter(draw):
     return found
 
 
+@pytest.mark.thorough
 @settings(max_examples=250, deadline=None)
 @given(st.sampled_from(sorted(PLANS)), clutter(), st.sampled_from([10, 50]),
        st.lists(st.tuples(st.integers(0, 10 ** 6), st.floats(-3.1, 3.1), st.floats(-1.0, 1.0)), min_size=1, max_size=4))

@@ -112,6 +112,7 @@ def watched(topics, monkeypatch):
     watched.opened.window.close()
 
 
+@pytest.mark.thorough(except_for=['rumba/scan', 'rumba/coverage', '/map'])
 @pytest.mark.parametrize('topic', GOOD)
 def test_after_any_messages_the_window_shows_a_good_one(watched, monkeypatch, topic):
     monkeypatch.setattr(listener, 'COVERAGE_PERIOD', 0.0)
