@@ -19,7 +19,7 @@ OF_LESSON = pytest.mark.parametrize('lesson', LESSONS, ids=lambda path: path.nam
 OF_PACKAGE = pytest.mark.parametrize('package', PACKAGES, ids=lambda path: path.name)
 
 
-@pytest.mark.thorough(except_for=['01_own_message', '10_service_and_action'])
+@pytest.mark.thorough(except_for=['01_own_message'])
 @pytest.mark.parametrize('lesson', [path for path in LESSONS if path != FROM_NOTHING], ids=lambda path: path.name)
 def test_the_terminals_show_what_the_page_shows(workspace, lesson):
     # A master of its own: the first roslaunch, or roscore, starts it, as at the reader's.

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """A robot that localises itself cleans, through ROS as in process; and knows what to do if nobody tells its pose."""
 
+import dataclasses
 import os
 import re
 import threading
@@ -8,7 +9,7 @@ import unittest
 
 import rospy
 import rostest
-from cleaners import Cleaner
+from cleaners import QUICKLY, Cleaner
 from geometry_msgs.msg import PoseWithCovarianceStamped
 from localisers import Localiser, Mapper
 from sensor_msgs.msg import LaserScan
@@ -18,7 +19,6 @@ from tiers import thorough
 from rumba_cleaning.behaviour import Status
 from rumba_cleaning.behaviours import relocation
 from rumba_cleaning.belief.context import BeforeNextStep, Context, own_seed
-from rumba_cleaning.cleaning_config import CleaningConfig
 from rumba_cleaning.control import CONTROL_DT, CONTROL_TICKS, STEP_RATE, act
 from rumba_cleaning.mission.mission import Mission
 from rumba_cleaning.pose_source import Localised
@@ -40,8 +40,8 @@ def digest_in_process(ticks, obstacles, laser):
     world.spawn(FIRST, brushes_up=True)
     source = Localised(plan, world, FIRST, SEED)
     world.step()
-    mission = Mission(Context(plan, RobotConfig(), CleaningConfig(laser=laser), own_seed(SEED, FIRST), planners),
-                      'boustrophedon', TARGET)
+    config = dataclasses.replace(QUICKLY, laser=laser)
+    mission = Mission(Context(plan, RobotConfig(), config, own_seed(SEED, FIRST), planners), 'boustrophedon', TARGET)
     dt = 0.0
     while mission.status is Status.RUNNING:
         planners.work()

@@ -10,7 +10,7 @@ import unittest
 import rospy
 import rostest
 from actionlib_msgs.msg import GoalStatus
-from cleaners import Cleaner, go_to
+from cleaners import QUICKLY, Cleaner, go_to
 from simulators import TICK, Heard, Simulator, wait
 from tiers import thorough
 
@@ -44,8 +44,7 @@ def digest_in_process(ticks, begin=1):
     world, planners = World(plan, RobotConfig(), STEP_RATE, SEED), BeforeNextStep()
     world.spawn(FIRST, brushes_up=True)
     world.step(begin)
-    mission = Mission(Context(plan, RobotConfig(), CleaningConfig(), own_seed(SEED, FIRST), planners), 'boustrophedon',
-                      TARGET)
+    mission = Mission(Context(plan, RobotConfig(), QUICKLY, own_seed(SEED, FIRST), planners), 'boustrophedon', TARGET)
     return digest_of(mission, world, ticks, truth, planners)
 
 

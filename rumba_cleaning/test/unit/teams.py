@@ -10,6 +10,8 @@ from rumba_cleaning.mission.team import tell_mates
 from rumba_sim.model.robot import nth_name
 from rumba_sim.model.world import World
 
+QUICKLY = CleaningConfig(planning_rounds=0)
+
 
 class Crew:
     """Missions of a team on one floor.
@@ -28,7 +30,7 @@ class Crew:
         names = list(self.world.robots)
         self.planners = BeforeNextStep()
         self.contexts = {
-            name: Context(plan, config, CleaningConfig(), own_seed(seed, name), self.planners, mates=Mates(name, names))
+            name: Context(plan, config, QUICKLY, own_seed(seed, name), self.planners, mates=Mates(name, names))
             for name in names}
         self.missions = {name: Mission(context, 'boustrophedon', target) for name, context in self.contexts.items()}
         self.silent = set()

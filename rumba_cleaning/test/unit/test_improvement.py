@@ -7,7 +7,7 @@ from rooms import crooked, room
 
 from rumba_cleaning.planning import edits, improvement, planner
 from rumba_cleaning.planning.edits import dense
-from rumba_cleaning.planning.improvement import Surroundings, improved
+from rumba_cleaning.planning.improvement import Surroundings, improved, rounds
 from rumba_cleaning.planning.lanes import Layout
 from rumba_cleaning.planning.layouts import Draft
 from rumba_cleaning.planning.regions import regions, shapes
@@ -52,13 +52,18 @@ def test_an_improved_route_sweeps_what_lanes_without_overlap_and_corners_would_l
 
 
 def test_a_route_that_edits_leave_short_of_the_target_is_mended_by_detours(monkeypatch):
-    monkeypatch.setattr(improvement, 'ROUNDS', 1)
-    surroundings = surroundings_of(crooked(0.02), target_coverage=0.93)
+    surroundings = surroundings_of(crooked(0.02), target_coverage=0.93, planning_rounds=1)
     draft = first_draft(surroundings)
     mended = Rehearsal(surroundings.context, START, improved(surroundings, [draft]))
     monkeypatch.setattr(improvement, 'MENDS', 0)
     short = Rehearsal(surroundings.context, START, improved(surroundings, [draft]))
     assert mended.swept.coverage >= 0.93 and mended.seconds < 0.95 * short.seconds
+
+
+@pytest.mark.parametrize('size, wanted, count', [((4.0, 2.0), 5, 5), ((4.0, 2.0), 2, 2), ((4.0, 2.0), 0, 0),
+                                                 ((10.0, 5.0), 5, 3), ((16.0, 12.0), 5, 0)])
+def test_there_are_as_many_rounds_as_are_wanted_and_as_the_floor_is_worth(size, wanted, count):
+    assert rounds(knowing(room(*size), START, planning_rounds=wanted)) == count
 
 
 @pytest.mark.thorough

@@ -19,7 +19,6 @@ from rumba_sim.model.kernel import Array
 SURPLUS = 0.005  # of coverage that is planned beyond the target on paper, since no robot drives exactly as planned ...
 MARGIN = 0.0015  # ... and by rehearsal: large sweeps too much, small may need another route for a few last spots
 EDITED = 0.0004  # of coverage that edits are to bring beyond that: together they bring a little less than one by one
-ROUNDS = 5  # of edits at most, each after another rehearsal: more make shorter routes, and take more time
 MENDS = 2  # times that detours are added, at most, to a route that edits left short of the target: that takes little
 WORK = 150.0  # [m^2] of floor, times rounds: large makes shorter routes, small plans faster
 # [s/m^2] a lane takes 20: dearer edits are left out on paper, where they clean less than it seems, and by rehearsal.
@@ -56,9 +55,9 @@ def with_detours(surroundings: Surroundings, route: Route, paper: Swept) -> Rout
     return applied(route, edits, surroundings.context.config.speed)
 
 
-def rounds(area: float) -> int:
-    """How many rounds of edits a floor is worth, by its area [m^2]; 0: its routes are not rehearsed."""
-    return min(int(WORK / area), ROUNDS)
+def rounds(context: Context) -> int:
+    """In how many rounds a route is edited, each after another rehearsal; 0: routes are not rehearsed."""
+    return min(int(WORK / context.swept.reachable_area), context.config.planning_rounds)
 
 
 def improved(surroundings: Surroundings, routes: Sequence[Route]) -> Route:
@@ -68,7 +67,7 @@ def improved(surroundings: Surroundings, routes: Sequence[Route]) -> Route:
                     key=lambda rehearsal: _cost(surroundings, rehearsal))
     tried, price = [rehearsal], SAVED
     poor: Set[bytes] = set()  # edits, by their places, that were far from worth it when they were judged
-    for _ in range(rounds(rehearsal.swept.reachable_area)):
+    for _ in range(rounds(context)):
         if not rehearsal.is_complete:
             break
         found = [*shortcuts(context, rehearsal, CHEAP * price)[:SHORTCUTS], *shifts(context, rehearsal.route),

@@ -52,7 +52,7 @@ def plan(context: Context, pose: Pose, end: Optional[Pose] = None) -> Optional[R
     if not drafts:
         missing = context.swept.missing_share() * surroundings.around
         return _through(surroundings, end, crumbs(ground, surroundings.walls, missing, labels))
-    if rounds(context.swept.reachable_area) == 0:
+    if rounds(context) == 0:
         return with_detours(surroundings, *drafts[0])
     return improved(surroundings, [route for route, _ in drafts])
 
@@ -65,7 +65,7 @@ def _drafts(surroundings: Surroundings, end: Optional[Pose]) -> List[Tuple[Route
     shape = shapes(surroundings.context.ground, surroundings.labels)
     ringed = _rings(surroundings, beside_walls, shape)
     found = []
-    for draft in drafts(rounds(area)):
+    for draft in drafts(rounds(surroundings.context)):
         paper = beside_walls.copy()
         stretches = ringed + _lanes(surroundings, paper, shape, draft)
         is_much = paper.coverage - swept.coverage > MOST * missing / area

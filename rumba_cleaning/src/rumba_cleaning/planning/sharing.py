@@ -20,7 +20,7 @@ def leave_to_mates(context: Context) -> None:
     """
     for ahead in context.mates.sweeping().values():
         route = ahead.rest()
-        if rounds(context.swept.reachable_area) == 0 or not _rehearse(context, route):
+        if rounds(context) == 0 or not _rehearse(context, route):
             _drive_on_paper(context, route)
 
 
