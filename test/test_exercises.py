@@ -40,7 +40,7 @@ def marked(space, folder, tests, arguments=''):
         return {row['submission']: row for row in csv.DictReader(file)}
 
 
-@pytest.mark.thorough(except_for=['4_home'])
+@pytest.mark.thorough
 @pytest.mark.parametrize('exercise', EXERCISES, ids=name_of)
 def test_the_solution_earns_all_points_and_each_wrong_submission_less(exercise, workspace, tmp_path):
     class_of(exercise, tmp_path / 'class')

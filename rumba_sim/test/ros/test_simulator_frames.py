@@ -106,7 +106,7 @@ class SimulatorFramesTest(unittest.TestCase):
         self.assert_near(self.lookup('map', 'base_footprint', truth.header.stamp),
                          pose_in(self.truth.at(simulator.ticks)))
         self.assertEqual([(part.child_frame_id, part.transform.translation.z)
-                          for part in static.messages[-1].transforms if part.header.frame_id[:4] == 'base'],
+                          for part in static.find().transforms if part.header.frame_id[:4] == 'base'],
                          [('base_link', 0.036), ('laser', 0.07)])
         self.assertEqual((truth.child_frame_id, scan.find().header.frame_id), ('rumba2/base_footprint', 'rumba2/laser'))
         frames = {(part.header.frame_id, part.child_frame_id) for heard in (static, self.transforms)
