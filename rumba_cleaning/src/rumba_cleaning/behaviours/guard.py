@@ -31,10 +31,10 @@ SAFE_SPEED = 0.35  # [m/s]
 SAFE_CURVATURE = 2.0  # [1/m]
 TIGHT = 3.3  # [1/m] in tighter bends the sensors of one side look along the circle of the outer wheel, ...
 SWIFT_SPEED = 0.38  # [m/s] ... 0.17 m ahead of it: a wheel that is no faster stops within 0.12 m
-# A floor with one cliff that the map does not show may have others. Wheels that are no faster than this stop within
-# 0.053 m, and drive 0.031 m until the next reading; the outer sensors look 0.096 m ahead. A corner of 90 degrees that
-# comes between two sensors is seen only 0.08 m ahead: that is 4 mm too late in the worst case.
-FOUND_SPEED = 0.31  # [m/s]
+# A floor with one cliff that the map does not show may have others. Wheels that are no faster than this drive 0.029 m
+# until the next reading and stop within 0.047 m; a corner of 90 degrees that comes between two sensors is seen 0.08 m
+# ahead.
+FOUND_SPEED = 0.29  # [m/s]
 WARY = 0.5  # [m] from such a cliff: its edge may have any shape where it was not seen yet
 WARY_SPEED = 0.25  # [m/s] so near: in 0.06 m the robot stops, whatever the shape is
 GUESS = 3  # cells beside known floor that are taken to be floor too, elsewhere, by a robot that keeps these limits
