@@ -1,5 +1,6 @@
 """The kernel is compiled and works wherever its cache cannot be kept; one line says so."""
 
+import fcntl
 import os
 import pathlib
 import shutil
@@ -177,3 +178,47 @@ def test_without_a_home_no_folder_named_like_one_is_made(source, tmp_path):
     out, error = run(source, NOBODY + TURN, here)
     assert (out, error) == ('True\n', LINE + 'no home folder is known' + ADVICE)
     assert not list(here.iterdir())
+
+
+class Files:
+    """The files of a cache, which look at each use whether another process could read or write them."""
+
+    def __init__(self, lock):
+        self._lock = lock
+        self.seen = []
+
+    def load(self, key):
+        self._look()
+        return key
+
+    def save(self, key, data):
+        self._look()
+
+    def _look(self):
+        allowed = []
+        for name, kind in (('read', fcntl.LOCK_SH), ('write', fcntl.LOCK_EX)):
+            with open(self._lock, 'ab') as file:
+                try:
+                    fcntl.flock(file, kind | fcntl.LOCK_NB)
+                    allowed.append(name)
+                except BlockingIOError:
+                    pass
+        self.seen.append(allowed)
+
+
+def test_one_process_writes_into_a_cache_while_no_other_reads_or_writes(tmp_path):
+    files = Files(tmp_path / 'lock')
+    locked = compiled._LockedFiles(files, str(tmp_path / 'lock'))
+    locked.save('key', 'data')
+    assert locked.load('key') == 'key'
+    assert files.seen == [[], ['read']]
+
+
+def test_a_cache_in_a_folder_that_is_not_there_is_used_without_a_lock(tmp_path):
+    (tmp_path / 'lock').touch()
+    assert compiled._LockedFiles(Files(tmp_path / 'lock'), '/nowhere/lock').load('key') == 'key'
+
+
+def test_the_caches_of_all_functions_are_locked():
+    for function in (compiled.fast.wrap, compiled.many.advance):
+        assert isinstance(function._cache._cache_file, compiled._LockedFiles)

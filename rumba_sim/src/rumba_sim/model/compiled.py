@@ -14,6 +14,7 @@ cache is damaged, or the disk is full, the kernel is compiled at each start.
 """
 
 import contextlib
+import fcntl
 import functools
 import hashlib
 import importlib
@@ -23,12 +24,13 @@ import pkgutil
 import sys
 import threading
 from types import FunctionType, ModuleType
-from typing import Any, Callable, Dict, List, Mapping, Sequence
+from typing import Any, Callable, Dict, Iterator, List, Mapping, Sequence
 
 from rumba_sim.model import batch, kernel
 from rumba_sim.model.errors import one_line
 
 Twins = Dict[Any, Any]  # of modules and of their functions, by those
+LOCK = 'lock'  # file in the folder of a cache
 
 
 def kernel_modules() -> List[ModuleType]:
@@ -109,6 +111,7 @@ class _Cache:
         """
         self._cache = cache
         cache._cache_file._source_stamp = [_digest(path) for path in paths]
+        cache._cache_file = _LockedFiles(cache._cache_file, os.path.join(cache.cache_path, LOCK))
 
     def __getattr__(self, name: str) -> Any:
         return getattr(self._cache, name)
@@ -133,6 +136,38 @@ class _Cache:
             self._cache.save_overload(*what)
         except Exception as exc:
             _say(f'{self.cache_path}: {exc}')
+
+
+class _LockedFiles:
+    """The files of a cache, which one process writes while no other reads or writes them.
+
+    numba names the file of compiled code by what it has read in the index. Two processes that compile one function for
+    different arguments at the same time would give both the same name, and later run the code of one for the other.
+    """
+
+    def __init__(self, files: Any, lock: str) -> None:
+        """Guard files by a lock, a path."""
+        self._files, self._lock = files, lock
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self._files, name)
+
+    def load(self, key: Any) -> Any:
+        """What is in the cache for a key; None if nothing is."""
+        with self._locked(fcntl.LOCK_SH):
+            return self._files.load(key)
+
+    def save(self, key: Any, data: Any) -> None:
+        """Put data into the cache."""
+        with self._locked(fcntl.LOCK_EX):
+            self._files.save(key, data)
+
+    @contextlib.contextmanager
+    def _locked(self, kind: int) -> Iterator[None]:
+        with contextlib.ExitStack() as until_done:
+            with contextlib.suppress(OSError):  # in a folder that cannot be written nobody writes
+                fcntl.flock(until_done.enter_context(open(self._lock, 'ab')), kind)
+            yield
 
 
 @functools.lru_cache(maxsize=None)
