@@ -11,8 +11,8 @@ import rospy
 from actionlib_msgs.msg import GoalStatus
 from geometry_msgs.msg import Pose2D, Twist
 from simulators import ENDS_WITHIN, LOOK_PERIOD, TIMEOUT, Heard, wait, wait_for_service
+from teams import QUICKLY
 
-from rumba_cleaning.cleaning_config import CleaningConfig
 from rumba_msg.msg import CleanAction, DockAction, GoToAction, GoToGoal, MissionStatus, Outcome, UndockAction
 
 programs.LIBRARIES += ['actionlib_msgs.msg', 'rumba_cleaning.mission', 'rumba_cleaning.planning.warm_up']
@@ -25,7 +25,6 @@ occupied_thresh: 0.65
 free_thresh: 0.196
 """
 AT_ONCE = rospy.Duration(nsecs=1)
-QUICKLY = CleaningConfig(planning_rounds=0)  # that only tests of plans do without
 KEY_PERIOD = 0.1  # [s] from one command of a person to the next, as of teleop_key
 ACTIONS = {'clean': CleanAction, 'dock': DockAction, 'undock': UndockAction, 'go_to': GoToAction}
 # Statuses of actionlib by the code of the outcome; goals with any other code are aborted.

@@ -9,11 +9,12 @@ import unittest
 
 import rospy
 import rostest
-from cleaners import QUICKLY, Cleaner
+from cleaners import Cleaner
 from geometry_msgs.msg import PoseWithCovarianceStamped
 from localisers import Localiser, Mapper
 from sensor_msgs.msg import LaserScan
 from simulators import Heard, Simulator
+from teams import QUICKLY
 from tiers import thorough
 
 from rumba_cleaning.behaviour import Status

@@ -10,8 +10,9 @@ import unittest
 import rospy
 import rostest
 from actionlib_msgs.msg import GoalStatus
-from cleaners import QUICKLY, Cleaner, go_to
+from cleaners import Cleaner, go_to
 from simulators import TICK, Heard, Simulator, wait
+from teams import QUICKLY
 from tiers import thorough
 
 from rumba_cleaning.behaviour import Status

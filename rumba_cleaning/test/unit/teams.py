@@ -10,7 +10,7 @@ from rumba_cleaning.mission.team import tell_mates
 from rumba_sim.model.robot import nth_name
 from rumba_sim.model.world import World
 
-QUICKLY = CleaningConfig(planning_rounds=0)
+QUICKLY = CleaningConfig(planning_rounds=0)  # of the cleaners of the tests with nodes too
 
 
 class Crew:

@@ -194,6 +194,9 @@ class Files:
     def save(self, key, data):
         self._look()
 
+    def flush(self):
+        self._look()
+
     def _look(self):
         allowed = []
         for name, kind in (('read', fcntl.LOCK_SH), ('write', fcntl.LOCK_EX)):
@@ -211,14 +214,14 @@ def test_one_process_writes_into_a_cache_while_no_other_reads_or_writes(tmp_path
     locked = compiled._LockedFiles(files, str(tmp_path / 'lock'))
     locked.save('key', 'data')
     assert locked.load('key') == 'key'
-    assert files.seen == [[], ['read']]
+    locked.flush()
+    assert files.seen == [[], ['read'], []]
 
 
 def test_a_cache_in_a_folder_that_is_not_there_is_used_without_a_lock(tmp_path):
-    (tmp_path / 'lock').touch()
     assert compiled._LockedFiles(Files(tmp_path / 'lock'), '/nowhere/lock').load('key') == 'key'
 
 
-def test_the_caches_of_all_functions_are_locked():
+def test_the_caches_of_the_kernel_and_of_the_batch_are_locked():
     for function in (compiled.fast.wrap, compiled.many.advance):
         assert isinstance(function._cache._cache_file, compiled._LockedFiles)

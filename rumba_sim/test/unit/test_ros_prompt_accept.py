@@ -14,7 +14,7 @@ PATIENCE = 30.0  # [s]: it waits for a minute if it does not begin in threads
 
 @pytest.fixture
 def connect(monkeypatch):
-    """A function that connects to a server of rospy, and the topics that were asked for over its connections."""
+    """Functions that connect to a server of rospy, and tell whether a topic is asked for over a connection, in time."""
     monkeypatch.setattr(TCPROSServer, '_tcp_server_callback', TCPROSServer._tcp_server_callback)  # puts it back
     prompt_accept.use()
     server, topics, news = TCPROSServer(), [], threading.Condition()
@@ -50,7 +50,7 @@ def test_who_says_nothing_keeps_nobody_out(connect):
 
 
 def test_who_speaks_http_is_disconnected_at_once(connect):
-    connected, hears = connect
+    connected, _ = connect
     http = connected()
     http.sendall(b'POST /RPC2 HTTP/1.1\r\nHost: localhost\r\n\r\n')
     with pytest.raises(ConnectionResetError):

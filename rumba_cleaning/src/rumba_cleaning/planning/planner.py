@@ -8,9 +8,9 @@ from scipy import ndimage
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.belief.ground import Ground
 from rumba_cleaning.belief.swept import Swept
-from rumba_cleaning.planning import tour
+from rumba_cleaning.planning import improvement, tour
 from rumba_cleaning.planning.crumbs import crumbs
-from rumba_cleaning.planning.improvement import Surroundings, improved, rounds, with_detours
+from rumba_cleaning.planning.improvement import Surroundings, improved, with_detours
 from rumba_cleaning.planning.layouts import Draft, drafts, laid_out, tries
 from rumba_cleaning.planning.regions import Shapes, Ways, doors, regions, shapes
 from rumba_cleaning.planning.rings import chains, rings, stretch
@@ -52,7 +52,7 @@ def plan(context: Context, pose: Pose, end: Optional[Pose] = None) -> Optional[R
     if not drafts:
         missing = context.swept.missing_share() * surroundings.around
         return _through(surroundings, end, crumbs(ground, surroundings.walls, missing, labels))
-    if rounds(context) == 0:
+    if improvement.rounds(context) == 0:
         return with_detours(surroundings, *drafts[0])
     return improved(surroundings, [route for route, _ in drafts])
 
@@ -65,7 +65,7 @@ def _drafts(surroundings: Surroundings, end: Optional[Pose]) -> List[Tuple[Route
     shape = shapes(surroundings.context.ground, surroundings.labels)
     ringed = _rings(surroundings, beside_walls, shape)
     found = []
-    for draft in drafts(rounds(surroundings.context)):
+    for draft in drafts(improvement.rounds(surroundings.context)):
         paper = beside_walls.copy()
         stretches = ringed + _lanes(surroundings, paper, shape, draft)
         is_much = paper.coverage - swept.coverage > MOST * missing / area

@@ -5,8 +5,7 @@ import math
 import numpy as np
 
 from rumba_cleaning.belief.context import Context
-from rumba_cleaning.planning import paper
-from rumba_cleaning.planning.improvement import rounds
+from rumba_cleaning.planning import improvement, paper
 from rumba_cleaning.planning.rehearsal import Rehearsal
 from rumba_cleaning.route import Route
 from rumba_sim.model.geometry import Pose
@@ -20,7 +19,7 @@ def leave_to_mates(context: Context) -> None:
     """
     for ahead in context.mates.sweeping().values():
         route = ahead.rest()
-        if rounds(context) == 0 or not _rehearse(context, route):
+        if improvement.rounds(context) == 0 or not _rehearse(context, route):
             _drive_on_paper(context, route)
 
 

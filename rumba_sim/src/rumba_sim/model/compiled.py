@@ -162,6 +162,11 @@ class _LockedFiles:
         with self._locked(fcntl.LOCK_EX):
             self._files.save(key, data)
 
+    def flush(self) -> None:
+        """Empty the cache."""
+        with self._locked(fcntl.LOCK_EX):
+            self._files.flush()
+
     @contextlib.contextmanager
     def _locked(self, kind: int) -> Iterator[None]:
         with contextlib.ExitStack() as until_done:

@@ -1,1 +1,0 @@
-../../../rumba_sim/test/ros/tiers.py
