@@ -50,6 +50,7 @@ def test_the_solution_earns_all_points_and_each_wrong_submission_less(exercise, 
         path.read_text() for path in sorted((tmp_path / 'marks').glob('*/*.[jl]*')))  # results and logs
 
 
+@pytest.mark.thorough
 def test_an_examination_is_passed_by_what_a_robot_knows_and_void_for_who_looks_at_the_truth(workspace, tmp_path):
     exercise = ROOT / 'rumba_exercises' / '2_bumper'
     for name in ('honest', 'spy'):

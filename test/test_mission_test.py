@@ -42,6 +42,7 @@ def test_bad_homework_fails_only_in_the_condition_that_it_does_not_meet(mark):
     assert re.search(r'```\n(coverage: .*)\n```', PAGE).group(1) in output
 
 
+@pytest.mark.thorough
 def test_homework_that_publishes_what_it_is_marked_by_fails_in_every_condition(mark):
     code, output = mark('forger')
     assert code != 0, output

@@ -103,7 +103,7 @@ def fails(space, command):
     return output
 
 
-@pytest.mark.thorough(except_for=['messages generated too late', 'a type without its package'])
+@pytest.mark.thorough(except_for=['a type without its package'])
 @pytest.mark.parametrize('case', BUILD.values(), ids=BUILD)
 def test_what_catkin_make_says(environment, tmp_path, case):
     broken = workspace(tmp_path, environment)
@@ -126,6 +126,7 @@ def test_the_packages_build_if_nothing_is_broken(environment, tmp_path):
     says('Unable to load msg [...]', fails(forgotten, 'rosmsg show parts_msgs/Parts'))
 
 
+@pytest.mark.thorough
 def test_a_module_that_is_not_exported_and_a_script_that_may_not_run(environment, tmp_path):
     broken = workspace(tmp_path, environment)
     replace(tmp_path / LIB, 'catkin_python_setup()\n', '')

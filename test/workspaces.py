@@ -6,13 +6,14 @@ import os
 import pathlib
 import re
 import signal
-import socket
 import subprocess
 import threading
 import time
 import uuid
 import xmlrpc.client
 from typing import Dict, FrozenSet, Iterator, List, Optional, Sequence, Tuple
+
+from ports import free_port
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 WS = (ROOT / '.ws').resolve()  # a link if the path of the checkout has spaces
@@ -171,11 +172,8 @@ def last_of(process: subprocess.Popen, *wanted: str) -> str:
 
 def clean_environment() -> Dict[str, str]:
     """This process's environment without other workspaces, for a master of its own on this machine."""
-    with socket.socket() as free:
-        free.bind(('localhost', 0))
-        port = free.getsockname()[1]
     environment = {name: value for name, value in os.environ.items() if name not in FROM_OTHER_WORKSPACES}
-    return {**environment, 'ROS_MASTER_URI': f'http://localhost:{port}', 'ROS_HOSTNAME': 'localhost'}
+    return {**environment, 'ROS_MASTER_URI': f'http://localhost:{free_port()}', 'ROS_HOSTNAME': 'localhost'}
 
 
 @contextlib.contextmanager

@@ -134,15 +134,14 @@ class CleanerActionsTest(unittest.TestCase):
     def test_cancel_stops_the_wheels_at_once(self):
         goals = {'go_to': go_to(0.8, 2.4, 0.0), 'clean': CleanGoal(), 'undock': UndockGoal()}
         for action, goal in goals.items():
-            with self.subTest(action):
-                self.simulator.does('reset')
-                self.docked.fresh(lambda message: message.is_docked)
-                goal = self.cleaner.send(action, goal)
-                self.cleaner.waits_to_drive()
-                goal.handle.cancel()
-                self.assertEqual(goal.ends(Outcome.CANCELLED).outcome.message, 'cancelled')
-                self.assert_at_rest()
-                self.assertGreater(math.hypot(self.pose()[0] - 0.8, self.pose()[1] - 2.4), 0.5)
+            self.simulator.does('reset')
+            self.docked.fresh(lambda message: message.is_docked)
+            goal = self.cleaner.send(action, goal)
+            self.cleaner.waits_to_drive()
+            goal.handle.cancel()
+            self.assertEqual(goal.ends(Outcome.CANCELLED).outcome.message, 'cancelled')
+            self.assert_at_rest()
+            self.assertGreater(math.hypot(self.pose()[0] - 0.8, self.pose()[1] - 2.4), 0.5)
         self.assertEqual(self.cleaner.settles().state, MissionStatus.IDLE)
 
     def test_a_new_goal_preempts_the_one_before_on_any_action(self):
@@ -173,8 +172,7 @@ class CleanerActionsTest(unittest.TestCase):
                 (r'target at \(-5\.00, 2\.00\) m lies outside the map', 'go_to', go_to(-5.0, 2.0)),
                 (r'^target \(nan, 2\.0, 0\.0\): must be finite numbers$', 'go_to', go_to(NAN, 2.0, 0.0)),
                 (r'^target \(1\.0, 2\.0, inf\): must be finite numbers$', 'go_to', go_to(1.0, 2.0, math.inf))):
-            with self.subTest(pattern):
-                self.cleaner.refuses(pattern, action, goal)
+            self.cleaner.refuses(pattern, action, goal)
         self.assertTrue(self.docked.fresh().is_docked)
 
     def test_a_goal_that_is_refused_leaves_the_one_before_alone(self):
@@ -193,12 +191,11 @@ class CleanerActionsTest(unittest.TestCase):
 
     def test_a_robot_that_is_put_elsewhere_arrives_nevertheless(self):
         for action, goal in (('go_to', go_to(2.4, 2.4, 1.0)), ('dock', DockGoal())):
-            with self.subTest(action):
-                self.simulator.teleport(0.7, 3.2, 1.0)
-                goal = self.cleaner.send(action, goal)
-                self.cleaner.waits_to_drive()
-                self.simulator.teleport(2.6, 0.5, 1.5)
-                goal.ends(Outcome.SUCCEEDED)
+            self.simulator.teleport(0.7, 3.2, 1.0)
+            goal = self.cleaner.send(action, goal)
+            self.cleaner.waits_to_drive()
+            self.simulator.teleport(2.6, 0.5, 1.5)
+            goal.ends(Outcome.SUCCEEDED)
         self.assertTrue(self.docked.fresh().is_docked)
 
     def test_go_to_position_leads_there_call_by_call(self):

@@ -75,31 +75,29 @@ class CleanerTroubleTest(unittest.TestCase):
         tuning = Client('/simulator/tuning', timeout=TIMEOUT)
         docked, battery = Heard(self, '/rumba/dock_status'), Heard(self, '/rumba/battery_state')
         for action, goal in (('undock', UndockGoal()), ('go_to', go_to(0.8, 2.4)), ('clean', CleanGoal())):
-            with self.subTest(action):
-                tuning.update_configuration({'battery_drain': 1.0})
-                self.simulator.does('kill', 'rumba')
-                self.simulator.does('spawn', 'rumba', Pose2D(3.075, 2.84, 0.0))
-                docked.fresh(lambda message: message.is_docked)
-                battery.fresh(lambda message: message.percentage > 0.99)
-                self.cleaner.status.messages.clear()
-                tuning.update_configuration({'battery_drain': 10000.0})
-                outcome = self.cleaner.send(action, goal).ends(Outcome.BATTERY_EMPTY).outcome
-                self.assertEqual(outcome.message, 'the battery is empty')
-                stranded = self.cleaner.status.find(lambda message: message.state == MissionStatus.STRANDED)
-                self.assertEqual(stranded.message, 'the battery is empty')
+            tuning.update_configuration({'battery_drain': 1.0})
+            self.simulator.does('kill', 'rumba')
+            self.simulator.does('spawn', 'rumba', Pose2D(3.075, 2.84, 0.0))
+            docked.fresh(lambda message: message.is_docked)
+            battery.fresh(lambda message: message.percentage > 0.99)
+            self.cleaner.status.messages.clear()
+            tuning.update_configuration({'battery_drain': 10000.0})
+            outcome = self.cleaner.send(action, goal).ends(Outcome.BATTERY_EMPTY).outcome
+            self.assertEqual(outcome.message, 'the battery is empty')
+            stranded = self.cleaner.status.find(lambda message: message.state == MissionStatus.STRANDED)
+            self.assertEqual(stranded.message, 'the battery is empty')
         tuning.update_configuration({'battery_drain': 1.0})
 
     def test_5_bad_input_gets_one_line_and_exit_code_2_and_is_forgotten(self):
         folder = folder_of(self, {'misspelt.py': b'spede * 2.0', 'leaves.py': b'import sys\nsys.exit(3)'})
         environment = {**os.environ, 'PYTHONPATH': f'{folder}:{os.environ["PYTHONPATH"]}'}
         for number, (message, argument) in enumerate(BAD_STARTS):
-            with self.subTest(argument):
-                done = programs.run('rumba_cleaning', 'cleaner', f'__name:=bad_{number}', argument, env=environment,
-                                    stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=TIMEOUT,
-                                    universal_newlines=True)
-                self.assertRegex(done.stderr, message)
-                self.assertEqual((done.returncode, done.stdout, done.stderr.count('\n')), (2, '', 1))
-                self.assertFalse(any(value != {} for value in rospy.get_param(f'/bad_{number}', {}).values()))
+            done = programs.run('rumba_cleaning', 'cleaner', f'__name:=bad_{number}', argument, env=environment,
+                                stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=TIMEOUT,
+                                universal_newlines=True)
+            self.assertRegex(done.stderr, message)
+            self.assertEqual((done.returncode, done.stdout, done.stderr.count('\n')), (2, '', 1))
+            self.assertFalse(any(value != {} for value in rospy.get_param(f'/bad_{number}', {}).values()))
 
     def test_6_a_simulator_that_was_killed_is_no_robot_any_more(self):
         self.simulator.does('reset')

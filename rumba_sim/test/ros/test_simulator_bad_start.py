@@ -61,9 +61,8 @@ class SimulatorBadStartTest(unittest.TestCase):
                 (r"^simulator: unknown argument 'studio': ", 'studio'),
                 (r"^simulator: cannot start: \[Errno 20\] Not a directory: '/dev/null/x'\n$", '__log:=/dev/null/x'),
                 (r'^simulator: map:= remaps a topic: for the parameter write _map:=\n$', 'map:=studio')):
-            with self.subTest(arguments):
-                self.assert_refused(message, *arguments)
-                self.assertFalse(any(value != {} for value in rospy.get_param('/simulator', {}).values()))
+            self.assert_refused(message, *arguments)
+            self.assertFalse(any(value != {} for value in rospy.get_param('/simulator', {}).values()))
         self.assertFalse(rospy.has_param('/use_sim_time'))
 
     def test_parameters_that_are_no_mapping_are_refused_and_stay(self):

@@ -3,13 +3,13 @@
 
 import os
 import signal
-import socket
 import subprocess
 import sys
 import unittest
 
 import rospy
 import rostest
+from ports import free_port
 from rosgraph_msgs.msg import Log
 from simulators import TIMEOUT, Heard, Simulator, wait
 
@@ -40,13 +40,12 @@ class SimulatorEndTest(unittest.TestCase):
     def test_both_signals_end_it_in_real_time_as_fast_as_possible_and_while_paused(self):
         for speed in (1, 0):
             for number in (signal.SIGINT, signal.SIGTERM):
-                with self.subTest(speed=speed, signal=number):
-                    simulator = Simulator(self, '_map:=field', f'_speed:={speed}')
-                    for topic in ('odom', 'scan', 'ground_truth'):
-                        Heard(self, f'/rumba/{topic}').find()
-                    if speed and number == signal.SIGTERM:
-                        simulator.does('pause')
-                    simulator.end(number)
+                simulator = Simulator(self, '_map:=field', f'_speed:={speed}')
+                for topic in ('odom', 'scan', 'ground_truth'):
+                    Heard(self, f'/rumba/{topic}').find()
+                if speed and number == signal.SIGTERM:
+                    simulator.does('pause')
+                simulator.end(number)
 
     def test_an_error_in_what_was_posted_to_the_loop_is_logged_and_ends_the_node(self):
         log = Heard(self, '/rosout', Log)
@@ -65,19 +64,16 @@ class SimulatorEndTest(unittest.TestCase):
 
     def test_it_also_ends_if_the_master_has_ended(self):
         for speed, number in ((0, signal.SIGINT), (10, signal.SIGTERM)):
-            with self.subTest(speed=speed, signal=number):
-                with socket.socket() as free:
-                    free.bind(('localhost', 0))
-                    port = free.getsockname()[1]
-                uri = f'http://localhost:{port}'
-                master = subprocess.Popen(['rosmaster', '--core', '-p', str(port)], stdout=subprocess.DEVNULL)
-                self.addCleanup(master.wait)
-                self.addCleanup(master.kill)
-                simulator = Simulator(self, '_map:=field', f'_speed:={speed}', master=uri,
-                                      environment={**os.environ, 'ROS_MASTER_URI': uri})
-                master.terminate()
-                wait(self, lambda: master.poll() is not None)  # noqa: B023 (called at once)
-                simulator.end(number)
+            port = free_port()
+            uri = f'http://localhost:{port}'
+            master = subprocess.Popen(['rosmaster', '--core', '-p', str(port)], stdout=subprocess.DEVNULL)
+            self.addCleanup(master.wait)
+            self.addCleanup(master.kill)
+            simulator = Simulator(self, '_map:=field', f'_speed:={speed}', master=uri,
+                                  environment={**os.environ, 'ROS_MASTER_URI': uri})
+            master.terminate()
+            wait(self, lambda: master.poll() is not None)  # noqa: B023 (called at once)
+            simulator.end(number)
 
 
 if __name__ == '__main__':

@@ -4,7 +4,6 @@
 import os
 import re
 import signal
-import socket
 import subprocess
 import unittest
 
@@ -12,6 +11,7 @@ import programs
 import rosgraph
 import rospy
 import rostest
+from ports import free_port
 from simulators import LOOK_PERIOD, TIMEOUT, folder_of, wait, wait_for_service
 
 ROUNDS = 3
@@ -30,9 +30,7 @@ class OwnMaster:
 
     def __init__(self, test):
         self._test = test
-        with socket.socket() as free:
-            free.bind(('localhost', 0))
-            self._port = free.getsockname()[1]
+        self._port = free_port()
         self.uri = f'http://localhost:{self._port}'
         self.environment = {**os.environ, 'ROS_MASTER_URI': self.uri}
         self.api = rosgraph.Master('/test', master_uri=self.uri)
@@ -91,7 +89,7 @@ class SimulatorMasterTest(unittest.TestCase):
                 process.stdin.close()
             wait(self, lambda: [process.poll() for process in processes].count(None) <= 1)  # noqa: B023
             running = [process for process in processes if process.poll() is None]
-            self.assertEqual(len(running), 1)
+            self.assertEqual(len(running), 1, [process.stdout.read() for process in processes if not running])
             for process in processes:
                 if process not in running:
                     told = process.stdout.read()

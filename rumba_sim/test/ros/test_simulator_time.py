@@ -163,39 +163,37 @@ class SimulatorTimeTest(unittest.TestCase):
     def test_use_sim_time_is_afterwards_as_it_was_before_also_if_a_simulator_was_killed(self):
         self.addCleanup(forget_parameters, '/use_sim_time')
         for found in (True, False):
-            with self.subTest(found=found):
-                forget_parameters('/use_sim_time')
-                if found:
-                    rospy.set_param('/use_sim_time', True)
-                Simulator(self, '_map:=field', '_speed:=10').end()
-                self.assertEqual(rospy.get_param('/use_sim_time', False), found)
-                Simulator(self, '_map:=field', '_speed:=10').kill()
-                self.assertTrue(rospy.get_param('/use_sim_time'))
-                log = Heard(self, '/rosout')
-                again = Simulator(self, '_map:=field')
-                line = log.find(lambda message: message.msg.startswith('an earlier simulator was killed')).msg
-                self.assertIn(f'it is {str(found).lower()} again', line)
-                self.assertEqual(rospy.get_param('/use_sim_time', False), found)
-                again.end()
+            forget_parameters('/use_sim_time')
+            if found:
+                rospy.set_param('/use_sim_time', True)
+            Simulator(self, '_map:=field', '_speed:=10').end()
+            self.assertEqual(rospy.get_param('/use_sim_time', False), found)
+            Simulator(self, '_map:=field', '_speed:=10').kill()
+            self.assertTrue(rospy.get_param('/use_sim_time'))
+            log = Heard(self, '/rosout')
+            again = Simulator(self, '_map:=field')
+            line = log.find(lambda message: message.msg.startswith('an earlier simulator was killed')).msg
+            self.assertIn(f'it is {str(found).lower()} again', line)
+            self.assertEqual(rospy.get_param('/use_sim_time', False), found)
+            again.end()
 
     @thorough
     def test_simulator_launch_leaves_use_sim_time_as_it_was(self):
         self.addCleanup(forget_parameters, '/use_sim_time')
         for found, speed in ((True, 1), (True, 10), (False, 10), (False, 1)):
-            with self.subTest(found=found, speed=speed):
-                forget_parameters('/use_sim_time')
-                if found:
-                    rospy.set_param('/use_sim_time', True)
-                forget_parameters()
-                launch = subprocess.Popen(['roslaunch', 'rumba_sim', 'simulator.launch', 'map:=field',
-                                           f'speed:={speed}'], stdout=subprocess.DEVNULL)
-                self.addCleanup(launch.wait)
-                self.addCleanup(launch.terminate)
-                wait_for_service(self, '/simulator/tuning/set_parameters', launch)
-                self.assertEqual(rospy.get_param('/use_sim_time'), found or speed != 1)
-                launch.terminate()
-                launch.wait()
-                self.assertEqual(rospy.get_param('/use_sim_time', False), found)
+            forget_parameters('/use_sim_time')
+            if found:
+                rospy.set_param('/use_sim_time', True)
+            forget_parameters()
+            launch = subprocess.Popen(['roslaunch', 'rumba_sim', 'simulator.launch', 'map:=field',
+                                       f'speed:={speed}'], stdout=subprocess.DEVNULL)
+            self.addCleanup(launch.wait)
+            self.addCleanup(launch.terminate)
+            wait_for_service(self, '/simulator/tuning/set_parameters', launch)
+            self.assertEqual(rospy.get_param('/use_sim_time'), found or speed != 1)
+            launch.terminate()
+            launch.wait()
+            self.assertEqual(rospy.get_param('/use_sim_time', False), found)
 
     def test_a_node_that_waits_for_a_clock_that_nobody_publishes_says_so(self):
         rospy.set_param('/use_sim_time', True)

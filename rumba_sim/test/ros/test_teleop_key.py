@@ -201,18 +201,17 @@ class TeleopKeyTest(unittest.TestCase):
                 ('Esc', lambda keyboard: keyboard.type('\x1b')), ('Ctrl-C', lambda keyboard: keyboard.type('\x03')),
                 ('Ctrl-D', lambda keyboard: keyboard.type('\x04')), ('SIGINT', send(signal.SIGINT)),
                 ('SIGTERM', send(signal.SIGTERM)), ('SIGHUP', send(signal.SIGHUP)), ('rosnode kill', kill)):
-            with self.subTest(name):
-                keyboard = Keyboard(self, 'ended', '_hold:=5')
-                self.assertIn(HIDE_CURSOR, keyboard.screen)
-                self.assertNotEqual(keyboard.attributes(), keyboard.found)
-                keyboard.type('i')
-                keyboard.wait_to_hear(0.2, 0.0)
-                leave(keyboard)
-                self.assertEqual(keyboard.end(), 0)
-                keyboard.wait_to_hear(0.0, 0.0)
-                self.assertEqual(keyboard.heard[-1], (0.0, 0.0))
-                self.assertEqual(keyboard.attributes(), keyboard.found)
-                self.assertEqual(keyboard.screen.split('\x1b')[-1], SHOW_CURSOR[1:] + '\r\n')
+            keyboard = Keyboard(self, 'ended', '_hold:=5')
+            self.assertIn(HIDE_CURSOR, keyboard.screen)
+            self.assertNotEqual(keyboard.attributes(), keyboard.found)
+            keyboard.type('i')
+            keyboard.wait_to_hear(0.2, 0.0)
+            leave(keyboard)
+            self.assertEqual(keyboard.end(), 0)
+            keyboard.wait_to_hear(0.0, 0.0)
+            self.assertEqual(keyboard.heard[-1], (0.0, 0.0))
+            self.assertEqual(keyboard.attributes(), keyboard.found)
+            self.assertEqual(keyboard.screen.split('\x1b')[-1], SHOW_CURSOR[1:] + '\r\n')
 
     def test_while_it_is_suspended_the_robot_stands_and_the_shell_has_the_terminal(self):
         keyboard = Keyboard(self, 'suspended', '_hold:=5', shell='{}; echo suspended; read line; fg >/dev/null')

@@ -104,12 +104,11 @@ class TurtlesimBodyLifeTest(unittest.TestCase):
         for arguments, message in (
                 (['_turtle:=a/b'], "turtle is 'a/b': must be letters"), (['_map:=moon'], "there is no map 'moon'"),
                 (['_pen/red:=256'], 'pen/red is 256: must be 0 to 255'), (['_speed:=2'], 'speed is unknown')):
-            with self.subTest(arguments):
-                process = programs.run('rumba_sim', 'turtlesim_body', *arguments, timeout=TIMEOUT,
-                                       stderr=subprocess.PIPE, universal_newlines=True)
-                self.assertEqual(process.returncode, 2)
-                self.assertIn(message, process.stderr)
-                self.assertEqual(process.stderr.count('\n'), 1)
+            process = programs.run('rumba_sim', 'turtlesim_body', *arguments, timeout=TIMEOUT,
+                                   stderr=subprocess.PIPE, universal_newlines=True)
+            self.assertEqual(process.returncode, 2)
+            self.assertIn(message, process.stderr)
+            self.assertEqual(process.stderr.count('\n'), 1)
 
 
 if __name__ == '__main__':

@@ -38,9 +38,8 @@ class TurtlesimStartTest(unittest.TestCase):
                 ("unknown argument 'fast': known are ", 'fast'),
                 (r"cannot start: \[Errno 20\] Not a directory: '/dev/null/x'$", '__log:=/dev/null/x'),
                 ('speed:= remaps a topic: for the parameter write _speed:=', 'speed:=2')):
-            with self.subTest(arguments):
-                self.assert_refused(pattern, *arguments)
-                self.assertFalse(rospy.get_param('/turtlesim', {}))
+            self.assert_refused(pattern, *arguments)
+            self.assertFalse(rospy.get_param('/turtlesim', {}))
         self.assertFalse(rospy.has_param('/use_sim_time'))
 
     def test_without_a_master_it_says_so_and_waits(self):
