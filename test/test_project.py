@@ -5,7 +5,7 @@ import xml.etree.ElementTree
 
 import pytest
 import yaml
-from workspaces import OURS, ROOT, TUTORIALS
+from workspaces import OURS, ROOT, STAND_INS, TUTORIALS
 
 KEYS = yaml.safe_load((ROOT / 'packaging' / 'rosdep_keys.yaml').read_text())
 WORKFLOW = yaml.safe_load((ROOT / '.github' / 'workflows' / 'test.yml').read_text())
@@ -49,3 +49,11 @@ def test_one_version_and_no_address_that_was_made_up(package):
     root = xml.etree.ElementTree.parse(str(package / 'package.xml')).getroot()
     assert root.find('version').text == '0.1.0'
     assert root.find('url') is None, 'an address: then say it in CONTRIBUTING.md too, and give a .rosinstall'
+
+
+def test_tests_with_nodes_have_no_subtests():
+    """rosunit counts the failures of subtests, but names the whole test as passed, and does not say what failed."""
+    files = [path for folder in OURS + STAND_INS for path in folder.glob('test/ros/*.py')]
+    files += [path for folder in TUTORIALS for path in folder.glob('test/*.py')]
+    assert len(files) > 50
+    assert [str(path) for path in files if 'subTest' in path.read_text()] == []

@@ -14,6 +14,7 @@ import rospy
 from geometry_msgs.msg import Pose2D, Twist
 from nav_msgs.msg import OccupancyGrid, Odometry
 from nav_msgs.srv import GetMap
+from ports import free_port
 from rosgraph_msgs.msg import Clock, Log
 from sensor_msgs.msg import BatteryState, LaserScan
 from std_srvs.srv import SetBool, Trigger
@@ -89,7 +90,7 @@ class Master:
 
     def __init__(self, test):
         self._test = test
-        self._port = 11700 + os.getpid() % 1000
+        self._port = free_port()
         self.uri = f'http://localhost:{self._port}'
 
     def start(self):

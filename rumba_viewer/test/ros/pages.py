@@ -12,6 +12,7 @@ import numpy as np
 import programs
 import rospy
 from PIL import Image
+from ports import free_port
 from simulators import TIMEOUT, Simulator, wait
 from tornado.ioloop import IOLoop
 from tornado.websocket import websocket_connect
@@ -60,7 +61,7 @@ class Master:
 
     def __init__(self, test):
         self._test = test
-        self._port = 11700 + os.getpid() % 1000
+        self._port = free_port()
         self.uri = f'http://localhost:{self._port}'
         self._environment = {**os.environ, 'ROS_MASTER_URI': self.uri}
         self._start()

@@ -9,6 +9,7 @@ import subprocess
 import sys
 import unittest
 
+import programs
 import rospy
 import rostest
 from geometry_msgs.msg import PoseWithCovarianceStamped
@@ -132,8 +133,8 @@ class PageTest(unittest.TestCase):
                                  (['_port:=70000'], 'port'), (['_tokn:=x'], 'tokn')):
             if rospy.has_param('/page'):
                 rospy.delete_param('/page')
-            done = subprocess.run(['rosrun', 'rumba_viewer', 'page', *arguments], stdout=subprocess.PIPE,
-                                  stderr=subprocess.PIPE, universal_newlines=True, timeout=TIMEOUT)
+            done = programs.run('rumba_viewer', 'page', *arguments, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                                universal_newlines=True, timeout=TIMEOUT)
             self.assertEqual(done.returncode, 2)
             self.assertIn(words, done.stderr)
             self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)

@@ -3,9 +3,9 @@
 import functools
 import os
 import signal
-import subprocess
 import time
 
+import programs
 import rosgraph
 import roslib.packages
 import rospy
@@ -23,6 +23,8 @@ ENDS_WITHIN = 30.0  # [s]: a deadlock lasts longer, a busy machine does not
 TOPICS = {'pose': Pose, 'color_sensor': Color, 'clock': Clock, 'rosout': Log, 'cmd_vel': Twist}
 SERVICES = {'clear': Empty, 'reset': Empty, 'spawn': Spawn, 'kill': Kill, 'save_png': Trigger, 'set_pen': SetPen,
             'teleport_absolute': TeleportAbsolute, 'teleport_relative': TeleportRelative}
+LIBRARIES = ['geometry_msgs.msg', 'PIL.Image', 'rosgraph', 'rosgraph_msgs.msg', 'roslib.packages', 'std_srvs.srv',
+             'turtlesim.msg', 'turtlesim.srv', 'xmlrpc.server']  # of the nodes
 
 
 @functools.lru_cache(maxsize=None)
@@ -64,12 +66,18 @@ def without_display(**more):
     return {**kept, **more}
 
 
+def start(node, *arguments, **options):
+    """Start a node, without a display unless an environment is given; `options` are those of Popen."""
+    environment = options.pop('env', without_display())
+    return programs.start_script(executable(node), *arguments, libraries=LIBRARIES, env=environment, **options)
+
+
 class Node:
     """A process that ends with its test."""
 
-    def __init__(self, test, *command, **options):
+    def __init__(self, test, process):
         self._test = test
-        self.process = subprocess.Popen(command, env=options.pop('env', without_display()), **options)
+        self.process = process
         test.addCleanup(self.end)
 
     def end(self, number=signal.SIGINT):
@@ -92,7 +100,7 @@ class Turtlesim(Node):
 
     def __init__(self, test, *arguments, name='/turtlesim', **options):
         forget_parameters('/turtlesim')
-        super().__init__(test, executable('turtlesim_node'), *arguments, **options)
+        super().__init__(test, start('turtlesim_node', *arguments, **options))
         wait(test, lambda: self.process.poll() is not None or is_served(f'{name}/save_png'), 'turtlesim_node',
              LOOK_PERIOD)
         test.assertIsNone(self.process.poll(), 'turtlesim_node ended')

@@ -12,7 +12,7 @@ import unittest
 
 import rospy
 import rostest
-from nodes import TIMEOUT, Heard, Node, Turtlesim, commander, executable, wait
+from nodes import TIMEOUT, Heard, Node, Turtlesim, commander, executable, start, wait, without_display
 
 MIDDLE = 5.544444
 
@@ -32,8 +32,8 @@ class ClientsTest(unittest.TestCase):
         for end in (ours, theirs):
             self.addCleanup(os.close, end)
         found = termios.tcgetattr(theirs)
-        node = Node(self, 'setsid', '--ctty', executable('turtle_teleop_key'), *arguments, stdin=theirs, stdout=theirs,
-                    stderr=theirs)
+        command = ['setsid', '--ctty', executable('turtle_teleop_key'), *arguments]
+        node = Node(self, subprocess.Popen(command, stdin=theirs, stdout=theirs, stderr=theirs))
         wait(self, lambda: b'q quits' in os.read(ours, 10000), 'its help')
         return node, ours, theirs, found
 
@@ -84,7 +84,7 @@ class ClientsTest(unittest.TestCase):
         node = Turtlesim(self, '_speed:=2')
         node.call('turtle1/teleport_absolute', 1.0, 1.0, 2.0)
         pose = Heard(self, '/turtle1/pose')
-        Node(self, executable('draw_square'))
+        Node(self, start('draw_square'))
         for count in range(2, 9):  # a movement is complete when the next one has begun
             wait(self, lambda: len(movements(pose.messages)) >= count, f'movement {count}')
         found = movements(pose.messages)[:8]
@@ -102,8 +102,9 @@ class ClientsTest(unittest.TestCase):
             before = end.x, end.y, end.theta
 
     def test_mimic_moves_a_turtle_as_one_of_another_field_moves(self):
-        Node(self, 'roslaunch', 'turtlesim', 'multisim.launch', stdout=subprocess.DEVNULL)
-        Node(self, executable('mimic'), 'input:=turtlesim1/turtle1', 'output:=turtlesim2/turtle1')
+        Node(self, subprocess.Popen(['roslaunch', 'turtlesim', 'multisim.launch'], env=without_display(),
+                                    stdout=subprocess.DEVNULL))
+        Node(self, start('mimic', 'input:=turtlesim1/turtle1', 'output:=turtlesim2/turtle1'))
         first, second = Heard(self, '/turtlesim1/turtle1/pose'), Heard(self, '/turtlesim2/turtle1/pose')
         Heard(self, '/turtlesim2/turtle1/cmd_vel').find()
         commander(self, 'turtlesim1/turtle1')(1.0, 0.0, 0.8)

@@ -8,7 +8,7 @@ import unittest
 
 import rospy
 import rostest
-from nodes import TIMEOUT, Heard, Turtlesim, commander, executable, forget_parameters, wait, without_display
+from nodes import TIMEOUT, Heard, Turtlesim, commander, forget_parameters, start, wait, without_display
 
 MIDDLE = 5.544444
 STEP = 16_000_000  # [ns]
@@ -19,11 +19,12 @@ class TurtlesimStartTest(unittest.TestCase):
 
     def assert_refused(self, pattern, *arguments):
         """Start a node that must refuse its arguments with one line and exit code 2."""
-        done = subprocess.run([executable('turtlesim_node'), *arguments], stdout=subprocess.PIPE,
-                              stderr=subprocess.PIPE, universal_newlines=True, timeout=TIMEOUT, check=False,
-                              env=without_display())
-        self.assertEqual((done.returncode, done.stdout), (2, ''), done.stderr)
-        self.assertRegex(done.stderr, rf'\Aturtlesim: {pattern}[^\n]*\n\Z')
+        with start('turtlesim_node', *arguments, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                   universal_newlines=True) as node:
+            self.addCleanup(node.kill)
+            out, errors = node.communicate(timeout=TIMEOUT)
+        self.assertEqual((node.returncode, out), (2, ''), errors)
+        self.assertRegex(errors, rf'\Aturtlesim: {pattern}[^\n]*\n\Z')
 
     def test_bad_input_gets_one_line_and_exit_code_2_and_leaves_no_parameter(self):
         forget_parameters('/turtlesim')
@@ -43,8 +44,8 @@ class TurtlesimStartTest(unittest.TestCase):
         self.assertFalse(rospy.has_param('/use_sim_time'))
 
     def test_without_a_master_it_says_so_and_waits(self):
-        node = subprocess.Popen([executable('turtlesim_node'), '_speed:=2'], stderr=subprocess.PIPE,
-                                universal_newlines=True, env=without_display(ROS_MASTER_URI='http://localhost:9'))
+        node = start('turtlesim_node', '_speed:=2', stderr=subprocess.PIPE, universal_newlines=True,
+                     env=without_display(ROS_MASTER_URI='http://localhost:9'))
         self.addCleanup(node.communicate)
         self.addCleanup(node.kill)
         self.assertEqual(node.stderr.readline(),
