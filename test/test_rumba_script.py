@@ -206,6 +206,7 @@ def test_a_package_of_compat_is_built_only_if_the_system_has_none(checkout, tmp_
     assert not (source / 'std_srvs').exists() and not built.exists()
 
 
+@pytest.mark.thorough
 def test_lessons_are_built_once_they_are_asked_for_and_remain(checkout, tmp_path):
     write_package(checkout / 'rumba_tutorials' / '01_first' / 'a_lesson')
     (checkout / 'rumba_tutorials' / 'CATKIN_IGNORE').touch()

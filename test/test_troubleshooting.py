@@ -177,6 +177,7 @@ def lonely(workspace):
     return workspace.space('devel', environment), environment
 
 
+@pytest.mark.thorough
 def test_two_cleaners_of_one_robot(workspace):
     here, environment = lonely(workspace)
     with master(environment), here.running('$LIB/rumba_cleaning/cleaner _map:=studio'):
@@ -212,6 +213,7 @@ def test_a_master_that_ends_and_comes_again(workspace):
             here.run('rostopic echo -n1 /rumba/battery_status')
 
 
+@pytest.mark.thorough
 def test_a_saved_world_that_does_not_fit(workspace, tmp_path):
     here, environment = lonely(workspace)
     simulator = f'$LIB/rumba_sim/simulator _map:=studio _state:={tmp_path}/state'

@@ -23,7 +23,7 @@ from rumba_cleaning.belief.context import BeforeNextStep, Context, own_seed
 from rumba_cleaning.control import CONTROL_DT, CONTROL_TICKS, STEP_RATE, act
 from rumba_cleaning.mission.mission import Mission
 from rumba_cleaning.pose_source import Localised
-from rumba_msg.msg import CleanGoal, DockStatus, MissionStatus
+from rumba_msg.msg import CleanGoal, DockStatus, MissionStatus, Outcome
 from rumba_sim.model import map_file, obstacle_file
 from rumba_sim.model.robot import FIRST
 from rumba_sim.model.robot_config import RobotConfig
@@ -112,11 +112,11 @@ class CleanerLocalisedTest(unittest.TestCase):
         simulator = Simulator(self, '_map:=studio', f'_seed:={SEED}', '_speed:=0', '_brushes_up:=true',
                               '_localisation:=slam', '_wait_for:=mapper', '_lockstep_patience:=60')
         Mapper(self)
-        cleaner = Cleaner(self, '_mapping:=true', '_strategy:=explore_and_clean', f'_target_coverage:={TARGET}',
-                          '_autostart:=true').connect()
+        cleaner = Cleaner(self, '_mapping:=true', '_strategy:=explore_and_clean').connect()
+        goal = cleaner.send('clean', CleanGoal(target_coverage=TARGET))
         cleaner.status.find(lambda status: status.message.endswith('exploring'))
-        ended = cleaner.status.find(lambda status: status.state == MissionStatus.IDLE and 'swept' in status.message)
-        self.assertRegex(ended.message, rf'^{100.0 * TARGET:.0f}\.\d % swept$')
+        message = goal.ends(Outcome.SUCCEEDED).outcome.message
+        self.assertRegex(message, rf'^{100.0 * TARGET:.0f}\.\d % swept$')
         self.assertTrue(Heard(self, '/rumba/dock_status', DockStatus).find().is_docked)
         self.assertIsNone(simulator.process.poll())
 

@@ -104,6 +104,7 @@ def test_a_robot_helps_a_mate_although_the_target_is_met_but_for_what_poses_may_
     assert first.state is State.CLEANING and first.plan_ahead().relief.mate == 'rumba2'
 
 
+@pytest.mark.thorough
 def test_who_waits_on_its_dock_for_mates_that_find_nothing_more_ends_there(monkeypatch):
     monkeypatch.setattr(missions, 'EXACT', 0.5)  # nobody is ever sure to have met the target
     monkeypatch.setattr(helping, 'LEAST', math.inf)  # and who comes late finds no work, ...
@@ -135,6 +136,7 @@ def test_what_a_robot_leaves_that_falls_silent_is_cleaned_by_its_mate():
     assert crew.world.floor.coverage > 0.9
 
 
+@pytest.mark.thorough
 def test_who_comes_late_takes_over_about_half_of_what_its_mate_has_left():
     crew = Crew(TWO_ROOMS, quiet())
     crew.silent.add('rumba2')

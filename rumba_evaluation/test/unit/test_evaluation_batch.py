@@ -92,6 +92,7 @@ def test_a_worker_reads_a_map_once(tmp_path):
     assert batch.floor_plan.cache_info().misses == 1
 
 
+@pytest.mark.thorough
 def test_dask_finds_the_same_results(tmp_path):
     distributed = pytest.importorskip('distributed', reason='Dask is optional: the package python3-distributed')
     jobs = [job(tmp_path, 'bounce', seed, bound=0.5) for seed in (1, 2, 3)]
