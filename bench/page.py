@@ -14,6 +14,7 @@ import sys
 import time
 
 from common import figures, ros_session
+from common.ports import free_port
 from tornado.httpclient import AsyncHTTPClient
 from tornado.websocket import websocket_connect
 
@@ -41,7 +42,7 @@ def main():
 
 def beside(seconds, clients, robots, share, memory):
     """The share of a core that the node uses while clients listen: the median, and its memory."""
-    port = ros_session.free_port()
+    port = free_port()
     with ros_session.simulator(map='apartment', robots=robots), ros_session.process(
             ['rosrun', 'rumba_viewer', 'page', f'_port:={port}']) as page, contextlib.ExitStack() as until_the_end:
         ros_session.wait_until(lambda: is_served(port))

@@ -13,6 +13,7 @@ import time
 import actionlib
 import tqdm
 from common import figures, ros_session
+from common.ports import free_port
 
 from rumba_msg.msg import CleanAction, CleanGoal
 
@@ -56,7 +57,7 @@ def main():
     if not CHROMEDRIVER.exists() or importlib.util.find_spec('selenium') is None:
         figures.heading('The page in a browser: not measured, without chromium-driver and python3-selenium')
         return
-    port = ros_session.free_port()
+    port = free_port()
     with ros_session.master(), ros_session.simulator(map='apartment', speed=SPEED), ros_session.process(
             ['rosrun', 'rumba_cleaning', 'cleaner']), ros_session.process(
             ['rosrun', 'rumba_viewer', 'page', f'_port:={port}']):

@@ -4,7 +4,6 @@ import contextlib
 import os
 import pathlib
 import signal
-import socket
 import subprocess
 import sys
 import time
@@ -12,6 +11,7 @@ import time
 import rosgraph
 import rospy
 from common import figures
+from common.ports import free_port
 
 from rumba_msg.msg import SimulatorState
 
@@ -32,13 +32,6 @@ def process(command, stdout=subprocess.DEVNULL):
         except subprocess.TimeoutExpired:
             os.killpg(started.pid, signal.SIGKILL)
             started.wait()
-
-
-def free_port():
-    """A port of the loopback at which nobody listens."""
-    with socket.socket() as free:
-        free.bind(('localhost', 0))
-        return free.getsockname()[1]
 
 
 @contextlib.contextmanager

@@ -13,7 +13,7 @@ hypothesis.settings.load_profile('rumba')
 # If a shell runs the tests in the background, they and the processes that they start would ignore Ctrl-C.
 signal.signal(signal.SIGINT, signal.default_int_handler)
 
-ABOUT_PLANS = ('test_planner', 'test_improvement', 'test_sharing', 'test_bounds')  # modules
+ABOUT_PLANS = ('test_planner', 'test_improvement', 'test_sharing', 'test_bounds')  # modules, also of evaluation
 
 
 @pytest.fixture(autouse=True, scope='module')

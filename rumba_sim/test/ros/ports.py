@@ -1,4 +1,4 @@
-"""Ports for masters of tests' own."""
+"""Ports for masters of tests and of benches."""
 
 import random
 import socket

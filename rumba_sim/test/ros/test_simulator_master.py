@@ -88,19 +88,18 @@ class SimulatorMasterTest(unittest.TestCase):
             for process in processes:
                 process.stdin.close()
             wait(self, lambda: [process.poll() for process in processes].count(None) <= 1)  # noqa: B023
-            running = [process for process in processes if process.poll() is None]
-            self.assertEqual(len(running), 1, [process.stdout.read() for process in processes if not running])
-            for process in processes:
-                if process not in running:
-                    told = process.stdout.read()
-                    self.assertEqual(process.returncode, 2, told)
-                    self.assertRegex(told, message)
+            told = {process: process.stdout.read() for process in processes if process.poll() is not None}
+            self.assertEqual(len(told), len(processes) - 1, list(told.values()))
+            for process, text in told.items():
+                self.assertEqual(process.returncode, 2, text)
+                self.assertRegex(text, message)
+            [running] = set(processes) - set(told)
             master.wait_for('/static_map')
-            self.assertIsNone(running[0].poll())
+            self.assertIsNone(running.poll())
             wait(self, lambda: 'reserv' not in str(master.api.getSystemState()), 'the end of the reservation',
                  LOOK_PERIOD)
-            running[0].terminate()
-            self.assertEqual(running[0].wait(TIMEOUT), 0)
+            running.terminate()
+            self.assertEqual(running.wait(TIMEOUT), 0)
 
     def test_of_simulators_that_start_at_one_moment_in_two_namespaces_one_survives(self):
         self.assert_one_survives(

@@ -1,13 +1,12 @@
 """What the tests of the nodes share: nodes started as a user starts them, their topics and services."""
 
-import functools
 import os
 import signal
+import subprocess
 import time
 
 import programs
 import rosgraph
-import roslib.packages
 import rospy
 from geometry_msgs.msg import Twist, Vector3
 from PIL import Image
@@ -25,12 +24,6 @@ SERVICES = {'clear': Empty, 'reset': Empty, 'spawn': Spawn, 'kill': Kill, 'save_
             'teleport_absolute': TeleportAbsolute, 'teleport_relative': TeleportRelative}
 LIBRARIES = ['geometry_msgs.msg', 'PIL.Image', 'rosgraph', 'rosgraph_msgs.msg', 'roslib.packages', 'std_srvs.srv',
              'turtlesim.msg', 'turtlesim.srv', 'xmlrpc.server']  # of the nodes
-
-
-@functools.lru_cache(maxsize=None)
-def executable(node):
-    """Path of a node, which `rosrun` would look for at each start, longer than some of them take to start."""
-    return roslib.packages.find_node('turtlesim', node)[0]
 
 
 def wait(test, condition, what='it', period=0.005):
@@ -68,8 +61,13 @@ def without_display(**more):
 
 def start(node, *arguments, **options):
     """Start a node, without a display unless an environment is given; `options` are those of Popen."""
-    environment = options.pop('env', without_display())
-    return programs.start_script(executable(node), *arguments, libraries=LIBRARIES, env=environment, **options)
+    return programs.start('turtlesim', node, *arguments, **{'env': without_display(), **options}, libraries=LIBRARIES)
+
+
+def run(node, *arguments, **options):
+    """Run a node to its end, in the same way; returns it, with what it printed, as subprocess.run does."""
+    return programs.run('turtlesim', node, *arguments, stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=TIMEOUT,
+                        universal_newlines=True, env=without_display(), libraries=LIBRARIES, **options)
 
 
 class Node:

@@ -10,9 +10,10 @@ import subprocess
 import termios
 import unittest
 
+import programs
 import rospy
 import rostest
-from nodes import TIMEOUT, Heard, Node, Turtlesim, commander, executable, start, wait, without_display
+from nodes import Heard, Node, Turtlesim, commander, run, start, wait, without_display
 
 MIDDLE = 5.544444
 
@@ -32,7 +33,7 @@ class ClientsTest(unittest.TestCase):
         for end in (ours, theirs):
             self.addCleanup(os.close, end)
         found = termios.tcgetattr(theirs)
-        command = ['setsid', '--ctty', executable('turtle_teleop_key'), *arguments]
+        command = ['setsid', '--ctty', programs.executable('turtlesim', 'turtle_teleop_key'), *arguments]
         node = Node(self, subprocess.Popen(command, stdin=theirs, stdout=theirs, stderr=theirs))
         wait(self, lambda: b'q quits' in os.read(ours, 10000), 'its help')
         return node, ours, theirs, found
@@ -73,8 +74,7 @@ class ClientsTest(unittest.TestCase):
         self.addCleanup(rospy.delete_param, '/scale_angular')
         for stdin, pattern in ((subprocess.DEVNULL, 'the standard input is not a term'),
                                (theirs, "parameter /scale_angular is 'fast': must be -1000 to 1000")):
-            done = subprocess.run([executable('turtle_teleop_key')], stdin=stdin, stderr=subprocess.PIPE,
-                                  universal_newlines=True, timeout=TIMEOUT, check=False)
+            done = run('turtle_teleop_key', stdin=stdin)
             self.assertEqual(done.returncode, 2)
             self.assertRegex(done.stderr, rf'\Ateleop_turtle: {pattern}[^\n]*\n\Z')
         os.close(ours)

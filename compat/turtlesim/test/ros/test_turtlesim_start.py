@@ -8,7 +8,7 @@ import unittest
 
 import rospy
 import rostest
-from nodes import TIMEOUT, Heard, Turtlesim, commander, forget_parameters, start, wait, without_display
+from nodes import TIMEOUT, Heard, Turtlesim, commander, forget_parameters, run, start, wait, without_display
 
 MIDDLE = 5.544444
 STEP = 16_000_000  # [ns]
@@ -19,12 +19,9 @@ class TurtlesimStartTest(unittest.TestCase):
 
     def assert_refused(self, pattern, *arguments):
         """Start a node that must refuse its arguments with one line and exit code 2."""
-        with start('turtlesim_node', *arguments, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                   universal_newlines=True) as node:
-            self.addCleanup(node.kill)
-            out, errors = node.communicate(timeout=TIMEOUT)
-        self.assertEqual((node.returncode, out), (2, ''), errors)
-        self.assertRegex(errors, rf'\Aturtlesim: {pattern}[^\n]*\n\Z')
+        done = run('turtlesim_node', *arguments)
+        self.assertEqual((done.returncode, done.stdout), (2, ''), done.stderr)
+        self.assertRegex(done.stderr, rf'\Aturtlesim: {pattern}[^\n]*\n\Z')
 
     def test_bad_input_gets_one_line_and_exit_code_2_and_leaves_no_parameter(self):
         forget_parameters('/turtlesim')
