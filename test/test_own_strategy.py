@@ -14,6 +14,7 @@ print(trial.missions[0].strategy, trial.world.floor.coverage >= 0.5)
 '''
 
 
+@pytest.mark.thorough(except_for=['install'])
 @pytest.mark.parametrize('space', ['devel', 'install'])
 def test_it_cleans_half_the_studio_in_process(overlay, space):
     stranger = overlay.space(space)

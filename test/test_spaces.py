@@ -46,6 +46,7 @@ def test_publisher_and_listener_meet(workspace, space):
             assert listener.stdout.readline().startswith('battery  42 %   at (1.50, 0.00) m, 0 deg   brushes down')
 
 
+@pytest.mark.thorough
 def test_the_demo_runs_from_the_install_space_too(workspace):
     here = workspace.space('install')
     with here.running('roslaunch rumba_bringup demo.launch percentage:=50 drain:=0') as demo:

@@ -35,6 +35,7 @@ def test_a_workspace_grows_from_nothing(tmp_path):
         consoles.play(ROOT / 'docs' / 'building.md', space)
 
 
+@pytest.mark.thorough
 def test_a_library_and_its_header_serve_from_the_install_space(overlay):
     assert (overlay.path / 'build' / SPEED_GUARD.name).is_dir()
     consoles.play(SPEED_GUARD.parent / 'README.md', overlay.space('devel', clean_environment()))

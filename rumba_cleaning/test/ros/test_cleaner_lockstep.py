@@ -96,6 +96,7 @@ class CleanerLockstepTest(unittest.TestCase):
     def test_a_mission_is_the_same_beside_busy_loops(self):
         self.ends_as_in_process(*self.autostarted(BUSY))
 
+    @thorough
     def test_a_mission_without_a_map_is_the_same(self):
         simulator = Simulator(self, *SIMULATOR, '_wait_for:=cleaner', '_localisation:=none')
         status = Heard(self, '/rumba/mission_status', MissionStatus, waits=False)

@@ -11,6 +11,7 @@ from cleaners import Cleaner, Person, go_to
 from geometry_msgs.msg import Pose2D, TransformStamped
 from simulators import Heard, Simulator, folder_of, wait_for_service
 from tf2_msgs.msg import TFMessage
+from tiers import thorough
 
 from rumba_msg.msg import CleanGoal, DockGoal, MissionStatus, Outcome
 from rumba_msg.srv import Teleport
@@ -69,6 +70,7 @@ NONSENSE = (('text', NO_COMMAND.format("Command(v='0.1', w=0, brushes_up=False)"
 class CleanerPlacesTest(unittest.TestCase):
     """A simulator for each place."""
 
+    @thorough
     def test_two_robots_in_two_rooms_without_a_dock_or_a_door(self):
         if rospy.has_param('/upstairs'):
             rospy.delete_param('/upstairs')

@@ -96,6 +96,7 @@ def test_it_waits_for_what_stands_in_a_doorway_to_go():
     assert is_open and context.swept.coverage > 0.98
 
 
+@pytest.mark.thorough
 def test_somebody_who_stands_in_the_only_door_now_and_then_does_not_end_it_early():
     """For minutes, but never for so long that it would have to be furniture."""
     plan = room(5.0, 3.0, boxes=[(2.4, 0.0, 2.6, 1.0), (2.4, 1.9, 2.6, 3.0)], start=Pose(1.0, 1.0, 0.0))

@@ -83,6 +83,7 @@ def test_edits_that_were_far_from_worth_it_are_not_judged_again(monkeypatch):
     assert counts[0] < 0.95 * counts[1] and seconds[0] < 1.02 * seconds[1], (counts, seconds)
 
 
+@pytest.mark.thorough
 def test_the_better_of_two_routes_is_improved():
     surroundings = surroundings_of(crooked(0.02), target_coverage=0.95)
     good = first_draft(surroundings)

@@ -61,6 +61,7 @@ def test_a_plan_ends_near_where_it_should(end, left, right):
     assert driven(context, route).coverage == approx(driven(context, anywhere).coverage, abs=0.01)
 
 
+@pytest.mark.thorough
 def test_within_a_room_too_a_plan_ends_near_where_it_should():
     start, corners = Pose(0.3, 0.3, 0.0), [Pose(0.3, 2.2, 0.0), Pose(3.7, 2.2, 0.0)]
     context = knowing(room(4.0, 2.5, 0.05, [(1.9, 1.1, 2.1, 1.3)]), start)
@@ -112,6 +113,7 @@ def test_two_plans_for_the_same_floor_are_equal(name):
     assert (routes[0].waypoints == routes[1].waypoints).all() and (routes[0].speeds == routes[1].speeds).all()
 
 
+@pytest.mark.thorough
 def test_a_turned_floor_is_swept_by_as_short_a_route_as_a_straight_one():
     box, lengths = (1.2, 1.0, 1.5, 1.4), []
     for floor_plan in (tilted(4.0, 3.0, math.radians(25.0), 0.05, box), room(4.0, 3.0, 0.05, [box])):

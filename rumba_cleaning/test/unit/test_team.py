@@ -87,6 +87,7 @@ def test_the_first_of_three_takes_somewhat_more_than_a_third():
     assert times[0] == approx(MORE / 3.0 * whole, rel=0.1) and max(times) < 1.6 * min(times)
 
 
+@pytest.mark.thorough
 def test_a_robot_helps_a_mate_although_the_target_is_met_but_for_what_poses_may_be_off(monkeypatch):
     monkeypatch.setattr(missions, 'EXACT', 0.5)  # nobody is ever sure to have met the target
     monkeypatch.setattr(improvement, 'MARGIN', 0.45)  # their plans lead over almost all of the floor

@@ -113,6 +113,7 @@ def test_a_long_corridor_that_dead_reckoning_bends_is_straight():
     assert off_walls(mapper, plan).max() < 0.2
 
 
+@pytest.mark.thorough
 def test_along_a_bare_corridor_it_is_less_and_less_sure_how_far_it_has_come_until_it_sees_the_end():
     plan, start = room(30.0, 1.2, boxes=[(1.5, 0.0, 1.8, 0.2), (28.0, 1.0, 28.4, 1.2)]), Pose(1.0, 0.6, 0.0)
     world, mapper = world_of(plan, start), Mapper(start)

@@ -13,6 +13,7 @@ import rospy
 import rostest
 from ports import free_port
 from simulators import LOOK_PERIOD, TIMEOUT, folder_of, wait, wait_for_service
+from tiers import thorough
 
 ROUNDS = 3
 READY = 'tuning/set_parameters'
@@ -101,6 +102,7 @@ class SimulatorMasterTest(unittest.TestCase):
             running.terminate()
             self.assertEqual(running.wait(TIMEOUT), 0)
 
+    @thorough
     def test_of_simulators_that_start_at_one_moment_in_two_namespaces_one_survives(self):
         self.assert_one_survives(
             [['__ns:=/one'], ['__ns:=/two'], ['__ns:=/three']],
