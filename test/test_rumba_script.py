@@ -48,6 +48,7 @@ def test_a_failing_test_fails_the_whole_and_is_named_and_the_last_line_counts(ch
     assert 'AssertionError: on purpose' in verdict
 
 
+@pytest.mark.thorough
 def test_the_tests_of_a_package_run_alone_thoroughly_if_wanted_and_an_unknown_one_is_refused(checkout, tmp_path):
     (checkout / 'twin').mkdir()
     for name, text in SAMPLE.items():

@@ -93,6 +93,7 @@ def test_the_service_answers_with_a_velocity_if_it_is_told_to_and_a_mission_with
         launch.find(r'rumba: given up after .*: the robot is gone')
 
 
+@pytest.mark.thorough
 class TestBesideNodesOfTheLesson:
     """A turtle that waits for nodes of the lesson."""
 

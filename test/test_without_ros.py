@@ -108,6 +108,7 @@ def test_every_module_can_be_imported_without_ros(venv):
     assert run(venv, 'python', '-c', IMPORTS, *names) == f'{len(names)}\n'
 
 
+@pytest.mark.thorough
 def test_the_commands_of_the_page_print_what_it_shows(venv, tmp_path):
     play(PAGE, Space([], environment(), f'cd {tmp_path}; PATH={venv}/bin:$PATH;'))
 

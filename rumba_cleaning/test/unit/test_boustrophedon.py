@@ -127,6 +127,7 @@ def test_it_squeezes_through_a_gap_that_leads_to_more_of_the_floor():
     assert mission.outcome is Outcome.INCOMPLETE and world.floor.coverage >= 0.97
 
 
+@pytest.mark.thorough
 def test_a_robot_that_gave_up_where_it_was_shut_in_begins_again_at_its_dock():
     plan = room(5.0, 3.0, boxes=[(2.4, 0.0, 2.6, 1.0), (2.4, 1.9, 2.6, 3.0)], dock=Pose(4.9 - RADIUS, 1.45, 0.0))
     world = World(plan, quiet())

@@ -19,6 +19,7 @@ def test_on_a_floor_that_a_day_is_enough_for_the_limit_is_a_day():
     assert limit(10.0, 10.0) == DAY
 
 
+@pytest.mark.thorough
 def test_on_a_large_floor_the_limit_is_three_times_what_work_and_charging_take():
     """2,000 m2: 10.9 h of work without overlap; 1.69 A flow out, 1.25 A in, and the charger tapers."""
     working = 2000.0 / (0.17 * 0.3)

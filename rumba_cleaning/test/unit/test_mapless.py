@@ -106,6 +106,7 @@ def test_it_cleans_for_its_time_and_comes_home_although_its_wheels_err(strategy,
     assert math.hypot(believed.x - true.x + DOCK.x, believed.y - true.y + DOCK.y) > 0.3  # it does not know where it is
 
 
+@pytest.mark.thorough
 def test_it_charges_as_often_as_its_time_takes():
     world, behaviour = mission(seconds=900.0, drain=20.0)
     seen = states(behaviour, world)
@@ -161,7 +162,7 @@ def test_a_strategy_that_needs_a_map_is_refused(name):
         strategies.check_mapless('nothing')
 
 
-@pytest.mark.thorough(except_for=['1-wander', '2-bounce'])
+@pytest.mark.thorough(except_for=['2-bounce'])
 @pytest.mark.parametrize('strategy', ['wander', 'bounce'])
 @pytest.mark.parametrize('seed', [1, 2, 6])
 def test_beside_stairs_it_neither_falls_nor_gives_up(strategy, seed):

@@ -55,6 +55,7 @@ def test_each_robot_knows_what_both_have_swept(pair):
     assert [context.swept.coverage for context in crew.contexts.values()] == approx([coverage] * 2, abs=2e-4)
 
 
+@pytest.mark.thorough
 def test_a_team_repeats_bit_for_bit(pair):
     crew, _ = pair
     again = Crew(TWO_ROOMS, quiet())

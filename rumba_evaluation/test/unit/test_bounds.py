@@ -38,7 +38,7 @@ def turned_hall(angle, resolution=0.05):
     return FloorPlan('hall', np.where(free, FREE, OCCUPIED).astype(np.int8), resolution, (-4.5, -4.5))
 
 
-@pytest.mark.thorough(except_for=['crooked, fine', 'two rooms'])
+@pytest.mark.thorough(except_for=['crooked, fine'])
 @pytest.mark.parametrize('plan', [
     crooked(), crooked(0.02), turned_hall(0.0), turned_hall(0.4), room(8.0, 5.0, 0.05, cliff=(3.0, 2.0, 5.0, 3.0),
                                                                        start=Pose(1.0, 1.0, 0.0)),

@@ -61,7 +61,7 @@ class Follower:
     @property
     def _leg(self) -> int:
         """The leg of the first piece on which the robot is."""
-        return compiled_follower.leg_at(self._pieces[0], self._distance)
+        return compiled_follower.leg_at(self._pieces[0].lengths, self._distance)
 
     def ahead(self, length: float) -> Array:
         """Points on the next part of the route, up to a length, or a hairpin: float64 (any, 2) [m]."""
@@ -70,7 +70,7 @@ class Follower:
         piece = self._pieces[0]
         ends = min(self._distance + length, _length(piece))
         along = np.append(np.arange(self._distance, ends, LEAST_AHEAD), ends)
-        return np.array([compiled_follower.at(piece, distance) for distance in along.tolist()])
+        return np.stack([np.interp(along, piece.lengths, piece.waypoints[:, axis]) for axis in range(2)], axis=-1)
 
     def rest(self) -> Optional[Route]:
         """What is left of the route, from the next waypoint on; None if nothing is left."""
@@ -97,8 +97,8 @@ class Follower:
             dt: time until the next call, by the time since the last one [s].
         """
         while self._pieces:
-            is_at_end, off = compiled_follower.follow(self._pieces[0], self._drive, self._state, pose.x, pose.y,
-                                                      pose.theta, max(dt, LEAST_DT))
+            is_at_end, off = compiled_follower.follow_flat(*self._pieces[0], *self._drive, self._state, *pose,
+                                                           max(dt, LEAST_DT))
             self.is_lost = off > LOST
             if not is_at_end:
                 return float(self._state[V]), float(self._state[W])

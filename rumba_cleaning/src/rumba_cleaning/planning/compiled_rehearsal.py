@@ -92,7 +92,7 @@ def drive_piece(piece: Piece, drive: Drive, walls: Walls, begin: Array, is_first
         here = trace[step]
         is_at_end, off = follow(piece, drive, state, here[X], here[Y], here[THETA], DT)
         here[ALONG] = state[DISTANCE]
-        here[SPEED] = piece.speeds[leg_at(piece, state[DISTANCE])]
+        here[SPEED] = piece.speeds[leg_at(piece.lengths, state[DISTANCE])]
         if is_at_end or state[DISTANCE] >= until:
             return True, trace[:step + 1]
         if off > LOST:
