@@ -90,6 +90,14 @@ def test_parts_that_run_ahead_complete_a_reading_and_older_ones_do_not(robot):
     assert robot.senses.stamp == rospy.Time.from_sec(1.1)
 
 
+def test_a_dock_status_that_is_always_ahead_completes_readings_all_the_same(robot):
+    assert robot.reads(1.0, ['bumper', 'dock_status']) == 0
+    for tenths in range(11, 30):
+        assert robot.reads(0.1 * tenths, ['bumper', 'dock_status']) == 0
+        assert robot.reads(0.1 * (tenths - 1), ['cliff']) == 1
+        assert robot.senses.stamp == rospy.Time.from_sec(0.1 * (tenths - 1)) and robot.senses.unread == 1
+
+
 def test_time_is_that_of_stamps_without_pauses_and_jumps_back(robot):
     for seconds, passed in ((100.0, 0.0), (100.1, 0.1), (101.1, 1.1), (102.2, 1.1), (102.3, 1.2), (7.0, 1.2),
                             (7.25, 1.45)):

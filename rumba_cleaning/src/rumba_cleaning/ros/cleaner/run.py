@@ -21,7 +21,9 @@ GONE_AFTER = 2.0  # [s] of the wall clock without a publisher: the robot is gone
 NEVER_CAME_AFTER = PATIENCE  # ... or, if it was never heard, will not come
 INCOMPLETE_AFTER = 5 * SECOND  # [ns] of the robot's time without a complete reading: a sensor is silent ...
 INCOMPLETE_COUNT = 50  # ... as it is if dock_status came so many times without bumper or cliff ...
-CONNECTED_AFTER = 2.0  # ... but only after this [s] of the wall clock: at a high speed its topics still connect
+# ... but only after this [s] of the wall clock: at a high speed its topics still connect, and while a plan is computed
+# no message is taken, and afterwards all those of one topic before those of another.
+CONNECTED_AFTER = 2.0
 REST_WITHIN = 2 * SECOND  # [ns] of the robot's time from the end to the result, at most ...
 REST_WITHIN_WALL = 5.0  # ... and at most this [s] of the wall clock, if time stands still
 REST = 0.001  # [m], [rad] that a robot at rest moves at most from one reading to the next
@@ -54,6 +56,7 @@ class Run:
         self._begun = self._feedback_due = senses.passed
         self._complete = senses.passed  # when the newest complete reading came, or the end ...
         self._complete_wall = self._since_wall = time.monotonic()  # ... by the wall clock; the beginning, or the end
+        self._silent: Optional[float] = None  # since when dock_status has come alone, by the wall clock
         robot.brushes.forget()
         senses.begin()
         activity.begin()
@@ -115,10 +118,18 @@ class Run:
         patience = GONE_AFTER if self._senses.stamp is not None else NEVER_CAME_AFTER
         if self._senses.is_alone and now - max(self._senses.heard, self._since_wall) > patience:
             self.close(Outcome.NO_READINGS, 'the robot is gone')
-        elif self._senses.unread > INCOMPLETE_COUNT and self._had_time_to_connect():
+        elif self._is_silent(now):
             self.close(Outcome.NO_READINGS, self._senses.missing())
         elif self.outcome is not Outcome.UNKNOWN and now - self._since_wall > REST_WITHIN_WALL:
             self.close(self.outcome, self._message)
+
+    def _is_silent(self, now: float) -> bool:
+        """Whether dock_status has come alone for long."""
+        if self._senses.unread <= INCOMPLETE_COUNT:
+            self._silent = None
+            return False
+        self._silent = now if self._silent is None else self._silent
+        return now - self._silent > CONNECTED_AFTER
 
     def _had_time_to_connect(self) -> bool:
         return time.monotonic() - self._complete_wall > CONNECTED_AFTER

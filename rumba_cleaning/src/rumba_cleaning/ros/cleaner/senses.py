@@ -1,9 +1,10 @@
 """What one robot senses: its topics and tf, as the observations of its behaviours."""
 
+import collections
 import math
 import threading
 import time
-from typing import Any, Callable, Dict, List, Optional, Tuple
+from typing import Any, Callable, Deque, Dict, List, Optional, Tuple
 
 import rospy
 from sensor_msgs.msg import BatteryState, LaserScan
@@ -21,21 +22,21 @@ SECOND = 1_000_000_000  # [ns]
 PAUSE = SECOND  # [ns] between two stamps; more is not counted as time: a pause in real time, or another simulator
 CLOCK = 'dock_status'  # the simulator publishes it last
 READING = {'bumper': Bumper, 'cliff': Cliff, 'dock_status': DockStatus}
+MOST = 100  # stamps that are kept until bumper and cliff have come, too
 
 
 class Senses:
     """The newest of each topic of a robot.
 
     The simulator publishes bumper, cliff and dock_status with one stamp, but each topic comes in a thread of its own,
-    and in any order: a reading is complete if there are a dock_status, and a bumper and a cliff that are not older.
-    (Equal stamps might never be found: if messages come in bursts, one topic is always ahead of the others.) A world in
-    lockstep waits, so there a reading is complete if everything has come that was published up to its tick.
+    and in any order: a reading is complete if a dock_status has come, which need not be the newest, and a bumper and a
+    cliff that are not older. (If messages come in bursts, one topic is always ahead of the others.) A world in lockstep
+    waits, so there a reading is complete if everything has come that was published up to its tick.
 
     Attributes:
         passed: [ns] of the robot's time by the stamps of readings, without pauses.
         stamp: of the newest complete reading; None before the first.
         heard: when any part of a reading came last, as a time of `time.monotonic`.
-        unread: how many times dock_status came since the newest complete reading.
         cleaning: the newest CleaningStatus; None before the first.
     """
 
@@ -65,7 +66,7 @@ class Senses:
         self.passed = 0
         self.stamp: Optional[rospy.Time] = None
         self.heard = -math.inf
-        self.unread = 0
+        self._unread: Deque[rospy.Time] = collections.deque(maxlen=MOST)  # of dock_status since then
         self.cleaning: Optional[CleaningStatus] = None
         self._location = Location(robot, self._check_in_lockstep, is_mapless)
         self._certainty = Certainty(robot, self._check_in_lockstep)
@@ -102,7 +103,8 @@ class Senses:
             if self._is_old(message):
                 return
             self._newest[topic] = message
-            self.unread += topic == CLOCK
+            if topic == CLOCK:
+                self._unread.append(message.header.stamp)
         self.check()
 
     def on_tick(self, tick: Lockstep) -> None:
@@ -123,14 +125,19 @@ class Senses:
                 return
             gap = (stamp - self.stamp).to_nsec() if self.stamp is not None else 0
             self.passed += gap if 0 < gap <= PAUSE else 0
-            self.stamp, self.unread = stamp, 0
+            self.stamp = stamp
+            while self._unread and self._unread.popleft() != stamp:
+                pass
         self._on_reading()
 
     def _complete(self) -> Optional[rospy.Time]:
         """The stamp of the newest reading if it is complete, else None."""
         world, tick = self._lockstep(), self._tick
         if world is None:
-            return None if self._late() else self._newest[CLOCK].header.stamp
+            if len(self._newest) < len(READING):
+                return None
+            common = min(part.header.stamp for topic, part in self._newest.items() if topic != CLOCK)
+            return next((stamp for stamp in reversed(self._unread) if stamp <= common), None)
         if tick is None or (tick.run, tick.resets) != world or not self._has_all(tick):
             return None
         return tick.header.stamp
@@ -175,12 +182,15 @@ class Senses:
                 far are forgotten; otherwise it was reset, its time continues, and messages after `since` count.
         """
         with self._lock:
-            self._since, self.unread = since, 0
+            self._since = since
             earliest = rospy.Time(LATEST) if is_new_run else since
             self._newest = {topic: part for topic, part in self._newest.items() if part.header.stamp > earliest}
             self._battery, self.cleaning, self._scan = (
                 message if message is not None and message.header.stamp > earliest else None
                 for message in (self._battery, self.cleaning, self._scan))
+            self._unread.clear()
+            if CLOCK in self._newest:
+                self._unread.append(self._newest[CLOCK].header.stamp)
             self.stamp = None
         if is_new_run:
             self._location.forget()
@@ -220,6 +230,11 @@ class Senses:
         if self.pose() is None:
             return f'no pose: tf has no {self._location}'
         return f'no reading: nothing new on {" and ".join(f"{self._robot}/{topic}" for topic in self._late())}'
+
+    @property
+    def unread(self) -> int:
+        """How many times dock_status came since the newest complete reading, up to MOST."""
+        return len(self._unread)
 
     @property
     def has_fallen(self) -> bool:
