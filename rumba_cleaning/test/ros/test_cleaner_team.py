@@ -24,12 +24,14 @@ TEAM = '_team:=rumba rumba2'
 class CleanerTeamTest(unittest.TestCase):
     """Each test has its own nodes."""
 
-    def started(self, *arguments):
-        """A simulator with two robots, and their cleaners, which begin to clean."""
+    def started(self, *arguments, is_paused=False):
+        """A simulator with two robots, and their cleaners, which begin to clean once it is not paused any more."""
         folder = folder_of(self, {'floor.yaml': MAP.encode(), 'floor.pgm': PICTURE})
         self.path = f'{folder}/floor.yaml'
         simulator = Simulator(self, f'_map:={self.path}', '_robots:=2', f'_seed:={SEED}', '_speed:=50',
                               '_brushes_up:=true', *arguments)
+        if is_paused:
+            simulator.pause()
         common = TEAM, f'_seed:={SEED}', f'_target_coverage:={TARGET}', '_autostart:=true'
         first = Cleaner(self, *common)
         second = Cleaner(self, *common, '__name:=cleaner2', '_robot:=rumba2', name='/cleaner2', robot='/rumba2')
@@ -54,8 +56,10 @@ class CleanerTeamTest(unittest.TestCase):
 
     def test_a_robot_goes_on_without_a_mate_whose_cleaner_was_killed(self):
         log = Heard(self, '/rosout')
-        _, first, second = self.started('_lockstep_patience:=1')
-        Heard(self, '/rumba2/team_report', TeamReport).find(lambda report: report.task == TeamReport.SWEEPING)
+        simulator, first, second = self.started('_lockstep_patience:=5', is_paused=True)
+        reports = Heard(self, '/rumba2/team_report', TeamReport)
+        simulator.does('resume')
+        reports.find(lambda report: report.task == TeamReport.SWEEPING)
         second.process.send_signal(signal.SIGKILL)
         second.process.wait()
         log.find(lambda message: message.msg.startswith('rumba: nothing is heard of rumba2 any more: it is taken to '))
