@@ -369,12 +369,11 @@ def test_dock_status_without_bumper_and_cliff_ends_the_goal_once_they_had_time_t
 
 def test_that_dock_status_is_read_first_after_a_long_plan_does_not_end_the_goal(monkeypatch):
     robot = Robot(monkeypatch, ahead)
-    robot.reads()
     for _ in range(3):
         robot.senses.unread = 51
         assert robot.waits(10.0) + robot.waits(1.9) == []
         robot.senses.unread = 0
-        assert robot.waits(0.1) == []
+        robot.reads()
 
 
 @pytest.mark.parametrize('stamp, patience', [(rospy.Time(1), 2.0), (None, module.NEVER_CAME_AFTER)])

@@ -65,6 +65,7 @@ class Run:
 
     def read(self) -> None:
         """Act upon the newest reading."""
+        self._silent = None
         observation = self._senses.observe()
         if observation is None:
             if self._senses.passed - self._complete > INCOMPLETE_AFTER and self._had_time_to_connect():
