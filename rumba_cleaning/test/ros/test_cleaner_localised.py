@@ -13,7 +13,7 @@ from cleaners import Cleaner
 from geometry_msgs.msg import PoseWithCovarianceStamped
 from localisers import Localiser, Mapper
 from sensor_msgs.msg import LaserScan
-from simulators import Heard, Simulator, folder_of
+from simulators import ROOM, Heard, Simulator, folder_of
 from teams import QUICKLY
 from tiers import thorough
 
@@ -31,9 +31,8 @@ from rumba_sim.model.world import World
 from rumba_sim.ros.common.maps import map_path
 
 # Two rooms of 2 m, 40 x 40 cells each, with a door that is 0.75 m wide; the dock is in the left one.
-ROOMS = {'rooms.yaml': b'image: rooms.pgm\nresolution: 0.05\norigin: [0, 0, 0]\nnegate: 0\noccupied_thresh: 0.65\n'
-                       b'free_thresh: 0.196\ndock: [0.3, 1.79, 1.5707963]\n',
-         'rooms.pgm': b'P5 82 40 255\n' + 25 * (40 * b'\xff' + 2 * b'\x00' + 40 * b'\xff') + 15 * 82 * b'\xff'}
+ROOMS = {'room.yaml': ROOM['room.yaml'] + b'dock: [0.3, 1.79, 1.5707963]\n',
+         'room.pgm': b'P5 82 40 255\n' + 25 * (40 * b'\xff' + 2 * b'\x00' + 40 * b'\xff') + 15 * 82 * b'\xff'}
 SEED, TARGET = 3, 0.08  # of the floor: by then the robot has met an obstacle
 SIMULATOR = '_map:=studio', f'_seed:={SEED}', '_speed:=0', '_brushes_up:=true', '_localisation:=none'
 
@@ -113,7 +112,7 @@ class CleanerLocalisedTest(unittest.TestCase):
         self.assertFalse(goal.has_ended)
 
     def test_a_floor_that_nobody_shows_is_explored_and_cleaned(self):
-        rooms = folder_of(self, ROOMS) / 'rooms.yaml'
+        rooms = folder_of(self, ROOMS) / 'room.yaml'
         simulator = Simulator(self, f'_map:={rooms}', f'_seed:={SEED}', '_speed:=0', '_brushes_up:=true',
                               '_localisation:=slam', '_wait_for:=mapper', '_lockstep_patience:=60')
         Mapper(self)

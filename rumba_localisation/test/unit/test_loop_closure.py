@@ -99,7 +99,6 @@ def test_a_redrawn_map_has_its_cells_where_those_of_the_map_before_were():
 
 
 @pytest.mark.thorough
-@pytest.mark.thorough
 def test_a_robot_that_is_carried_away_on_its_way_does_not_bend_the_map():
     plan, start = room(10.0, 8.0, boxes=[(1.6, 1.6, 8.4, 6.4), (4.0, 0.0, 4.4, 0.3)]), Pose(0.8, 0.8, 0.0)
     world, mapper = world_of(plan, start, seed=3), Mapper(start)
