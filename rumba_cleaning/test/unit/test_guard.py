@@ -63,7 +63,7 @@ def with_corner(plan, apex, heading):
     return FloorPlan(plan.name, plan.occupancy, plan.resolution, plan.origin, cliff=cliff, dock=plan.dock)
 
 
-@pytest.mark.thorough(except_for=[str(degrees) for degrees in range(0, 360, 60)])
+@pytest.mark.thorough(except_for=['60', '300'])
 @pytest.mark.parametrize('degrees', range(0, 360, 15))
 def test_a_robot_that_passes_a_corner_that_no_map_shows_does_not_fall(degrees):
     plan = room(1.3, 0.8, 0.005)

@@ -218,6 +218,7 @@ def test_floor_that_the_robot_cannot_reach_makes_no_blocks():
 
 # --- turned floors -------------------------------------------------------------------------------------------------
 
+@pytest.mark.thorough(except_for=['0.02-20', '0.05--20'])
 @pytest.mark.parametrize('degrees', [20, -20])
 @FINE
 def test_lanes_of_a_turned_room_run_along_its_walls_and_keep_off_them(resolution, degrees):

@@ -31,6 +31,7 @@ def distance(path, point):
     return np.hypot(*(point - first - share[:, np.newaxis] * along).T).min()
 
 
+@pytest.mark.thorough(except_for=['explore_and_clean'])
 @pytest.mark.parametrize('strategy', ['boustrophedon', 'explore_and_clean'])
 def test_a_mission_drives_along_what_it_shows(strategy):
     world = World(PLAN, quiet())
