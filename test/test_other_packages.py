@@ -6,6 +6,7 @@ import pytest
 from workspaces import ROOT
 
 
+@pytest.mark.thorough(except_for=['beside-devel', 'beside-install'])
 @pytest.mark.parametrize('space', ['devel', 'install'])
 @pytest.mark.parametrize('name, publisher, reader, percentage', [
     ('workspace', '$LIB/battery_report/publish_battery', ROOT / 'test/packages/battery_python/scripts/reader', r'\d+'),
