@@ -119,7 +119,7 @@ class ViewerTest(unittest.TestCase):
         viewer.key('key', 'Escape')
         viewer.wait_to_see(ROBOT, 0, seen + 20)
         self.assertEqual(cleaner.goals, [])
-        viewer.click(0.5, 0.5, times=2)
+        viewer.click(0.5, 0.45, times=2)
         goal = wait(self, lambda: cleaner.goals, 'a goal')[0].goal
         self.assertTrue(1.0 < goal.target.x < 5.0 and 1.0 < goal.target.y < 5.0, goal)
 

@@ -124,7 +124,10 @@ class Viewer:
         return wait(self._test, tries, what)
 
     def click(self, x, y, times=1):
-        """Click on the point of the floor at a share of its width and height, from its left upper corner."""
+        """Click on the point of the floor at a share of its width and height, from its left upper corner.
+
+        Not where the pointer is already: xdotool waits for it to move, for 15 s.
+        """
         width, height = (int(line.split('=')[1]) for line in self._display.run(
             'getwindowgeometry', '--shell', self._window).splitlines() if line.startswith(('WIDTH', 'HEIGHT')))
         self._display.run('mousemove', '--sync', '--window', self._window, str(round(x * (width - PANEL))),
