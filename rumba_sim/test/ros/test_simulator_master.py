@@ -1,18 +1,15 @@
 #!/usr/bin/env python3
 """Simulators and the master: one at a time, whoever starts when; and a master that is restarted."""
 
-import os
 import re
 import signal
 import subprocess
 import unittest
 
 import programs
-import rosgraph
 import rospy
 import rostest
-from ports import free_port
-from simulators import LOOK_PERIOD, TIMEOUT, folder_of, wait, wait_for_service
+from simulators import LOOK_PERIOD, TIMEOUT, Master, folder_of, wait
 from tiers import thorough
 
 ROUNDS = 3
@@ -26,30 +23,8 @@ simulator.main()
 """
 
 
-class OwnMaster:
-    """A separate master, which can be killed and started again at the same port."""
-
-    def __init__(self, test):
-        self._test = test
-        self._port = free_port()
-        self.uri = f'http://localhost:{self._port}'
-        self.environment = {**os.environ, 'ROS_MASTER_URI': self.uri}
-        self.api = rosgraph.Master('/test', master_uri=self.uri)
-        self._process = None
-        self.start()
-
-    def start(self):
-        """Start it."""
-        self._process = subprocess.Popen(['rosmaster', '--core', '-p', str(self._port)], stdout=subprocess.DEVNULL)
-        self._test.addCleanup(self._process.wait)
-        self._test.addCleanup(self._process.kill)
-        wait(self._test, self.api.is_online, 'the master', LOOK_PERIOD)
-
-    def restart(self):
-        """Kill it, so that it forgets everything, and start it again."""
-        self._process.kill()
-        self._process.wait(TIMEOUT)
-        self.start()
+class OwnMaster(Master):
+    """A separate master, and programs at it."""
 
     def begin(self, path, *arguments):
         """A program at this master."""
@@ -65,10 +40,6 @@ class OwnMaster:
         """A simulator at this master, perhaps not ready yet."""
         return self.begin(programs.executable('rumba_sim', 'simulator'), '_map:=studio', *arguments)
 
-    def wait_for(self, service):
-        """Wait until a service is registered."""
-        wait_for_service(self._test, service, master=self.uri)
-
     def call(self, *command):
         """What a command of ROS prints."""
         return subprocess.run(command, env=self.environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
@@ -80,7 +51,7 @@ class SimulatorMasterTest(unittest.TestCase):
 
     def assert_one_survives(self, arguments, message):
         """Start simulators at the same moment: one runs, the others say in one line why they do not."""
-        master = OwnMaster(self)
+        master = OwnMaster(self).start()
         together = folder_of(self, {'together': TOGETHER.encode()}) / 'together'
         for _ in range(ROUNDS):
             processes = [master.begin(together, '_map:=studio', *each) for each in arguments]
@@ -116,7 +87,7 @@ class SimulatorMasterTest(unittest.TestCase):
             r'is already running: end it first)\n$')
 
     def test_after_a_restart_of_the_master_all_nodes_are_there_again(self):
-        master = OwnMaster(self)
+        master = OwnMaster(self).start()
         master.simulator('_speed:=10')
         listener = master.begin(programs.executable('rumba_sim', 'battery_status_listener'))
         master.wait_for(f'/simulator/{READY}')
@@ -139,7 +110,7 @@ class SimulatorMasterTest(unittest.TestCase):
         return int(re.search(r'^(\d+)$', told, re.MULTILINE).group(1))
 
     def test_a_simulator_that_finds_another_at_the_new_master_ends_with_one_line(self):
-        master = OwnMaster(self)
+        master = OwnMaster(self).start()
         old = master.simulator('__name:=old')
         master.wait_for(f'/old/{READY}')
         old.send_signal(signal.SIGSTOP)

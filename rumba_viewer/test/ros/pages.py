@@ -5,15 +5,13 @@ import itertools
 import json
 import os
 import re
-import subprocess
 import tempfile
 
 import numpy as np
 import programs
 import rospy
 from PIL import Image
-from ports import free_port
-from simulators import TIMEOUT, Simulator, wait
+from simulators import TIMEOUT, Master, Simulator, wait
 from tornado.ioloop import IOLoop
 from tornado.websocket import websocket_connect
 
@@ -56,31 +54,12 @@ class Page:
         self._test.assertEqual(self.process.wait(TIMEOUT), 0, self.printed)
 
 
-class Master:
-    """A separate master that can be restarted, and simulators at it."""
-
-    def __init__(self, test):
-        self._test = test
-        self._port = free_port()
-        self.uri = f'http://localhost:{self._port}'
-        self._environment = {**os.environ, 'ROS_MASTER_URI': self.uri}
-        self._start()
-
-    def _start(self):
-        self._process = subprocess.Popen(['roscore', '-p', str(self._port)], stdout=subprocess.DEVNULL,
-                                         stderr=subprocess.DEVNULL, env=self._environment)
-        self._test.addCleanup(self._process.wait)
-        self._test.addCleanup(self._process.terminate)
-
-    def restart(self):
-        """End it, and start another one at the same address."""
-        self._process.terminate()
-        self._process.wait(TIMEOUT)
-        self._start()
+class OwnMaster(Master):
+    """A separate master, and simulators at it."""
 
     def simulator(self, *arguments):
         """A simulator."""
-        return Simulator(self._test, '_map:=field', *arguments, environment=self._environment, master=self.uri,
+        return Simulator(self._test, '_map:=field', *arguments, environment=self.environment, master=self.uri,
                          forget=False)
 
 

@@ -14,7 +14,7 @@ import rospy
 import rostest
 from geometry_msgs.msg import PoseWithCovarianceStamped
 from nav_msgs.msg import MapMetaData, OccupancyGrid
-from pages import DESK, PHONE, Browser, Client, Master, Page
+from pages import DESK, PHONE, Browser, Client, OwnMaster, Page
 from simulators import TIMEOUT, Heard, Simulator, wait
 
 from rumba_msg.msg import CleanActionGoal
@@ -112,7 +112,7 @@ class PageTest(unittest.TestCase):
         self.assertTrue(Client(self, page, token='teacher').call('/simulator/pause')[0])
 
     def test_a_restart_of_the_simulator_and_of_the_master_is_survived(self):
-        master = Master(self)
+        master = OwnMaster(self).start()
         simulator, page = master.simulator(), Page(self, '_rate:=10000', master=master.uri)
         client = Client(self, page)
         client.send(op='subscribe', topic='/simulator/state')
