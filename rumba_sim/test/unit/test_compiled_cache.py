@@ -5,6 +5,7 @@ import os
 import pathlib
 import shutil
 import subprocess
+import sys
 
 import programs
 import pytest
@@ -56,6 +57,25 @@ def test_if_there_is_a_place_for_the_cache_nothing_is_said_and_it_is_used(source
     for _ in range(2):
         assert run(source, HOME=str(tmp_path / 'home')) == ('True\n', '')
     assert list((tmp_path / 'home').rglob('*.nbc'))
+
+
+LATER = """import numba.core.cpu
+class Later:
+    initialize = staticmethod(lambda context: None)
+numba.core.cpu.rtsys = Later
+"""
+ARRAY = """import numpy
+from rumba_sim.model.compiled import fast
+print(fast.interpolated(numpy.ones((3, 3)), 1.5, 0.5)[0])
+"""
+
+
+def test_code_from_the_cache_works_with_a_numba_that_has_counters_of_arrays_only_once_it_compiles(tmp_path):
+    path = os.path.dirname(os.path.dirname(os.path.dirname(compiled.__file__)))
+    environment = {**os.environ, 'PYTHONPATH': path, 'NUMBA_CACHE_DIR': str(tmp_path)}
+    for code in (ARRAY, LATER + ARRAY):  # as 0.57 and later: without them, a process ends by a segmentation fault
+        process = subprocess.run([sys.executable, '-c', code], env=environment, stdout=subprocess.PIPE, check=True)
+        assert process.stdout == b'1.0\n'
 
 
 def test_the_advice_helps(source, tmp_path):

@@ -120,8 +120,12 @@ class _Cache:
         """The compiled code, or None if it is not in the cache or cannot be read.
 
         Before, numba's own method loads all that it takes to compile anything, for a fifth of a second: whatever is
-        not in the cache is compiled all the same, since the compiler begins with that too.
+        not in the cache is compiled all the same, since the compiler begins with that too. Of all that, the code needs
+        the functions by which it counts who uses an array: numba 0.56 has them ready anyway, later ones have not.
         """
+        from numba.core.runtime import rtsys
+        _, context = what
+        rtsys.initialize(context)
         try:
             return self._cache._load_overload(*what)
         except Exception as exc:  # whatever reading a damaged file leads to
