@@ -100,7 +100,8 @@ class SimulatorFramesTest(unittest.TestCase):
         second = Heard(self, '/rumba2/ground_truth')
         scan = Heard(self, '/rumba2/scan')
         static = Heard(self, '/tf_static', TFMessage)
-        simulator.step(50)
+        # A publisher tells a subscriber that it is connected a moment before it counts it.
+        wait(self, lambda: simulator.step(50) or scan.messages, 'a scan')
         truth = second.at(simulator.ticks)
         self.assert_near(self.lookup('map', 'rumba2/base_footprint', truth.header.stamp), pose_in(truth))
         self.assert_near(self.lookup('map', 'base_footprint', truth.header.stamp),
