@@ -18,14 +18,13 @@ from rumba_sim.model.robot_config import RobotConfig
 MAP = FLOOR + 'docks: [[2.2, 0.65, 0.0], [0.2, 0.65, 3.14159]]\n'
 PICTURE = b'P5 48 26 255\n' + 48 * 26 * b'\xff'  # 2.4 m x 1.3 m
 SEED, TARGET = 5, 0.9
-MORE_THAN_ITS_SHARE = 0.7  # of the floor, for one of two robots
 TEAM = '_team:=rumba rumba2'
 
 
 class CleanerTeamTest(unittest.TestCase):
     """Each test has its own nodes."""
 
-    def started(self, *arguments, target=TARGET, is_paused=False):
+    def started(self, *arguments, is_paused=False):
         """A simulator with two robots, and their cleaners, which begin to clean once it is not paused any more."""
         folder = folder_of(self, {'floor.yaml': MAP.encode(), 'floor.pgm': PICTURE})
         self.path = f'{folder}/floor.yaml'
@@ -33,7 +32,7 @@ class CleanerTeamTest(unittest.TestCase):
                               '_brushes_up:=true', *arguments)
         if is_paused:
             simulator.pause()
-        common = TEAM, f'_seed:={SEED}', f'_target_coverage:={target}', '_autostart:=true'
+        common = TEAM, f'_seed:={SEED}', f'_target_coverage:={TARGET}', '_autostart:=true'
         first = Cleaner(self, *common)
         second = Cleaner(self, *common, '__name:=cleaner2', '_robot:=rumba2', name='/cleaner2', robot='/rumba2')
         return simulator, first.connect(), second.connect()
@@ -57,15 +56,15 @@ class CleanerTeamTest(unittest.TestCase):
 
     def test_a_robot_goes_on_without_a_mate_whose_cleaner_was_killed(self):
         log = Heard(self, '/rosout')
-        simulator, first, second = self.started('_lockstep_patience:=5', target=MORE_THAN_ITS_SHARE, is_paused=True)
+        simulator, first, second = self.started('_lockstep_patience:=5', is_paused=True)
         reports = Heard(self, '/rumba2/team_report', TeamReport)
         simulator.does('resume')
         reports.find(lambda report: report.task == TeamReport.SWEEPING)
         second.process.send_signal(signal.SIGKILL)
         second.process.wait()
         log.find(lambda message: message.msg.startswith('rumba: nothing is heard of rumba2 any more: it is taken to '))
-        # What stands on the floor without moving may keep a robot from its dock.
-        self.assertRegex(self.has_ended(first).message, r'^7\d\.\d % swept')
+        # What stands on the floor without moving may keep a robot from its dock, or from the last of the floor.
+        self.assertRegex(self.has_ended(first).message, r'^[89]\d\.\d % swept')
 
     @thorough
     def test_nonsense_of_a_mate_is_ignored_with_a_line(self):

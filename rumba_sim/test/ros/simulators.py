@@ -22,8 +22,10 @@ from std_srvs.srv import SetBool, Trigger
 
 from rumba_msg.msg import BatteryStatus, Bumper, CleaningStatus, Cliff, DockStatus, SimulatorState
 from rumba_msg.srv import AddObstacle, Kill, RemoveObstacle, Spawn, Step, Teleport
+from rumba_sim.ros.common import publisher_updates
 
 TIMEOUT = 90.0  # [s] of the wall clock: on a busy machine, a mission takes half a minute as fast as it can
+publisher_updates.use()  # what a test subscribes to must be heard on a busy machine too
 LOOK_PERIOD = 0.04  # [s] between two questions to a master
 STEP_RATE = 50  # the simulator's default [Hz]
 TICK = 1_000_000_000 // STEP_RATE  # [ns]

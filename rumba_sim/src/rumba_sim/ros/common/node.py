@@ -20,7 +20,8 @@ import yaml
 
 from rumba_sim.model import config, yaml_file
 from rumba_sim.model.errors import ConfigError, RumbaError, WorldError, one_line, quoted
-from rumba_sim.ros.common import clock, master_watch, peers, prompt_accept, prompt_connection, prompt_end
+from rumba_sim.ros.common import (
+    clock, master_watch, peers, prompt_accept, prompt_connection, prompt_end, publisher_updates)
 from rumba_sim.ros.common.paths import absolute
 
 Settings = TypeVar('Settings')
@@ -90,6 +91,7 @@ def _register(name: str, own_clock: bool, is_single: bool) -> None:
             peers.refuse_twin(full_name)
         clock.guard()
         prompt_accept.use()
+        publisher_updates.use()
         prompt_connection.use()
         prompt_end.use()
         for number in (signal.SIGINT, signal.SIGTERM):
