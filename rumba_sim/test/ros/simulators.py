@@ -25,7 +25,6 @@ from rumba_msg.srv import AddObstacle, Kill, RemoveObstacle, Spawn, Step, Telepo
 from rumba_sim.ros.common import publisher_updates
 
 TIMEOUT = 90.0  # [s] of the wall clock: on a busy machine, a mission takes half a minute as fast as it can
-publisher_updates.use()  # what a test subscribes to must be heard on a busy machine too
 LOOK_PERIOD = 0.04  # [s] between two questions to a master
 STEP_RATE = 50  # the simulator's default [Hz]
 TICK = 1_000_000_000 // STEP_RATE  # [ns]
@@ -42,6 +41,8 @@ SERVICES = {
     'pause': Trigger, 'resume': Trigger, 'reset': Trigger, 'digest': Trigger, 'step': Step, 'spawn': Spawn,
     'kill': Kill, 'add_obstacle': AddObstacle, 'remove_obstacle': RemoveObstacle, 'set_brushes_up': SetBool,
     'teleport': Teleport, 'static_map': GetMap}
+
+publisher_updates.use()  # what a test subscribes to must be heard on a busy machine too
 
 
 def wait(test, condition, what='it', period=0.005):

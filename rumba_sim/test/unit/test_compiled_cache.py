@@ -20,6 +20,16 @@ BEGIN = 'import numba, sys; numba.config.reload_config(); sys.dont_write_bytecod
 SMALL_FILES = 'import resource; resource.setrlimit(resource.RLIMIT_FSIZE, (0, 0)); '
 GEOMETRY = pathlib.Path('rumba_sim', 'model', 'kernel', 'geometry.py')
 NOBODY = 'import os, pwd; os.access = lambda *_: False; pwd.getpwuid = {}.__getitem__; '
+# numba 0.57 and later have the counters of who uses an array only once they compile something.
+LATER = """import numba.core.cpu
+class Later:
+    initialize = staticmethod(lambda context: None)
+numba.core.cpu.rtsys = Later
+"""
+ARRAY = """import numpy
+from rumba_sim.model.compiled import fast
+print(fast.interpolated(numpy.ones((3, 3)), 1.5, 0.5)[0])
+"""
 
 
 @pytest.fixture
@@ -59,21 +69,10 @@ def test_if_there_is_a_place_for_the_cache_nothing_is_said_and_it_is_used(source
     assert list((tmp_path / 'home').rglob('*.nbc'))
 
 
-LATER = """import numba.core.cpu
-class Later:
-    initialize = staticmethod(lambda context: None)
-numba.core.cpu.rtsys = Later
-"""
-ARRAY = """import numpy
-from rumba_sim.model.compiled import fast
-print(fast.interpolated(numpy.ones((3, 3)), 1.5, 0.5)[0])
-"""
-
-
 def test_code_from_the_cache_works_with_a_numba_that_has_counters_of_arrays_only_once_it_compiles(tmp_path):
     path = os.path.dirname(os.path.dirname(os.path.dirname(compiled.__file__)))
     environment = {**os.environ, 'PYTHONPATH': path, 'NUMBA_CACHE_DIR': str(tmp_path)}
-    for code in (ARRAY, LATER + ARRAY):  # as 0.57 and later: without them, a process ends by a segmentation fault
+    for code in (ARRAY, LATER + ARRAY):  # without the counters, a process ends by a segmentation fault
         process = subprocess.run([sys.executable, '-c', code], env=environment, stdout=subprocess.PIPE, check=True)
         assert process.stdout == b'1.0\n'
 
