@@ -125,3 +125,14 @@ def test_an_edge_beside_one_that_was_seen_is_no_edge_that_is_known_already():
     first, last = (x + outer[0] + (number - 0.5) * STEP for number in (1, 4))
     assert [place for place, _ in footing.seen] == pytest.approx([first, last])
     assert footing.clearance_at(last, 1.0 + outer[1]) < 0.5 * SEEN
+
+
+@pytest.mark.parametrize('before, is_new', [(0.04, False), (0.07, True)])
+def test_an_edge_anywhere_on_the_way_of_a_sensor_between_two_readings_may_be_one_of_the_map(before, is_new):
+    """The edge of the map is 2 mm before where the sensor is at last, or beyond that."""
+    edge, way = 3.0, 0.05
+    footing = Footing(room(4.0, 2.0, 0.01, cliff=(edge, 0.0, 4.0, 2.0)), ROBOT)
+    x = edge + 0.042 - before - ROBOT.cliff.distance * math.cos(ROBOT.cliff.angles[1])
+    footing.note(at(x - way), NONE, False)
+    footing.note(at(x), (False, True, False, False), False)
+    assert bool(footing.seen) == is_new

@@ -1,12 +1,20 @@
 """Where floor ends, by what the cliff sensors of a robot tell on its way."""
 
 import math
-from typing import List, Optional, Sequence, Tuple
+from typing import List, NamedTuple, Optional, Sequence, Tuple
 
 from rumba_sim.model.geometry import Pose, compose
 from rumba_sim.model.robot_config import RobotConfig
 
 JUMP = 0.5  # [m] from one pose to the next: somebody put the robot elsewhere; our choice, as in `Swept`
+
+
+class Edge(NamedTuple):
+    """Where a sensor came over an edge."""
+
+    x: float  # half way [m], map frame
+    y: float
+    off: float  # half of that way [m]: it may be so far from there
 
 
 class Edges:
@@ -19,7 +27,7 @@ class Edges:
                          for angle in cliff.angles]
         self._last: Optional[Tuple[Pose, Tuple[bool, ...]]] = None
 
-    def met(self, pose: Pose, cliffs: Sequence[bool]) -> List[Tuple[float, float]]:
+    def met(self, pose: Pose, cliffs: Sequence[bool]) -> List[Edge]:
         """Take a reading, and tell where edges are.
 
         A sensor that saw floor before came over an edge since then: that lies half way. One that saw none before either
@@ -28,9 +36,6 @@ class Edges:
         Args:
             pose: of the robot, map frame.
             cliffs: whether there is no floor under each sensor, from left to right.
-
-        Returns:
-            Points (x, y) [m], map frame.
         """
         last, before = (pose, ()) if self._last is None else self._last
         if not before or math.hypot(pose.x - last.x, pose.y - last.y) > JUMP:
@@ -41,5 +46,6 @@ class Edges:
             if is_over:
                 since = compose(last, sensor)
                 here = since if was_over else compose(pose, sensor)
-                found.append((0.5 * (since.x + here.x), 0.5 * (since.y + here.y)))
+                found.append(Edge(0.5 * (since.x + here.x), 0.5 * (since.y + here.y),
+                                  0.5 * math.hypot(here.x - since.x, here.y - since.y)))
         return found

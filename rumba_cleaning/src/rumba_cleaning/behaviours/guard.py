@@ -11,9 +11,10 @@ import numpy as np
 
 from rumba_cleaning.behaviour import Command, Observation
 from rumba_cleaning.behaviours.compiled_guard import ROUNDING, Wheels
+from rumba_cleaning.behaviours.departure import SLOW
 from rumba_cleaning.behaviours.preview import Preview, faster, goes_back, part_of
 from rumba_cleaning.behaviours.rear import Rear
-from rumba_cleaning.behaviours.release import SLOW, Release
+from rumba_cleaning.behaviours.release import Release
 from rumba_cleaning.behaviours.slip import Slip, along_contacts, slipped
 from rumba_cleaning.behaviours.trail import Trail
 from rumba_cleaning.belief.context import Context
@@ -63,7 +64,7 @@ class Guard:
         self._clear = self._preview.half + SPARE  # [m] from the middle to an edge: the robot can turn on the spot
         self._rear = Rear(context.robot.drive.radius)
         self._trail = Trail(self._preview.half)
-        self._release = Release(self._footing, self._preview, wary_guess)
+        self._release = Release(self._ground, self._footing, self._preview, self._clear, wary_guess)
         self.rest()
 
     def rest(self) -> None:

@@ -3,6 +3,8 @@
 The wheels turn meanwhile, so that a pose that is reckoned from them is that of a robot that backs off well.
 """
 
+import math
+
 import numpy as np
 
 from rumba_cleaning.behaviour import Observation
@@ -24,11 +26,16 @@ class Rear:
 
     def rest(self) -> None:
         """The robot stands still, or somebody else drives it."""
-        self._backed = 0.0  # [m] since the cliff sensors saw no edge
+        self._backed = 0.0  # [m] since the cliff sensors saw no edge, and about straight
+        self._heading = 0.0  # [rad] in which it backed off last
 
     def watch(self, observation: Observation, driven: float) -> None:
         """Take note of an observation, and of how far the wheels have driven forward since the one before [m]."""
-        self._backed = self._backed + max(-driven, 0.0) if any(observation.cliffs) else 0.0
+        heading = observation.pose.theta
+        if not any(observation.cliffs) or math.cos(heading - self._heading) < BEHIND:
+            self._backed = 0.0
+        if any(observation.cliffs) and driven < 0.0:
+            self._backed, self._heading = self._backed - driven, heading
 
     def is_closed(self, observation: Observation, is_on_trail: bool = False) -> bool:
         """Whether the robot must not go back.

@@ -6,21 +6,25 @@ from typing import Callable, Iterable, Optional, Tuple
 import numpy as np
 
 from rumba_cleaning.behaviour import Command
-from rumba_cleaning.behaviours.compiled_guard import Wheels
+from rumba_cleaning.behaviours.compiled_guard import HOLD_STEPS, Wheels
+from rumba_cleaning.behaviours.departure import SLOW, Departure, Search
 from rumba_cleaning.behaviours.preview import Preview
 from rumba_cleaning.behaviours.slip import NO_SLIP, Slip
 from rumba_cleaning.belief.footing import Footing
+from rumba_cleaning.belief.ground import Ground
 from rumba_sim.model.geometry import Pose
 
 # All figures below are our choice.
 PATIENCE = 2.0  # [s] held by edges, after which it looks for a way out
-SLOW = 0.1  # [m/s]
+LONG = 10.0  # [s] the same, after which, each time, it turns as far as it must and drives away
 WAYS_OUT = [(v, w) for v in (0.0, -SLOW, SLOW) for w in (0.25, -0.25, 0.5, -0.5, 1.0, -1.0)]  # [m/s], [rad/s]
 AHEAD = 50  # [steps of a path] that it is looked at: 1 s
 RESERVE = 0.01  # [m] from a wheel to an edge on it
 CREEP = 1e-4  # [m] by which an edge may come nearer all the same: rounding
 GAIN = 3e-3  # [m] that it brings at least
 ELSEWHERE = 0.3  # [m] from where edges held the robot
+
+Ways = Callable[[Command, int], Tuple[float, float]]  # of a command for so many steps: as `Release._ways`
 
 
 class Release:
@@ -30,9 +34,17 @@ class Release:
         held_time: for how long edges have kept the robot, about where it is, from what it was to do [s].
     """
 
-    def __init__(self, footing: Footing, preview: Preview, guess: int) -> None:
-        """Watch a robot that knows this floor, and takes so many cells beside it for floor too."""
-        self._footing, self._preview, self._guess = footing, preview, guess
+    def __init__(self, ground: Ground, footing: Footing, preview: Preview, clear: float, guess: int) -> None:
+        """Watch a robot.
+
+        Args:
+            ground, footing: what it knows of the floor.
+            preview: of its commands.
+            clear: from its middle to an edge, with which it can turn on the spot [m].
+            guess: how many cells beside floor that it knows it takes for floor too.
+        """
+        self._footing, self._preview, self._clear, self._guess = footing, preview, clear, guess
+        self._search = Search(ground, footing, preview.half)
         self.rest()
 
     def rest(self) -> None:
@@ -40,6 +52,8 @@ class Release:
         self._held_at: Optional[Pose] = None
         self._leaves_at = PATIENCE  # after what `held_time` it looks for a way out
         self._is_leaving = False  # whether it is on one
+        self._departure: Optional[Departure] = None  # that it has decided on
+        self._departs_at = LONG  # after what `held_time` it looks for one
         self.held_time = 0.0
 
     def is_due(self, pose: Pose, is_held: bool, seconds: float) -> bool:
@@ -57,7 +71,7 @@ class Release:
 
     def way_out(self, pose: Pose, speeds: Wheels, slips: Callable[[Wheels], Iterable[Slip]],
                 may_back: bool) -> Optional[Command]:
-        """The slow command that brings the wheels farther from edges than others; None: there is none.
+        """The command that leads away from edges; None: there is none.
 
         Args:
             pose: of the robot.
@@ -65,21 +79,47 @@ class Release:
             slips: tells how it may slide with wheels that are to be so fast [m/s].
             may_back: whether there is nothing behind it.
         """
-        best, most = None, self._ways(pose, speeds, (0.0, 0.0), NO_SLIP)[0]
-        reserve = min(most - CREEP, RESERVE)
-        most += GAIN
-        for command in (Command(v, w) for v, w in WAYS_OUT if v >= 0.0 or may_back):
+        now = self._ways(pose, speeds, (0.0, 0.0), NO_SLIP, AHEAD)[0]
+        reserve = min(now - CREEP, RESERVE)
+
+        def ways(command: Command, steps: int) -> Tuple[float, float]:
             wanted = self._preview.wanted(command)
-            ends, leasts = zip(*(self._ways(pose, speeds, wanted, slip) for slip in slips(wanted)))
-            if min(ends) > most and min(leasts) >= reserve:
-                best, most = command, min(ends)
+            ends, leasts = zip(*(self._ways(pose, speeds, wanted, slip, steps) for slip in slips(wanted)))
+            return min(ends), min(leasts)
+
+        if self._departure is None and self.held_time > self._departs_at:
+            self._departure = self._search.find(pose, reserve, self._clear, self._guess)
+            self._departs_at = self.held_time + LONG
+        best = self._departing(pose, reserve, may_back, ways) or self._nudge(now, reserve, may_back, ways)
         self._is_leaving = best is not None
         return best
 
-    def _ways(self, pose: Pose, speeds: Wheels, wanted: Wheels, slip: Slip) -> Tuple[float, float]:
-        """How near to an edge a wheel is in the end, after a command, and at the least [m]; 0 over unknown floor."""
-        _, left, right = self._preview.path(pose, speeds, wanted, slip, AHEAD)
-        if not self._footing.are_known(np.concatenate([left, right]), self._guess):
+    def _departing(self, pose: Pose, reserve: float, may_back: bool, ways: Ways) -> Optional[Command]:
+        """The next command of a departure, as long as it is safe."""
+        if self._departure is None:
+            return None
+        command = self._departure.command(pose)
+        if ways(command, HOLD_STEPS)[1] < reserve or command.v < 0.0 and not may_back:
+            self._departure = None
+            return None
+        return command
+
+    def _nudge(self, now: float, reserve: float, may_back: bool, ways: Ways) -> Optional[Command]:
+        """The slow command that brings the wheels farther from edges than others, if it gains enough on now [m]."""
+        best, most = None, now + GAIN
+        for command in (Command(v, w) for v, w in WAYS_OUT if v >= 0.0 or may_back):
+            end, least = ways(command, AHEAD)
+            if end > most and least >= reserve:
+                best, most = command, end
+        return best
+
+    def _ways(self, pose: Pose, speeds: Wheels, wanted: Wheels, slip: Slip, steps: int) -> Tuple[float, float]:
+        """How near to an edge a wheel is in the end, after a command for so many steps, and at the least [m].
+
+        0 over unknown floor, once the robot has met a cliff that no map shows.
+        """
+        _, left, right = self._preview.path(pose, speeds, wanted, slip, steps)
+        if self._footing.seen and not self._footing.are_known(np.concatenate([left, right]), self._guess):
             return 0.0, 0.0
         near = np.minimum(self._footing.clearances(left), self._footing.clearances(right))
         return float(near[-1]), float(near.min())

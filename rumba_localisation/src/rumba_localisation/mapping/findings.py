@@ -54,8 +54,8 @@ class Findings:
         self._pressed = bumper
         if is_new and not self._is_known(grid, pose, bumper):
             _remember(self.touched, _ahead(pose, SIDES[bumper], self._away))
-        for found in self._edges.met(pose, cliffs):
-            _remember(self.cliffs, found)
+        for edge in self._edges.met(pose, cliffs):
+            _remember(self.cliffs, (edge.x, edge.y))
 
     def _is_known(self, grid: Grid, pose: Pose, bumper: Tuple[bool, bool]) -> bool:
         """Whether walls of the map press what is pressed: one in the direction of the contact, or one at each side."""
