@@ -1,6 +1,7 @@
 """The report in Chromium: the slider shows the mission until a time, and all of it at the end."""
 
 import importlib.util
+import os
 import shutil
 
 import pytest
@@ -33,7 +34,9 @@ def browser(tmp_path_factory):
     for argument in ('--headless=new', '--no-sandbox', '--disable-gpu', '--disable-dev-shm-usage'):
         options.add_argument(argument)
     options.set_capability('goog:loggingPrefs', {'browser': 'ALL'})
-    driver = webdriver.Chrome(service=Service('/usr/bin/chromedriver'), options=options)
+    environment = {**os.environ, 'TMPDIR': str(path.parent)}  # Chromium leaves sockets behind
+    service = Service('/usr/bin/chromedriver', env=environment)
+    driver = webdriver.Chrome(service=service, options=options)
     driver.get(path.as_uri())
     yield driver
     driver.quit()

@@ -115,7 +115,10 @@ class Browser:
             options.add_argument(argument)
         options.set_capability('goog:loggingPrefs', {'browser': 'ALL'})
         self._test = test
-        self.driver = webdriver.Chrome(service=Service('/usr/bin/chromedriver'), options=options)
+        folder = tempfile.TemporaryDirectory()  # Chromium leaves sockets behind
+        test.addCleanup(folder.cleanup)
+        service = Service('/usr/bin/chromedriver', env={**os.environ, 'TMPDIR': folder.name})
+        self.driver = webdriver.Chrome(service=service, options=options)
         test.addCleanup(self.driver.quit)
         self.driver.set_script_timeout(TIMEOUT)
         self.driver.execute_cdp_cmd('Emulation.setDeviceMetricsOverride', {
