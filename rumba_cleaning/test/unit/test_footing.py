@@ -128,7 +128,7 @@ def test_an_edge_beside_one_that_was_seen_is_no_edge_that_is_known_already():
 
 
 @pytest.mark.parametrize('before, is_new', [(0.04, False), (0.07, True)])
-def test_an_edge_anywhere_on_the_way_of_a_sensor_between_two_readings_may_be_one_of_the_map(before, is_new):
+def test_a_sensor_that_has_come_far_over_an_edge_of_the_map_has_found_no_other_edge(before, is_new):
     """The edge of the map is 2 mm before where the sensor is at last, or beyond that."""
     edge, way = 3.0, 0.05
     footing = Footing(room(4.0, 2.0, 0.01, cliff=(edge, 0.0, 4.0, 2.0)), ROBOT)

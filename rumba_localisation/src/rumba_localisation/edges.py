@@ -12,9 +12,9 @@ JUMP = 0.5  # [m] from one pose to the next: somebody put the robot elsewhere; o
 class Edge(NamedTuple):
     """Where a sensor came over an edge."""
 
-    x: float  # half way [m], map frame
+    x: float  # half way between two readings [m], map frame
     y: float
-    off: float  # half of that way [m]: it may be so far from there
+    beyond: Tuple[float, float]  # where it was over no floor [m]
 
 
 class Edges:
@@ -46,6 +46,5 @@ class Edges:
             if is_over:
                 since = compose(last, sensor)
                 here = since if was_over else compose(pose, sensor)
-                found.append(Edge(0.5 * (since.x + here.x), 0.5 * (since.y + here.y),
-                                  0.5 * math.hypot(here.x - since.x, here.y - since.y)))
+                found.append(Edge(0.5 * (since.x + here.x), 0.5 * (since.y + here.y), (here.x, here.y)))
         return found

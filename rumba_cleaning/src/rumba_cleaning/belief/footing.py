@@ -18,7 +18,7 @@ from rumba_sim.model.robot_config import RobotConfig
 
 FAR = 1.0  # [m] what is farther from a cliff than this is far enough for everything that a robot does
 SEEN = 0.015  # [m] radius that is assumed for an edge that a sensor saw: half of what a robot drives between readings
-SAME = 0.02  # [m] from a cliff of the map, and as much as a sensor moves between readings, it sees that one
+SAME = 0.02  # [m] from a cliff of the map, a sensor sees that one
 INSIDE = 0.003  # [m] from a cliff that a sensor saw, another edge tells nothing new
 CELL = 0.01  # [m] side of the cells in which floor is remembered
 STEP = 0.008  # [m] between points that are remembered: less than a cell, so that no cell is left out
@@ -106,7 +106,8 @@ class Footing:
         last = None if self._noted is None else self._noted[0]
         self._noted = noted
         for edge in self._readings.met(pose, cliffs):
-            self._see(*edge)
+            if self._clearance(self._mapped, *edge.beyond) > 0.0:  # if not, the sensor is over a cliff of the map
+                self._see(edge.x, edge.y)
         if is_docked:
             self._stamp(self._before_dock, pose)
         if last is None or math.hypot(pose.x - last.x, pose.y - last.y) > JUMP:
@@ -164,9 +165,9 @@ class Footing:
         is_small[rim] = is_small[0] = False
         window[is_small[holes]] = compiled_footing.SEEN
 
-    def _see(self, x: float, y: float, off: float = 0.0) -> None:
-        """Remember a cliff, unless it is a known one, which may be so far off [m]."""
-        if self._clearance(self._mapped, x, y) < SAME + off or self.clearance_at(x, y) < INSIDE:
+    def _see(self, x: float, y: float) -> None:
+        """Remember a cliff, unless it is a known one."""
+        if self._clearance(self._mapped, x, y) < SAME or self.clearance_at(x, y) < INSIDE:
             return
         self.seen.append((x, y))
         rows, columns = self._plan.rows + 1, self._plan.columns + 1
