@@ -21,11 +21,16 @@ def ground(plan):
     return Ground(plan, quiet())
 
 
+def context(plan, **config):
+    """The context of a robot without noise."""
+    return Context(plan, quiet(), CleaningConfig(**config))
+
+
 def knowing(plan, pose, **config):
-    """The context of a robot without noise that begins at a pose and has swept nothing yet."""
-    context = Context(plan, quiet(), CleaningConfig(**config))
-    context.swept.begin(pose.x, pose.y)
-    return context
+    """The same of one that begins at a pose and has swept nothing yet."""
+    begun = context(plan, **config)
+    begun.swept.begin(pose.x, pose.y)
+    return begun
 
 
 def standing_points(floor):

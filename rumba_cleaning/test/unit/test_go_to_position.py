@@ -1,0 +1,76 @@
+"""The service go_to_position: velocities and headings that lead to a target, call by call."""
+
+import math
+
+import numpy as np
+import pytest
+from floors import context
+from rooms import crooked, room
+
+from rumba_cleaning.ros.cleaner.go_to_position import heading_toward, velocity_toward
+from rumba_sim.model.errors import MapError
+from rumba_sim.model.geometry import Pose, compose
+
+TARGET = Pose(3.5, 2.4, -2.0)
+
+
+def test_velocities_call_by_call_lead_to_the_target_around_what_is_in_the_way():
+    mine, pose = context(crooked()), Pose(0.4, 0.4, 1.0)
+    for _ in range(1000):
+        v, w, message = velocity_toward(mine, pose, TARGET)
+        if message == 'there':
+            break
+        assert abs(v) <= 0.5 and abs(w) <= 1.9 + 1e-9
+        pose = compose(pose, Pose(0.1 * v, 0.0, 0.1 * w))
+        assert mine.plan.safe_clearance_at(pose.x, pose.y) > mine.robot.drive.radius - 0.02
+    assert (v, w, message) == (0.0, 0.0, 'there')
+    assert math.hypot(pose.x - TARGET.x, pose.y - TARGET.y) < 0.02
+    assert abs(pose.theta - TARGET.theta) < 0.03
+
+
+def test_headings_call_by_call_lead_to_the_target_around_what_is_in_the_way():
+    mine, pose, driven = context(crooked()), Pose(0.4, 0.4, 1.0), 0.0
+    _, _, first = heading_toward(mine, pose, TARGET)
+    for _ in range(1000):
+        speed, heading, message = heading_toward(mine, pose, TARGET)
+        assert speed == -1.0 and -math.pi <= heading <= math.pi
+        if message in ('turning', 'there'):
+            break
+        pose = compose(Pose(pose.x, pose.y, heading), Pose(0.015, 0.0, 0.0))
+        driven += 0.015
+        assert mine.plan.safe_clearance_at(pose.x, pose.y) > mine.robot.drive.radius - 0.02
+    assert math.hypot(pose.x - TARGET.x, pose.y - TARGET.y) < 0.02
+    assert heading == TARGET.theta
+    way, *words = first.split()
+    assert float(way) == pytest.approx(driven, rel=0.05) and words == ['m', 'to', 'go']
+    assert heading_toward(mine, Pose(TARGET.x, TARGET.y, TARGET.theta + 2.0 * math.pi), TARGET) == (
+        -1.0, TARGET.theta, 'there')
+
+
+def test_a_heading_is_an_angle_of_the_map_whatever_the_robot_faces():
+    mine = context(room(4.0, 3.0))
+    for bearing in (3.0, 1.0, -1.0, -3.0):
+        for theta in (0.0, 2.5):
+            target = Pose(2.0 + math.cos(bearing), 1.5 + math.sin(bearing), 0.0)
+            answer = heading_toward(mine, Pose(2.0, 1.5, theta), target)
+            assert answer == (-1.0, pytest.approx(bearing, abs=0.02), '1.00 m to go')
+
+
+def test_the_side_to_turn_to_is_the_nearer_one():
+    mine = context(room(4.0, 3.0))
+    for bearing in (2.0, 1.0, -1.0, -2.0):
+        target = Pose(2.0 + math.cos(bearing), 1.5 + math.sin(bearing), 0.0)
+        v, w, message = velocity_toward(mine, Pose(2.0, 1.5, 0.0), target)
+        assert v == 0.0 and np.sign(w) == np.sign(bearing)
+        assert message == '1.00 m to go'
+
+
+@pytest.mark.parametrize('target, message', [
+    (Pose(math.nan, 1.0, 0.0), 'must be finite numbers'), (Pose(1.0, 1.0, math.nan), 'must be finite numbers'),
+    (Pose(1.35, 0.6, 0.0), 'does not fit'), (Pose(-3.0, 1.0, 0.0), 'lies outside the map'),
+    (Pose(3.5, 1.0, 0.0), r'^no path from \(0\.50, 0\.50\) to \(3\.50, 1\.00\) m$')])
+def test_a_target_that_cannot_be_reached_is_an_error(target, message):
+    plan = room(4.0, 3.0, boxes=((1.2, 0.4, 1.5, 0.9), (2.0, -1.0, 2.1, 4.0)))
+    for toward in (velocity_toward, heading_toward):
+        with pytest.raises(MapError, match=message):
+            toward(context(plan), Pose(0.5, 0.5, 0.0), target)
