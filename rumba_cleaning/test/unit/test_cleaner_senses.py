@@ -1,79 +1,27 @@
 """How the cleaner reads a robot's topics: complete readings, the time between them, poses, and what is missing."""
 
 import math
-import types
 
 import pytest
 import rospy
-from geometry_msgs.msg import PoseWithCovarianceStamped, Quaternion, Transform, TransformStamped, Vector3
+from geometry_msgs.msg import Quaternion, Transform, Vector3
+from robot_topics import Robot, odometry, standing
 from sensor_msgs.msg import BatteryState
 from std_msgs.msg import Header
-from tf2_msgs.msg import TFMessage
 
-from rumba_cleaning.behaviour import CERTAIN, UNKNOWN, Command
+from rumba_cleaning.behaviour import Command
 from rumba_cleaning.mission.stages import State
 from rumba_cleaning.outcome import Outcome
-from rumba_cleaning.ros.cleaner import certainty, conversions, location, senses
-from rumba_msg.msg import Bumper, CleaningStatus, Cliff, DockStatus, Lockstep
+from rumba_cleaning.ros.cleaner import conversions
+from rumba_msg.msg import CleaningStatus
 from rumba_sim.model.geometry import Pose
-from rumba_sim.ros.common.conversions import transform, transform_pose
-
-
-class Robot:
-    """A robot's topics without ROS: what it publishes goes straight to the subscribers."""
-
-    def __init__(self, monkeypatch, name='rumba', lockstep=None, expected=''):
-        self._name = name
-        self.lockstep = lockstep
-        self._callbacks = {}
-        self.connections = 1
-        self.expected = expected  # the topic that has a publisher already
-        self.readings = 0
-        monkeypatch.setattr(senses.rospy, 'Subscriber', self._subscribe)
-        monkeypatch.setattr(certainty, '_has_publisher', lambda topic: topic == self.expected)
-        self.warnings = []
-        monkeypatch.setattr(location.rospy, 'logwarn_throttle', lambda _, line: self.warnings.append(line))
-        self.senses = senses.Senses(name, self._count, lambda: self.lockstep)
-
-    def _subscribe(self, topic, _, callback, *arguments, **__):
-        self._callbacks[topic] = lambda message: callback(message, *arguments)
-        return types.SimpleNamespace(get_num_connections=lambda: self.connections, resolved_name=topic)
-
-    def _count(self):
-        self.readings += 1
-
-    def tells(self, topic, message):
-        """Publish a message."""
-        self._callbacks[f'{self._name}/{topic}'](message)
-
-    def reads(self, seconds, topics=('bumper', 'cliff', 'dock_status'), **fields):
-        """Publish parts of a reading, in this order, with one stamp; returns how many readings that completed."""
-        before = self.readings
-        kinds = {'bumper': Bumper, 'cliff': Cliff, 'dock_status': DockStatus}
-        for topic in topics:
-            mine = {name: value for name, value in fields.items() if name in kinds[topic].__slots__}
-            self.tells(topic, kinds[topic](header=Header(stamp=rospy.Time.from_sec(seconds)), **mine))
-        return self.readings - before
-
-    def stands(self, odom=Pose(0.0, 0.0, 0.0), base=Pose(0.0, 0.0, 0.0), topic='/tf'):
-        """Tell tf the pose of the odom frame, and that of the robot in it, 10 s later."""
-        prefix = '' if self._name == 'rumba' else f'{self._name}/'
-        for frame, child, pose, seconds in (('map', f'{prefix}odom', odom, 1),
-                                            (f'{prefix}odom', f'{prefix}base_footprint', base, 11)):
-            self.transforms(transform(frame, child, pose, rospy.Time(seconds)), topic=topic)
-
-    def transforms(self, *transforms, topic='/tf'):
-        """Publish transforms in one message."""
-        self._callbacks[topic](TFMessage(list(transforms)))
+from rumba_sim.ros.common.conversions import transform_pose
 
 
 @pytest.fixture
 def robot(monkeypatch):
     """A robot that stands at the origin, with half its charge."""
-    robot = Robot(monkeypatch)
-    robot.stands()
-    robot.tells('battery_state', BatteryState(percentage=0.5))
-    return robot
+    return standing(monkeypatch)
 
 
 @pytest.mark.parametrize('order', [
@@ -136,12 +84,6 @@ def test_the_pose_is_the_newest_odometry_with_a_correction_that_may_be_older(mon
     robot = Robot(monkeypatch, name)
     robot.stands(odom=Pose(1.0, 2.0, 0.5 * math.pi), base=Pose(0.5, 0.25, 0.75 * math.pi))
     assert robot.senses.pose() == pytest.approx((0.75, 2.5, -0.75 * math.pi))
-
-
-def odometry(x=1.0, y=2.0, z=0.0, rotation=(0.0, 0.0, 0.0, 1.0), stamp=rospy.Time(5), frame='odom',
-             child='base_footprint'):
-    """A transform with any numbers and names."""
-    return TransformStamped(Header(0, stamp, frame), child, Transform(Vector3(x, y, z), Quaternion(*rotation)))
 
 
 @pytest.mark.parametrize('odd', [
@@ -281,164 +223,3 @@ def test_a_localisation_that_is_static_outlives_a_simulator(robot):
     assert robot.senses.pose() is None
     robot.transforms(odometry(x=0.25, y=0.0))
     assert robot.senses.pose() == (1.25, 0.0, 0.0)
-
-
-# --- lockstep ---------------------------------------------------------------------------------------------------------
-
-WORLD = 'run', 0
-
-
-def parts_of(stamp):
-    """What a world in lockstep publishes up to a control tick: a function for each message."""
-    header = Header(stamp=stamp)
-    return {
-        'bumper': lambda robot: robot.tells('bumper', Bumper(header=header)),
-        'cliff': lambda robot: robot.tells('cliff', Cliff(header=header)),
-        'dock_status': lambda robot: robot.tells('dock_status', DockStatus(header=header)),
-        'battery_state': lambda robot: robot.tells('battery_state', BatteryState(header=header, percentage=0.5)),
-        'cleaning_status': lambda robot: robot.tells('cleaning_status', CleaningStatus(header=header)),
-        'tf': lambda robot: robot.transforms(odometry(stamp=stamp), odometry(stamp=stamp, frame='map', child='odom')),
-        'tick': lambda robot: robot.senses.on_tick(Lockstep(header, *WORLD, stamp, rospy.Time(), stamp))}
-
-
-@pytest.mark.parametrize('last', sorted(parts_of(rospy.Time(1))))
-def test_in_lockstep_a_reading_is_complete_once_everything_of_its_tick_has_come(monkeypatch, last):
-    robot = Robot(monkeypatch, lockstep=WORLD)
-    for stamp in rospy.Time(1), rospy.Time(2):
-        parts = parts_of(stamp)
-        before = robot.readings
-        for topic in [topic for topic in parts if topic != last]:
-            parts[topic](robot)
-        assert robot.readings == before
-        parts[last](robot)
-        assert (robot.readings, robot.senses.stamp) == (before + 1, stamp)
-
-
-def test_in_lockstep_a_topic_that_is_never_published_is_not_waited_for(monkeypatch):
-    robot = Robot(monkeypatch, lockstep=WORLD)
-    parts = parts_of(rospy.Time(1))
-    for topic in 'bumper', 'cliff', 'dock_status', 'battery_state':
-        parts[topic](robot)
-    robot.senses.on_tick(Lockstep(header=Header(stamp=rospy.Time(1)), run=WORLD[0]))
-    assert robot.readings == 1
-
-
-def test_in_lockstep_a_reading_of_another_world_counts_once_that_is_known(monkeypatch):
-    robot = Robot(monkeypatch, lockstep=('run', 1))
-    for part in parts_of(rospy.Time(5)).values():
-        part(robot)
-    assert robot.readings == 0
-    robot.lockstep = WORLD
-    robot.senses.forget(rospy.Time(4), is_new_run=False)
-    assert (robot.readings, robot.senses.stamp) == (1, rospy.Time(5))
-    assert robot.senses.look() is not None
-
-
-# --- certainty --------------------------------------------------------------------------------------------------------
-
-def believes(stamp, **covariance):
-    """What a localisation tells: entries of the covariance by their number, such as c35."""
-    message = PoseWithCovarianceStamped(header=Header(stamp=stamp))
-    for name, value in covariance.items():
-        message.pose.covariance[int(name[1:])] = value
-    return message
-
-
-def test_without_a_localisation_that_tells_it_the_pose_is_certain(robot):
-    robot.reads(1.0)
-    assert robot.senses.look().covariance == CERTAIN
-
-
-def test_the_covariance_is_that_of_x_y_and_heading(robot):
-    robot.reads(1.0)
-    told = believes(rospy.Time(1), c0=1.0, c1=2.0, c5=3.0, c7=4.0, c11=5.0, c14=99.0, c30=6.0, c35=7.0)
-    robot.tells('amcl_pose', told)
-    assert robot.senses.look().covariance == ((1.0, 2.0, 3.0), (0.0, 4.0, 5.0), (6.0, 0.0, 7.0))
-
-
-@pytest.mark.parametrize('number', [math.nan, math.inf])
-def test_a_covariance_that_is_not_finite_means_that_nothing_is_known(robot, number):
-    robot.reads(1.0)
-    robot.tells('amcl_pose', believes(rospy.Time(1), c7=number))
-    assert robot.senses.look().covariance == UNKNOWN and robot.senses.look().is_lost
-
-
-def test_a_localisation_that_falls_silent_leaves_nothing_known_until_it_is_back(robot):
-    robot.tells('amcl_pose', believes(rospy.Time(1), c0=0.01))
-    for seconds, is_lost in ((1.0, False), (3.0, False), (3.1, True)):
-        robot.reads(seconds)
-        assert robot.senses.look().is_lost is is_lost
-    robot.tells('amcl_pose', believes(rospy.Time(3), c0=0.01))
-    assert not robot.senses.look().is_lost
-    robot.senses.forget(rospy.Time(4), is_new_run=True)
-    robot.stands()
-    robot.tells('battery_state', BatteryState(header=Header(stamp=rospy.Time(90)), percentage=0.5))
-    robot.reads(90.0)
-    assert robot.senses.look().covariance == CERTAIN
-
-
-def test_the_laser_is_silent_for_as_long_as_the_pose_is_newer_than_the_correction(robot):
-    robot.reads(1.0)
-    assert robot.senses.look().silence == 0.0  # nobody tells a covariance
-    for stamp, silence in ((rospy.Time(0, 900_000_000), 0.0), (rospy.Time(1), 0.0), (rospy.Time(3, 500_000_000), 2.5)):
-        robot.tells('amcl_pose', believes(stamp, c0=0.04))
-        assert robot.senses.look().silence == silence
-    robot.reads(3.5)
-    assert robot.senses.look().is_lost
-    robot.transforms(transform('map', 'odom', Pose(0.0, 0.0, 0.0), rospy.Time(3, 500_000_000)))
-    assert robot.senses.look().silence == 0.0 and not robot.senses.look().is_lost
-
-
-def test_a_correction_that_is_static_is_never_too_old(robot):
-    robot.transforms(transform('map', 'odom', Pose(0.0, 0.0, 0.0), rospy.Time(1)), topic='/tf_static')
-    robot.reads(9.0)
-    robot.tells('amcl_pose', believes(rospy.Time(9), c0=0.04))
-    assert robot.senses.look().silence == 0.0
-
-
-@pytest.mark.parametrize('last', ['amcl_pose', 'correction', 'tick'])
-def test_in_lockstep_a_localisation_is_waited_for_if_there_is_one(monkeypatch, last):
-    robot, stamp = Robot(monkeypatch, lockstep=WORLD), rospy.Time(1)
-    parts = {**parts_of(stamp), 'tf': lambda robot: robot.transforms(odometry(stamp=stamp)),
-             'amcl_pose': lambda robot: robot.tells('amcl_pose', believes(stamp)),
-             'correction': lambda robot: robot.transforms(odometry(stamp=stamp, frame='map', child='odom')),
-             'tick': lambda robot: robot.senses.on_tick(Lockstep(Header(stamp=stamp), *WORLD, stamp, stamp, stamp))}
-    for topic in [topic for topic in parts if topic != last]:
-        parts[topic](robot)
-    assert robot.readings == 0
-    parts[last](robot)
-    assert robot.readings == 1
-
-
-@pytest.mark.parametrize('silence, readings', [(0.5, 0), (1.5, 1)])
-def test_in_lockstep_a_correction_is_not_waited_for_while_the_laser_is_silent(monkeypatch, silence, readings):
-    robot, scanned = Robot(monkeypatch, lockstep=WORLD), rospy.Time(1)
-    stamp = scanned + rospy.Duration(silence)
-    robot.transforms(odometry(stamp=scanned, frame='map', child='odom'))
-    for topic, tell in {**parts_of(stamp), 'tf': lambda robot: robot.transforms(odometry(stamp=stamp))}.items():
-        if topic != 'tick':
-            tell(robot)
-    robot.tells('amcl_pose', believes(stamp))
-    robot.senses.on_tick(Lockstep(Header(stamp=stamp), *WORLD, stamp, stamp, stamp))
-    assert robot.readings == readings
-
-
-def test_in_lockstep_a_scan_without_a_localisation_is_not_waited_for(monkeypatch):
-    robot, stamp = Robot(monkeypatch, lockstep=WORLD), rospy.Time(1)
-    robot.connections = 0
-    for part in parts_of(stamp).values():
-        part(robot)
-    robot.senses.on_tick(Lockstep(Header(stamp=stamp), *WORLD, stamp, rospy.Time(9), stamp))
-    assert robot.readings == 1
-
-
-def test_in_lockstep_a_localisation_that_was_there_before_is_waited_for_although_it_is_not_connected_yet(monkeypatch):
-    robot, stamp = Robot(monkeypatch, lockstep=WORLD, expected='rumba/amcl_pose'), rospy.Time(1)
-    robot.connections = 0
-    for topic, tell in parts_of(stamp).items():
-        if topic != 'tick':
-            tell(robot)
-    robot.senses.on_tick(Lockstep(Header(stamp=stamp), *WORLD, stamp, rospy.Time(1), stamp))
-    assert robot.readings == 0
-    robot.tells('amcl_pose', believes(stamp))
-    assert robot.readings == 1
