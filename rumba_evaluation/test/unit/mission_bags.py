@@ -95,6 +95,25 @@ TOPICS = {  # by topic: period [s], and a function that makes the message of a t
     'mission_status': (1.0, mission_status),
     'coverage': (1.0, lambda t: grid(SWEPT if t >= END else np.where(SWEPT == 100, 0, SWEPT)))}
 ALL = tuple(TOPICS)
+LEAST = ('ground_truth', 'battery_state')  # enough for a report
+EVENTS = [  # of the mission, as a report tells them
+    (0.0, 'The recording begins at (1.00, 1.00) m, battery 100 %.'),
+    (2.0, 'Left the dock, battery 100 %.'),
+    (3.0, 'Mission: cleaning (spiral)'),
+    (5.0, 'Bump at (2.50, 1.00) m.'),
+    (10.0, 'Bump at (5.00, 1.00) m.'),
+    (15.0, 'A wheel hangs over a cliff at (4.50, 3.00) m.'),
+    (20.0, 'Mission: returning'),
+    (20.0, 'Bump at (2.00, 3.00) m.'),
+    (25.5, 'Battery below 10 %.'),
+    (26.0, 'Docked and charging, battery 8 %.'),
+    (36.0, 'The mission ends: 90.0 % swept <&>'),
+    (36.0, 'The recording ends at (1.00, 1.00) m, battery 58 %.')]
+
+
+def without(*names):
+    """All topics except some."""
+    return [name for name in ALL if name not in names]
 
 
 def recorded(t):
