@@ -1,0 +1,133 @@
+"""What the window makes of the messages of one robot, without a master."""
+
+import math
+import time
+
+import numpy as np
+import pytest
+import rospy
+from hammering import hammer
+from nav_msgs.msg import Odometry
+from pytest import approx
+from sensor_msgs.msg import LaserScan
+from std_msgs.msg import Header
+
+from rumba_msg.msg import BatteryStatus, CleanActionResult, CleaningStatus, CleanResult, Cliff, MissionStatus, Outcome
+from rumba_sim.ros.common.conversions import quaternion
+from rumba_viewer.ros import robot_listener
+from rumba_viewer.scene.snapshot import Size
+
+pytestmark = pytest.mark.usefixtures('topics')
+
+
+class Heard:
+    """A listener to a robot; called, it returns what it knows."""
+
+    def __init__(self, one):
+        self.listener = one
+
+    def __call__(self):
+        return self.listener.robot(time.monotonic(), Size())
+
+
+@pytest.fixture
+def heard(topics):
+    """A listener to rumba that has one reading."""
+    one = robot_listener.RobotListener('rumba', lambda: None)
+    topics['rumba/ground_truth'].callback(Odometry())
+    return Heard(one)
+
+
+def test_a_robot_has_fallen_if_a_wheel_is_dropped_whatever_its_text_says(heard, topics):
+    topics['rumba/battery_status'].callback(BatteryStatus(debug_message='a wheel hangs over a cliff: teleport me'))
+    assert not heard().has_fallen
+    topics['rumba/cliff'].callback(Cliff(is_cliff_left=True))
+    assert not heard().has_fallen
+    topics['rumba/cliff'].callback(Cliff(is_wheel_dropped=True))
+    assert heard().has_fallen
+
+
+def cleaning_ends(topics, code):
+    """A cleaning of the robot ends with an outcome."""
+    topics['rumba/clean/result'].callback(CleanActionResult(result=CleanResult(outcome=Outcome(code=code))))
+
+
+@pytest.mark.parametrize('codes, can_resume', [
+    ([], None), ([Outcome.CANCELLED], True), ([Outcome.PREEMPTED], True), ([Outcome.SUCCEEDED], False),
+    ([Outcome.TIMED_OUT], False), ([Outcome.CANCELLED, Outcome.REFUSED], True), ([Outcome.REFUSED], None),
+    ([Outcome.PREEMPTED, Outcome.SUCCEEDED], False)])
+def test_a_cleaning_can_be_resumed_if_the_last_one_was_interrupted(heard, topics, codes, can_resume):
+    for code in codes:
+        cleaning_ends(topics, code)
+    assert heard().can_resume is can_resume
+
+
+def test_it_is_unknown_whether_a_new_cleaner_can_resume_a_cleaning(heard, topics):
+    cleaning_ends(topics, Outcome.CANCELLED)
+    topics['rumba/mission_status'].impl.number = 0
+    assert heard().can_resume is None
+    topics['rumba/mission_status'].impl.number = 1
+    assert heard().can_resume is None
+
+
+@pytest.mark.parametrize('state, strategy, word, is_active, is_cleaning', [
+    (MissionStatus.YIELDING, 'bounce', 'yielding', True, True), (MissionStatus.GOING_TO, '', 'going to', True, False),
+    (MissionStatus.CHARGING, 'bounce', 'charging', True, True), (MissionStatus.IDLE, '', 'idle', False, False),
+    (MissionStatus.STRANDED, '', 'stranded', False, False), (77, '', '?', True, False)])
+def test_the_state_of_the_mission_in_words(heard, topics, state, strategy, word, is_active, is_cleaning):
+    topics['rumba/mission_status'].callback(MissionStatus(state=state, strategy=strategy, message='why'))
+    mission = heard().mission
+    assert (mission.state, mission.is_active, mission.is_cleaning, mission.message) == (
+        word, is_active, is_cleaning, 'why')
+
+
+def test_the_beams_of_a_scan_begin_where_the_robot_was_at_its_time(heard, topics):
+    for second, x, theta in ((1, 1.0, 0.0), (2, 2.0, 0.5 * math.pi), (3, 3.0, math.pi)):
+        truth = Odometry(header=Header(stamp=rospy.Time(second)))
+        truth.pose.pose.position.x = x
+        truth.pose.pose.orientation = quaternion(theta)
+        topics['rumba/ground_truth'].callback(truth)
+    heard.listener.subscribe_large(['scan'])
+    topics['rumba/scan'].callback(LaserScan(
+        header=Header(stamp=rospy.Time(2)), angle_min=-0.5 * math.pi, angle_increment=0.5 * math.pi, range_max=4.0,
+        ranges=np.array([0.5, math.inf, -math.inf])))
+    assert heard().beams == approx(np.array([(2.5, 0.0), (2.0, 4.0), (2.0, 0.0)]))
+
+
+SCAN = LaserScan(angle_increment=0.1, range_max=4.0, ranges=np.ones(9))
+
+
+def test_a_scan_that_comes_while_the_laser_is_switched_off_is_not_shown(heard, topics):
+    heard.listener.subscribe_large(['scan'])
+    late = topics['rumba/scan'].callback
+    late(SCAN)
+    assert heard().beams is not None
+    heard.listener.subscribe_large([])
+    late(SCAN)
+    assert heard().beams is None
+
+
+def test_messages_may_come_while_the_window_asks_and_the_laser_is_switched(heard, topics):
+    heard.listener.subscribe_large(['scan'])
+    hear = {topic: topics[f'rumba/{topic}'].callback for topic in (
+        'ground_truth', 'scan', 'cleaning_status', 'battery_status', 'clean/result')}
+
+    def drive():
+        for step in range(3000):
+            truth = Odometry(header=Header(stamp=rospy.Time(step % 100)))  # the simulation starts anew now and then
+            truth.pose.pose.position.x = truth.pose.pose.position.y = 0.1 * (step % 100)
+            hear['ground_truth'](truth)
+            hear['cleaning_status'](CleaningStatus(distance=float(step % 70)))
+            hear['battery_status'](BatteryStatus(brushes_up=step % 2 == 0, debug_message=str(step % 2 == 0)))
+
+    def ask():
+        known, shown = heard.listener.known, heard()
+        assert not known.recent or known.recent[-1].stamp == known.stamp
+        assert shown is None or shown.pose.x == approx(shown.pose.y) and shown.message in ('', str(shown.brushes_up))
+
+    def switch():
+        heard.listener.subscribe_large(['scan', 'coverage'])
+        hear['scan'](SCAN)
+        heard.listener.subscribe_large([])
+        heard.listener.forget()
+    hammer(drive, ask, switch, lambda: cleaning_ends(topics, Outcome.CANCELLED))
