@@ -6,6 +6,7 @@ from concurrent.futures import Executor, Future
 import numpy as np
 from rooms import inside
 
+from rumba_cleaning.behaviour import Behaviour, Command
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.cleaning_config import CleaningConfig
 from rumba_cleaning.control import CONTROL_DT, CONTROL_TICKS, observe, steps
@@ -18,6 +19,16 @@ from rumba_sim.model.obstacle import Obstacle
 def context_of(plan, world, seed=1, executor=None, **changes):
     """What a robot of a world, whose floor may differ from the plan, knows."""
     return Context(plan, world.config, CleaningConfig(**changes), seed, executor)
+
+
+class Always(Behaviour):
+    """Gives one command."""
+
+    def __init__(self, v, w):
+        self.command = Command(v, w)
+
+    def update(self, observation):
+        return self.command
 
 
 def run(behaviour, world, name='rumba', seconds=600.0, source=truth):

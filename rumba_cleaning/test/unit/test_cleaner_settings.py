@@ -140,6 +140,18 @@ def test_settings_are_kept_while_the_master_is_away(monkeypatch):
     assert place.look()[1] == known
 
 
+def test_of_a_robot_that_creeps_one_line_is_told(monkeypatch):
+    simulator, lines = Simulator(monkeypatch, map_path('studio')), []
+    monkeypatch.setattr(workplace.rospy, 'logwarn', lines.append)
+    workplace.Workplace('')
+    simulator.tells(map_path('studio'))
+    assert lines == []
+    simulator.robots['/sim2'] = quiet(drive={'wheel_base': 0.32})
+    simulator.tells(map_path('studio'))
+    simulator.tells(map_path('studio'))
+    assert len(lines) == 1 and lines[0].startswith('drive/wheel_base is 0.32 m')
+
+
 def test_a_map_that_is_named_goes_before_that_of_the_simulator_and_needs_none(monkeypatch):
     simulator = Simulator(monkeypatch)
     place = workplace.Workplace('studio')

@@ -2,39 +2,29 @@
 
 import itertools
 import math
+import re
 
 import numpy as np
 import pytest
-from drivers import context_of, guarded, run, with_cliffs
+from drivers import Always, context_of, guarded, run, with_cliffs
 from rooms import RADIUS, quiet, room
 
-from rumba_cleaning.behaviour import Behaviour, Command
+from rumba_cleaning.behaviour import Command
 from rumba_cleaning.behaviours.bounded import Bounded
-from rumba_cleaning.behaviours.guard import FOUND_SPEED, SWIFT_SPEED, Guard
-from rumba_cleaning.behaviours.travel import Going, Travel
+from rumba_cleaning.behaviours.guard import FOUND_SPEED, SWIFT_SPEED, Guard, why_it_creeps
+from rumba_cleaning.behaviours.travel import Travel
 from rumba_cleaning.belief.footing import CELL, SEEN
 from rumba_cleaning.control import CONTROL_DT, observe, steps
 from rumba_cleaning.mission.mission import Mission
 from rumba_cleaning.outcome import Outcome
-from rumba_cleaning.pose_source import DeadReckoning, scan_of_robot
 from rumba_cleaning.route import Route
+from rumba_sim.model.config import updated
 from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.model.geometry import Pose
-from rumba_sim.model.obstacle import Obstacle
 from rumba_sim.model.world import World
 
 STAIRS = (2.0, 0.0, 3.0, 2.0)
 ISLANDS = ((0.8, 0.7, 1.1, 1.0), (1.9, 0.6, 2.4, 0.9), (1.3, 1.6, 1.6, 2.1))
-
-
-class Always(Behaviour):
-    """Gives one command."""
-
-    def __init__(self, v, w):
-        self.command = Command(v, w)
-
-    def update(self, observation):
-        return self.command
 
 
 def commanded(v, w, pose, is_shown, seconds=20.0):
@@ -243,6 +233,15 @@ def test_a_robot_that_cannot_move_for_edges_ends_its_mission_and_says_so():
     assert robot.pose.y == pytest.approx(1.3, abs=0.02) and 60.0 < world.time < 180.0
 
 
+def test_of_a_robot_whose_sensors_look_beside_no_wheel_the_guard_tells_what_would_do():
+    wide = quiet(drive={'wheel_base': 0.7, 'radius': 0.5})
+    line = why_it_creeps(wide)
+    distance = float(re.search(r'; cliff/distance of (\S+) m would do$', line).group(1))
+    assert line.startswith('drive/wheel_base is 0.7 m and cliff/distance 0.165 m: ')
+    assert why_it_creeps(updated(wide, {'cliff': {'distance': distance}}, 'wide')) == why_it_creeps(quiet()) == ''
+    assert why_it_creeps(quiet(cliff={'outer_angle': 0.05})).endswith('; a larger cliff/outer_angle would do')
+
+
 @pytest.mark.parametrize('speed, brushes_up', [(0.3, False), (0.45, True)])
 def test_the_brushes_are_up_where_a_route_is_faster_than_the_cleaning_speed(speed, brushes_up):
     plan = room(4.0, 2.0, start=Pose(0.5, 1.0, 0.0))
@@ -250,67 +249,3 @@ def test_the_brushes_are_up_where_a_route_is_faster_than_the_cleaning_speed(spee
     world.spawn('rumba')
     travel = Travel(context_of(plan, world), Route(np.array([[0.5, 1.0], [3.0, 1.0]]), np.array([speed])))
     assert travel.command(observe(world, 'rumba', 0.0), brushes_up=False).brushes_up == brushes_up
-
-
-@pytest.mark.parametrize('v', [0.1, 0.3, 0.45])
-@pytest.mark.parametrize('aside', [0.1, 0.14, 0.18, 0.22, 0.25])
-@pytest.mark.parametrize('gap', [0.178, 0.19, 0.21])
-def test_a_robot_that_slides_along_an_obstacle_beside_an_edge_does_not_fall(gap, aside, v):
-    """The obstacle turns it towards the edge, `gap` [m] to its left."""
-    plan = with_cliffs(room(4.0, 2.0, 0.02, start=Pose(0.5, 0.5, 0.0)), (0.0, 1.4, 4.0, 2.0))
-    y = 1.4 - gap
-    world = World(plan, quiet(), obstacles=[Obstacle('post', Pose(2.0, y - aside, 0.0), 0.05, 0.09)])
-    robot = world.spawn('rumba', Pose(1.2, y, 0.0))
-    run(Bounded(Always(v, 0.0), 1000.0, context_of(plan, world)), world, seconds=12.0)
-    assert robot.bumps >= 1 and not robot.has_fallen
-
-
-class SometimesRight(DeadReckoning):
-    """Counts the turns of its wheels, also while they slip, and finds its true place every second."""
-
-    def __init__(self, has_laser):
-        super().__init__()
-        self._has_laser = has_laser
-        self._looks = 0
-
-    def __call__(self, world, name):
-        if self._looks % 10 == 0:
-            self._corrections.clear()
-        self._looks += 1
-        return super().__call__(world, name)._replace(scan=scan_of_robot(world, name) if self._has_laser else None)
-
-
-@pytest.mark.parametrize('has_laser', [False, True])
-@pytest.mark.parametrize('off_back', [0.2, 0.3, 0.4, 0.5])
-@pytest.mark.parametrize('heading', [0.2, 0.3, 0.4])
-def test_a_robot_that_backs_off_against_something_beside_an_edge_does_not_slide_over_it(heading, off_back, has_laser):
-    """A sensor sees the edge on its left; of what somebody puts behind it, more to the right, it knows nothing."""
-    plan = with_cliffs(room(4.0, 2.0, 0.02, start=Pose(0.5, 0.5, 0.0)), (0.0, 1.4, 4.0, 2.0))
-    world = World(plan, quiet())
-    robot = world.spawn('rumba', Pose(1.5, 1.2, heading))
-    while not any(world.cliffs('rumba')):
-        robot.command(0.05, 0.0, world.tick)
-        world.step()
-    pose, away, direction = robot.pose, RADIUS + 0.135, heading + math.pi + off_back
-    world.add_obstacle(Obstacle('post', Pose(pose.x + away * math.cos(direction), pose.y + away * math.sin(direction),
-                                             0.0), 0.3, 0.128))
-    run(Bounded(Always(-0.1, 0.0), 1000.0, context_of(plan, world)), world, seconds=20.0,
-        source=SometimesRight(has_laser))
-    assert not robot.has_fallen
-    if has_laser:  # it does not even push
-        assert math.dist(robot.pose[:2], pose[:2]) < 0.02
-
-
-def test_a_contact_beside_an_edge_is_one_with_something_unknown():
-    plan = with_cliffs(room(4.0, 2.0, 0.02, start=Pose(0.5, 0.5, 0.0)), (0.0, 1.4, 4.0, 2.0))
-    world = World(plan, quiet(), obstacles=[Obstacle('post', Pose(2.0, 1.06, 0.0), 0.05, 0.09)])
-    robot = world.spawn('rumba', Pose(1.2, 1.22, 0.0))
-    context = context_of(plan, world)
-    travel = Travel(context, Route(np.array([[1.2, 1.22], [3.5, 1.22]]), np.array([0.3])))
-    farthest = 0.0
-    for _ in guarded(Guard(context), world, lambda observation: travel.command(observation, True)):
-        if travel.going is not Going.ON:
-            break
-        farthest = max(farthest, robot.pose.x)
-    assert travel.going is Going.BLOCKED and robot.pose.y == pytest.approx(1.22, abs=0.05) and not robot.has_fallen
-    assert robot.pose.x < farthest - 0.02  # it backed off, although the contact and the edge are still near

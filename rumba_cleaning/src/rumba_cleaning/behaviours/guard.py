@@ -5,6 +5,7 @@ that its sensors have seen, it drives more slowly, or not at all (D. Fox, W. Bur
 Approach to Collision Avoidance, 1997: a velocity is admissible if the robot can stop before the obstacle).
 """
 
+import math
 from typing import Callable, List, Optional, Tuple
 
 import numpy as np
@@ -19,6 +20,7 @@ from rumba_cleaning.behaviours.slip import Slip, along_contacts, slipped
 from rumba_cleaning.behaviours.trail import Trail
 from rumba_cleaning.belief.context import Context
 from rumba_sim.model.geometry import Pose
+from rumba_sim.model.robot_config import RobotConfig
 
 SHARES = (0.6, 0.3)  # of a command that are tried, after the whole and a slow one, before the robot stops; our choice
 LONGEST = 0.3  # [s] the same, at most, by the time since the last one: in a longer step the node was busy
@@ -41,8 +43,23 @@ WARY_SPEED = 0.25  # [m/s] so near: in 0.06 m the robot stops, whatever the shap
 GUESS = 3  # cells beside known floor that are taken to be floor too, elsewhere, by a robot that keeps these limits
 ON_TRAIL = 2  # cells, back along its trail: points of the way of a wheel are known, what it passed between them is not
 
+BESIDE = 0.017  # [m] from a wheel out to where the outer sensor looks, as that of the usual robot
+FLAT = 0.1  # sine of the angle of outer sensors that no distance brings before the wheels
+
 Sides = Tuple[bool, bool]  # left and right
 NONE, BOTH = (False, False), (True, True)
+
+
+def why_it_creeps(robot: RobotConfig) -> str:
+    """One line for a robot whose cliff sensors do not look at the floor before its wheels; empty for others."""
+    half, cliff = 0.5 * robot.drive.wheel_base, robot.cliff
+    aside = math.sin(min(cliff.outer_angle, 0.5 * math.pi))
+    if cliff.distance * aside >= half:
+        return ''
+    cure = f'cliff/distance of {math.ceil(100.0 * (half + BESIDE) / aside) / 100.0:.2f} m' if aside > FLAT else (
+        'a larger cliff/outer_angle')
+    return (f'drive/wheel_base is {robot.drive.wheel_base:g} m and cliff/distance {cliff.distance:g} m: no cliff sensor '
+            f'looks at the floor before the wheels, so that the robot creeps where it has not been; {cure} would do')
 
 
 class Guard:

@@ -4,6 +4,7 @@ from typing import Callable, NamedTuple, Optional, Tuple
 
 import rospy
 
+from rumba_cleaning.behaviours.guard import why_it_creeps
 from rumba_cleaning.ros.cleaner.survey import SurveyListener
 from rumba_msg.msg import SimulatorState
 from rumba_sim.model import map_file
@@ -50,6 +51,7 @@ class Workplace:
         self._named = map_path(name) if name else ''
         self._loaded: Optional[Tuple[str, str, FloorPlan]] = None  # after its path, and the simulator's run
         self._robot: Optional[Tuple[str, RobotConfig]] = None  # after the simulator's run
+        self._warned = ''
         self._simulator = SimulatorClient(self._on_state)
         if survey is not None:
             survey.wait()
@@ -107,7 +109,14 @@ class Workplace:
         """Read the settings of the robot ahead: asking the master in `look` would delay go_to_position."""
         try:
             self._robot = state.run, robot_config(state.node)
+            self._warn(why_it_creeps(self._robot[1]))
         except ConfigError:
             self._robot = None  # `look` raises the error
         except NO_ANSWER:
             pass  # the master is being restarted: what is known remains
+
+    def _warn(self, line: str) -> None:
+        """Log a line unless it was the last one, or is empty."""
+        if line and line != self._warned:
+            rospy.logwarn(line)
+        self._warned = line
