@@ -5,6 +5,7 @@ import pathlib
 import re
 import shutil
 import subprocess
+import zipfile
 
 import pytest
 from checkouts import SAMPLE, commands, make_checkout, rumba, write_package
@@ -17,6 +18,7 @@ rospy.init_node('node')
 print('handles signals', flush=True)
 rospy.spin()
 '''
+WHEEL = 'tiny-1.0-py3-none-any.whl'
 APT_WITHOUT_NETWORK = '''#!/bin/sh
 [ "$1" = update ] || { echo 'E: Unable to locate package catkin'; exit 100; }
 '''
@@ -38,8 +40,33 @@ def built(tmp_path_factory):
     return folder, environment
 
 
+def need_wheel(checkout, folder):
+    """Have lesson 11 need a package of Python that is in a folder; returns the environment with which pip finds it."""
+    lesson = checkout / 'rumba_tutorials' / '11_record_and_read' / 'mission_bag'
+    lesson.mkdir(parents=True)
+    (lesson / 'requirements.txt').write_text('tiny==1.0\n')
+    about = {'METADATA': 'Metadata-Version: 2.1\nName: tiny\nVersion: 1.0\n', 'RECORD': '',
+             'WHEEL': 'Wheel-Version: 1.0\nGenerator: test\nRoot-Is-Purelib: true\nTag: py3-none-any\n'}
+    with zipfile.ZipFile(str(folder / WHEEL), 'w') as wheel:
+        for name, text in about.items():
+            wheel.writestr(f'tiny-1.0.dist-info/{name}', text)
+    return {'PIP_NO_INDEX': '1', 'PIP_FIND_LINKS': str(folder), 'XDG_CACHE_HOME': str(folder / 'cache')}
+
+
+@pytest.mark.thorough
+def test_without_what_a_lesson_needs_from_a_package_index_the_tests_run_all_the_same(checkout, tmp_path):
+    environment = need_wheel(checkout, tmp_path)
+    (tmp_path / WHEEL).unlink()
+    code, out, _ = rumba(checkout, 'test', **environment)
+    assert (code, out.splitlines()[-1]) == (1, '4 passed, 1 failed')
+    assert 'rumba: they cannot be fetched, so that its tests are skipped: ' in out
+    assert 'No matching distribution found for tiny==1.0' in out
+
+
 def test_a_failing_test_fails_the_whole_and_is_named_and_the_last_line_counts(checkout, tmp_path):
-    code, out, _ = rumba(checkout, 'test', XDG_CACHE_HOME=str(tmp_path / 'cache'))
+    code, out, _ = rumba(checkout, 'test', **need_wheel(checkout, tmp_path))
+    assert 'rumba: fetching the Python packages of lesson 11\n' in out
+    assert ((checkout / '.ws').resolve() / 'wheels' / WHEEL).exists()
     # The rostest counts twice: the parameter test, and its launch file.
     assert (code, out.splitlines()[-2:]) == (1, [
         'the tests that take longest were left out: ./rumba test --thorough', '4 passed, 1 failed'])

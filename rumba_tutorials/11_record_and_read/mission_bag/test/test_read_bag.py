@@ -25,7 +25,10 @@ def python():
     made_for = venv / 'made_for.txt'
     if not made_for.exists() or made_for.read_text() != wanted:
         subprocess.check_call([sys.executable, '-m', 'venv', '--clear', '--system-site-packages', str(venv)])
-        subprocess.check_call([f'{venv}/bin/pip', 'install', '-q', '-r', str(PACKAGE / 'requirements.txt')])
+        pip = subprocess.run([f'{venv}/bin/pip', 'install', '-q', '-r', str(PACKAGE / 'requirements.txt')],
+                             stderr=subprocess.PIPE, universal_newlines=True)
+        if pip.returncode:
+            pytest.skip(f'pip cannot get rosbags, which Debian lacks: {pip.stderr.strip()}')
         made_for.write_text(wanted)
     return f'{venv}/bin/python'
 
