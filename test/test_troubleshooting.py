@@ -33,7 +33,9 @@ ELSEWHERE = ['Compatibility with CMake < 3.5 has been removed from CMake.',
              'another simulator starts at the same moment: only one of them can',
              "AttributeError: 'Thread' object has no attribute 'isAlive'",
              'to have datatype/md5sum [...], but our version has [...]. Dropping connection.',
-             'Unable to communicate with master!']
+             'Unable to communicate with master!',
+             'drive/wheel_base is ... m and cliff/distance ... m: no cliff sensor looks at the floor before the '
+             'wheels, ...']
 
 
 class Break(NamedTuple):

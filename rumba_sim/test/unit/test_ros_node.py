@@ -3,6 +3,8 @@
 import os
 import queue
 import signal
+import subprocess
+import sys
 
 import pytest
 
@@ -71,3 +73,31 @@ def test_a_signal_during_the_registration_ends_the_node_too(monkeypatch):
         for number, handler in before.items():
             signal.signal(number, handler)
     assert options == {'disable_rostime': False, 'disable_signals': True}
+
+
+INTERRUPTED = '''
+import os, signal
+import rosgraph
+from rumba_sim.ros.common import node
+
+calls = []
+
+def is_master_online():
+    calls.append(1)
+    try:
+        if len(calls) == 1:
+            os.kill(os.getpid(), signal.SIGINT)
+        return True
+    except:
+        return False
+
+rosgraph.is_master_online = is_master_online
+node._wait_for_master('no master')
+print('goes on')
+'''
+
+
+def test_ctrl_c_ends_a_node_also_while_it_asks_for_the_master():
+    """rosgraph takes the KeyboardInterrupt for a no, and the node went on once the master answered."""
+    done = subprocess.run([sys.executable, '-c', INTERRUPTED], stdout=subprocess.PIPE, universal_newlines=True)
+    assert (done.returncode, done.stdout) == (-signal.SIGINT, '')

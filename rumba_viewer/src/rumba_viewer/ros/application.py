@@ -54,8 +54,9 @@ class Application:
 
     def wait_for_master(self) -> None:
         """Show a window that tells what it waits for, until a master answers; exits if it is closed."""
-        if rosgraph.is_master_online():
-            return
+        with node.prompt_sigint():
+            if rosgraph.is_master_online():
+                return
         _set_style(self._qt, _given_style())
         window = Window(_Nobody(), _Nobody(), Options(0.0, 0.0, '', STRATEGIES, False),
                         Snapshot(missing=missing_master()))

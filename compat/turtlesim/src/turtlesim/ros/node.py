@@ -102,12 +102,13 @@ def run(name: str, parameters: Parameters, main: Callable[[], None], own_clock: 
 
 def _wait_for_master(name: str) -> None:
     """Wait for a master; rospy itself waits too, but fails if the command line sets a parameter."""
-    if rosgraph.is_master_online():
-        return
-    signal.signal(signal.SIGINT, signal.SIG_DFL)  # rosgraph ignores a KeyboardInterrupt
-    print(f'{name}: no roscore answers at {rosgraph.get_master_uri()} yet: waiting for it', file=sys.stderr, flush=True)
-    while not rosgraph.is_master_online():
-        time.sleep(LOOK_PERIOD)
+    before = signal.signal(signal.SIGINT, signal.SIG_DFL)  # rosgraph takes a KeyboardInterrupt for a no
+    if not rosgraph.is_master_online():
+        print(f'{name}: no roscore answers at {rosgraph.get_master_uri()} yet: waiting for it', file=sys.stderr,
+              flush=True)
+        while not rosgraph.is_master_online():
+            time.sleep(LOOK_PERIOD)
+    signal.signal(signal.SIGINT, before)
 
 
 def _register(name: str, own_clock: bool) -> None:

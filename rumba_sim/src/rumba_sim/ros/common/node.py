@@ -11,7 +11,7 @@ import threading
 import time
 import traceback
 import xmlrpc.client
-from typing import Any, Callable, List, Mapping, Sequence, Type, TypeVar
+from typing import Any, Callable, Iterator, List, Mapping, Sequence, Type, TypeVar
 from xml.parsers.expat import ExpatError
 
 import rosgraph
@@ -117,15 +117,24 @@ def _log_trouble_once(name: str) -> None:
 
 
 def _wait_for_master(line: str) -> None:
-    """Wait for a master, and say so if there is none yet; meanwhile, SIGINT ends the process at once.
+    """Wait for a master, and say so if there is none yet.
 
     rospy waits too, but it fails if the command line sets a parameter.
     """
-    if rosgraph.is_master_online():
-        return
-    signal.signal(signal.SIGINT, signal.SIG_DFL)  # rosgraph ignores a KeyboardInterrupt
-    print(line, file=sys.stderr, flush=True)
-    look_for_master()
+    with prompt_sigint():
+        if not rosgraph.is_master_online():
+            print(line, file=sys.stderr, flush=True)
+            look_for_master()
+
+
+@contextlib.contextmanager
+def prompt_sigint() -> Iterator[None]:
+    """Have SIGINT end the process at once: rosgraph, which asks for the master, takes a KeyboardInterrupt for a no."""
+    before = signal.signal(signal.SIGINT, signal.SIG_DFL)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, before)
 
 
 def look_for_master() -> None:
