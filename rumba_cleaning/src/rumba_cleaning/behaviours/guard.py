@@ -58,8 +58,9 @@ def why_it_creeps(robot: RobotConfig) -> str:
         return ''
     cure = f'cliff/distance of {math.ceil(100.0 * (half + BESIDE) / aside) / 100.0:.2f} m' if aside > FLAT else (
         'a larger cliff/outer_angle')
-    return (f'drive/wheel_base is {robot.drive.wheel_base:g} m and cliff/distance {cliff.distance:g} m: no cliff sensor '
-            f'looks at the floor before the wheels, so that the robot creeps where it has not been; {cure} would do')
+    return (f'drive/wheel_base is {robot.drive.wheel_base:g} m and cliff/distance {cliff.distance:g} m: no cliff '
+            'sensor looks at the floor before the wheels, so that the robot creeps where it has not been; '
+            f'{cure} would do')
 
 
 class Guard:
