@@ -8,7 +8,7 @@ from drivers import context_of, with_cliffs
 from rooms import RADIUS, quiet, room
 
 from rumba_cleaning.behaviour import STOP, Command
-from rumba_cleaning.behaviours.departure import LENGTH, Search
+from rumba_cleaning.behaviours.departure import LENGTH, Departure, Search
 from rumba_cleaning.behaviours.guard import SPARE
 from rumba_cleaning.behaviours.preview import Preview
 from rumba_cleaning.behaviours.rear import MOST, Rear
@@ -75,6 +75,12 @@ def test_the_command_of_a_departure_turns_first_and_turns_back_if_it_has_turned_
     assert found.command(too_far).v == 0.0 and found.command(too_far).w > 0.0
     there = PLACE._replace(theta=found.heading)
     assert found.command(there).v * found.way > 0.0 and found.command(there).w == 0.0
+
+
+@pytest.mark.parametrize('side', [1, -1])
+@pytest.mark.parametrize('turn', [0.5, 3.0, 5.5])
+def test_it_turns_the_way_that_is_open_however_far(side, turn):
+    assert Departure(PLACE.theta + side * turn, side, 1).command(PLACE).w * side > 0.0
 
 
 def test_it_does_not_turn_past_a_pit():

@@ -22,6 +22,7 @@ LENGTH = 0.35  # [m] straight on
 STEP = math.radians(5.0)  # between headings, and between points of a circle that are looked at
 SPACING = 0.01  # [m] between points of a line that are looked at
 AIMED = math.radians(2.0)  # nearer than this, the robot heads where it is to go
+PAST = 0.3  # [rad] beyond that heading, at most, it turns back; farther off, it has not come to it yet
 PUSH = 0.005  # [m] by which it may come nearer to a wall: it may touch that already
 
 
@@ -37,7 +38,7 @@ class Departure(NamedTuple):
         off = wrap_angle(self.heading - pose.theta)
         if abs(off) <= AIMED:
             return Command(self.way * SLOW, 0.0)
-        is_past = abs(off) < 0.5 * math.pi and off * self.side < 0.0
+        is_past = abs(off) < PAST and off * self.side < 0.0
         return Command(0.0, TURN * (-self.side if is_past else self.side))
 
 
