@@ -114,7 +114,7 @@ def test_messages_may_come_while_the_window_asks_and_the_laser_is_switched(heard
 
     def drive():
         for step in range(3000):
-            truth = Odometry(header=Header(stamp=rospy.Time(step % 100)))  # the simulation starts anew now and then
+            truth = Odometry(header=Header(stamp=rospy.Time(step % 100)))  # the simulation starts again after 100 s
             truth.pose.pose.position.x = truth.pose.pose.position.y = 0.1 * (step % 100)
             hear['ground_truth'](truth)
             hear['cleaning_status'](CleaningStatus(distance=float(step % 70)))
