@@ -9,7 +9,7 @@ import pathlib
 import time
 
 import numpy as np
-from common import figures, hard_floors
+from common import figures, hard_floors, large_floors
 
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.cleaning_config import CleaningConfig
@@ -37,10 +37,12 @@ def main():
         drawing = hard_floors.furnished(np.random.default_rng(1), area)
         points.append(measure(f'furnished, {area:g} m2 in all', hard_floors.drawn('furnished', drawing, RESOLUTION)))
     points.append(measure('office of 60 m x 60 m', hard_floors.floor('office', 1, RESOLUTION)))
+    others = [measure(name, hard_floors.drawn(name, drawing, RESOLUTION))
+              for name, drawing in large_floors.drawings().items()]
     (small, fast), (large, slow) = points[1], points[-1]
     figures.row('growth: exponent of CPU time over area', math.log(slow / fast) / math.log(large / small), below=1.2)
     if arguments.plot:
-        draw(points, arguments.plot)
+        draw(points, others, arguments.plot)
 
 
 def measure(name, floor):
@@ -59,12 +61,13 @@ def measure(name, floor):
     return area, seconds
 
 
-def draw(points, path):
+def draw(points, others, path):
     """A picture of CPU times over areas."""
     from matplotlib import pyplot
 
     figure, axes = pyplot.subplots(figsize=(6.0, 4.0))
     axes.plot(*zip(*points), 'o-', label='furnished plans, cells of 5 cm')
+    axes.plot(*zip(*others), 'x', label='halls, stores, and floors that are turned')
     axes.plot(*zip((0.0, 0.0), *BOUNDS), '--', label='bound')
     axes.set(xlabel='floor in reach [m$^2$]', ylabel='CPU time [s]', xlim=(0.0, None), ylim=(0.0, None))
     axes.legend()

@@ -22,9 +22,9 @@ def missed_alone(plan, *boxes):
     return wiped_but(knowing(plan, START), *boxes)
 
 
-def found(context):
-    """The crumbs on the floor of a context."""
-    return crumbs(context.ground, Walls(context.ground), context.swept.missing_share(), regions(context.ground))
+def found(context, least=0.0):
+    """The crumbs on the floor of a context, those of an area [m^2] or more."""
+    return crumbs(context.ground, Walls(context.ground), context.swept.missing_share(), regions(context.ground), least)
 
 
 @pytest.mark.parametrize('resolution', [0.01, 0.02, 0.05])
@@ -60,6 +60,11 @@ def test_specks_are_no_crumbs():
     side = 0.7 * math.sqrt(LEAST)
     context = missed_alone(room(4.0, 3.0, 0.01), (2.0, 1.5, 2.0 + side, 1.5 + side))
     assert context.swept.missed().any() and not found(context)
+
+
+def test_crumbs_that_are_smaller_than_wanted_are_left_out():
+    context = missed_alone(room(4.0, 3.0, 0.02), (1.0, 1.5, 1.1, 1.6), (2.0, 1.5, 2.2, 1.6))
+    assert [len(found(context, least)) for least in (0.0, 0.005, 0.015, 0.03)] == [2, 2, 1, 0]
 
 
 def test_each_crumb_lies_in_its_region_and_its_path_where_the_robot_can_stand():

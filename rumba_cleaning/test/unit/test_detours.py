@@ -7,7 +7,7 @@ from rooms import room
 
 from rumba_cleaning.planning.detours import FARTHEST
 from rumba_cleaning.planning.edits import APART
-from rumba_cleaning.planning.improvement import DEAREST_ON_PAPER, SURPLUS, Surroundings, with_detours
+from rumba_cleaning.planning.improvement import DEAREST_ON_PAPER, LEAST_ON_PAPER, SURPLUS, Surroundings, with_detours
 from rumba_cleaning.planning.paper import drive
 from rumba_cleaning.planning.regions import regions
 from rumba_cleaning.planning.walls import Walls
@@ -61,8 +61,8 @@ def test_crumbs_that_cost_less_come_first_and_no_more_than_the_target_needs():
 
 def test_crumbs_that_cost_too_much_for_their_area_are_left_whatever_the_target():
     worth = (2.0, 1.7, 2.2, 1.9)
-    small = (3.0, 1.9, 3.05, 1.95)
-    assert 2.0 * (small[1] - 1.5) / 0.3 > DEAREST_ON_PAPER * 0.05 ** 2  # there and back
+    small = (3.0, 1.9, 3.08, 1.98)
+    assert 2.0 * (small[1] - 1.5) / 0.3 > DEAREST_ON_PAPER * 0.08 ** 2 > DEAREST_ON_PAPER * LEAST_ON_PAPER
     found, _ = detoured(worth, small)
     assert passes(found, worth) and not passes(found, small)
 

@@ -76,6 +76,18 @@ def test_chosen_edits_are_apart_and_sweep_enough_if_that_can_be(rows, need):
     assert sum(each.area for each in found) >= min(need, more) - 1e-12
 
 
+@given(EDITS, st.floats(1.0, DEAREST))
+def test_the_best_edits_come_first_and_each_that_has_room_beside_those_is_made(rows, price):
+    edits = [edit(first, seconds, area, first + span) for first, span, seconds, area in rows]
+    left = [each for each in edits if price * each.area - each.seconds >= BETTER]
+    found = chosen(edits, np.inf, price)[0]
+    for one in found:
+        worth = price * one.area - one.seconds
+        assert worth == max(price * each.area - each.seconds for each in left)
+        left = [each for each in left if each.last + BETWEEN <= one.first or each.first - BETWEEN >= one.last]
+    assert not left
+
+
 def test_an_edit_replaces_what_is_between_its_waypoints():
     aside = np.array([[2.0, 1.0], [4.0, 1.0]])
     route = applied(LINE, [Edit(10, 13, NONE), Edit(1, 5, aside)], 0.2)

@@ -36,7 +36,7 @@ def test_a_turned_floor_equals_the_floor_cell_by_cell(angle):
     plan = crooked(0.1)
     floor = ground(plan)
     missed = plan.free & (np.random.default_rng(9).random(plan.occupancy.shape) < 0.5)
-    turned = TurnedFloor(floor, missed, angle)
+    turned = TurnedFloor(floor, missed, angle, 0.2)
     rows, columns = turned.missed.shape
     assert turned.clearance.shape == (rows + 1, columns + 1) and turned.resolution == 0.1
     seen = np.zeros_like(missed)
@@ -53,3 +53,29 @@ def test_a_turned_floor_equals_the_floor_cell_by_cell(angle):
         if turned.clearance[row, column] > 0.1:
             assert turned.clearance[row, column] == approx(floor.plan.safe_clearance_at(x, y), abs=1e-9)
     assert (turned.clearance > 0.1).sum() > 0.5 * (plan.safe_clearance > 0.1).sum()
+
+
+@pytest.mark.parametrize('angle', [0.0, 0.35, -0.7])
+def test_only_the_part_around_the_cells_to_clean_is_turned_and_it_is_the_same_on_a_larger_floor(angle):
+    found = []
+    for width in (4.0, 12.0):
+        plan = room(width, 4.0, 0.05)
+        missed = np.zeros(plan.occupancy.shape, bool)
+        missed[30:40, 40:60] = True  # 0.5 m x 1 m
+        turned = TurnedFloor(ground(plan), missed, angle, 0.17)
+        rows, columns = np.nonzero(turned.missed)
+        margin = 4  # cells of 5 cm, at least 0.17 m
+        assert (rows.min(), columns.min()) == (margin, margin)
+        assert (rows.max() + 1 + margin, columns.max() + 1 + margin) == turned.missed.shape
+        assert turned.clearance.shape == tuple(size + 1 for size in turned.missed.shape)
+        assert len(rows) == approx(200, abs=12)
+        found.append((turned.missed, turned.clearance, turned.points(np.array([[0.0, 0.0]]))))
+    (missed, clearance, corner), (same, as_clear, there) = found
+    assert (missed == same).all() and corner == approx(there)
+    assert (as_clear >= clearance - 1e-9).all()
+
+
+def test_nothing_to_clean_is_an_empty_part():
+    plan = room(4.0, 3.0, 0.05)
+    for angle in (0.0, 0.35):
+        assert TurnedFloor(ground(plan), np.zeros(plan.occupancy.shape, bool), angle, 0.17).missed.size == 0

@@ -120,6 +120,10 @@ class Swept:
         """Share of each cell's area that can be reached and was not swept [0..1]: float32 (rows, columns)."""
         return self._sweep.missing_share()
 
+    def missing_shares(self, cells: Array) -> Array:
+        """The same of cells (..., 2), row and column each: float32 (...)."""
+        return self._sweep.missing_shares(cells)
+
     def missed(self) -> Array:
         """Cells of which at least the share MOST can be reached and was not swept: bool (rows, columns)."""
         return np.asarray(self.missing_share() >= MOST)

@@ -30,7 +30,7 @@ NEIGHBOURS = tuple((row, column) for row in (-1, 0, 1) for column in (-1, 0, 1) 
 Pixel = Tuple[int, int]
 
 
-def crumbs(ground: Ground, walls: Walls, share: Array, regions: Array) -> List[Stretch]:
+def crumbs(ground: Ground, walls: Walls, share: Array, regions: Array, least: float = 0.0) -> List[Stretch]:
     """The crumbs: strips and spots.
 
     Args:
@@ -38,13 +38,14 @@ def crumbs(ground: Ground, walls: Walls, share: Array, regions: Array) -> List[S
         walls: of the same ground.
         share: of each cell that was missed, float32 (rows, columns).
         regions: the region of each node, int (rows + 1, columns + 1).
+        least: area of a crumb [m^2]; there is a least one in any case.
     """
     res = ground.plan.resolution
     labels, _ = ndimage.label(share >= MISSED, np.ones((3, 3)))
     areas = np.bincount(labels.ravel(), share.ravel()) * res * res
     found: List[Stretch] = []
     for number, window in enumerate(ndimage.find_objects(labels), 1):
-        if areas[number] < LEAST:
+        if areas[number] < max(least, LEAST):
             continue
         cells = labels[window] == number
         corner = np.array([window[0].start, window[1].start])

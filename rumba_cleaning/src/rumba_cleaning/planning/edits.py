@@ -1,5 +1,6 @@
 """Edits of a route: parts of it that are replaced, what each of them costs and brings, and which of them to make."""
 
+import bisect
 from typing import List, NamedTuple, Sequence, Tuple
 
 import numpy as np
@@ -64,14 +65,14 @@ def _worth(edits: Sequence[Edit], price: float) -> List[Edit]:
     """Edits that are worth it at a price [s/m^2], the best first, each apart from those before it."""
     values = [(price * edit.area - edit.seconds, index) for index, edit in enumerate(edits)]
     found: List[Edit] = []
-    taken: List[Tuple[int, int]] = []
-    for value, index in sorted(values, reverse=True):
-        if value < BETTER:
-            break
+    taken: List[Tuple[int, int]] = [(-BETWEEN, -BETWEEN)]  # by their places, none of which overlap
+    for _, index in sorted((each for each in values if each[0] >= BETTER), reverse=True):
         edit = edits[index]
-        if all(edit.last + BETWEEN <= first or edit.first - BETWEEN >= last for first, last in taken):
+        place = bisect.bisect(taken, (edit.first, edit.last))
+        if taken[place - 1][1] + BETWEEN <= edit.first and (
+                place == len(taken) or edit.last + BETWEEN <= taken[place][0]):
             found.append(edit)
-            taken.append((edit.first, edit.last))
+            taken.insert(place, (edit.first, edit.last))
     return found
 
 

@@ -23,6 +23,8 @@ MENDS = 2  # times that detours are added, at most, to a route that edits left s
 WORK = 150.0  # [m^2] of floor, times rounds: large makes shorter routes, small plans faster
 # [s/m^2] a lane takes 20: dearer edits are left out on paper, where they clean less than it seems, and by rehearsal.
 DEAREST_ON_PAPER, DEAREST = 200.0, 3000.0
+# [m^2] of a crumb: half of the smallest that was worth that price on any floor of bench/planning.py; large is fast.
+LEAST_ON_PAPER = 0.005
 # [s/m^2] that edits save for what they leave, if there is more than the target needs, and take for what is missing.
 SAVED, ADDED = 120.0, 600.0
 CHEAP = 0.5  # share of the last price that a shortcut must save to be judged: small tries more
@@ -38,10 +40,10 @@ class Surroundings(NamedTuple):
     labels: Array  # the region of each node, int (rows + 1, columns + 1)
     walls: Walls  # of the ground of the context
 
-    def detours(self, route: Route, swept: Swept) -> List[Edit]:
-        """Detours from a route past the crumbs that are left when it is driven."""
+    def detours(self, route: Route, swept: Swept, least: float = 0.0) -> List[Edit]:
+        """Detours from a route past the crumbs of an area [m^2] or more that are left when it is driven."""
         missing = swept.missing_share() * self.around
-        return detours(self.context, route, crumbs(self.context.ground, self.walls, missing, self.labels))
+        return detours(self.context, route, crumbs(self.context.ground, self.walls, missing, self.labels, least))
 
     def need(self, swept: Swept, surplus: float) -> float:
         """Area that is missing to the target and a surplus [m^2]."""
@@ -50,8 +52,10 @@ class Surroundings(NamedTuple):
 
 def with_detours(surroundings: Surroundings, route: Route, paper: Swept) -> Route:
     """A route with detours, so that it meets the target on paper, where that was swept after it."""
-    route = dense(route)
-    edits, _ = chosen(surroundings.detours(route, paper), surroundings.need(paper, SURPLUS), DEAREST_ON_PAPER)
+    route, need = dense(route), surroundings.need(paper, SURPLUS)
+    if need <= 0.0:
+        return route
+    edits, _ = chosen(surroundings.detours(route, paper, LEAST_ON_PAPER), need, DEAREST_ON_PAPER)
     return applied(route, edits, surroundings.context.config.speed)
 
 

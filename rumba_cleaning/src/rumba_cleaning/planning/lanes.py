@@ -56,13 +56,11 @@ def blocks(ground: Ground, missed: Array, brush: float, speed: float, angle: flo
         layout: how the lanes are laid out.
     """
     found: List[Block] = []
-    floor = TurnedFloor(ground, missed, angle)
+    floor = TurnedFloor(ground, missed, angle, brush)
     rate = brush * speed
-    whole = _window(floor.missed, math.ceil(brush / floor.resolution))
-    remaining = floor.missed[whole].copy()
+    remaining = floor.missed.copy()
     while remaining.any():  # in each round the best block, and each other that has no better one near it
-        grids = [_Grid(floor, remaining, whole, ground.reach + SLACK, brush, along_x, layout)
-                 for along_x in (True, False)]
+        grids = [_Grid(floor, remaining, ground.reach + SLACK, brush, along_x, layout) for along_x in (True, False)]
         choices = [(area - layout.usual * rate * time, area, time, grid, lanes)
                    for grid in grids for lanes, area, time in grid.blocks(speed) if area > POOR * rate * time]
         if not choices:
@@ -78,29 +76,25 @@ def blocks(ground: Ground, missed: Array, brush: float, speed: float, angle: flo
 
 
 class _Grid:
-    """The part of a floor that holds all cells to clean, transposed if the lanes run along y: they run along a row.
+    """A floor, transposed if the lanes run along y: they run along a row. Lengths are in cells.
 
-    Rows and columns are counted from the corner of this part; lengths are in cells. Lanes are float64 (any, 3): the
-    column at which each begins, the one after its last, and the row (with fractions) of the robot's centre.
+    Lanes are float64 (any, 3): the column at which each begins, the one after its last, and the row (with fractions) of
+    the robot's centre.
     """
 
-    def __init__(self, floor: TurnedFloor, missed: Array, window: Window, clearance: float, brush: float,
-                 along_x: bool, layout: Layout) -> None:
-        """Take the part of a floor.
+    def __init__(self, floor: TurnedFloor, missed: Array, clearance: float, brush: float, along_x: bool,
+                 layout: Layout) -> None:
+        """Take a floor.
 
         Args:
             floor: with the clearance at its nodes.
-            missed: the cells to clean, bool (rows, columns) of this part.
-            window: its rows and columns on the floor.
+            missed: the cells of it that are left to clean, bool (rows, columns).
             clearance: that the robot needs at its centre [m].
             brush: width of the brush [m].
             along_x: whether the lanes run along x of the floor, or along y.
             layout: of the lanes.
         """
-        self._window = window
-        rows, columns = self._window
-        nodes = floor.clearance[rows.start:rows.stop + 1, columns.start:columns.stop + 1]  # one more than cells
-        self._clearance = np.ascontiguousarray(nodes if along_x else nodes.T)
+        self._clearance = np.ascontiguousarray(floor.clearance if along_x else floor.clearance.T)
         self._along_x = along_x
         self._missed = self._view(missed)
         self._floor = floor
@@ -110,11 +104,11 @@ class _Grid:
             JOIN, int(layout.gap / self._resolution), layout.needed, layout.alike)
 
     def _view(self, missed: Array) -> Array:
-        """Bool (rows, columns) of this part of the floor, as a view with rows along the lanes."""
+        """Bool (rows, columns) of the floor, as a view with rows along the lanes."""
         return missed if self._along_x else missed.T
 
     def window(self, lanes: Array) -> Window:
-        """Rows and columns of this part around lanes, with the margin in which these lanes change other blocks."""
+        """Rows and columns of the floor around lanes, with the margin in which these lanes change other blocks."""
         margin = math.ceil(self._rule.half)
         firsts, afters, across = lanes.T
         rows = slice(int(across.min()) - 2 * margin, int(across.max()) + 2 * margin + 1)
@@ -123,7 +117,7 @@ class _Grid:
         return slice(max(rows.start, 0), rows.stop), slice(max(columns.start, 0), columns.stop)
 
     def take(self, lanes: Array, missed: Array) -> None:
-        """Set to False what lanes clean, in bool (rows, columns) of this part of the floor."""
+        """Set to False what lanes clean, in bool (rows, columns) of the floor."""
         view = self._view(missed)
         for first, after, across in lanes.tolist():
             view[slice(*compiled_lanes.band(across, self._rule.half)), int(first):int(after)] = False
@@ -137,16 +131,6 @@ class _Grid:
 
     def metres(self, lanes: Array) -> List[Array]:
         """Both ends of each lane: float64 (2, 2) [m], map frame."""
-        rows, columns = self._window
         across = lanes[:, 2]
         ends = np.stack([np.stack([lanes[:, end], across], axis=1) for end in (0, 1)], axis=1)
-        return list(self._floor.points((ends if self._along_x else ends[..., ::-1]) + (columns.start, rows.start)))
-
-
-def _window(missed: Array, margin: int) -> Window:
-    """The part of bool (rows, columns) that is not False, and a margin [cells] around it."""
-    rows, columns = np.flatnonzero(missed.any(axis=1)), np.flatnonzero(missed.any(axis=0))
-    if len(rows) == 0:
-        return slice(0, 0), slice(0, 0)
-    top, left = max(int(rows[0]) - margin, 0), max(int(columns[0]) - margin, 0)
-    return slice(top, int(rows[-1]) + 1 + margin), slice(left, int(columns[-1]) + 1 + margin)
+        return list(self._floor.points(ends if self._along_x else ends[..., ::-1]))

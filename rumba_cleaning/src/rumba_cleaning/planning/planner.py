@@ -1,6 +1,6 @@
 """Plans how to clean what was missed: region by region, along the walls, in lanes or in rings, and then the crumbs."""
 
-from typing import Dict, List, Optional, Tuple
+from typing import Dict, List, Optional, Sequence, Tuple
 
 import numpy as np
 from scipy import ndimage
@@ -10,6 +10,7 @@ from rumba_cleaning.belief.ground import Ground
 from rumba_cleaning.belief.swept import Swept
 from rumba_cleaning.planning import improvement, tour
 from rumba_cleaning.planning.crumbs import crumbs
+from rumba_cleaning.planning.groups import Group, groups
 from rumba_cleaning.planning.improvement import Surroundings, improved, with_detours
 from rumba_cleaning.planning.layouts import Draft, drafts, laid_out, tries
 from rumba_cleaning.planning.regions import Shapes, Ways, doors, regions, shapes
@@ -30,8 +31,6 @@ SPARE = 0.0005  # of coverage that is planned beyond the target, once the robot 
 CULLS = 4  # rounds in which crumbs are left out that cost much time for their area: more make better choices
 TRANSIT = 0.5  # [m] of a way between two stretches: a longer one is driven at the speed of transit, ...
 SLOW = 0.15  # [m] ... except for its end: the robot has slowed down and lowered the brushes before its path begins
-
-Regional = Dict[int, List[Stretch]]  # by the label of their region
 
 
 def plan(context: Context, pose: Pose, end: Optional[Pose] = None) -> Optional[Route]:
@@ -87,14 +86,11 @@ def _through(surroundings: Surroundings, end: Optional[Pose], found: List[Stretc
     """A route over stretches between poses; of crumbs, only over as many as the target needs. None: there is none."""
     if not found:
         return None
-    by_region: Regional = {}
-    for part in found:
-        by_region.setdefault(part.region, []).append(part)
     context, pose = surroundings.context, surroundings.pose
-    tours = _tours(context, pose, end, surroundings.labels, by_region)
+    tours = _tours(context, pose, end, surroundings.labels, groups(found))
     if all(part.is_crumb for part in found):
-        _cull(context, tours, by_region)
-    return _route(context, pose, tours, by_region)
+        _cull(context, tours)
+    return _route(context, pose, tours)
 
 
 def _rings(surroundings: Surroundings, paper: Swept, shape: Shapes) -> List[Stretch]:
@@ -125,51 +121,45 @@ def _by_region(ground: Ground, missed: Array, labels: Array) -> Dict[int, Array]
     found: Dict[int, Array] = {}
     for label, window in enumerate(ndimage.find_objects(of_cells), 1):
         if window is not None:
-            found[label] = np.zeros_like(missed)
+            found[label] = np.zeros(missed.shape, bool)  # not zeros_like, which writes to all of it
             found[label][window] = of_cells[window] == label
     return found
 
 
 def _tours(context: Context, pose: Pose, end: Optional[Pose], labels: Array,
-           by_region: Regional) -> List[Tuple[int, Tour]]:
-    """The regions in the order in which they are cleaned, with a tour in each from door to door."""
+           parts: Sequence[Group]) -> List[Tuple[Group, Tour]]:
+    """Groups of stretches in the order in which they are cleaned, with a tour in each from door to door."""
     ground, speed = context.ground, context.config.transit_speed
     fixed = [pose] if end is None else [pose, end]
-    names = list(by_region)
-    places = np.array([*(_middle(by_region[name]) for name in names), *(each[:2] for each in fixed)])
+    places = np.array([*(part.middle() for part in parts), *(each[:2] for each in fixed)])
     of_fixed = [int(labels[ground.standing_at(each.x, each.y)]) for each in fixed]
-    ways = Ways(doors(ground, labels), places, [*names, *of_fixed])
-    start, goal = len(names), None if end is None else len(names) + 1
+    ways = Ways(doors(ground, labels), places, [*(part.region for part in parts), *of_fixed])
+    start, goal = len(parts), None if end is None else len(parts) + 1
     seconds = ways.metres[:start + 1] / speed
     visits = tour.order(seconds[:, :start], None if goal is None else seconds[:, goal])
     tours, here, entry = [], start, places[start]
     for place, following in zip(visits, [*visits[1:], goal]):
-        if here != start or names[place] != of_fixed[0]:
+        if here != start or parts[place].region != of_fixed[0]:
             door = ways.doors(here, place)[1]
             entry = places[here] if door is None else door
-        leave = None if following is None else ways.doors(place, following)[0]
-        if leave is None and following is not None and following == goal:
-            leave = places[goal]
-        tours.append((names[place], Tour(ground, entry, by_region[names[place]], leave, speed)))
+        leave = None
+        if following is not None:
+            door = ways.doors(place, following)[0]
+            leave = places[following] if door is None else door
+        tours.append((parts[place], Tour(ground, entry, parts[place].stretches, leave, speed)))
         here = place
     return tours
 
 
-def _middle(stretches: List[Stretch]) -> Array:
-    """The first waypoint of a stretch that is nearest to the mean of all these: float64 (2) [m]."""
-    entries = np.array([part.variants[0].ends()[0] for part in stretches])
-    return np.asarray(entries[int(np.argmin(np.hypot(*(entries - entries.mean(axis=0)).T)))])
-
-
-def _cull(context: Context, tours: List[Tuple[int, Tour]], by_region: Regional) -> None:
+def _cull(context: Context, tours: List[Tuple[Group, Tour]]) -> None:
     """Leave out crumbs that cost most time for their area, as long as the target can be met without them."""
     swept = context.swept
     needed = (context.target_coverage + SPARE - swept.coverage) * swept.reachable_area / YIELD  # [m^2]
     for last in range(CULLS, 0, -1):
         rows: List[Tuple[float, float, int, int]] = []
-        for number, (name, route) in enumerate(tours):
+        for number, (group, route) in enumerate(tours):
             for saved, index in route.saved():
-                part = by_region[name][int(index)]
+                part = group.stretches[int(index)]
                 rows.append((float(saved + part.delay) / part.area, part.area, number, int(index)))
         spare = (sum(row[1] for row in rows) - needed) / last
         dropped: Dict[int, List[int]] = {}
@@ -182,14 +172,14 @@ def _cull(context: Context, tours: List[Tuple[int, Tour]], by_region: Regional) 
             tours[number][1].leave_out(indices)
 
 
-def _route(context: Context, pose: Pose, tours: List[Tuple[int, Tour]], by_region: Regional) -> Optional[Route]:
+def _route(context: Context, pose: Pose, tours: List[Tuple[Group, Tour]]) -> Optional[Route]:
     """The route over all tours; it leaves out what cannot be reached."""
     config, ground = context.config, context.ground
     waypoints, speeds = [np.array([[pose.x, pose.y]])], []
-    for name, route in tours:
+    for group, route in tours:
         is_there = False  # where the stretch before ends
         for leg in route.legs():
-            path = by_region[name][leg.stretch].variants[leg.variant].path()
+            path = group.stretches[leg.stretch].variants[leg.variant].path()
             way = leg.way if is_there else None
             if way is None:
                 way = ground.path(waypoints[-1][-1], path[0])

@@ -39,6 +39,9 @@ LOOK = 5  # waypoints from one to the next at which that is looked at
 FORWARD = 0.3  # [m] along the next ring at which it is entered: large bends gently, small drives less twice
 ROTATIONS = 12  # points at which a ring is entered, at most: more give shorter tours, and take more time to compare
 APART = 0.3  # [m] between those points, at least
+CUT = 4  # levels, after each of which the floor inside is cut out anew: that takes time too
+OUTSIDE = -1.0  # for a level: of no ring
+EIGHT = np.ones((3, 3))  # the neighbours of a node
 
 
 class Ring(NamedTuple):
@@ -48,6 +51,27 @@ class Ring(NamedTuple):
     region: int  # in which it lies
     level: int  # 0 beside the walls, 1 next to that, ...
     is_closed: bool
+
+
+class Part(NamedTuple):
+    """A part of a floor in which rings are looked for, so that not all of a large floor is for each level."""
+
+    corner: Array  # int (2), row and column of its first node
+    passes: Array  # float64 (rows, columns), of which level the ring through each node is; OUTSIDE: of none
+
+    def contours(self, level: int) -> List[Array]:
+        """The lines of a level, float64 (any, 2) [nodes of the floor] each."""
+        return [contour + self.corner for contour in measure.find_contours(self.passes, level)]
+
+    def inside(self, level: int) -> 'Iterator[Part]':
+        """The parts of this part that are inside of a level, each with the nodes around it."""
+        labels, count = ndimage.label(self.passes >= level, EIGHT)
+        for label, window in enumerate(ndimage.find_objects(labels), 1):
+            rows, columns = (slice(max(each.start - 1, 0), each.stop + 1) for each in window)
+            passes = self.passes[rows, columns]
+            if count > 1:
+                passes = np.where(ndimage.binary_dilation(labels[rows, columns] == label, EIGHT), passes, OUTSIDE)
+            yield Part(self.corner + (rows.start, columns.start), passes)
 
 
 def rings(ground: Ground, swept: Swept, labels: Array, shape: Shapes, brush: float) -> List[Ring]:
@@ -63,20 +87,23 @@ def rings(ground: Ground, swept: Swept, labels: Array, shape: Shapes, brush: flo
     found: List[Ring] = []
     depth = _depth(ground)
     passes = _passes(depth, labels, shape.is_open, brush)
-    level = 0
+    parts, level = [Part(np.zeros(2, np.intp), passes)], 0
     while True:
-        contours = measure.find_contours(passes, level)
+        contours = [contour for part in parts for contour in part.contours(level)]
         if not contours:
             return found
         pieces = [_shaped(piece, shape.is_open[piece.region]) for contour in contours
                   for piece in _by_region(contour, ground, labels, level)]
-        missing = swept.missing_share()
-        for piece in sorted(pieces, key=lambda ring: -len(ring.waypoints)):
-            for ring in _needed(piece, ground, missing, depth, brush):
-                found.append(ring)
-                drive(swept, ring.waypoints)
+        needed = [ring for piece in sorted(pieces, key=lambda ring: -len(ring.waypoints))
+                  for ring in _needed(piece, ground, swept, depth, brush)]
+        for ring in needed:
+            drive(swept, ring.waypoints)
+        found += needed
+        if level == 0:
+            parts = [Part(parts[0].corner, np.where(shape.has_lanes[labels], OUTSIDE, passes))]
         level += 1
-        passes = np.where(shape.has_lanes[labels], -1.0, passes)
+        if level % CUT == 1:
+            parts = [inner for part in parts for inner in part.inside(level)]
 
 
 def outlines(ground: Ground) -> List[Array]:
@@ -131,10 +158,10 @@ def rotated(ring: Array, index: int) -> Array:
     return np.concatenate([ring[index:-1], ring[:index + 1]])
 
 
-def _needed(ring: Ring, ground: Ground, missing: Array, depth: Array, brush: float) -> Iterator[Ring]:
+def _needed(ring: Ring, ground: Ground, swept: Swept, depth: Array, brush: float) -> Iterator[Ring]:
     """The parts of a ring on which the brush sweeps what was missed."""
     path = ring.waypoints
-    needed = (_finds(path, ground, missing, brush) >= NEEDED) & ~_is_ridge(path, ground, depth)
+    needed = (_finds(path, ground, swept, brush) >= NEEDED) & ~_is_ridge(path, ground, depth)
     if needed.mean() > WHOLE:
         yield ring
         return
@@ -149,15 +176,15 @@ def _needed(ring: Ring, ground: Ground, missing: Array, depth: Array, brush: flo
             yield Ring(path[part], ring.region, ring.level, False)
 
 
-def _finds(path: Array, ground: Ground, missing: Array, brush: float) -> Array:
+def _finds(path: Array, ground: Ground, swept: Swept, brush: float) -> Array:
     """The share of the brush's width that was missed at each waypoint of a path (any, 2) [m]: float64 (any)."""
     along = np.gradient(path, axis=0)
     across = np.stack([-along[:, 1], along[:, 0]], axis=1) / np.maximum(np.hypot(*along.T)[:, np.newaxis], 1e-9)
     offsets = np.linspace(-0.5 * brush, 0.5 * brush, SAMPLES)
     points = path[:, np.newaxis] + offsets[np.newaxis, :, np.newaxis] * across[:, np.newaxis]
     cells = np.floor((points - ground.plan.origin) / ground.plan.resolution).astype(np.intp)
-    rows, columns = np.clip(cells[..., 1], 0, missing.shape[0] - 1), np.clip(cells[..., 0], 0, missing.shape[1] - 1)
-    return np.asarray(missing[rows, columns].mean(axis=1))
+    last = np.array(ground.plan.free.shape[::-1]) - 1
+    return np.asarray(swept.missing_shares(np.clip(cells, 0, last)[..., ::-1]).mean(axis=1))
 
 
 def _is_ridge(path: Array, ground: Ground, depth: Array) -> Array:
@@ -200,12 +227,14 @@ def chains(found: List[Ring]) -> List[List[Ring]]:
 def _followers(found: List[Ring], outer: List[int], inner: List[int]) -> Dict[int, int]:
     """The ring of `inner` that lies beside each of `outer` all the way around; many have none, none has two."""
     trees = {index: spatial.cKDTree(found[index].waypoints) for index in inner}
+    of_inner = np.repeat(inner, [len(found[index].waypoints) for index in inner])
+    tree = spatial.cKDTree(np.concatenate([found[index].waypoints for index in inner]))
     followers: Dict[int, int] = {}
     for index in outer:
         points = found[index].waypoints[::LOOK]
-        beside = [number for number in inner if found[number].region == found[index].region
-                  and number not in followers.values() and trees[number].query(points[0])[0] < BESIDE
-                  and trees[number].query(points)[0].max() < BESIDE]
+        near = np.unique(of_inner[tree.query_ball_point(points[0], BESIDE)]).tolist()
+        beside = [number for number in near if found[number].region == found[index].region
+                  and number not in followers.values() and trees[number].query(points)[0].max() < BESIDE]
         if beside:
             followers[index] = beside[0]
     return followers

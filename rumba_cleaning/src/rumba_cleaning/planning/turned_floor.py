@@ -1,7 +1,7 @@
 """The floor on a grid that is turned so that its rows and columns run along the walls, whatever their direction."""
 
 import math
-from typing import List
+from typing import List, Tuple
 
 import numpy as np
 from scipy import ndimage
@@ -19,7 +19,7 @@ QUARTER = 0.5 * math.pi  # [rad]
 
 
 class TurnedFloor:
-    """A grid whose axes are turned by an angle against the map's.
+    """The part of a floor that holds the cells to clean, on a grid whose axes are turned by an angle against the map's.
 
     Attributes:
         missed: the cells to clean, bool (rows, columns).
@@ -27,37 +27,66 @@ class TurnedFloor:
         resolution: side of a cell [m].
     """
 
-    def __init__(self, ground: Ground, missed: Array, angle: float) -> None:
-        """Turn a floor.
+    def __init__(self, ground: Ground, missed: Array, angle: float, margin: float) -> None:
+        """Turn the part of a floor.
 
         Args:
             ground: where the robot can stand.
             missed: the cells to clean, on the map's grid, bool (rows, columns).
             angle: of this grid's axes against the map's, counter-clockwise [rad].
+            margin: around the cells to clean that belongs to the part, unless the map ends [m].
         """
-        plan = ground.plan
-        self.resolution = plan.resolution
-        if angle == 0.0:
-            self.missed, self.clearance = missed, ground.clearance
-            self._axes, self._corner = np.eye(2), np.array(plan.origin)
-            return
-        cos, sin = math.cos(angle), math.sin(angle)
-        self._axes = np.array([[cos, sin], [-sin, cos]])  # rows: directions of its columns and rows on the map
-        rows, columns = missed.shape
-        corners = np.array([[0, 0], [columns, 0], [0, rows], [columns, rows]]) @ self._axes.T  # in cells, turned
-        low = np.floor(corners.min(axis=0))
-        width, height = (np.ceil(corners.max(axis=0)) - low).astype(int)
-        self._corner = low @ self._axes * plan.resolution + plan.origin
-        matrix = self._axes[::-1, ::-1].T  # from row and column here to row and column on the map
-        offset = (low @ self._axes)[::-1]
-        middle = np.array([0.5, 0.5])
-        self.missed = ndimage.affine_transform(missed.astype(np.uint8), matrix, offset + matrix @ middle - middle,
-                                               (height, width), order=0) > 0
-        self.clearance = ndimage.affine_transform(ground.clearance, matrix, offset, (height + 1, width + 1), order=1)
+        self.resolution = ground.plan.resolution
+        self._origin = ground.plan.origin
+        self._axes = np.eye(2)
+        low, clearance, beside = np.zeros(2), ground.clearance, math.ceil(margin / self.resolution)
+        if angle != 0.0:
+            cos, sin = math.cos(angle), math.sin(angle)
+            self._axes = np.array([[cos, sin], [-sin, cos]])  # rows: directions of its columns and rows on the map
+            low, missed, clearance = _turned(missed, clearance, self._axes, beside)
+        rows, columns = _window(missed, beside)
+        self.missed = missed[rows, columns]
+        self.clearance = clearance[rows.start:rows.stop + 1, columns.start:columns.stop + 1]  # one more than cells
+        self._low = low + (columns.start, rows.start)
 
     def points(self, cells: Array) -> Array:
         """The points of the map at which (column, row) of this grid, with fractions, lie: float64 (any, 2) [m]."""
-        return np.asarray(cells * self.resolution @ self._axes + self._corner)
+        return np.asarray((cells + self._low) * self.resolution @ self._axes + self._origin)
+
+
+def _turned(missed: Array, clearance: Array, axes: Array, margin: int) -> Tuple[Array, Array, Array]:
+    """The part of a map around the cells to clean, on another grid, without a look at the rest of the map.
+
+    Args:
+        missed, clearance: see `TurnedFloor`, on the map's grid.
+        axes: of the other grid, float64 (2, 2).
+        margin: around the cells to clean that belongs to the part at least [cells].
+
+    Returns:
+        column and row, on a turned grid from the map's corner, at which the part begins; both arrays of the part.
+    """
+    rows, columns = (_span(missed.any(axis=axis), 2 * margin) for axis in (1, 0))
+    corners = np.array([[column, row] for row in rows for column in columns]) @ axes.T
+    low = np.floor(corners.min(axis=0))
+    width, height = (np.ceil(corners.max(axis=0)) - low).astype(int)
+    matrix = axes[::-1, ::-1].T  # from row and column there to row and column on the map
+    offset = (low @ axes)[::-1]
+    middle = np.array([0.5, 0.5])
+    turned = ndimage.affine_transform(missed.view(np.uint8), matrix, offset + matrix @ middle - middle,
+                                      (height, width), order=0) > 0
+    return low, turned, ndimage.affine_transform(clearance, matrix, offset, (height + 1, width + 1), order=1)
+
+
+def _window(missed: Array, margin: int) -> Tuple[slice, slice]:
+    """The part of bool (rows, columns) that is not False, and a margin [cells] around it."""
+    (top, bottom), (left, right) = (_span(missed.any(axis=axis), margin) for axis in (1, 0))
+    return slice(max(top, 0), bottom), slice(max(left, 0), right)
+
+
+def _span(line: Array, margin: int) -> Tuple[int, int]:
+    """The first element of bool (any) that is not False, and that after the last, with a margin; 0, 0: none is."""
+    found = np.flatnonzero(line)
+    return (int(found[0]) - margin, int(found[-1]) + 1 + margin) if len(found) else (0, 0)
 
 
 def main_direction(outlines: List[Array]) -> float:

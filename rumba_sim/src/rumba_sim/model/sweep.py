@@ -171,6 +171,17 @@ class Sweep:
         is_missing &= self.samples < PASS
         return _sums(is_missing, squares) / np.float32(squares ** 2)
 
+    def missing_shares(self, cells: Array) -> Array:
+        """The same of cells (..., 2), row and column each: float32 (...)."""
+        squares = self._plan.sample_squares
+        rows, columns = squares * cells[..., 0], squares * cells[..., 1]
+        counts = np.zeros(rows.shape, np.uint16)
+        for row in range(squares):
+            for column in range(squares):
+                samples = self.samples[rows + row, columns + column]
+                counts += (samples & REACHABLE > 0) & (samples < PASS)
+        return counts / np.float32(squares ** 2)
+
 
 def _common(ours: Tuple[int, ...], theirs: Tuple[int, ...],
             offset: Tuple[int, int]) -> Tuple[Tuple[slice, ...], Tuple[slice, ...]]:

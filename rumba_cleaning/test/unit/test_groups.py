@@ -1,0 +1,52 @@
+"""Groups of stretches: by region, and in parts if there are many."""
+
+import numpy as np
+
+from rumba_cleaning.planning.groups import MANY, MOST, groups
+from rumba_cleaning.planning.stretches import Stretch, pair
+
+PAIRS = 5  # of variants of each stretch
+
+
+def scattered(count, region, width, height, seed=1):
+    """Short stretches all over a rectangle from (0, 0) [m]."""
+    places = np.random.default_rng(seed).uniform((0.0, 0.0), (width, height), (count, 2))
+    return [Stretch(PAIRS * pair([np.array([place, place + (0.1, 0.0)])]), region, 0.1, False) for place in places]
+
+
+def names(stretches):
+    """What tells stretches apart."""
+    return [id(stretch) for stretch in stretches]
+
+
+def test_the_stretches_of_a_region_are_a_group_in_their_order():
+    one, other = scattered(20, 1, 5.0, 5.0), scattered(20, 7, 5.0, 5.0)
+    found = groups([stretch for both in zip(other, one) for stretch in both])
+    assert [group.region for group in found] == [7, 1]
+    assert [names(group.stretches) for group in found] == [names(other), names(one)]
+
+
+def test_many_stretches_are_parted_side_by_side_along_their_longer_side():
+    few, many = scattered(20, 1, 20.0, 5.0), scattered(MANY // (2 * PAIRS) + 1, 2, 20.0, 5.0)
+    first, *parts = groups([*few, *many])
+    assert names(first.stretches) == names(few) and [part.region for part in parts] == [2] * len(parts)
+    assert sorted(name for part in parts for name in names(part.stretches)) == sorted(names(many))
+    sizes = [sum(len(stretch.variants) for stretch in part.stretches) for part in parts]
+    assert max(sizes) <= MOST and len(parts) == 4
+    spans = [(min(entries), max(entries)) for entries in
+             ([stretch.variants[0].ends()[0][0] for stretch in part.stretches] for part in parts)]
+    assert all(end <= start for (_, end), (start, _) in zip(spans, spans[1:]))
+
+
+def test_as_many_as_a_group_may_have_are_not_parted():
+    assert len(groups(scattered(MANY // (2 * PAIRS), 1, 20.0, 5.0))) == 1
+
+
+def test_a_stretch_with_too_many_variants_is_a_group_of_its_own():
+    large = [Stretch((MANY // 2) * pair([np.array([[x, 0.0], [x, 1.0]])]), 1, 0.1, False) for x in (3.0, 1.0)]
+    assert [len(group.stretches) for group in groups(large)] == [1, 1]
+
+
+def test_the_middle_is_that_beginning_of_a_stretch_which_is_nearest_to_the_mean():
+    group, = groups([Stretch(pair([np.array([[x, 0.0], [x, 1.0]])]), 1, 0.1, False) for x in (0.0, 4.0, 5.0)])
+    assert group.middle().tolist() == [4.0, 0.0]
