@@ -134,6 +134,14 @@ def test_a_plan_keeps_to_one_room_before_it_goes_to_the_next():
     assert changes == 2 and rooms[inside][0] == 0 and rooms[inside][-1] == 2
 
 
+@pytest.mark.parametrize('start', [Pose(2.0, 0.35, 0.0), Pose(5.0, 0.35, 0.0)])
+def test_the_middle_of_a_corridor_in_which_a_second_ring_would_almost_touch_itself_is_driven_once(start):
+    context = knowing(room(10.0, 0.7, 0.05), start, planning_rounds=0, target_coverage=0.95)
+    route = plan(context, start)
+    assert driven(context, route).coverage > 0.95
+    assert length(route.waypoints) < 3.0 * 10.0 + 9.0  # both walls and the middle, and the way to an end
+
+
 def test_a_plan_is_driven_faster_between_its_lanes():
     floor_plan = FLOORS['two doors']()
     context = knowing(floor_plan, START, speed=0.2, transit_speed=0.4)

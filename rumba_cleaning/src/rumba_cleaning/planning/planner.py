@@ -13,6 +13,7 @@ from rumba_cleaning.planning.crumbs import crumbs
 from rumba_cleaning.planning.groups import Group, groups
 from rumba_cleaning.planning.improvement import Surroundings, improved, with_detours
 from rumba_cleaning.planning.layouts import Draft, drafts, laid_out, tries
+from rumba_cleaning.planning.paper import drive
 from rumba_cleaning.planning.regions import Shapes, Ways, doors, regions, shapes
 from rumba_cleaning.planning.rings import chains, rings, stretch
 from rumba_cleaning.planning.stretches import Stretch
@@ -26,6 +27,7 @@ from rumba_sim.model.kernel import Array
 # Our choice.
 MOST = 0.5  # share of what was missed that lanes and rings must clean, for them to be driven
 BEYOND = 0.03  # [m] from what the brush reaches, where an obstacle may leave more floor free than the robot knows
+LARGE = 0.1  # [m^2] of a crumb that the tour leads over; a smaller one is passed on a detour from it
 YIELD = 0.7  # share of a crumb that is swept in passing, about: small plans for more crumbs than the target needs
 SPARE = 0.0005  # of coverage that is planned beyond the target, once the robot is past the lanes and rings
 CULLS = 4  # rounds in which crumbs are left out that cost much time for their area: more make better choices
@@ -67,6 +69,7 @@ def _drafts(surroundings: Surroundings, end: Optional[Pose]) -> List[Tuple[Route
     for draft in drafts(improvement.rounds(surroundings.context)):
         paper = beside_walls.copy()
         stretches = ringed + _lanes(surroundings, paper, shape, draft)
+        stretches += _strips(surroundings, paper)
         is_much = paper.coverage - swept.coverage > MOST * missing / area
         route = _through(surroundings, end, stretches) if is_much else None
         if route is not None:
@@ -109,6 +112,15 @@ def _lanes(surroundings: Surroundings, paper: Swept, shape: Shapes, draft: Draft
     for region, part in _by_region(ground, missed, labels).items():
         if shape.has_lanes[region]:
             found += laid_out(context, paper, part, region, angle, layouts)
+    return found
+
+
+def _strips(surroundings: Surroundings, paper: Swept) -> List[Stretch]:
+    """What rings and lanes leave in large pieces, as in the middle of corridors; it is driven on paper."""
+    missing = paper.missing_share() * surroundings.around
+    found = crumbs(surroundings.context.ground, surroundings.walls, missing, surroundings.labels, LARGE)
+    for part in found:
+        drive(paper, part.variants[0].path())
     return found
 
 
