@@ -20,7 +20,7 @@ from rumba_sim.model.world import World
 
 MAPS = pathlib.Path(__file__).resolve().parents[1] / 'rumba_sim' / 'maps'
 BOUNDS = ((1000.0, 3.0), (3600.0, 10.0))  # [m2, CPU s]; our choice: a person waits so long for a robot to start
-AREAS = (100.0, 250.0, 500.0, 1200.0, 2400.0)  # [m2] of furnished plans, walls and furniture included
+AREAS = (100.0, 250.0, 500.0, 1200.0, 2400.0, 4850.0)  # [m2] of furnished plans, walls and furniture included
 RESOLUTION = 0.05  # [m]
 
 

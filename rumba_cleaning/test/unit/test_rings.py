@@ -8,10 +8,9 @@ from floors import BRUSH, ground, knowing, length, tilted, wiped
 from hypothesis import given, settings
 from pytest import approx
 from rooms import NAMES, PLANS, crooked, room
-from skimage import measure
 
 from rumba_cleaning.planning.regions import Shapes, regions
-from rumba_cleaning.planning.rings import FORWARD, Part, PASS, SPACING, WALL_MARGIN, chains, rings, stretch
+from rumba_cleaning.planning.rings import FORWARD, PASS, SPACING, WALL_MARGIN, chains, rings, stretch
 from rumba_sim.model.geometry import Pose
 
 START = Pose(0.5, 0.5, 0.0)
@@ -82,21 +81,6 @@ def test_where_two_sides_almost_touch_there_is_no_ring():
     width = 2.0 * (0.17425 + PASS * BRUSH) + 0.03  # of a corridor in whose middle the second ring is 3 cm wide
     _, _, found = planned(room(3.0, width, 0.01), Pose(0.3, 0.3, 0.0))
     assert [ring.level for ring in found] == [0]
-
-
-@pytest.mark.parametrize('level', [0, 1, 3, 7])
-def test_the_parts_inside_a_level_have_the_contours_of_the_whole_floor(level):
-    islands = [(1.4, 1.4, 1.6, 1.6), (3.4, 1.4, 3.6, 1.6), (5.0, 0.0, 5.1, 2.3)]
-    passes = (ground(room(9.0, 3.0, 0.05, islands)).clearance - 0.17) / 0.1
-    parts = [Part(np.zeros(2, int), passes)]
-    for inner in range(1, level + 1):
-        parts = [part for each in parts for part in each.inside(inner)]
-    found = [contour for part in parts for contour in part.contours(level)]
-    assert sum(part.passes.size for part in parts) < (1.0 if level else 1.1) * passes.size
-    assert (len(parts) > 1) is (level > 1)
-    same = measure.find_contours(passes, level)
-    assert len(found) == len(same) > 0
-    assert all(min(np.abs(one - other).max() for other in found if len(other) == len(one)) < 1e-9 for one in same)
 
 
 def test_rings_of_two_rooms_end_at_the_door_between_them():

@@ -9,10 +9,10 @@ from typing import Dict, Iterator, List, NamedTuple
 
 import numpy as np
 from scipy import ndimage, spatial
-from skimage import measure
 
 from rumba_cleaning.belief.ground import Ground
 from rumba_cleaning.belief.swept import Swept
+from rumba_cleaning.planning.contours import contours
 from rumba_cleaning.planning.paper import drive, resampled
 from rumba_cleaning.planning.regions import Shapes
 from rumba_cleaning.planning.stretches import Stretch, Variant, pair
@@ -39,9 +39,6 @@ LOOK = 5  # waypoints from one to the next at which that is looked at
 FORWARD = 0.3  # [m] along the next ring at which it is entered: large bends gently, small drives less twice
 ROTATIONS = 12  # points at which a ring is entered, at most: more give shorter tours, and take more time to compare
 APART = 0.3  # [m] between those points, at least
-CUT = 4  # levels, after each of which the floor inside is cut out anew: that takes time too
-OUTSIDE = -1.0  # for a level: of no ring
-EIGHT = np.ones((3, 3))  # the neighbours of a node
 
 
 class Ring(NamedTuple):
@@ -51,27 +48,6 @@ class Ring(NamedTuple):
     region: int  # in which it lies
     level: int  # 0 beside the walls, 1 next to that, ...
     is_closed: bool
-
-
-class Part(NamedTuple):
-    """A part of a floor in which rings are looked for, so that not all of a large floor is for each level."""
-
-    corner: Array  # int (2), row and column of its first node
-    passes: Array  # float64 (rows, columns), of which level the ring through each node is; OUTSIDE: of none
-
-    def contours(self, level: int) -> List[Array]:
-        """The lines of a level, float64 (any, 2) [nodes of the floor] each."""
-        return [contour + self.corner for contour in measure.find_contours(self.passes, level)]
-
-    def inside(self, level: int) -> 'Iterator[Part]':
-        """The parts of this part that are inside of a level, each with the nodes around it."""
-        labels, count = ndimage.label(self.passes >= level, EIGHT)
-        for label, window in enumerate(ndimage.find_objects(labels), 1):
-            rows, columns = (slice(max(each.start - 1, 0), each.stop + 1) for each in window)
-            passes = self.passes[rows, columns]
-            if count > 1:
-                passes = np.where(ndimage.binary_dilation(labels[rows, columns] == label, EIGHT), passes, OUTSIDE)
-            yield Part(self.corner + (rows.start, columns.start), passes)
 
 
 def rings(ground: Ground, swept: Swept, labels: Array, shape: Shapes, brush: float) -> List[Ring]:
@@ -87,29 +63,26 @@ def rings(ground: Ground, swept: Swept, labels: Array, shape: Shapes, brush: flo
     found: List[Ring] = []
     depth = _depth(ground)
     passes = _passes(depth, labels, shape.is_open, brush)
-    parts, level = [Part(np.zeros(2, np.intp), passes)], 0
+    level = 0
     while True:
-        contours = [contour for part in parts for contour in part.contours(level)]
-        if not contours:
+        lines = contours(passes, level)
+        if not lines:
             return found
-        pieces = [_shaped(piece, shape.is_open[piece.region]) for contour in contours
-                  for piece in _by_region(contour, ground, labels, level)]
+        pieces = [_shaped(piece, shape.is_open[piece.region]) for line in lines
+                  for piece in _by_region(line, ground, labels, level)]
         needed = [ring for piece in sorted(pieces, key=lambda ring: -len(ring.waypoints))
                   for ring in _needed(piece, ground, swept, depth, brush)]
         for ring in needed:
             drive(swept, ring.waypoints)
         found += needed
         if level == 0:
-            parts = [Part(parts[0].corner, np.where(shape.has_lanes[labels], OUTSIDE, passes))]
+            passes = np.where(shape.has_lanes[labels], -1.0, passes)
         level += 1
-        if level % CUT == 1:
-            parts = [inner for part in parts for inner in part.inside(level)]
 
 
 def outlines(ground: Ground) -> List[Array]:
     """The paths beside the walls, whole: float64 (any, 2) [m] each; closed ones end where they begin."""
-    return [resampled(ground.points(contour), SPACING)
-            for contour in measure.find_contours(_depth(ground) - WALL_MARGIN, 0.0)]
+    return [resampled(ground.points(line), SPACING) for line in contours(_depth(ground) - WALL_MARGIN, 0.0)]
 
 
 def _depth(ground: Ground) -> Array:

@@ -3,10 +3,10 @@
 from typing import List, NamedTuple, Optional, Sequence
 
 import numpy as np
-from skimage import measure
 
 from rumba_cleaning.belief.ground import Ground
 from rumba_cleaning.planning import compiled_tours, compiled_ways
+from rumba_cleaning.planning.contours import contours
 from rumba_cleaning.planning.paper import simplified
 from rumba_cleaning.planning.stretches import Stretch
 from rumba_cleaning.route import BENT, STOP, TURN_RATE
@@ -140,9 +140,8 @@ def _corners(ground: Ground, points: Array) -> Array:
     low = np.maximum(nodes.min(axis=0) - margin, 0).astype(np.intp)
     high = (nodes.max(axis=0) + margin).astype(np.intp) + 1
     window = ground.clearance[low[0]:high[0], low[1]:high[1]]
-    contours = measure.find_contours(window, ground.reach + BESIDE + OUTSIDE) if min(window.shape) > 1 else []
-    corners = np.concatenate([np.zeros((0, 2)), *(simplified(ground.points(contour + low), CORNER)
-                                                  for contour in contours)])
+    corners = np.concatenate([np.zeros((0, 2)), *(simplified(ground.points(line + low), CORNER)
+                                                  for line in contours(window, ground.reach + BESIDE + OUTSIDE))])
     thin = THIN
     while True:
         _, first = np.unique(np.floor(corners / thin), axis=0, return_index=True)
