@@ -25,7 +25,7 @@ from rumba_sim.model.geometry import Pose
 from rumba_sim.model.kernel import Array
 
 # Our choice.
-MOST = 0.5  # share of what was missed that lanes and rings must clean, for them to be driven
+MOST = 0.5  # share of what was missed that lanes, rings and large crumbs must clean, for them to be driven
 BEYOND = 0.03  # [m] from what the brush reaches, where an obstacle may leave more floor free than the robot knows
 LARGE = 0.1  # [m^2] of a crumb that the tour leads over; a smaller one is passed on a detour from it
 YIELD = 0.7  # share of a crumb that is swept in passing, about: small plans for more crumbs than the target needs
@@ -59,7 +59,7 @@ def plan(context: Context, pose: Pose, end: Optional[Pose] = None) -> Optional[R
 
 
 def _drafts(surroundings: Surroundings, end: Optional[Pose]) -> List[Tuple[Route, Swept]]:
-    """Routes over lanes and rings, and what is swept after each on paper; none, if these clean little of it."""
+    """Routes over lanes, rings and large crumbs, and what is swept after each on paper; none, if that is little."""
     swept, area = surroundings.context.swept, surroundings.context.swept.reachable_area
     missing = float((swept.missing_share() * surroundings.around).sum()) * surroundings.context.plan.resolution ** 2
     beside_walls = swept.copy()
