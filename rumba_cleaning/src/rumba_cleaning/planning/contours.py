@@ -14,13 +14,14 @@ Array = Any  # numpy.ndarray
 
 UP, RIGHT, DOWN, LEFT = range(4)  # edges of a square: the first is in its first row, the last in its first column
 # By the corners above the level, 1, 2, 4 and 8 in reading order: the edges at which one line begins and ends, and those
-# of another one, or -1. What is above lies on the same side of all lines; at a saddle it does not hang together.
-LINES = np.array([
-    (-1, -1, -1, -1), (UP, LEFT, -1, -1), (RIGHT, UP, -1, -1), (RIGHT, LEFT, -1, -1), (LEFT, DOWN, -1, -1),
-    (UP, DOWN, -1, -1), (RIGHT, UP, LEFT, DOWN), (RIGHT, DOWN, -1, -1), (DOWN, RIGHT, -1, -1), (UP, LEFT, DOWN, RIGHT),
-    (DOWN, UP, -1, -1), (DOWN, LEFT, -1, -1), (LEFT, RIGHT, -1, -1), (UP, RIGHT, -1, -1), (LEFT, UP, -1, -1),
-    (-1, -1, -1, -1)])
+# of another one, if there is one. What is above lies on the same side of all lines; at a saddle it does not hang
+# together.
 NONE = -1
+LINES = np.array([
+    (NONE, NONE, NONE, NONE), (UP, LEFT, NONE, NONE), (RIGHT, UP, NONE, NONE), (RIGHT, LEFT, NONE, NONE),
+    (LEFT, DOWN, NONE, NONE), (UP, DOWN, NONE, NONE), (RIGHT, UP, LEFT, DOWN), (RIGHT, DOWN, NONE, NONE),
+    (DOWN, RIGHT, NONE, NONE), (UP, LEFT, DOWN, RIGHT), (DOWN, UP, NONE, NONE), (DOWN, LEFT, NONE, NONE),
+    (LEFT, RIGHT, NONE, NONE), (UP, RIGHT, NONE, NONE), (LEFT, UP, NONE, NONE), (NONE, NONE, NONE, NONE)])
 
 
 def contours(values: Array, level: float) -> List[Array]:

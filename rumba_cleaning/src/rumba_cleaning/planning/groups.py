@@ -29,14 +29,13 @@ def groups(found: Sequence[Stretch]) -> List[Group]:
     by_region: Dict[int, List[Stretch]] = {}
     for part in found:
         by_region.setdefault(part.region, []).append(part)
-    return [Group(region, part) for region, stretches in by_region.items()
-            for part in ([stretches] if _variants(stretches).sum() <= MANY else _parts(stretches))]
+    return [Group(region, part) for region, stretches in by_region.items() for part in _parts(stretches, MANY)]
 
 
-def _parts(stretches: List[Stretch]) -> List[List[Stretch]]:
-    """Halves of stretches, side by side, and so on until none has too many variants."""
-    counts = _variants(stretches)
-    if len(stretches) < 2 or counts.sum() <= MOST:
+def _parts(stretches: List[Stretch], most: int) -> List[List[Stretch]]:
+    """Stretches as they are, if they have at most so many variants; or halves of them, side by side, and so on."""
+    counts = np.array([len(stretch.variants) for stretch in stretches])
+    if len(stretches) < 2 or counts.sum() <= most:
         return [stretches]
     middles = 0.5 * (_entries(stretches) + np.array([stretch.variants[0].ends()[3] for stretch in stretches]))
     along = int(np.argmax(np.ptp(middles, axis=0)))
@@ -44,12 +43,7 @@ def _parts(stretches: List[Stretch]) -> List[List[Stretch]]:
     half = int(np.searchsorted(np.cumsum(counts[order]), 0.5 * counts.sum()))
     half = min(max(half, 1), len(stretches) - 1)
     return [part for indices in (order[:half], order[half:])
-            for part in _parts([stretches[index] for index in np.sort(indices)])]
-
-
-def _variants(stretches: Sequence[Stretch]) -> Array:
-    """The number of variants of each stretch: int (any)."""
-    return np.array([len(stretch.variants) for stretch in stretches])
+            for part in _parts([stretches[index] for index in np.sort(indices)], MOST)]
 
 
 def _entries(stretches: Sequence[Stretch]) -> Array:

@@ -23,8 +23,7 @@ MENDS = 2  # times that detours are added, at most, to a route that edits left s
 WORK = 150.0  # [m^2] of floor, times rounds: large makes shorter routes, small plans faster
 # [s/m^2] a lane takes 20: dearer edits are left out on paper, where they clean less than it seems, and by rehearsal.
 DEAREST_ON_PAPER, DEAREST = 200.0, 3000.0
-# [m^2] of a crumb: half of the smallest that was worth that price on any floor of bench/planning.py; large is fast.
-LEAST_ON_PAPER = 0.005
+LEAST_ON_PAPER = 0.005  # [m^2] of a crumb: a smaller one is hardly ever worth that price; large plans faster
 # [s/m^2] that edits save for what they leave, if there is more than the target needs, and take for what is missing.
 SAVED, ADDED = 120.0, 600.0
 CHEAP = 0.5  # share of the last price that a shortcut must save to be judged: small tries more

@@ -157,7 +157,7 @@ def _finds(path: Array, ground: Ground, swept: Swept, brush: float) -> Array:
     points = path[:, np.newaxis] + offsets[np.newaxis, :, np.newaxis] * across[:, np.newaxis]
     cells = np.floor((points - ground.plan.origin) / ground.plan.resolution).astype(np.intp)
     last = np.array(ground.plan.free.shape[::-1]) - 1
-    return np.asarray(swept.missing_shares(np.clip(cells, 0, last)[..., ::-1]).mean(axis=1))
+    return np.asarray(swept.missing_share_at(np.clip(cells, 0, last)[..., ::-1]).mean(axis=1))
 
 
 def _is_ridge(path: Array, ground: Ground, depth: Array) -> Array:

@@ -167,20 +167,24 @@ class Sweep:
     def missing_share(self) -> Array:
         """Share of each cell's area that can be reached and was not swept [0..1]: float32 (rows, columns)."""
         squares = self._plan.sample_squares
-        is_missing = self.samples & REACHABLE > 0
-        is_missing &= self.samples < PASS
-        return _sums(is_missing, squares) / np.float32(squares ** 2)
+        return _sums(_is_missing(self.samples), squares) / np.float32(squares ** 2)
 
-    def missing_shares(self, cells: Array) -> Array:
-        """The same of cells (..., 2), row and column each: float32 (...)."""
+    def missing_share_at(self, cells: Array) -> Array:
+        """The same for some cells, rows and columns (..., 2): float32 (...). The rest of the floor takes no time."""
         squares = self._plan.sample_squares
         rows, columns = squares * cells[..., 0], squares * cells[..., 1]
         counts = np.zeros(rows.shape, np.uint16)
         for row in range(squares):
             for column in range(squares):
-                samples = self.samples[rows + row, columns + column]
-                counts += (samples & REACHABLE > 0) & (samples < PASS)
+                counts += _is_missing(self.samples[rows + row, columns + column])
         return counts / np.float32(squares ** 2)
+
+
+def _is_missing(samples: Array) -> Array:
+    """Which samples can be reached and were not swept: bool, of the same shape."""
+    is_missing = samples & REACHABLE > 0
+    is_missing &= samples < PASS
+    return np.asarray(is_missing)
 
 
 def _common(ours: Tuple[int, ...], theirs: Tuple[int, ...],
