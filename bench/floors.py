@@ -28,7 +28,7 @@ from rumba_sim.model.errors import RumbaError
 RESOLUTIONS = (1.0, 2.0, 5.0, 10.0)  # [cm]
 LARGE = ('furnished', 'empty', 'furnished of 1,300 m2', 'office')  # nobody maps a whole storey at 1 cm
 FINEST = 2.0  # [cm] for those
-THIN = ('thin', 'chairs', 'dining', 'spiral of 0.5 m')  # on cells of 10 cm little of these floors is left
+THIN = ('thin', 'chairs', 'dining', 'spiral of 0.5 m', 'maze', 'ring corridor', 'winding', 'crossing', 'neck', 'posts')  # on cells of 10 cm little of these floors is left
 COARSEST = 5.0  # [cm] for those
 WORST, MEDIAN = 1.7, 1.3  # bounds of the time to 98 % in multiples of T
 ROW = '{:<36}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>6}{:>6}{:>6}  {}'
@@ -75,7 +75,8 @@ def main():
     missions = []
     context = multiprocessing.get_context('spawn')
     with concurrent.futures.ProcessPoolExecutor(arguments.jobs, context) as executor:
-        for mission in executor.map(run, *zip(*cases), itertools.repeat(arguments.start)):
+        conditions = Conditions(start=arguments.start, target=arguments.target)
+        for mission in executor.map(run, *zip(*cases), itertools.repeat(conditions)):
             print(mission.line, flush=True)
             missions.append(mission)
     summarise(missions)
@@ -98,6 +99,7 @@ def parsed():
     parser.add_argument('--seeds', type=span, default=[0], help='0-4: five floors of each kind')
     parser.add_argument('--resolutions', nargs='+', type=float, default=RESOLUTIONS, help='[cm]')
     parser.add_argument('--start', default='dock', choices=('dock', 'anywhere'))
+    parser.add_argument('--target', type=float, default=Conditions().target, help='coverage at which a mission ends')
     parser.add_argument('--jobs', type=int, default=os.cpu_count())
     return parser.parse_args()
 
@@ -113,12 +115,12 @@ def is_sensible(kind, resolution):
     return not (kind in LARGE and resolution < FINEST) and not (kind in THIN and resolution > COARSEST)
 
 
-def run(kind, seed, resolution, start):
+def run(kind, seed, resolution, conditions):
     """One mission."""
     plan = hard_floors.floor(kind, seed, 0.01 * resolution)
     free = float(np.count_nonzero(plan.free)) * plan.resolution ** 2
     try:
-        trial = Trial(plan, 'boustrophedon', Conditions(start=start), seed)
+        trial = Trial(plan, 'boustrophedon', conditions, seed)
         watch = boustrophedon.plan = Stopwatch()
         while not trial.is_over:
             trial.step()

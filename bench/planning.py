@@ -9,7 +9,7 @@ import pathlib
 import time
 
 import numpy as np
-from common import figures, hard_floors, large_floors
+from common import drawings, figures, hard_floors, large_floors, wings
 
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.cleaning_config import CleaningConfig
@@ -34,10 +34,10 @@ def main():
         measure(name, map_file.load(MAPS / f'{name}.yaml'))
     points = []
     for area in AREAS:
-        drawing = hard_floors.furnished(np.random.default_rng(1), area)
-        points.append(measure(f'furnished, {area:g} m2 in all', hard_floors.drawn('furnished', drawing, RESOLUTION)))
+        drawing = wings.furnished(np.random.default_rng(1), area)
+        points.append(measure(f'furnished, {area:g} m2 in all', drawings.drawn('furnished', drawing, RESOLUTION)))
     points.append(measure('office of 60 m x 60 m', hard_floors.floor('office', 1, RESOLUTION)))
-    others = [measure(name, hard_floors.drawn(name, drawing, RESOLUTION))
+    others = [measure(name, drawings.drawn(name, drawing, RESOLUTION))
               for name, drawing in large_floors.drawings().items()]
     (small, fast), (large, slow) = points[1], points[-1]
     figures.row('growth: exponent of CPU time over area', math.log(slow / fast) / math.log(large / small), below=1.2)

@@ -1,98 +1,17 @@
-"""Floors that are hard to clean, drawn from a seed at any resolution.
-
-Each floor is a function of x and y that says where walls and cliffs are. A cell is a wall if any of the points that are
-looked at in it is one, so that thin walls and legs do not vanish on large cells.
-"""
+"""Floors that are hard to clean, each drawn from a seed."""
 
 import math
-from typing import Callable, NamedTuple, Optional
 
 import numpy as np
+from common.drawings import Drawing, box, disc, drawn, legs, outside, pentagon, turned, union
+from common.wings import empty, furnished, office
 
-from rumba_sim.model.floor_plan import FREE, OCCUPIED, FloorPlan
 from rumba_sim.model.geometry import Pose
 
-SAMPLE = 0.025  # [m] between the points that are looked at within a cell, at most
-WALL = 0.1  # [m] thickness
-LEG = 0.02  # [m] radius of the leg of a chair or a table
+WALL, THIN_WALL = 0.1, 0.06  # [m] thickness
 DOOR = 0.8  # [m]
 DOCKING = 0.7  # [m] around a place before a dock, where there are no pits
 
-
-class Drawing(NamedTuple):
-    """A floor; its corner lies at (0, 0)."""
-
-    width: float  # [m]
-    height: float  # [m]
-    is_wall: Callable  # of x and y, arrays [m]: bool
-    is_cliff: Optional[Callable] = None
-    dock: Optional[Pose] = None
-
-
-def drawn(name, drawing, resolution):
-    """The floor plan of a drawing with cells of a resolution [m]."""
-    columns, rows = (math.ceil(side / resolution - 1e-6) + 2 for side in (drawing.width, drawing.height))
-    count = max(math.ceil(resolution / SAMPLE - 1e-6), 1)
-    wall, cliff = np.zeros((2, rows, columns), bool)
-    for up in (np.arange(count) + 0.5) / count:
-        for right in (np.arange(count) + 0.5) / count:
-            x = ((np.arange(columns) + right - 1.0) * resolution)[np.newaxis]
-            y = ((np.arange(rows) + up - 1.0) * resolution)[:, np.newaxis]
-            inside = (x > 0.0) & (x < drawing.width) & (y > 0.0) & (y < drawing.height)
-            wall |= ~inside | drawing.is_wall(x, y)
-            if drawing.is_cliff is not None:
-                cliff |= drawing.is_cliff(x, y)
-    return FloorPlan(name, np.where(wall, OCCUPIED, FREE), resolution, (-resolution, -resolution),
-                     cliff=None if drawing.is_cliff is None else cliff & ~wall, dock=drawing.dock)
-
-
-# --- shapes: functions of x and y -----------------------------------------------------------------------------------
-
-def union(shapes):
-    """Where any of the shapes is."""
-    def shape(x, y):
-        found = np.zeros(np.broadcast(x, y).shape, bool)
-        for part in shapes:
-            found |= part(x, y)
-        return found
-    return shape
-
-
-def box(left, bottom, right, top):
-    """A rectangle along the axes."""
-    return lambda x, y: (x > left) & (x < right) & (y > bottom) & (y < top)
-
-
-def disc(centre_x, centre_y, radius):
-    """A disc."""
-    return lambda x, y: np.hypot(x - centre_x, y - centre_y) < radius
-
-
-def pentagon(centre_x, centre_y, radius):
-    """A pentagon with equal sides; `radius` [m] is that of the circle in it."""
-    sides = [(math.cos(angle), math.sin(angle)) for angle in 0.4 * math.pi * np.arange(5)]
-    return lambda x, y: np.max([(x - centre_x) * cos + (y - centre_y) * sin for cos, sin in sides], axis=0) < radius
-
-
-def turned(shape, angle, about):
-    """A shape turned about a point."""
-    cos, sin = math.cos(angle), math.sin(angle)
-    return lambda x, y: shape(about[0] + cos * (x - about[0]) + sin * (y - about[1]),
-                              about[1] - sin * (x - about[0]) + cos * (y - about[1]))
-
-
-def outside(shape):
-    """Everything but a shape."""
-    return lambda x, y: ~shape(x, y)
-
-
-def legs(x, y, width, depth, angle=0.0):
-    """Four legs of a table or a chair around a point."""
-    corners = [(x + a * width / 2, y + b * depth / 2) for a in (-1, 1) for b in (-1, 1)]
-    return turned(union([disc(*corner, LEG) for corner in corners]), angle, (x, y))
-
-
-# --- floors: functions of a random generator ------------------------------------------------------------------------
 
 def spiral(generator, corridor):
     """A square spiral of one corridor, so wide [m]."""
@@ -246,63 +165,91 @@ def thin(generator):
     return Drawing(width, height, union(walls))
 
 
-def furnished(generator, area=250.0):
-    """Wings of rooms on both sides of corridors, of an area in all [m2], with furniture."""
-    return _wings(generator, area, 0.35)
-
-
-def empty(generator, area=250.0):
-    """The same without furniture."""
-    return _wings(generator, area, 0.0)
-
-
-def office(generator):
-    """An office of 60 x 60 m."""
-    return _wings(generator, 3600.0, 0.15)
-
-
-def _wings(generator, area, pieces):
-    """Wings, one above the other, joined by a corridor at their left; `pieces` of furniture for each m2."""
-    side, corridor, depth = math.sqrt(area), 1.6, 4.4
-    count = max(round(side / (2 * depth + corridor)), 1)
-    height = side / count
-    walls, doors, shapes = [], [], []
-    for wing in range(count):
-        bottom, middle = wing * height, (wing + 0.5) * height
-        for low, high, wall in ((bottom, middle - corridor / 2, middle - corridor / 2),
-                                (middle + corridor / 2, bottom + height, middle + corridor / 2)):
-            walls.append(box(corridor, wall - WALL / 2, side, wall + WALL / 2))
-            left = corridor
-            while left < side - 1.0:
-                right = min(left + generator.uniform(3.0, 6.0), side)
-                right = side if side - right < 2.5 else right
-                walls.append(box(left - WALL / 2, low, left + WALL / 2, high))
-                at = generator.uniform(left + 0.2, right - 0.3 - 0.9)
-                doors.append(box(at, wall - WALL, at + 0.9, wall + WALL))
-                shapes += _furniture(generator, (left, low, right, high), pieces, (at, wall))
-                left = right
-        walls.append(box(corridor, bottom - WALL / 2, side, bottom + WALL / 2))
-    wall, door, piece = union(walls), union(doors), union(shapes or [box(0.0, 0.0, 0.0, 0.0)])
-    return Drawing(side, side, lambda x, y: wall(x, y) & ~door(x, y) | piece(x, y))
-
-
-def _furniture(generator, room, pieces, door):
-    """Cupboards along the walls, a table with chairs; nothing near the door."""
-    left, bottom, right, top = room
-    found = []
-    for _ in range(round((right - left) * (top - bottom) * pieces)):
-        width, depth = generator.uniform(0.4, 1.6), generator.uniform(0.35, 0.8)
-        x, y = generator.uniform(left, right - width), generator.uniform(bottom, top - depth)
-        kind = generator.random()
-        if kind < 0.3:
-            x = left if kind < 0.15 else right - width
-        elif kind < 0.6:
-            y = bottom if kind < 0.45 else top - depth
-        if math.hypot(x + width / 2 - door[0] - 0.45, y + depth / 2 - door[1]) < 1.6:
+def maze(generator):
+    """A maze of corridors with one way to each cell, drawn by a walk that goes back where it cannot go on."""
+    count, pitch = int(generator.integers(6, 9)), generator.uniform(0.55, 0.8) + THIN_WALL
+    closed = {(i, j, side) for i in range(count) for j in range(count) for side in ('right', 'above')}
+    seen, walk = {(0, 0)}, [(0, 0)]
+    while walk:
+        i, j = walk[-1]
+        ways = [(to, wall) for to, wall in (((i + 1, j), (i, j, 'right')), ((i - 1, j), (i - 1, j, 'right')),
+                                            ((i, j + 1), (i, j, 'above')), ((i, j - 1), (i, j - 1, 'above')))
+                if 0 <= min(to) and max(to) < count and to not in seen]
+        if not ways:
+            walk.pop()
             continue
-        is_table = kind > 0.85
-        found.append(legs(x + width / 2, y + depth / 2, width, depth) if is_table else box(x, y, x + width, y + depth))
-    return found
+        to, wall = ways[generator.integers(len(ways))]
+        closed.discard(wall)
+        seen.add(to)
+        walk.append(to)
+    walls = []
+    for i, j, side in sorted(closed):
+        left, bottom, right, top = i * pitch, j * pitch, (i + 1) * pitch, (j + 1) * pitch
+        walls.append(box(right - THIN_WALL, bottom - THIN_WALL, right, top) if side == 'right' else
+                     box(left - THIN_WALL, top - THIN_WALL, right, top))
+    return Drawing(count * pitch, count * pitch, union(walls))
+
+
+def ring_corridor(generator):
+    """A corridor around a round core."""
+    radius, corridor = generator.uniform(1.5, 3.0), generator.uniform(0.5, 1.0)
+    centre = radius + WALL
+    return Drawing(2 * centre, 2 * centre, union([outside(disc(centre, centre, radius)),
+                                                  disc(centre, centre, radius - corridor)]))
+
+
+def winding(generator):
+    """A corridor that winds to and fro like a sine."""
+    half, length = generator.uniform(0.5, 0.9), generator.uniform(2.8, 4.0)
+    return Drawing(8.0, 4.0, lambda x, y: np.abs(y - 2.0 - 1.3 * np.sin(2.0 * math.pi * x / length)) > half)
+
+
+def star(generator):
+    """A room with five round bays."""
+    radius = generator.uniform(2.0, 3.5)
+
+    def shape(x, y):
+        return np.hypot(x - radius, y - radius) > radius * (
+            0.65 + 0.3 * np.cos(5.0 * np.arctan2(y - radius, x - radius)))
+    return Drawing(2 * radius, 2 * radius, shape)
+
+
+def crossing(generator):
+    """Two corridors that cross, along no axis."""
+    half, angle = generator.uniform(0.4, 0.9), generator.uniform(0.0, 1.5)
+    return Drawing(6.0, 6.0, turned(lambda x, y: (np.abs(x - 3.0) > half) & (np.abs(y - 3.0) > half), angle,
+                                    (3.0, 3.0)))
+
+
+def neck(generator):
+    """Two rooms and a passage between them that is hardly wider than a robot."""
+    half = generator.uniform(0.19, 0.25)
+    return Drawing(7.0, 3.0, lambda x, y: (x > 2.2) & (x < 4.8) & (np.abs(y - 1.5) > half))
+
+
+def posts(generator):
+    """A room with thin posts all over it."""
+    width, height = generator.uniform(3.0, 6.0, 2)
+    count = int(width * height * generator.uniform(1.0, 4.0))
+    return Drawing(width, height, union([disc(generator.uniform(0.5, width - 0.5), generator.uniform(0.5, height - 0.5),
+                                              0.015) for _ in range(count)]))
+
+
+def balcony(generator):
+    """A floor along no axis with cliffs on all sides."""
+    (width, height), angle = generator.uniform(2.5, 4.5, 2), generator.uniform(0.0, 1.5)
+    reach = 0.5 * math.hypot(width, height) + 0.6
+    floor_ = turned(box(reach - width / 2, reach - height / 2, reach + width / 2, reach + height / 2), angle,
+                    (reach, reach))
+    return Drawing(2 * reach, 2 * reach, union([]), outside(floor_))
+
+
+def shafts(generator):
+    """A room with small square shafts on a grid."""
+    width, height = generator.uniform(3.0, 5.0, 2)
+    apart, half = generator.uniform(0.9, 1.3), generator.uniform(0.05, 0.15)
+    return Drawing(width, height, union([]), lambda x, y: (np.abs(x % apart - apart / 2) < half) & (
+        np.abs(y % apart - apart / 2) < half))
 
 
 KINDS = {
@@ -310,7 +257,9 @@ KINDS = {
     'spiral of 0.5 m': lambda generator: spiral(generator, 0.5),
     'chairs': chairs, 'dining': dining, 'tiny': tiny, 'slanted': slanted, 'round': round_room, 'jagged': jagged,
     'islands': islands, 'cliffs': cliffs, 'pits': pits, 'thin': thin, 'furnished': furnished, 'empty': empty,
-    'furnished of 1,300 m2': lambda generator: furnished(generator, 1300.0), 'office': office,
+    'furnished of 1,300 m2': lambda generator: furnished(generator, 1300.0), 'office': office, 'maze': maze,
+    'ring corridor': ring_corridor, 'winding': winding, 'star': star, 'crossing': crossing, 'neck': neck, 'posts': posts,
+    'balcony': balcony, 'shafts': shafts,
 }
 
 

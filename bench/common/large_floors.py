@@ -1,9 +1,10 @@
-"""Large floors with other shapes than rooms along corridors, as drawings of `hard_floors`."""
+"""Large floors with other shapes than rooms along corridors, as drawings."""
 
 import math
 
 import numpy as np
-from common.hard_floors import Drawing, box, furnished, legs, office, outside, turned, union
+from common.drawings import Drawing, box, legs, outside, turned, union
+from common.wings import furnished, office
 
 
 def hall(side):

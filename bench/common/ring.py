@@ -2,7 +2,7 @@
 
 import math
 
-from common.hard_floors import Drawing, box, drawn, union
+from common.drawings import Drawing, box, drawn, union
 
 from rumba_sim.model.geometry import Pose
 

@@ -12,8 +12,11 @@ from rooms import crooked, distances, quiet, room
 
 from rumba_cleaning.behaviours.follower import Follower
 from rumba_cleaning.planning import paper
+from rumba_cleaning.planning.edits import dense
 from rumba_cleaning.planning.planner import plan
+from rumba_cleaning.planning.rehearsal import Rehearsal
 from rumba_sim.model import map_file
+from rumba_sim.model.floor_plan import FREE, OCCUPIED, FloorPlan
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.world import World
 
@@ -140,6 +143,17 @@ def test_the_middle_of_a_corridor_in_which_a_second_ring_would_almost_touch_itse
     route = plan(context, start)
     assert driven(context, route).coverage > 0.95
     assert length(route.waypoints) < 3.0 * 10.0 + 9.0  # both walls and the middle, and the way to an end
+
+
+def test_a_wide_corridor_around_a_round_core_is_cleaned_in_rings():
+    x, y = np.meshgrid(*[0.05 * np.arange(-36, 37)] * 2)
+    away = np.hypot(x, y)
+    floor_plan = FloorPlan('ring', np.where((away < 1.7) & (away > 0.7), FREE, OCCUPIED), 0.05, (-1.825, -1.825))
+    start = Pose(1.2, 0.0, 0.5 * math.pi)
+    context = knowing(floor_plan, start, target_coverage=0.98)
+    rehearsal = Rehearsal(context, start, dense(plan(context, start)))
+    assert rehearsal.swept.coverage >= 0.98
+    assert rehearsal.seconds < 1.25 * context.swept.reachable_area / (BRUSH * context.config.speed)
 
 
 def test_a_plan_is_driven_faster_between_its_lanes():

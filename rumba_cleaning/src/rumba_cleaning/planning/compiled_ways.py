@@ -1,7 +1,7 @@
 """Ways and paths, compiled by numba."""
 
 import math
-from typing import Any, Tuple
+from typing import Any, NamedTuple, Tuple
 
 import numpy as np
 
@@ -13,32 +13,57 @@ CLOSE = 0.02  # [m] points so near to each other have no direction between them
 SHARP = 1.6  # [rad] a little more than a right angle
 
 
-@compiled
-def sight(clearance: Array, least: float, touching: float, near: float, x: float, y: float, to_x: float,
-          to_y: float) -> bool:
-    """Whether a robot can drive along the line from (x, y) to (to_x, to_y) [nodes].
+class Needed(NamedTuple):
+    """The clearance that a robot needs at the nodes along a line."""
 
-    Each node along the line needs a clearance `least` [m]; within `near` [nodes] of an end `touching` [m] is enough.
-    """
+    least: float  # [m]
+    touching: float  # [m] within `near` of the ends, beside a wall; ...
+    near: float  # [nodes]
+    standing: float  # [m] ... to one side of which there must be this: where it is too narrow for a robot, there is not
+    aside: int  # [nodes] how far to that side, at most
+
+
+@compiled
+def sight(clearance: Array, needed: Needed, x: float, y: float, to_x: float, to_y: float) -> bool:
+    """Whether a robot can drive along the line from (x, y) to (to_x, to_y) [nodes]."""
     size = math.hypot(to_x - x, to_y - y)
     steps = int(size) + 1
     for step in range(steps + 1):
         share = step / steps
-        row, column = int(math.floor(y + share * (to_y - y) + 0.5)), int(math.floor(x + share * (to_x - x) + 0.5))
-        is_near = min(share, 1.0 - share) * size <= near
-        if clearance[row, column] < (touching if is_near else least):
+        here_x, here_y = x + share * (to_x - x), y + share * (to_y - y)
+        found = clearance[nearest(here_y), nearest(here_x)]
+        if found < (needed.touching if min(share, 1.0 - share) * size <= needed.near else needed.least):
+            return False
+        if found < needed.standing and 0 < step < steps and not is_beside(
+                clearance, needed, here_x, here_y, (to_x - x) / size, (to_y - y) / size):
             return False
     return True
 
 
 @compiled
-def lengths(clearance: Array, least: float, touching: float, near: float, points: Array,
-            stops: Array) -> Tuple[Array, Array]:
+def nearest(coordinate: float) -> int:
+    """The row or column of the node nearest to a coordinate [nodes]."""
+    return int(math.floor(coordinate + 0.5))
+
+
+@compiled
+def is_beside(clearance: Array, needed: Needed, x: float, y: float, along_x: float, along_y: float) -> bool:
+    """Whether a robot can stand to the left or to the right of (x, y) [nodes], seen along a unit vector."""
+    for away in range(-needed.aside, needed.aside + 1):
+        row, column = nearest(y + away * along_x), nearest(x - away * along_y)
+        if 0 <= row < clearance.shape[0] and 0 <= column < clearance.shape[1] and (
+                clearance[row, column] >= needed.standing):
+            return True
+    return False
+
+
+@compiled
+def lengths(clearance: Array, needed: Needed, points: Array, stops: Array) -> Tuple[Array, Array]:
     """Lengths [nodes] of the shortest paths from point to point over lines of sight, and the last stop on each of them.
 
     Args:
         clearance: float64 (rows + 1, columns + 1) [m].
-        least, touching, near: see `sight`.
+        needed: see above.
         points: float64 (n, 2), x and y [nodes].
         stops: int (any), the points at which a path may stop between its ends.
 
@@ -53,8 +78,7 @@ def lengths(clearance: Array, least: float, touching: float, near: float, points
         found[one, one] = 0.0
         for other in range(one):
             distance = math.hypot(points[one, 0] - points[other, 0], points[one, 1] - points[other, 1])
-            if sight(clearance, least, touching, near, points[one, 0], points[one, 1], points[other, 0],
-                     points[other, 1]):
+            if sight(clearance, needed, points[one, 0], points[one, 1], points[other, 0], points[other, 1]):
                 found[one, other] = found[other, one] = distance
     for middle in stops:
         for one in range(count):

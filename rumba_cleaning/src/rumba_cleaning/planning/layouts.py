@@ -9,6 +9,7 @@ from rumba_cleaning.belief.swept import Swept
 from rumba_cleaning.planning.lanes import BLOCK, Layout, blocks
 from rumba_cleaning.planning.links import block_variants, through
 from rumba_cleaning.planning.paper import drive
+from rumba_cleaning.planning.regions import NARROW
 from rumba_cleaning.planning.stretches import Stretch
 from rumba_cleaning.route import Route
 from rumba_sim.model.kernel import Array
@@ -19,6 +20,7 @@ class Draft(NamedTuple):
 
     layouts: Sequence[Layout]  # those that are compared, on paper, in each region
     missed: float  # share of a cell, for a lane to clean it: small drives over swept floor
+    narrow: float = NARROW  # [m] where rings suit a region better than lanes, as in `regions.shapes`
 
 
 def _usual(overlap: float) -> List[Layout]:
@@ -31,6 +33,8 @@ def _usual(overlap: float) -> List[Layout]:
 DRAFTS = (Draft(_usual(0.05), 0.3), Draft([Layout(0.0, needed=0.15, gap=0.4, alike=2.7)], 0.4), Draft(_usual(0.0), 0.3),
           Draft([Layout(0.08, needed=0.17, usual=0.5, gap=0.65)], 0.45),
           Draft([Layout(0.09, needed=0.15, usual=0.7, gap=0.55, alike=1.35)], 0.4))
+# For regions which are hardly a corridor, or hardly a room: a wide ring corridor wants rings, legs of chairs want lanes.
+OTHER_SHAPES = (DRAFTS[0]._replace(narrow=0.3), DRAFTS[3]._replace(narrow=0.05))
 AREA = 600.0  # [m^2] to clean, times the layouts that are compared: large drives less, small plans faster
 LITTLE = 1.0  # [m^2] to clean, for which no layouts are compared: most of that is left to the crumbs
 TURN = 3.0  # [s] for each turn, beyond its length: the wheels limit the turn rate, and it leaves crumbs beside it
@@ -63,7 +67,7 @@ def laid_out(context: Context, paper: Swept, missed: Array, region: int, angle: 
 
 def drafts(rounds: int) -> Sequence[Draft]:
     """The drafts to rehearse on a floor that is worth so many rounds of edits: two more for each after the first."""
-    return DRAFTS[:max(2 * rounds - 1, 1)]
+    return (*DRAFTS[:2 * rounds - 1], *OTHER_SHAPES) if rounds else DRAFTS[:1]
 
 
 def tries(area: float) -> int:

@@ -62,19 +62,30 @@ def _drafts(surroundings: Surroundings, end: Optional[Pose]) -> List[Tuple[Route
     """Routes over lanes, rings and large crumbs, and what is swept after each on paper; none, if that is little."""
     swept, area = surroundings.context.swept, surroundings.context.swept.reachable_area
     missing = float((swept.missing_share() * surroundings.around).sum()) * surroundings.context.plan.resolution ** 2
-    beside_walls = swept.copy()
-    shape = shapes(surroundings.context.ground, surroundings.labels)
-    ringed = _rings(surroundings, beside_walls, shape)
+    ringed: Dict[bytes, Tuple[List[Stretch], Swept]] = {}  # by where there are lanes
     found = []
-    for draft in drafts(improvement.rounds(surroundings.context)):
-        paper = beside_walls.copy()
-        stretches = ringed + _lanes(surroundings, paper, shape, draft)
+    for draft, shape in _shaped(surroundings):
+        key = shape.has_lanes.tobytes()
+        if key not in ringed:
+            paper = swept.copy()
+            ringed[key] = _rings(surroundings, paper, shape), paper
+        along_rings, beside_rings = ringed[key]
+        paper = beside_rings.copy()
+        stretches = along_rings + _lanes(surroundings, paper, shape, draft)
         stretches += _strips(surroundings, paper)
         is_much = paper.coverage - swept.coverage > MOST * missing / area
         route = _through(surroundings, end, stretches) if is_much else None
         if route is not None:
             found.append((route, paper))
     return found
+
+
+def _shaped(surroundings: Surroundings) -> List[Tuple[Draft, Shapes]]:
+    """The drafts to rehearse, with what suits the regions by each; no draft for shapes that no region has."""
+    usual, *others = [(draft, shapes(surroundings.context.ground, surroundings.labels, draft.narrow))
+                      for draft in drafts(improvement.rounds(surroundings.context))]
+    return [usual, *((draft, shape) for draft, shape in others
+                     if draft.narrow == usual[0].narrow or (shape.has_lanes != usual[1].has_lanes).any())]
 
 
 def _around(context: Context, pose: Pose) -> Array:

@@ -52,11 +52,17 @@ class Shapes(NamedTuple):
     has_lanes: Array  # bool (labels): lanes suit it better than rings, except along its walls
 
 
-def shapes(ground: Ground, labels: Array) -> Shapes:
-    """How wide the regions are: in open ones and in corridors rings are best, in rooms with furniture lanes."""
+def shapes(ground: Ground, labels: Array, narrow: float = NARROW) -> Shapes:
+    """How wide the regions are: in open ones and in corridors rings are best, in rooms with furniture lanes.
+
+    Args:
+        ground: where the robot can stand.
+        labels: the region of each node, int (rows + 1, columns + 1).
+        narrow: mean clearance of a corridor beyond what the robot needs, at most [m].
+    """
     counts = np.maximum(np.bincount(labels.ravel()), 1)
     room = np.bincount(labels.ravel(), ground.clearance.ravel()) / counts - ground.reach
-    return Shapes(room > OPEN, (room > NARROW) & (room <= OPEN))
+    return Shapes(room > OPEN, (room > narrow) & (room <= OPEN))
 
 
 class Doors(NamedTuple):
