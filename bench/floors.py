@@ -28,7 +28,8 @@ from rumba_sim.model.errors import RumbaError
 RESOLUTIONS = (1.0, 2.0, 5.0, 10.0)  # [cm]
 LARGE = ('furnished', 'empty', 'furnished of 1,300 m2', 'office')  # nobody maps a whole storey at 1 cm
 FINEST = 2.0  # [cm] for those
-THIN = ('thin', 'chairs', 'dining', 'spiral of 0.5 m', 'maze', 'ring corridor', 'winding', 'crossing', 'neck', 'posts')  # on cells of 10 cm little of these floors is left
+THIN = ('thin', 'chairs', 'dining', 'spiral of 0.5 m', 'maze', 'ring corridor', 'winding', 'crossing', 'neck',
+        'posts')  # on cells of 10 cm little of these floors is left
 COARSEST = 5.0  # [cm] for those
 WORST, MEDIAN = 1.7, 1.3  # bounds of the time to 98 % in multiples of T
 ROW = '{:<36}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>6}{:>6}{:>6}  {}'

@@ -200,7 +200,7 @@ def ring_corridor(generator):
 
 def winding(generator):
     """A corridor that winds to and fro like a sine."""
-    half, length = generator.uniform(0.5, 0.9), generator.uniform(2.8, 4.0)
+    half, length = generator.uniform(0.6, 0.9), generator.uniform(4.0, 6.0)
     return Drawing(8.0, 4.0, lambda x, y: np.abs(y - 2.0 - 1.3 * np.sin(2.0 * math.pi * x / length)) > half)
 
 
@@ -258,8 +258,8 @@ KINDS = {
     'chairs': chairs, 'dining': dining, 'tiny': tiny, 'slanted': slanted, 'round': round_room, 'jagged': jagged,
     'islands': islands, 'cliffs': cliffs, 'pits': pits, 'thin': thin, 'furnished': furnished, 'empty': empty,
     'furnished of 1,300 m2': lambda generator: furnished(generator, 1300.0), 'office': office, 'maze': maze,
-    'ring corridor': ring_corridor, 'winding': winding, 'star': star, 'crossing': crossing, 'neck': neck, 'posts': posts,
-    'balcony': balcony, 'shafts': shafts,
+    'ring corridor': ring_corridor, 'winding': winding, 'star': star, 'crossing': crossing, 'neck': neck,
+    'posts': posts, 'balcony': balcony, 'shafts': shafts,
 }
 
 
