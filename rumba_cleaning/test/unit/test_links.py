@@ -9,7 +9,7 @@ from pytest import approx
 from rooms import distances, room
 
 from rumba_cleaning.planning.compiled_links import BENDS, CORNERS, EARLY, OFFSET
-from rumba_cleaning.planning.links import block_variants
+from rumba_cleaning.planning.links import block_variants, through
 
 PLAN = room(4.0, 3.0)
 FLOOR = ground(PLAN)
@@ -24,7 +24,7 @@ def lanes(*ends, step=LANE, bottom=1.0):
 
 def between(floor, one, other):
     """Waypoints from one lane to the other, in the variant that begins at the first end of the first lane."""
-    path = block_variants(floor, [one, other])[0].path()
+    path = through(floor, [one, other], 0)
     assert (path[0] == one[0]).all() and (path[-1] == other[0]).all()
     return path[1:-1]
 
@@ -108,11 +108,13 @@ ENDS = ((1.0, 2.5), (1.1, 2.6), (1.0, 2.4), (0.9, 2.5))
 
 
 @pytest.mark.parametrize('count', [1, 2, 3, 4])
-def test_each_of_four_variants_drives_all_lanes_to_and_fro_from_another_corner(count):
+def test_each_variant_drives_all_lanes_to_and_fro_from_another_corner_and_the_next_one_leads_back(count):
     block = lanes(*ENDS[:count])
-    variants = [variant.path() for variant in block_variants(FLOOR, block)]
-    assert len(variants) == 4
-    for variant, (order, first) in zip(variants, [(block, 0), (block, 1), (block[::-1], 0), (block[::-1], 1)]):
+    variants = [variant.path() for variant in block_variants(FLOOR, block, through(FLOOR, block, 0))]
+    assert len(variants) == (4 if count > 1 else 2)
+    assert all((one == other[::-1]).all() for one, other in zip(variants[::2], variants[1::2]))
+    for variant, (order, first) in zip(variants, [(block, 0), (block[::-1], count % 2), (block, 1),
+                                                  (block[::-1], (1 + count) % 2)]):
         assert (variant[0] == order[0][first]).all()
         assert (variant[-1] == order[-1][(first + count) % 2]).all()
         driven = []
@@ -124,5 +126,5 @@ def test_each_of_four_variants_drives_all_lanes_to_and_fro_from_another_corner(c
             driven.append(int(along_lane))
         assert driven == sorted(driven) and driven[0] == 0 and driven[-1] == len(variant) - 2
     corners = {tuple(variant[0]) for variant in variants}
-    assert len(corners) == (4 if count > 1 else 2)
+    assert len(corners) == len(variants)
     assert min(distances(PLAN, along(variants[0]))) >= FLOOR.reach

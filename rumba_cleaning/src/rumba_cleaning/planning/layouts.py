@@ -62,7 +62,8 @@ def laid_out(context: Context, paper: Swept, missed: Array, region: int, angle: 
         best = int(np.argmin([_cost(context, paper.copy(), *each) for each in zip(paths, turns)]))
     for path in paths[best]:
         drive(paper, path)
-    return [Stretch(block_variants(ground, block.lanes), region, block.area, False) for block in options[best]]
+    return [Stretch(block_variants(ground, block.lanes, path), region, block.area, False)
+            for block, path in zip(options[best], paths[best])]
 
 
 def drafts(rounds: int) -> Sequence[Draft]:

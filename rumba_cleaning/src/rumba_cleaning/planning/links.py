@@ -6,7 +6,7 @@ import numpy as np
 
 from rumba_cleaning.belief.ground import Ground
 from rumba_cleaning.planning import compiled_links
-from rumba_cleaning.planning.stretches import Variant
+from rumba_cleaning.planning.stretches import Variant, pair
 from rumba_sim.model.kernel import Array
 from rumba_sim.model.reachability import SLACK
 
@@ -14,14 +14,15 @@ SAME = 1e-6  # [m] waypoints so near to each other are one
 NO_POINTS = np.zeros((0, 2))
 
 
-def block_variants(ground: Ground, lanes: List[Array]) -> List[Variant]:
-    """The four paths through the lanes of a block: from the first lane or the last, and from either end of it.
+def block_variants(ground: Ground, lanes: List[Array], path: Array) -> List[Variant]:
+    """The paths through the lanes of a block, in pairs: from each end of the first lane, and backward.
 
     Args:
         ground: where the robot can stand.
         lanes: float64 (2, 2) [m] each, side by side, all in the same direction.
+        path: through them, as `through` finds it, from the end 0.
     """
-    return [Variant([through(ground, order, first)], False) for order in (lanes, lanes[::-1]) for first in (0, 1)]
+    return pair([path]) + (pair([through(ground, lanes, 1)]) if len(lanes) > 1 else [])
 
 
 def through(ground: Ground, lanes: List[Array], first: int) -> Array:
