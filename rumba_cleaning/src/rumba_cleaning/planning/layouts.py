@@ -33,7 +33,7 @@ def _usual(overlap: float) -> List[Layout]:
 DRAFTS = (Draft(_usual(0.05), 0.3), Draft([Layout(0.0, needed=0.15, gap=0.4, alike=2.7)], 0.4), Draft(_usual(0.0), 0.3),
           Draft([Layout(0.08, needed=0.17, usual=0.5, gap=0.65)], 0.45),
           Draft([Layout(0.09, needed=0.15, usual=0.7, gap=0.55, alike=1.35)], 0.4))
-# For regions which are hardly a corridor, or hardly a room: a wide ring corridor wants rings, legs of chairs want lanes.
+# For regions that are hardly corridors or hardly rooms: a wide ring corridor wants rings, legs of chairs want lanes.
 OTHER_SHAPES = (DRAFTS[0]._replace(narrow=0.3), DRAFTS[3]._replace(narrow=0.05))
 AREA = 600.0  # [m^2] to clean, times the layouts that are compared: large drives less, small plans faster
 LITTLE = 1.0  # [m^2] to clean, for which no layouts are compared: most of that is left to the crumbs
