@@ -27,12 +27,12 @@ def test_the_stretches_of_a_region_are_a_group_in_their_order():
 
 
 def test_many_stretches_are_parted_side_by_side_along_their_longer_side():
-    few, many = scattered(20, 1, 20.0, 5.0), scattered(MANY // (2 * PAIRS) + 1, 2, 20.0, 5.0)
+    few, many = scattered(20, 1, 60.0, 5.0), scattered(MANY // (2 * PAIRS) + 1, 2, 60.0, 5.0)
     first, *parts = groups([*few, *many])
     assert names(first.stretches) == names(few) and [part.region for part in parts] == [2] * len(parts)
     assert sorted(name for part in parts for name in names(part.stretches)) == sorted(names(many))
     sizes = [sum(len(stretch.variants) for stretch in part.stretches) for part in parts]
-    assert max(sizes) <= MOST and len(parts) == 4
+    assert max(sizes) <= MOST and len(parts) == 8
     spans = [(min(entries), max(entries)) for entries in
              ([stretch.variants[0].ends()[0][0] for stretch in part.stretches] for part in parts)]
     assert all(end <= start for (_, end), (start, _) in zip(spans, spans[1:]))

@@ -9,7 +9,7 @@ from rumba_sim.model.kernel import Array
 
 # Variants in a group, and in each of its parts, if it has more: the time for a tour grows with their square and more,
 # but from part to part the robot drives farther. Our choice, by halls of up to 3,500 m2 with pillars or chairs.
-MANY, MOST = 1500, 700
+MANY, MOST = 1500, 350
 
 
 class Group(NamedTuple):

@@ -92,7 +92,7 @@ def _around(context: Context, pose: Pose) -> Array:
     """The cells that a robot at a pose can sweep beside the obstacles it met, about: bool (rows, columns)."""
     ground = context.ground
     if not ground.has_marks:
-        return np.ones(ground.plan.free.shape, bool)
+        return np.ones(ground.plan.occupancy.shape, bool)
     return ground.around(pose.x, pose.y, 0.5 * context.robot.brush.width + BEYOND)
 
 

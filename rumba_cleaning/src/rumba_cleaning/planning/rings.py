@@ -156,22 +156,23 @@ def _finds(path: Array, ground: Ground, swept: Swept, brush: float) -> Array:
     offsets = np.linspace(-0.5 * brush, 0.5 * brush, SAMPLES)
     points = path[:, np.newaxis] + offsets[np.newaxis, :, np.newaxis] * across[:, np.newaxis]
     cells = np.floor((points - ground.plan.origin) / ground.plan.resolution).astype(np.intp)
-    last = np.array(ground.plan.free.shape[::-1]) - 1
+    last = np.array([ground.plan.columns, ground.plan.rows]) - 1
     return np.asarray(swept.missing_share_at(np.clip(cells, 0, last)[..., ::-1]).mean(axis=1))
 
 
 def _is_ridge(path: Array, ground: Ground, depth: Array) -> Array:
     """Where the two sides of a ring almost touch: a pass in the middle sweeps there what both would."""
     def at(points: Array) -> Array:
-        nodes = ((points - ground.plan.origin) / ground.plan.resolution)[:, ::-1].T
-        return np.asarray(ndimage.map_coordinates(depth, nodes, order=1, mode='nearest'))
+        nodes = ((points.reshape(-1, 2) - ground.plan.origin) / ground.plan.resolution)[:, ::-1].T
+        return np.asarray(ndimage.map_coordinates(depth, nodes, order=1, mode='nearest')).reshape(points.shape[:-1])
 
     step = 0.5 * RIDGE
-    slope = np.stack([at(path + np.array(side)) - at(path - np.array(side))
-                      for side in ((step, 0.0), (0.0, step))], axis=1)
+    sides = at(path + np.array([[[step, 0.0]], [[-step, 0.0]], [[0.0, step]], [[0.0, -step]]]))
+    slope = np.stack([sides[0] - sides[1], sides[2] - sides[3]], axis=1)
     steep = np.hypot(*slope.T)
     inward = slope / np.maximum(steep, 1e-9)[:, np.newaxis]
-    return at(path + RIDGE * inward) < at(path) + 0.7 * RIDGE
+    farther, here = at(np.stack([path + RIDGE * inward, path]))
+    return np.asarray(farther < here + 0.7 * RIDGE)
 
 
 # --- chains ---------------------------------------------------------------------------------------------------------
