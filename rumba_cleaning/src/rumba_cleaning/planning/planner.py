@@ -31,6 +31,7 @@ LARGE = 0.1  # [m^2] of a crumb that the tour leads over; a smaller one is passe
 YIELD = 0.7  # share of a crumb that is swept in passing, about: small plans for more crumbs than the target needs
 SPARE = 0.0005  # of coverage that is planned beyond the target, once the robot is past the lanes and rings
 CULLS = 4  # rounds in which crumbs are left out that cost much time for their area: more make better choices
+EFFORT = 10  # times as much as usual to search for tours where routes are rehearsed: large drives less, small is fast
 TRANSIT = 0.5  # [m] of a way between two stretches: a longer one is driven at the speed of transit, ...
 SLOW = 0.15  # [m] ... except for its end: the robot has slowed down and lowered the brushes before its path begins
 
@@ -160,6 +161,7 @@ def _tours(context: Context, pose: Pose, end: Optional[Pose], labels: Array,
     start, goal = len(parts), None if end is None else len(parts) + 1
     seconds = ways.metres[:start + 1] / speed
     visits = tour.order(seconds[:, :start], None if goal is None else seconds[:, goal])
+    effort = EFFORT if improvement.rounds(context) else 1
     tours, here, entry = [], start, places[start]
     for place, following in zip(visits, [*visits[1:], goal]):
         if here != start or parts[place].region != of_fixed[0]:
@@ -169,7 +171,7 @@ def _tours(context: Context, pose: Pose, end: Optional[Pose], labels: Array,
         if following is not None:
             door = ways.doors(place, following)[0]
             leave = places[following] if door is None else door
-        tours.append((parts[place], Tour(ground, entry, parts[place].stretches, leave, speed)))
+        tours.append((parts[place], Tour(ground, entry, parts[place].stretches, leave, speed, effort)))
         here = place
     return tours
 

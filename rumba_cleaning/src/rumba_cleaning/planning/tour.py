@@ -17,8 +17,9 @@ from rumba_sim.model.reachability import SLACK
 
 # All figures are our choice; each comment says what speaks for a larger and for a smaller value.
 ROUNDS = 20  # of improvement, at most: most tours stop improving earlier
-KICKS = 50  # random changes of a tour, after each of which it is improved again, at most; ...
-STEPS = 40_000  # ... and at most so many divided by stretches * variants: more make shorter tours, and take more time
+KICKS = 300  # random changes of a tour, after each of which it is improved again, at most; ...
+# ... and at most so many divided by stretches * variants, times an effort: more make shorter tours, and take more time.
+STEPS = 40_000
 BESIDE = 0.03  # [m] beyond the touching distance on a way: a robot that cuts a corner is stuck at an edge or a leg; ...
 NEAR = 0.15  # [m] ... except so near to its ends, since stretches lie beside walls: there a way may be ...
 TOUCHING = 0.004  # [m] ... too near by so much, and the robot slides along the wall, ...
@@ -44,8 +45,8 @@ class Leg(NamedTuple):
 class Tour:
     """A tour over stretches from a point to a point; it is improved step by step, always the same way."""
 
-    def __init__(self, ground: Ground, start: Array, stretches: Sequence[Stretch], end: Optional[Array],
-                 speed: float) -> None:
+    def __init__(self, ground: Ground, start: Array, stretches: Sequence[Stretch], end: Optional[Array], speed: float,
+                 effort: int = 1) -> None:
         """Find a tour.
 
         Cheapest insertion, then or-opt (I. Or, Traveling Salesman-Type Combinatorial Problems, 1976), 2-opt, the best
@@ -57,7 +58,9 @@ class Tour:
             stretches: what is to be driven.
             end: point (2) to which the robot goes afterwards [m]; None: it stays where the tour ends.
             speed: between the stretches [m/s].
+            effort: how many times as much to search as usual.
         """
+        self._effort = effort
         self._variants = [(index, variant) for index, stretch in enumerate(stretches)
                           for variant in range(len(stretch.variants))]
         sizes = [len(stretch.variants) for stretch in stretches]
@@ -100,7 +103,7 @@ class Tour:
 
     def _improve(self) -> None:
         if len(self._found):
-            kicks = min(int(STEPS / (len(self._found) * len(self._variants))), KICKS)
+            kicks = min(int(self._effort * STEPS / (len(self._found) * len(self._variants))), KICKS)
             compiled_tours.shaken(self._costs, self._last, self._of, self._begins, self._found, ROUNDS, kicks)
 
     @property
