@@ -203,6 +203,12 @@ def test_compiled_and_uncompiled_tours_and_ways_are_equal():
         assert uncompiled(compiled_ways).lengths(*asked)[0] == approx(compiled_ways.lengths(*asked)[0])
 
 
+def test_a_tour_that_is_searched_for_with_more_effort_is_shorter_or_the_same():
+    times = np.array([[Tour(HALL, np.array([0.5, 0.5]), random_stretches(np.random.default_rng(seed), 40), None, SPEED,
+                            effort).time for effort in (0, 1, 10)] for seed in range(3)])
+    assert (np.diff(times) <= 1e-9).all() and (times[:, 2] < times[:, 0]).all()
+
+
 def test_segments_of_several_stretches_are_moved_too():
     single, several = uncompiled(compiled_tours, SEGMENTS=(1,)), compiled_tours
     times = np.zeros(2)

@@ -67,7 +67,10 @@ def laid_out(context: Context, paper: Swept, missed: Array, region: int, angle: 
 
 
 def drafts(rounds: int) -> Sequence[Draft]:
-    """The drafts to rehearse on a floor that is worth so many rounds of edits: two more for each after the first."""
+    """The drafts to rehearse on a floor that is worth so many rounds of edits: two more for each after the first.
+
+    Behind these are those for other shapes, of use only where a region has another shape by them.
+    """
     return (*DRAFTS[:2 * rounds - 1], *OTHER_SHAPES) if rounds else DRAFTS[:1]
 
 
