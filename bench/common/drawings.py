@@ -13,6 +13,7 @@ from rumba_sim.model.floor_plan import FREE, OCCUPIED, FloorPlan
 from rumba_sim.model.geometry import Pose
 
 SAMPLE = 0.025  # [m] between the points that are looked at within a cell, at most
+WALL = 0.1  # [m] thickness
 LEG = 0.02  # [m] radius of the leg of a chair or a table
 
 

@@ -3,12 +3,12 @@
 import math
 
 import numpy as np
-from common.drawings import Drawing, box, disc, drawn, legs, outside, pentagon, turned, union
+from common.drawings import WALL, Drawing, box, disc, drawn, legs, outside, pentagon, turned, union
 from common.wings import empty, furnished, office
 
 from rumba_sim.model.geometry import Pose
 
-WALL, THIN_WALL = 0.1, 0.06  # [m] thickness
+THIN_WALL = 0.06  # [m] thickness
 DOOR = 0.8  # [m]
 DOCKING = 0.7  # [m] around a place before a dock, where there are no pits
 
@@ -239,9 +239,9 @@ def balcony(generator):
     """A floor along no axis with cliffs on all sides."""
     (width, height), angle = generator.uniform(2.5, 4.5, 2), generator.uniform(0.0, 1.5)
     reach = 0.5 * math.hypot(width, height) + 0.6
-    floor_ = turned(box(reach - width / 2, reach - height / 2, reach + width / 2, reach + height / 2), angle,
+    inside = turned(box(reach - width / 2, reach - height / 2, reach + width / 2, reach + height / 2), angle,
                     (reach, reach))
-    return Drawing(2 * reach, 2 * reach, union([]), outside(floor_))
+    return Drawing(2 * reach, 2 * reach, union([]), outside(inside))
 
 
 def shafts(generator):

@@ -2,9 +2,7 @@
 
 import math
 
-from common.drawings import Drawing, box, legs, union
-
-WALL = 0.1  # [m] thickness
+from common.drawings import WALL, Drawing, box, legs, union
 
 
 def furnished(generator, area=250.0):

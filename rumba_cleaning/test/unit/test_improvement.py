@@ -33,6 +33,11 @@ def first_draft(surroundings, overlap=0.05):
     return planner._through(surroundings, None, found)
 
 
+@pytest.mark.parametrize('width, height, count', [(5.0, 3.0, 5), (8.0, 1.0, 6)])
+def test_drafts_for_other_shapes_are_rehearsed_only_where_a_region_has_another_shape_by_them(width, height, count):
+    assert len(planner._shaped(surroundings_of(room(width, height)))) == count
+
+
 def test_an_improved_route_meets_the_target_sooner_than_one_with_all_lanes():
     surroundings = surroundings_of(crooked(0.02), target_coverage=0.95)
     draft = first_draft(surroundings)
