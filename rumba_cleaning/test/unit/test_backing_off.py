@@ -9,6 +9,7 @@ from rooms import RADIUS, quiet, room
 
 from rumba_cleaning.behaviour import Command
 from rumba_cleaning.behaviours.guard import Guard
+from rumba_cleaning.belief.footing import SEEN
 from rumba_cleaning.control import CONTROL_DT, observe
 from rumba_cleaning.pose_source import seeing, truth
 from rumba_sim.model.geometry import Pose
@@ -100,3 +101,16 @@ def test_far_from_edges_it_backs_off_as_it_is_told():
     heading = robot.pose.theta
     list(poses(world, guard, BACK, 2.0))
     assert robot.pose.theta == pytest.approx(heading, abs=1e-9)
+
+
+@pytest.mark.parametrize('beside, goes', [(0.017, True), (0.012, True), (0.008, False)])
+def test_an_edge_close_beside_the_way_by_which_it_came_does_not_keep_it_from_one_ahead(beside, goes):
+    """On its trail a wheel has been so near to it before, if it lies where it was seen."""
+    world, context = world_with([(2.6, 0.1, 2.8, 0.3)], Pose(0.6, 1.0, 0.0))
+    guard, robot = Guard(context), world.robots['rumba']
+    list(itertools.chain(poses(world, guard, (0.1, 0.0), 5.0), poses(world, guard, (0.0, 0.0), 1.0)))
+    start, half = robot.pose, 0.5 * world.config.drive.wheel_base
+    context.footing._see(start.x - 0.012, start.y + half + SEEN + beside)
+    context.footing._see(start.x + 0.12, start.y)
+    list(poses(world, guard, BACK, 3.0))
+    assert start.x - robot.pose.x > 0.15 if goes else start.x - robot.pose.x < 0.012

@@ -15,7 +15,7 @@ from rumba_cleaning.behaviours.compiled_guard import ROUNDING, Wheels
 from rumba_cleaning.behaviours.departure import SLOW
 from rumba_cleaning.behaviours.preview import Preview, faster, goes_back, part_of
 from rumba_cleaning.behaviours.rear import Rear
-from rumba_cleaning.behaviours.release import Release
+from rumba_cleaning.behaviours.release import RESERVE, Release
 from rumba_cleaning.behaviours.slip import Slip, along_contacts, slipped
 from rumba_cleaning.behaviours.trail import Trail
 from rumba_cleaning.belief.context import Context
@@ -24,7 +24,8 @@ from rumba_sim.model.robot_config import RobotConfig
 
 SHARES = (0.6, 0.3)  # of a command that are tried, after the whole and a slow one, before the robot stops; our choice
 LONGEST = 0.3  # [s] the same, at most, by the time since the last one: in a longer step the node was busy
-SPARE = 0.02  # [m] from a wheel to an edge: a cell of a fine map; an edge that was seen is known no better
+SPARE = 0.02  # [m] from a wheel to an edge: a cell of a fine map; an edge that was seen is known no better. Back by the
+#               way that it came, RESERVE will do: the wheel has been there.
 AT_REST = 0.02  # [m/s] of both wheels
 CREEP = 1e-4  # [m] by which an edge may come nearer to the middle of a robot that is too near already: rounding
 
@@ -235,7 +236,8 @@ class Guard:
         middle, left, right = self._preview.path(pose, self._speeds, wanted, slip)
         if is_near:
             near = [self._footing.clearances(line) for line in (middle, left, right)]
-            least = [min(line[0], limit) for line, limit in zip(near, (self._clear, SPARE, SPARE))]
+            spare = RESERVE if self._is_on_trail else SPARE
+            least = [min(line[0], limit) for line, limit in zip(near, (self._clear, spare, spare))]
             if (near[0] < least[0] - CREEP).any():
                 worst = int(np.argmin(near[0]))
                 return bool(near[1][worst] <= near[2][worst]), bool(near[2][worst] <= near[1][worst])
