@@ -49,6 +49,23 @@ def test_a_strip_is_driven_along_its_middle_from_either_end(resolution):
     assert max(abs(path[:, 1] - 1.55)) < 0.02 and (strip.variants[1].path() == path[::-1]).all()
 
 
+@pytest.mark.parametrize('resolution', [0.01, 0.02])
+def test_what_is_left_in_a_broken_line_is_one_strip_if_its_pieces_are_near_enough(resolution):
+    floor = ground(room(4.0, 3.0, resolution))
+    share = np.zeros(floor.plan.occupancy.shape, np.float32)
+    row, column, piece, gap, thick = (round(each / resolution) for each in (1.5, 1.0, 0.16, 0.04, 0.02))
+    for number in range(8):
+        share[row:row + thick, column + number * (piece + gap):][:, :piece] = 1.0
+
+    def parts(**only):
+        return crumbs(floor, Walls(floor), share, regions(floor), **only)
+
+    assert len(parts()) == len(parts(apart=0.03)) == 8
+    strip, = parts(apart=0.06)
+    assert strip.area == approx(8 * 0.16 * 0.02) and length(strip.variants[0].path()) == approx(1.5, abs=0.12)
+    assert parts(least=0.025, apart=0.06) and not parts(least=0.026, apart=0.06)
+
+
 def test_a_bent_strip_is_driven_around_its_bend():
     context = missed_alone(room(4.0, 3.0, 0.02), (1.0, 1.0, 1.9, 1.1), (1.0, 1.1, 1.1, 2.0))
     path = max(found(context), key=lambda part: part.area).variants[0].path()

@@ -75,6 +75,16 @@ def test_crumbs_that_are_far_or_behind_a_wall_are_left():
     assert (found.waypoints[:, 1] == 1.5).all()
 
 
+@pytest.mark.parametrize('resolution', [0.01, 0.02, 0.025])
+def test_a_detour_may_begin_beside_a_wall(resolution):
+    """The nodes of the grid that are nearest to a robot there may be too near to the wall for it."""
+    plan = room(4.0, 3.0, resolution)
+    y = min(line[:, 1].min() for line in Walls(knowing(plan, START).ground).outlines)
+    crumb = (1.5, y + 0.15, 1.7, y + 0.35)
+    found, _ = detoured(crumb, route=Route(np.array([[0.5, y], [3.5, y]]), np.array([0.3])), plan=plan)
+    assert passes(found, crumb)
+
+
 def test_there_are_no_detours_from_where_the_robot_drives_fast_with_its_brushes_up():
     fast = Route(np.array([[0.5, 1.5], [2.0, 1.5], [3.5, 1.5]]), np.array([0.45, 0.3]))
     found, _ = detoured((0.7, 1.7, 0.9, 1.9), (3.0, 1.7, 3.2, 1.9), route=fast)

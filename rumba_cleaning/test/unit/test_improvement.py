@@ -1,5 +1,7 @@
 """Routes are improved until they meet the target: they take less time then, or sweep what they would have left."""
 
+import itertools
+
 import numpy as np
 import pytest
 from floors import knowing
@@ -9,7 +11,7 @@ from rumba_cleaning.planning import edits, improvement, planner
 from rumba_cleaning.planning.edits import dense
 from rumba_cleaning.planning.improvement import Surroundings, improved, rounds
 from rumba_cleaning.planning.lanes import Layout
-from rumba_cleaning.planning.layouts import Draft
+from rumba_cleaning.planning.layouts import DRAFTS, IN_RINGS, OTHER_SHAPES, Draft
 from rumba_cleaning.planning.regions import regions, shapes
 from rumba_cleaning.planning.rehearsal import Rehearsal
 from rumba_cleaning.planning.walls import Walls
@@ -28,14 +30,26 @@ def surroundings_of(floor, pose=START, **config):
 def first_draft(surroundings, overlap=0.05):
     """The route of a planner that improves nothing."""
     paper, shape = surroundings.context.swept.copy(), shapes(surroundings.context.ground, surroundings.labels)
-    found = planner._rings(surroundings, paper, shape)
-    found += planner._lanes(surroundings, paper, shape, Draft([Layout(overlap)], 0.3))
+    draft = Draft([Layout(overlap)], 0.3)
+    found = planner._rings(surroundings, paper, shape, draft)
+    found += planner._lanes(surroundings, paper, shape, draft)
     return planner._through(surroundings, None, found)
 
 
-@pytest.mark.parametrize('width, height, count', [(5.0, 3.0, 5), (8.0, 1.0, 6)])
-def test_drafts_for_other_shapes_are_rehearsed_only_where_a_region_has_another_shape_by_them(width, height, count):
-    assert len(planner._shaped(surroundings_of(room(width, height)))) == count
+@pytest.mark.parametrize('width, height, usual, rings, other', [(5.0, 3.0, 5, 0, 0), (8.0, 1.0, 5, 0, 2),
+                                                                (8.0, 0.7, 5, 2, 1)])
+def test_there_are_drafts_for_rings_and_other_shapes_only_where_a_region_has_such(width, height, usual, rings, other):
+    found = [draft for draft, _ in planner._shaped(surroundings_of(room(width, height)))]
+    for of_kind, count in ((DRAFTS, usual), (IN_RINGS, rings), (OTHER_SHAPES, other)):
+        assert sum(draft in of_kind for draft in found) == count
+    assert len(found) == usual + rings + other
+
+
+def test_no_two_of_the_routes_that_are_rehearsed_are_the_same():
+    """In a corridor without lanes, drafts that differ in these alone are one."""
+    routes = [route.waypoints for route, _ in planner._drafts(surroundings_of(room(8.0, 0.8)), None)]
+    assert len(routes) == 3
+    assert not any(np.array_equal(one, other) for one, other in itertools.combinations(routes, 2))
 
 
 def test_an_improved_route_meets_the_target_sooner_than_one_with_all_lanes():
@@ -57,12 +71,12 @@ def test_an_improved_route_sweeps_what_lanes_without_overlap_and_corners_would_l
 
 
 def test_a_route_that_edits_leave_short_of_the_target_is_mended_by_detours(monkeypatch):
-    surroundings = surroundings_of(crooked(0.02), target_coverage=0.93, planning_rounds=1)
-    draft = first_draft(surroundings)
+    surroundings = surroundings_of(crooked(0.02), target_coverage=0.92, planning_rounds=1)
+    draft = first_draft(surroundings, 0.0)
     mended = Rehearsal(surroundings.context, START, improved(surroundings, [draft]))
     monkeypatch.setattr(improvement, 'MENDS', 0)
     short = Rehearsal(surroundings.context, START, improved(surroundings, [draft]))
-    assert mended.swept.coverage >= 0.93 and mended.seconds < 0.95 * short.seconds
+    assert mended.swept.coverage >= 0.92 and mended.seconds < 0.95 * short.seconds
 
 
 @pytest.mark.parametrize('size, wanted, count', [((4.0, 2.0), 5, 5), ((4.0, 2.0), 2, 2), ((4.0, 2.0), 0, 0),

@@ -8,7 +8,7 @@ from rooms import crooked
 
 from rumba_cleaning.planning import layouts
 from rumba_cleaning.planning.lanes import Layout, blocks
-from rumba_cleaning.planning.layouts import AREA, DRAFTS, OTHER_SHAPES, drafts, laid_out, tries
+from rumba_cleaning.planning.layouts import AREA, DRAFTS, IN_RINGS, OTHER_SHAPES, drafts, laid_out, tries
 from rumba_sim.model.geometry import Pose
 
 PLAN = crooked(0.02)
@@ -66,9 +66,9 @@ def test_several_layouts_are_tried_if_there_is_much_to_clean_but_fewer_on_a_larg
     assert len(LAYOUTS[:tries(area)]) == count
 
 
-@pytest.mark.parametrize('rounds, count', [(0, 1), (1, 1), (2, 3), (3, 5), (9, 5)])
-def test_fewer_drafts_are_rehearsed_on_a_floor_that_is_worth_fewer_rounds(rounds, count):
-    assert drafts(rounds) == (*DRAFTS[:count], *(OTHER_SHAPES if rounds else ()))
+@pytest.mark.parametrize('rounds, count, others', [(0, 1, 0), (1, 1, 1), (2, 3, 2), (3, 5, 3), (9, 5, 9)])
+def test_fewer_drafts_are_rehearsed_on_a_floor_that_is_worth_fewer_rounds(rounds, count, others):
+    assert drafts(rounds) == (*DRAFTS[:count], *IN_RINGS[:others], *OTHER_SHAPES[:others])
 
 
 @pytest.mark.parametrize('change, fewer', [({'overlap': 0.15}, False), ({'needed': 0.5}, True)])

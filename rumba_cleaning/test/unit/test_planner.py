@@ -156,6 +156,18 @@ def test_a_wide_corridor_around_a_round_core_is_cleaned_in_rings():
     assert rehearsal.seconds < 1.25 * context.swept.reachable_area / (BRUSH * context.config.speed)
 
 
+@pytest.mark.parametrize('core, most', [(0.97, 1.6), (0.9, 1.5)])
+def test_a_ring_corridor_a_little_wider_than_two_passes_is_cleaned_by_a_third_one_in_its_middle(core, most):
+    x, y = np.meshgrid(*[0.02 * np.arange(-80, 81)] * 2)
+    away = np.hypot(x, y)
+    floor_plan = FloorPlan('ring', np.where((away < 1.53) & (away > core), FREE, OCCUPIED), 0.02, (-1.61, -1.61))
+    start = Pose(0.5 * (1.53 + core), 0.0, 0.5 * math.pi)
+    context = knowing(floor_plan, start, target_coverage=0.98)
+    rehearsal = Rehearsal(context, start, dense(plan(context, start)))
+    assert rehearsal.swept.coverage >= 0.98
+    assert rehearsal.seconds < most * context.swept.reachable_area / (BRUSH * context.config.speed)
+
+
 def test_a_plan_is_driven_faster_between_its_lanes():
     floor_plan = FLOORS['two doors']()
     context = knowing(floor_plan, START, speed=0.2, transit_speed=0.4)

@@ -20,7 +20,7 @@ def everywhere(floor, swept):
     """Rings on all of a floor, whatever shape its regions have."""
     labels = regions(floor)
     nowhere = np.zeros(labels.max() + 1, bool)
-    return rings(floor, swept, labels, Shapes(nowhere, nowhere), BRUSH)
+    return rings(floor, swept, labels, Shapes(nowhere, nowhere), BRUSH, PASS)
 
 
 def planned(plan, start=START):

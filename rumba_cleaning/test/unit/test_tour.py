@@ -13,8 +13,9 @@ from rooms import room
 
 from rumba_cleaning.planning import compiled_tours, compiled_ways
 from rumba_cleaning.planning.compiled_ways import Needed
+from rumba_cleaning.planning.lines import ASIDE
 from rumba_cleaning.planning.stretches import Stretch, pair
-from rumba_cleaning.planning.tour import ASIDE, BESIDE, Tour, order
+from rumba_cleaning.planning.tour import BESIDE, Tour, order
 
 HALL = ground(room(8.0, 6.0, 0.1))
 SPEED = 0.45
@@ -102,12 +103,12 @@ def test_ways_lead_around_walls_and_end_at_the_stretches():
 def test_walls_do_not_vanish_from_ways():
     floor = ground(room(4.0, 3.0, 0.05, [(1.95, 0.0, 2.0, 2.2)]))
     near = np.array([[1.7, 0.5], [2.3, 0.5]])
-    metres, _ = compiled_ways.lengths(floor.clearance, Needed(floor.reach, floor.reach, 0.0, floor.reach, 1),
+    metres, _ = compiled_ways.lengths(floor.clearance, Needed(floor.reach, floor.reach, 0.0, floor.reach, 1, 0.05),
                                       (near - floor.plan.origin) / floor.plan.resolution, np.arange(2))
     assert metres[0, 1] == np.inf and metres[0, 0] == 0.0
 
 
-@pytest.mark.parametrize('resolution', [0.005, 0.01, 0.02, 0.05])
+@pytest.mark.parametrize('resolution', [0.005, 0.01, 0.02, 0.025])
 @pytest.mark.parametrize('off, has_other_side, is_free', [(0.004, True, True), (-0.003, False, True),
                                                           (-0.003, True, False), (-0.005, False, False)])
 def test_near_its_ends_a_way_may_graze_a_post_but_lead_through_no_gap_that_is_too_narrow(
@@ -117,7 +118,8 @@ def test_near_its_ends_a_way_may_graze_a_post_but_lead_through_no_gap_that_is_to
     y, x = resolution * np.mgrid[-60:61, -60:61]
     sides = (-1, 1) if has_other_side else (-1,)
     clearance = np.min([np.hypot(x, y - side * (reach + off + radius)) - radius for side in sides], axis=0)
-    needed = Needed(reach + 0.03, reach - 0.004, 0.15 / resolution, reach + 0.003, math.ceil(ASIDE / resolution))
+    needed = Needed(reach + 0.03, reach - 0.004, 0.15 / resolution, reach + 0.003, math.ceil(ASIDE / resolution),
+                    resolution)
     along = 0.12 / resolution
     for way in ((-along, 0.0, along, 0.0), (along, 0.0, -along, 0.0), (0.0, along, 0.0, -along)):
         nodes = 60.0 + np.array(way)
@@ -198,7 +200,7 @@ def test_compiled_and_uncompiled_tours_and_ways_are_equal():
             module.shaken(made._costs, made._last, made._of, made._begins, found[name], 20, 5)
         assert (found['compiled'] == found['plain']).all()
         nodes = (made._points - HALL.plan.origin) / HALL.plan.resolution
-        asked = (HALL.clearance, Needed(HALL.reach + 0.01, HALL.reach - 0.01, 1.0, HALL.reach, 1), nodes,
+        asked = (HALL.clearance, Needed(HALL.reach + 0.01, HALL.reach - 0.01, 1.0, HALL.reach, 1, 0.1), nodes,
                  np.arange(0, len(nodes), 2))
         assert uncompiled(compiled_ways).lengths(*asked)[0] == approx(compiled_ways.lengths(*asked)[0])
 

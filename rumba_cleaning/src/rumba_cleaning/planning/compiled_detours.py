@@ -4,21 +4,20 @@ from typing import Any, Tuple
 
 import numpy as np
 
-from rumba_cleaning.belief.search import is_clear
-from rumba_cleaning.planning.compiled_ways import cornered_length
+from rumba_cleaning.planning.compiled_ways import Needed, cornered_length, sight
 from rumba_sim.model.jit import compiled
 
 Array = Any  # numpy.ndarray
 
 
 @compiled
-def shortest(clearance: Array, origin: Tuple[float, float], resolution: float, least: float, route: Array,
+def shortest(clearance: Array, origin: Tuple[float, float], resolution: float, needed: Needed, route: Array,
              begins: Array, paths: Array, stops: Array, corner: float) -> Tuple[float, int, int]:
     """The shortest detour from one waypoint of a route to the next one, along one of several paths.
 
     Args:
         clearance, origin, resolution: of the ground, as in `search.is_clear`.
-        least: clearance that the robot needs on the straight lines to a path and back [m].
+        needed: on the straight lines to a path and back.
         route: float64 (any, 2) [m].
         begins: int (any), the waypoints of the route from which a detour may begin.
         paths: float64 (any, 2) [m], one behind the other.
@@ -35,8 +34,8 @@ def shortest(clearance: Array, origin: Tuple[float, float], resolution: float, l
         for index in range(len(stops) - 1):
             path = paths[stops[index]:stops[index + 1]]
             length = cornered_length(np.concatenate((before, path, after)), corner) - without
-            if length < best and is_clear(clearance, origin, resolution, at(before, -1), at(path, 0), least) and (
-                    is_clear(clearance, origin, resolution, at(path, -1), at(after, 0), least)):
+            if length < best and sees(clearance, origin, resolution, needed, at(before, -1), at(path, 0)) and (
+                    sees(clearance, origin, resolution, needed, at(path, -1), at(after, 0))):
                 best, waypoint, number = length, begin, index
     return best, waypoint, number
 
@@ -45,3 +44,11 @@ def shortest(clearance: Array, origin: Tuple[float, float], resolution: float, l
 def at(path: Array, index: int) -> Tuple[float, float]:
     """A waypoint of a path (any, 2) [m]."""
     return path[index, 0], path[index, 1]
+
+
+@compiled
+def sees(clearance: Array, origin: Tuple[float, float], resolution: float, needed: Needed, start: Tuple[float, float],
+         end: Tuple[float, float]) -> bool:
+    """Whether the robot can drive along the line between two points [m]."""
+    return sight(clearance, needed, (start[0] - origin[0]) / resolution, (start[1] - origin[1]) / resolution,
+                 (end[0] - origin[0]) / resolution, (end[1] - origin[1]) / resolution)

@@ -5,11 +5,15 @@ from typing import Any, NamedTuple, Tuple
 
 import numpy as np
 
+from rumba_sim.model.compiled import fast
 from rumba_sim.model.jit import compiled
+
+interpolated = fast.interpolated
 
 Array = Any  # numpy.ndarray
 
 CLOSE = 0.02  # [m] points so near to each other have no direction between them
+TINY = 1e-9  # [nodes]
 SHARP = 1.6  # [rad] a little more than a right angle
 
 
@@ -21,23 +25,29 @@ class Needed(NamedTuple):
     near: float  # [nodes]
     standing: float  # [m] ... to one side of which there must be this: where it is too narrow for a robot, there is not
     aside: int  # [nodes] how far to that side, at most
+    resolution: float  # [m] from node to node
 
 
 @compiled
 def sight(clearance: Array, needed: Needed, x: float, y: float, to_x: float, to_y: float) -> bool:
-    """Whether a robot can drive along the line from (x, y) to (to_x, to_y) [nodes]."""
+    """Whether a robot can drive along the line from (x, y) to (to_x, to_y) [nodes].
+
+    From a point with more clearance than the robot needs, the line is free at least for as long as it has more.
+    """
     size = math.hypot(to_x - x, to_y - y)
-    steps = int(size) + 1
-    for step in range(steps + 1):
-        share = step / steps
-        here_x, here_y = x + share * (to_x - x), y + share * (to_y - y)
-        found = clearance[nearest(here_y), nearest(here_x)]
-        if found < (needed.touching if min(share, 1.0 - share) * size <= needed.near else needed.least):
+    along_x, along_y = (to_x - x) / max(size, TINY), (to_y - y) / max(size, TINY)
+    at = 0.0
+    while True:
+        here_x, here_y = x + at * along_x, y + at * along_y
+        found = interpolated(clearance, here_x, here_y)[0]
+        if found < (needed.touching if min(at, size - at) <= needed.near else needed.least):
             return False
-        if found < needed.standing and 0 < step < steps and not is_beside(
-                clearance, needed, here_x, here_y, (to_x - x) / size, (to_y - y) / size):
+        if found < needed.standing and 0.0 < at < size and not is_beside(
+                clearance, needed, here_x, here_y, along_x, along_y):
             return False
-    return True
+        if at == size:
+            return True
+        at = min(at + max((found - needed.least) / needed.resolution, 1.0), size)
 
 
 @compiled

@@ -30,7 +30,8 @@ NEIGHBOURS = tuple((row, column) for row in (-1, 0, 1) for column in (-1, 0, 1) 
 Pixel = Tuple[int, int]
 
 
-def crumbs(ground: Ground, walls: Walls, share: Array, regions: Array, least: float = 0.0) -> List[Stretch]:
+def crumbs(ground: Ground, walls: Walls, share: Array, regions: Array, least: float = 0.0,
+           apart: float = 0.0) -> List[Stretch]:
     """The crumbs: strips and spots.
 
     Args:
@@ -39,9 +40,10 @@ def crumbs(ground: Ground, walls: Walls, share: Array, regions: Array, least: fl
         share: of each cell that was missed, float32 (rows, columns).
         regions: the region of each node, int (rows + 1, columns + 1).
         least: area of a crumb [m^2]; there is a least one in any case.
+        apart: how far apart cells may be that belong together [m].
     """
     res = ground.plan.resolution
-    labels, _ = ndimage.label(share >= MISSED, np.ones((3, 3)))
+    labels, _ = ndimage.label(_joined(share >= MISSED, int(0.5 * apart / res)), np.ones((3, 3)))
     areas = np.bincount(labels.ravel(), share.ravel()) * res * res
     found: List[Stretch] = []
     for number, window in enumerate(ndimage.find_objects(labels), 1):
@@ -55,6 +57,15 @@ def crumbs(ground: Ground, walls: Walls, share: Array, regions: Array, least: fl
         else:
             found.append(_small(ground, walls, cells, corner, region, areas[number]))
     return found
+
+
+def _joined(cells: Array, reach: int) -> Array:
+    """Cells, bool (rows, columns), and all that are so near to one [cells]."""
+    if reach == 0:
+        return cells
+    across = np.arange(-reach, reach + 1)
+    disc = across ** 2 + across[:, np.newaxis] ** 2 <= reach ** 2
+    return np.asarray(ndimage.binary_dilation(cells, disc))
 
 
 def _small(ground: Ground, walls: Walls, cells: Array, corner: Array, region: int, area: float) -> Stretch:

@@ -10,6 +10,7 @@ from rumba_cleaning.planning.edits import Edit, applied, chosen, dense
 from rumba_cleaning.planning.rehearsal import Rehearsal
 from rumba_cleaning.planning.shifts import shifts
 from rumba_cleaning.planning.shortcuts import shortcuts
+from rumba_cleaning.planning.stretches import Stretch
 from rumba_cleaning.planning.walls import Walls
 from rumba_cleaning.route import Route
 from rumba_sim.model.geometry import Pose
@@ -41,8 +42,11 @@ class Surroundings(NamedTuple):
 
     def detours(self, route: Route, swept: Swept, least: float = 0.0) -> List[Edit]:
         """Detours from a route past the crumbs of an area [m^2] or more that are left when it is driven."""
-        missing = swept.missing_share() * self.around
-        return detours(self.context, route, crumbs(self.context.ground, self.walls, missing, self.labels, least))
+        return detours(self.context, route, self.crumbs(swept, least))
+
+    def crumbs(self, swept: Swept, least: float = 0.0, apart: float = 0.0) -> List[Stretch]:
+        """Crumbs of an area [m^2] or more: see `crumbs`."""
+        return crumbs(self.context.ground, self.walls, swept.missing_share() * self.around, self.labels, least, apart)
 
     def need(self, swept: Swept, surplus: float) -> float:
         """Area that is missing to the target and a surplus [m^2]."""

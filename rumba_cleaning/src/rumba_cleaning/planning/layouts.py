@@ -10,17 +10,21 @@ from rumba_cleaning.planning.lanes import BLOCK, Layout, blocks
 from rumba_cleaning.planning.links import block_variants, through
 from rumba_cleaning.planning.paper import drive
 from rumba_cleaning.planning.regions import NARROW
+from rumba_cleaning.planning.rings import PASS
 from rumba_cleaning.planning.stretches import Stretch
 from rumba_cleaning.route import Route
 from rumba_sim.model.kernel import Array
 
 
 class Draft(NamedTuple):
-    """How the lanes of a floor are laid out."""
+    """How the lanes and rings of a floor are laid out."""
 
     layouts: Sequence[Layout]  # those that are compared, on paper, in each region
     missed: float  # share of a cell, for a lane to clean it: small drives over swept floor
     narrow: float = NARROW  # [m] where rings suit a region better than lanes, as in `regions.shapes`
+    ring_pass: float = PASS  # from ring to ring, as in `rings.rings`
+    strip: float = 0.1  # [m^2] of what rings and lanes leave, for the tour to lead over it; the rest is for detours
+    apart: float = 0.0  # [m] up to which pieces of that belong together, as a broken line in the middle of a corridor
 
 
 def _usual(overlap: float) -> List[Layout]:
@@ -33,8 +37,11 @@ def _usual(overlap: float) -> List[Layout]:
 DRAFTS = (Draft(_usual(0.05), 0.3), Draft([Layout(0.0, needed=0.15, gap=0.4, alike=2.7)], 0.4), Draft(_usual(0.0), 0.3),
           Draft([Layout(0.08, needed=0.17, usual=0.5, gap=0.65)], 0.45),
           Draft([Layout(0.09, needed=0.15, usual=0.7, gap=0.55, alike=1.35)], 0.4))
+# For regions in rings, such as a corridor a little wider than so many of them: one more pass in its middle, though what
+# is left there is thin and broken, or rings that overlap less.
+IN_RINGS = (DRAFTS[0]._replace(strip=0.015, apart=0.04), DRAFTS[0]._replace(strip=0.015, apart=0.04, ring_pass=0.995))
 # For regions that are hardly corridors or hardly rooms: a wide ring corridor wants rings, legs of chairs want lanes.
-OTHER_SHAPES = (DRAFTS[0]._replace(narrow=0.3), DRAFTS[3]._replace(narrow=0.05))
+OTHER_SHAPES = (IN_RINGS[0]._replace(narrow=0.3), DRAFTS[3]._replace(narrow=0.05), IN_RINGS[1]._replace(narrow=0.3))
 AREA = 600.0  # [m^2] to clean, times the layouts that are compared: large drives less, small plans faster
 LITTLE = 1.0  # [m^2] to clean, for which no layouts are compared: most of that is left to the crumbs
 TURN = 3.0  # [s] for each turn, beyond its length: the wheels limit the turn rate, and it leaves crumbs beside it
@@ -67,11 +74,11 @@ def laid_out(context: Context, paper: Swept, missed: Array, region: int, angle: 
 
 
 def drafts(rounds: int) -> Sequence[Draft]:
-    """The drafts to rehearse on a floor that is worth so many rounds of edits: two more for each after the first.
+    """The drafts to rehearse on a floor that is worth so many rounds of edits: more of them if that is more.
 
-    Behind these are those for other shapes, of use only where a region has another shape by them.
+    Behind the usual ones are those for rings and for other shapes, of use only where a region has such by them.
     """
-    return (*DRAFTS[:2 * rounds - 1], *OTHER_SHAPES) if rounds else DRAFTS[:1]
+    return (*DRAFTS[:2 * rounds - 1], *IN_RINGS[:rounds], *OTHER_SHAPES[:rounds]) if rounds else DRAFTS[:1]
 
 
 def tries(area: float) -> int:

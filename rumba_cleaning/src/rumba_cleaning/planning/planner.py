@@ -9,7 +9,6 @@ from rumba_cleaning.belief.context import Context
 from rumba_cleaning.belief.ground import Ground
 from rumba_cleaning.belief.swept import Swept
 from rumba_cleaning.planning import improvement, tour
-from rumba_cleaning.planning.crumbs import crumbs
 from rumba_cleaning.planning.groups import Group, groups
 from rumba_cleaning.planning.improvement import Surroundings, improved, with_detours
 from rumba_cleaning.planning.layouts import Draft, drafts, laid_out, tries
@@ -27,7 +26,6 @@ from rumba_sim.model.kernel import Array
 # Our choice.
 MOST = 0.5  # share of what was missed that lanes, rings and large crumbs must clean, for them to be driven
 BEYOND = 0.03  # [m] from what the brush reaches, where an obstacle may leave more floor free than the robot knows
-LARGE = 0.1  # [m^2] of a crumb that the tour leads over; a smaller one is passed on a detour from it
 YIELD = 0.7  # share of a crumb that is swept in passing, about: small plans for more crumbs than the target needs
 SPARE = 0.0005  # of coverage that is planned beyond the target, once the robot is past the lanes and rings
 CULLS = 4  # rounds in which crumbs are left out that cost much time for their area: more make better choices
@@ -52,8 +50,7 @@ def plan(context: Context, pose: Pose, end: Optional[Pose] = None) -> Optional[R
     surroundings = Surroundings(context, pose, _around(context, pose), labels, Walls(ground))
     drafts = _drafts(surroundings, end)
     if not drafts:
-        missing = context.swept.missing_share() * surroundings.around
-        return _through(surroundings, end, crumbs(ground, surroundings.walls, missing, labels))
+        return _through(surroundings, end, surroundings.crumbs(context.swept))
     if improvement.rounds(context) == 0:
         return with_detours(surroundings, *drafts[0])
     return improved(surroundings, [route for route, _ in drafts])
@@ -64,29 +61,31 @@ def _drafts(surroundings: Surroundings, end: Optional[Pose]) -> List[Tuple[Route
     swept, area = surroundings.context.swept, surroundings.context.swept.reachable_area
     missing = float((swept.missing_share() * surroundings.around).sum()) * surroundings.context.plan.resolution ** 2
     ringed: Dict[bytes, Tuple[List[Stretch], Swept]] = {}  # by where there are lanes
-    found = []
+    found: Dict[bytes, Tuple[Route, Swept]] = {}
     for draft, shape in _shaped(surroundings):
-        key = shape.has_lanes.tobytes()
+        key = shape.has_lanes.tobytes() + np.float64(draft.ring_pass).tobytes()
         if key not in ringed:
             paper = swept.copy()
-            ringed[key] = _rings(surroundings, paper, shape), paper
+            ringed[key] = _rings(surroundings, paper, shape, draft), paper
         along_rings, beside_rings = ringed[key]
         paper = beside_rings.copy()
         stretches = along_rings + _lanes(surroundings, paper, shape, draft)
-        stretches += _strips(surroundings, paper)
-        is_much = paper.coverage - swept.coverage > MOST * missing / area
+        stretches += _strips(surroundings, paper, draft)
+        key = b''.join(part.variants[0].path().tobytes() for part in stretches)
+        is_much = key not in found and paper.coverage - swept.coverage > MOST * missing / area
         route = _through(surroundings, end, stretches) if is_much else None
         if route is not None:
-            found.append((route, paper))
-    return found
+            found[key] = route, paper
+    return list(found.values())
 
 
 def _shaped(surroundings: Surroundings) -> List[Tuple[Draft, Shapes]]:
-    """The drafts to rehearse, with what suits the regions by each; no draft for shapes that no region has."""
+    """The drafts to rehearse, with what suits the regions by each; none for rings or shapes that no region has."""
     usual, *others = [(draft, shapes(surroundings.context.ground, surroundings.labels, draft.narrow))
                       for draft in drafts(improvement.rounds(surroundings.context))]
     return [usual, *((draft, shape) for draft, shape in others
-                     if draft.narrow == usual[0].narrow or (shape.has_lanes != usual[1].has_lanes).any())]
+                     if (draft.narrow == usual[0].narrow or (shape.has_lanes != usual[1].has_lanes).any())
+                     and not (draft.apart and shape.has_lanes[1:].all()))]
 
 
 def _around(context: Context, pose: Pose) -> Array:
@@ -108,10 +107,11 @@ def _through(surroundings: Surroundings, end: Optional[Pose], found: List[Stretc
     return _route(context, pose, tours)
 
 
-def _rings(surroundings: Surroundings, paper: Swept, shape: Shapes) -> List[Stretch]:
+def _rings(surroundings: Surroundings, paper: Swept, shape: Shapes, draft: Draft) -> List[Stretch]:
     """Rings that clean what was missed along walls, and where there are to be no lanes; they are driven on paper."""
     ground, brush = surroundings.context.ground, surroundings.context.robot.brush.width
-    return [stretch(chain, brush) for chain in chains(rings(ground, paper, surroundings.labels, shape, brush))]
+    found = rings(ground, paper, surroundings.labels, shape, brush, draft.ring_pass)
+    return [stretch(chain, brush) for chain in chains(found)]
 
 
 def _lanes(surroundings: Surroundings, paper: Swept, shape: Shapes, draft: Draft) -> List[Stretch]:
@@ -127,10 +127,9 @@ def _lanes(surroundings: Surroundings, paper: Swept, shape: Shapes, draft: Draft
     return found
 
 
-def _strips(surroundings: Surroundings, paper: Swept) -> List[Stretch]:
+def _strips(surroundings: Surroundings, paper: Swept, draft: Draft) -> List[Stretch]:
     """What rings and lanes leave in large pieces, as in the middle of corridors; it is driven on paper."""
-    missing = paper.missing_share() * surroundings.around
-    found = crumbs(surroundings.context.ground, surroundings.walls, missing, surroundings.labels, LARGE)
+    found = surroundings.crumbs(paper, draft.strip, draft.apart)
     for part in found:
         drive(paper, part.variants[0].path())
     return found

@@ -21,7 +21,7 @@ from rumba_sim.model.kernel import Array
 # All figures are our choice; each comment says what speaks for a larger and for a smaller value.
 WALL_MARGIN = 0.0003  # [m] between robot and wall: small sweeps more of the rim, large touches the wall less often
 # Of the brush's width from ring to ring: small leaves less where corners are cut, large drives less.
-PASS, OPEN_PASS = 0.93, 0.995  # the second in open regions, where few rings have corners
+PASS, OPEN_PASS = 0.93, 0.995  # usually, and in open regions, where few rings have corners
 SPACING = 0.02  # [m] between the waypoints
 SMOOTH = 0.02  # [m] standard deviation of the filter along a ring: takes out the steps of the grid, and cuts corners
 # The corners of a ring reach farther out by what such a filter [m] would cut off, as a robot does that goes round them.
@@ -50,7 +50,7 @@ class Ring(NamedTuple):
     is_closed: bool
 
 
-def rings(ground: Ground, swept: Swept, labels: Array, shape: Shapes, brush: float) -> List[Ring]:
+def rings(ground: Ground, swept: Swept, labels: Array, shape: Shapes, brush: float, ring_pass: float) -> List[Ring]:
     """Rings on which something was missed, from the walls inward; only along the walls, where lanes suit a region.
 
     Args:
@@ -59,10 +59,11 @@ def rings(ground: Ground, swept: Swept, labels: Array, shape: Shapes, brush: flo
         labels: the region of each node, int (rows + 1, columns + 1).
         shape: of the regions.
         brush: width of the brush [m].
+        ring_pass: from ring to ring in regions that are not open, as a share of that.
     """
     found: List[Ring] = []
     depth = _depth(ground)
-    passes = _passes(depth, labels, shape.is_open, brush)
+    passes = _passes(depth, labels, shape.is_open, brush, ring_pass)
     level = 0
     while True:
         lines = contours(passes, level)
@@ -91,9 +92,9 @@ def _depth(ground: Ground) -> Array:
     return np.where(near, ground.clearance - ground.reach, -ground.reach)
 
 
-def _passes(depth: Array, labels: Array, is_open: Array, brush: float) -> Array:
+def _passes(depth: Array, labels: Array, is_open: Array, brush: float, ring_pass: float) -> Array:
     """Of which level the ring through each node is, with fractions: 0 beside the walls."""
-    return np.asarray((depth - WALL_MARGIN) / (np.where(is_open, OPEN_PASS, PASS) * brush)[labels])
+    return np.asarray((depth - WALL_MARGIN) / (np.where(is_open, OPEN_PASS, ring_pass) * brush)[labels])
 
 
 def _shaped(ring: Ring, is_open: bool) -> Ring:

@@ -1,29 +1,24 @@
 """The order in which to drive stretches, and each by which of its variants, so that little time passes in between."""
 
-import math
 from typing import List, NamedTuple, Optional, Sequence
 
 import numpy as np
 
 from rumba_cleaning.belief.ground import Ground
 from rumba_cleaning.planning import compiled_tours, compiled_ways
-from rumba_cleaning.planning.compiled_ways import Needed
 from rumba_cleaning.planning.contours import contours
+from rumba_cleaning.planning.lines import needed
 from rumba_cleaning.planning.paper import simplified
 from rumba_cleaning.planning.stretches import Stretch
 from rumba_cleaning.route import BENT, STOP, TURN_RATE
 from rumba_sim.model.kernel import Array
-from rumba_sim.model.reachability import SLACK
 
 # All figures are our choice; each comment says what speaks for a larger and for a smaller value.
 ROUNDS = 20  # of improvement, at most: most tours stop improving earlier
 KICKS = 300  # random changes of a tour, after each of which it is improved again, at most; ...
 # ... and at most so many divided by stretches * variants, times an effort: more make shorter tours, and take more time.
 STEPS = 40_000
-BESIDE = 0.03  # [m] beyond the touching distance on a way: a robot that cuts a corner is stuck at an edge or a leg; ...
-NEAR = 0.15  # [m] ... except so near to its ends, since stretches lie beside walls: there a way may be ...
-TOUCHING = 0.004  # [m] ... too near by so much, and the robot slides along the wall, ...
-ASIDE = 0.012  # [m] ... so far from which it can stand, at most: TOUCHING and SLACK, and the steps of the grid
+BESIDE = 0.03  # [m] beyond the touching distance on a way: a robot that cuts a corner is stuck at an edge or a leg
 UNSEEN = 3.0  # [m] that are added to twice the distance of points between which no line of sight leads: a guess
 AROUND = 0.3  # [m] about all stretches, in which obstacles are looked at that a way may lead around
 OUTSIDE = 0.05  # [m] beyond BESIDE that ways lead around corners: large sees past them, small is short
@@ -85,9 +80,7 @@ class Tour:
         self._entries, self._exits = numbers[:count], numbers[count:-1]  # the last exit is the start of the tour
         nodes = np.clip((self._points - ground.plan.origin) / ground.plan.resolution, 0.0,
                         np.array(ground.clearance.shape[::-1]) - 1.0)
-        needed = Needed(ground.reach + BESIDE, ground.reach - TOUCHING, NEAR / ground.plan.resolution,
-                        ground.reach + SLACK, math.ceil(ASIDE / ground.plan.resolution))
-        metres, self._before = compiled_ways.lengths(ground.clearance, needed, nodes, stops)
+        metres, self._before = compiled_ways.lengths(ground.clearance, needed(ground, BESIDE), nodes, stops)
         self._is_known = np.isfinite(metres)
         apart = np.hypot(*(self._points[:, np.newaxis] - self._points).transpose(2, 0, 1))
         metres = np.where(self._is_known, metres * ground.plan.resolution, 2.0 * apart + UNSEEN)
