@@ -7,6 +7,7 @@ import numpy as np
 from scipy import ndimage
 
 from rumba_cleaning.belief.ground import Ground
+from rumba_cleaning.planning.compiled_turn import turned
 from rumba_cleaning.planning.rings import SPACING
 from rumba_sim.model.kernel import Array
 
@@ -69,12 +70,7 @@ def _turned(missed: Array, clearance: Array, axes: Array, margin: int) -> Tuple[
     corners = np.array([[column, row] for row in rows for column in columns]) @ axes.T
     low = np.floor(corners.min(axis=0))
     width, height = (np.ceil(corners.max(axis=0)) - low).astype(int)
-    matrix = axes[::-1, ::-1].T  # from row and column there to row and column on the map
-    offset = (low @ axes)[::-1]
-    middle = np.array([0.5, 0.5])
-    turned = ndimage.affine_transform(missed.view(np.uint8), matrix, offset + matrix @ middle - middle,
-                                      (height, width), order=0) > 0
-    return low, turned, ndimage.affine_transform(clearance, matrix, offset, (height + 1, width + 1), order=1)
+    return (low, *turned(missed, clearance, axes, low, int(height), int(width)))
 
 
 def _window(missed: Array, margin: int) -> Tuple[slice, slice]:
