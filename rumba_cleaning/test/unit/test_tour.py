@@ -8,6 +8,8 @@ import types
 import numpy as np
 import pytest
 from floors import ground, length, over
+from hypothesis import given, settings
+from hypothesis import strategies as st
 from pytest import approx
 from rooms import room
 
@@ -125,6 +127,22 @@ def test_near_its_ends_a_way_may_graze_a_post_but_lead_through_no_gap_that_is_to
         nodes = 60.0 + np.array(way)
         field = clearance if way[1] == 0.0 else np.ascontiguousarray(clearance.T)
         assert compiled_ways.sight(field, needed, *nodes) == is_free
+
+
+@given(st.integers(0, 10 ** 6))
+@settings(max_examples=50)
+def test_a_line_of_sight_is_free_wherever_one_looks_although_free_floor_is_skipped(seed):
+    generator = np.random.default_rng(seed)
+    posts = generator.uniform(0.0, 5.0, (6, 2))
+    y, x = 0.05 * np.mgrid[0:101, 0:101]
+    clearance = np.min([np.hypot(x - post[0], y - post[1]) for post in posts], axis=0)
+    needed = Needed(0.2, 0.2, 0.0, 0.2, 1, 0.05)
+    ends = generator.uniform(0.1, 4.9, (30, 2, 2))
+    for start, end in ends:
+        line = start + np.linspace(0.0, 1.0, 500)[:, np.newaxis] * (end - start)
+        least = np.min([np.hypot(*(line - post).T) for post in posts])
+        if abs(least - 0.2) > 0.02:  # otherwise the grid decides
+            assert compiled_ways.sight(clearance, needed, *start / 0.05, *end / 0.05) == (least > 0.2)
 
 
 def test_a_way_keeps_off_walls_except_at_its_ends():

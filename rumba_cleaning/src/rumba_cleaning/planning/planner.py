@@ -60,22 +60,22 @@ def _drafts(surroundings: Surroundings, end: Optional[Pose]) -> List[Tuple[Route
     """Routes over lanes, rings and large crumbs, and what is swept after each on paper; none, if that is little."""
     swept, area = surroundings.context.swept, surroundings.context.swept.reachable_area
     missing = float((swept.missing_share() * surroundings.around).sum()) * surroundings.context.plan.resolution ** 2
-    ringed: Dict[bytes, Tuple[List[Stretch], Swept]] = {}  # by where there are lanes
-    found: Dict[bytes, Tuple[Route, Swept]] = {}
+    ringed: Dict[Tuple[bytes, float], Tuple[List[Stretch], Swept]] = {}  # by where they are, and how far apart
+    found: Dict[bytes, Tuple[Route, Swept]] = {}  # by their paths: two drafts may come to the same
     for draft, shape in _shaped(surroundings):
-        key = shape.has_lanes.tobytes() + np.float64(draft.ring_pass).tobytes()
-        if key not in ringed:
+        which = shape.has_lanes.tobytes(), draft.ring_pass
+        if which not in ringed:
             paper = swept.copy()
-            ringed[key] = _rings(surroundings, paper, shape, draft), paper
-        along_rings, beside_rings = ringed[key]
+            ringed[which] = _rings(surroundings, paper, shape, draft), paper
+        along_rings, beside_rings = ringed[which]
         paper = beside_rings.copy()
         stretches = along_rings + _lanes(surroundings, paper, shape, draft)
         stretches += _strips(surroundings, paper, draft)
-        key = b''.join(part.variants[0].path().tobytes() for part in stretches)
-        is_much = key not in found and paper.coverage - swept.coverage > MOST * missing / area
+        paths = b''.join(part.variants[0].path().tobytes() for part in stretches)
+        is_much = paths not in found and paper.coverage - swept.coverage > MOST * missing / area
         route = _through(surroundings, end, stretches) if is_much else None
         if route is not None:
-            found[key] = route, paper
+            found[paths] = route, paper
     return list(found.values())
 
 
