@@ -114,3 +114,17 @@ def test_an_edge_close_beside_the_way_by_which_it_came_does_not_keep_it_from_one
     context.footing._see(start.x + 0.12, start.y)
     list(poses(world, guard, BACK, 3.0))
     assert start.x - robot.pose.x > 0.15 if goes else start.x - robot.pose.x < 0.012
+
+
+@pytest.mark.parametrize('seconds', [0.2, 0.3])
+def test_a_robot_that_turns_fast_when_it_is_to_go_back_goes_back_by_its_way_once_its_wheels_can(seconds):
+    """Until these have changed their direction, it is farther off its way than a robot that was pushed."""
+    world, context = world_with([(1.5, 0.5, 2.5, 1.8)], Pose(0.6, 1.0, 0.0))
+    guard, robot = Guard(context), world.robots['rumba']
+    list(poses(world, guard, (0.2, 0.0), 8.0, sees_edge))
+    list(poses(world, guard, BACK, 1.0))
+    list(poses(world, guard, (0.0, -1.9), seconds))
+    turned = robot.pose
+    list(poses(world, guard, BACK, 3.0))
+    assert turned.theta < -0.1 and abs(robot.pose.theta) < 0.03
+    assert turned.x - robot.pose.x > 0.1 and not robot.has_fallen

@@ -143,7 +143,8 @@ class Guard:
 
         Straight back from a bend, a wheel comes where no sensor has looked, or nearer to an edge beside the way.
         """
-        is_braking = sum(self._speeds) > 0.0 and not self._is_on_trail
+        left, right = self._speeds
+        is_braking = (left + right > 0.0 or abs(right - left) > AT_REST) and not self._is_on_trail
         is_back = command.v < 0.0 and not is_braking and bool(self._footing.seen)
         motion = self._trail.back(pose) if is_back else None
         self._is_on_trail = motion is not None
