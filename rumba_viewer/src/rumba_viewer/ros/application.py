@@ -57,6 +57,9 @@ class Application:
         with node.prompt_sigint():
             if rosgraph.is_master_online():
                 return
+        is_over = threading.Event()  # whoever sees the window may end the program: it listens before it shows it
+        for number in (signal.SIGINT, signal.SIGTERM):
+            signal.signal(number, lambda *_: is_over.set())
         _set_style(self._qt, _given_style())
         window = Window(_Nobody(), _Nobody(), Options(0.0, 0.0, '', STRATEGIES, False),
                         Snapshot(missing=missing_master()))
@@ -65,12 +68,10 @@ class Application:
         print('viewer:', *missing_master().split('\n')[1:], file=sys.stderr, flush=True)
         look = threading.Thread(target=node.look_for_master, daemon=True)
         look.start()
-        for number in (signal.SIGINT, signal.SIGTERM):
-            signal.signal(number, lambda *_: self._qt.quit())
-        timer = self._timer(lambda: None if look.is_alive() else self._qt.quit())
+        timer = self._timer(lambda: self._qt.quit() if is_over.is_set() or not look.is_alive() else None)
         self._qt.exec_()
         timer.stop()
-        if look.is_alive():
+        if is_over.is_set() or look.is_alive():
             sys.exit(0)
         window.deleteLater()
 
