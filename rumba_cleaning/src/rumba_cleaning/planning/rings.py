@@ -225,17 +225,19 @@ def stretch(chain: List[Ring], brush: float) -> Stretch:
     found: List[Variant] = []
     for is_turned in (False, True)[:len(chain)]:
         paths = [ring.waypoints[::-1] if is_turned else ring.waypoints for ring in chain]
+        twice = [np.concatenate([path[:-1], path]) for path in paths]
         for index in range(0, len(first) - 1, step):
-            found += pair(_spiral(paths, index))
+            found += pair(_spiral(twice, index))
     return Stretch(found, chain[0].region, area, False)
 
 
-def _spiral(paths: List[Array], index: int) -> List[Array]:
-    """The path along rings, the first of which is entered at a waypoint."""
+def _spiral(twice: List[Array], index: int) -> List[Array]:
+    """The path along rings, the first of which is entered at a waypoint; each is given twice round, and not copied."""
     parts: List[Array] = []
-    for path in paths:
+    for path in twice:
+        size = len(path) // 2
         if parts:
-            index = int(np.argmin(np.hypot(*(path[:-1] - parts[-1][-1]).T)))
-            index = (index + int(FORWARD / SPACING)) % (len(path) - 1)
-        parts.append(rotated(path, index))
+            index = int(np.argmin(np.hypot(*(path[:size] - parts[-1][-1]).T)))
+            index = (index + int(FORWARD / SPACING)) % size
+        parts.append(path[index:index + size + 1])
     return parts
