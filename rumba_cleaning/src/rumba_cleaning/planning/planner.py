@@ -13,7 +13,7 @@ from rumba_cleaning.planning.groups import Group, groups
 from rumba_cleaning.planning.improvement import Surroundings, improved, with_detours
 from rumba_cleaning.planning.layouts import Draft, drafts, laid_out, tries
 from rumba_cleaning.planning.paper import drive
-from rumba_cleaning.planning.regions import Shapes, Ways, doors, regions, shapes
+from rumba_cleaning.planning.regions import NARROW, Shapes, Ways, doors, regions, shapes
 from rumba_cleaning.planning.rings import chains, rings, stretch
 from rumba_cleaning.planning.stretches import Stretch
 from rumba_cleaning.planning.tour import Tour
@@ -83,9 +83,14 @@ def _shaped(surroundings: Surroundings) -> List[Tuple[Draft, Shapes]]:
     """The drafts to rehearse, with what suits the regions by each; none for rings or shapes that no region has."""
     usual, *others = [(draft, shapes(surroundings.context.ground, surroundings.labels, draft.narrow))
                       for draft in drafts(improvement.rounds(surroundings.context))]
-    return [usual, *((draft, shape) for draft, shape in others
-                     if (draft.narrow == usual[0].narrow or (shape.has_lanes != usual[1].has_lanes).any())
-                     and not (draft.apart and shape.has_lanes[1:].all()))]
+    return [usual, *(other for other in others if _is_of_use(*other, usual[1]))]
+
+
+def _is_of_use(draft: Draft, shape: Shapes, usual: Shapes) -> bool:
+    """Whether some region suits a draft: has another shape than usual, or is in rings, if the draft is for such."""
+    has_others = draft.narrow == NARROW or bool((shape.has_lanes != usual.has_lanes).any())
+    is_for_rings = draft.apart > 0.0
+    return has_others and not (is_for_rings and shape.has_lanes[1:].all())
 
 
 def _around(context: Context, pose: Pose) -> Array:
