@@ -158,7 +158,7 @@ def test_a_wide_corridor_around_a_round_core_is_cleaned_in_rings():
 
 @pytest.mark.parametrize('outer, width, most', [(1.53, 0.55, 1.6), (2.0, 0.55, 1.6), (1.53, 0.87, 1.15)])
 def test_a_ring_corridor_that_its_rings_do_not_quite_fill_takes_one_more_pass_or_wider_ones(outer, width, most):
-    """Two rings leave a broken line in the middle of the narrow ones; the wide one needs a ring less if they overlap less."""
+    """Two rings leave a broken line in the middle of the narrow; the wide one needs one less if they overlap less."""
     x, y = np.meshgrid(*[0.02 * np.arange(-110, 111)] * 2)
     away = np.hypot(x - 0.007, y - 0.004)
     floor_plan = FloorPlan('ring', np.where((away < outer) & (away > outer - width), FREE, OCCUPIED), 0.02,
