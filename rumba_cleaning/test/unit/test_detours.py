@@ -7,9 +7,10 @@ from rooms import room
 
 from rumba_cleaning.planning.detours import FARTHEST
 from rumba_cleaning.planning.edits import APART
-from rumba_cleaning.planning.improvement import DEAREST_ON_PAPER, LEAST_ON_PAPER, SURPLUS, Surroundings, with_detours
+from rumba_cleaning.planning.improvement import DEAREST_ON_PAPER, LEAST_ON_PAPER, SURPLUS, with_detours
 from rumba_cleaning.planning.paper import drive
 from rumba_cleaning.planning.regions import regions
+from rumba_cleaning.planning.surroundings import Surroundings
 from rumba_cleaning.planning.walls import Walls
 from rumba_cleaning.route import Route
 from rumba_sim.model.geometry import Pose
@@ -24,7 +25,7 @@ def detoured(*boxes, target=1.0, route=ACROSS, plan=None):
     context = wiped_but(knowing(plan or room(4.0, 3.0, 0.02), START, target_coverage=target), *boxes)
     floor = context.swept.copy()
     everywhere = np.ones(context.plan.free.shape, bool)
-    surroundings = Surroundings(context, START, everywhere, regions(context.ground), Walls(context.ground))
+    surroundings = Surroundings(context, START, None, everywhere, regions(context.ground), Walls(context.ground))
     found = with_detours(surroundings, route, floor)
     drive(floor, found.waypoints)
     return found, floor

@@ -9,11 +9,12 @@ from rooms import crooked, room
 
 from rumba_cleaning.planning import edits, improvement, planner
 from rumba_cleaning.planning.edits import dense
-from rumba_cleaning.planning.improvement import Surroundings, improved, rounds
+from rumba_cleaning.planning.improvement import improved, rounds
 from rumba_cleaning.planning.lanes import Layout
 from rumba_cleaning.planning.layouts import DRAFTS, IN_RINGS, OTHER_SHAPES, Draft
 from rumba_cleaning.planning.regions import regions, shapes
 from rumba_cleaning.planning.rehearsal import Rehearsal
+from rumba_cleaning.planning.surroundings import Surroundings
 from rumba_cleaning.planning.walls import Walls
 from rumba_cleaning.route import Route
 from rumba_sim.model.geometry import Pose
@@ -24,7 +25,7 @@ START = Pose(0.5, 0.5, 0.3)
 def surroundings_of(floor, pose=START, **config):
     context = knowing(floor, pose, **config)
     around = np.ones(context.plan.free.shape, bool)
-    return Surroundings(context, pose, around, regions(context.ground), Walls(context.ground))
+    return Surroundings(context, pose, None, around, regions(context.ground), Walls(context.ground))
 
 
 def first_draft(surroundings, overlap=0.05):
@@ -33,7 +34,7 @@ def first_draft(surroundings, overlap=0.05):
     draft = Draft([Layout(overlap)], 0.3)
     found = planner._rings(surroundings, paper, shape, draft)
     found += planner._lanes(surroundings, paper, shape, draft)
-    return planner._through(surroundings, None, found)
+    return planner._through(surroundings, found)
 
 
 @pytest.mark.parametrize('width, height, usual, rings, other', [(5.0, 3.0, 5, 0, 0), (8.0, 1.0, 5, 0, 2),
@@ -47,7 +48,7 @@ def test_there_are_drafts_for_rings_and_other_shapes_only_where_a_region_has_suc
 
 def test_no_two_of_the_routes_that_are_rehearsed_are_the_same():
     """In a corridor without lanes, drafts that differ in these alone are one."""
-    routes = [route.waypoints for route, _ in planner._drafts(surroundings_of(room(8.0, 0.8)), None)]
+    routes = [drafted.route.waypoints for drafted in planner._drafts(surroundings_of(room(8.0, 0.8)))]
     assert len(routes) == 3
     assert not any(np.array_equal(one, other) for one, other in itertools.combinations(routes, 2))
 
@@ -56,7 +57,7 @@ def test_an_improved_route_meets_the_target_sooner_than_one_with_all_lanes():
     surroundings = surroundings_of(crooked(0.02), target_coverage=0.95)
     draft = first_draft(surroundings)
     before = Rehearsal(surroundings.context, START, dense(draft))
-    after = Rehearsal(surroundings.context, START, improved(surroundings, [draft]))
+    after = Rehearsal(surroundings.context, START, improved(surroundings, [draft], []))
     assert before.swept.coverage > 0.96 and after.is_complete
     assert after.swept.coverage >= 0.95 and after.seconds < 0.97 * before.seconds
 
@@ -65,7 +66,7 @@ def test_an_improved_route_sweeps_what_lanes_without_overlap_and_corners_would_l
     surroundings = surroundings_of(crooked(0.02), target_coverage=0.993)
     draft = first_draft(surroundings, 0.0)
     before = Rehearsal(surroundings.context, START, dense(draft))
-    after = Rehearsal(surroundings.context, START, improved(surroundings, [draft]))
+    after = Rehearsal(surroundings.context, START, improved(surroundings, [draft], []))
     assert before.swept.coverage < 0.992 and after.swept.coverage >= 0.993
     assert after.seconds < 1.15 * before.seconds
 
@@ -73,9 +74,9 @@ def test_an_improved_route_sweeps_what_lanes_without_overlap_and_corners_would_l
 def test_a_route_that_edits_leave_short_of_the_target_is_mended_by_detours(monkeypatch):
     surroundings = surroundings_of(crooked(0.02), target_coverage=0.92, planning_rounds=1)
     draft = first_draft(surroundings, 0.0)
-    mended = Rehearsal(surroundings.context, START, improved(surroundings, [draft]))
+    mended = Rehearsal(surroundings.context, START, improved(surroundings, [draft], []))
     monkeypatch.setattr(improvement, 'MENDS', 0)
-    short = Rehearsal(surroundings.context, START, improved(surroundings, [draft]))
+    short = Rehearsal(surroundings.context, START, improved(surroundings, [draft], []))
     assert mended.swept.coverage >= 0.92 and mended.seconds < 0.95 * short.seconds
 
 
@@ -98,7 +99,7 @@ def test_edits_that_were_far_from_worth_it_are_not_judged_again(monkeypatch):
     for near in (edits.NEAR, 1e9):
         monkeypatch.setattr(edits, 'NEAR', near)
         counts.append(0)
-        seconds.append(Rehearsal(surroundings.context, START, improved(surroundings, [draft])).seconds)
+        seconds.append(Rehearsal(surroundings.context, START, improved(surroundings, [draft], [])).seconds)
     assert counts[0] < 0.95 * counts[1] and seconds[0] < 1.02 * seconds[1], (counts, seconds)
 
 
@@ -108,19 +109,19 @@ def test_the_better_of_two_routes_is_improved():
     good = first_draft(surroundings)
     bad = Route(np.concatenate([good.waypoints, good.waypoints[-2::-1]]),
                 np.concatenate([good.speeds, good.speeds[::-1]]))
-    chosen = Rehearsal(surroundings.context, START, improved(surroundings, [bad, good]))
-    alone = Rehearsal(surroundings.context, START, improved(surroundings, [good]))
+    chosen = Rehearsal(surroundings.context, START, improved(surroundings, [bad, good], []))
+    alone = Rehearsal(surroundings.context, START, improved(surroundings, [good], []))
     assert chosen.seconds == alone.seconds and chosen.swept.coverage == alone.swept.coverage
 
 
 def test_a_route_that_nobody_can_follow_stays_as_it_is():
     surroundings = surroundings_of(room(4.0, 3.0, 0.02, [(1.9, 0.0, 2.1, 3.0)]))
     through = Route(np.array([[0.5, 0.5], [3.5, 0.5]]), np.array([0.3]))
-    assert improved(surroundings, [through]).waypoints.tolist() == dense(through).waypoints.tolist()
+    assert improved(surroundings, [through], []).waypoints.tolist() == dense(through).waypoints.tolist()
 
 
 def test_plans_repeat():
     surroundings = surroundings_of(crooked(0.05))
     draft = first_draft(surroundings)
-    one, other = improved(surroundings, [draft]), improved(surroundings, [draft])
+    one, other = improved(surroundings, [draft], []), improved(surroundings, [draft], [])
     assert np.array_equal(one.waypoints, other.waypoints) and np.array_equal(one.speeds, other.speeds)

@@ -210,6 +210,13 @@ def savings(costs: Array, last: Array, found: Array) -> Array:
 
 
 @compiled
+def drawn(random: Array, below: int) -> int:
+    """A random number from 0 on, below another; `random`, int64 (1), is changed: the same numbers follow the same."""
+    random[0] = (random[0] * 1103515245 + 12345) % 2147483648
+    return int((random[0] >> 8) % below)
+
+
+@compiled
 def shaken(costs: Array, last: Array, of: Array, begins: Array, found: Array, rounds: int, kicks: int) -> None:
     """Improve a tour, then swap segments of it at random and improve again, `kicks` times; the best tour is kept.
 
@@ -217,14 +224,13 @@ def shaken(costs: Array, last: Array, of: Array, begins: Array, found: Array, ro
     numbers are always the same.
     """
     improved(costs, last, of, begins, found, rounds)
-    best, count, random = length(costs, last, found), len(found), 1
+    best, count, random = length(costs, last, found), len(found), np.array([1])
     if count < 3:
         return
     for _ in range(kicks):
         cuts = np.empty(3, np.int64)
         for index in range(3):
-            random = (random * 1103515245 + 12345) % 2147483648
-            cuts[index] = (random >> 8) % (count + 1)
+            cuts[index] = drawn(random, count + 1)
         cuts.sort()
         other = np.concatenate((found[:cuts[0]], found[cuts[1]:cuts[2]], found[cuts[0]:cuts[1]], found[cuts[2]:]))
         improved(costs, last, of, begins, other, rounds)

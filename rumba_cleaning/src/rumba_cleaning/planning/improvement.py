@@ -1,19 +1,16 @@
 """Improves routes by edits until they meet the target, and take less time."""
 
-from typing import List, NamedTuple, Sequence, Set, Tuple
+from typing import Sequence, Set, Tuple
 
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.belief.swept import Swept
-from rumba_cleaning.planning.crumbs import crumbs
-from rumba_cleaning.planning.detours import detours
 from rumba_cleaning.planning.edits import Edit, applied, chosen, dense
+from rumba_cleaning.planning.rebuilding import rebuilt
 from rumba_cleaning.planning.rehearsal import Rehearsal
 from rumba_cleaning.planning.shifts import shifts
 from rumba_cleaning.planning.shortcuts import shortcuts
-from rumba_cleaning.planning.stretches import Stretch
-from rumba_cleaning.planning.walls import Walls
+from rumba_cleaning.planning.surroundings import Surroundings
 from rumba_cleaning.route import Route
-from rumba_sim.model.geometry import Pose
 from rumba_sim.model.kernel import Array
 
 # All figures are our choice; each comment says what speaks for a larger and for a smaller value.
@@ -25,32 +22,11 @@ WORK = 150.0  # [m^2] of floor, times rounds: large makes shorter routes, small 
 # [s/m^2] a lane takes 20: dearer edits are left out on paper, where they clean less than it seems, and by rehearsal.
 DEAREST_ON_PAPER, DEAREST = 200.0, 3000.0
 LEAST_ON_PAPER = 0.005  # [m^2] of a crumb: a smaller one is hardly ever worth that price; large plans faster
+EDITS = 3  # rounds of edits after a route is rebuilt, before that is done again
 # [s/m^2] that edits save for what they leave, if there is more than the target needs, and take for what is missing.
 SAVED, ADDED = 120.0, 600.0
 CHEAP = 0.5  # share of the last price that a shortcut must save to be judged: small tries more
 SHORTCUTS = 1500  # that are judged in a round, at most
-
-
-class Surroundings(NamedTuple):
-    """Where a robot that plans is, and what it knows."""
-
-    context: Context  # where the robot can stand, the target, and the floor that was swept before
-    pose: Pose  # of the robot
-    around: Array  # the cells that it can sweep, bool (rows, columns)
-    labels: Array  # the region of each node, int (rows + 1, columns + 1)
-    walls: Walls  # of the ground of the context
-
-    def detours(self, route: Route, swept: Swept, least: float = 0.0) -> List[Edit]:
-        """Detours from a route past the crumbs of an area [m^2] or more that are left when it is driven."""
-        return detours(self.context, route, self.crumbs(swept, least))
-
-    def crumbs(self, swept: Swept, least: float = 0.0, apart: float = 0.0) -> List[Stretch]:
-        """Crumbs of an area [m^2] or more: see `crumbs`."""
-        return crumbs(self.context.ground, self.walls, swept.missing_share() * self.around, self.labels, least, apart)
-
-    def need(self, swept: Swept, surplus: float) -> float:
-        """Area that is missing to the target and a surplus [m^2]."""
-        return (self.context.target_coverage + surplus - swept.coverage) * swept.reachable_area
 
 
 def with_detours(surroundings: Surroundings, route: Route, paper: Swept) -> Route:
@@ -67,14 +43,23 @@ def rounds(context: Context) -> int:
     return min(int(WORK / context.swept.reachable_area), context.config.planning_rounds)
 
 
-def improved(surroundings: Surroundings, routes: Sequence[Route]) -> Route:
-    """The best of several routes, with edits, so that it meets the target by rehearsal in as little time as it can."""
+def improved(surroundings: Surroundings, routes: Sequence[Route], paths: Sequence[Array]) -> Route:
+    """The best of several routes, rebuilt and edited, so that it meets the target by rehearsal in little time.
+
+    Args:
+        surroundings: for which the routes are.
+        routes: drafts.
+        paths: what they lead over, float64 (any, 2) [m] each.
+    """
     context = surroundings.context
     rehearsal = min((Rehearsal(context, surroundings.pose, dense(route)) for route in routes),
                     key=lambda rehearsal: _cost(surroundings, rehearsal))
     tried, price = [rehearsal], SAVED
     poor: Set[bytes] = set()  # edits, by their places, that were far from worth it when they were judged
-    for _ in range(rounds(context)):
+    for number in range(rounds(context)):
+        if number % EDITS == 0:
+            rehearsal = _rebuilt(surroundings, min(tried, key=lambda each: _cost(surroundings, each)), paths)
+            tried.append(rehearsal)
         if not rehearsal.is_complete:
             break
         found = [*shortcuts(context, rehearsal, CHEAP * price)[:SHORTCUTS], *shifts(context, rehearsal.route),
@@ -87,6 +72,13 @@ def improved(surroundings: Surroundings, routes: Sequence[Route]) -> Route:
         rehearsal, _ = _edited(surroundings, rehearsal, surroundings.detours(rehearsal.route, rehearsal.swept), set())
         tried.append(rehearsal)
     return max(tried, key=lambda rehearsal: _merit(surroundings, rehearsal)).route
+
+
+def _rebuilt(surroundings: Surroundings, rehearsal: Rehearsal, paths: Sequence[Array]) -> Rehearsal:
+    """A rehearsal of a route that is rebuilt, or the one before if the robot would not get to the end of it."""
+    route = rebuilt(surroundings, rehearsal, paths)
+    after = Rehearsal(surroundings.context, surroundings.pose, dense(route))
+    return after if after.is_complete else rehearsal
 
 
 def _edited(surroundings: Surroundings, rehearsal: Rehearsal, found: Sequence[Edit],

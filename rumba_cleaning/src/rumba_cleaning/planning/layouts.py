@@ -78,7 +78,7 @@ def drafts(rounds: int) -> Sequence[Draft]:
 
     Behind the usual ones are those for rings and for other shapes, of use only where a region has such by them.
     """
-    return (*DRAFTS[:2 * rounds - 1], *IN_RINGS[:rounds], *OTHER_SHAPES[:rounds]) if rounds else DRAFTS[:1]
+    return *DRAFTS[:max(rounds, 1)], *IN_RINGS[:(rounds + 1) // 2], *OTHER_SHAPES[:max(rounds - 1, 0)]
 
 
 def tries(area: float) -> int:

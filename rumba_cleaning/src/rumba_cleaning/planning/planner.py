@@ -1,6 +1,6 @@
 """Plans how to clean what was missed: region by region, along the walls, in lanes or in rings, and then the crumbs."""
 
-from typing import Dict, List, Optional, Sequence, Tuple
+from typing import Dict, Iterator, List, NamedTuple, Optional, Sequence, Tuple
 
 import numpy as np
 from scipy import ndimage
@@ -10,13 +10,15 @@ from rumba_cleaning.belief.ground import Ground
 from rumba_cleaning.belief.swept import Swept
 from rumba_cleaning.planning import improvement, tour
 from rumba_cleaning.planning.groups import Group, groups
-from rumba_cleaning.planning.improvement import Surroundings, improved, with_detours
+from rumba_cleaning.planning.improvement import improved, with_detours
 from rumba_cleaning.planning.layouts import Draft, drafts, laid_out, tries
 from rumba_cleaning.planning.paper import drive
 from rumba_cleaning.planning.regions import NARROW, Shapes, Ways, doors, regions, shapes
 from rumba_cleaning.planning.rings import chains, rings, stretch
 from rumba_cleaning.planning.stretches import Stretch
+from rumba_cleaning.planning.surroundings import Surroundings
 from rumba_cleaning.planning.tour import Tour
+from rumba_cleaning.planning.transit import route_over
 from rumba_cleaning.planning.turned_floor import main_direction
 from rumba_cleaning.planning.walls import Walls
 from rumba_cleaning.route import Route
@@ -30,16 +32,14 @@ YIELD = 0.7  # share of a crumb that is swept in passing, about: small plans for
 SPARE = 0.0005  # of coverage that is planned beyond the target, once the robot is past the lanes and rings
 CULLS = 4  # rounds in which crumbs are left out that cost much time for their area: more make better choices
 EFFORT = 10  # times as much as usual to search for tours where routes are rehearsed: large drives less, small is fast
-TRANSIT = 0.5  # [m] of a way between two stretches: a longer one is driven at the speed of transit, ...
-SLOW = 0.15  # [m] ... except for its end: the robot has slowed down and lowered the brushes before its path begins
 
 
 def plan(context: Context, pose: Pose, end: Optional[Pose] = None) -> Optional[Route]:
     """A route that cleans what was missed; None if nothing was missed, or none of it can be reached.
 
-    As long as lanes and rings clean most of it, crumbs are cleaned on detours from these, and the route is improved by
-    rehearsal. The routes after that know where the robot really drove, and visit crumb after crumb. All visit only as
-    many crumbs as the target needs.
+    As long as lanes and rings clean most of it, crumbs are cleaned on detours from these, and the route is rebuilt and
+    improved by rehearsal. The routes after that know where the robot really drove, and visit crumb after crumb. All
+    visit only as many crumbs as the target needs.
 
     Args:
         context: with the floor that was swept before; it is not changed.
@@ -47,21 +47,30 @@ def plan(context: Context, pose: Pose, end: Optional[Pose] = None) -> Optional[R
         end: near which it should end; None: anywhere.
     """
     ground, labels = context.ground, regions(context.ground)
-    surroundings = Surroundings(context, pose, _around(context, pose), labels, Walls(ground))
-    drafts = _drafts(surroundings, end)
+    surroundings = Surroundings(context, pose, end, _around(context, pose), labels, Walls(ground))
+    drafts = _drafts(surroundings)
     if not drafts:
-        return _through(surroundings, end, surroundings.crumbs(context.swept))
+        return _through(surroundings, surroundings.crumbs(context.swept))
     if improvement.rounds(context) == 0:
-        return with_detours(surroundings, *drafts[0])
-    return improved(surroundings, [route for route, _ in drafts])
+        return with_detours(surroundings, drafts[0].route, drafts[0].paper)
+    paths = [part.variants[0].path() for drafted in drafts for part in drafted.stretches]
+    return improved(surroundings, [drafted.route for drafted in drafts], paths)
 
 
-def _drafts(surroundings: Surroundings, end: Optional[Pose]) -> List[Tuple[Route, Swept]]:
-    """Routes over lanes, rings and large crumbs, and what is swept after each on paper; none, if that is little."""
+class _Drafted(NamedTuple):
+    """A route over lanes, rings and large crumbs."""
+
+    route: Route
+    stretches: List[Stretch]
+    paper: Swept  # the floor after it, on paper
+
+
+def _drafts(surroundings: Surroundings) -> List[_Drafted]:
+    """Routes that clean most of what was missed; none, if that is little."""
     swept, area = surroundings.context.swept, surroundings.context.swept.reachable_area
     missing = float((swept.missing_share() * surroundings.around).sum()) * surroundings.context.plan.resolution ** 2
     ringed: Dict[Tuple[bytes, float], Tuple[List[Stretch], Swept]] = {}  # by where they are, and how far apart
-    found: Dict[bytes, Tuple[Route, Swept]] = {}  # by their paths: two drafts may come to the same
+    found: Dict[bytes, _Drafted] = {}  # by their paths: two drafts may come to the same
     for draft, shape in _shaped(surroundings):
         which = shape.has_lanes.tobytes(), draft.ring_pass
         if which not in ringed:
@@ -73,9 +82,9 @@ def _drafts(surroundings: Surroundings, end: Optional[Pose]) -> List[Tuple[Route
         stretches += _strips(surroundings, paper, draft)
         paths = b''.join(part.variants[0].path().tobytes() for part in stretches)
         is_much = paths not in found and paper.coverage - swept.coverage > MOST * missing / area
-        route = _through(surroundings, end, stretches) if is_much else None
+        route = _through(surroundings, stretches) if is_much else None
         if route is not None:
-            found[paths] = route, paper
+            found[paths] = _Drafted(route, stretches, paper)
     return list(found.values())
 
 
@@ -101,15 +110,15 @@ def _around(context: Context, pose: Pose) -> Array:
     return ground.around(pose.x, pose.y, 0.5 * context.robot.brush.width + BEYOND)
 
 
-def _through(surroundings: Surroundings, end: Optional[Pose], found: List[Stretch]) -> Optional[Route]:
+def _through(surroundings: Surroundings, found: List[Stretch]) -> Optional[Route]:
     """A route over stretches between poses; of crumbs, only over as many as the target needs. None: there is none."""
     if not found:
         return None
     context, pose = surroundings.context, surroundings.pose
-    tours = _tours(context, pose, end, surroundings.labels, groups(found))
+    tours = _tours(context, pose, surroundings.end, surroundings.labels, groups(found))
     if all(part.is_crumb for part in found):
         _cull(context, tours)
-    return _route(context, pose, tours)
+    return route_over(context, pose, _legs(tours))
 
 
 def _rings(surroundings: Surroundings, paper: Swept, shape: Shapes, draft: Draft) -> List[Stretch]:
@@ -201,33 +210,9 @@ def _cull(context: Context, tours: List[Tuple[Group, Tour]]) -> None:
             tours[number][1].leave_out(indices)
 
 
-def _route(context: Context, pose: Pose, tours: List[Tuple[Group, Tour]]) -> Optional[Route]:
-    """The route over all tours; it leaves out what cannot be reached."""
-    config, ground = context.config, context.ground
-    waypoints, speeds = [np.array([[pose.x, pose.y]])], []
+def _legs(tours: List[Tuple[Group, Tour]]) -> Iterator[Tuple[Optional[Array], Array]]:
+    """The way to each stretch of tours, if it is known, and the path over that: float64 (any, 2) [m] each."""
     for group, route in tours:
-        is_there = False  # where the stretch before ends
-        for leg in route.legs():
+        for number, leg in enumerate(route.legs()):
             path = group.stretches[leg.stretch].variants[leg.variant].path()
-            way = leg.way if is_there else None
-            if way is None:
-                way = ground.path(waypoints[-1][-1], path[0])
-            is_there = way is not None
-            if way is None:
-                continue
-            way, way_speeds = _way(way, config.speed, config.transit_speed)
-            waypoints += [way[1:], path[1:]]
-            speeds += [way_speeds, np.full(len(path) - 1, config.speed)]
-    return Route(np.concatenate(waypoints), np.concatenate(speeds)) if speeds else None
-
-
-def _way(way: Array, speed: float, transit_speed: float) -> Tuple[Array, Array]:
-    """A way (any, 2) [m] between two stretches, with the end of a long one apart, and the speeds on it [m/s]."""
-    legs = np.hypot(*np.diff(way, axis=0).T)
-    if legs.sum() <= TRANSIT:
-        return way, np.full(len(legs), speed)
-    fast = np.full(len(legs), transit_speed)
-    if legs[-1] <= SLOW:
-        return way, np.append(fast[:-1], speed)
-    slow = way[-1] - SLOW / legs[-1] * (way[-1] - way[-2])
-    return np.concatenate([way[:-1], [slow], way[-1:]]), np.append(fast, speed)
+            yield leg.way if number > 0 else None, path

@@ -27,6 +27,7 @@ class Rehearsal:
 
     Attributes:
         route: what is followed.
+        drive: limits of the wheels.
         swept: the floor afterwards.
         is_complete: whether the robot would get to the end.
         seconds: that it takes.
@@ -40,12 +41,12 @@ class Rehearsal:
         self.route = route
         self._speed = context.config.speed
         drive = drive_of(context.robot.drive)
-        self._drive = drive._replace(max_speed=min(drive.max_speed, SWIFT_SPEED))
+        self.drive = drive._replace(max_speed=min(drive.max_speed, SWIFT_SPEED))
         self._walls = Walls(ground.plan.clearance, ground.plan.origin, ground.plan.resolution, ground.reach)
         begin = np.zeros(COLUMNS)
         begin[:3] = pose
         self.is_complete, self._trace = compiled_rehearsal.rehearse(
-            route.waypoints, route.speeds, self._drive, self._walls, begin, True, np.inf)
+            route.waypoints, route.speeds, self.drive, self._walls, begin, True, np.inf)
         self._trace[:, ALONG] = np.maximum.accumulate(self._trace[:, ALONG])
         self.swept = context.swept.copy()
         brush = self.swept.brush
@@ -65,7 +66,7 @@ class Rehearsal:
         brush = self.swept.brush
         brush = brush._replace(tally=brush.tally.copy())
         seconds, samples = compiled_rehearsal.changes(
-            *self.route, self._drive, self._walls, self._speed, self._trace, brush,
+            *self.route, self.drive, self._walls, self._speed, self._trace, brush,
             np.zeros((2, *brush.samples.shape), np.uint8), np.array([edit[:2] for edit in edits]),
             np.concatenate([NO_PATH, *(edit.path for edit in edits)]),
             np.cumsum([0, *(len(edit.path) for edit in edits)]))

@@ -1,0 +1,129 @@
+"""Rebuilds routes: of their own pieces and those of other drafts, the best ones are driven in the best order.
+
+Drafts are laid out by few rules for a whole floor, and tours lead over their stretches as these are. Pieces of all of
+them show what suits each part of the floor, and where it is better to go on elsewhere.
+"""
+
+from typing import Iterator, Optional, Sequence, Tuple
+
+import numpy as np
+from scipy import spatial
+
+from rumba_cleaning.belief.context import Context
+from rumba_cleaning.planning import compiled_pieces, compiled_rebuild, pieces
+from rumba_cleaning.planning.compiled_detours import sees
+from rumba_cleaning.planning.compiled_pieces import FAR, NONE, TOGETHER
+from rumba_cleaning.planning.compiled_rebuild import GOAL, Net
+from rumba_cleaning.planning.lines import needed
+from rumba_cleaning.planning.rehearsal import Rehearsal
+from rumba_cleaning.planning.surroundings import Surroundings
+from rumba_cleaning.planning.tour import BESIDE
+from rumba_cleaning.planning.transit import TRANSIT, route_over
+from rumba_cleaning.route import BENT, STOP, TURN_RATE, Route, lengths_along
+from rumba_sim.model.kernel import Array
+
+# All figures are our choice; each comment says what speaks for a larger and for a smaller value.
+STEPS, EACH = 3000, 15  # of the search, at most, in all and for each piece: large makes shorter routes, small is fast
+PRICE = 150.0  # [s/m^2] that it is worth to sweep floor, about as much as the last that a target needs: a lane takes 20
+NEAR, FARTHEST = 100, 2.0  # ends that are near to one, and how far away [m], at most: large is exact, small is fast
+CELL = 0.03  # [m] side of the cells in which floor is counted, about: large is fast, small is exact
+AHEAD = 2  # waypoints from the end of a piece, over which its heading is measured
+
+
+def rebuilt(surroundings: Surroundings, rehearsal: Rehearsal, paths: Sequence[Array]) -> Route:
+    """A route that takes less time for what it sweeps, or sweeps more, about; edits have to make it meet the target.
+
+    Args:
+        surroundings: for which the route is.
+        rehearsal: of the route, with waypoints that are not far apart.
+        paths: of other drafts, float64 (any, 2) [m] each.
+    """
+    context, pose = surroundings.context, surroundings.pose
+    own = pieces.of_route(rehearsal, context.config.speed, context.robot.brush.width)
+    goal = pose if surroundings.end is None else surroundings.end
+    points = [np.array([place[:2], place[:2]]) for place in (pose, goal)]
+    parts = points + own + pieces.of_paths(paths, own)
+    tour = 2 * np.array([*range(GOAL), *range(GOAL + 1, len(points) + len(own)), GOAL])
+    links = _Links(context, parts, surroundings.end is None)
+    links.add_known(tour)
+    wanted, size = _wanted(surroundings)
+    cells, stops = compiled_pieces.cells(*_joined(parts), 0.5 * context.robot.brush.width, wanted,
+                                         context.plan.origin, size)
+    durations = compiled_pieces.durations(*_joined(parts), context.config.speed, rehearsal.drive)
+    middles = np.array([part[len(part) // 2] if len(part) > 2 else part.mean(axis=0) for part in parts])
+    net = Net(links.near, links.times, durations, middles, cells, stops, PRICE * size ** 2)
+    found = compiled_rebuild.rebuilt(net, tour, wanted.size, min(EACH * len(tour), STEPS))
+    return route_over(context, pose, links.legs(found)) or rehearsal.route
+
+
+def _joined(parts: Sequence[Array]) -> Tuple[Array, Array]:
+    """Pieces one behind the other: waypoints, float64 (any, 2) [m]; where each begins, and the end of the last."""
+    return np.concatenate(parts), np.cumsum([0, *map(len, parts)])
+
+
+def _wanted(surroundings: Surroundings) -> Tuple[Array, float]:
+    """The cells to sweep, bool (rows, columns), most of which was missed; their side [m]."""
+    resolution = surroundings.context.plan.resolution
+    count = max(round(CELL / resolution), 1)
+    missing = surroundings.context.swept.missing_share() * surroundings.around
+    rows, columns = (size // count for size in missing.shape)
+    shares = missing[:rows * count, :columns * count].reshape(rows, count, columns, count).mean(axis=(1, 3))
+    return shares > 0.5, count * resolution
+
+
+class _Links:
+    """The links between pieces.
+
+    Attributes:
+        near: see `Net`.
+        times: see `Net.links`.
+    """
+
+    def __init__(self, context: Context, parts: Sequence[Array], is_open: bool) -> None:
+        """Find the straight ones.
+
+        Args:
+            context: where the robot can stand.
+            parts: the pieces, float64 (any, 2) [m] each; the first are START and GOAL.
+            is_open: whether a tour may end anywhere.
+        """
+        self._context, self._parts = context, parts
+        self._ends = np.concatenate([part[[0, -1]] for part in parts])
+        ahead = np.concatenate([part[[min(AHEAD, len(part) - 1), max(len(part) - 1 - AHEAD, 0)]] for part in parts])
+        along = self._ends - ahead
+        headings = np.where(np.hypot(*along.T) > 0.0, np.arctan2(along[:, 1], along[:, 0]), np.nan)
+        tree = spatial.cKDTree(self._ends)
+        _, near = tree.query(self._ends, range(1, NEAR + 1), distance_upper_bound=FARTHEST)
+        near[near == len(self._ends)] = NONE
+        ground, config = self._context.ground, self._context.config
+        self._needed = needed(ground, BESIDE)
+        self.near, self.times = compiled_pieces.links(
+            self._ends, headings, near, ground.clearance, ground.plan.origin, ground.plan.resolution, self._needed,
+            (TRANSIT, config.speed, config.transit_speed, BENT, TURN_RATE, STOP))
+        if is_open:
+            self.times[:, 2 * GOAL:2 * GOAL + 2] = self.times[2 * GOAL:2 * GOAL + 2] = 0.0
+
+    def add_known(self, tour: Array) -> None:
+        """Add those of a tour, also around corners."""
+        for one, other in zip((tour[:-1] ^ 1).tolist(), tour[1:].tolist()):
+            if self.times[one, other] < FAR:
+                continue
+            way = self._context.ground.path(self._ends[one], self._ends[other])
+            if way is not None:
+                time = float(lengths_along(way)[-1]) / self._context.config.transit_speed
+                self.times[one, other] = self.times[other, one] = time
+
+    def legs(self, tour: Array) -> Iterator[Tuple[Optional[Array], Array]]:
+        """The way to each piece of a tour, if it is straight, and the piece: float64 (any, 2) [m] each."""
+        for before, entry in zip((tour[:-2] ^ 1).tolist(), tour[1:-1].tolist()):
+            path = self._parts[entry >> 1][::-1 if entry & 1 else 1]
+            yield self._straight(self._ends[before], path[0]), path
+
+    def _straight(self, start: Array, end: Array) -> Optional[Array]:
+        """The straight way from a point (2) to another [m]; None if it is not free."""
+        ground = self._context.ground
+        if np.hypot(*(end - start)) < TOGETHER:
+            return start[np.newaxis]
+        is_free = sees(ground.clearance, ground.plan.origin, ground.plan.resolution, self._needed,
+                       (start[0], start[1]), (end[0], end[1]))
+        return np.stack([start, end]) if is_free else None
