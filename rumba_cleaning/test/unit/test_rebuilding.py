@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 from pytest import approx
 from rooms import room
 
-from rumba_cleaning.planning.compiled_pieces import FAR, NONE
-from rumba_cleaning.planning.compiled_rebuild import GOAL, START, Net, State, number, rebuilt, turned
+from rumba_cleaning.planning.compiled_pieces import FAR
+from rumba_cleaning.planning.compiled_rebuild import GOAL, NONE, START, Net, State, number, rebuilt, turned
 from rumba_cleaning.planning.edits import dense
 from rumba_cleaning.planning.rebuilding import rebuilt as rebuilt_route
 from rumba_cleaning.planning.regions import regions

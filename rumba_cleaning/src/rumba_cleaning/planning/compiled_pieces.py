@@ -10,8 +10,8 @@ from typing import Any, Tuple
 
 import numpy as np
 
-from rumba_cleaning.behaviours.compiled_follower import Drive
-from rumba_cleaning.planning.compiled_ways import CLOSE, Needed, sight, turning, wrapped
+from rumba_cleaning.behaviours.compiled_follower import Drive, wrapped
+from rumba_cleaning.planning.compiled_ways import CLOSE, Needed, sight, turning
 from rumba_sim.model.jit import compiled
 
 Array = Any  # numpy.ndarray
@@ -31,7 +31,7 @@ def durations(points: Array, stops: Array, speed: float, drive: Drive) -> Array:
         for index in range(stops[piece] + 1, stops[piece + 1]):
             size, bent, along = distance(points, index - 1, index), 0.0, 0.0
             for corner in range(max(index - 1, stops[piece] + 1), min(index + 1, stops[piece + 1] - 1)):
-                bent += wrapped(bearing(points, corner, corner + 1) - bearing(points, corner - 1, corner))
+                bent += abs(wrapped(bearing(points, corner, corner + 1) - bearing(points, corner - 1, corner)))
                 along += 0.5 * (distance(points, corner - 1, corner) + distance(points, corner, corner + 1))
             curvature = bent / along if along > 0.0 else 0.0
             wheels = drive.max_speed / (1.0 + 0.5 * drive.wheel_base * curvature)
@@ -158,10 +158,10 @@ def link(ends: Array, headings: Array, one: int, other: int,
     metres = distance(ends, one, other)
     into = headings[other] + math.pi
     if metres < CLOSE:
-        angle = wrapped(into - headings[one])
+        angle = abs(wrapped(into - headings[one]))
         return metres / slow + (turning(angle, free, rate, stop) if angle == angle else 0.0)
     time = metres / slow if metres <= longest else metres / fast
     ahead = bearing(ends, one, other)
-    for angle in (wrapped(ahead - headings[one]), wrapped(into - ahead)):
+    for angle in (abs(wrapped(ahead - headings[one])), abs(wrapped(into - ahead))):
         time += turning(angle, free, rate, stop) if angle == angle else 0.0
     return time

@@ -17,13 +17,13 @@ from typing import Any, NamedTuple, Tuple
 
 import numpy as np
 
-from rumba_cleaning.planning.compiled_pieces import FAR, NONE
 from rumba_cleaning.planning.compiled_tours import drawn
 from rumba_sim.model.jit import compiled
 
 Array = Any  # numpy.ndarray
 
 START, GOAL = 0, 1  # pieces at which a tour begins and ends: points
+NONE = -1  # no place in a tour, or no piece
 BETTER = 1e-6  # [s] an improvement: more than rounding errors, or the search would not end
 # All figures are our choice.
 MOST = 8  # pieces that are taken out at once: few are soon put in again, many change more
@@ -40,8 +40,8 @@ TRIED = 10  # links by which each end of a piece is put in, at most
 class Net(NamedTuple):
     """Pieces, and the links between their ends."""
 
-    near: Array  # int32 (ends, any), those to which a free link leads from each, the quickest first; NONE for no more
-    links: Array  # float32 (ends, ends), the times of all links [s], FAR where there is none
+    near: Array  # int32 (ends, any), those to which a free link leads, the quickest first; negative for no more
+    links: Array  # float32 (ends, ends), the times of all links [s], long where there is none
     durations: Array  # float64 (pieces), of the pieces [s]
     middles: Array  # float64 (pieces, 2), of the pieces [m]
     cells: Array  # int32 (any), numbers of the cells that each piece sweeps, one piece behind the other
@@ -91,7 +91,7 @@ def cost_of(net: Net, state: State, tour: Array) -> float:
 
 @compiled
 def link(net: Net, one: int, other: int) -> Any:
-    """The time from one end to another [s], not in float32, in which sums with FAR err by more than BETTER."""
+    """The time from one end to another [s], not in float32, in which sums with long times err by more than BETTER."""
     return np.float64(net.links[one, other])
 
 
@@ -200,11 +200,11 @@ def unswept(net: Net, passes: Array, piece: int) -> int:
 @compiled
 def slot(net: Net, place: Array, tour: Array, piece: int) -> Tuple[float, int, int]:
     """Where a piece costs least in a tour: time for the links [s], place, and the end at which it is entered."""
-    best, at, into = FAR, NONE, NONE
+    best, at, into = np.inf, NONE, NONE
     for end in (2 * piece, 2 * piece + 1):
         tried = 0
         for near in net.near[end]:
-            if near == NONE or tried == TRIED:
+            if near < 0 or tried == TRIED:
                 break
             index = place[near >> 1]
             if index == NONE:
@@ -241,7 +241,7 @@ def turned(net: Net, place: Array, tour: Array, index: int) -> bool:
     before = link(net, *ends)
     for side in range(2):
         for near in net.near[ends[side]]:
-            if near == NONE or link(net, ends[side], near) >= before - BETTER:
+            if near < 0 or link(net, ends[side], near) >= before - BETTER:
                 break
             other = place[near >> 1]
             if other == NONE or (tour[other] == near) != bool(side):
