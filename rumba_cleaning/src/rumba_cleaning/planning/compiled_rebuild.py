@@ -59,7 +59,7 @@ class State(NamedTuple):
 @compiled
 def rebuilt(net: Net, tour: Array, cell_count: int, steps: int) -> Array:
     """The best tour that is found from another one in a number of steps."""
-    random = np.array([1])
+    random = np.ones(1, np.int64)
     state = State(np.full(len(net.durations), NONE), np.zeros(cell_count, np.uint8))
     for entry in tour:
         sweep(net, state.passes, entry >> 1, 1)

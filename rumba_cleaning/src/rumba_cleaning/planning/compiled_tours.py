@@ -224,7 +224,7 @@ def shaken(costs: Array, last: Array, of: Array, begins: Array, found: Array, ro
     numbers are always the same.
     """
     improved(costs, last, of, begins, found, rounds)
-    best, count, random = length(costs, last, found), len(found), np.array([1])
+    best, count, random = length(costs, last, found), len(found), np.ones(1, np.int64)
     if count < 3:
         return
     for _ in range(kicks):
