@@ -82,8 +82,8 @@ def test_a_part_is_turned_round_only_if_that_saves_time_although_links_that_are_
         assert (tour[state.place] >> 1 == np.arange(14)).all()
 
 
-def surroundings_of(floor=FLOOR, end=None):
-    context = knowing(floor, BEGIN)
+def surroundings_of(floor=FLOOR, end=None, **config):
+    context = knowing(floor, BEGIN, **config)
     around = np.ones(context.plan.free.shape, bool)
     return Surroundings(context, BEGIN, end, around, regions(context.ground), Walls(context.ground))
 
@@ -119,6 +119,16 @@ def test_pieces_of_other_drafts_sweep_what_a_route_leaves():
     half = Rehearsal(surroundings.context, BEGIN, route_over(lanes(range(6))))
     after = rebuilt_rehearsal(surroundings, half, lanes(range(6, 13)))
     assert after.swept.coverage > half.swept.coverage + 0.35
+
+
+def test_what_takes_long_for_its_area_is_swept_for_a_high_target_alone():
+    swept = []
+    for target in (0.5, 0.95, 0.999):
+        surroundings = surroundings_of(target_coverage=target)
+        lane = Rehearsal(surroundings.context, BEGIN, route_over(lanes([0])))
+        spots = [np.array([[x, 0.72], [x, 0.8]]) for x in np.arange(0.5, 3.7, 0.4)]  # 0.0136 m^2 each, in 3 s or more
+        swept.append(rebuilt_rehearsal(surroundings, lane, spots).swept.coverage)
+    assert swept[0] == swept[1] < swept[2] - 0.005
 
 
 def test_pieces_of_other_drafts_replace_what_takes_longer():

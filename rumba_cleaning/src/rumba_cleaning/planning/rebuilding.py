@@ -24,7 +24,9 @@ from rumba_sim.model.kernel import Array
 
 # All figures are our choice; each comment says what speaks for a larger and for a smaller value.
 STEPS, EACH = 3000, 15  # of the search, at most, in all and for each piece: large makes shorter routes, small is fast
-PRICE = 150.0  # [s/m^2] that it is worth to sweep floor, about as much as the last that a target needs: a lane takes 20
+# [s/m^2] that it is worth to sweep floor, times the share that the target leaves, and at least and at most: about what
+# the last that the target needs takes; a lane takes 20. Large sweeps more than is needed, small leaves much to edits.
+PRICE, CHEAPEST, DEAREST = 3.0, 100.0, 1000.0
 NEAR, FARTHEST = 100, 2.0  # ends that are near to one, and how far away [m], at most: large is exact, small is fast
 CELL = 0.03  # [m] side of the cells in which floor is counted, about: large is fast, small is exact
 AHEAD = 2  # waypoints from the end of a piece, over which its heading is measured
@@ -51,9 +53,14 @@ def rebuilt(surroundings: Surroundings, rehearsal: Rehearsal, paths: Sequence[Ar
                                          context.plan.origin, size)
     durations = compiled_pieces.durations(*_joined(parts), context.config.speed, rehearsal.drive)
     middles = np.array([part[len(part) // 2] if len(part) > 2 else part.mean(axis=0) for part in parts])
-    net = Net(links.near, links.times, durations, middles, cells, stops, PRICE * size ** 2)
+    net = Net(links.near, links.times, durations, middles, cells, stops, _price(context) * size ** 2)
     found = compiled_rebuild.rebuilt(net, tour, wanted.size, min(EACH * len(tour), STEPS))
     return route_over(context, pose, links.legs(found)) or rehearsal.route
+
+
+def _price(context: Context) -> float:
+    """What it is worth to sweep floor [s/m^2]."""
+    return min(max(PRICE / max(1.0 - context.target_coverage, 1e-9), CHEAPEST), DEAREST)
 
 
 def _joined(parts: Sequence[Array]) -> Tuple[Array, Array]:
