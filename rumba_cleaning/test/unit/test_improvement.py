@@ -114,6 +114,44 @@ def test_the_better_of_two_routes_is_improved():
     assert chosen.seconds == alone.seconds and chosen.swept.coverage == alone.swept.coverage
 
 
+@pytest.mark.parametrize('planning_rounds, count', [(1, 1), (3, 1), (4, 2), (5, 2)])
+def test_a_route_is_rebuilt_before_it_is_edited_and_the_best_so_far_after_three_rounds(monkeypatch, planning_rounds,
+                                                                                       count):
+    given, rebuilt = [], improvement.rebuilt
+
+    def noted(surroundings, rehearsal, paths):
+        given.append((improvement._cost(surroundings, rehearsal), paths))
+        return rebuilt(surroundings, rehearsal, paths)
+    monkeypatch.setattr(improvement, 'rebuilt', noted)
+    surroundings = surroundings_of(crooked(0.02), target_coverage=0.95, planning_rounds=planning_rounds)
+    paths = [np.array([[0.5, 0.5], [2.5, 0.5]])]
+    improved(surroundings, [first_draft(surroundings)], paths)
+    costs = [cost for cost, _ in given]
+    assert len(given) == count and all(found is paths for _, found in given)
+    assert all(later < earlier for earlier, later in zip(costs, costs[1:]))
+
+
+def test_a_rebuilt_route_that_nobody_can_follow_is_not_taken(monkeypatch):
+    surroundings = surroundings_of(room(4.0, 3.0, 0.02, [(1.9, 0.0, 2.1, 2.2)]))
+    before = Rehearsal(surroundings.context, START, dense(Route(np.array([[0.5, 0.5], [0.5, 2.5]]), np.array([0.3]))))
+    for end, is_taken in ((3.5, False), (1.5, True)):
+        route = Route(np.array([[0.5, 0.5], [end, 0.5]]), np.array([0.3]))
+        monkeypatch.setattr(improvement, 'rebuilt', lambda *_, found=route: found)
+        assert (improvement._rebuilt(surroundings, before, []) is not before) == is_taken
+
+
+def test_a_route_is_rebuilt_of_the_stretches_of_all_drafts(monkeypatch):
+    given = []
+    monkeypatch.setattr(planner, 'improved', lambda _, routes, paths: given.append((routes, paths)) or routes[0])
+    surroundings = surroundings_of(room(4.0, 3.0))
+    planner.plan(surroundings.context, START)
+    drafts = planner._drafts(surroundings)
+    (routes, paths), = given
+    assert len(routes) == len(drafts) > 2
+    found = [part.variants[0].path() for drafted in drafts for part in drafted.stretches]
+    assert len(paths) == len(found) and all(np.array_equal(*each) for each in zip(paths, found))
+
+
 def test_a_route_that_nobody_can_follow_stays_as_it_is():
     surroundings = surroundings_of(room(4.0, 3.0, 0.02, [(1.9, 0.0, 2.1, 3.0)]))
     through = Route(np.array([[0.5, 0.5], [3.5, 0.5]]), np.array([0.3]))

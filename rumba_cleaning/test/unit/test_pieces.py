@@ -10,7 +10,7 @@ from rooms import room
 
 from rumba_cleaning.behaviours.follower import drive_of
 from rumba_cleaning.planning import pieces
-from rumba_cleaning.planning.compiled_pieces import BEYOND, FAR, NONE, cells, durations, links
+from rumba_cleaning.planning.compiled_pieces import BEYOND, FAR, NONE, Pace, cells, durations, links
 from rumba_cleaning.planning.edits import dense
 from rumba_cleaning.planning.lines import needed
 from rumba_cleaning.planning.rehearsal import Rehearsal
@@ -21,7 +21,7 @@ from rumba_sim.model.robot_config import DriveConfig
 START = Pose(0.5, 0.5, 0.0)
 SPEED, TRANSIT = 0.3, 0.45
 DRIVE = drive_of(DriveConfig(max_speed=0.4))
-TIMES = (0.5, SPEED, TRANSIT, 0.5, 2.0, 0.5)
+PACE = Pace(0.5, SPEED, TRANSIT, 0.5, 2.0, 0.5)
 
 
 def ends_of(found):
@@ -96,11 +96,11 @@ def test_links_lead_where_the_floor_is_free_and_the_quickest_is_first():
     near = np.array([[2, 3, 4, NONE], [3, 2, 0, NONE], [0, 1, NONE, 4], [1, 0, NONE, NONE], [0, 2, NONE, NONE],
                      [NONE, NONE, NONE, NONE]])
     found, times = links(ends, headings, near, ground.clearance, ground.plan.origin, ground.plan.resolution,
-                         needed(ground), TIMES)
+                         needed(ground), PACE)
     assert found.tolist() == [[2, 3, NONE, NONE], [3, 2, NONE, NONE], [0, 1, NONE, NONE], [1, 0, NONE, NONE],
                               [NONE] * 4, [NONE] * 4]
     assert (times == times.T).all() and times.dtype == np.float32
-    corners = 2.0 * (0.5 * math.pi - TIMES[3]) / TIMES[4]
+    corners = 2.0 * (0.5 * math.pi - PACE.free) / PACE.rate
     assert times[0, 2] == approx(0.17 / SPEED + corners)
     assert times[0, 3] > 1.0 / TRANSIT and times[0, 4] == times[0, 1] == FAR  # behind a wall; of one piece
 
@@ -112,9 +112,9 @@ def test_a_link_straight_on_takes_no_time_and_one_back_a_turn():
     headings = np.array([math.pi, 0.0, math.pi, 0.0, math.nan, math.nan])
     near = np.array([[NONE] * 3, [2, 5, NONE], [1, 4, NONE], [NONE] * 3, [1, 2, NONE], [1, 2, NONE]])
     _, times = links(ends, headings, near, ground.clearance, ground.plan.origin, ground.plan.resolution, needed(ground),
-                     TIMES)
+                     PACE)
     assert times[1, 2] == times[1, 5] == 0.0  # the second is a point, which has no direction
     headings[2] = 0.0
     _, times = links(ends, headings, near, ground.clearance, ground.plan.origin, ground.plan.resolution, needed(ground),
-                     TIMES)
-    assert times[1, 2] == approx((math.pi - TIMES[3]) / TIMES[4] + TIMES[5])
+                     PACE)
+    assert times[1, 2] == approx((math.pi - PACE.free) / PACE.rate + PACE.stop)

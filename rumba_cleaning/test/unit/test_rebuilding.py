@@ -11,7 +11,7 @@ from pytest import approx
 from rooms import room
 
 from rumba_cleaning.planning.compiled_pieces import FAR
-from rumba_cleaning.planning.compiled_rebuild import GOAL, NONE, START, Net, State, number, rebuilt, turned
+from rumba_cleaning.planning.compiled_rebuilding import GOAL, NONE, START, Net, State, number, rebuilt, turned
 from rumba_cleaning.planning.edits import dense
 from rumba_cleaning.planning.rebuilding import rebuilt as rebuilt_route
 from rumba_cleaning.planning.regions import regions
@@ -119,6 +119,14 @@ def test_pieces_of_other_drafts_sweep_what_a_route_leaves():
     half = Rehearsal(surroundings.context, BEGIN, route_over(lanes(range(6))))
     after = rebuilt_rehearsal(surroundings, half, lanes(range(6, 13)))
     assert after.swept.coverage > half.swept.coverage + 0.35
+
+
+def test_floor_that_an_obstacle_bars_is_not_driven_to():
+    surroundings = surroundings_of()
+    surroundings.around[surroundings.context.plan.free.shape[0] // 2:] = False
+    half = Rehearsal(surroundings.context, BEGIN, route_over(lanes(range(6))))
+    route = rebuilt_route(surroundings, half, lanes(range(6, 13)))
+    assert 1.3 < route.waypoints[:, 1].max() < 1.7
 
 
 def test_what_takes_long_for_its_area_is_swept_for_a_high_target_alone():

@@ -6,21 +6,32 @@ Arguments that many functions share:
 """
 
 import math
-from typing import Any, Tuple
+from typing import Any, NamedTuple, Tuple
 
 import numpy as np
 
-from rumba_cleaning.behaviours.compiled_follower import Drive, wrapped
-from rumba_cleaning.planning.compiled_ways import CLOSE, Needed, sight, turning
+from rumba_cleaning.behaviours.compiled_follower import SLOWEST_BEND, Drive, wrapped
+from rumba_cleaning.planning.compiled_rehearsal import distance
+from rumba_cleaning.planning.compiled_ways import CLOSE, Needed, cornering, sight
 from rumba_sim.model.jit import compiled
 
 Array = Any  # numpy.ndarray
 
 BEYOND = 0.3  # of half a brush that is swept beyond the ends of a piece: robots swing round there, or go on; our choice
-SLOWEST = 0.08  # [m/s] in bends, as in `compiled_follower`
 NONE = -1  # no end
 FAR = 1e4  # [s] for a link that is not known: finite, so that sums can be compared
 TOGETHER = 1e-3  # [m] ends so near to each other are one
+
+
+class Pace(NamedTuple):
+    """How fast links are driven."""
+
+    longest: float  # [m] of one at the cleaning speed
+    slow: float  # that speed [m/s]
+    fast: float  # on longer ones [m/s]
+    free: float  # corners by this cost no time [rad], as for `compiled_ways.turning`
+    rate: float  # [rad/s] in others
+    stop: float  # [s] in those by more than a right angle
 
 
 @compiled
@@ -29,21 +40,16 @@ def durations(points: Array, stops: Array, speed: float, drive: Drive) -> Array:
     found = np.zeros(len(stops) - 1)
     for piece in range(len(found)):
         for index in range(stops[piece] + 1, stops[piece + 1]):
-            size, bent, along = distance(points, index - 1, index), 0.0, 0.0
+            size, bent, along = distance(points[index - 1], points[index]), 0.0, 0.0
             for corner in range(max(index - 1, stops[piece] + 1), min(index + 1, stops[piece + 1] - 1)):
                 bent += abs(wrapped(bearing(points, corner, corner + 1) - bearing(points, corner - 1, corner)))
-                along += 0.5 * (distance(points, corner - 1, corner) + distance(points, corner, corner + 1))
+                along += 0.5 * (distance(points[corner - 1], points[corner])
+                                + distance(points[corner], points[corner + 1]))
             curvature = bent / along if along > 0.0 else 0.0
             wheels = drive.max_speed / (1.0 + 0.5 * drive.wheel_base * curvature)
             turns = drive.max_turn_rate / curvature if curvature > 0.0 else speed
-            found[piece] += size / max(min(speed, wheels, turns), SLOWEST)
+            found[piece] += size / max(min(speed, wheels, turns), SLOWEST_BEND)
     return found
-
-
-@compiled
-def distance(points: Array, one: int, other: int) -> float:
-    """The distance between two of the points [m]."""
-    return math.hypot(points[other, 0] - points[one, 0], points[other, 1] - points[one, 1])
 
 
 @compiled
@@ -82,10 +88,7 @@ def cells(points: Array, stops: Array, half: float, wanted: Array, origin: Tuple
                         found.append(np.int32(row * wanted.shape[1] + column))
                         last[row, column] = piece
         ends[piece + 1] = len(found)
-    numbers = np.empty(len(found), np.int32)
-    for index in range(len(found)):
-        numbers[index] = found[index]
-    return numbers, ends
+    return np.array(found), ends
 
 
 @compiled
@@ -117,7 +120,7 @@ def is_swept(path: Array, leg: int, half: float, x: float, y: float) -> bool:
 
 @compiled
 def links(ends: Array, headings: Array, near: Array, clearance: Array, origin: Tuple[float, float], resolution: float,
-          needed: Needed, times: Tuple[float, float, float, float, float, float]) -> Tuple[Array, Array]:
+          needed: Needed, pace: Pace) -> Tuple[Array, Array]:
     """Straight links between ends of pieces.
 
     Args:
@@ -126,8 +129,7 @@ def links(ends: Array, headings: Array, near: Array, clearance: Array, origin: T
         near: int (ends, any), others near to each; NONE for no more.
         clearance, origin, resolution: of the ground, as in `search.is_clear`.
         needed: beside the links.
-        times: longest link at the cleaning speed [m], that speed, a faster one for longer links [m/s], and the corners
-            that cost no time [rad], turn rate [rad/s] and time for a stop [s], as for `compiled_ways.turning`.
+        pace: at which they are driven.
 
     Returns:
         those near to each end to which a link is free, the quickest first, int32 (ends, any), NONE for no more; the
@@ -139,29 +141,21 @@ def links(ends: Array, headings: Array, near: Array, clearance: Array, origin: T
         for other in near[one]:
             if other == NONE:
                 break
-            if other >> 1 != one >> 1 and (distance(ends, one, other) < TOGETHER or sight(
+            if other >> 1 != one >> 1 and (distance(ends[one], ends[other]) < TOGETHER or sight(
                     clearance, needed, (ends[one, 0] - origin[0]) / resolution, (ends[one, 1] - origin[1]) / resolution,
                     (ends[other, 0] - origin[0]) / resolution, (ends[other, 1] - origin[1]) / resolution)):
                 found[one, count] = other
                 count += 1
-                seconds[one, other] = seconds[other, one] = link(ends, headings, one, other, times)
+                seconds[one, other] = seconds[other, one] = link(ends, headings, one, other, pace)
         quickest = np.argsort(seconds[one][found[one, :count]])
         found[one, :count] = found[one][quickest]
     return found, seconds
 
 
 @compiled
-def link(ends: Array, headings: Array, one: int, other: int,
-         times: Tuple[float, float, float, float, float, float]) -> float:
-    """The time from one end to another [s], as for `links`."""
-    longest, slow, fast, free, rate, stop = times
-    metres = distance(ends, one, other)
-    into = headings[other] + math.pi
-    if metres < CLOSE:
-        angle = abs(wrapped(into - headings[one]))
-        return metres / slow + (turning(angle, free, rate, stop) if angle == angle else 0.0)
-    time = metres / slow if metres <= longest else metres / fast
-    ahead = bearing(ends, one, other)
-    for angle in (abs(wrapped(ahead - headings[one])), abs(wrapped(into - ahead))):
-        time += turning(angle, free, rate, stop) if angle == angle else 0.0
-    return time
+def link(ends: Array, headings: Array, one: int, other: int, pace: Pace) -> float:
+    """The time from one end to another [s]."""
+    metres = distance(ends[one], ends[other])
+    time = metres / (pace.slow if metres < CLOSE or metres <= pace.longest else pace.fast)
+    return time + cornering(metres, ends[one], ends[other], headings[one], headings[other] + math.pi, pace.free,
+                            pace.rate, pace.stop)

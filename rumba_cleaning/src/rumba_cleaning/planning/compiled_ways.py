@@ -128,6 +128,30 @@ def turning(angle: float, free: float, rate: float, stop: float) -> float:
 
 
 @compiled
+def cornering(metres: float, start: Array, end: Array, out: float, into: float, free: float, rate: float,
+              stop: float) -> float:
+    """Time lost in the corners at both ends of a way [s].
+
+    Args:
+        metres: length of the way; a short one has no direction [m].
+        start, end: of the way, float64 (2) [m].
+        out, into: headings before and after it [rad]; NaN: any.
+        free, rate, stop: see `turning`.
+    """
+    if metres < CLOSE:
+        return known_turning(wrapped(into - out), free, rate, stop)
+    along = math.atan2(end[1] - start[1], end[0] - start[0])
+    return (known_turning(wrapped(along - out), free, rate, stop)
+            + known_turning(wrapped(into - along), free, rate, stop))
+
+
+@compiled
+def known_turning(angle: float, free: float, rate: float, stop: float) -> float:
+    """As `turning`; nothing if the angle is NaN."""
+    return 0.0 if math.isnan(angle) else turning(angle, free, rate, stop)
+
+
+@compiled
 def drive_times(metres: Array, points: Array, exits: Array, entries: Array, out: Array, into: Array, speed: float,
                 free: float, rate: float, stop: float) -> Array:
     """Times [s] from each exit to each entry.
@@ -145,15 +169,7 @@ def drive_times(metres: Array, points: Array, exits: Array, entries: Array, out:
         for other in range(len(entries)):
             a, b = exits[one], entries[other]
             time = metres[a, b] / speed
-            if metres[a, b] < CLOSE:
-                angle = wrapped(into[other] - out[one]) if out[one] == out[one] else 0.0
-                time += turning(angle, free, rate, stop)
-            else:
-                bearing = math.atan2(points[b, 1] - points[a, 1], points[b, 0] - points[a, 0])
-                if out[one] == out[one]:
-                    time += turning(wrapped(bearing - out[one]), free, rate, stop)
-                if into[other] == into[other]:
-                    time += turning(wrapped(into[other] - bearing), free, rate, stop)
+            time += cornering(metres[a, b], points[a], points[b], out[one], into[other], free, rate, stop)
             found[one, other] = time
     return found
 

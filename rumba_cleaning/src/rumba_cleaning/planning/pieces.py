@@ -32,7 +32,7 @@ def of_route(rehearsal: Rehearsal, speed: float, brush: float) -> List[Array]:
     swept = np.diff(rehearsal.alone)
     lengths = lengths_along(waypoints)
     return [waypoints[first:last + 1] for first, last in _cuts(waypoints, np.flatnonzero(ways[1:] != ways[:-1]) + 1)
-            if not ways[first] and swept[first:last].sum() >= IDLE * brush * (lengths[last] - lengths[first])]
+            if swept[first:last].sum() >= IDLE * brush * (lengths[last] - lengths[first])]
 
 
 def of_paths(paths: Sequence[Array], known: Sequence[Array]) -> List[Array]:

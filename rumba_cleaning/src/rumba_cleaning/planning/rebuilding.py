@@ -10,12 +10,13 @@ import numpy as np
 from scipy import spatial
 
 from rumba_cleaning.belief.context import Context
-from rumba_cleaning.planning import compiled_pieces, compiled_rebuild, pieces
+from rumba_cleaning.planning import compiled_pieces, compiled_rebuilding, pieces
 from rumba_cleaning.planning.compiled_detours import sees
-from rumba_cleaning.planning.compiled_pieces import FAR, NONE, TOGETHER
-from rumba_cleaning.planning.compiled_rebuild import GOAL, Net
+from rumba_cleaning.planning.compiled_pieces import FAR, NONE, TOGETHER, Pace
+from rumba_cleaning.planning.compiled_rebuilding import GOAL, START, Net
 from rumba_cleaning.planning.lines import needed
 from rumba_cleaning.planning.rehearsal import Rehearsal
+from rumba_cleaning.planning.stretches import Variant, headings
 from rumba_cleaning.planning.surroundings import Surroundings
 from rumba_cleaning.planning.tour import BESIDE
 from rumba_cleaning.planning.transit import TRANSIT, route_over
@@ -29,7 +30,6 @@ STEPS, EACH = 3000, 15  # of the search, at most, in all and for each piece: lar
 PRICE, CHEAPEST, DEAREST = 3.0, 100.0, 1000.0
 NEAR, FARTHEST = 100, 2.0  # ends that are near to one, and how far away [m], at most: large is exact, small is fast
 CELL = 0.03  # [m] side of the cells in which floor is counted, about: large is fast, small is exact
-AHEAD = 2  # waypoints from the end of a piece, over which its heading is measured
 
 
 def rebuilt(surroundings: Surroundings, rehearsal: Rehearsal, paths: Sequence[Array]) -> Route:
@@ -45,7 +45,7 @@ def rebuilt(surroundings: Surroundings, rehearsal: Rehearsal, paths: Sequence[Ar
     goal = pose if surroundings.end is None else surroundings.end
     points = [np.array([place[:2], place[:2]]) for place in (pose, goal)]
     parts = points + own + pieces.of_paths(paths, own)
-    tour = 2 * np.array([*range(GOAL), *range(GOAL + 1, len(points) + len(own)), GOAL])
+    tour = 2 * np.array([START, *range(len(points), len(points) + len(own)), GOAL])
     links = _Links(context, parts, surroundings.end is None)
     links.add_known(tour)
     wanted, size = _wanted(surroundings)
@@ -54,7 +54,7 @@ def rebuilt(surroundings: Surroundings, rehearsal: Rehearsal, paths: Sequence[Ar
     durations = compiled_pieces.durations(*_joined(parts), context.config.speed, rehearsal.drive)
     middles = np.array([part[len(part) // 2] if len(part) > 2 else part.mean(axis=0) for part in parts])
     net = Net(links.near, links.times, durations, middles, cells, stops, _price(context) * size ** 2)
-    found = compiled_rebuild.rebuilt(net, tour, wanted.size, min(EACH * len(tour), STEPS))
+    found = compiled_rebuilding.rebuilt(net, tour, wanted.size, min(EACH * len(tour), STEPS))
     return route_over(context, pose, links.legs(found)) or rehearsal.route
 
 
@@ -95,18 +95,16 @@ class _Links:
             is_open: whether a tour may end anywhere.
         """
         self._context, self._parts = context, parts
-        self._ends = np.concatenate([part[[0, -1]] for part in parts])
-        ahead = np.concatenate([part[[min(AHEAD, len(part) - 1), max(len(part) - 1 - AHEAD, 0)]] for part in parts])
-        along = self._ends - ahead
-        headings = np.where(np.hypot(*along.T) > 0.0, np.arctan2(along[:, 1], along[:, 0]), np.nan)
-        tree = spatial.cKDTree(self._ends)
-        _, near = tree.query(self._ends, range(1, NEAR + 1), distance_upper_bound=FARTHEST)
+        points = np.array([Variant([part], False).ends() for part in parts])
+        self._ends = points[:, [0, 3]].reshape(-1, 2)
+        left = headings(points[:, [1, 2]].reshape(-1, 2), self._ends)
+        _, near = spatial.cKDTree(self._ends).query(self._ends, NEAR, distance_upper_bound=FARTHEST)
         near[near == len(self._ends)] = NONE
         ground, config = self._context.ground, self._context.config
         self._needed = needed(ground, BESIDE)
         self.near, self.times = compiled_pieces.links(
-            self._ends, headings, near, ground.clearance, ground.plan.origin, ground.plan.resolution, self._needed,
-            (TRANSIT, config.speed, config.transit_speed, BENT, TURN_RATE, STOP))
+            self._ends, left, near, ground.clearance, ground.plan.origin, ground.plan.resolution, self._needed,
+            Pace(TRANSIT, config.speed, config.transit_speed, BENT, TURN_RATE, STOP))
         if is_open:
             self.times[:, 2 * GOAL:2 * GOAL + 2] = self.times[2 * GOAL:2 * GOAL + 2] = 0.0
 

@@ -27,6 +27,12 @@ class Variant(NamedTuple):
         return ends[::-1] if self.is_backward else ends
 
 
+def headings(points: Array, ahead: Array) -> Array:
+    """Directions from points (any, 2) [m] to others [rad]; NaN if they are the same."""
+    along = ahead - points
+    return np.where(np.hypot(*along.T) > 0.0, np.arctan2(along[:, 1], along[:, 0]), np.nan)
+
+
 class Stretch(NamedTuple):
     """A part of the floor to clean."""
 

@@ -9,7 +9,7 @@ from rumba_cleaning.planning import compiled_tours, compiled_ways
 from rumba_cleaning.planning.contours import contours
 from rumba_cleaning.planning.lines import needed
 from rumba_cleaning.planning.paper import simplified
-from rumba_cleaning.planning.stretches import Stretch
+from rumba_cleaning.planning.stretches import Stretch, headings
 from rumba_cleaning.route import BENT, STOP, TURN_RATE
 from rumba_sim.model.kernel import Array
 
@@ -84,8 +84,8 @@ class Tour:
         self._is_known = np.isfinite(metres)
         apart = np.hypot(*(self._points[:, np.newaxis] - self._points).transpose(2, 0, 1))
         metres = np.where(self._is_known, metres * ground.plan.resolution, 2.0 * apart + UNSEEN)
-        into = _headings(ends[:, 0], ends[:, 1])
-        out = np.append(_headings(ends[:, 2], ends[:, 3]), np.nan)
+        into = headings(ends[:, 0], ends[:, 1])
+        out = np.append(headings(ends[:, 2], ends[:, 3]), np.nan)
         rates = speed, BENT, TURN_RATE, STOP
         self._costs = compiled_ways.drive_times(metres, self._points, self._exits, self._entries, out, into, *rates)
         self._last = np.zeros(count + 1)
@@ -148,12 +148,6 @@ def _corners(ground: Ground, points: Array) -> Array:
         if len(first) <= CORNERS:
             return np.asarray(corners[np.sort(first)])
         thin *= 2.0
-
-
-def _headings(points: Array, ahead: Array) -> Array:
-    """Directions from points (any, 2) [m] to others [rad]; NaN if they are the same."""
-    along = ahead - points
-    return np.where(np.hypot(*along.T) > 0.0, np.arctan2(along[:, 1], along[:, 0]), np.nan)
 
 
 def order(costs: Array, last: Optional[Array] = None) -> List[int]:
