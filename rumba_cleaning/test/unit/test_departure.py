@@ -12,7 +12,7 @@ from rumba_cleaning.behaviours.departure import LENGTH, Departure, Search
 from rumba_cleaning.behaviours.guard import SPARE
 from rumba_cleaning.behaviours.preview import Preview
 from rumba_cleaning.behaviours.rear import MOST, Rear
-from rumba_cleaning.behaviours.release import Release
+from rumba_cleaning.behaviours.release import PATIENCE, Release
 from rumba_cleaning.behaviours.slip import NO_SLIP
 from rumba_cleaning.control import CONTROL_DT, CONTROL_TICKS, observe
 from rumba_sim.model.geometry import Pose
@@ -127,6 +127,21 @@ def test_held_for_long_between_a_wall_and_a_pit_to_which_it_is_turned_again_and_
         poses.append(robot.pose)
     assert (max(math.dist(pose[:2], place[:2]) for pose in poses) > 0.29) == may_back
     assert min(distance(wheel, box) for pose in poses for wheel in wheels(pose)) > RESERVE - 0.005
+
+
+def test_a_robot_that_gains_nothing_on_its_way_out_as_it_pushes_against_a_wall_is_left_to_its_behaviour_again():
+    box = PLACE.x - 0.15, 0.95, PLACE.x + 0.03, 1.1
+    context, world = knowing(PLACE, box)
+    release = Release(context.ground, context.footing, Preview(world.config.drive), HALF + SPARE, 0)
+    out, pushed = Command(0.0, 0.0), 0.0
+    while not release.is_due(PLACE, True, CONTROL_DT):
+        pass
+    while out is not None and pushed < 60.0:
+        assert release.is_due(PLACE, False, CONTROL_DT)
+        out = release.way_out(PLACE, (0.0, 0.0), lambda _: [NO_SLIP], True)
+        pushed += CONTROL_DT
+    assert PATIENCE < pushed < PATIENCE + 1.0
+    assert not release.is_due(PLACE, False, CONTROL_DT)
 
 
 def test_that_a_robot_could_not_back_off_says_nothing_of_another_direction():

@@ -52,6 +52,8 @@ class Release:
         self._held_at: Optional[Pose] = None
         self._leaves_at = PATIENCE  # after what `held_time` it looks for a way out
         self._is_leaving = False  # whether it is on one
+        self._most = 0.0  # [m] from an edge to a wheel, of what it has gained on that way
+        self._fruitless = 0.0  # [s] since it gained that
         self._departure: Optional[Departure] = None  # that it has decided on
         self._departs_at = LONG  # after what `held_time` it looks for one
         self.held_time = 0.0
@@ -64,8 +66,9 @@ class Release:
         if is_held:
             self._held_at = self._held_at or pose
             self.held_time += seconds
+        self._fruitless += seconds
         if self.held_time > self._leaves_at:
-            self._is_leaving = True
+            self._is_leaving, self._most, self._fruitless = True, 0.0, 0.0
             self._leaves_at = self.held_time + PATIENCE
         return self._is_leaving
 
@@ -90,6 +93,8 @@ class Release:
         if self._departure is None and self.held_time > self._departs_at:
             self._departure = self._search.find(pose, reserve, self._clear, self._guess)
             self._departs_at = self.held_time + LONG
+        if now > self._most + GAIN or self._departure is not None:
+            self._most, self._fruitless = now, 0.0
         best = self._departing(pose, reserve, may_back, ways) or self._nudge(now, reserve, may_back, ways)
         self._is_leaving = best is not None
         return best
@@ -105,7 +110,12 @@ class Release:
         return command
 
     def _nudge(self, now: float, reserve: float, may_back: bool, ways: Ways) -> Optional[Command]:
-        """The slow command that brings the wheels farther from edges than others, if it gains enough on now [m]."""
+        """The slow command that brings the wheels farther from edges than others, if it gains enough on now [m].
+
+        None for a robot that gained nothing by such commands for a while: it pushes against something.
+        """
+        if self._fruitless > PATIENCE:
+            return None
         best, most = None, now + GAIN
         for command in (Command(v, w) for v, w in WAYS_OUT if v >= 0.0 or may_back):
             end, least = ways(command, AHEAD)
