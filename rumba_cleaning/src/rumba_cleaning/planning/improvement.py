@@ -15,7 +15,7 @@ from rumba_sim.model.kernel import Array
 
 # All figures are our choice; each comment says what speaks for a larger and for a smaller value.
 SURPLUS = 0.005  # of coverage that is planned beyond the target on paper, since no robot drives exactly as planned ...
-MARGIN = 0.0015  # ... and by rehearsal: large sweeps too much, small may need another route for a few last spots
+MARGIN = 0.001  # ... and by rehearsal: large sweeps too much, small may need another route for a few last spots
 EDITED = 0.0004  # of coverage that edits are to bring beyond that: together they bring a little less than one by one
 MENDS = 2  # times that detours are added, at most, to a route that edits left short of the target: that takes little
 WORK = 150.0  # [m^2] of floor, times rounds: large makes shorter routes, small plans faster
