@@ -11,7 +11,7 @@ from rumba_cleaning.behaviour import STOP, Command
 from rumba_cleaning.behaviours.departure import LENGTH, Departure, Search
 from rumba_cleaning.behaviours.guard import SPARE
 from rumba_cleaning.behaviours.preview import Preview
-from rumba_cleaning.behaviours.rear import MOST, Rear
+from rumba_cleaning.behaviours.rear import LEAST, MOST, Rear
 from rumba_cleaning.behaviours.release import PATIENCE, Release
 from rumba_cleaning.behaviours.slip import NO_SLIP
 from rumba_cleaning.control import CONTROL_DT, CONTROL_TICKS, observe
@@ -155,3 +155,49 @@ def test_that_a_robot_could_not_back_off_says_nothing_of_another_direction():
     assert rear.is_closed(before)
     rear.watch(before._replace(pose=Pose(1.5, 1.0, 1.2)), 0.0)
     assert not rear.is_closed(before)
+
+
+def backed(rear, observation, steps, slant, free=True):
+    """The last observation of a robot that is to back off by 1 cm in each step, at a slant [rad] to a wall behind it.
+
+    If the way is not free, it slides along that wall, which is parallel to the y axis.
+    """
+    x, y = 1.5, 1.0
+    for _ in range(steps):
+        x, y = (x - 0.01 * math.cos(slant) if free else x), y - 0.01 * math.sin(slant)
+        rear.watch(observation._replace(pose=Pose(x, y, slant)), -0.01)
+    return observation._replace(pose=Pose(x, y, slant))
+
+
+@pytest.fixture
+def seen():
+    """What a robot sees that begins to back off, far from edges."""
+    _, world = knowing(Pose(1.5, 1.0, 0.0))
+    return observe(world, 'rumba', CONTROL_DT)
+
+
+@pytest.mark.parametrize('slant', [0.0, 0.35, 1.05])
+def test_a_robot_that_slides_along_a_wall_as_it_backs_off_must_not_go_back(seen, slant):
+    rear = Rear(RADIUS)
+    rear.watch(seen._replace(pose=Pose(1.5, 1.0, slant)), 0.0)
+    assert not rear.is_closed(backed(rear, seen, round(LEAST / 0.01) - 1, slant, free=False))
+    assert rear.is_closed(backed(rear, seen, 3, slant, free=False))
+
+
+@pytest.mark.parametrize('slant', [0.0, 0.35, 1.05])
+def test_a_robot_that_backs_off_freely_may_go_on(seen, slant):
+    rear = Rear(RADIUS)
+    rear.watch(seen._replace(pose=Pose(1.5, 1.0, slant)), 0.0)
+    assert not rear.is_closed(backed(rear, seen, 20, slant))
+
+
+@pytest.mark.parametrize('theta, driven', [(1.5, 0.0), (0.35, LEAST + 0.01)])
+def test_once_it_has_turned_or_driven_ahead_it_may_go_back_again(seen, theta, driven):
+    rear = Rear(RADIUS)
+    rear.watch(seen._replace(pose=Pose(1.5, 1.0, 0.35)), 0.0)
+    last = backed(rear, seen, 6, 0.35, free=False)
+    rear.watch(last, 0.5 * LEAST)
+    assert rear.is_closed(last)
+    last = last._replace(pose=last.pose._replace(theta=theta))
+    rear.watch(last, driven)
+    assert not rear.is_closed(last)
