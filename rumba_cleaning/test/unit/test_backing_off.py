@@ -83,6 +83,16 @@ def test_a_wall_right_behind_it_does_not_keep_it_from_turning_back():
     assert math.dist(turned[:2], robot.pose[:2]) < 0.015
 
 
+def test_a_robot_without_a_laser_that_slides_along_a_wall_as_it_backs_off_stays_out_of_the_gap_beside_a_pit():
+    pit = 0.33, 0.2, 0.7, 0.8
+    plan = with_cliffs(room(3.0, 2.0, 0.01), pit)
+    world = World(plan, quiet())
+    world.spawn('rumba', Pose(RADIUS + 0.01, 0.95, 1.0))
+    guard, robot = Guard(context_of(plan, world)), world.robots['rumba']
+    lowest = min(robot.pose.y for _ in guarded(guard, world, lambda _: Command(*BACK), 8.0))
+    assert lowest > 0.85
+
+
 def test_what_moved_behind_it_meanwhile_keeps_it_from_going_back():
     world, context = world_with([(1.5, 0.5, 2.5, 1.8)], Pose(0.6, 1.0, 0.0))
     guard, robot = Guard(context), world.robots['rumba']

@@ -13,7 +13,7 @@ from rumba_cleaning.behaviours.guard import SPARE
 from rumba_cleaning.behaviours.preview import Preview
 from rumba_cleaning.behaviours.rear import LEAST, MOST, Rear
 from rumba_cleaning.behaviours.release import PATIENCE, Release
-from rumba_cleaning.behaviours.slip import NO_SLIP
+from rumba_cleaning.behaviours.slip import NO_SLIP, slipped
 from rumba_cleaning.control import CONTROL_DT, CONTROL_TICKS, observe
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.robot_config import RobotConfig
@@ -133,9 +133,9 @@ def test_a_robot_that_gains_nothing_on_its_way_out_as_it_pushes_against_a_wall_i
     box = PLACE.x - 0.15, 0.95, PLACE.x + 0.03, 1.1
     context, world = knowing(PLACE, box)
     release = Release(context.ground, context.footing, Preview(world.config.drive), HALF + SPARE, 0)
-    out, pushed = Command(0.0, 0.0), 0.0
-    while not release.is_due(PLACE, True, CONTROL_DT):
-        pass
+    out, pushed = STOP, 0.0
+    for _ in range(round(PATIENCE / CONTROL_DT) + 1):
+        release.is_due(PLACE, True, CONTROL_DT)
     while out is not None and pushed < 60.0:
         assert release.is_due(PLACE, False, CONTROL_DT)
         out = release.way_out(PLACE, (0.0, 0.0), lambda _: [NO_SLIP], True)
@@ -149,11 +149,11 @@ def test_that_a_robot_could_not_back_off_says_nothing_of_another_direction():
     rear = Rear(RADIUS)
     before = observe(world, 'rumba', CONTROL_DT)._replace(cliffs=(True, False, False, False))
     for _ in range(round(MOST / 0.01) + 1):
-        rear.watch(before, -0.01)
+        rear.watch(before.pose, before._replace(pose=before.pose._replace(x=before.pose.x - 0.01)), -0.01)
     assert rear.is_closed(before)
-    rear.watch(before._replace(pose=Pose(1.5, 1.0, 0.5)), 0.0)
+    rear.watch(before.pose, before._replace(pose=Pose(1.5, 1.0, 0.5)), 0.0)
     assert rear.is_closed(before)
-    rear.watch(before._replace(pose=Pose(1.5, 1.0, 1.2)), 0.0)
+    rear.watch(before.pose, before._replace(pose=Pose(1.5, 1.0, 1.2)), 0.0)
     assert not rear.is_closed(before)
 
 
@@ -162,11 +162,12 @@ def backed(rear, observation, steps, slant, free=True):
 
     If the way is not free, it slides along that wall, which is parallel to the y axis.
     """
-    x, y = 1.5, 1.0
+    pose = Pose(1.5, 1.0, slant)
     for _ in range(steps):
-        x, y = (x - 0.01 * math.cos(slant) if free else x), y - 0.01 * math.sin(slant)
-        rear.watch(observation._replace(pose=Pose(x, y, slant)), -0.01)
-    return observation._replace(pose=Pose(x, y, slant))
+        last = pose
+        pose = Pose(last.x - (0.01 * math.cos(slant) if free else 0.0), last.y - 0.01 * math.sin(slant), slant)
+        rear.watch(last, observation._replace(pose=pose), -0.01)
+    return observation._replace(pose=pose)
 
 
 @pytest.fixture
@@ -179,7 +180,6 @@ def seen():
 @pytest.mark.parametrize('slant', [0.0, 0.35, 1.05])
 def test_a_robot_that_slides_along_a_wall_as_it_backs_off_must_not_go_back(seen, slant):
     rear = Rear(RADIUS)
-    rear.watch(seen._replace(pose=Pose(1.5, 1.0, slant)), 0.0)
     assert not rear.is_closed(backed(rear, seen, round(LEAST / 0.01) - 1, slant, free=False))
     assert rear.is_closed(backed(rear, seen, 3, slant, free=False))
 
@@ -187,17 +187,21 @@ def test_a_robot_that_slides_along_a_wall_as_it_backs_off_must_not_go_back(seen,
 @pytest.mark.parametrize('slant', [0.0, 0.35, 1.05])
 def test_a_robot_that_backs_off_freely_may_go_on(seen, slant):
     rear = Rear(RADIUS)
-    rear.watch(seen._replace(pose=Pose(1.5, 1.0, slant)), 0.0)
     assert not rear.is_closed(backed(rear, seen, 20, slant))
+
+
+@pytest.mark.parametrize('theta', [math.pi - 0.02, -math.pi + 0.02])
+def test_a_robot_that_slides_to_its_left_does_so_too_while_its_heading_goes_past_a_half_turn(seen, theta):
+    last = Pose(1.5, 1.0, theta)
+    here = Pose(1.5 - 0.3 * seen.dt, 1.0 - 0.05 * seen.dt, -theta)
+    assert slipped(last, seen._replace(pose=here), 0.3) == pytest.approx((0.05, 1.0), abs=1e-6)
 
 
 @pytest.mark.parametrize('theta, driven', [(1.5, 0.0), (0.35, LEAST + 0.01)])
 def test_once_it_has_turned_or_driven_ahead_it_may_go_back_again(seen, theta, driven):
     rear = Rear(RADIUS)
-    rear.watch(seen._replace(pose=Pose(1.5, 1.0, 0.35)), 0.0)
     last = backed(rear, seen, 6, 0.35, free=False)
-    rear.watch(last, 0.5 * LEAST)
+    rear.watch(last.pose, last, 0.5 * LEAST)
     assert rear.is_closed(last)
-    last = last._replace(pose=last.pose._replace(theta=theta))
-    rear.watch(last, driven)
+    rear.watch(last.pose, last._replace(pose=last.pose._replace(theta=theta)), driven)
     assert not rear.is_closed(last)

@@ -122,7 +122,7 @@ class Guard:
         """
         self.see(observation)
         dt = min(observation.dt, LONGEST)
-        self._rear.watch(observation, 0.5 * sum(self._speeds) * dt)
+        self._rear.watch(self._last, observation, 0.5 * sum(self._speeds) * dt)
         left, right = self._held
         if left or right:
             far_left, near_left, near_right, far_right = observation.cliffs

@@ -10,7 +10,8 @@ from typing import Optional
 import numpy as np
 
 from rumba_cleaning.behaviour import Observation
-from rumba_sim.model.geometry import Pose, wrap_angle
+from rumba_cleaning.behaviours.slip import heading_between
+from rumba_sim.model.geometry import Pose
 
 # All figures below are our choice.
 GAP = 0.03  # [m] from the body to what a beam met: three standard deviations of its range
@@ -18,7 +19,7 @@ BEHIND = 0.5  # of a beam, the least cosine of its angle to the back: to 60 degr
 STRAIGHT = 0.8  # the same on its trail, to 37 degrees off: what stands more beside it was there as the robot came by
 MOST = 0.06  # [m] back while the sensors see an edge: a robot that moves sees it no more by then, or drives along it
 LEAST = 0.03  # [m] back, for its way to tell whether it slides: three times what it drives until its wheels turn
-SLIDES = 0.4  # share of that by which it is elsewhere: more if it pushes at a wall at 24 degrees to that, or steeper
+SLIDES = 0.4  # share of that by which it may be off its way: it is, along a wall at 24 degrees to its way or steeper
 
 
 class Rear:
@@ -31,17 +32,15 @@ class Rear:
 
     def rest(self) -> None:
         """The robot stands still, or somebody else drives it."""
-        self._last: Optional[Pose] = None
         self._heading = 0.0  # [rad] in which it backed off last
         self._backed = 0.0  # [m] since the cliff sensors saw no edge, and about straight
         self._gone = 0.0  # [m] back since it drove ahead, and about straight
         self._off = 0.0, 0.0  # [m] from where that led, to where it is
         self._ahead = 0.0  # [m] since it backed off
 
-    def watch(self, observation: Observation, driven: float) -> None:
-        """Take note of an observation, and of how far the wheels have driven forward since the one before [m]."""
-        pose, last = observation.pose, self._last
-        self._last = pose
+    def watch(self, last: Optional[Pose], observation: Observation, driven: float) -> None:
+        """Take note of an observation, and of how far the wheels have driven forward since the last pose [m]."""
+        pose = observation.pose
         self._ahead = self._ahead + driven if driven >= 0.0 else 0.0
         has_turned = math.cos(pose.theta - self._heading) < BEHIND
         if has_turned or not any(observation.cliffs):
@@ -51,14 +50,11 @@ class Rear:
         if driven < 0.0:
             self._heading = pose.theta
             self._backed -= driven if any(observation.cliffs) else 0.0
-            self._go_back(last or pose, pose, -driven)
-
-    def _go_back(self, last: Pose, pose: Pose, driven: float) -> None:
-        """Take note of the way from a pose to another, as the wheels drove back [m]."""
-        along = last.theta + 0.5 * wrap_angle(pose.theta - last.theta)
-        self._gone += driven
-        self._off = (self._off[0] + pose.x - last.x + driven * math.cos(along),
-                     self._off[1] + pose.y - last.y + driven * math.sin(along))
+            if last is not None:
+                along = heading_between(last, pose)
+                self._gone -= driven
+                self._off = (self._off[0] + pose.x - last.x - driven * math.cos(along),
+                             self._off[1] + pose.y - last.y - driven * math.sin(along))
 
     def is_closed(self, observation: Observation, is_on_trail: bool = False) -> bool:
         """Whether the robot must not go back.

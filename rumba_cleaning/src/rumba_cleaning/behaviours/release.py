@@ -93,7 +93,7 @@ class Release:
         if self._departure is None and self.held_time > self._departs_at:
             self._departure = self._search.find(pose, reserve, self._clear, self._guess)
             self._departs_at = self.held_time + LONG
-        if now > self._most + GAIN or self._departure is not None:
+        if now > self._most + GAIN:
             self._most, self._fruitless = now, 0.0
         best = self._departing(pose, reserve, may_back, ways) or self._nudge(now, reserve, may_back, ways)
         self._is_leaving = best is not None

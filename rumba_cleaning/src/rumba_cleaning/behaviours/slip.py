@@ -4,7 +4,7 @@ import math
 from typing import List, NamedTuple, Optional
 
 from rumba_cleaning.behaviour import Observation
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.geometry import Pose, wrap_angle
 
 LEAST = 0.02  # [m/s] sideways, for it to count: more than the noise of a pose; our choice
 
@@ -19,12 +19,17 @@ class Slip(NamedTuple):
 NO_SLIP = Slip(0.0, 1.0)
 
 
+def heading_between(last: Pose, pose: Pose) -> float:
+    """The heading halfway from a pose to another [rad]."""
+    return last.theta + 0.5 * wrap_angle(pose.theta - last.theta)
+
+
 def slipped(last: Optional[Pose], observation: Observation, driven: float) -> Slip:
     """How a robot slid since it was at its last pose; its wheels drove forward at a speed [m/s]. None: not known."""
     pose, dt = observation.pose, observation.dt
     if last is None or dt <= 0.0:
         return NO_SLIP
-    along = last.theta + 0.5 * (pose.theta - last.theta)
+    along = heading_between(last, pose)
     x, y = (pose.x - last.x) / dt, (pose.y - last.y) / dt
     aside = y * math.cos(along) - x * math.sin(along)
     if abs(aside) <= LEAST:
