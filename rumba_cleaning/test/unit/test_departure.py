@@ -11,10 +11,9 @@ from rumba_cleaning.behaviour import STOP, Command
 from rumba_cleaning.behaviours.departure import LENGTH, Departure, Search
 from rumba_cleaning.behaviours.guard import SPARE
 from rumba_cleaning.behaviours.preview import Preview
-from rumba_cleaning.behaviours.rear import LEAST, MOST, Rear
 from rumba_cleaning.behaviours.release import PATIENCE, Release
-from rumba_cleaning.behaviours.slip import NO_SLIP, slipped
-from rumba_cleaning.control import CONTROL_DT, CONTROL_TICKS, observe
+from rumba_cleaning.behaviours.slip import NO_SLIP
+from rumba_cleaning.control import CONTROL_DT, CONTROL_TICKS
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.robot_config import RobotConfig
 from rumba_sim.model.world import World
@@ -142,66 +141,3 @@ def test_a_robot_that_gains_nothing_on_its_way_out_as_it_pushes_against_a_wall_i
         pushed += CONTROL_DT
     assert PATIENCE < pushed < PATIENCE + 1.0
     assert not release.is_due(PLACE, False, CONTROL_DT)
-
-
-def test_that_a_robot_could_not_back_off_says_nothing_of_another_direction():
-    _, world = knowing(Pose(1.5, 1.0, 0.0))
-    rear = Rear(RADIUS)
-    before = observe(world, 'rumba', CONTROL_DT)._replace(cliffs=(True, False, False, False))
-    for _ in range(round(MOST / 0.01) + 1):
-        rear.watch(before.pose, before._replace(pose=before.pose._replace(x=before.pose.x - 0.01)), -0.01)
-    assert rear.is_closed(before)
-    rear.watch(before.pose, before._replace(pose=Pose(1.5, 1.0, 0.5)), 0.0)
-    assert rear.is_closed(before)
-    rear.watch(before.pose, before._replace(pose=Pose(1.5, 1.0, 1.2)), 0.0)
-    assert not rear.is_closed(before)
-
-
-def backed(rear, observation, steps, slant, free=True):
-    """The last observation of a robot that is to back off by 1 cm in each step, at a slant [rad] to a wall behind it.
-
-    If the way is not free, it slides along that wall, which is parallel to the y axis.
-    """
-    pose = Pose(1.5, 1.0, slant)
-    for _ in range(steps):
-        last = pose
-        pose = Pose(last.x - (0.01 * math.cos(slant) if free else 0.0), last.y - 0.01 * math.sin(slant), slant)
-        rear.watch(last, observation._replace(pose=pose), -0.01)
-    return observation._replace(pose=pose)
-
-
-@pytest.fixture
-def seen():
-    """What a robot sees that begins to back off, far from edges."""
-    _, world = knowing(Pose(1.5, 1.0, 0.0))
-    return observe(world, 'rumba', CONTROL_DT)
-
-
-@pytest.mark.parametrize('slant', [0.0, 0.35, 1.05])
-def test_a_robot_that_slides_along_a_wall_as_it_backs_off_must_not_go_back(seen, slant):
-    rear = Rear(RADIUS)
-    assert not rear.is_closed(backed(rear, seen, round(LEAST / 0.01) - 1, slant, free=False))
-    assert rear.is_closed(backed(rear, seen, 3, slant, free=False))
-
-
-@pytest.mark.parametrize('slant', [0.0, 0.35, 1.05])
-def test_a_robot_that_backs_off_freely_may_go_on(seen, slant):
-    rear = Rear(RADIUS)
-    assert not rear.is_closed(backed(rear, seen, 20, slant))
-
-
-@pytest.mark.parametrize('theta', [math.pi - 0.02, -math.pi + 0.02])
-def test_a_robot_that_slides_to_its_left_does_so_too_while_its_heading_goes_past_a_half_turn(seen, theta):
-    last = Pose(1.5, 1.0, theta)
-    here = Pose(1.5 - 0.3 * seen.dt, 1.0 - 0.05 * seen.dt, -theta)
-    assert slipped(last, seen._replace(pose=here), 0.3) == pytest.approx((0.05, 1.0), abs=1e-6)
-
-
-@pytest.mark.parametrize('theta, driven', [(1.5, 0.0), (0.35, LEAST + 0.01)])
-def test_once_it_has_turned_or_driven_ahead_it_may_go_back_again(seen, theta, driven):
-    rear = Rear(RADIUS)
-    last = backed(rear, seen, 6, 0.35, free=False)
-    rear.watch(last.pose, last, 0.5 * LEAST)
-    assert rear.is_closed(last)
-    rear.watch(last.pose, last._replace(pose=last.pose._replace(theta=theta)), driven)
-    assert not rear.is_closed(last)

@@ -7,9 +7,12 @@ import pytest
 from drivers import Always, context_of, guarded, run, with_cliffs
 from rooms import RADIUS, quiet, room
 
+from rumba_cleaning.behaviour import Observation
 from rumba_cleaning.behaviours.bounded import Bounded
 from rumba_cleaning.behaviours.guard import Guard
+from rumba_cleaning.behaviours.slip import slipped
 from rumba_cleaning.behaviours.travel import Going, Travel
+from rumba_cleaning.control import CONTROL_DT
 from rumba_cleaning.pose_source import DeadReckoning, scan_of_robot
 from rumba_cleaning.route import Route
 from rumba_sim.model.geometry import Pose
@@ -79,3 +82,9 @@ def test_a_contact_beside_an_edge_is_one_with_something_unknown():
         farthest = max(farthest, robot.pose.x)
     assert travel.going is Going.BLOCKED and robot.pose.y == pytest.approx(1.22, abs=0.05) and not robot.has_fallen
     assert robot.pose.x < farthest - 0.02  # it backed off, although the contact and the edge are still near
+
+
+@pytest.mark.parametrize('theta', [math.pi - 0.02, -math.pi + 0.02])
+def test_a_robot_that_slides_to_its_left_does_so_too_while_its_heading_goes_past_a_half_turn(theta):
+    last, here = Pose(1.5, 1.0, theta), Pose(1.5 - 0.3 * CONTROL_DT, 1.0 - 0.05 * CONTROL_DT, -theta)
+    assert slipped(last, Observation(CONTROL_DT, here), 0.3) == pytest.approx((0.05, 1.0), abs=1e-6)
