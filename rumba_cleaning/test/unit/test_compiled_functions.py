@@ -12,7 +12,7 @@ from rumba_cleaning.behaviours.compiled_guard import HOLD_STEPS, STEP, path
 from rumba_cleaning.behaviours.follower import drive_of
 from rumba_cleaning.belief.compiled_footing import DRIVEN, SEEN, are_marked, stamp
 from rumba_cleaning.belief.compiled_ground import are_of_one_part
-from rumba_cleaning.belief.search import is_clear
+from rumba_cleaning.belief.search import Costs, Lattice, cheapest, is_clear, path_lengths
 from rumba_cleaning.planning.compiled_lanes import NO_ROW, lowest, runs
 from rumba_cleaning.planning.compiled_ways import cornered_length
 from rumba_sim.model.robot_config import DriveConfig
@@ -51,6 +51,35 @@ def test_the_lowest_row_is_that_with_a_long_run_and_short_ones_of_the_whole_widt
 def test_each_corner_of_a_path_counts_by_its_angle_the_short_way_round(path, length):
     turns = {1: 0.0, 2: 0.0, 3: 2e-3, 4: math.pi / 2.0}[len(path)]
     assert cornered_length(np.array(path), 0.1) == pytest.approx(length + 0.1 * turns, abs=1e-6)
+
+
+def length_of(path):
+    return float(np.hypot(*np.diff(path, axis=0).T).sum())
+
+
+@settings(deadline=None, max_examples=200)
+@given(st.integers(0, 2 ** 32 - 1))
+def test_the_cheapest_path_is_the_shortest_where_all_nodes_cost_the_same(seed):
+    is_free = np.random.default_rng(seed).random((14, 11)) < 0.7
+    is_free[2, 3] = is_free[12, 9] = True
+    costs = Costs(np.ones(is_free.shape), is_free, 0.5, 0.1, 2.0)
+    found = cheapest(costs, Lattice(0, 0, 14, 11, 1), (2, 3), (12, 9))
+    shortest = path_lengths(is_free, 2, 3)[12, 9]
+    if len(found) == 0:
+        assert np.isinf(shortest)
+        return
+    assert found[0].tolist() == [2, 3] and found[-1].tolist() == [12, 9] and is_free[tuple(found.T)].all()
+    assert np.abs(np.diff(found, axis=0)).max() == 1 and length_of(found) == pytest.approx(shortest)
+
+
+def test_the_cheapest_path_keeps_off_the_walls_where_that_costs_less():
+    clearance = np.minimum(np.arange(9), 6) * np.ones((20, 1)) * 0.05  # one wall, to the left
+    costs = Costs(clearance, np.ones(clearance.shape, bool), 0.05, 0.1, 2.0)
+    found = cheapest(costs, Lattice(0, 0, 20, 9, 1), (0, 1), (19, 1))
+    assert (found[2:-2, 1] == 3).all() and len(found) == 22  # sideways at once: diagonally is dearer
+    assert cheapest(costs, Lattice(0, 1, 20, 1, 1), (0, 0), (19, 0))[:, 1].max() == 0  # there is no other column
+    odd = cheapest(costs, Lattice(1, 1, 10, 2, 2), (0, 0), (9, 0))  # rows 1, 3, ..., columns 1 and 3
+    assert odd[:, 1].max() == 1 and length_of(odd) == pytest.approx(7.0 + 2.0 * math.sqrt(2.0))
 
 
 @settings(deadline=None, max_examples=200)

@@ -9,6 +9,7 @@ from hypothesis import given, settings
 from pytest import approx
 from rooms import NAMES, PLANS, crooked, room
 
+from rumba_cleaning.planning import compiled_rings
 from rumba_cleaning.planning.regions import Shapes, regions
 from rumba_cleaning.planning.rings import FORWARD, PASS, SPACING, WALL_MARGIN, chains, rings, stretch
 from rumba_sim.model.geometry import Pose
@@ -75,6 +76,21 @@ def test_floor_that_was_swept_needs_no_rings():
     assert found and max(ring.waypoints[:, 0].max() for ring in found) < 2.3
     swept = wiped(context, (0.0, 0.0, 4.0, 3.0)).swept.copy()
     assert not everywhere(context.ground, swept)
+
+
+@pytest.mark.parametrize('resolution', [0.02, 0.05])
+def test_waypoints_are_needed_if_a_quarter_of_the_brush_finds_floor_that_was_missed(resolution):
+    context = wiped(knowing(room(4.0, 3.0, resolution), START), (0.0, 0.0, 4.0, 1.5))  # up to y = 1.5 m
+    plan = context.ground.plan
+    deep = np.ones(context.ground.clearance.shape) * np.arange(plan.columns + 1) * plan.resolution  # no ridge anywhere
+    floor = compiled_rings.Floor(context.swept.brush.samples, plan.sample_squares, deep, plan.origin, plan.resolution)
+    steps = np.linspace(0.0, 1.0, 50)
+    for share, is_needed in ((0.1, False), (0.4, True)):
+        for along in (1.0, -1.0):
+            path = np.stack([2.0 + along * (steps - 0.5), np.full(50, 1.5 + (share - 0.5) * BRUSH)], axis=1)
+            assert (compiled_rings.needed(floor, path, BRUSH) == is_needed).all()
+    across = np.stack([np.full(50, 2.0), 1.0 + steps], axis=1)
+    assert (compiled_rings.needed(floor, across, BRUSH) == (across[:, 1] > 1.5)).mean() > 0.95
 
 
 def test_where_two_sides_almost_touch_there_is_no_ring():

@@ -61,8 +61,6 @@ def test_a_robot_that_knows_its_pose_in_each_tick_knows_what_it_swept(resolution
     assert swept.reachable_area == world.floor.reachable_area
     missing = world.floor.sweep.missing_share()
     assert np.abs(swept.missing_share() - missing).mean() < 0.005
-    cells = generator.integers(0, missing.shape, (5, 40, 2))
-    assert (swept.missing_share_at(cells) == swept.missing_share()[cells[..., 0], cells[..., 1]]).all()
     assert (swept.missed() == (swept.missing_share() >= 0.5)).all() and swept.missed().dtype == np.bool_
 
 

@@ -1,6 +1,7 @@
 """Where a robot can stand, and paths from point to point: by the floor plan and the obstacles the robot has met."""
 
 import copy
+import itertools
 from typing import List, Optional, Sequence, Tuple
 
 import numpy as np
@@ -9,7 +10,7 @@ from scipy import ndimage
 from rumba_cleaning.belief.compiled_ground import are_of_one_part, keep_clear
 from rumba_cleaning.belief.limits import limited
 from rumba_cleaning.belief.met import Mark, Met, Seen
-from rumba_cleaning.belief.search import cheapest, is_clear, path_lengths
+from rumba_cleaning.belief.search import Costs, Lattice, cheapest, is_clear, path_lengths
 from rumba_sim.model.constants import clearance_needed
 from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.model.kernel import Array
@@ -298,8 +299,8 @@ class Ground:
             if parts[tuple(first)] != parts[tuple(last)]:
                 return None
         near, all_of_it = int(SEARCH_MARGIN / self.plan.resolution), max(self.clearance.shape)
-        coarse = max(int(SEARCH_SPACING / self.plan.resolution + 0.5), 1)
-        for margin, spacing in ((near, coarse), (near, 1), (all_of_it, coarse), (all_of_it, 1)):
+        spacings = sorted({max(int(SEARCH_SPACING / self.plan.resolution + 0.5), 1), 1}, reverse=True)
+        for margin, spacing in itertools.product((near, all_of_it), spacings):
             found = self._search(first, last, margin, spacing)
             if found is not None:
                 break
@@ -343,16 +344,14 @@ class Ground:
         """
         low = np.maximum(np.minimum(first, last) - margin, first % spacing)
         low += (first - low) % spacing
-        high = np.maximum(first, last) + margin + 1
-        window = slice(low[0], high[0], spacing), slice(low[1], high[1], spacing)
-        clearance = self.clearance[window]
-        inflation = INFLATION_COST * np.clip(1.0 - (clearance - self.reach) / INFLATION, 0.0, 1.0)
-        costs = np.where(self.fits[window], 1.0 + inflation, np.inf)
-        begin, end = (first - low) // spacing, np.minimum((last - low + spacing // 2) // spacing,
-                                                          np.array(costs.shape) - 1)
-        if not np.isfinite(costs[end[0], end[1]]):
+        high = np.minimum(np.maximum(first, last) + margin + 1, self.clearance.shape)
+        sizes = (high - low + spacing - 1) // spacing
+        begin, end = (first - low) // spacing, np.minimum((last - low + spacing // 2) // spacing, sizes - 1)
+        if not self.fits[tuple(low + spacing * end)]:
             return None
-        found = cheapest(costs, (int(begin[0]), int(begin[1])), (int(end[0]), int(end[1])))
+        costs = Costs(self.clearance, self.fits, self.reach, INFLATION, INFLATION_COST)
+        lattice = Lattice(*low.tolist(), *sizes.tolist(), spacing)
+        found = cheapest(costs, lattice, tuple(begin.tolist()), tuple(end.tolist()))
         if len(found) == 0:
             return None
         path = found * spacing + low

@@ -2,7 +2,7 @@
 
 import heapq
 import math
-from typing import Any, Tuple
+from typing import Any, NamedTuple, Tuple
 
 import numpy as np
 
@@ -14,22 +14,52 @@ STEPS = ((-1, -1), (-1, 0), (-1, 1), (0, -1), (0, 1), (1, -1), (1, 0), (1, 1))  
 LESS = 1e-9  # [nodes] a shorter path: more than rounding errors
 
 
+class Costs(NamedTuple):
+    """What a path costs at each node, per unit of its length: 1 in the open, more near to what stands there."""
+
+    clearance: Array  # float64 (rows, columns) [m]
+    is_free: Array  # bool (rows, columns), the nodes over which a path may lead
+    touching: float  # [m] the clearance below which a node is not free, ...
+    beyond: float  # [m] ... so far beyond which a path costs more, ...
+    most: float  # ... and up to how much more than 1
+
+
+class Lattice(NamedTuple):
+    """The nodes over which a path is searched for: every so manieth, in a rectangle."""
+
+    row: int  # of the first of them
+    column: int
+    rows: int  # how many there are
+    columns: int
+    spacing: int  # [nodes]
+
+
 @compiled
-def cheapest(costs: Array, first: Tuple[int, int], last: Tuple[int, int]) -> Array:
-    """The cheapest path between two nodes (A*, P. Hart and others, A Formal Basis for the Heuristic Determination of
-    Minimum Cost Paths, 1968).
+def cost_at(costs: Costs, lattice: Lattice, row: int, column: int) -> float:
+    """What a path costs at a node of a lattice; inf if it is not free."""
+    at = lattice.row + row * lattice.spacing, lattice.column + column * lattice.spacing
+    if not costs.is_free[at]:
+        return np.inf
+    return 1.0 + costs.most * min(max(1.0 - (costs.clearance[at] - costs.touching) / costs.beyond, 0.0), 1.0)
+
+
+@compiled
+def cheapest(costs: Costs, lattice: Lattice, first: Tuple[int, int], last: Tuple[int, int]) -> Array:
+    """The cheapest path between two nodes of a lattice (A*, P. Hart and others, A Formal Basis for the Heuristic
+    Determination of Minimum Cost Paths, 1968).
 
     Args:
-        costs: float64 (rows, columns), of a unit of length at each node: 1 or more; inf if a node is not free.
-        first, last: nodes, both free.
+        costs: of the path.
+        lattice: over which it leads.
+        first, last: row and column in the lattice; both are free.
 
     Returns:
-        int (any, 2), neighbouring nodes; (0, 2) if there is no path.
+        int (any, 2), neighbouring nodes of the lattice; (0, 2) if there is no path.
     """
-    rows, columns = costs.shape
-    reached = np.full(costs.shape, np.inf)
-    before = np.zeros(costs.shape, np.int8)  # the step that led to a node
-    is_left = np.zeros(costs.shape, np.bool_)
+    shape = lattice.rows, lattice.columns
+    reached = np.full(shape, np.inf)
+    before = np.zeros(shape, np.int8)  # the step that led to a node
+    is_left = np.zeros(shape, np.bool_)
     reached[first] = 0.0
     queue = [(0.0, first[0], first[1])]
     while len(queue) > 0:
@@ -39,19 +69,26 @@ def cheapest(costs: Array, first: Tuple[int, int], last: Tuple[int, int]) -> Arr
         if is_left[row, column]:
             continue
         is_left[row, column] = True
-        here = reached[row, column]
+        here, cost_here = reached[row, column], cost_at(costs, lattice, row, column)
         for step in range(8):
             down, right = STEPS[step]
             to_row, to_column = row + down, column + right
-            if 0 <= to_row < rows and 0 <= to_column < columns and costs[to_row, to_column] < np.inf:
-                length = math.sqrt(float(down * down + right * right))
-                cost = here + 0.5 * length * (costs[row, column] + costs[to_row, to_column])
-                if cost < reached[to_row, to_column] - LESS:
-                    reached[to_row, to_column] = cost
-                    before[to_row, to_column] = step
-                    ahead = math.hypot(float(last[0] - to_row), float(last[1] - to_column))
-                    heapq.heappush(queue, (cost + ahead, to_row, to_column))
+            if not (0 <= to_row < lattice.rows and 0 <= to_column < lattice.columns):
+                continue
+            length = math.sqrt(float(down * down + right * right))
+            cost = here + 0.5 * length * (cost_here + cost_at(costs, lattice, to_row, to_column))
+            if cost < reached[to_row, to_column] - LESS:
+                reached[to_row, to_column] = cost
+                before[to_row, to_column] = step
+                heapq.heappush(queue, (cost + ahead(last[0] - to_row, last[1] - to_column), to_row, to_column))
     return np.empty((0, 2), np.int64)
+
+
+@compiled
+def ahead(rows: int, columns: int) -> float:
+    """Length of the shortest path over so many rows and columns, by steps to any of the eight nodes around one."""
+    down, right = abs(rows), abs(columns)
+    return max(down, right) + (math.sqrt(2.0) - 1.0) * min(down, right)
 
 
 @compiled

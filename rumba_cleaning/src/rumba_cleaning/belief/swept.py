@@ -120,10 +120,6 @@ class Swept:
         """Share of each cell's area that can be reached and was not swept [0..1]: float32 (rows, columns)."""
         return self._sweep.missing_share()
 
-    def missing_share_at(self, cells: Array) -> Array:
-        """The same for some cells, rows and columns (..., 2): float32 (...). The rest of the floor takes no time."""
-        return self._sweep.missing_share_at(cells)
-
     def missed(self) -> Array:
         """Cells of which at least the share MOST can be reached and was not swept: bool (rows, columns)."""
         return np.asarray(self.missing_share() >= MOST)

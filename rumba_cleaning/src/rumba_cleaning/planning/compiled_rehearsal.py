@@ -1,4 +1,4 @@
-"""A rehearsal of a route, compiled by numba: how a robot would drive along it, and what other ways would change.
+"""A rehearsal of a route, compiled by numba: how a robot would drive along it.
 
 The controller of the robot follows the route, with wheels that take time to change their speeds, and a body that slides
 along the walls. A trace is float64 (any, 7): a row for the beginning and for each DT after it.
@@ -13,19 +13,14 @@ from rumba_cleaning.behaviours.compiled_follower import (DISTANCE, IS_TURNING, D
                                                          piece_of, split, start)
 from rumba_sim.model.compiled import fast
 from rumba_sim.model.jit import compiled
-from rumba_sim.model.kernel.samples import PASS, REACHABLE, SWEEPABLE
 
 Array = Any  # numpy.ndarray
-Brush = Any  # rumba_sim.model.sweep.Brush
-arc, interpolated, sweep = fast.arc, fast.interpolated, fast.sweep
+arc, interpolated = fast.arc, fast.interpolated
 
 DT, TICKS = 0.1, 5  # [s] from command to command, and the parts in each of which the wheels change their speeds
 LOST = 0.35  # [m] off the route, beyond which the robot would not follow it
 SLOWEST = 0.05  # [m/s] on average, beyond the time for turns: a rehearsal that is slower is given up
 PATIENCE = 10.0  # [s] that it may take longer
-# [m] before and behind an edit, within which the robot drives otherwise because of it: large is exact, small is fast.
-LEAD, TAIL = 0.25, 0.5
-STRIDE, STRAIGHT = 4, 0.02  # rows that are swept at once, at most, if the robot turns by less [rad]: large is fast
 PUSHES = 3  # how often a body is pushed out of the walls of a corner
 # Columns of a trace: pose [m, rad], wheels [m/s], driven of the route [m], speed of the route there [m/s].
 X, Y, THETA, LEFT, RIGHT, ALONG, SPEED = range(7)
@@ -133,155 +128,3 @@ def pushed_out(walls: Walls, x: float, y: float) -> Tuple[float, float]:
         push = (walls.radius - gap) / slope
         x, y = x + push * along_u, y + push * along_v
     return x, y
-
-
-@compiled
-def sweep_trace(brush: Brush, samples: Array, trace: Array, speed: float) -> None:
-    """Sweep along a trace, except where the route is faster than a speed [m/s]: there the brushes are up.
-
-    Args:
-        brush: see above.
-        samples: uint8 (rows, columns), those of the brush, or others.
-        trace: see above.
-        speed: see above.
-    """
-    step = 0
-    while step < len(trace) - 1:
-        last = step + 1
-        if trace[step, SPEED] <= speed:
-            while last < min(len(trace) - 1, step + STRIDE) and trace[last, SPEED] <= speed and (
-                    abs(trace[last + 1, THETA] - trace[step, THETA]) < STRAIGHT):
-                last += 1
-            sweep(brush.constants[0], samples, brush.no_dirt, brush.tally[0],
-                  (trace[step, X], trace[step, Y], trace[step, THETA]),
-                  (trace[last, X], trace[last, Y], trace[last, THETA]))
-        step = last
-
-
-@compiled
-def alone(brush: Brush, trace: Array, speed: float) -> Array:
-    """How many reachable samples are swept up to each row of a trace, and at no other time: int (rows).
-
-    Args:
-        brush: after all of the trace; its samples are changed.
-        trace, speed: as for `sweep_trace`.
-    """
-    samples = brush.samples
-    for row in range(samples.shape[0]):
-        for column in range(samples.shape[1]):
-            is_once = samples[row, column] // PASS == 1 and samples[row, column] & REACHABLE
-            samples[row, column] = (SWEEPABLE | REACHABLE) if is_once else 0
-    found = np.zeros(len(trace), np.int64)
-    before = brush.tally[0].swept
-    for step in range(len(trace) - 1):
-        sweep_trace(brush, samples, trace[step:step + 2], speed)
-        found[step + 1] = brush.tally[0].swept - before
-    return found
-
-
-@compiled
-def changes(waypoints: Array, speeds: Array, drive: Drive, walls: Walls, speed: float, trace: Array, brush: Brush,
-            scratch: Array, spans: Array, paths: Array, stops: Array) -> Tuple[Array, Array]:
-    """What each of several edits of a route would change, if it were the only one.
-
-    Args:
-        waypoints, speeds, drive, walls, trace: as for `rehearse`; the trace is that of the route.
-        speed: at which what replaces a part is driven [m/s]; a faster route is driven with the brushes up.
-        brush: after all of the trace.
-        scratch: uint8 (2, rows, columns of the samples), all 0; it is so again afterwards.
-        spans: int (edits, 2), the waypoints between which each edit replaces those of the route.
-        paths: float64 (any, 2) [m], what it replaces them by, one path behind the other.
-        stops: int (edits + 1), where each path begins, and the end of the last.
-
-    Returns:
-        how much longer the route takes: float64 (edits) [s], inf if the robot would not follow it; how many more
-        samples are swept: int (edits).
-    """
-    seconds, samples = np.full(len(spans), np.inf), np.zeros(len(spans), np.int64)
-    along, lengths = trace[:, ALONG].copy(), np.zeros(len(waypoints))
-    for index in range(1, len(waypoints)):
-        lengths[index] = lengths[index - 1] + distance(waypoints[index - 1], waypoints[index])
-    for edit in range(len(spans)):
-        first, last = spans[edit]
-        low = max(np.searchsorted(along, lengths[first] - LEAD) - 1, 0)
-        high = min(np.searchsorted(along, lengths[last] + TAIL), len(along) - 1)
-        points, fast_at, until = edited(waypoints, speeds, lengths, along[low], first, last,
-                                        paths[stops[edit]:stops[edit + 1]], speed)
-        is_end = high == len(along) - 1
-        is_there, found = rehearse(points, fast_at, drive, walls, trace[low], low == 0, np.inf if is_end else until)
-        if not is_there:
-            continue
-        seconds[edit] = (len(found) - 1 - (high - low)) * DT
-        if not is_end:
-            off = found[-1, ALONG] - until - (along[high] - lengths[last] - TAIL)
-            seconds[edit] -= off / found[-1, SPEED]
-        samples[edit] = gain(brush, scratch, trace[low:high + 1], found, speed)
-    return seconds, samples
-
-
-@compiled
-def edited(waypoints: Array, speeds: Array, lengths: Array, here: float, first: int, last: int, path: Array,
-           speed: float) -> Tuple[Array, Array, float]:
-    """The part of a route around an edit, from a distance `here` along the route on [m].
-
-    Returns:
-        its waypoints, float64 (any, 2) [m], and speeds, float64 (any - 1) [m/s]; the length up to TAIL beyond the edit.
-    """
-    begin = min(max(int(np.searchsorted(lengths, here, side='right')), 1), max(first, 1))
-    end = min(np.searchsorted(lengths, lengths[last] + 2.0 * TAIL), len(waypoints) - 1)
-    before = waypoints[begin:first + 1]
-    points = np.empty((1 + len(before) + len(path) + end + 1 - last, 2))
-    share = (here - lengths[begin - 1]) / max(lengths[begin] - lengths[begin - 1], 1e-9)
-    points[0] = waypoints[begin - 1] + min(share, 1.0) * (waypoints[begin] - waypoints[begin - 1])
-    points[1:1 + len(before)] = before
-    points[1 + len(before):len(points) - (end + 1 - last)] = path
-    points[len(points) - (end + 1 - last):] = waypoints[last:end + 1]
-    fast_at = np.full(len(points) - 1, speed)
-    fast_at[:len(before)] = speeds[begin - 1:begin - 1 + len(before)]
-    fast_at[len(fast_at) - (end - last):] = speeds[last:end]
-    length = 0.0
-    for index in range(1, len(points)):
-        length += distance(points[index - 1], points[index])
-    return points, fast_at, length - (lengths[end] - lengths[last] - TAIL)
-
-
-@compiled
-def distance(one: Array, other: Array) -> float:
-    """The distance between two points (2)."""
-    return math.hypot(other[0] - one[0], other[1] - one[1])
-
-
-@compiled
-def gain(brush: Brush, scratch: Array, before: Array, after: Array, speed: float) -> int:
-    """How many more samples are swept if a part of a trace is replaced by another.
-
-    Args:
-        brush, scratch, speed: as for `changes`.
-        before, after: the part of the trace, and what replaces it.
-    """
-    rows, columns = window(brush, before, after)
-    scratch[:, rows[0]:rows[1], columns[0]:columns[1]] = SWEEPABLE
-    sweep_trace(brush, scratch[0], before, speed)
-    sweep_trace(brush, scratch[1], after, speed)
-    more = 0
-    for row in range(rows[0], rows[1]):
-        for column in range(columns[0], columns[1]):
-            sample = int(brush.samples[row, column])
-            passes = sample // PASS
-            others = passes - int(scratch[0, row, column]) // PASS
-            is_swept = int(others + int(scratch[1, row, column]) // PASS > 0)
-            more += (sample // REACHABLE & 1) * (is_swept - int(passes > 0))
-    scratch[:, rows[0]:rows[1], columns[0]:columns[1]] = 0
-    return more
-
-
-@compiled
-def window(brush: Brush, one: Array, other: Array) -> Tuple[Tuple[int, int], Tuple[int, int]]:
-    """The rows and the columns of samples that are swept on two traces: each the first, and the one after the last."""
-    k, (rows, columns) = brush.constants[0], brush.samples.shape
-    margin = 0.5 * k.brush_width + 2.0 * k.sample_pitch
-    left, right = min(one[:, X].min(), other[:, X].min()) - margin, max(one[:, X].max(), other[:, X].max()) + margin
-    bottom, top = min(one[:, Y].min(), other[:, Y].min()) - margin, max(one[:, Y].max(), other[:, Y].max()) + margin
-    return ((max(int((bottom - k.origin_y) / k.sample_pitch), 0), min(int((top - k.origin_y) / k.sample_pitch), rows)),
-            (max(int((left - k.origin_x) / k.sample_pitch), 0),
-             min(int((right - k.origin_x) / k.sample_pitch), columns)))

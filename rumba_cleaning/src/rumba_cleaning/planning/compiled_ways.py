@@ -201,6 +201,12 @@ def kept(path: Array, off: float) -> Array:
 
 
 @compiled
+def distance(one: Array, other: Array) -> float:
+    """The distance between two points (2)."""
+    return math.hypot(other[0] - one[0], other[1] - one[1])
+
+
+@compiled
 def cornered_length(path: Array, corner: float) -> float:
     """Length of a path (any, 2) [m], to which its corners add so much for each radian [m]."""
     length, last = 0.0, math.nan

@@ -13,7 +13,7 @@ from rumba_sim.model.kernel import Array
 APART = 0.1  # [m] between the waypoints at which an edit may begin, at most: small makes detours shorter
 BETWEEN = 6  # waypoints between two edits, at least: each was judged as if it were the only one
 BETTER = 0.02  # [s] that an edit is worth, at least
-NEAR = 2.0  # times a price: large judges more edits again, small may miss some that become worth it
+NEAR = 1.2  # times a price: large judges more edits again, small may miss some that become worth it
 HALVINGS = 14  # of the range in which the price is looked for
 
 

@@ -25,7 +25,7 @@ LEAST_ON_PAPER = 0.005  # [m^2] of a crumb: a smaller one is hardly ever worth t
 EDITS = 3  # rounds of edits after a route is rebuilt, before that is done again
 # [s/m^2] that edits save for what they leave, if there is more than the target needs, and take for what is missing.
 SAVED, ADDED = 120.0, 600.0
-CHEAP = 0.5  # share of the last price that a shortcut must save to be judged: small tries more
+CHEAP = 0.8  # share of the last price that a shortcut must save to be judged: small tries more
 SHORTCUTS = 1500  # that are judged in a round, at most
 
 

@@ -27,21 +27,17 @@ class Draft(NamedTuple):
     apart: float = 0.0  # [m] up to which pieces of that belong together, as a broken line in the middle of a corridor
 
 
-def _usual(overlap: float) -> List[Layout]:
-    """The usual layouts, with an overlap."""
-    return [Layout(overlap), Layout(overlap, usual=0.15, alike=2.5), Layout(overlap, usual=0.7)]
-
-
 # All figures are our choice. Which draft is best differs from floor to floor, as the best layout from region to region:
 # routes by several are rehearsed. Lanes for wider strips look better only on paper: they leave slivers for the end.
-DRAFTS = (Draft(_usual(0.05), 0.3), Draft([Layout(0.0, needed=0.15, gap=0.4, alike=2.7)], 0.4), Draft(_usual(0.0), 0.3),
-          Draft([Layout(0.08, needed=0.17, usual=0.5, gap=0.65)], 0.45),
-          Draft([Layout(0.09, needed=0.15, usual=0.7, gap=0.55, alike=1.35)], 0.4))
+DRAFTS = (Draft([Layout(), Layout(usual=0.15, alike=2.5), Layout(usual=0.7)], 0.3),
+          Draft([Layout(0.0, needed=0.15, gap=0.4, alike=2.7)], 0.4))
 # For regions in rings, such as a corridor a little wider than so many of them: one more pass in its middle, though what
 # is left there is thin and broken, or rings that overlap less.
 IN_RINGS = (DRAFTS[0]._replace(strip=0.015, apart=0.04), DRAFTS[0]._replace(strip=0.015, apart=0.04, ring_pass=0.995))
 # For regions that are hardly corridors or hardly rooms: a wide ring corridor wants rings, legs of chairs want lanes.
-OTHER_SHAPES = (IN_RINGS[0]._replace(narrow=0.3), DRAFTS[3]._replace(narrow=0.05), IN_RINGS[1]._replace(narrow=0.3))
+OTHER_SHAPES = (IN_RINGS[0]._replace(narrow=0.3),
+                Draft([Layout(0.08, needed=0.17, usual=0.5, gap=0.65)], 0.45, narrow=0.05),
+                IN_RINGS[1]._replace(narrow=0.3))
 AREA = 600.0  # [m^2] to clean, times the layouts that are compared: large drives less, small plans faster
 LITTLE = 1.0  # [m^2] to clean, for which no layouts are compared: most of that is left to the crumbs
 TURN = 3.0  # [s] for each turn, beyond its length: the wheels limit the turn rate, and it leaves crumbs beside it

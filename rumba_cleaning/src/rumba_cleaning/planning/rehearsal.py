@@ -4,6 +4,7 @@ A drive on paper goes exactly along the route. A robot cuts corners and swings o
 of all that a plan leaves, and rehearsals foresee it to about 0.1 % of the floor.
 """
 
+from functools import cached_property
 from typing import List, Sequence
 
 import numpy as np
@@ -11,11 +12,13 @@ import numpy as np
 from rumba_cleaning.behaviours.follower import drive_of
 from rumba_cleaning.behaviours.guard import SWIFT_SPEED
 from rumba_cleaning.belief.context import Context
-from rumba_cleaning.planning import compiled_rehearsal
+from rumba_cleaning.planning import compiled_changes, compiled_passes, compiled_rehearsal
+from rumba_cleaning.planning.compiled_passes import Passes
 from rumba_cleaning.planning.compiled_rehearsal import ALONG, COLUMNS, DT, Walls
 from rumba_cleaning.planning.edits import Edit
 from rumba_cleaning.route import Route, lengths_along
 from rumba_sim.model.geometry import Pose
+from rumba_sim.model.kernel import Array
 
 NO_PATH = np.zeros((0, 2))  # as that of an edit
 
@@ -32,7 +35,6 @@ class Rehearsal:
         is_complete: whether the robot would get to the end.
         seconds: that it takes.
         reached: when each waypoint is reached: float64 (waypoints) [s].
-        alone: what is swept until then, and at no other time: float64 (waypoints) [m^2].
     """
 
     def __init__(self, context: Context, pose: Pose, route: Route) -> None:
@@ -48,27 +50,32 @@ class Rehearsal:
         self.is_complete, self._trace = compiled_rehearsal.rehearse(
             route.waypoints, route.speeds, self.drive, self._walls, begin, True, np.inf)
         self._trace[:, ALONG] = np.maximum.accumulate(self._trace[:, ALONG])
-        self.swept = context.swept.copy()
+        self._before, self.swept = context.swept, context.swept.copy()
         brush = self.swept.brush
-        compiled_rehearsal.sweep_trace(brush, brush.samples, self._trace, self._speed)
+        compiled_passes.sweep_trace(brush, brush.samples, self._trace, self._speed)
         self._square = self.swept.reachable_area / max(self.swept.reachable, 1)  # [m^2] of a sample
         self.seconds = (len(self._trace) - 1) * DT
-        rows = np.minimum(np.searchsorted(self._trace[:, ALONG], lengths_along(route.waypoints)),
-                          len(self._trace) - 1)
-        self.reached = rows * DT
-        once = brush._replace(samples=brush.samples.copy(), tally=brush.tally.copy())
-        self.alone = compiled_rehearsal.alone(once, self._trace, self._speed)[rows] * self._square
+        self._rows = np.minimum(np.searchsorted(self._trace[:, ALONG], lengths_along(route.waypoints)),
+                                len(self._trace) - 1)
+        self.reached = self._rows * DT
+
+    @property
+    def alone(self) -> Array:
+        """What is swept until each waypoint is reached, and at no other time: float64 (waypoints) [m^2]."""
+        return np.asarray(compiled_passes.alone(self._passes, len(self._trace))[self._rows] * self._square)
+
+    @cached_property
+    def _passes(self) -> Passes:
+        """When each sample is passed."""
+        return compiled_passes.passed(self._before.brush, self._trace, self._speed)
 
     def judged(self, edits: Sequence[Edit]) -> List[Edit]:
         """Edits with what each costs and brings, if it were the only one; without those that lead astray."""
         if not edits:
             return []
-        brush = self.swept.brush
-        brush = brush._replace(tally=brush.tally.copy())
-        seconds, samples = compiled_rehearsal.changes(
-            *self.route, self.drive, self._walls, self._speed, self._trace, brush,
-            np.zeros((2, *brush.samples.shape), np.uint8), np.array([edit[:2] for edit in edits]),
-            np.concatenate([NO_PATH, *(edit.path for edit in edits)]),
+        seconds, samples = compiled_changes.changes(
+            *self.route, self.drive, self._walls, self._speed, self._trace, self.swept.brush, self._passes,
+            np.array([edit[:2] for edit in edits]), np.concatenate([NO_PATH, *(edit.path for edit in edits)]),
             np.cumsum([0, *(len(edit.path) for edit in edits)]))
         return [edit._replace(seconds=time, area=count * self._square)
                 for edit, time, count in zip(edits, seconds.tolist(), samples.tolist()) if np.isfinite(time)]

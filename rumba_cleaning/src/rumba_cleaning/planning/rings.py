@@ -12,6 +12,7 @@ from scipy import ndimage, spatial
 
 from rumba_cleaning.belief.ground import Ground
 from rumba_cleaning.belief.swept import Swept
+from rumba_cleaning.planning import compiled_rings
 from rumba_cleaning.planning.contours import contours
 from rumba_cleaning.planning.paper import drive, resampled
 from rumba_cleaning.planning.regions import Shapes
@@ -27,11 +28,8 @@ SMOOTH = 0.02  # [m] standard deviation of the filter along a ring: takes out th
 # The corners of a ring reach farther out by what such a filter [m] would cut off, as a robot does that goes round them.
 BLUR = 0.06
 SHORTEST = 0.25  # [m] of a ring, and of its parts; a shorter one is left to the crumbs
-NEEDED = 0.25  # share of the brush's width that was missed, for a waypoint to be needed: small drives over swept floor
 GAP = 0.3  # [m] of a ring that are not needed, but are driven: large saves turns, small saves distance
 WHOLE = 0.85  # share of a ring's waypoints that are needed, for all of it to be driven: saves turns, as GAP does
-SAMPLES = 9  # points across the brush: one for each 2 cm of a brush of 17 cm
-RIDGE = 0.03  # [m] inside a ring the floor must still get wider: where it does not, one pass in the middle is enough
 # [m] from a ring to the next one in its chain, anywhere, at most: large makes fewer stretches, but beyond two radii of
 # the robot there may be a wall in between.
 BESIDE = 0.32
@@ -64,6 +62,8 @@ def rings(ground: Ground, swept: Swept, labels: Array, shape: Shapes, brush: flo
     found: List[Ring] = []
     depth = _depth(ground)
     passes = _passes(depth, labels, shape.is_open, brush, ring_pass)
+    floor = compiled_rings.Floor(swept.brush.samples, ground.plan.sample_squares, depth, ground.plan.origin,
+                                 ground.plan.resolution)
     level = 0
     while True:
         lines = contours(passes, level)
@@ -72,7 +72,7 @@ def rings(ground: Ground, swept: Swept, labels: Array, shape: Shapes, brush: flo
         pieces = [_shaped(piece, shape.is_open[piece.region]) for line in lines
                   for piece in _by_region(line, ground, labels, level)]
         needed = [ring for piece in sorted(pieces, key=lambda ring: -len(ring.waypoints))
-                  for ring in _needed(piece, ground, swept, depth, brush)]
+                  for ring in _needed(piece, floor, brush)]
         for ring in needed:
             drive(swept, ring.waypoints)
         found += needed
@@ -132,10 +132,10 @@ def rotated(ring: Array, index: int) -> Array:
     return np.concatenate([ring[index:-1], ring[:index + 1]])
 
 
-def _needed(ring: Ring, ground: Ground, swept: Swept, depth: Array, brush: float) -> Iterator[Ring]:
+def _needed(ring: Ring, floor: compiled_rings.Floor, brush: float) -> Iterator[Ring]:
     """The parts of a ring on which the brush sweeps what was missed."""
     path = ring.waypoints
-    needed = (_finds(path, ground, swept, brush) >= NEEDED) & ~_is_ridge(path, ground, depth)
+    needed = compiled_rings.needed(floor, path, brush)
     if needed.mean() > WHOLE:
         yield ring
         return
@@ -148,32 +148,6 @@ def _needed(ring: Ring, ground: Ground, swept: Swept, depth: Array, brush: float
     for (part,) in ndimage.find_objects(parts):
         if (part.stop - part.start) * SPACING >= SHORTEST:
             yield Ring(path[part], ring.region, ring.level, False)
-
-
-def _finds(path: Array, ground: Ground, swept: Swept, brush: float) -> Array:
-    """The share of the brush's width that was missed at each waypoint of a path (any, 2) [m]: float64 (any)."""
-    along = np.gradient(path, axis=0)
-    across = np.stack([-along[:, 1], along[:, 0]], axis=1) / np.maximum(np.hypot(*along.T)[:, np.newaxis], 1e-9)
-    offsets = np.linspace(-0.5 * brush, 0.5 * brush, SAMPLES)
-    points = path[:, np.newaxis] + offsets[np.newaxis, :, np.newaxis] * across[:, np.newaxis]
-    cells = np.floor((points - ground.plan.origin) / ground.plan.resolution).astype(np.intp)
-    last = np.array([ground.plan.columns, ground.plan.rows]) - 1
-    return np.asarray(swept.missing_share_at(np.clip(cells, 0, last)[..., ::-1]).mean(axis=1))
-
-
-def _is_ridge(path: Array, ground: Ground, depth: Array) -> Array:
-    """Where the two sides of a ring almost touch: a pass in the middle sweeps there what both would."""
-    def at(points: Array) -> Array:
-        nodes = ((points.reshape(-1, 2) - ground.plan.origin) / ground.plan.resolution)[:, ::-1].T
-        return np.asarray(ndimage.map_coordinates(depth, nodes, order=1, mode='nearest')).reshape(points.shape[:-1])
-
-    step = 0.5 * RIDGE
-    sides = at(path + np.array([[[step, 0.0]], [[-step, 0.0]], [[0.0, step]], [[0.0, -step]]]))
-    slope = np.stack([sides[0] - sides[1], sides[2] - sides[3]], axis=1)
-    steep = np.hypot(*slope.T)
-    inward = slope / np.maximum(steep, 1e-9)[:, np.newaxis]
-    farther, here = at(np.stack([path + RIDGE * inward, path]))
-    return np.asarray(farther < here + 0.7 * RIDGE)
 
 
 # --- chains ---------------------------------------------------------------------------------------------------------

@@ -82,8 +82,9 @@ class Tour:
                         np.array(ground.clearance.shape[::-1]) - 1.0)
         metres, self._before = compiled_ways.lengths(ground.clearance, needed(ground, BESIDE), nodes, stops)
         self._is_known = np.isfinite(metres)
-        apart = np.hypot(*(self._points[:, np.newaxis] - self._points).transpose(2, 0, 1))
-        metres = np.where(self._is_known, metres * ground.plan.resolution, 2.0 * apart + UNSEEN)
+        metres *= ground.plan.resolution
+        starts, stops = np.nonzero(~self._is_known)
+        metres[starts, stops] = 2.0 * np.hypot(*(self._points[starts] - self._points[stops]).T) + UNSEEN
         into = headings(ends[:, 0], ends[:, 1])
         out = np.append(headings(ends[:, 2], ends[:, 3]), np.nan)
         rates = speed, BENT, TURN_RATE, STOP

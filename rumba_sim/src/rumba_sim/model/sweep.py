@@ -169,16 +169,6 @@ class Sweep:
         squares = self._plan.sample_squares
         return _sums(_is_missing(self.samples), squares) / np.float32(squares ** 2)
 
-    def missing_share_at(self, cells: Array) -> Array:
-        """The same for some cells, rows and columns (..., 2): float32 (...). The rest of the floor takes no time."""
-        squares = self._plan.sample_squares
-        rows, columns = squares * cells[..., 0], squares * cells[..., 1]
-        counts = np.zeros(rows.shape, np.uint16)
-        for row in range(squares):
-            for column in range(squares):
-                counts += _is_missing(self.samples[rows + row, columns + column])
-        return counts / np.float32(squares ** 2)
-
 
 def _is_missing(samples: Array) -> Array:
     """Which samples can be reached and were not swept: bool, of the same shape."""
