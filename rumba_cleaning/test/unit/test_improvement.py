@@ -38,8 +38,8 @@ def first_draft(surroundings, overlap=0.05):
     return planner._through(surroundings, found)
 
 
-@pytest.mark.parametrize('width, height, usual, rings, other', [(5.0, 3.0, 2, 0, 0), (8.0, 1.0, 2, 0, 2),
-                                                                (8.0, 0.7, 2, 2, 1)])
+@pytest.mark.parametrize('width, height, usual, rings, other', [(5.0, 3.0, 3, 0, 0), (8.0, 1.0, 3, 0, 2),
+                                                                (8.0, 0.7, 3, 2, 1)])
 def test_there_are_drafts_for_rings_and_other_shapes_only_where_a_region_has_such(width, height, usual, rings, other):
     found = [draft for draft, _ in planner._shaped(surroundings_of(room(width, height)))]
     for of_kind, count in ((DRAFTS, usual), (IN_RINGS, rings), (OTHER_SHAPES, other)):

@@ -66,7 +66,7 @@ def test_several_layouts_are_tried_if_there_is_much_to_clean_but_fewer_on_a_larg
     assert len(LAYOUTS[:tries(area)]) == count
 
 
-@pytest.mark.parametrize('rounds, count, rings, others', [(0, 1, 0, 0), (1, 1, 1, 0), (2, 2, 1, 1), (5, 2, 2, 3)])
+@pytest.mark.parametrize('rounds, count, rings, others', [(0, 1, 0, 0), (1, 1, 1, 0), (2, 2, 1, 1), (5, 3, 2, 3)])
 def test_fewer_drafts_are_rehearsed_on_a_floor_that_is_worth_fewer_rounds(rounds, count, rings, others):
     assert drafts(rounds) == (*DRAFTS[:count], *IN_RINGS[:rings], *OTHER_SHAPES[:others])
 

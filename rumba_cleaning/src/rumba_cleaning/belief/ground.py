@@ -345,13 +345,14 @@ class Ground:
         low = np.maximum(np.minimum(first, last) - margin, first % spacing)
         low += (first - low) % spacing
         high = np.minimum(np.maximum(first, last) + margin + 1, self.clearance.shape)
-        sizes = (high - low + spacing - 1) // spacing
-        begin, end = (first - low) // spacing, np.minimum((last - low + spacing // 2) // spacing, sizes - 1)
+        rows, columns = ((high - low + spacing - 1) // spacing).tolist()
+        begin = (first - low) // spacing
+        end = np.minimum((last - low + spacing // 2) // spacing, (rows - 1, columns - 1))
         if not self.fits[tuple(low + spacing * end)]:
             return None
         costs = Costs(self.clearance, self.fits, self.reach, INFLATION, INFLATION_COST)
-        lattice = Lattice(*low.tolist(), *sizes.tolist(), spacing)
-        found = cheapest(costs, lattice, tuple(begin.tolist()), tuple(end.tolist()))
+        lattice = Lattice(int(low[0]), int(low[1]), rows, columns, spacing)
+        found = cheapest(costs, lattice, (int(begin[0]), int(begin[1])), (int(end[0]), int(end[1])))
         if len(found) == 0:
             return None
         path = found * spacing + low

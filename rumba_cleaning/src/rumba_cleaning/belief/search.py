@@ -25,7 +25,7 @@ class Costs(NamedTuple):
 
 
 class Lattice(NamedTuple):
-    """The nodes over which a path is searched for: every so manieth, in a rectangle."""
+    """The nodes over which a path is searched for: in a rectangle, each so many from the next."""
 
     row: int  # of the first of them
     column: int
@@ -40,7 +40,8 @@ def cost_at(costs: Costs, lattice: Lattice, row: int, column: int) -> float:
     at = lattice.row + row * lattice.spacing, lattice.column + column * lattice.spacing
     if not costs.is_free[at]:
         return np.inf
-    return 1.0 + costs.most * min(max(1.0 - (costs.clearance[at] - costs.touching) / costs.beyond, 0.0), 1.0)
+    near = 1.0 - (float(costs.clearance[at]) - costs.touching) / costs.beyond
+    return 1.0 + costs.most * min(max(near, 0.0), 1.0)
 
 
 @compiled

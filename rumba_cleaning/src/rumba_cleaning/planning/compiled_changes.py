@@ -4,15 +4,14 @@ from typing import Any, Tuple
 
 import numpy as np
 
-from rumba_cleaning.behaviours.compiled_follower import Drive
-from rumba_cleaning.planning.compiled_passes import Passes, gain
+from rumba_cleaning.planning.compiled_passes import Passes, blank, gain
 from rumba_cleaning.planning.compiled_rehearsal import ALONG, DT, SPEED, Walls, rehearse
 from rumba_cleaning.planning.compiled_ways import distance
 from rumba_sim.model.jit import compiled
-from rumba_sim.model.kernel.samples import SWEEPABLE
 
 Array = Any  # numpy.ndarray
 Brush = Any  # rumba_sim.model.sweep.Brush
+Drive = Any  # rumba_cleaning.behaviours.compiled_follower.Drive
 
 # [m] before and behind an edit, within which the robot drives otherwise because of it: large is exact, small is fast.
 LEAD, TAIL = 0.25, 0.5
@@ -37,7 +36,7 @@ def changes(waypoints: Array, speeds: Array, drive: Drive, walls: Walls, speed: 
         samples are swept: int (edits).
     """
     seconds, samples = np.full(len(spans), np.inf), np.zeros(len(spans), np.int64)
-    scratch = np.full(brush.samples.shape, SWEEPABLE, np.uint8)
+    scratch = blank(brush)
     along, lengths = trace[:, ALONG].copy(), np.zeros(len(waypoints))
     for index in range(1, len(waypoints)):
         lengths[index] = lengths[index - 1] + distance(waypoints[index - 1], waypoints[index])

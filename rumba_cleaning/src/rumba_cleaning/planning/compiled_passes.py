@@ -10,7 +10,7 @@ from typing import Any, NamedTuple, Tuple
 
 import numpy as np
 
-from rumba_cleaning.planning.compiled_rehearsal import SPEED, THETA, X, Y
+from rumba_cleaning.planning.compiled_rehearsal import SPEED, THETA, X, Y, pose_of
 from rumba_sim.model.compiled import fast
 from rumba_sim.model.jit import compiled
 from rumba_sim.model.kernel.samples import PASS, REACHABLE, SWEEPABLE
@@ -46,17 +46,22 @@ def sweep_trace(brush: Brush, samples: Array, trace: Array, speed: float) -> Non
             while last < min(len(trace) - 1, step + STRIDE) and trace[last, SPEED] <= speed and (
                     abs(trace[last + 1, THETA] - trace[step, THETA]) < STRAIGHT):
                 last += 1
-            sweep(brush.constants[0], samples, brush.no_dirt, brush.tally[0],
-                  (trace[step, X], trace[step, Y], trace[step, THETA]),
-                  (trace[last, X], trace[last, Y], trace[last, THETA]))
+            sweep(brush.constants[0], samples, brush.no_dirt, brush.tally[0], pose_of(trace[step]),
+                  pose_of(trace[last]))
         step = last
+
+
+@compiled
+def blank(brush: Brush) -> Array:
+    """Samples of a floor of the same size of which none is passed yet, and nothing is known: uint8 (rows, columns)."""
+    return np.full(brush.samples.shape, SWEEPABLE, np.uint8)
 
 
 @compiled
 def passed(brush: Brush, trace: Array, speed: float) -> Passes:
     """When the samples are passed on a trace; the brush is as before it."""
     first, last = np.full(brush.samples.shape, NEVER, np.int32), np.full(brush.samples.shape, BEFORE, np.int32)
-    samples = np.full(brush.samples.shape, SWEEPABLE, np.uint8)
+    samples = blank(brush)
     for row in range(samples.shape[0]):
         for column in range(samples.shape[1]):
             if brush.samples[row, column] & REACHABLE == 0 or brush.samples[row, column] >= PASS:
@@ -93,7 +98,7 @@ def gain(brush: Brush, passes: Passes, scratch: Array, trace: Array, low: int, h
     Args:
         brush, trace, speed: see above.
         passes: those on the trace.
-        scratch: uint8 (rows, columns) of the samples, all SWEEPABLE; it is so again afterwards.
+        scratch: as `blank` makes it; it is so again afterwards.
         low, high: the rows.
         other: that trace.
     """

@@ -85,7 +85,7 @@ def drive_piece(piece: Piece, drive: Drive, walls: Walls, begin: Array, is_first
     state[IS_TURNING] = 1.0 if is_first else 0.0
     for step in range(steps):
         here = trace[step]
-        is_at_end, off = follow(piece, drive, state, here[X], here[Y], here[THETA], DT)
+        is_at_end, off = follow(piece, drive, state, *pose_of(here), DT)
         here[ALONG] = state[DISTANCE]
         here[SPEED] = piece.speeds[leg_at(piece.lengths, state[DISTANCE])]
         if is_at_end or state[DISTANCE] >= until:
@@ -95,6 +95,12 @@ def drive_piece(piece: Piece, drive: Drive, walls: Walls, begin: Array, is_first
         trace[step + 1] = here
         advance(drive, walls, trace[step + 1], state[V], state[W])
     return False, trace[:steps]
+
+
+@compiled
+def pose_of(row: Array) -> Tuple[float, float, float]:
+    """The pose in a row of a trace: x [m], y [m], theta [rad]."""
+    return row[X], row[Y], row[THETA]
 
 
 @compiled

@@ -82,7 +82,8 @@ def is_ridge(floor: Floor, x: float, y: float) -> bool:
     slope_x = depth_at(floor, x + step, y) - depth_at(floor, x - step, y)
     slope_y = depth_at(floor, x, y + step) - depth_at(floor, x, y - step)
     inward = RIDGE / max(math.hypot(slope_x, slope_y), TINY)
-    return depth_at(floor, x + inward * slope_x, y + inward * slope_y) < depth_at(floor, x, y) + WIDER * RIDGE
+    inside = depth_at(floor, x + inward * slope_x, y + inward * slope_y)
+    return bool(inside < depth_at(floor, x, y) + WIDER * RIDGE)
 
 
 @compiled

@@ -30,7 +30,8 @@ class Draft(NamedTuple):
 # All figures are our choice. Which draft is best differs from floor to floor, as the best layout from region to region:
 # routes by several are rehearsed. Lanes for wider strips look better only on paper: they leave slivers for the end.
 DRAFTS = (Draft([Layout(), Layout(usual=0.15, alike=2.5), Layout(usual=0.7)], 0.3),
-          Draft([Layout(0.0, needed=0.15, gap=0.4, alike=2.7)], 0.4))
+          Draft([Layout(0.0, needed=0.15, gap=0.4, alike=2.7)], 0.4),
+          Draft([Layout(0.09, needed=0.15, usual=0.7, gap=0.55, alike=1.35)], 0.4))
 # For regions in rings, such as a corridor a little wider than so many of them: one more pass in its middle, though what
 # is left there is thin and broken, or rings that overlap less.
 IN_RINGS = (DRAFTS[0]._replace(strip=0.015, apart=0.04), DRAFTS[0]._replace(strip=0.015, apart=0.04, ring_pass=0.995))
