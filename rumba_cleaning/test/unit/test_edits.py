@@ -57,10 +57,10 @@ def test_an_edit_has_the_same_place_in_routes_that_are_equal_there_and_another_o
 
 
 @pytest.mark.parametrize('seconds, area, is_near', [
-    (1.9, 0.01, True), (2.1, 0.01, False),  # at twice the price it would be worth it
-    (-0.4, -0.01, False), (-0.6, -0.01, True),  # at half the price
+    (1.15, 0.01, True), (1.25, 0.01, False),  # at 1.2 times the price it would be worth it
+    (-0.8, -0.01, False), (-0.87, -0.01, True),  # at that price divided by 1.2
     (-1.0, 0.01, True), (1.0, -0.01, False)])
-def test_an_edit_is_near_a_price_if_half_or_twice_of_it_would_do(seconds, area, is_near):
+def test_an_edit_is_near_a_price_if_a_fifth_more_or_less_would_do(seconds, area, is_near):
     assert edit(0, seconds, area).is_near(100.0) is is_near
 
 
