@@ -53,7 +53,11 @@ def sweep_trace(brush: Brush, samples: Array, trace: Array, speed: float) -> Non
 
 @compiled
 def blank(brush: Brush) -> Array:
-    """Samples of a floor of the same size of which none is passed yet, and nothing is known: uint8 (rows, columns)."""
+    """Samples of a floor of the same size, not passed yet and out of reach, so that no tally counts them.
+
+    Returns:
+        uint8 (rows, columns)
+    """
     return np.full(brush.samples.shape, SWEEPABLE, np.uint8)
 
 

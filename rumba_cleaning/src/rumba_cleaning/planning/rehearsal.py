@@ -26,7 +26,8 @@ NO_PATH = np.zeros((0, 2))  # as that of an edit
 class Rehearsal:
     """A drive along a route from a pose, on a floor without obstacles that the ground does not show.
 
-    The wheels are no faster than the guard lets them be in bends over floor that the robot has not seen.
+    The wheels are no faster than the guard lets them be in bends over floor that the robot has not seen. What was swept
+    before must stay as it is in the context as long as the rehearsal is asked.
 
     Attributes:
         route: what is followed.
