@@ -19,7 +19,7 @@ class Outcome(enum.IntEnum):
     TIMED_OUT = 5
     """Not done within the time limit."""
     INCOMPLETE = 6
-    """Nothing more can be reached, or the strategy has done its job, but the target is not met."""
+    """Nothing more can be reached, or too little of it, or the strategy has done its job, but the target is not met."""
     NO_PATH = 7
     """No path leads to the target or to the dock."""
     BLOCKED = 8

@@ -81,6 +81,7 @@ class Boustrophedon(Behaviour):
         self._pause = 0.0  # [s] still to wait
         self._before = -1.0  # coverage when the round began
         self._missing = 1.0  # of coverage to the target then
+        self._reason = ''  # why this round is the last, if there is nothing to drive
         self._driven = 0.0  # [m] since then
         self._last: Optional[Pose] = None  # where the robot was
         self._impasse, self._standstill = Impasse(), standstill.Standstill()
@@ -101,7 +102,7 @@ class Boustrophedon(Behaviour):
             if self._travel is None:
                 if self._planning is not None or self._rest is not None:
                     return self._wait()
-                return self.succeed('nothing more can be reached')
+                return self.succeed(self._reason)
         if self._pause > 0.0:
             self._pause -= observation.dt
             self.message = 'waiting for what is in the way'
@@ -153,6 +154,8 @@ class Boustrophedon(Behaviour):
             self._most = max(self._most, context.beside_obstacles().coverage)
         patience = PATIENT if self._most <= MUCH else VAIN
         is_worth = self._rounds < ROUNDS and self._idle < patience
+        is_swept = is_cut_off or self._most >= context.target_coverage  # but for what lies behind obstacles
+        self._reason = 'nothing more can be reached' if is_worth or is_swept else 'another round would gain too little'
         tries = PATIENT if is_cut_off else patience
         may_retry = context.ground.has_marks and (self._has_helped(coverage) or self._vain < tries)
         self._before, self._driven = coverage, 0.0
