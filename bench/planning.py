@@ -1,6 +1,6 @@
 """The CPU time that the coverage planner takes, the length of its routes, and how both grow with the floor.
 
-    python3 bench/planning.py --plot planning_time.png
+    python3 bench/planning.py --plot planning.png
 """
 
 import argparse
@@ -30,15 +30,15 @@ def main():
     parser.add_argument('--plot', metavar='FILE', help='draw CPU time over area')
     arguments = parser.parse_args()
     figures.heading('Planning a whole floor, brush 0.17 m; CPU time of one core')
-    for name in ('studio', 'apartment', 'field'):  # the first also loads the compiled code
-        measure(name, map_file.load(MAPS / f'{name}.yaml'))
+    others = [measure(name, map_file.load(MAPS / f'{name}.yaml'))
+              for name in ('studio', 'apartment', 'field')]  # the first also loads the compiled code
     points = []
     for area in AREAS:
         drawing = wings.furnished(np.random.default_rng(1), area)
         points.append(measure(f'furnished, {area:g} m2 in all', drawings.drawn('furnished', drawing, RESOLUTION)))
-    points.append(measure('office of 60 m x 60 m', hard_floors.floor('office', 1, RESOLUTION)))
-    others = [measure(name, drawings.drawn(name, drawing, RESOLUTION))
-              for name, drawing in large_floors.drawings().items()]
+    others.append(measure('office of 60 m x 60 m', hard_floors.floor('office', 1, RESOLUTION)))
+    others += [measure(name, drawings.drawn(name, drawing, RESOLUTION))
+               for name, drawing in large_floors.drawings().items()]
     (small, fast), (large, slow) = points[1], points[-1]
     figures.row('growth: exponent of CPU time over area', math.log(slow / fast) / math.log(large / small), below=1.2)
     if arguments.plot:
@@ -66,11 +66,15 @@ def draw(points, others, path):
     from matplotlib import pyplot
 
     figure, axes = pyplot.subplots(figsize=(6.0, 4.0))
-    axes.plot(*zip(*points), 'o-', label='furnished plans, cells of 5 cm')
-    axes.plot(*zip(*others), 'x', label='halls, stores, and floors that are turned')
-    axes.plot(*zip((0.0, 0.0), *BOUNDS), '--', label='bound')
-    axes.set(xlabel='floor in reach [m$^2$]', ylabel='CPU time [s]', xlim=(0.0, None), ylim=(0.0, None))
-    axes.legend()
+    (small, fast), *_ = points[1:]  # the first is small enough to be rehearsed
+    areas = np.array([10.0, 5000.0])
+    axes.loglog(areas, fast / small * areas, color='0.8', label='in proportion to the floor')
+    axes.loglog(*zip(*points), 'o-', label='furnished plans, cells of 5 cm')
+    axes.loglog(*zip(*others), 'x', label='other floors')
+    axes.step((areas[0], *(most for most, _ in BOUNDS)), (BOUNDS[0][1], *(bound for _, bound in BOUNDS)), '--',
+              label='bound')
+    axes.set(xlabel='floor in reach [m$^2$]', ylabel='CPU time [s]', xlim=areas, ylim=(0.3, 30.0))
+    axes.legend(loc='upper left')
     figure.savefig(path, bbox_inches='tight')
 
 
