@@ -66,7 +66,7 @@ def draw(points, others, path):
     from matplotlib import pyplot
 
     figure, axes = pyplot.subplots(figsize=(6.0, 4.0))
-    (small, fast), *_ = points[1:]  # the first is small enough to be rehearsed
+    small, fast = points[1]  # the first is small enough to be rehearsed
     areas = np.array([10.0, 5000.0])
     axes.loglog(areas, fast / small * areas, color='0.8', label='in proportion to the floor')
     axes.loglog(*zip(*points), 'o-', label='furnished plans, cells of 5 cm')

@@ -5,12 +5,12 @@ import pytest
 from floors import knowing, wiped
 from rooms import room
 
-from rumba_cleaning.planning.compiled_passes import BEFORE, NEVER, alone, gain, passed
+from rumba_cleaning.planning.compiled_passes import BEFORE, NEVER, alone, blank, gain, passed
 from rumba_cleaning.planning.compiled_rehearsal import SPEED
 from rumba_cleaning.planning.rehearsal import Rehearsal
 from rumba_cleaning.route import Route
 from rumba_sim.model.geometry import Pose
-from rumba_sim.model.kernel.samples import PASS, REACHABLE, SWEEPABLE
+from rumba_sim.model.kernel.samples import PASS, REACHABLE
 
 START = Pose(0.5, 0.5, 0.0)
 SPEED_LIMIT = 0.3  # [m/s]
@@ -28,14 +28,30 @@ def trace(context):
     return Rehearsal(context, START, THERE_AND_BACK)._trace
 
 
+def drive(swept, trace):
+    """Sweep along a trace, step by step, where the brushes are down; yields after each step."""
+    for here, there in zip(trace, trace[1:]):
+        if here[SPEED] <= SPEED_LIMIT:
+            swept.sweep(here[:3], there[:3])
+        yield
+
+
+def swept_after(swept, *traces):
+    """How many samples are swept after drives along traces."""
+    swept = swept.copy()
+    for trace in traces:
+        for _ in drive(swept, trace):
+            pass
+    return round(swept.coverage * swept.reachable)
+
+
 def steps_of(context, trace):
     """For each step of a trace, the samples that the brush passes, in one move: bool (rows, columns)."""
     swept = context.swept.copy()
-    for here, there in zip(trace, trace[1:]):
-        before = swept.brush.samples.copy()
-        if here[SPEED] <= SPEED_LIMIT:
-            swept.sweep(here[:3], there[:3])
+    before = swept.brush.samples.copy()
+    for _ in drive(swept, trace):
         yield swept.brush.samples != before
+        before = swept.brush.samples.copy()
 
 
 def test_each_sample_is_passed_first_and_last_when_the_brush_passes_it(context, trace):
@@ -61,26 +77,15 @@ def test_what_is_swept_at_no_other_time_is_counted_where_the_brush_passes_it(con
     assert counted.tolist() == expected.tolist() and expected[-1] > 1000
 
 
-def count(swept):
-    return round(swept.coverage * swept.reachable)
-
-
 @pytest.mark.parametrize('low, high', [(0, 30), (20, 21), (25, 60), (70, 95)])
 def test_a_part_of_a_trace_gains_what_no_other_part_sweeps(context, trace, low, high):
-    passes = passed(context.swept.brush, trace, SPEED_LIMIT)
-    scratch = np.full(context.swept.brush.samples.shape, SWEEPABLE, np.uint8)
-    without = context.swept.copy()
-    for step in (*range(low), *range(high, len(trace) - 1)):
-        if trace[step, SPEED] <= SPEED_LIMIT:
-            without.sweep(trace[step, :3], trace[step + 1, :3])
-    with_it, aside = without.copy(), trace[low:high + 1].copy()
+    brush = context.swept.brush
+    passes, scratch = passed(brush, trace, SPEED_LIMIT), blank(brush)
+    aside = trace[low:high + 1].copy()
     aside[:, 1] += 0.25
-    for here, there in zip(aside, aside[1:]):
-        if here[SPEED] <= SPEED_LIMIT:
-            with_it.sweep(here[:3], there[:3])
-    all_of_it = Rehearsal(context, START, THERE_AND_BACK).swept
-    found = gain(context.swept.brush, passes, scratch, trace, low, high, trace[low:low + 1], SPEED_LIMIT)
-    assert found == pytest.approx(count(without) - count(all_of_it), abs=3)
-    found = gain(context.swept.brush, passes, scratch, trace, low, high, aside, SPEED_LIMIT)
-    assert found == pytest.approx(count(with_it) - count(all_of_it), abs=8)  # strides are longer than steps
-    assert (scratch == SWEEPABLE).all()
+    rest = trace[:low + 1], trace[high:]
+    whole, without, with_it = (swept_after(context.swept, *parts) for parts in ((trace,), rest, (*rest, aside)))
+    assert gain(brush, passes, scratch, trace, low, high, trace[low:low + 1], SPEED_LIMIT) == without - whole
+    found = gain(brush, passes, scratch, trace, low, high, aside, SPEED_LIMIT)
+    assert found == pytest.approx(with_it - whole, abs=8)  # strides are longer than steps
+    assert (scratch == blank(brush)).all()

@@ -19,6 +19,7 @@ sweep = fast.sweep
 
 Array = Any  # numpy.ndarray
 Brush = Any  # rumba_sim.model.sweep.Brush
+Window = Tuple[Tuple[int, int], Tuple[int, int]]  # rows and columns: each the first, and the one after the last
 
 STRIDE, STRAIGHT = 4, 0.02  # rows that are swept at once, at most, if the robot turns by less [rad]: large is fast
 BEFORE, NEVER = -1, 2 ** 31 - 1  # a pass before the trace, and none
@@ -119,8 +120,8 @@ def gain(brush: Brush, passes: Passes, scratch: Array, trace: Array, low: int, h
 
 
 @compiled
-def window(brush: Brush, trace: Array) -> Tuple[Tuple[int, int], Tuple[int, int]]:
-    """The rows and the columns of samples that are swept on a trace: each the first, and the one after the last."""
+def window(brush: Brush, trace: Array) -> Window:
+    """The samples around those that are swept on a trace."""
     k, (rows, columns) = brush.constants[0], brush.samples.shape
     margin = 0.5 * k.brush_width + 2.0 * k.sample_pitch
     left, right = trace[:, X].min() - margin - k.origin_x, trace[:, X].max() + margin - k.origin_x
@@ -130,7 +131,7 @@ def window(brush: Brush, trace: Array) -> Tuple[Tuple[int, int], Tuple[int, int]
 
 
 @compiled
-def joined(one: Any, other: Any) -> Tuple[Tuple[int, int], Tuple[int, int]]:
+def joined(one: Window, other: Window) -> Window:
     """The smallest window around two."""
     return ((min(one[0][0], other[0][0]), max(one[0][1], other[0][1])),
             (min(one[1][0], other[1][0]), max(one[1][1], other[1][1])))

@@ -83,8 +83,8 @@ class Tour:
         metres, self._before = compiled_ways.lengths(ground.clearance, needed(ground, BESIDE), nodes, stops)
         self._is_known = np.isfinite(metres)
         metres *= ground.plan.resolution
-        starts, stops = np.nonzero(~self._is_known)
-        metres[starts, stops] = 2.0 * np.hypot(*(self._points[starts] - self._points[stops]).T) + UNSEEN
+        one, other = np.nonzero(~self._is_known)
+        metres[one, other] = 2.0 * np.hypot(*(self._points[one] - self._points[other]).T) + UNSEEN
         into = headings(ends[:, 0], ends[:, 1])
         out = np.append(headings(ends[:, 2], ends[:, 3]), np.nan)
         rates = speed, BENT, TURN_RATE, STOP
