@@ -40,6 +40,7 @@ class Observation(NamedTuple):
     covariance: Covariance = CERTAIN  # of the pose [m^2, m rad, rad^2]
     scan: Optional[Scan] = None  # of the laser, if there is a new one
     silence: float = 0.0  # [s] for which no scan has come to find the pose by; 0 if it is found by something else
+    is_held: bool = False  # an edge keeps the robot from what it was to do
 
     @property
     def is_silent(self) -> bool:

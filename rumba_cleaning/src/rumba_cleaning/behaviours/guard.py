@@ -126,7 +126,8 @@ class Guard:
         left, right = self._held
         if left or right:
             far_left, near_left, near_right, far_right = observation.cliffs
-            observation = observation._replace(cliffs=(far_left or left, near_left, near_right, far_right or right))
+            observation = observation._replace(
+                is_held=True, cliffs=(far_left or left, near_left, near_right, far_right or right))
         command = self._on_trail(decide(observation), observation.pose)
         self._speeds = self._preview.after(self._speeds, self._preview.wanted(self._command), dt)
         self._command = self._admitted(observation, command)
@@ -179,10 +180,13 @@ class Guard:
             return command._replace(v=0.0, w=0.0)
         found, slips = [], self._slips(observation, wanted)
         limited = [preview.limited(command, limit) for limit in self._limits()]
-        # In a bend, a wheel may cut inside the way of its sensor: once it has turned, the robot drives behind that.
+        # In a bend, a wheel may cut inside the way of its sensor: once it has turned, the robot drives behind that. And
+        # once it heads away from an edge that it came too near to, it drives on.
         spot = preview.limited(command._replace(v=0.0), WARY_SPEED)
-        on_the_spot = [spot] if is_wary and preview.moves(spot) else []
-        for slower in (command, *limited, *(part_of(command, share) for share in SHARES), *on_the_spot):
+        on_the_spot = [spot] if preview.moves(spot) else []
+        parts = [part_of(command, share) for share in SHARES]
+        others = on_the_spot + parts if abs(command.w) * preview.half > abs(command.v) else parts + on_the_spot
+        for slower in (command, *limited, *others):
             found.append(self._edges(pose, preview.wanted(slower), slips, is_near, must_know))
             if found[-1] == NONE:
                 return slower

@@ -77,7 +77,7 @@ class Travel:
     def command(self, observation: Observation, brushes_up: bool) -> Command:
         """What to do now; where the route is faster than the cleaning speed, the brushes are up in any case."""
         brushes_up = brushes_up or self._follower.speed > self._context.config.speed
-        if self._is_first and any(observation.cliffs):
+        if self._is_first and self._is_at_edge(observation):
             self._back = recoil.time_back(observation)
         self._is_first = False
         if self._back > 0.0:
@@ -112,9 +112,17 @@ class Travel:
             context.show_seen()
         return is_news
 
+    def _is_at_edge(self, observation: Observation) -> bool:
+        """Whether an edge is in the way: the map does not show all that were seen, or the robot is held by one.
+
+        Beside edges that the map shows, a route leads by design, and the guard keeps the wheels on the floor.
+        """
+        return any(observation.cliffs) and (observation.is_held or bool(self._context.footing.seen))
+
     def _is_blocked(self, observation: Observation) -> bool:
         """Whether something is in the way that the ground does not show; marks it."""
-        left, right = observation.contact
+        is_at_edge = self._is_at_edge(observation)
+        left, right = observation.contact if is_at_edge else observation.bumper
         touches = (left or right) and not self._was_touching
         self._was_touching = left or right
         if self._follower.remaining < self._nearest - PROGRESS:
@@ -124,7 +132,7 @@ class Travel:
         if not (left or right):
             self._context.ground.leave_out(*observation.pose[:2], self._context.robot.drive.radius)
         is_stuck = self._waited > PATIENCE
-        if is_stuck or touches and (any(observation.cliffs) or not _is_known(self._context.ground, observation.pose)):
+        if is_stuck or touches and (is_at_edge or not _is_known(self._context.ground, observation.pose)):
             mark(self._context, observation.pose, 0.0 if left == right else SIDE if left else -SIDE, touches)
             return True
         return False
