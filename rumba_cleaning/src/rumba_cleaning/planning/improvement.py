@@ -15,7 +15,9 @@ from rumba_sim.model.kernel import Array
 
 # All figures are our choice; each comment says what speaks for a larger and for a smaller value.
 SURPLUS = 0.005  # of coverage that is planned beyond the target on paper, since no robot drives exactly as planned ...
-MARGIN = 0.001  # ... and by rehearsal: large sweeps too much, small may need another route for a few last spots
+# [m^2] ... and by rehearsal, for each rad that the robot turns, since it drives each turn a little otherwise than
+# rehearsed: large sweeps too much, small may need another route for a few last spots.
+MARGIN = 0.00006
 EDITED = 0.0004  # of coverage that edits are to bring beyond that: together they bring a little less than one by one
 MENDS = 2  # times that detours are added, at most, to a route that edits left short of the target: that takes little
 WORK = 150.0  # [m^2] of floor, times rounds: large makes shorter routes, small plans faster
@@ -52,7 +54,7 @@ def improved(surroundings: Surroundings, routes: Sequence[Route], paths: Sequenc
         paths: what they lead over, float64 (any, 2) [m] each.
     """
     context = surroundings.context
-    rehearsal = min((Rehearsal(context, surroundings.pose, dense(route)) for route in routes),
+    rehearsal = min((_rehearsed(surroundings, route) for route in routes),
                     key=lambda rehearsal: _cost(surroundings, rehearsal))
     tried, price = [rehearsal], SAVED
     poor: Set[bytes] = set()  # edits, by their places, that were far from worth it when they were judged
@@ -74,6 +76,14 @@ def improved(surroundings: Surroundings, routes: Sequence[Route], paths: Sequenc
     return max(tried, key=lambda rehearsal: _merit(surroundings, rehearsal)).route
 
 
+def _rehearsed(surroundings: Surroundings, route: Route) -> Rehearsal:
+    """A rehearsal of a route, or of its beginning, up to where the robot would not get on."""
+    rehearsal = Rehearsal(surroundings.context, surroundings.pose, dense(route))
+    if rehearsal.is_complete or len(rehearsal.begun.speeds) == 0:
+        return rehearsal
+    return Rehearsal(surroundings.context, surroundings.pose, rehearsal.begun)
+
+
 def _rebuilt(surroundings: Surroundings, rehearsal: Rehearsal, paths: Sequence[Array]) -> Rehearsal:
     """A rehearsal of a route that is rebuilt, or the one before if the robot would not get to the end of it."""
     route = rebuilt(surroundings, rehearsal, paths)
@@ -90,20 +100,25 @@ def _edited(surroundings: Surroundings, rehearsal: Rehearsal, found: Sequence[Ed
     context, route = surroundings.context, rehearsal.route
     fresh = [edit for edit in found if edit.place(route) not in poor]
     judged = rehearsal.judged(fresh)
-    edits, price = chosen(judged, surroundings.need(rehearsal.swept, MARGIN + EDITED), DEAREST)
+    edits, price = chosen(judged, _need(surroundings, rehearsal, EDITED), DEAREST)
     poor.update({edit.place(route) for edit in fresh} - {edit.place(route) for edit in judged if edit.is_near(price)})
     return Rehearsal(context, surroundings.pose, dense(applied(route, edits, context.config.speed))), price
 
 
 def _cost(surroundings: Surroundings, rehearsal: Rehearsal) -> float:
     """The time that a route will take, about, once edits have it meet the target [s]."""
-    need = surroundings.need(rehearsal.swept, MARGIN)
+    need = _need(surroundings, rehearsal)
     return rehearsal.seconds + need * (ADDED if need > 0.0 else SAVED)
+
+
+def _need(surroundings: Surroundings, rehearsal: Rehearsal, surplus: float = 0.0) -> float:
+    """Area that is missing to the target, to a surplus of coverage and to what a rehearsal may be wrong by [m^2]."""
+    return surroundings.need(rehearsal.swept, surplus) + MARGIN * rehearsal.turned
 
 
 def _is_met(surroundings: Surroundings, rehearsal: Rehearsal) -> bool:
     """Whether a route meets the target."""
-    return surroundings.need(rehearsal.swept, MARGIN) <= 0.0
+    return _need(surroundings, rehearsal) <= 0.0
 
 
 def _merit(surroundings: Surroundings, rehearsal: Rehearsal) -> Tuple[bool, float]:

@@ -38,8 +38,8 @@ def plan(context: Context, pose: Pose, end: Optional[Pose] = None) -> Optional[R
     """A route that cleans what was missed; None if nothing was missed, or none of it can be reached.
 
     As long as lanes and rings clean most of it, crumbs are cleaned on detours from these, and the route is rebuilt and
-    improved by rehearsal. The routes after that know where the robot really drove, and visit crumb after crumb. All
-    visit only as many crumbs as the target needs.
+    improved by rehearsal. The routes after that know where the robot really drove, and visit crumb after crumb; they are
+    improved too. All visit only as many crumbs as the target needs.
 
     Args:
         context: with the floor that was swept before; it is not changed.
@@ -50,7 +50,7 @@ def plan(context: Context, pose: Pose, end: Optional[Pose] = None) -> Optional[R
     surroundings = Surroundings(context, pose, end, _around(context, pose), labels, Walls(ground))
     drafts = _drafts(surroundings)
     if not drafts:
-        return _through(surroundings, surroundings.crumbs(context.swept))
+        return _over_crumbs(surroundings)
     if improvement.rounds(context) == 0:
         return with_detours(surroundings, drafts[0].route, drafts[0].paper)
     paths = [part.variants[0].path() for drafted in drafts for part in drafted.stretches]
@@ -108,6 +108,15 @@ def _around(context: Context, pose: Pose) -> Array:
     if not ground.has_marks:
         return np.ones(ground.plan.occupancy.shape, bool)
     return ground.around(pose.x, pose.y, 0.5 * context.robot.brush.width + BEYOND)
+
+
+def _over_crumbs(surroundings: Surroundings) -> Optional[Route]:
+    """A route that visits crumb after crumb; None if there are none, or none can be reached."""
+    found = surroundings.crumbs(surroundings.context.swept)
+    route = _through(surroundings, found)
+    if route is None or improvement.rounds(surroundings.context) == 0:
+        return route
+    return improved(surroundings, [route], [part.variants[0].path() for part in found])
 
 
 def _through(surroundings: Surroundings, found: List[Stretch]) -> Optional[Route]:

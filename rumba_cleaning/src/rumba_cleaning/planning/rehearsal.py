@@ -14,7 +14,7 @@ from rumba_cleaning.behaviours.guard import SWIFT_SPEED
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.planning import compiled_changes, compiled_passes, compiled_rehearsal
 from rumba_cleaning.planning.compiled_passes import Passes
-from rumba_cleaning.planning.compiled_rehearsal import ALONG, COLUMNS, DT, Walls
+from rumba_cleaning.planning.compiled_rehearsal import ALONG, COLUMNS, DT, LEFT, RIGHT, Walls
 from rumba_cleaning.planning.edits import Edit
 from rumba_cleaning.route import Route, lengths_along
 from rumba_sim.model.geometry import Pose
@@ -35,6 +35,7 @@ class Rehearsal:
         swept: the floor afterwards.
         is_complete: whether the robot would get to the end.
         seconds: that it takes.
+        turned: by how much the robot turns, to and fro [rad].
         reached: when each waypoint is reached: float64 (waypoints) [s].
     """
 
@@ -55,6 +56,7 @@ class Rehearsal:
         brush = self.swept.brush
         compiled_passes.sweep_trace(brush, brush.samples, self._trace, self._speed)
         self._square = self.swept.reachable_area / max(self.swept.reachable, 1)  # [m^2] of a sample
+        self.turned = float(np.abs(self._trace[:, RIGHT] - self._trace[:, LEFT]).sum()) * DT / drive.wheel_base
         self.seconds = (len(self._trace) - 1) * DT
         self._rows = np.minimum(np.searchsorted(self._trace[:, ALONG], lengths_along(route.waypoints)),
                                 len(self._trace) - 1)
@@ -64,6 +66,12 @@ class Rehearsal:
     def alone(self) -> Array:
         """What is swept until each waypoint is reached, and at no other time: float64 (waypoints) [m^2]."""
         return np.asarray(compiled_passes.alone(self._passes, len(self._trace))[self._rows] * self._square)
+
+    @property
+    def begun(self) -> Route:
+        """The route up to the last waypoint before the end of the drive: all of it, or where the robot got stuck."""
+        count = int((self._rows < len(self._trace) - 1).sum())
+        return Route(self.route.waypoints[:count], self.route.speeds[:max(count - 1, 0)])
 
     @cached_property
     def _passes(self) -> Passes:
