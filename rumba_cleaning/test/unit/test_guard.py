@@ -145,7 +145,7 @@ def test_a_behaviour_that_an_edge_stops_sees_it_as_a_cliff():
     seen = []
 
     def decide(observation):
-        seen.append(any(observation.cliffs))
+        seen.append(any(observation.cliffs) and observation.is_held)
         return Command(0.3, 0.0)
 
     list(guarded(Guard(context_of(plan, world)), world, decide, seconds=10.0))
@@ -220,6 +220,16 @@ def test_a_turn_on_the_spot_that_is_too_slow_for_the_drive_does_not_stand_for_wh
     for _ in guarded(guard, world, lambda observation: Command(0.2, w), seconds=2.9):
         pass
     assert robot.twist == (0.0, 0.0) and guard.held_time > 0.5
+
+
+@pytest.mark.parametrize('heading', [-0.3, 0.0, 0.3])
+def test_where_a_tight_bend_would_come_too_near_to_an_edge_it_turns_on_the_spot(heading):
+    plan = with_cliffs(room(3.0, 2.0, 0.02), STAIRS)
+    world = World(plan, quiet())
+    robot = world.spawn('rumba', Pose(1.82, 1.0, heading))
+    given = list(guarded(Guard(context_of(plan, world)), world, lambda observation: Command(0.2, 1.9), seconds=1.5))
+    assert any(command.v == 0.0 and command.w > 0.0 for command in given)
+    assert robot.pose.theta - heading > 1.8 and all(command.w > 0.0 for command in given)
 
 
 def test_a_robot_that_cannot_move_for_edges_ends_its_mission_and_says_so():

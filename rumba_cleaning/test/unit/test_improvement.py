@@ -4,7 +4,7 @@ import itertools
 
 import numpy as np
 import pytest
-from floors import knowing
+from floors import knowing, wiped_but
 from rooms import crooked, room
 
 from rumba_cleaning.planning import improvement, planner
@@ -73,7 +73,7 @@ def test_an_improved_route_sweeps_what_lanes_without_overlap_and_corners_would_l
 
 
 def test_a_route_that_edits_leave_short_of_the_target_is_mended_by_detours(monkeypatch):
-    monkeypatch.setattr(improvement, 'EDITED', -0.005)  # so that they do
+    monkeypatch.setattr(improvement, 'EDITED', -0.008)  # so that they do
     surroundings = surroundings_of(crooked(0.02), target_coverage=0.92, planning_rounds=1)
     draft = first_draft(surroundings, 0.0)
     mended = Rehearsal(surroundings.context, START, improved(surroundings, [draft], []))
@@ -152,10 +152,36 @@ def test_a_route_is_rebuilt_of_the_stretches_of_all_drafts(monkeypatch):
     assert len(paths) == len(found) and all(np.array_equal(*each) for each in zip(paths, found))
 
 
-def test_a_route_that_nobody_can_follow_stays_as_it_is():
+def test_a_route_with_more_turns_is_to_sweep_more_since_each_is_driven_otherwise_than_rehearsed():
+    surroundings, points = surroundings_of(room(4.0, 3.0)), np.linspace((0.5, 0.5), (3.5, 0.5), 16)
+    zigzag = points + np.array([[0.0, 0.1 * (index % 2)] for index in range(16)])
+    for route in (points, zigzag):
+        rehearsal = Rehearsal(surroundings.context, START, Route(route, np.full(15, 0.3)))
+        beyond = improvement._need(surroundings, rehearsal) - surroundings.need(rehearsal.swept, 0.0)
+        assert beyond == pytest.approx(improvement.MARGIN * rehearsal.turned)
+    assert beyond > 0.0005
+
+
+def test_a_route_over_crumbs_is_improved_too(monkeypatch):
+    context = wiped_but(knowing(room(4.0, 3.0, 0.02), START, target_coverage=0.99), (0.4, 0.5, 0.5, 0.7),
+                        (2.0, 0.5, 2.1, 0.7), (3.3, 1.2, 3.5, 1.3), (1.0, 1.6, 1.2, 1.8), (2.6, 2.2, 2.8, 2.5))
+    found = Rehearsal(context, START, dense(planner.plan(context, START)))
+    monkeypatch.setattr(improvement, 'rounds', lambda _: 0)
+    plain = Rehearsal(context, START, dense(planner.plan(context, START)))
+    assert found.seconds < plain.seconds and found.swept.coverage >= 0.99
+
+
+def test_of_a_route_that_nobody_can_follow_the_beginning_is_improved():
     surroundings = surroundings_of(room(4.0, 3.0, 0.02, [(1.9, 0.0, 2.1, 3.0)]))
-    through = Route(np.array([[0.5, 0.5], [3.5, 0.5]]), np.array([0.3]))
-    assert improved(surroundings, [through], []).waypoints.tolist() == dense(through).waypoints.tolist()
+    through = Route(np.array([[0.5, 0.5], [3.5, 0.5], [3.5, 2.5]]), np.array([0.3, 0.3]))
+    found = Rehearsal(surroundings.context, START, improved(surroundings, [through], []))
+    assert found.is_complete and found.swept.coverage > Rehearsal(surroundings.context, START, through).swept.coverage
+
+
+def test_a_route_that_nobody_can_begin_stays_as_it_is():
+    surroundings = surroundings_of(room(4.0, 3.0, 0.02, [(0.0, 1.0, 4.0, 1.1)]))
+    outside = Route(np.array([[0.5, 2.5], [3.5, 2.5]]), np.array([0.3]))
+    assert improved(surroundings, [outside], []).waypoints.tolist() == dense(outside).waypoints.tolist()
 
 
 def test_plans_repeat():

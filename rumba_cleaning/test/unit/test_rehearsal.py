@@ -94,6 +94,25 @@ def test_a_route_that_nobody_can_follow_is_not_complete():
     assert not Rehearsal(context, START, through).is_complete
 
 
+def test_a_route_that_nobody_can_follow_is_begun_up_to_where_the_robot_gets_stuck():
+    context = knowing(room(4.0, 3.0, 0.02, [(1.9, 0.0, 2.1, 3.0)]), START)
+    through = dense(Route(np.array([[0.5, 0.5], [0.5, 1.5], [3.5, 1.5]]), np.array([0.3, 0.2])))
+    begun = Rehearsal(context, START, through).begun
+    assert begun.waypoints[-1] == approx([1.9 - context.ground.reach, 1.5], abs=0.1)
+    assert begun.waypoints.tolist() == through.waypoints[:len(begun.waypoints)].tolist()
+    assert begun.speeds.tolist() == through.speeds[:len(begun.waypoints) - 1].tolist()
+    assert Rehearsal(context, START, begun).is_complete
+
+
+def test_a_rehearsal_knows_how_far_the_robot_turns_to_and_fro():
+    ahead = Pose(0.5, 0.5, 0.0)
+    context = knowing(FLOOR, ahead)
+    there_and_back = Route(np.array([[0.5, 0.5], [2.5, 0.5], [0.5, 0.5], [0.5, 2.5]]), np.full(3, 0.3))
+    straight = Route(np.array([[0.5, 0.5], [2.5, 0.5]]), np.array([0.3]))
+    assert Rehearsal(context, ahead, straight).turned == approx(0.0, abs=0.01)
+    assert Rehearsal(context, ahead, there_and_back).turned == approx(1.5 * np.pi, abs=1.0)
+
+
 @settings(deadline=None, max_examples=40)
 @given(st.integers(1, 95), st.integers(1, 25),
        st.lists(st.tuples(st.floats(-0.2, 0.2), st.floats(-0.2, 0.2)), max_size=2))
