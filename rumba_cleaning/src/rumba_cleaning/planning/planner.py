@@ -39,7 +39,7 @@ def plan(context: Context, pose: Pose, end: Optional[Pose] = None) -> Optional[R
 
     As long as lanes and rings clean most of it, crumbs are cleaned on detours from these, and the route is rebuilt and
     improved by rehearsal. The routes after that know where the robot really drove, and visit crumb after crumb; they are
-    improved too. All visit only as many crumbs as the target needs.
+    improved too, unless obstacles were met. All visit only as many crumbs as the target needs.
 
     Args:
         context: with the floor that was swept before; it is not changed.

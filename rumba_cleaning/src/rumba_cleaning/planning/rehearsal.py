@@ -69,7 +69,7 @@ class Rehearsal:
 
     @property
     def begun(self) -> Route:
-        """The route up to the last waypoint before the end of the drive: all of it, or where the robot got stuck."""
+        """The route up to the last waypoint that was passed before the drive ended, as where the robot got stuck."""
         count = int((self._rows < len(self._trace) - 1).sum())
         return Route(self.route.waypoints[:count], self.route.speeds[:max(count - 1, 0)])
 
