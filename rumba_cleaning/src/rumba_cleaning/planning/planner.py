@@ -38,8 +38,8 @@ def plan(context: Context, pose: Pose, end: Optional[Pose] = None) -> Optional[R
     """A route that cleans what was missed; None if nothing was missed, or none of it can be reached.
 
     As long as lanes and rings clean most of it, crumbs are cleaned on detours from these, and the route is rebuilt and
-    improved by rehearsal. The routes after that know where the robot really drove, and visit crumb after crumb; they are
-    improved too, unless obstacles were met. All visit only as many crumbs as the target needs.
+    improved by rehearsal. The routes after that know where the robot really drove, and visit crumb after crumb; if no
+    obstacles were met, they are improved too. All visit only as many crumbs as the target needs.
 
     Args:
         context: with the floor that was swept before; it is not changed.
@@ -113,7 +113,7 @@ def _around(context: Context, pose: Pose) -> Array:
 def _over_crumbs(surroundings: Surroundings) -> Optional[Route]:
     """A route that visits crumb after crumb; None if there are none, or none can be reached.
 
-    Beside obstacles that the robot met, no rehearsal would be true: where they begin and end is known by a few contacts.
+    Beside obstacles that the robot met, no rehearsal would be true: how large they are is known by a few contacts.
     """
     context = surroundings.context
     found = surroundings.crumbs(context.swept)
