@@ -114,6 +114,17 @@ def test_the_next_publisher_is_told_that_the_subscriber_has_gone(ends):
             connection._thread.join(0.01)
 
 
+def test_what_cannot_be_sent_after_the_end_of_a_connection_does_not_hide_that_end(ends):
+    connection, there = ends
+    there.close()
+    with connection._lock:
+        connection._queue += [message(1, 4), message(2, 4)]
+        connection._cond_data_available.notify()
+    connection._thread.join(10.0)
+    with pytest.raises(TransportTerminated):
+        connection.write_data(message(3, 4))
+
+
 def test_the_thread_ends_with_the_connection(ends):
     connection, _ = ends
     assert connection._thread.is_alive()

@@ -77,6 +77,7 @@ class PromptConnection(QueuedConnection):
             for data in waiting:
                 try:
                     self._connection.write_data(data)
-                except Exception as error:  # the next publisher gets it, as in rospy
+                except Exception as error:  # the next publisher gets it, as in rospy, but not one that follows from it
                     with self._lock:
                         self._error = error
+                    break
