@@ -171,17 +171,25 @@ def test_a_route_over_crumbs_is_improved_too(monkeypatch):
     assert found.seconds < plain.seconds and found.swept.coverage >= 0.99
 
 
-def test_of_a_route_that_nobody_can_follow_the_beginning_is_improved():
+def test_a_route_that_nobody_can_follow_stays_as_it_is():
     surroundings = surroundings_of(room(4.0, 3.0, 0.02, [(1.9, 0.0, 2.1, 3.0)]))
-    through = Route(np.array([[0.5, 0.5], [3.5, 0.5], [3.5, 2.5]]), np.array([0.3, 0.3]))
-    found = Rehearsal(surroundings.context, START, improved(surroundings, [through], []))
-    assert found.is_complete and found.swept.coverage > Rehearsal(surroundings.context, START, through).swept.coverage
+    through = Route(np.array([[0.5, 0.5], [3.5, 0.5]]), np.array([0.3]))
+    assert improved(surroundings, [through], []).waypoints.tolist() == dense(through).waypoints.tolist()
 
 
-def test_a_route_that_nobody_can_begin_stays_as_it_is():
+def test_of_a_route_over_crumbs_that_nobody_can_follow_the_beginning_is_improved(monkeypatch):
+    context = wiped_but(knowing(room(4.0, 3.0, 0.02, [(1.9, 0.0, 2.1, 3.0)]), START), (0.6, 1.0, 0.7, 1.2))
+    through = Route(np.array([START[:2], (0.6, 1.5), (3.5, 1.5)]), np.full(2, 0.3))
+    monkeypatch.setattr(planner, '_through', lambda *_: through)
+    found = planner.plan(context, START)
+    assert Rehearsal(context, START, found).is_complete and len(found.speeds) > 0
+
+
+def test_a_route_that_a_robot_can_follow_or_not_even_begin_is_begun_as_it_is():
     surroundings = surroundings_of(room(4.0, 3.0, 0.02, [(0.0, 1.0, 4.0, 1.1)]))
-    outside = Route(np.array([[0.5, 2.5], [3.5, 2.5]]), np.array([0.3]))
-    assert improved(surroundings, [outside], []).waypoints.tolist() == dense(outside).waypoints.tolist()
+    for y in (0.6, 2.5):
+        route = Route(np.array([[0.5, y], [3.5, y]]), np.array([0.3]))
+        assert improvement.begun(surroundings, route) is route
 
 
 def test_plans_repeat():

@@ -45,6 +45,12 @@ def rounds(context: Context) -> int:
     return min(int(WORK / context.swept.reachable_area), context.config.planning_rounds)
 
 
+def begun(surroundings: Surroundings, route: Route) -> Route:
+    """A route, or its beginning, up to where the robot would not get on."""
+    rehearsal = Rehearsal(surroundings.context, surroundings.pose, dense(route))
+    return route if rehearsal.is_complete or len(rehearsal.begun.speeds) == 0 else rehearsal.begun
+
+
 def improved(surroundings: Surroundings, routes: Sequence[Route], paths: Sequence[Array]) -> Route:
     """The best of several routes, rebuilt and edited, so that it meets the target by rehearsal in little time.
 
@@ -54,7 +60,7 @@ def improved(surroundings: Surroundings, routes: Sequence[Route], paths: Sequenc
         paths: what they lead over, float64 (any, 2) [m] each.
     """
     context = surroundings.context
-    rehearsal = min((_rehearsed(surroundings, route) for route in routes),
+    rehearsal = min((Rehearsal(context, surroundings.pose, dense(route)) for route in routes),
                     key=lambda rehearsal: _cost(surroundings, rehearsal))
     tried, price = [rehearsal], SAVED
     poor: Set[bytes] = set()  # edits, by their places, that were far from worth it when they were judged
@@ -74,14 +80,6 @@ def improved(surroundings: Surroundings, routes: Sequence[Route], paths: Sequenc
         rehearsal, _ = _edited(surroundings, rehearsal, surroundings.detours(rehearsal.route, rehearsal.swept), set())
         tried.append(rehearsal)
     return max(tried, key=lambda rehearsal: _merit(surroundings, rehearsal)).route
-
-
-def _rehearsed(surroundings: Surroundings, route: Route) -> Rehearsal:
-    """A rehearsal of a route, or of its beginning, up to where the robot would not get on."""
-    rehearsal = Rehearsal(surroundings.context, surroundings.pose, dense(route))
-    if rehearsal.is_complete or len(rehearsal.begun.speeds) == 0:
-        return rehearsal
-    return Rehearsal(surroundings.context, surroundings.pose, rehearsal.begun)
 
 
 def _rebuilt(surroundings: Surroundings, rehearsal: Rehearsal, paths: Sequence[Array]) -> Rehearsal:

@@ -10,7 +10,7 @@ from rumba_cleaning.belief.ground import Ground
 from rumba_cleaning.belief.swept import Swept
 from rumba_cleaning.planning import improvement, tour
 from rumba_cleaning.planning.groups import Group, groups
-from rumba_cleaning.planning.improvement import improved, with_detours
+from rumba_cleaning.planning.improvement import begun, improved, with_detours
 from rumba_cleaning.planning.layouts import Draft, drafts, laid_out, tries
 from rumba_cleaning.planning.paper import drive
 from rumba_cleaning.planning.regions import NARROW, Shapes, Ways, doors, regions, shapes
@@ -120,7 +120,7 @@ def _over_crumbs(surroundings: Surroundings) -> Optional[Route]:
     route = _through(surroundings, found)
     if route is None or improvement.rounds(context) == 0 or context.ground.has_marks:
         return route
-    return improved(surroundings, [route], [part.variants[0].path() for part in found])
+    return improved(surroundings, [begun(surroundings, route)], [part.variants[0].path() for part in found])
 
 
 def _through(surroundings: Surroundings, found: List[Stretch]) -> Optional[Route]:
