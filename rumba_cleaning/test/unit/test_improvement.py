@@ -177,12 +177,19 @@ def test_a_route_that_nobody_can_follow_stays_as_it_is():
     assert improved(surroundings, [through], []).waypoints.tolist() == dense(through).waypoints.tolist()
 
 
-def test_of_a_route_over_crumbs_that_nobody_can_follow_the_beginning_is_improved(monkeypatch):
-    context = wiped_but(knowing(room(4.0, 3.0, 0.02, [(1.9, 0.0, 2.1, 3.0)]), START), (0.6, 1.0, 0.7, 1.2))
+@pytest.mark.parametrize('has_marks', [False, True])
+def test_of_a_route_over_crumbs_the_beginning_is_improved_that_a_robot_can_follow_unless_it_met_obstacles(
+        monkeypatch, has_marks):
+    context, given = knowing(room(4.0, 3.0, 0.02, [(1.9, 0.0, 2.1, 3.0)]), START), []
+    if has_marks:
+        context.ground.mark(3.0, 2.0, 0.05)
     through = Route(np.array([START[:2], (0.6, 1.5), (3.5, 1.5)]), np.full(2, 0.3))
+    monkeypatch.setattr(planner, '_drafts', lambda _: [])
     monkeypatch.setattr(planner, '_through', lambda *_: through)
+    monkeypatch.setattr(planner, 'improved', lambda _, routes, paths: given.extend(routes) or routes[0])
     found = planner.plan(context, START)
-    assert Rehearsal(context, START, found).is_complete and len(found.speeds) > 0
+    assert (found is through) == has_marks and len(given) == 1 - has_marks
+    assert has_marks or Rehearsal(context, START, found).is_complete and len(found.speeds) > 1
 
 
 def test_a_route_that_a_robot_can_follow_or_not_even_begin_is_begun_as_it_is():
