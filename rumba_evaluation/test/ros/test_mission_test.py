@@ -156,6 +156,17 @@ class MissionTestTest(unittest.TestCase):
             self.assertRegex(cases[f'test_{name}'], words)
         self.assertEqual(errors, '')
 
+    def test_the_time_of_a_run_does_not_begin_before_the_clock_of_the_robot_has_come(self):
+        clock = rospy.Publisher(f'{self.robot}/clock', Clock, queue_size=10, latch=True)
+        run = Run(self, '_coverage:=0.5', '_time_limit:=30', f'/clock:={clock.resolved_name}')
+        for _ in range(10):  # it takes some of them, or all
+            self.tell('cleaning_status', CleaningStatus(coverage=0.1))
+            time.sleep(0.05)
+        clock.publish(rospy.Time(100))
+        time.sleep(0.5)  # for a time limit that is over by then
+        self.tell('cleaning_status', CleaningStatus(coverage=0.6))
+        run.ends(0)
+
     def test_points_are_earned_in_part_and_it_is_told_when_they_were_lost(self):
         run = Run(self, '_coverage:=0.5', '_collisions:=0', '_points:=coverage 8; collisions 2',
                   '_partial:=coverage 0.1', '_visibility:=hidden', '_time_limit:=30')

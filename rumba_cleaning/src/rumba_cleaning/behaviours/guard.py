@@ -179,20 +179,26 @@ class Guard:
             self._held = BOTH if faster(self._speeds) < AT_REST else NONE
             return command._replace(v=0.0, w=0.0)
         found, slips = [], self._slips(observation, wanted)
-        limited = [preview.limited(command, limit) for limit in self._limits()]
-        # In a bend, a wheel may cut inside the way of its sensor: once it has turned, the robot drives behind that. And
-        # once it heads away from an edge that it came too near to, it drives on.
-        spot = preview.limited(command._replace(v=0.0), WARY_SPEED)
-        on_the_spot = [spot] if preview.moves(spot) else []
-        parts = [part_of(command, share) for share in SHARES]
-        others = on_the_spot + parts if abs(command.w) * preview.half > abs(command.v) else parts + on_the_spot
-        for slower in (command, *limited, *others):
+        for slower in (command, *self._slower(command)):
             found.append(self._edges(pose, preview.wanted(slower), slips, is_near, must_know))
             if found[-1] == NONE:
                 return slower
         if faster(self._speeds) < AT_REST:
             self._held = found[0]
         return command._replace(v=0.0, w=0.0)
+
+    def _slower(self, command: Command) -> List[Command]:
+        """What may do where a command would lead too near to an edge, in the order in which to try it.
+
+        In a bend, a wheel may cut inside the way of its sensor: once it has turned, the robot drives behind that. And
+        once it heads away from an edge that it came too near to, it drives on.
+        """
+        limited = [self._preview.limited(command, limit) for limit in self._limits()]
+        spot = self._preview.limited(command._replace(v=0.0), WARY_SPEED)
+        on_the_spot = [spot] if self._preview.moves(spot) else []
+        parts = [part_of(command, share) for share in SHARES]
+        is_mostly_turn = abs(command.w) * self._preview.half > abs(command.v)
+        return limited + (on_the_spot + parts if is_mostly_turn else parts + on_the_spot)
 
     def _is_wary(self, pose: Pose) -> bool:
         """Whether a cliff that the map does not show is near."""

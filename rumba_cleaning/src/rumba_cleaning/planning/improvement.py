@@ -45,12 +45,6 @@ def rounds(context: Context) -> int:
     return min(int(WORK / context.swept.reachable_area), context.config.planning_rounds)
 
 
-def begun(surroundings: Surroundings, route: Route) -> Route:
-    """A route, or its beginning, up to where the robot would not get on."""
-    rehearsal = Rehearsal(surroundings.context, surroundings.pose, dense(route))
-    return route if rehearsal.is_complete or len(rehearsal.begun.speeds) == 0 else rehearsal.begun
-
-
 def improved(surroundings: Surroundings, routes: Sequence[Route], paths: Sequence[Array]) -> Route:
     """The best of several routes, rebuilt and edited, so that it meets the target by rehearsal in little time.
 

@@ -9,11 +9,13 @@ from rumba_cleaning.belief.context import Context
 from rumba_cleaning.belief.ground import Ground
 from rumba_cleaning.belief.swept import Swept
 from rumba_cleaning.planning import improvement, tour
+from rumba_cleaning.planning.edits import dense
 from rumba_cleaning.planning.groups import Group, groups
-from rumba_cleaning.planning.improvement import begun, improved, with_detours
+from rumba_cleaning.planning.improvement import improved, with_detours
 from rumba_cleaning.planning.layouts import Draft, drafts, laid_out, tries
 from rumba_cleaning.planning.paper import drive
 from rumba_cleaning.planning.regions import NARROW, Shapes, Ways, doors, regions, shapes
+from rumba_cleaning.planning.rehearsal import Rehearsal
 from rumba_cleaning.planning.rings import chains, rings, stretch
 from rumba_cleaning.planning.stretches import Stretch
 from rumba_cleaning.planning.surroundings import Surroundings
@@ -120,7 +122,8 @@ def _over_crumbs(surroundings: Surroundings) -> Optional[Route]:
     route = _through(surroundings, found)
     if route is None or improvement.rounds(context) == 0 or context.ground.has_marks:
         return route
-    return improved(surroundings, [begun(surroundings, route)], [part.variants[0].path() for part in found])
+    begun = Rehearsal(context, surroundings.pose, dense(route)).begun
+    return improved(surroundings, [begun], [part.variants[0].path() for part in found])
 
 
 def _through(surroundings: Surroundings, found: List[Stretch]) -> Optional[Route]:

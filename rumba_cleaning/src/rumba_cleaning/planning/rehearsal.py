@@ -69,9 +69,11 @@ class Rehearsal:
 
     @property
     def begun(self) -> Route:
-        """The route up to the last waypoint that was passed before the drive ended, as where the robot got stuck."""
+        """The route up to the last waypoint that is reached; the whole, if the robot would not even get to the second."""
         count = int((self._rows < len(self._trace) - 1).sum())
-        return Route(self.route.waypoints[:count], self.route.speeds[:max(count - 1, 0)])
+        if self.is_complete or count < 2:
+            return self.route
+        return Route(self.route.waypoints[:count], self.route.speeds[:count - 1])
 
     @cached_property
     def _passes(self) -> Passes:

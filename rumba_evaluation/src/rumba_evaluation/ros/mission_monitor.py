@@ -24,7 +24,7 @@ from rumba_evaluation.verdicts.mission_verdict import Judge, Verdict
 from rumba_evaluation.verdicts.origins import Origins
 from rumba_evaluation.verdicts.tick_readings import TickReadings
 from rumba_msg.msg import BatteryStatus, Bumper, CleaningStatus, DockStatus, Lockstep, SimulatorState
-from rumba_sim.ros.common import conversions, peers, simulator_client
+from rumba_sim.ros.common import clock, conversions, peers, simulator_client
 from rumba_sim.ros.common.lockstep import Participant
 from rumba_sim.ros.common.names import EXAMINER
 
@@ -140,6 +140,8 @@ class MissionMonitor:
 
     def _settle(self) -> None:
         """Judge what has come, in lockstep once everything of a tick is there, and answer for it."""
+        if self._is_too_early():
+            return
         patience = STATE_PATIENCE if self._origins.has_state else MODE_PATIENCE
         if self._is_lockstep is None and time.monotonic() < self._first_message + patience:
             return
@@ -167,6 +169,10 @@ class MissionMonitor:
             self._awaited.give_up(self._tick_came, time.monotonic())
         self._settle()
 
+    def _is_too_early(self) -> bool:
+        """Whether it is not known yet what time it is for the robots: the run would begin at 0 s, and be over at once."""
+        return self._tick is None and clock.is_unknown()
+
     def _now(self) -> float:
         """Time of the robots [s]; in real time one that nobody can set."""
         if self._tick is not None:
@@ -183,7 +189,7 @@ class MissionMonitor:
             time.sleep(PERIOD)  # rospy.sleep would wait for the clock of a simulator, which may have ended
             with self._lock:
                 self._go_on()
-                if not self._is_lockstep:
+                if not (self._is_lockstep or self._is_too_early()):
                     self._judge.check_time(self._now())
                 if time.monotonic() - self._last_message > self._patience:
                     self._judge.abort(f'no message came for {self._patience:g} s of the wall clock')

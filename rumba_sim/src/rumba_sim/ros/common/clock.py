@@ -1,4 +1,4 @@
-"""Which times on /clock count."""
+"""Which times on /clock count, and whether one has come."""
 
 import rospy
 from rosgraph_msgs.msg import Clock
@@ -15,6 +15,11 @@ def guard() -> None:
     rospy takes any time. Once it has a stamp that does not fit into a message, nothing can be published any more.
     """
     setattr(simtime, '_set_rostime_clock_wrapper', take)
+
+
+def is_unknown() -> bool:
+    """Whether this node goes by /clock, and no time has come there yet."""
+    return not rospy.rostime.is_wallclock() and rospy.get_rostime().is_zero()
 
 
 def take(message: Clock) -> None:

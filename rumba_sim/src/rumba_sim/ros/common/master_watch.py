@@ -10,7 +10,7 @@ import rospy
 from rospy.impl.registration import Registration, get_registration_listeners, get_service_manager, get_topic_manager
 
 from rumba_sim.model.errors import RumbaError
-from rumba_sim.ros.common import peers
+from rumba_sim.ros.common import clock, peers
 from rumba_sim.ros.common.peers import NO_ANSWER
 
 PERIOD = 1.0  # [s] between two looks at the master
@@ -107,7 +107,7 @@ class MasterWatch:
         if time.monotonic() < self._clock_by:
             return
         self._clock_by = math.inf
-        if not rospy.rostime.is_wallclock() and rospy.get_rostime().is_zero():
+        if clock.is_unknown():
             rospy.logwarn('/use_sim_time is true, but nothing publishes /clock: for this node, time stands still. '
                           'Start a simulator; or run `rosparam delete /use_sim_time`, and start this node again')
 
