@@ -10,8 +10,10 @@ from pytest import approx
 from rooms import PLANS, RADIUS, crooked, distances, drive, drove, positions, quiet, room
 from things import HIGH, LOW, box, corners, disc, gaps, to_segment, walker
 
+from rumba_sim.model.constants import RECORD
 from rumba_sim.model.errors import WorldError
 from rumba_sim.model.geometry import Pose
+from rumba_sim.model.kernel.records import OBSTACLE, ROBOT, TALLY
 from rumba_sim.model.obstacle import LASER_HEIGHT, Obstacle
 from rumba_sim.model.world import World
 
@@ -243,6 +245,18 @@ def test_obstacles_come_and_go_while_robots_drive():
     assert drove(world, 0.3, 0.0, 300).x < 2.0
     world.remove_obstacle('leg')
     assert drove(world, 0.3, 0.0, 100).x > 2.0 and robot.bumper == NONE
+
+
+@pytest.mark.parametrize('obstacles', [[], [disc('leg', 2.0, 2.0, 0.05)]])
+def test_records_keep_the_types_that_numba_knows_since_it_takes_long_to_compare_copies_of_them(obstacles):
+    world, _ = among(*obstacles)
+    for change in (world.reset, lambda: world.add_obstacle(disc('bin', 4.0, 2.0, 0.1)),
+                   lambda: world.remove_obstacle('bin'), lambda: world.spawn('other'), lambda: world.kill('rumba')):
+        restored = World.restored(world.state(), world.plan, world.config, obstacles=obstacles)
+        for arrays in (world.arrays, restored.arrays):
+            kept = arrays.robots, arrays.constants, arrays.obstacles, arrays.tally
+            assert all(array.dtype is kind for array, kind in zip(kept, (ROBOT, RECORD, OBSTACLE, TALLY)))
+        change()
 
 
 @pytest.mark.parametrize('act, message', [

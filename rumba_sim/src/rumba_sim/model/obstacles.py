@@ -99,11 +99,13 @@ class Obstacles:
         return ''
 
     def _take(self, items: Dict[str, Obstacle], records: Array) -> None:
-        self.items, self.records = items, records
+        self.items = items
+        # NumPy has copied the type: numba would compare copies, field by field, at each call.
+        self.records = records.view(OBSTACLE)
         stops = [_row(stop, self._step_rate) for obstacle in items.values() for stop in obstacle.stops]
         self.stops = np.array(stops, np.float64).reshape(-1, 6)
         counts = [len(obstacle.stops) for obstacle in items.values()]
-        records['first'] = np.cumsum([0, *counts])[:-1]
+        self.records['first'] = np.cumsum([0, *counts])[:-1]
         self.has_movers = any(counts)
 
     def _begun(self, obstacle: Obstacle) -> Array:
