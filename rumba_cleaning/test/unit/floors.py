@@ -3,7 +3,7 @@
 import math
 
 import numpy as np
-from rooms import quiet, room
+from rooms import PLANS, quiet, room
 
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.belief.ground import Ground
@@ -19,6 +19,9 @@ TINY = 1e-4  # [m]
 def ground(plan):
     """The ground that a robot without noise knows from a plan."""
     return Ground(plan, quiet())
+
+
+GROUNDS = {name: ground(plan) for name, plan in PLANS.items()}
 
 
 def context(plan, **config):
@@ -50,6 +53,11 @@ def part_of(plan, *boxes):
 def wall_with_gap(resolution=0.05, height=3.0, gap=0.8):
     """A room of 4 m, and a wall across it with a gap at its upper end."""
     return room(4.0, height, resolution, [(1.9, 0.0, 2.1, height - gap)])
+
+
+def closed_off(resolution=0.05):
+    """A room, and another that no door joins to it."""
+    return room(4.0, 2.0, resolution, [(1.9, 0.0, 2.1, 2.0)])
 
 
 def two_rooms(resolution=0.05, **kwargs):

@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 from pytest import approx
 from rooms import PLANS, RADIUS, crooked, room
 
+from rumba_cleaning.belief import paths
 from rumba_cleaning.belief.ground import INFLATION
 from rumba_cleaning.belief.met import GROWTH, LARGEST, NOTHING_SEEN, SEEN, Seen
 from rumba_sim.model.floor_plan import FloorPlan
@@ -44,13 +45,13 @@ def test_near_obstacles_that_were_met_the_clearance_is_the_distance_to_them(reso
 def test_a_path_leads_around_an_obstacle_that_was_met_until_it_is_forgotten():
     floor = ground(room(4.0, 3.0))
     start, end, post = np.array([0.5, 1.4]), np.array([3.5, 1.4]), np.array([2.0, 1.5])
-    assert not floor.has_marks and (floor.path(start, end) == [start, end]).all()
+    assert not floor.has_marks and (paths.between(floor, start, end) == [start, end]).all()
     floor.mark(*post, 0.05)
-    path = floor.path(start, end)
+    path = paths.between(floor, start, end)
     assert floor.has_marks and min(np.hypot(*(along(path) - post).T)) >= floor.reach + 0.05
     assert max(off(path, start, end)) < 0.3 and min(path[:, 1]) < 1.3  # past it on its nearer side
     floor.forget()
-    assert not floor.has_marks and (floor.path(start, end) == [start, end]).all()
+    assert not floor.has_marks and (paths.between(floor, start, end) == [start, end]).all()
     assert (floor.clearance == floor.plan.safe_clearance).all()
 
 
@@ -75,9 +76,10 @@ def test_obstacles_in_a_door_close_it():
     floor = ground(wall_with_gap())
     start, end = np.array([0.5, 0.5]), np.array([3.5, 0.5])
     floor.mark(2.0, 2.6, 0.05)
-    assert floor.path(start, end) is None and np.isinf(floor.path_lengths_to(*end)[floor.node(*start)])
-    floor.forget()
-    assert floor.path(start, end) is not None and np.isfinite(floor.path_lengths_to(*end)[floor.node(*start)])
+    for is_open in (False, True):
+        assert (paths.between(floor, start, end) is not None) == is_open
+        assert np.isfinite(paths.lengths_to(floor, *end)[floor.node(*start)]) == is_open
+        floor.forget()
 
 
 def radius_at(floor, x, y):
@@ -120,11 +122,11 @@ def test_every_point_among_obstacles_has_a_path_if_its_path_length_is_finite():
     floor = ground(crooked())
     for mark in ((2.0, 1.0, 0.1), (1.5, 1.5, 0.1), (2.0, 2.5, 0.1)):
         floor.mark(*mark)
-    lengths = floor.path_lengths_to(0.5, 0.5)
+    lengths = paths.lengths_to(floor, 0.5, 0.5)
     points = standing_points(floor)
     end = np.array([0.5, 0.5])
     for start in itertools.islice(points, 0, None, max(len(points) // 60, 1)):
-        path = floor.path(start, end)
+        path = paths.between(floor, start, end)
         expected = lengths[floor.node(*start)]
         assert (path is None) == np.isinf(expected)
         if path is not None:
@@ -172,12 +174,12 @@ def test_squeezed_what_is_seen_leaves_a_gap_open_that_is_as_narrow_as_the_robot(
     wall = np.array([(2.0, y) for y in (*below, *(3.0 - below))])
     floor.show(Seen(wall, wall[:0]))
     ends = np.array([[1.0, 1.5], [3.0, 1.5]])
-    assert floor.path(*ends) is None
+    assert paths.between(floor, *ends) is None
     assert floor.opened(1.0, 1.5) == approx((4.0 - 2.0 * RADIUS) * (3.0 - 2.0 * RADIUS) / 2.0, rel=0.2)
     floor.squeeze(True)
-    assert floor.copy().path(*ends) is not None and floor.shows(wall) and floor.opened(1.0, 1.5) == 0.0
+    assert paths.between(floor.copy(), *ends) is not None and floor.shows(wall) and floor.opened(1.0, 1.5) == 0.0
     floor.squeeze(False)
-    assert floor.path(*ends) is None
+    assert paths.between(floor, *ends) is None
 
 
 @pytest.mark.parametrize('gap, opens', [(0.34, True), (0.30, False)])
@@ -188,11 +190,11 @@ def test_squeezed_the_body_hangs_over_a_cliff_beside_a_wall_as_far_as_the_wheels
     cliff[:top, 100:105] = True
     floor = ground(FloorPlan('a gap', plan.occupancy, 0.02, plan.origin, cliff=cliff))
     ends = np.array([[1.0, 1.5], [3.0, 1.5]])
-    assert floor.path(*ends) is None
+    assert paths.between(floor, *ends) is None
     floor.squeeze(True)
-    assert (floor.path(*ends) is not None) == opens
+    assert (paths.between(floor, *ends) is not None) == opens
     floor.squeeze(False)
-    assert floor.path(*ends) is None
+    assert paths.between(floor, *ends) is None
 
 
 def test_what_is_seen_is_shown_until_something_else_is():
@@ -265,6 +267,7 @@ def test_a_robot_in_a_passage_where_it_does_not_quite_fit_can_go_on_to_the_large
     floor.show(Seen(np.concatenate([wall_of_points(1.0, 0.0, 1.5 - half + 0.04), wall_of_points(1.0, 1.5 + half, 3.0)]),
                     NOTHING_SEEN.staying))
     inside, left, right = np.array([0.96, 1.5]), np.array([0.4, 1.5]), np.array([3.0, 1.5])
-    assert floor.path(left, right) is None and not floor.are_free(inside[np.newaxis])[0]
+    assert paths.between(floor, left, right) is None and not floor.are_free(inside[np.newaxis])[0]
     assert floor.points([floor.standing_at(*inside)])[0][0] > 1.0
-    assert (floor.path(inside, left)[-1] == left).all() and (floor.path(inside, right)[-1] == right).all()
+    for place in (left, right):
+        assert (paths.between(floor, inside, place)[-1] == place).all()

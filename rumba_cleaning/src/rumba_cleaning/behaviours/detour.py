@@ -4,6 +4,7 @@ from typing import List, Optional
 
 import numpy as np
 
+from rumba_cleaning.belief import paths
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.route import Route, lengths_along
 from rumba_sim.model.geometry import Pose
@@ -33,7 +34,7 @@ def detour(context: Context, pose: Pose, rest: Route) -> Optional[Route]:
             speeds.append(rest.speeds[index - 1:index])
             continue
         is_on_route = not ground.is_marked(waypoint, waypoint)
-        path = ground.path(here, waypoint) if is_on_route else None
+        path = paths.between(ground, here, waypoint) if is_on_route else None
         if path is None:
             is_on_route = False
             continue

@@ -11,6 +11,7 @@ from rumba_cleaning.behaviour import STOP, Behaviour, Command, Observation
 from rumba_cleaning.behaviours.follower import Turn
 from rumba_cleaning.behaviours.impasse import Impasse
 from rumba_cleaning.behaviours.travel import Going, Travel
+from rumba_cleaning.belief import paths
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.outcome import Outcome
 from rumba_cleaning.route import Ahead, Route
@@ -154,17 +155,17 @@ class GoTo(Behaviour):
 def _search(context: Context, pose: Pose, target: Pose) -> Found:
     """A path to a target; if obstacles close every path, squeezing past them, or else as if there were fewer."""
     ground, ends = context.ground, np.array([pose[:2], target[:2]])
-    path = ground.path(*ends)
+    path = paths.between(ground, *ends)
     if path is not None or not ground.has_marks:
         return path, Needs.NOTHING
     ground.squeeze(True)
-    path = ground.path(*ends)
+    path = paths.between(ground, *ends)
     if path is not None:
         return path, Needs.SQUEEZING
     ground.squeeze(False)
     ground.forget_doubtful()
-    path = ground.path(*ends)
+    path = paths.between(ground, *ends)
     if path is not None:
         return path, Needs.FORGETTING_DOUBTFUL
     ground.forget()
-    return ground.path(*ends), Needs.FORGETTING_ALL
+    return paths.between(ground, *ends), Needs.FORGETTING_ALL

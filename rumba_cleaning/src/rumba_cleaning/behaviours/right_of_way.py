@@ -14,6 +14,7 @@ from scipy import spatial
 
 from rumba_cleaning.behaviour import STOP, Command, Observation
 from rumba_cleaning.behaviours.follower import Follower
+from rumba_cleaning.belief import paths
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.belief.mates import Report, Task
 from rumba_cleaning.belief.places import places_apart
@@ -126,7 +127,7 @@ class RightOfWay:
         taken = np.concatenate([_points(mate.ahead, mate.pose, 2.0 * THEIRS), *(
             [report.pose[:2]] for report in self._context.mates.reports.values())])
         for place in places_apart(ground, pose, REFUGE, taken, self._clear)[:TRIES]:
-            path = ground.path(np.array(pose[:2]), place)
+            path = paths.between(ground, np.array(pose[:2]), place)
             if path is not None and not self._leads_to(_resampled(path, 2.0 * REFUGE), mate.pose):
                 return Route(path, np.full(len(path) - 1, speed))
         return None

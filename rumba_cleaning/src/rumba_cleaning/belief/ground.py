@@ -1,7 +1,6 @@
-"""Where a robot can stand, and paths from point to point: by the floor plan and the obstacles the robot has met."""
+"""Where a robot can stand, by the floor plan and the obstacles that it has met."""
 
 import copy
-import itertools
 from typing import List, Optional, Sequence, Tuple
 
 import numpy as np
@@ -10,7 +9,7 @@ from scipy import ndimage
 from rumba_cleaning.belief.compiled_ground import are_of_one_part, keep_clear
 from rumba_cleaning.belief.limits import limited
 from rumba_cleaning.belief.met import Mark, Met, Seen
-from rumba_cleaning.belief.search import Costs, Lattice, cheapest, is_clear, path_lengths
+from rumba_cleaning.belief.search import is_clear
 from rumba_sim.model.constants import clearance_needed
 from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.model.kernel import Array
@@ -18,15 +17,10 @@ from rumba_sim.model.reachability import SLACK
 from rumba_sim.model.robot_config import RobotConfig
 
 # All figures below are our choice; each comment says what speaks for a larger and for a smaller value.
-EXTRA_CLEARANCE = 0.04  # [m] beside straight parts of a path: large touches less, small makes paths shorter
-NEAR = 0.4  # [m] a goal this near is driven to directly, without the extra clearance: a path around it costs more
 ESCAPE = 0.15  # [m] from where a robot is, it may go to another part of the floor, through a passage ...
 NARROW = 0.03  # [m] ... that is too narrow by twice this, at most: three errors of a pose
-SEARCH_SPACING = 0.05  # [m] between the nodes that are looked at first: large is fast, but misses narrow passages
-SEARCH_MARGIN = 2.0  # [m] around both ends is searched first: small is fast, but a longer path needs a second search
 BARRING = 0.1  # [m] beyond that from both sides, an obstacle bars the way from one to the other: small misses some
-INFLATION = 0.1  # [m] beyond the touching distance, within which a path costs more: large keeps to the open floor ...
-INFLATION_COST = 2.0  # ... up to this many times its length more: small lets a path follow a wall to be shorter
+INFLATION = 0.1  # [m] beyond the touching distance, within which a path costs more: large keeps to the open floor
 ALL_AROUND = np.ones((3, 3))  # nodes next to one
 
 
@@ -36,8 +30,8 @@ class Ground:
     What it meets may move: `forget_doubtful` forgets marks, and what is met again after that where something was met
     before is there to stay. What it sees is shown by `show`.
 
-    Points are (x, y) [m] in the map frame; an array of points, and a path, is float64 (any, 2). Nodes are the corners
-    of the cells, (row, column) into `FloorPlan.safe_clearance`; an array of nodes is int (any, 2).
+    Points are (x, y) [m] in the map frame; an array of points is float64 (any, 2). Nodes are the corners of the cells,
+    (row, column) into `FloorPlan.safe_clearance`; an array of nodes is int (any, 2).
 
     Attributes:
         plan: the floor plan.
@@ -86,7 +80,7 @@ class Ground:
         """Area on which the robot could stand anyway, and to which squeezing opens a way from a point [m^2]."""
         squeezed = self.copy()
         squeezed.squeeze(True)
-        before, after = self._parts(), squeezed._parts()
+        before, after = self.parts(), squeezed.parts()
         away = self.fits & (before != before[self.standing_at(x, y)]) & (after == after[squeezed.standing_at(x, y)])
         return float(away.sum()) * self.plan.resolution ** 2
 
@@ -238,15 +232,15 @@ class Ground:
         size = int(ESCAPE / self.plan.resolution) + 1
         top, left = max(middle_row - size, 0), max(middle_column - size, 0)
         bottom, right = middle_row + size + 1, middle_column + size + 1
-        if are_of_one_part(self._parts(), top, bottom, left, right):  # nearly everywhere
+        if are_of_one_part(self.parts(), top, bottom, left, right):  # nearly everywhere
             return row, column
         window = slice(top, bottom), slice(left, right)
         joined, _ = ndimage.label(self.clearance[window] >= self.reach - NARROW, ALL_AROUND)
         here = joined[middle_row - top, middle_column - left]
-        parts = np.where((joined == here) & (here > 0), self._parts()[window], 0)
+        parts = np.where((joined == here) & (here > 0), self.parts()[window], 0)
         if are_of_one_part(parts, 0, bottom, 0, right):
             return row, column
-        sizes = np.bincount(self._parts().ravel())
+        sizes = np.bincount(self.parts().ravel())
         sizes[0] = 0
         near = np.argwhere(sizes[parts] == sizes[parts].max()) + (top, left)
         row, column = near[np.argmin(((self.points(near) - (x, y)) ** 2).sum(axis=1))].tolist()
@@ -258,11 +252,30 @@ class Ground:
         Returns:
             bool (rows, columns)
         """
-        parts = self._parts()
+        parts = self.parts()
         away = ndimage.distance_transform_edt(parts != parts[self.standing_at(x, y)])[:-1, :-1] * self.plan.resolution
         return np.asarray(away <= distance + self.plan.resolution)
 
-    # --- paths ----------------------------------------------------------------------------------------------------
+    def in_largest_part(self, points: Sequence[Tuple[float, float]]) -> Tuple[float, float]:
+        """Of the nodes nearest to points at which the robot can stand, that in the largest part of the floor [m].
+
+        It can stand there without squeezing past anything.
+        """
+        usual = self.copy()
+        usual.squeeze(False)
+        parts = usual.parts()
+        sizes = np.bincount(parts.ravel())
+        node = max((usual.standing_at(x, y) for x, y in points), key=lambda node: int(sizes[parts[node]]))
+        (x, y), = self.points(np.array([node])).tolist()
+        return x, y
+
+    def parts(self) -> Array:
+        """To which part of the floor each node belongs: int (rows + 1, columns + 1), 0 where a robot cannot stand."""
+        if self._connected is None:
+            self._connected, _ = ndimage.label(self.fits, ALL_AROUND)
+        return self._connected
+
+    # --- lines ----------------------------------------------------------------------------------------------------
 
     def is_straight(self, start: Array, end: Array, margin: float = 0.0) -> bool:
         """Whether the robot can drive straight from one point (2) to another.
@@ -281,102 +294,3 @@ class Ground:
         """Whether the values of all nodes along a straight line are at least so large."""
         (x, y), (to_x, to_y) = start.tolist(), end.tolist()
         return bool(is_clear(values, self.plan.origin, self.plan.resolution, (x, y), (to_x, to_y), least))
-
-    def path(self, start: Array, end: Array) -> Optional[Array]:
-        """A short path from one point (2) to another [m]; None if there is none.
-
-        Returns:
-            float64 (2 or more, 2) [m]. The path begins and ends at the points themselves, even if these are a little
-            nearer to a wall than the rest of a path may be.
-        """
-        is_near = bool(np.hypot(*(end - start)) < NEAR)
-        if self.is_straight(start, end, 0.0 if is_near else EXTRA_CLEARANCE):
-            return np.array([start, end])
-        first, last = self.standing(self.nodes(np.array([start, end])))
-        parts = self._parts()
-        if parts[tuple(first)] != parts[tuple(last)]:
-            first = np.array(self.standing_at(*start.tolist()))
-            if parts[tuple(first)] != parts[tuple(last)]:
-                return None
-        near, all_of_it = int(SEARCH_MARGIN / self.plan.resolution), max(self.clearance.shape)
-        spacings = sorted({max(int(SEARCH_SPACING / self.plan.resolution + 0.5), 1), 1}, reverse=True)
-        for margin, spacing in itertools.product((near, all_of_it), spacings):
-            found = self._search(first, last, margin, spacing)
-            if found is not None:
-                break
-        else:
-            return None
-        inner = self._straightened(self.points(found))
-        return np.concatenate([[start], inner[1:-1] if len(inner) > 2 else inner, [end]])
-
-    def in_largest_part(self, points: Sequence[Tuple[float, float]]) -> Tuple[float, float]:
-        """Of the nodes nearest to points at which the robot can stand, that in the largest part of the floor [m].
-
-        It can stand there without squeezing past anything.
-        """
-        usual = self.copy()
-        usual.squeeze(False)
-        parts = usual._parts()
-        sizes = np.bincount(parts.ravel())
-        node = max((usual.standing_at(x, y) for x, y in points), key=lambda node: int(sizes[parts[node]]))
-        (x, y), = self.points(np.array([node])).tolist()
-        return x, y
-
-    def _parts(self) -> Array:
-        """To which part of the floor each node belongs: int (rows + 1, columns + 1), 0 where a robot cannot stand."""
-        if self._connected is None:
-            self._connected, _ = ndimage.label(self.fits, ALL_AROUND)
-        return self._connected
-
-    def path_lengths_to(self, x: float, y: float) -> Array:
-        """Length of the shortest path from each node to a point [m].
-
-        Returns:
-            float64 (rows + 1, columns + 1) [m]; inf at nodes from which no path leads there.
-        """
-        return np.asarray(path_lengths(self.fits, *self.standing_at(x, y)) * self.plan.resolution)
-
-    def _search(self, first: Array, last: Array, margin: int, spacing: int) -> Optional[Array]:
-        """The cheapest path between two nodes (2), or None: int (any, 2), nodes.
-
-        It stays in the rectangle around both nodes that is larger by `margin` nodes on each side, and visits only each
-        node that is a multiple of `spacing` from the first; from the one nearest to the last it goes on to that.
-        """
-        low = np.maximum(np.minimum(first, last) - margin, first % spacing)
-        low += (first - low) % spacing
-        high = np.minimum(np.maximum(first, last) + margin + 1, self.clearance.shape)
-        rows, columns = ((high - low + spacing - 1) // spacing).tolist()
-        begin = (first - low) // spacing
-        end = np.minimum((last - low + spacing // 2) // spacing, (rows - 1, columns - 1))
-        if not self.fits[tuple(low + spacing * end)]:
-            return None
-        costs = Costs(self.clearance, self.fits, self.reach, INFLATION, INFLATION_COST)
-        lattice = Lattice(int(low[0]), int(low[1]), rows, columns, spacing)
-        found = cheapest(costs, lattice, (int(begin[0]), int(begin[1])), (int(end[0]), int(end[1])))
-        if len(found) == 0:
-            return None
-        path = found * spacing + low
-        return path if (path[-1] == last).all() else np.concatenate([path, [last]])
-
-    def _straightened(self, path: Array) -> Array:
-        """A path (any, 2) without the waypoints that it does not need.
-
-        From each waypoint that is kept, the next one is about the farthest that a straight line reaches: found by
-        doubling the step as long as the line is free, and then by bisection.
-        """
-        kept, here, last = [0], 0, len(path) - 1
-        while here < last:
-            low, high = here + 1, last + 1
-            step = 2
-            while here + step <= last and self.is_straight(path[here], path[here + step], EXTRA_CLEARANCE):
-                low, step = here + step, 2 * step
-            high = min(here + step, last + 1)
-            while high - low > 1:
-                middle = (low + high) // 2
-                if self.is_straight(path[here], path[middle], EXTRA_CLEARANCE):
-                    low = middle
-                else:
-                    high = middle
-            here = low
-            kept.append(here)
-        return path[kept]

@@ -8,6 +8,7 @@ import numpy as np
 
 from rumba_cleaning.behaviour import Observation
 from rumba_cleaning.behaviours.dock import approach
+from rumba_cleaning.belief import paths
 from rumba_cleaning.belief.context import Context, InPlace
 from rumba_sim.model.errors import MapError
 from rumba_sim.model.geometry import Pose
@@ -97,5 +98,5 @@ class BatteryWatch:
 
 def _lengths_to(context: Context, goal: Pose) -> Tuple[Array, float]:
     """Lengths of the paths from each node to a goal [m], inf where none leads there, and the longest one."""
-    lengths = context.ground.path_lengths_to(goal.x, goal.y)
+    lengths = paths.lengths_to(context.ground, goal.x, goal.y)
     return lengths, float(np.max(lengths, where=np.isfinite(lengths), initial=0.0))

@@ -5,6 +5,7 @@ from typing import List, Optional
 import numpy as np
 from scipy import ndimage
 
+from rumba_cleaning.belief import paths
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.belief.ground import Ground
 from rumba_cleaning.route import Route
@@ -33,8 +34,8 @@ def route_to_frontier(context: Context, pose: Pose, seen: List[Array]) -> Option
         nodes = nodes[(np.hypot(apart[..., 0], apart[..., 1]) > SEEN).all(axis=1)]
     if not len(nodes):
         return None
-    lengths = ground.path_lengths_to(pose.x, pose.y)[nodes[:, 0], nodes[:, 1]]
-    path = ground.path(np.array(pose[:2]), ground.points(nodes[[int(np.argmin(lengths))]])[0])
+    lengths = paths.lengths_to(ground, pose.x, pose.y)[nodes[:, 0], nodes[:, 1]]
+    path = paths.between(ground, np.array(pose[:2]), ground.points(nodes[[int(np.argmin(lengths))]])[0])
     return None if path is None else Route(path, np.full(len(path) - 1, context.config.transit_speed))
 
 

@@ -4,6 +4,7 @@ from typing import Optional, Tuple
 
 import numpy as np
 
+from rumba_cleaning.belief import paths
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.route import Relief, Route, lengths_along
 from rumba_sim.model.geometry import Pose
@@ -27,7 +28,8 @@ def help_mate(context: Context, pose: Pose) -> Optional[Tuple[Route, Relief]]:
         return None
     name, rest = max(rests.items(), key=lambda item: float(item[1].times()[-1]))
     duration = float(rest.times()[-1])
-    way = context.ground.path(np.array(pose[:2]), rest.end(0.5).waypoints[0])  # about as long as that to its end
+    middle = rest.end(0.5).waypoints[0]
+    way = paths.between(context.ground, np.array(pose[:2]), middle)  # about as long as that to the end
     if way is None:
         return None
     speed = context.config.transit_speed
@@ -35,7 +37,7 @@ def help_mate(context: Context, pose: Pose) -> Optional[Tuple[Route, Relief]]:
     end = rest.end(min(share, 1.0))
     if (1.0 - share) * duration < LEAST or len(end.speeds) == 0:
         return None
-    way = context.ground.path(np.array(pose[:2]), end.waypoints[0])
+    way = paths.between(context.ground, np.array(pose[:2]), end.waypoints[0])
     if way is None:
         return None
     route = Route(np.concatenate([way, end.waypoints[1:]]), np.concatenate([np.full(len(way) - 1, speed), end.speeds]))

@@ -4,6 +4,7 @@ from typing import List
 
 import numpy as np
 
+from rumba_cleaning.belief import paths
 from rumba_cleaning.belief.ground import Ground
 from rumba_cleaning.planning import compiled_links
 from rumba_cleaning.planning.stretches import Variant, pair
@@ -40,5 +41,5 @@ def _joined(ground: Ground, lane: Array, following: Array) -> List[Array]:
                                  np.ascontiguousarray(lane), np.ascontiguousarray(following))
     if len(path):
         return [path[:-2], path[-2:]]
-    way = ground.path(lane[-1], following[0])
+    way = paths.between(ground, lane[-1], following[0])
     return [lane, NO_POINTS if way is None else way[1:-1], following]

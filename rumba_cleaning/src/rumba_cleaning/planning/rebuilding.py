@@ -9,6 +9,7 @@ from typing import Iterator, Optional, Sequence, Tuple
 import numpy as np
 from scipy import spatial
 
+from rumba_cleaning.belief import paths
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.planning import compiled_pieces, compiled_rebuilding, pieces
 from rumba_cleaning.planning.compiled_detours import sees
@@ -113,7 +114,7 @@ class _Links:
         for one, other in zip((tour[:-1] ^ 1).tolist(), tour[1:].tolist()):
             if self.times[one, other] < FAR:
                 continue
-            way = self._context.ground.path(self._ends[one], self._ends[other])
+            way = paths.between(self._context.ground, self._ends[one], self._ends[other])
             if way is not None:
                 time = float(lengths_along(way)[-1]) / self._context.config.transit_speed
                 self.times[one, other] = self.times[other, one] = time

@@ -4,6 +4,7 @@ from typing import Iterable, Optional, Tuple
 
 import numpy as np
 
+from rumba_cleaning.belief import paths
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.route import Route
 from rumba_sim.model.geometry import Pose
@@ -26,7 +27,7 @@ def route_over(context: Context, pose: Pose, legs: Iterable[Tuple[Optional[Array
     waypoints, speeds, is_there = [np.array([[pose.x, pose.y]])], [], True
     for way, path in legs:
         if way is None or not is_there:
-            way = context.ground.path(waypoints[-1][-1], path[0])
+            way = paths.between(context.ground, waypoints[-1][-1], path[0])
         is_there = way is not None
         if way is None:
             continue

@@ -3,6 +3,7 @@
 import numpy as np
 
 from rumba_cleaning.behaviours.follower import Follower, turn_rate
+from rumba_cleaning.belief import paths
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.cleaning_config import CleaningConfig
 from rumba_cleaning.planning.paper import drive
@@ -28,8 +29,8 @@ def main() -> None:
     turn_rate(1.0, 0.1, context.robot.drive)
     drive(context.swept, route.waypoints)
     plan(context, pose)
-    context.ground.path(np.array([1.0, 1.0]), np.array([1.0, 5.0]))
-    context.ground.path_lengths_to(1.0, 1.0)
+    paths.between(context.ground, np.array([1.0, 1.0]), np.array([1.0, 5.0]))
+    paths.lengths_to(context.ground, 1.0, 1.0)
     context.footing.note(pose, 4 * (False,), False)
     context.footing.are_known(np.array([[1.0, 1.0]]), 2)
     context.ground.is_marked(np.array([1.0, 1.0]), np.array([2.0, 1.0]))

@@ -170,7 +170,7 @@ class MissionMonitor:
         self._settle()
 
     def _is_too_early(self) -> bool:
-        """Whether it is not known yet what time it is for the robots: the run would begin at 0 s, and be over at once."""
+        """Whether it is not known yet what time it is for the robots: a run that began at 0 s would be over soon."""
         return self._tick is None and clock.is_unknown()
 
     def _now(self) -> float:

@@ -9,6 +9,7 @@ import rospy
 
 from rumba_cleaning.behaviours.compiled_follower import LEAST_AHEAD
 from rumba_cleaning.behaviours.follower import HEADING, Follower, turn_rate
+from rumba_cleaning.belief import paths
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.ros.cleaner.senses import Senses
 from rumba_cleaning.ros.cleaner.settings import Settings
@@ -110,7 +111,7 @@ def _path(context: Context, pose: Pose, target: Pose) -> Optional[Array]:
     context.plan.check_pose(target, context.robot.drive.radius, 'target')
     if math.hypot(target.x - pose.x, target.y - pose.y) < THERE:
         return None
-    path = context.ground.path(np.array(pose[:2]), np.array(target[:2]))
+    path = paths.between(context.ground, np.array(pose[:2]), np.array(target[:2]))
     if path is None:
         raise MapError(f'no path from ({pose.x:.2f}, {pose.y:.2f}) to ({target.x:.2f}, {target.y:.2f}) m')
     return path
