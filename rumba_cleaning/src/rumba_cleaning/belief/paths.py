@@ -17,8 +17,8 @@ EXTRA_CLEARANCE = 0.04  # [m] beside straight parts of a path: large touches les
 NEAR = 0.4  # [m] a goal this near is driven to directly, without the extra clearance: a path around it costs more
 SEARCH_SPACING = 0.05  # [m] between the nodes that are looked at first: large is fast, but misses narrow passages
 SEARCH_MARGIN = 2.0  # [m] around both ends is searched first: small is fast, but a longer path needs a second search
-# Times its length that a path costs more than elsewhere, beside obstacles, at most: large keeps to the open floor, small
-# lets a path follow a wall to be shorter.
+# Times its length that a path costs more beside obstacles, at most: large keeps to the open floor, small lets a path
+# follow a wall to be shorter.
 INFLATION_COST = 2.0
 
 

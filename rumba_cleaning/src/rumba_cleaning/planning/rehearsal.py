@@ -69,7 +69,7 @@ class Rehearsal:
 
     @property
     def begun(self) -> Route:
-        """The route up to the last waypoint that is reached; all of it if the robot would not even get to the second."""
+        """The route up to the last waypoint that is reached; all of it if the robot would not get to the second."""
         count = int((self._rows < len(self._trace) - 1).sum())
         if self.is_complete or count < 2:
             return self.route
