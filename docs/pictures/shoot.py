@@ -14,7 +14,7 @@ from PIL import Image
 
 SETTLE = 5.0  # [s] until the page has got map, coverage and robot
 HALF = 'const input = document.querySelector("#slider input"); input.value = 420; input.oninput()'
-COLOURS, GIF_COLOURS = 128, 48
+COLOURS, GIF_COLOURS = 128, 64
 FRAMES, GIF_WIDTH, PERIOD = 24, 480, 250  # most frames of a GIF; its width [pixels]; time for which each is shown [ms]
 
 
@@ -50,7 +50,7 @@ def animate(frames, path):
     samples = Image.new('RGB', (GIF_WIDTH, 3 * height))
     for row, picture in enumerate((small[0], small[len(small) // 2], small[-1])):
         samples.paste(picture, (0, row * height))
-    palette = samples.quantize(GIF_COLOURS, Image.MAXCOVERAGE)
+    palette = samples.quantize(GIF_COLOURS, Image.MEDIANCUT, kmeans=4)
     first, *rest = [picture.quantize(palette=palette, dither=0) for picture in small]
     first.save(path, save_all=True, append_images=rest, duration=[PERIOD] * len(rest) + [10 * PERIOD], loop=0,
                optimize=True)
