@@ -8,7 +8,8 @@ import time
 
 from common import figures, room20
 
-STEPS = 250_000  # robot-steps in a CPU second; the lower bound
+# Robot-steps in a CPU second, by the rate of steps [Hz] and by robots; the lower bounds.
+STEPS = {50: {1: 450_000, 10: 1_450_000, 100: 1_800_000}, 10: {1: 280_000, 10: 500_000, 100: 500_000}}
 AT_ONCE = {1: 1_000_000, 10: 2_000_000, 100: 2_300_000}  # the same by robots, ten ticks in a call
 SCANS = {1: 30_000, 10: 30_000, 100: 25_000}  # scans of 360 beams in a CPU second, by robots; the lower bounds
 LASER_PERIOD = 0.1  # [s]
@@ -61,7 +62,7 @@ def measured_scans(plan, robots, step_rate, rooms=(1, 1)):
 def steps(plan, robots, step_rate):
     """Print figures without laser."""
     figure = measured_steps(plan, robots, step_rate)
-    figures.row(f'{robots:>4} robots: robot-steps', figure, at_least=STEPS)
+    figures.row(f'{robots:>4} robots: robot-steps', figure, at_least=STEPS[step_rate][robots])
     figures.row('             simulated seconds', figure / robots / step_rate)
 
 
