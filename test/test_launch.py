@@ -146,8 +146,8 @@ class TestWithAWindow:
 
 def test_the_live_line_of_the_readme_is_one_of_a_mission():
     """Whether the node prints such lines is tested with the others of the demo."""
-    cleaning, battery = Cleaning(0.546, 15.3, 28.0, 0.5, 120.0, 438.0), Battery(0.256, 15.0, -1.5, 'on battery')
-    assert LIVE == live_line(Mission('cleaning', True, 'boustrophedon', ''), cleaning, battery, 438.0, 1310.0)
+    cleaning, battery = Cleaning(0.585, 16.4, 28.0, 0.5, 120.0, 439.0), Battery(0.276, 15.0, -1.5, 'on battery')
+    assert LIVE == live_line(Mission('cleaning', True, 'boustrophedon', ''), cleaning, battery, 439.0, 1250.0)
 
 
 def test_the_configuration_file_is_what_the_simulator_prints(workspace):
