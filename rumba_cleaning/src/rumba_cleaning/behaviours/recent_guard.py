@@ -13,7 +13,7 @@ from rumba_sim.model.geometry import Pose
 # metre, and what was seen at its beginning is 0.02 m off, as much as the guard spares.
 REMEMBERED = 1.0
 # A robot that forgets comes to every edge as if it had never seen it: faster ones fell down the stairs of the
-# apartment, at this speed none does in bench/mapless.py.
+# apartment. At this speed one of 600 does in bench/mapless.py, in a tight bend, where the guard lets a wheel be faster.
 SAFE_SPEED = 0.25  # [m/s]
 WARY_GUESS = 1  # cells: without these, what it has forgotten holds it beside edges, until it gives up; our choice
 
