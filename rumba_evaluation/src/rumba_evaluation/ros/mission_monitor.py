@@ -140,8 +140,8 @@ class MissionMonitor:
 
     def _settle(self) -> None:
         """Judge what has come, in lockstep once everything of a tick is there, and answer for it."""
-        if self._is_too_early():
-            return
+        if self._tick is None and clock.is_unknown():
+            return  # a run that began at 0 s would be over as soon as the time of the robots comes
         patience = STATE_PATIENCE if self._origins.has_state else MODE_PATIENCE
         if self._is_lockstep is None and time.monotonic() < self._first_message + patience:
             return
@@ -169,10 +169,6 @@ class MissionMonitor:
             self._awaited.give_up(self._tick_came, time.monotonic())
         self._settle()
 
-    def _is_too_early(self) -> bool:
-        """Whether it is not known yet what time it is for the robots: a run that began at 0 s would be over soon."""
-        return self._tick is None and clock.is_unknown()
-
     def _now(self) -> float:
         """Time of the robots [s]; in real time one that nobody can set."""
         if self._tick is not None:
@@ -189,7 +185,7 @@ class MissionMonitor:
             time.sleep(PERIOD)  # rospy.sleep would wait for the clock of a simulator, which may have ended
             with self._lock:
                 self._go_on()
-                if not (self._is_lockstep or self._is_too_early()):
+                if not self._is_lockstep:
                     self._judge.check_time(self._now())
                 if time.monotonic() - self._last_message > self._patience:
                     self._judge.abort(f'no message came for {self._patience:g} s of the wall clock')
