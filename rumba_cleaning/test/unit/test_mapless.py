@@ -12,7 +12,7 @@ from rooms import RADIUS, quiet, room
 from rumba_cleaning import strategies
 from rumba_cleaning.behaviour import Command, Observation, Status
 from rumba_cleaning.behaviours.bounded import Bounded
-from rumba_cleaning.behaviours.recent_guard import REMEMBERED, RecentGuard
+from rumba_cleaning.behaviours.recent_guard import REMEMBERED, SAFE_SPEED, RecentGuard
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.cleaning_config import CleaningConfig
 from rumba_cleaning.control import steps
@@ -27,6 +27,7 @@ from rumba_msg.msg import CleanGoal, DockGoal, GoToGoal
 from rumba_sim.model.config import updated
 from rumba_sim.model.errors import ConfigError, MapError, StrategyError
 from rumba_sim.model.geometry import Pose
+from rumba_sim.model.kernel.geometry import arc
 from rumba_sim.model.robot_config import RobotConfig
 from rumba_sim.model.world import World
 
@@ -135,9 +136,9 @@ def test_a_robot_that_never_heard_of_a_dock_ends_where_it_is():
 
 
 def test_a_strategy_that_ends_ends_the_mission():
-    world, behaviour = mission(strategy='spiral')
+    world, behaviour = mission(strategy='spiral', start=Pose(2.4, 1.2, 0.0))
     states(behaviour, world)
-    assert behaviour.message.startswith('cleaned for 0 of 5 min: a spot of 1.2 m is swept')
+    assert behaviour.message.startswith('cleaned for 1 of 5 min: a spot of 1.2 m is swept')
     assert world.robots['rumba'].is_docked
 
 
@@ -215,6 +216,17 @@ def test_an_edge_is_remembered_for_a_metre_and_forgotten_after_two():
         remembered.append(bool(knowledge.footing.seen))
     assert all(remembered[:100]) and not any(remembered[200:])
     assert knowledge.plan.bounds.left < 2.5 - 2.0 * REMEMBERED < 2.5 + 2.0 * REMEMBERED < knowledge.plan.bounds.right
+
+
+@pytest.mark.parametrize('w', [0.0, 0.5, 1.5])
+def test_over_floor_that_it_has_not_seen_no_wheel_is_fast_in_a_bend_either(w):
+    knowledge, pose, fastest = context(), Pose(0.0, 0.0, 0.0), []
+    guard = RecentGuard(knowledge)
+    for _ in range(15):
+        v, turn = guard.step(lambda _: Command(0.3, w), Observation(0.1, pose))[:2]
+        fastest.append(v + turn * 0.5 * knowledge.robot.drive.wheel_base)
+        pose = Pose(*arc(*pose, 0.1 * v, 0.1 * turn))
+    assert np.median(fastest) == pytest.approx(SAFE_SPEED)
 
 
 # --- goals of the cleaner -------------------------------------------------------------------------------------------

@@ -4,10 +4,13 @@ import math
 
 import numpy as np
 import pytest
-from drivers import context_of, drive_by_hand, run
+from drivers import context_of, drive_by_hand, guarded, run
 from rooms import RADIUS, quiet, room
 
 from rumba_cleaning.behaviour import Status
+from rumba_cleaning.behaviours.recent_guard import RecentGuard
+from rumba_cleaning.belief.context import Context
+from rumba_cleaning.cleaning_config import CleaningConfig
 from rumba_cleaning.mission.mission import Mission
 from rumba_cleaning.strategies.spiral import SIZE, Spiral
 from rumba_sim.model.geometry import Pose
@@ -26,15 +29,32 @@ def spiral(pose):
     return world, behaviour
 
 
-def test_a_spot_is_swept_without_a_gap():
-    world, behaviour = spiral(Pose(2.0, 2.0, 0.0))
-    assert behaviour.status is Status.SUCCEEDED
-    assert behaviour.message == 'a spot of 1.2 m is swept'
+def assert_has_no_gap(world):
+    """Whether all of the spot is swept but what is as near to its rim as the last turn may end."""
     swept = world.floor.sweep.samples >= PASS
     y, x = np.indices(swept.shape) * PLAN.sample_pitch
     disc = np.hypot(x - x[swept].mean(), y - y[swept].mean()) < SIZE - 0.15
     assert np.count_nonzero(disc & ~swept) < 0.01 * np.count_nonzero(disc)
     assert world.floor.cleaned_area == pytest.approx(math.pi * SIZE ** 2, rel=0.35)
+
+
+def test_a_spot_is_swept_without_a_gap():
+    world, behaviour = spiral(Pose(2.0, 2.0, 0.0))
+    assert behaviour.status is Status.SUCCEEDED
+    assert behaviour.message == 'a spot of 1.2 m is swept'
+    assert_has_no_gap(world)
+
+
+def test_slowed_by_the_guard_it_leaves_no_gap_either():
+    world = World(PLAN, quiet())
+    world.spawn('rumba', Pose(2.0, 2.0, 0.0))
+    mine = Context.without_map(world.config, CleaningConfig())
+    behaviour = Spiral(mine)
+    for _ in guarded(RecentGuard(mine), world, behaviour.step, 120.0):
+        if behaviour.status is not Status.RUNNING:
+            break
+    assert behaviour.message == 'a spot of 1.2 m is swept'
+    assert_has_no_gap(world)
 
 
 def test_it_ends_if_something_is_in_the_way():

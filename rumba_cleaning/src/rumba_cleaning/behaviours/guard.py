@@ -67,16 +67,18 @@ def why_it_creeps(robot: RobotConfig) -> str:
 class Guard:
     """Watches what a robot sees and what it is commanded; a controller, for the behaviour that is in charge."""
 
-    def __init__(self, context: Context, safe_speed: float = SAFE_SPEED, wary_guess: int = 0) -> None:
+    def __init__(self, context: Context, safe_speed: float = SAFE_SPEED, swift_speed: float = SWIFT_SPEED,
+                 wary_guess: int = 0) -> None:
         """Guard the robot of a context.
 
         Args:
             context: of the robot.
             safe_speed: of its wheels, at which it need not remember the floor ahead [m/s].
+            swift_speed: the same in tight bends [m/s].
             wary_guess: how many cells beside floor that it knows it takes for floor too, as it creeps near a cliff
                 that the map does not show, and on its way out.
         """
-        self._safe_speed, self._wary_guess = safe_speed, wary_guess
+        self._safe_speed, self._swift_speed, self._wary_guess = safe_speed, swift_speed, wary_guess
         self._ground, self._footing = context.ground, context.footing
         self._acceleration = context.robot.drive.acceleration
         self._preview = Preview(context.robot.drive)
@@ -208,7 +210,7 @@ class Guard:
         """How fast a wheel may be where no floor is known, in a tight bend and otherwise [m/s]."""
         if self._footing.seen:
             return min(FOUND_SPEED, self._safe_speed), min(FOUND_SPEED, self._safe_speed)
-        return SWIFT_SPEED, self._safe_speed
+        return self._swift_speed, self._safe_speed
 
     def _sees_ahead(self, speeds: Wheels) -> bool:
         """Whether the cliff sensors see the floor under the wheels before it is too late, with no need to remember."""

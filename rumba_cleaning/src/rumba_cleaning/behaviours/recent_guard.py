@@ -13,8 +13,8 @@ from rumba_sim.model.geometry import Pose
 # metre, and what was seen at its beginning is 0.02 m off, as much as the guard spares.
 REMEMBERED = 1.0
 # A robot that forgets comes to every edge as if it had never seen it: faster ones fell down the stairs of the
-# apartment. At this speed one of 600 does in bench/mapless.py, in a tight bend, where the guard lets a wheel be faster.
-SAFE_SPEED = 0.25  # [m/s]
+# apartment, one of them in a tight bend.
+SAFE_SPEED = 0.25  # [m/s] of its wheels, in any bend
 WARY_GUESS = 1  # cells: without these, what it has forgotten holds it beside edges, until it gives up; our choice
 
 
@@ -23,7 +23,7 @@ class RecentGuard(Guard):
 
     def __init__(self, context: Context) -> None:
         """Guard the robot of a context, whose plan is always that of a few metres around it."""
-        super().__init__(context, SAFE_SPEED, WARY_GUESS)
+        super().__init__(context, SAFE_SPEED, SAFE_SPEED, WARY_GUESS)
         self._context = context
         self._at: Optional[Pose] = None
         self._way = 0.0  # [m]
