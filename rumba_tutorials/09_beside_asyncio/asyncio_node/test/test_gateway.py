@@ -8,7 +8,9 @@ import socket
 import subprocess
 import time
 import unittest
+import xmlrpc.client
 
+import rosgraph
 import rosnode
 import rospy
 import rostest
@@ -34,8 +36,14 @@ class GatewayTest(unittest.TestCase):
         self.addCleanup(subscriber.unregister)
         self.publisher = rospy.Publisher('rumba/battery_status', BatteryStatus, queue_size=10)
         self.addCleanup(self.publisher.unregister)
-        self.wait(lambda: subscriber.get_num_connections() == 2 and self.publisher.get_num_connections() == 2)
+        self.wait(lambda: self.is_subscribed_to_the_gateway() and self.publisher.get_num_connections() == 2)
         self.client = self.connect()
+
+    def is_subscribed_to_the_gateway(self):
+        """Whether the gateway knows of the subscriber, and not only the other way round."""
+        gateway = xmlrpc.client.ServerProxy(rosgraph.Master(rospy.get_name()).lookupNode('/gateway'))
+        return any(direction == 'o' and destination == rospy.get_name()
+                   for _, destination, direction, *_ in gateway.getBusInfo(rospy.get_name())[2])
 
     def forget_port(self):
         """Have the next gateway take a port of its own: one that was killed leaves its port, which may be taken now."""
