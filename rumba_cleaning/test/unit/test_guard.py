@@ -232,6 +232,18 @@ def test_where_a_tight_bend_would_come_too_near_to_an_edge_it_turns_on_the_spot(
     assert robot.pose.theta - heading > 1.8 and all(command.w > 0.0 for command in given)
 
 
+@pytest.mark.parametrize('cliff_y, least, most', [(0.6, -0.15, 0.05), (1.9, -0.26, -0.24)])
+def test_near_a_cliff_that_no_map_shows_a_robot_that_slides_turns_along_the_wall(cliff_y, least, most):
+    plan = room(3.0, 2.0, 0.01)
+    world = World(plan, quiet())
+    robot = world.spawn('rumba', Pose(0.4, RADIUS + 0.005, -0.25))
+    context = context_of(plan, world)
+    context.footing._see(1.6, cliff_y)
+    for _ in guarded(Guard(context), world, lambda observation: Command(0.2, 0.0), seconds=7.0):
+        pass
+    assert least < robot.pose.theta < most and robot.pose.x > 1.2
+
+
 def test_a_robot_that_cannot_move_for_edges_ends_its_mission_and_says_so():
     plan = room(3.0, 2.6, 0.02)
     known = with_cliffs(plan, (0.5, 1.0, 2.5, 1.19), (0.5, 1.41, 2.5, 1.6))  # nobody can turn between them

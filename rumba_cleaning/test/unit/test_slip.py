@@ -10,7 +10,7 @@ from rooms import RADIUS, quiet, room
 from rumba_cleaning.behaviour import Observation
 from rumba_cleaning.behaviours.bounded import Bounded
 from rumba_cleaning.behaviours.guard import Guard
-from rumba_cleaning.behaviours.slip import slipped
+from rumba_cleaning.behaviours.slip import NO_SLIP, Alignment, Slip, slipped
 from rumba_cleaning.behaviours.travel import Going, Travel
 from rumba_cleaning.control import CONTROL_DT
 from rumba_cleaning.pose_source import DeadReckoning, scan_of_robot
@@ -88,3 +88,16 @@ def test_a_contact_beside_an_edge_is_one_with_something_unknown():
 def test_a_robot_that_slides_to_its_left_does_so_too_while_its_heading_goes_past_a_half_turn(theta):
     last, here = Pose(1.5, 1.0, theta), Pose(1.5 - 0.3 * CONTROL_DT, 1.0 - 0.05 * CONTROL_DT, -theta)
     assert slipped(last, Observation(CONTROL_DT, here), 0.3) == pytest.approx((0.05, 1.0), abs=1e-6)
+
+
+@pytest.mark.parametrize('aside, turn', [(0.08, 0.28), (-0.08, -0.28), (0.02, 0.0)])
+def test_a_robot_that_slides_askew_is_to_turn_until_it_is_along_the_wall(aside, turn):
+    alignment = Alignment()
+    assert alignment.turn(Pose(1.0, 1.0, 3.0), Slip(aside, 0.95), 0.3) == pytest.approx(turn, abs=0.01)
+    assert alignment.turn(Pose(1.0, 1.0, 3.0 + 0.5 * turn), NO_SLIP, 0.0) == pytest.approx(0.5 * turn, abs=0.01)
+    for theta in (3.0 + 0.9 * turn, 3.0):  # once it is along the wall, it is not to turn back
+        assert alignment.turn(Pose(1.0, 1.0, theta), NO_SLIP, 0.0) == 0.0
+
+
+def test_a_robot_that_stands_and_is_pushed_aside_by_the_noise_of_its_pose_is_not_to_turn():
+    assert Alignment().turn(Pose(1.0, 1.0, 0.0), Slip(0.002, 1.0), 0.0) == 0.0

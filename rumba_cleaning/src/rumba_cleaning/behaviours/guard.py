@@ -16,7 +16,7 @@ from rumba_cleaning.behaviours.departure import SLOW
 from rumba_cleaning.behaviours.preview import Preview, faster, goes_back, part_of
 from rumba_cleaning.behaviours.rear import Rear
 from rumba_cleaning.behaviours.release import RESERVE, Release
-from rumba_cleaning.behaviours.slip import Slip, along_contacts, slipped
+from rumba_cleaning.behaviours.slip import Alignment, Slip, along_contacts, slipped
 from rumba_cleaning.behaviours.trail import Trail
 from rumba_cleaning.belief.context import Context
 from rumba_sim.model.geometry import Pose
@@ -43,6 +43,7 @@ WARY = 0.5  # [m] from such a cliff: its edge may have any shape where it was no
 WARY_SPEED = 0.25  # [m/s] so near: in 0.06 m the robot stops, whatever the shape is
 GUESS = 3  # cells beside known floor that are taken to be floor too, elsewhere, by a robot that keeps these limits
 ON_TRAIL = 2  # cells, back along its trail: points of the way of a wheel are known, what it passed between them is not
+TURN_RATE = 1.0  # [rad/s] of a robot that turns along a wall by which it slides, near such a cliff
 
 BESIDE = 0.017  # [m] from a wheel out to where the outer sensor looks, as that of the usual robot
 FLAT = 0.1  # sine of the angle of outer sensors that no distance brings before the wheels
@@ -84,7 +85,7 @@ class Guard:
         self._preview = Preview(context.robot.drive)
         self._clear = self._preview.half + SPARE  # [m] from the middle to an edge: the robot can turn on the spot
         self._rear = Rear(context.robot.drive.radius)
-        self._trail = Trail(self._preview.half)
+        self._trail, self._alignment = Trail(self._preview.half), Alignment()
         self._release = Release(self._ground, self._footing, self._preview, self._clear, wary_guess)
         self.rest()
 
@@ -93,6 +94,7 @@ class Guard:
         self._speeds: Wheels = (0.0, 0.0)  # [m/s] of the wheels, when the last command was given
         self._command = Command(0.0, 0.0)  # the last one
         self._last: Optional[Pose] = None
+        self._alignment.forget()
         self._held = NONE  # the side on which an edge kept the robot from what it was to do
         self._rear.rest()
         self._trail.forget()
@@ -130,7 +132,7 @@ class Guard:
             far_left, near_left, near_right, far_right = observation.cliffs
             observation = observation._replace(
                 is_held=True, cliffs=(far_left or left, near_left, near_right, far_right or right))
-        command = self._on_trail(decide(observation), observation.pose)
+        command = self._along_walls(self._on_trail(decide(observation), observation.pose), observation)
         self._speeds = self._preview.after(self._speeds, self._preview.wanted(self._command), dt)
         self._command = self._admitted(observation, command)
         is_held = self._held != NONE and faster(self._speeds) == 0.0
@@ -157,6 +159,17 @@ class Guard:
         ahead, turn = motion
         share = -command.v / max(abs(ahead) + self._preview.half * abs(turn), ROUNDING)
         return command._replace(v=share * ahead, w=share * turn)
+
+    def _along_walls(self, command: Command, observation: Observation) -> Command:
+        """Have a robot that slides along a wall, near a cliff that the map does not show, turn along the wall first.
+
+        Otherwise its wheels would lead it away from the wall as it backs off, over floor that no sensor has seen.
+        """
+        if command.v <= 0.0 or not self._is_wary(observation.pose):
+            self._alignment.forget()
+            return command
+        turn = self._alignment.turn(observation.pose, self._slipped(observation), 0.5 * sum(self._speeds))
+        return command._replace(v=0.0, w=math.copysign(TURN_RATE, turn)) if turn else command
 
     def _way_out(self, observation: Observation, command: Command) -> Optional[Command]:
         """What the release commands, with the brushes as they are to be."""
@@ -220,11 +233,14 @@ class Guard:
 
     def _slips(self, observation: Observation, wanted: Wheels) -> List[Slip]:
         """How the robot may slide after a command: as it did last, and, if it drives forward, along what it touches."""
-        last = self._last if observation.dt < LONGEST else None
         fastest = max(faster(self._speeds), faster(wanted))
         pushes = max(sum(wanted), sum(self._speeds)) > 0.0
-        return [slipped(last, observation, 0.5 * sum(self._speeds)),
-                *(along_contacts(observation, fastest) if pushes else [])]
+        return [self._slipped(observation), *(along_contacts(observation, fastest) if pushes else [])]
+
+    def _slipped(self, observation: Observation) -> Slip:
+        """How the robot slid since the observation before."""
+        last = self._last if observation.dt < LONGEST else None
+        return slipped(last, observation, 0.5 * sum(self._speeds))
 
     # --- what a command leads to ----------------------------------------------------------------------------------
 

@@ -6,7 +6,9 @@ from typing import List, NamedTuple, Optional
 from rumba_cleaning.behaviour import Observation
 from rumba_sim.model.geometry import Pose, wrap_angle
 
-LEAST = 0.02  # [m/s] sideways, for it to count: more than the noise of a pose; our choice
+# Our choice.
+LEAST = 0.02  # [m/s] sideways, for it to count: more than the noise of a pose
+ASKEW, ALIGNED = 0.15, 0.05  # [rad] from a wall: it is to turn along that, and it is along it
 
 
 class Slip(NamedTuple):
@@ -36,6 +38,28 @@ def slipped(last: Optional[Pose], observation: Observation, driven: float) -> Sl
         return NO_SLIP
     ahead = x * math.cos(along) + y * math.sin(along)
     return Slip(aside, min(max(ahead / driven, 0.0), 1.0) if driven > LEAST else 1.0)
+
+
+class Alignment:
+    """The wall along which a robot is to turn that slides by it askew."""
+
+    def __init__(self) -> None:
+        """Know of no wall."""
+        self.forget()
+
+    def forget(self) -> None:
+        """Turn along no wall any more."""
+        self._heading: Optional[float] = None  # [rad]
+
+    def turn(self, pose: Pose, slip: Slip, driven: float) -> float:
+        """How far it is to turn [rad], from a pose, as it slides while its wheels drive at a speed [m/s]; 0: not."""
+        if abs(slip.aside) > ASKEW * max(driven, LEAST):
+            self._heading = pose.theta + math.atan2(slip.aside, slip.share * driven)
+        turn = 0.0 if self._heading is None else wrap_angle(self._heading - pose.theta)
+        if abs(turn) < ALIGNED:
+            self.forget()
+            return 0.0
+        return turn
 
 
 def along_contacts(observation: Observation, speed: float) -> List[Slip]:
