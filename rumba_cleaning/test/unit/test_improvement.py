@@ -83,9 +83,20 @@ def test_a_route_that_edits_leave_short_of_the_target_is_mended_by_detours(monke
 
 
 @pytest.mark.parametrize('size, wanted, count', [((4.0, 2.0), 5, 5), ((4.0, 2.0), 2, 2), ((4.0, 2.0), 0, 0),
-                                                 ((10.0, 5.0), 5, 3), ((16.0, 12.0), 5, 0)])
+                                                 ((10.0, 5.0), 5, 3), ((16.0, 12.0), 5, 1), ((16.0, 12.0), 0, 0),
+                                                 ((16.0, 16.0), 5, 0)])
 def test_there_are_as_many_rounds_as_are_wanted_and_as_the_floor_is_worth(size, wanted, count):
     assert rounds(knowing(room(*size), START, planning_rounds=wanted)) == count
+
+
+def test_on_a_large_floor_one_draft_is_rehearsed_rebuilt_and_edited_but_nothing_is_shifted(monkeypatch):
+    surroundings = surroundings_of(crooked(0.02), target_coverage=0.95)
+    monkeypatch.setattr(improvement, 'WORK', 0.9 * surroundings.context.swept.reachable_area)
+    monkeypatch.setattr(improvement, 'shifts', None)  # so that to call it would be an error
+    drafted, = planner._drafts(surroundings)
+    before = Rehearsal(surroundings.context, START, improvement.with_detours(surroundings, *drafted[::2]))
+    after = Rehearsal(surroundings.context, START, planner.plan(surroundings.context, START))
+    assert after.swept.coverage >= 0.95 and after.seconds < 0.95 * before.seconds
 
 
 def test_edits_that_were_far_from_worth_it_are_not_judged_again(monkeypatch):

@@ -21,6 +21,7 @@ MARGIN = 0.00006
 EDITED = 0.0004  # of coverage that edits are to bring beyond that: together they bring a little less than one by one
 MENDS = 2  # times that detours are added, at most, to a route that edits left short of the target: that takes little
 WORK = 150.0  # [m^2] of floor, times rounds: large makes shorter routes, small plans faster
+HASTY = 240.0  # [m^2] of floor, up to which one that is larger than that gets a quick round all the same: as WORK
 # [s/m^2] a lane takes 20: dearer edits are left out on paper, where they clean less than it seems, and by rehearsal.
 DEAREST_ON_PAPER, DEAREST = 200.0, 3000.0
 LEAST_ON_PAPER = 0.005  # [m^2] of a crumb: a smaller one is hardly ever worth that price; large plans faster
@@ -42,7 +43,13 @@ def with_detours(surroundings: Surroundings, route: Route, paper: Swept) -> Rout
 
 def rounds(context: Context) -> int:
     """In how many rounds a route is edited, each after another rehearsal; 0: routes are not rehearsed."""
-    return min(int(WORK / context.swept.reachable_area), context.config.planning_rounds)
+    area = context.swept.reachable_area
+    return min(max(int(WORK / area), int(area <= HASTY)), context.config.planning_rounds)
+
+
+def is_thorough(context: Context) -> bool:
+    """Whether the floor is small enough for several drafts, longer searches for tours, and all kinds of edits."""
+    return rounds(context) > 0 and context.swept.reachable_area <= WORK
 
 
 def improved(surroundings: Surroundings, routes: Sequence[Route], paths: Sequence[Array]) -> Route:
@@ -64,7 +71,8 @@ def improved(surroundings: Surroundings, routes: Sequence[Route], paths: Sequenc
             tried.append(rehearsal)
         if not rehearsal.is_complete:
             break
-        found = [*shortcuts(context, rehearsal, CHEAP * price)[:SHORTCUTS], *shifts(context, rehearsal.route),
+        shifted = shifts(context, rehearsal.route) if is_thorough(context) else []
+        found = [*shortcuts(context, rehearsal, CHEAP * price)[:SHORTCUTS], *shifted,
                  *surroundings.detours(rehearsal.route, rehearsal.swept)]
         rehearsal, price = _edited(surroundings, rehearsal, found, poor)
         tried.append(rehearsal)

@@ -92,8 +92,9 @@ def _drafts(surroundings: Surroundings) -> List[_Drafted]:
 
 def _shaped(surroundings: Surroundings) -> List[Tuple[Draft, Shapes]]:
     """The drafts to rehearse, with what suits the regions by each; none for rings or shapes that no region has."""
-    usual, *others = [(draft, shapes(surroundings.context.ground, surroundings.labels, draft.narrow))
-                      for draft in drafts(improvement.rounds(surroundings.context))]
+    context = surroundings.context
+    rounds = improvement.rounds(context) if improvement.is_thorough(context) else 0
+    usual, *others = [(draft, shapes(context.ground, surroundings.labels, draft.narrow)) for draft in drafts(rounds)]
     return [usual, *(other for other in others if _is_of_use(*other, usual[1]))]
 
 
@@ -190,7 +191,7 @@ def _tours(context: Context, pose: Pose, end: Optional[Pose], labels: Array,
     start, goal = len(parts), None if end is None else len(parts) + 1
     seconds = ways.metres[:start + 1] / speed
     visits = tour.order(seconds[:, :start], None if goal is None else seconds[:, goal])
-    effort = EFFORT if improvement.rounds(context) else 1
+    effort = EFFORT if improvement.is_thorough(context) else 1
     tours, here, entry = [], start, places[start]
     for place, following in zip(visits, [*visits[1:], goal]):
         if here != start or parts[place].region != of_fixed[0]:
