@@ -30,7 +30,7 @@ def spiral(pose):
 
 
 def assert_has_no_gap(world):
-    """Whether all of the spot is swept but what is as near to its rim as the last turn may end."""
+    """All of the spot is swept, but for what is as near to its rim as the last turn may end."""
     swept = world.floor.sweep.samples >= PASS
     y, x = np.indices(swept.shape) * PLAN.sample_pitch
     disc = np.hypot(x - x[swept].mean(), y - y[swept].mean()) < SIZE - 0.15

@@ -33,8 +33,10 @@ CREEP = 1e-4  # [m] by which an edge may come nearer to the middle of a robot th
 # there, and such a robot brakes within 0.07 m), and all of the floor before wheels in bends that are no tighter.
 SAFE_SPEED = 0.35  # [m/s]
 SAFE_CURVATURE = 2.0  # [1/m]
-TIGHT = 3.3  # [1/m] in tighter bends the sensors of one side look along the circle of the outer wheel, ...
-SWIFT_SPEED = 0.38  # [m/s] ... 0.17 m ahead of it: a wheel that is no faster stops within 0.12 m
+# In tighter bends the inner sensor of one side looks 0.17 m ahead along the circle of the outer wheel, or up to 0.03 m
+# inside that, and the outer one beside it 0.09 m ahead: a wheel that is no faster stops within 0.12 m.
+TIGHT = 3.3  # [1/m]
+SWIFT_SPEED = 0.38  # [m/s]
 # A floor with one cliff that the map does not show may have others. Wheels that are no faster than this drive 0.029 m
 # until the next reading and stop within 0.047 m; a corner of 90 degrees that comes between two sensors is seen 0.08 m
 # ahead.
@@ -43,7 +45,7 @@ WARY = 0.5  # [m] from such a cliff: its edge may have any shape where it was no
 WARY_SPEED = 0.25  # [m/s] so near: in 0.06 m the robot stops, whatever the shape is
 GUESS = 3  # cells beside known floor that are taken to be floor too, elsewhere, by a robot that keeps these limits
 ON_TRAIL = 2  # cells, back along its trail: points of the way of a wheel are known, what it passed between them is not
-TURN_RATE = 1.0  # [rad/s] of a robot that turns along a wall by which it slides, near such a cliff
+TURN_RATE = 1.0  # [rad/s] of a robot that turns along a wall by which it slides, near such a cliff; our choice
 
 BESIDE = 0.017  # [m] from a wheel out to where the outer sensor looks, as that of the usual robot
 FLAT = 0.1  # sine of the angle of outer sensors that no distance brings before the wheels

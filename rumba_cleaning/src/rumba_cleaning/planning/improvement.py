@@ -21,7 +21,7 @@ MARGIN = 0.00006
 EDITED = 0.0004  # of coverage that edits are to bring beyond that: together they bring a little less than one by one
 MENDS = 2  # times that detours are added, at most, to a route that edits left short of the target: that takes little
 WORK = 150.0  # [m^2] of floor, times rounds: large makes shorter routes, small plans faster
-HASTY = 240.0  # [m^2] of floor, up to which one that is larger than that gets a quick round all the same: as WORK
+HASTY = 240.0  # [m^2] of floor, up to which one beyond WORK gets one quick round all the same: as WORK
 # [s/m^2] a lane takes 20: dearer edits are left out on paper, where they clean less than it seems, and by rehearsal.
 DEAREST_ON_PAPER, DEAREST = 200.0, 3000.0
 LEAST_ON_PAPER = 0.005  # [m^2] of a crumb: a smaller one is hardly ever worth that price; large plans faster

@@ -33,7 +33,7 @@ BEYOND = 0.03  # [m] from what the brush reaches, where an obstacle may leave mo
 YIELD = 0.7  # share of a crumb that is swept in passing, about: small plans for more crumbs than the target needs
 SPARE = 0.0005  # of coverage that is planned beyond the target, once the robot is past the lanes and rings
 CULLS = 4  # rounds in which crumbs are left out that cost much time for their area: more make better choices
-EFFORT = 10  # times as much as usual to search for tours where routes are rehearsed: large drives less, small is fast
+EFFORT = 10  # times as much as usual to search for tours on floors planned thoroughly: large drives less, small is fast
 
 
 def plan(context: Context, pose: Pose, end: Optional[Pose] = None) -> Optional[Route]:
@@ -93,8 +93,8 @@ def _drafts(surroundings: Surroundings) -> List[_Drafted]:
 def _shaped(surroundings: Surroundings) -> List[Tuple[Draft, Shapes]]:
     """The drafts to rehearse, with what suits the regions by each; none for rings or shapes that no region has."""
     context = surroundings.context
-    rounds = improvement.rounds(context) if improvement.is_thorough(context) else 0
-    usual, *others = [(draft, shapes(context.ground, surroundings.labels, draft.narrow)) for draft in drafts(rounds)]
+    worth = improvement.rounds(context) if improvement.is_thorough(context) else 0
+    usual, *others = [(draft, shapes(context.ground, surroundings.labels, draft.narrow)) for draft in drafts(worth)]
     return [usual, *(other for other in others if _is_of_use(*other, usual[1]))]
 
 
