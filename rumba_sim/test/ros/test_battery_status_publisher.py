@@ -68,8 +68,8 @@ class BatteryStatusPublisherTest(unittest.TestCase):
         self.addCleanup(subscriber.unregister)
         now, begin = 1.6e9, rospy.get_time()
         while len(heard) < 10:
-            self.assertLess(rospy.get_time() - begin, TIMEOUT, f'{len(heard)} messages by {now:.2f} s of /clock, to which '
-                            f'{clock.get_num_connections()} nodes listen')
+            self.assertLess(rospy.get_time() - begin, TIMEOUT,
+                            f'{len(heard)} messages; {clock.get_num_connections()} nodes listen to /clock')
             now += 0.05 if clock.get_num_connections() else 0.0
             clock.publish(rospy.Time.from_sec(now))
             rospy.sleep(0.01)
