@@ -10,7 +10,7 @@ import zipfile
 import pytest
 from checkouts import SAMPLE, commands, make_checkout, rumba, write_package
 from sockets import wait_for
-from workspaces import ROOT, Space, clean_environment, last_of
+from workspaces import BUILD_TIMEOUT, ROOT, Space, clean_environment, last_of
 
 NODE = '''#!/usr/bin/env python3
 import rospy
@@ -128,7 +128,7 @@ def test_no_network_leaves_nothing_behind(checkout, tmp_path):
 
 
 def test_no_root_and_no_sudo_says_what_an_administrator_must_do(checkout, tmp_path):
-    system = dict.fromkeys(('sh', 'dirname', 'readlink', 'cat', 'tr'))
+    system = dict.fromkeys(('sh', 'dirname', 'readlink', 'cat', 'tr', 'flock'))
     path = commands(tmp_path / 'bin', **{'id': '#!/bin/sh\necho 1000\n', 'dpkg-query': '#!/bin/sh\nexit 1\n', **system})
     code, out, error = rumba(checkout, 'build', PATH=str(path))
     assert (code, out) == (1, '')
@@ -158,6 +158,29 @@ def test_a_command_installs_what_its_roles_need_and_no_more(checkout, tmp_path, 
     asked = (tmp_path / 'asked').read_text().split()
     assert code == 1
     assert set(wanted) <= set(asked) and not set(unwanted) & set(asked)
+
+
+def test_of_two_commands_at_once_one_installs_and_the_other_waits(checkout, tmp_path):
+    lock, asked = tmp_path / 'lock', tmp_path / 'asked'
+    apt = f"""#!/bin/sh
+mkdir {lock} || exit 1
+sleep 0.5
+echo "$1" >>{asked}
+rmdir {lock}
+"""
+    installed = f"""#!/bin/sh
+grep -q install {asked} || exit 1
+shift 3
+printf 'installed %s\\n' "$@"
+"""
+    path = commands(tmp_path / 'bin', **{'apt-get': apt, 'apt-cache': '#!/bin/sh\n', 'id': '#!/bin/sh\necho 0\n',
+                                         'dpkg-query': installed})
+    both = [subprocess.Popen([checkout / 'rumba', 'lint'], text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                             env={**clean_environment(), 'PATH': f'{path}:{os.environ["PATH"]}'}) for _ in range(2)]
+    said = [process.communicate(timeout=BUILD_TIMEOUT)[0] for process in both]
+    assert asked.read_text().split() == ['update', 'install']
+    assert sorted('rumba: installing' in lines for lines in said) == [False, True]
+    assert not any('rumba: cannot' in lines for lines in said)
 
 
 def test_if_nothing_is_missing_nothing_is_asked_for(built, tmp_path):
