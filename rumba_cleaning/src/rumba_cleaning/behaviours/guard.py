@@ -11,6 +11,7 @@ from typing import Callable, List, Optional, Tuple
 import numpy as np
 
 from rumba_cleaning.behaviour import Command, Observation
+from rumba_cleaning.behaviours.caution import WITH_MAP, Caution
 from rumba_cleaning.behaviours.compiled_guard import ROUNDING, Wheels
 from rumba_cleaning.behaviours.departure import SLOW
 from rumba_cleaning.behaviours.preview import Preview, faster, goes_back, part_of
@@ -29,20 +30,13 @@ SPARE = 0.02  # [m] from a wheel to an edge: a cell of a fine map; an edge that 
 AT_REST = 0.02  # [m/s] of both wheels
 CREEP = 1e-4  # [m] by which an edge may come nearer to the middle of a robot that is too near already: rounding
 
-# The sensors see an edge in time for wheels that are no faster (a corner of 90 degrees is seen 0.08 m before a wheel is
-# there, and such a robot brakes within 0.07 m), and all of the floor before wheels in bends that are no tighter.
-SAFE_SPEED = 0.35  # [m/s]
+# The sensors see all of the floor before wheels in bends that are no tighter.
 SAFE_CURVATURE = 2.0  # [1/m]
-# In tighter bends the inner sensor of one side looks 0.17 m ahead along the circle of the outer wheel, or up to 0.03 m
-# inside that, and the outer one beside it 0.09 m ahead: a wheel that is no faster stops within 0.12 m.
-TIGHT = 3.3  # [1/m]
-SWIFT_SPEED = 0.38  # [m/s]
+TIGHT = 3.3  # [1/m] in tighter ones, another limit is kept: see `caution`
 # A floor with one cliff that the map does not show may have others. Wheels that are no faster than this drive 0.029 m
 # until the next reading and stop within 0.047 m; a corner of 90 degrees that comes between two sensors is seen 0.08 m
 # ahead.
 FOUND_SPEED = 0.29  # [m/s]
-WARY = 0.5  # [m] from such a cliff: its edge may have any shape where it was not seen yet
-WARY_SPEED = 0.25  # [m/s] so near: in 0.06 m the robot stops, whatever the shape is
 GUESS = 3  # cells beside known floor that are taken to be floor too, elsewhere, by a robot that keeps these limits
 ON_TRAIL = 2  # cells, back along its trail: points of the way of a wheel are known, what it passed between them is not
 TURN_RATE = 1.0  # [rad/s] of a robot that turns along a wall by which it slides, near such a cliff; our choice
@@ -70,25 +64,16 @@ def why_it_creeps(robot: RobotConfig) -> str:
 class Guard:
     """Watches what a robot sees and what it is commanded; a controller, for the behaviour that is in charge."""
 
-    def __init__(self, context: Context, safe_speed: float = SAFE_SPEED, swift_speed: float = SWIFT_SPEED,
-                 wary_guess: int = 0) -> None:
-        """Guard the robot of a context.
-
-        Args:
-            context: of the robot.
-            safe_speed: of its wheels, at which it need not remember the floor ahead [m/s].
-            swift_speed: the same in tight bends [m/s].
-            wary_guess: how many cells beside floor that it knows it takes for floor too, as it creeps near a cliff
-                that the map does not show, and on its way out.
-        """
-        self._safe_speed, self._swift_speed, self._wary_guess = safe_speed, swift_speed, wary_guess
+    def __init__(self, context: Context, caution: Caution = WITH_MAP) -> None:
+        """Guard the robot of a context, with so much caution."""
+        self._caution = caution
         self._ground, self._footing = context.ground, context.footing
         self._acceleration = context.robot.drive.acceleration
         self._preview = Preview(context.robot.drive)
         self._clear = self._preview.half + SPARE  # [m] from the middle to an edge: the robot can turn on the spot
         self._rear = Rear(context.robot.drive.radius)
         self._trail, self._alignment = Trail(self._preview.half), Alignment()
-        self._release = Release(self._ground, self._footing, self._preview, self._clear, wary_guess)
+        self._release = Release(self._ground, self._footing, self._preview, self._clear, caution)
         self.rest()
 
     def rest(self) -> None:
@@ -183,8 +168,8 @@ class Guard:
         self._held = NONE
         pose, preview = observation.pose, self._preview
         is_wary, wanted = self._is_wary(pose), preview.wanted(command)
-        if faster(wanted) > WARY_SPEED and is_wary:
-            command = preview.limited(command, WARY_SPEED)
+        if faster(wanted) > self._caution.wary_speed and is_wary:
+            command = preview.limited(command, self._caution.wary_speed)
             wanted = preview.wanted(command)
         fastest = max(faster(self._speeds), faster(wanted))
         braking = fastest * LONGEST + 0.5 * fastest ** 2 / self._acceleration
@@ -211,7 +196,7 @@ class Guard:
         once it heads away from an edge that it came too near to, it drives on.
         """
         limited = [self._preview.limited(command, limit) for limit in self._limits()]
-        spot = self._preview.limited(command._replace(v=0.0), WARY_SPEED)
+        spot = self._preview.limited(command._replace(v=0.0), self._caution.wary_speed)
         on_the_spot = [spot] if self._preview.moves(spot) else []
         parts = [part_of(command, share) for share in SHARES]
         is_mostly_turn = abs(command.w) * self._preview.half > abs(command.v)
@@ -219,13 +204,12 @@ class Guard:
 
     def _is_wary(self, pose: Pose) -> bool:
         """Whether a cliff that the map does not show is near."""
-        return bool(self._footing.seen) and self._footing.clearance_at(pose.x, pose.y) < WARY
+        return bool(self._footing.seen) and self._footing.clearance_at(pose.x, pose.y) < self._caution.wary
 
     def _limits(self) -> Tuple[float, float]:
         """How fast a wheel may be where no floor is known, in a tight bend and otherwise [m/s]."""
-        if self._footing.seen:
-            return min(FOUND_SPEED, self._safe_speed), min(FOUND_SPEED, self._safe_speed)
-        return self._swift_speed, self._safe_speed
+        swift, safe = self._caution.swift_speed, self._caution.safe_speed
+        return (min(FOUND_SPEED, safe), min(FOUND_SPEED, safe)) if self._footing.seen else (swift, safe)
 
     def _sees_ahead(self, speeds: Wheels) -> bool:
         """Whether the cliff sensors see the floor under the wheels before it is too late, with no need to remember."""
@@ -293,4 +277,4 @@ class Guard:
         if not is_wary:
             return GUESS, False
         is_creeping = -ROUNDING <= sum(wanted) <= 2.0 * SLOW
-        return self._wary_guess if is_creeping else 0, True
+        return self._caution.wary_guess if is_creeping else 0, True
