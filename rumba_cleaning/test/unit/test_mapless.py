@@ -242,22 +242,25 @@ def test_an_edge_is_forgotten_sooner_by_a_robot_that_touches_things_or_turns_on_
 
 
 def test_as_it_forgets_it_takes_no_floor_for_granted_that_neither_wheels_nor_sensors_passed():
-    """Beside the way of its right wheel, under its body: on its first metres a person has put it there."""
+    """Under its body, beside the way of its right wheel: only at its first place a person has put it."""
     knowledge = context(quiet())
     guard = RecentGuard(knowledge)
-    known = []
-    for step in range(600):
-        pose = Pose(0.01 * step, 0.0, 0.0)
-        guard.see(Observation(0.1, pose, cliffs=NO_CLIFFS))
-        known.append(knowledge.footing.are_known(np.array([[pose.x - 0.05, -0.16]]), 0))
-    assert known[0] and not any(known[450:])
+
+    def known_beside_the_way(end):
+        return any(knowledge.footing.are_known(np.array([[0.01 * step, -0.16]]), 0) for step in range(end))
+    guard.see(straight(1))
+    assert known_beside_the_way(10)
+    for step in range(2, 600):
+        guard.see(straight(step))
+    assert not known_beside_the_way(600)
 
 
-def test_edges_that_were_seen_far_back_do_not_disturb_a_robot_that_forgets_them():
+@pytest.mark.parametrize('away', np.arange(-8.0, 8.1, 0.5))
+def test_edges_that_were_seen_far_back_do_not_disturb_a_robot_that_forgets_them(away):
     knowledge = context(quiet())
     knowledge.begin_anew(Pose(0.0, 0.0, 0.0))
-    knowledge.footing._see(0.5, 0.0)
-    knowledge.begin_anew(Pose(20.0, 0.0, 0.0), Pose(19.9, 0.0, 0.0))
+    knowledge.footing._see(0.5, -0.5)
+    knowledge.begin_anew(Pose(away, away, 0.0), Pose(away - 0.1, away, 0.0))
     assert knowledge.footing.seen == []
 
 
