@@ -1,7 +1,7 @@
 """How often robots fall at edges that no map shows and no laser sees, by what they know of the floor.
 
 `falls.py [--knowledge WHAT ...] [--kinds KIND ...] [--first N] [--last N] [--jobs N]` runs missions of each strategy on
-floors drawn from seeds 1 to 20 by default. A robot knows WHAT it has mapped itself (`explored`), a map without the
+floors drawn from seeds 1 to 10 by default. A robot knows WHAT it has mapped itself (`explored`), a map without the
 edges (`unshown`), or nothing (`mapless`).
 """
 
@@ -85,12 +85,12 @@ def main():
     parser.add_argument('--knowledge', nargs='+', default=list(STRATEGIES), choices=STRATEGIES)
     parser.add_argument('--kinds', nargs='+', default=KINDS, choices=KINDS)
     parser.add_argument('--first', type=int, default=1)
-    parser.add_argument('--last', type=int, default=20)
+    parser.add_argument('--last', type=int, default=10)
     parser.add_argument('--jobs', type=int, default=None, help='processes; one for each core by default')
     arguments = parser.parse_args()
     seeds = range(arguments.first, arguments.last + 1)
-    figures.heading(f'Robots near edges that no map shows, seeds {seeds[0]} to {seeds[-1]}: missions by their ends, and '
-                    'coverage (median) [%]')
+    figures.heading(f'Robots near edges that no map shows, seeds {seeds[0]} to {seeds[-1]}')
+    print('  missions by their ends, and the median of the true coverage [%]')
     names = [outcome.name.lower() for outcome in COLUMNS]
     print(f'{"":<36}', ' '.join(f'{name:>10}' for name in [*names, 'others', 'coverage']))
     fallen = 0

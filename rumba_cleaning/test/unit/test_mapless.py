@@ -10,7 +10,7 @@ from drivers import run
 from rooms import RADIUS, quiet, room
 
 from rumba_cleaning import strategies
-from rumba_cleaning.behaviour import NO_CLIFFS, Command, Observation, Status
+from rumba_cleaning.behaviour import Command, Observation, Status
 from rumba_cleaning.behaviours.bounded import Bounded
 from rumba_cleaning.behaviours.caution import WITH_MAP, WITHOUT_MAP
 from rumba_cleaning.behaviours.departure import is_floor

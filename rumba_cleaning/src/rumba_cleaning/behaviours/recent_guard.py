@@ -47,9 +47,9 @@ class RecentGuard(Guard):
     def _since(self, last: Observation, observation: Observation) -> float:
         """The wear between observations [m]."""
         pose, before = observation.pose, last.pose
+        way = math.hypot(pose.x - before.x, pose.y - before.y)
         is_contact = any(observation.bumper) and not any(last.bumper)
-        return (math.hypot(pose.x - before.x, pose.y - before.y) + self._turn * abs(wrap_angle(pose.theta - before.theta))
-                + (CONTACT if is_contact else 0.0))
+        return way + self._turn * abs(wrap_angle(pose.theta - before.theta)) + (CONTACT if is_contact else 0.0)
 
 
 def guard(context: Context) -> Guard:
