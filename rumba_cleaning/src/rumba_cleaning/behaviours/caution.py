@@ -1,6 +1,5 @@
 """How careful a robot is beside edges: one with a map knows where it is what it saw, another soon does not any more."""
 
-import math
 from typing import NamedTuple
 
 # The sensors see an edge in time for wheels that are no faster (a corner of 90 degrees is seen 0.08 m before a wheel is
@@ -9,8 +8,6 @@ SAFE_SPEED = 0.35  # [m/s]
 # In tighter bends the inner sensor of one side looks 0.17 m ahead along the circle of the outer wheel, or up to 0.03 m
 # inside that, and the outer one beside it 0.09 m ahead: a wheel that is no faster stops within 0.12 m.
 SWIFT_SPEED = 0.38  # [m/s]
-WARY = 0.5  # [m] from a cliff that the map does not show: its edge may have any shape where it was not seen yet
-WARY_SPEED = 0.25  # [m/s] so near: in 0.06 m the robot stops, whatever the shape is
 
 
 class Caution(NamedTuple):
@@ -18,14 +15,12 @@ class Caution(NamedTuple):
 
     safe_speed: float = SAFE_SPEED  # [m/s] of the wheels, at which it need not remember the floor ahead
     swift_speed: float = SWIFT_SPEED  # [m/s] the same in tight bends
-    wary: float = WARY  # [m] from a cliff that the map does not show: nearer, it keeps to floor that the sensors saw
-    wary_speed: float = WARY_SPEED  # [m/s] of the wheels there
-    wary_guess: int = 0  # cells beside known floor that it takes for floor too, as it creeps there, and on its way out
+    wary_guess: int = 0  # cells beside known floor that it takes for floor too, as it creeps near a cliff that the map
+    #                      does not show, and on its way out
     trusts: bool = True  # on its way out it takes all for floor, as long as it knows of no such cliff
 
 
 WITH_MAP = Caution()
 # A robot that forgets comes to every edge as if it had never seen it: faster ones fell down the stairs of the
-# apartment, one of them in a tight bend. What pushes it aside, or stops it, carries all that it remembers off by
-# some centimetres, and the less, the slower it is. The figures are our choice, tried among pits.
-WITHOUT_MAP = Caution(safe_speed=0.25, swift_speed=0.25, wary=math.inf, wary_speed=0.12, wary_guess=1, trusts=False)
+# apartment, one of them in a tight bend. The figures are our choice.
+WITHOUT_MAP = Caution(safe_speed=0.25, swift_speed=0.25, wary_guess=1, trusts=False)

@@ -37,6 +37,8 @@ TIGHT = 3.3  # [1/m] in tighter ones, another limit is kept: see `caution`
 # until the next reading and stop within 0.047 m; a corner of 90 degrees that comes between two sensors is seen 0.08 m
 # ahead.
 FOUND_SPEED = 0.29  # [m/s]
+WARY = 0.5  # [m] from such a cliff: its edge may have any shape where it was not seen yet
+WARY_SPEED = 0.25  # [m/s] so near: in 0.06 m the robot stops, whatever the shape is
 GUESS = 3  # cells beside known floor that are taken to be floor too, elsewhere, by a robot that keeps these limits
 ON_TRAIL = 2  # cells, back along its trail: points of the way of a wheel are known, what it passed between them is not
 TURN_RATE = 1.0  # [rad/s] of a robot that turns along a wall by which it slides, near such a cliff; our choice
@@ -168,8 +170,8 @@ class Guard:
         self._held = NONE
         pose, preview = observation.pose, self._preview
         is_wary, wanted = self._is_wary(pose), preview.wanted(command)
-        if faster(wanted) > self._caution.wary_speed and is_wary:
-            command = preview.limited(command, self._caution.wary_speed)
+        if faster(wanted) > WARY_SPEED and is_wary:
+            command = preview.limited(command, WARY_SPEED)
             wanted = preview.wanted(command)
         fastest = max(faster(self._speeds), faster(wanted))
         braking = fastest * LONGEST + 0.5 * fastest ** 2 / self._acceleration
@@ -196,7 +198,7 @@ class Guard:
         once it heads away from an edge that it came too near to, it drives on.
         """
         limited = [self._preview.limited(command, limit) for limit in self._limits()]
-        spot = self._preview.limited(command._replace(v=0.0), self._caution.wary_speed)
+        spot = self._preview.limited(command._replace(v=0.0), WARY_SPEED)
         on_the_spot = [spot] if self._preview.moves(spot) else []
         parts = [part_of(command, share) for share in SHARES]
         is_mostly_turn = abs(command.w) * self._preview.half > abs(command.v)
@@ -204,7 +206,7 @@ class Guard:
 
     def _is_wary(self, pose: Pose) -> bool:
         """Whether a cliff that the map does not show is near."""
-        return bool(self._footing.seen) and self._footing.clearance_at(pose.x, pose.y) < self._caution.wary
+        return bool(self._footing.seen) and self._footing.clearance_at(pose.x, pose.y) < WARY
 
     def _limits(self) -> Tuple[float, float]:
         """How fast a wheel may be where no floor is known, in a tight bend and otherwise [m/s]."""

@@ -12,8 +12,8 @@ from rumba_sim.model.geometry import wrap_angle
 
 # [m] of wear at least, and twice that at most: what was seen at its beginning is a few centimetres off by then.
 REMEMBERED = 2.0
-TURN = 0.5  # [m] of wear for each metre that a turn leads the wheels about the middle of the robot; our choice
-CONTACT = 0.2  # [m] the same for each contact: wheels turn on, or it slides; our choice
+TURN = 0.5  # [m] of wear for each metre that a wheel drives around the middle of the robot; our choice
+CONTACT = 0.2  # [m] of wear for each contact: the wheels turn on, or the robot slides; our choice
 
 
 class RecentGuard(Guard):
@@ -23,7 +23,7 @@ class RecentGuard(Guard):
         """Guard the robot of a context, whose plan is always that of a few metres around it."""
         super().__init__(context, WITHOUT_MAP)
         self._context = context
-        self._turn = TURN * 0.5 * context.robot.drive.wheel_base
+        self._turn = TURN * 0.5 * context.robot.drive.wheel_base  # [m/rad] of wear
         self._wear = 0.0  # [m] of way, turns and contacts
         self._forgets_at = -1.0  # [m] of that
         self._recent: Deque[Tuple[float, Observation]] = collections.deque()  # what it saw, and the wear until then
@@ -37,7 +37,7 @@ class RecentGuard(Guard):
             super().see(observation)
             return
         self._forgets_at = self._wear + REMEMBERED
-        came_from = None  # at the very first
+        came_from = None  # the first time, a person has put it there
         while self._wear - self._recent[0][0] > REMEMBERED:
             came_from = self._recent.popleft()[1].pose
         self._context.begin_anew(observation.pose, came_from)

@@ -44,8 +44,7 @@ class Release:
             clear: from its middle to an edge, with which it can turn on the spot [m].
             caution: of the robot.
         """
-        self._footing, self._preview, self._clear = footing, preview, clear
-        self._caution = caution
+        self._footing, self._preview, self._clear, self._caution = footing, preview, clear, caution
         self._search = Search(ground, footing, preview.half, caution)
         self.rest()
 

@@ -185,7 +185,8 @@ class Context:
 
         Args:
             pose: of the robot now.
-            came_from: that of some way ago, from where on what it met and saw is noted anew; None: it was put down.
+            came_from: an earlier pose, if what the robot has seen since then will be noted once more; None if it was
+                just put down.
         """
         plan = blank(pose)
         self.ground.learn(plan)

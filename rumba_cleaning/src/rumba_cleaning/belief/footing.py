@@ -69,16 +69,15 @@ class Footing:
         """Know no more than the plan.
 
         Args:
-            came_from: a pose at which the robot was, before what it will note: there, only its wheels need have been on
-                floor. None: it is put down next, where there is floor under all of it.
+            came_from: the pose just before the next one that is noted; there need be floor under the wheels only. None:
+                the robot is put down, where there is floor under all of it.
         """
         self.seen: List[Tuple[float, float]] = []
         self._edges: Optional[Array] = None if self._mapped is None else self._mapped.copy()
         left, bottom, right, top = self._plan.bounds
         self._origin: Tuple[float, float] = (left, bottom)  # of what follows [m]
         self._floor: Array = np.zeros((int((top - bottom) / CELL) + 1, int((right - left) / CELL) + 1), np.uint8)
-        # The last that was.
-        self._noted: Optional[Tuple[Pose, Tuple[bool, ...], bool]] = came_from and (came_from, (), False)
+        self._noted: Optional[Tuple[Pose, Tuple[bool, ...], bool]] = came_from and (came_from, (), False)  # the last
         self._way = 0.0  # [m] that the sensors have come on; turning counts less
         self._unsure: Deque[Between] = collections.deque()
         self._readings = Edges(self._robot)
