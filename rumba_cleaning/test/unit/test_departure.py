@@ -8,7 +8,6 @@ from drivers import context_of, with_cliffs
 from rooms import RADIUS, quiet, room
 
 from rumba_cleaning.behaviour import STOP, Command
-from rumba_cleaning.behaviours.caution import WITH_MAP
 from rumba_cleaning.behaviours.departure import LENGTH, Departure, Search
 from rumba_cleaning.behaviours.guard import SPARE
 from rumba_cleaning.behaviours.preview import Preview
@@ -40,7 +39,7 @@ def pit_behind(side):
 
 def search(context):
     """A search by what a robot knows."""
-    return Search(context.ground, context.footing, HALF, WITH_MAP)
+    return Search(context.ground, context.footing, HALF)
 
 
 def distance(point, box):
@@ -58,7 +57,7 @@ def wheels(pose):
 @pytest.mark.parametrize('side', [1, -1])
 def test_where_a_pit_closes_one_way_round_it_turns_the_other_way_and_keeps_its_wheels_off_the_pit(side):
     box = pit_behind(side)
-    found = search(knowing(PLACE, box)[0]).find(PLACE, RESERVE, HALF + SPARE)
+    found = search(knowing(PLACE, box)[0]).find(PLACE, RESERVE, HALF + SPARE, 0)
     assert found.side == -side
     turn = (-side * (found.heading - PLACE.theta)) % (2.0 * math.pi)
     turns = [PLACE._replace(theta=-side * angle) for angle in np.linspace(0.0, turn, 50)]
@@ -69,7 +68,7 @@ def test_where_a_pit_closes_one_way_round_it_turns_the_other_way_and_keeps_its_w
 
 
 def test_the_command_of_a_departure_turns_first_and_turns_back_if_it_has_turned_too_far():
-    found = search(knowing(PLACE, pit_behind(1))[0]).find(PLACE, RESERVE, HALF + SPARE)
+    found = search(knowing(PLACE, pit_behind(1))[0]).find(PLACE, RESERVE, HALF + SPARE, 0)
     assert found.command(PLACE).v == 0.0 and found.command(PLACE).w < 0.0
     too_far = PLACE._replace(theta=found.heading - 0.1)
     assert found.command(too_far).v == 0.0 and found.command(too_far).w > 0.0
@@ -86,26 +85,26 @@ def test_it_turns_the_way_that_is_open_however_far(side, turn):
 def test_it_does_not_turn_past_a_pit():
     """Along the wall it could go, both ways."""
     boxes = [(left - 0.05, bottom, right, top) for left, bottom, right, top in map(pit_behind, (1, -1))]
-    assert search(knowing(PLACE, *boxes)[0]).find(PLACE, RESERVE, HALF + SPARE) is None
+    assert search(knowing(PLACE, *boxes)[0]).find(PLACE, RESERVE, HALF + SPARE, 0) is None
 
 
 def test_where_it_ends_it_can_turn():
     edge, pose = 2.0, Pose(1.6, 1.0, 0.0)
-    found = search(knowing(pose, (edge, 0.0, 3.0, 2.0))[0]).find(pose, RESERVE, HALF + SPARE)
+    found = search(knowing(pose, (edge, 0.0, 3.0, 2.0))[0]).find(pose, RESERVE, HALF + SPARE, 0)
     assert pose.x + found.way * LENGTH * math.cos(found.heading) < edge - HALF
 
 
 def test_between_edges_that_let_it_neither_turn_nor_go_on_it_finds_nothing():
     pose = Pose(1.5, 1.0, 0.5 * math.pi)
     boxes = (1.0, 0.5, 1.36, 1.5), (1.64, 0.5, 2.0, 1.5), (1.0, 1.2, 2.0, 1.5), (1.0, 0.5, 2.0, 0.8)
-    assert search(knowing(pose, *boxes)[0]).find(pose, RESERVE, HALF + SPARE) is None
+    assert search(knowing(pose, *boxes)[0]).find(pose, RESERVE, HALF + SPARE, 0) is None
 
 
 def test_once_it_has_met_a_cliff_that_no_map_shows_it_goes_only_where_it_knows_floor():
     context, _ = knowing(PLACE)
-    assert search(context).find(PLACE, RESERVE, HALF + SPARE) is not None
+    assert search(context).find(PLACE, RESERVE, HALF + SPARE, 0) is not None
     context.footing._see(0.5, 0.5)
-    assert search(context).find(PLACE, RESERVE, HALF + SPARE) is None
+    assert search(context).find(PLACE, RESERVE, HALF + SPARE, 0) is None
 
 
 @pytest.mark.parametrize('may_back', [True, False])
@@ -114,7 +113,7 @@ def test_held_for_long_between_a_wall_and_a_pit_to_which_it_is_turned_again_and_
     place = Pose(1.5, 2.0 - RADIUS - 0.005, math.radians(-95.0))
     box = place.x + 0.107, place.y - 0.6, place.x + 0.7, place.y - 0.043
     context, world = knowing(place, box)
-    release = Release(context.ground, context.footing, Preview(world.config.drive), HALF + SPARE, WITH_MAP)
+    release = Release(context.ground, context.footing, Preview(world.config.drive), HALF + SPARE, 0)
     robot, poses = world.robots['rumba'], []
     while world.time < 40.0:
         speeds = robot.twist[0] - HALF * robot.twist[1], robot.twist[0] + HALF * robot.twist[1]
@@ -132,7 +131,7 @@ def test_held_for_long_between_a_wall_and_a_pit_to_which_it_is_turned_again_and_
 def test_a_robot_that_gains_nothing_on_its_way_out_as_it_pushes_against_a_wall_is_left_to_its_behaviour_again():
     box = PLACE.x - 0.15, 0.95, PLACE.x + 0.03, 1.1
     context, world = knowing(PLACE, box)
-    release = Release(context.ground, context.footing, Preview(world.config.drive), HALF + SPARE, WITH_MAP)
+    release = Release(context.ground, context.footing, Preview(world.config.drive), HALF + SPARE, 0)
     out, pushed = STOP, 0.0
     for _ in range(round(PATIENCE / CONTROL_DT) + 1):
         release.is_due(PLACE, True, CONTROL_DT)

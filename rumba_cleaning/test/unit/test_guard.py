@@ -11,8 +11,7 @@ from rooms import RADIUS, quiet, room
 
 from rumba_cleaning.behaviour import Command
 from rumba_cleaning.behaviours.bounded import Bounded
-from rumba_cleaning.behaviours.caution import SWIFT_SPEED
-from rumba_cleaning.behaviours.guard import FOUND_SPEED, Guard, why_it_creeps
+from rumba_cleaning.behaviours.guard import FOUND_SPEED, SWIFT_SPEED, Guard, why_it_creeps
 from rumba_cleaning.behaviours.travel import Travel
 from rumba_cleaning.belief.footing import CELL, SEEN
 from rumba_cleaning.control import CONTROL_DT, observe, steps

@@ -10,8 +10,9 @@ from drivers import run
 from rooms import RADIUS, quiet, room
 
 from rumba_cleaning import strategies
-from rumba_cleaning.behaviour import Observation, Status
+from rumba_cleaning.behaviour import Command, Observation, Status
 from rumba_cleaning.behaviours.bounded import Bounded
+from rumba_cleaning.behaviours.recent_guard import REMEMBERED, SAFE_SPEED, RecentGuard
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.cleaning_config import CleaningConfig
 from rumba_cleaning.control import steps
@@ -26,6 +27,7 @@ from rumba_msg.msg import CleanGoal, DockGoal, GoToGoal
 from rumba_sim.model.config import updated
 from rumba_sim.model.errors import ConfigError, MapError, StrategyError
 from rumba_sim.model.geometry import Pose
+from rumba_sim.model.kernel.geometry import arc
 from rumba_sim.model.robot_config import RobotConfig
 from rumba_sim.model.world import World
 
@@ -200,6 +202,31 @@ def test_after_an_attempt_that_failed_beams_do_not_count_for_a_while():
         behaviour.step(beams)
     behaviour.step(heard)
     assert behaviour.is_homing
+
+
+# --- what it remembers ----------------------------------------------------------------------------------------------
+
+def test_an_edge_is_remembered_for_a_metre_and_forgotten_after_two():
+    knowledge = context(quiet())
+    guard = RecentGuard(knowledge)
+    remembered = []
+    for step in range(250):
+        pose = Pose(0.01 * step, 0.0, 0.0)
+        guard.step(lambda _: Command(0.1, 0.0), Observation(0.1, pose, cliffs=(step == 0, False, False, False)))
+        remembered.append(bool(knowledge.footing.seen))
+    assert all(remembered[:100]) and not any(remembered[200:])
+    assert knowledge.plan.bounds.left < 2.5 - 2.0 * REMEMBERED < 2.5 + 2.0 * REMEMBERED < knowledge.plan.bounds.right
+
+
+@pytest.mark.parametrize('w', [0.0, 0.5, 1.5])
+def test_over_floor_that_it_has_not_seen_no_wheel_is_fast_in_a_bend_either(w):
+    knowledge, pose, fastest = context(), Pose(0.0, 0.0, 0.0), []
+    guard = RecentGuard(knowledge)
+    for _ in range(15):
+        v, turn = guard.step(lambda _: Command(0.3, w), Observation(0.1, pose))[:2]
+        fastest.append(v + turn * 0.5 * knowledge.robot.drive.wheel_base)
+        pose = Pose(*arc(*pose, 0.1 * v, 0.1 * turn))
+    assert np.median(fastest) == pytest.approx(SAFE_SPEED)
 
 
 # --- goals of the cleaner -------------------------------------------------------------------------------------------

@@ -10,7 +10,6 @@ from typing import Iterator, NamedTuple, Optional
 import numpy as np
 
 from rumba_cleaning.behaviour import Command
-from rumba_cleaning.behaviours.caution import Caution
 from rumba_cleaning.belief.footing import Footing
 from rumba_cleaning.belief.ground import Ground
 from rumba_sim.model.geometry import Pose, wrap_angle
@@ -46,37 +45,38 @@ class Departure(NamedTuple):
 class Search:
     """Looks for departures of one robot."""
 
-    def __init__(self, ground: Ground, footing: Footing, half: float, caution: Caution) -> None:
-        """Look on a floor, for a robot whose wheels are so far off its middle [m], and that is so cautious."""
-        self._ground, self._footing, self._half, self._caution = ground, footing, half, caution
+    def __init__(self, ground: Ground, footing: Footing, half: float) -> None:
+        """Look on a floor, for a robot whose wheels are so far off its middle [m]."""
+        self._ground, self._footing, self._half = ground, footing, half
 
-    def find(self, pose: Pose, reserve: float, least: float) -> Optional[Departure]:
+    def find(self, pose: Pose, reserve: float, least: float, cells: int) -> Optional[Departure]:
         """The departure with the smallest turn; None: there is none.
 
         Args:
             pose: of the robot.
             reserve: from its wheels to an edge on the way [m].
             least: from its middle to an edge at the end [m].
+            cells: beside floor that it knows, which it takes for floor too, if it has met a cliff that no map shows.
         """
-        turns = {side: self._turns(pose, side, reserve) for side in (1, -1)}
+        turns = {side: self._turns(pose, side, reserve, cells) for side in (1, -1)}
         headings = ((side, heading) for pair in zip(turns[1], turns[-1]) for side, heading in zip((1, -1), pair))
         for (side, heading), way in itertools.product(headings, (1, -1)):
-            if heading is not None and self._leads_away(pose._replace(theta=heading), way, reserve, least):
+            if heading is not None and self._leads_away(pose._replace(theta=heading), way, reserve, least, cells):
                 return Departure(heading, side, way)
         return None
 
-    def _turns(self, pose: Pose, side: int, reserve: float) -> Iterator[Optional[float]]:
+    def _turns(self, pose: Pose, side: int, reserve: float, cells: int) -> Iterator[Optional[float]]:
         """The headings that it can turn to on one side, the nearest first [rad]; None for each that it cannot."""
         is_open = True
         for count in range(round(2.0 * math.pi / STEP)):
             heading = pose.theta + side * count * STEP
-            is_open = is_open and self._is_safe(self._wheels(pose._replace(theta=heading), np.zeros(1)), reserve)
+            is_open = is_open and self._is_safe(self._wheels(pose._replace(theta=heading), np.zeros(1)), reserve, cells)
             yield heading if is_open else None
 
-    def _leads_away(self, pose: Pose, way: int, reserve: float, least: float) -> bool:
+    def _leads_away(self, pose: Pose, way: int, reserve: float, least: float, cells: int) -> bool:
         """Whether straight on or back from a pose, there is floor, and no wall, and at the end room to turn."""
         ahead = way * np.arange(0.0, LENGTH, SPACING)
-        if not self._is_safe(self._wheels(pose, ahead), reserve):
+        if not self._is_safe(self._wheels(pose, ahead), reserve, cells):
             return False
         middle = np.array(pose[:2]) + ahead[:, np.newaxis] * (math.cos(pose.theta), math.sin(pose.theta))
         nodes = self._ground.nodes(middle)
@@ -91,13 +91,8 @@ class Search:
         aside = self._half * np.array([-sin, cos])
         return np.concatenate([middle + aside, middle - aside])
 
-    def _is_safe(self, points: Array, reserve: float) -> bool:
+    def _is_safe(self, points: Array, reserve: float, cells: int) -> bool:
         """Whether wheels can be at points (any, 2) [m]."""
         if self._footing.clearances(points).min() < reserve:
             return False
-        return is_floor(self._footing, self._caution, points)
-
-
-def is_floor(footing: Footing, caution: Caution, points: Array) -> bool:
-    """Whether a robot takes all points (any, 2) [m] for floor, on its way out."""
-    return caution.trusts and not footing.seen or footing.are_known(points, caution.wary_guess)
+        return not self._footing.seen or self._footing.are_known(points, cells)

@@ -11,7 +11,6 @@ from typing import Callable, List, Optional, Tuple
 import numpy as np
 
 from rumba_cleaning.behaviour import Command, Observation
-from rumba_cleaning.behaviours.caution import WITH_MAP, Caution
 from rumba_cleaning.behaviours.compiled_guard import ROUNDING, Wheels
 from rumba_cleaning.behaviours.departure import SLOW
 from rumba_cleaning.behaviours.preview import Preview, faster, goes_back, part_of
@@ -30,9 +29,14 @@ SPARE = 0.02  # [m] from a wheel to an edge: a cell of a fine map; an edge that 
 AT_REST = 0.02  # [m/s] of both wheels
 CREEP = 1e-4  # [m] by which an edge may come nearer to the middle of a robot that is too near already: rounding
 
-# The sensors see all of the floor before wheels in bends that are no tighter.
+# The sensors see an edge in time for wheels that are no faster (a corner of 90 degrees is seen 0.08 m before a wheel is
+# there, and such a robot brakes within 0.07 m), and all of the floor before wheels in bends that are no tighter.
+SAFE_SPEED = 0.35  # [m/s]
 SAFE_CURVATURE = 2.0  # [1/m]
-TIGHT = 3.3  # [1/m] in tighter ones, another limit is kept: see `caution`
+# In tighter bends the inner sensor of one side looks 0.17 m ahead along the circle of the outer wheel, or up to 0.03 m
+# inside that, and the outer one beside it 0.09 m ahead: a wheel that is no faster stops within 0.12 m.
+TIGHT = 3.3  # [1/m]
+SWIFT_SPEED = 0.38  # [m/s]
 # A floor with one cliff that the map does not show may have others. Wheels that are no faster than this drive 0.029 m
 # until the next reading and stop within 0.047 m; a corner of 90 degrees that comes between two sensors is seen 0.08 m
 # ahead.
@@ -66,16 +70,25 @@ def why_it_creeps(robot: RobotConfig) -> str:
 class Guard:
     """Watches what a robot sees and what it is commanded; a controller, for the behaviour that is in charge."""
 
-    def __init__(self, context: Context, caution: Caution = WITH_MAP) -> None:
-        """Guard the robot of a context, with so much caution."""
-        self._caution = caution
+    def __init__(self, context: Context, safe_speed: float = SAFE_SPEED, swift_speed: float = SWIFT_SPEED,
+                 wary_guess: int = 0) -> None:
+        """Guard the robot of a context.
+
+        Args:
+            context: of the robot.
+            safe_speed: of its wheels, at which it need not remember the floor ahead [m/s].
+            swift_speed: the same in tight bends [m/s].
+            wary_guess: how many cells beside floor that it knows it takes for floor too, as it creeps near a cliff
+                that the map does not show, and on its way out.
+        """
+        self._safe_speed, self._swift_speed, self._wary_guess = safe_speed, swift_speed, wary_guess
         self._ground, self._footing = context.ground, context.footing
         self._acceleration = context.robot.drive.acceleration
         self._preview = Preview(context.robot.drive)
         self._clear = self._preview.half + SPARE  # [m] from the middle to an edge: the robot can turn on the spot
         self._rear = Rear(context.robot.drive.radius)
         self._trail, self._alignment = Trail(self._preview.half), Alignment()
-        self._release = Release(self._ground, self._footing, self._preview, self._clear, caution)
+        self._release = Release(self._ground, self._footing, self._preview, self._clear, wary_guess)
         self.rest()
 
     def rest(self) -> None:
@@ -210,8 +223,9 @@ class Guard:
 
     def _limits(self) -> Tuple[float, float]:
         """How fast a wheel may be where no floor is known, in a tight bend and otherwise [m/s]."""
-        swift, safe = self._caution.swift_speed, self._caution.safe_speed
-        return (min(FOUND_SPEED, safe), min(FOUND_SPEED, safe)) if self._footing.seen else (swift, safe)
+        if self._footing.seen:
+            return min(FOUND_SPEED, self._safe_speed), min(FOUND_SPEED, self._safe_speed)
+        return self._swift_speed, self._safe_speed
 
     def _sees_ahead(self, speeds: Wheels) -> bool:
         """Whether the cliff sensors see the floor under the wheels before it is too late, with no need to remember."""
@@ -279,4 +293,4 @@ class Guard:
         if not is_wary:
             return GUESS, False
         is_creeping = -ROUNDING <= sum(wanted) <= 2.0 * SLOW
-        return self._caution.wary_guess if is_creeping else 0, True
+        return self._wary_guess if is_creeping else 0, True

@@ -6,9 +6,8 @@ from typing import Callable, Iterable, Optional, Tuple
 import numpy as np
 
 from rumba_cleaning.behaviour import Command
-from rumba_cleaning.behaviours.caution import Caution
 from rumba_cleaning.behaviours.compiled_guard import HOLD_STEPS, Wheels
-from rumba_cleaning.behaviours.departure import SLOW, Departure, Search, is_floor
+from rumba_cleaning.behaviours.departure import SLOW, Departure, Search
 from rumba_cleaning.behaviours.preview import Preview
 from rumba_cleaning.behaviours.slip import NO_SLIP, Slip
 from rumba_cleaning.belief.footing import Footing
@@ -35,17 +34,17 @@ class Release:
         held_time: for how long edges have kept the robot, about where it is, from what it was to do [s].
     """
 
-    def __init__(self, ground: Ground, footing: Footing, preview: Preview, clear: float, caution: Caution) -> None:
+    def __init__(self, ground: Ground, footing: Footing, preview: Preview, clear: float, guess: int) -> None:
         """Watch a robot.
 
         Args:
             ground, footing: what it knows of the floor.
             preview: of its commands.
             clear: from its middle to an edge, with which it can turn on the spot [m].
-            caution: of the robot.
+            guess: how many cells beside floor that it knows it takes for floor too.
         """
-        self._footing, self._preview, self._clear, self._caution = footing, preview, clear, caution
-        self._search = Search(ground, footing, preview.half, caution)
+        self._footing, self._preview, self._clear, self._guess = footing, preview, clear, guess
+        self._search = Search(ground, footing, preview.half)
         self.rest()
 
     def rest(self) -> None:
@@ -92,7 +91,7 @@ class Release:
             return min(ends), min(leasts)
 
         if self._departure is None and self.held_time > self._departs_at:
-            self._departure = self._search.find(pose, reserve, self._clear)
+            self._departure = self._search.find(pose, reserve, self._clear, self._guess)
             self._departs_at = self.held_time + LONG
         if now > self._most + GAIN:
             self._most, self._fruitless = now, 0.0
@@ -127,10 +126,10 @@ class Release:
     def _ways(self, pose: Pose, speeds: Wheels, wanted: Wheels, slip: Slip, steps: int) -> Tuple[float, float]:
         """How near to an edge a wheel is in the end, after a command for so many steps, and at the least [m].
 
-        0 over unknown floor, for a robot that does not trust it.
+        0 over unknown floor, once the robot has met a cliff that no map shows.
         """
         _, left, right = self._preview.path(pose, speeds, wanted, slip, steps)
-        if not is_floor(self._footing, self._caution, np.concatenate([left, right])):
+        if self._footing.seen and not self._footing.are_known(np.concatenate([left, right]), self._guess):
             return 0.0, 0.0
         near = np.minimum(self._footing.clearances(left), self._footing.clearances(right))
         return float(near[-1]), float(near.min())

@@ -180,18 +180,13 @@ class Context:
             self.sight.learn(plan)
         self.swept.learn(plan, *self.ground.in_largest_part([pose[:2], self.swept.start]), way_back)
 
-    def begin_anew(self, pose: Pose, came_from: Optional[Pose] = None) -> None:
-        """Without a map, know nothing of the floor around a pose: nothing was met there, or seen.
-
-        Args:
-            pose: of the robot now.
-            came_from: an earlier pose, if what the robot has seen since then will be noted once more; None if it was
-                just put down.
-        """
+    def begin_anew(self, pose: Pose) -> None:
+        """Without a map, know nothing of the floor around a pose: nothing was met there, or seen."""
         plan = blank(pose)
         self.ground.learn(plan)
-        self.footing.begin(plan, came_from)
+        self.footing.learn(plan)
         self.forget_obstacles()
+        self.footing.forget()
 
     def moor(self, pose: Pose) -> None:
         """Make the dock that is nearest to a pose the home of the robot."""

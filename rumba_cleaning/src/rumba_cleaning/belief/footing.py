@@ -63,29 +63,20 @@ class Footing:
         square = np.stack(np.meshgrid(side, side), axis=-1).reshape(-1, 2)
         self._body = square[np.hypot(*square.T) <= radius]
         self._before_dock = np.concatenate([self._body - (back, 0.0) for back in np.arange(0.0, BEHIND_DOCK, STEP)])
-        self.begin(plan)
+        self._know(plan)
+        self.forget()
 
-    def forget(self, came_from: Optional[Pose] = None) -> None:
-        """Know no more than the plan.
-
-        Args:
-            came_from: the pose just before the next one that is noted; there need be floor under the wheels only. None:
-                the robot is put down, where there is floor under all of it.
-        """
+    def forget(self) -> None:
+        """Know no more than the plan."""
         self.seen: List[Tuple[float, float]] = []
         self._edges: Optional[Array] = None if self._mapped is None else self._mapped.copy()
         left, bottom, right, top = self._plan.bounds
         self._origin: Tuple[float, float] = (left, bottom)  # of what follows [m]
         self._floor: Array = np.zeros((int((top - bottom) / CELL) + 1, int((right - left) / CELL) + 1), np.uint8)
-        self._noted: Optional[Tuple[Pose, Tuple[bool, ...], bool]] = came_from and (came_from, (), False)  # the last
+        self._noted: Optional[Tuple[Pose, Tuple[bool, ...], bool]] = None  # the last that was
         self._way = 0.0  # [m] that the sensors have come on; turning counts less
         self._unsure: Deque[Between] = collections.deque()
         self._readings = Edges(self._robot)
-
-    def begin(self, plan: FloorPlan, came_from: Optional[Pose] = None) -> None:
-        """Know another plan, and no more than that; `came_from` as in `forget`."""
-        self._know(plan)
-        self.forget(came_from)
 
     def learn(self, plan: FloorPlan) -> None:
         """Go on with a newer plan of the same floor, and with what was seen of it."""

@@ -9,8 +9,8 @@ from typing import List, Sequence
 
 import numpy as np
 
-from rumba_cleaning.behaviours.caution import SWIFT_SPEED
 from rumba_cleaning.behaviours.follower import drive_of
+from rumba_cleaning.behaviours.guard import SWIFT_SPEED
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.planning import compiled_changes, compiled_passes, compiled_rehearsal
 from rumba_cleaning.planning.compiled_passes import Passes
