@@ -223,6 +223,26 @@ def test_compiled_and_uncompiled_tours_and_ways_are_equal():
         assert uncompiled(compiled_ways).lengths(*asked)[0] == approx(compiled_ways.lengths(*asked)[0])
 
 
+@pytest.mark.parametrize('seed', range(20))
+def test_a_tour_is_built_by_the_cheapest_insertion_of_all_each_time(seed):
+    generator = np.random.default_rng(seed)
+    begins = np.concatenate([[0], np.cumsum(generator.integers(1, 4, 9))])
+    count = begins[-1]
+    costs = generator.integers(0, 12, (count + 1, count)).astype(float)  # exact sums, and many that are equal
+    last = generator.integers(0, 12, count + 1).astype(float)
+
+    def times(tours):
+        return [compiled_tours.length(costs, last, np.array(each, int)) for each in tours]
+
+    tour, left = [], list(range(9))
+    while left:
+        options = [(stretch, [*tour[:slot], variant, *tour[slot:]]) for stretch in left
+                   for variant in range(begins[stretch], begins[stretch + 1]) for slot in range(len(tour) + 1)]
+        stretch, tour = options[int(np.argmin(times(each for _, each in options)))]
+        left.remove(stretch)
+    assert compiled_tours.built(costs, last, begins).tolist() == tour
+
+
 def test_a_tour_that_is_searched_for_with_more_effort_is_shorter_or_the_same():
     times = np.array([[Tour(HALL, np.array([0.5, 0.5]), random_stretches(np.random.default_rng(seed), 40), None, SPEED,
                             effort).time for effort in (0, 1, 10)] for seed in range(3)])

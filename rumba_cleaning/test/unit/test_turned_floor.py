@@ -75,6 +75,18 @@ def test_only_the_part_around_the_cells_to_clean_is_turned_and_it_is_the_same_on
     assert (as_clear >= clearance - 1e-9).all()
 
 
+@pytest.mark.parametrize('angle', [0.0, 0.35])
+@pytest.mark.parametrize('rows, columns', [((30, 40), (40, 60)), ((0, 12), (0, 9))])  # in the middle; at the edge
+def test_a_window_that_is_known_need_not_be_looked_for(rows, columns, angle):
+    floor = ground(room(4.0, 4.0, 0.05))
+    missed = np.zeros(floor.plan.occupancy.shape, bool)
+    missed[slice(*rows), slice(*columns)] = True
+    found, known = (TurnedFloor(floor, missed, angle, 0.17, within)
+                    for within in (None, (slice(*rows), slice(*columns))))
+    assert (known.missed == found.missed).all() and (known.clearance == found.clearance).all()
+    assert (known.points(np.array([[1.0, 2.0]])) == found.points(np.array([[1.0, 2.0]]))).all()
+
+
 def test_nothing_to_clean_is_an_empty_part():
     plan = room(4.0, 3.0, 0.05)
     for angle in (0.0, 0.35):

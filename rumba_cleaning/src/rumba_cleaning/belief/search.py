@@ -11,6 +11,7 @@ from rumba_sim.model.jit import compiled
 Array = Any  # numpy.ndarray
 
 STEPS = ((-1, -1), (-1, 0), (-1, 1), (0, -1), (0, 1), (1, -1), (1, 0), (1, 1))  # rows, columns
+NONE = -1  # the step to a node that was not reached
 LESS = 1e-9  # [nodes] a shorter path: more than rounding errors
 
 
@@ -58,10 +59,10 @@ def cheapest(costs: Costs, lattice: Lattice, first: Tuple[int, int], last: Tuple
         int (any, 2), neighbouring nodes of the lattice; (0, 2) if there is no path.
     """
     shape = lattice.rows, lattice.columns
-    reached = np.full(shape, np.inf)
-    before = np.zeros(shape, np.int8)  # the step that led to a node
+    reached = np.empty(shape)  # of the nodes that were; most of a large floor is not: to write to all of it takes long
+    before = np.full(shape, NONE, np.int8)  # the step that led to a node
     is_left = np.zeros(shape, np.bool_)
-    reached[first] = 0.0
+    reached[first], before[first] = 0.0, 0
     queue = [(0.0, first[0], first[1])]
     while len(queue) > 0:
         _, row, column = heapq.heappop(queue)
@@ -78,7 +79,8 @@ def cheapest(costs: Costs, lattice: Lattice, first: Tuple[int, int], last: Tuple
                 continue
             length = math.sqrt(float(down * down + right * right))
             cost = here + 0.5 * length * (cost_here + cost_at(costs, lattice, to_row, to_column))
-            if cost < reached[to_row, to_column] - LESS:
+            least = np.inf if before[to_row, to_column] == NONE else reached[to_row, to_column] - LESS
+            if cost < least:
                 reached[to_row, to_column] = cost
                 before[to_row, to_column] = step
                 heapq.heappush(queue, (cost + ahead(last[0] - to_row, last[1] - to_column), to_row, to_column))

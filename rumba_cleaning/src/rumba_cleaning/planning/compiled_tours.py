@@ -49,6 +49,27 @@ def cheapest_slot(costs: Array, last: Array, found: Array, count: int, first: in
 
 
 @compiled
+def cheaper_slot(costs: Array, last: Array, found: Array, count: int, variant: int, best: float, slot: int,
+                 split: int) -> Tuple[float, int]:
+    """As `cheapest_slot` for a variant, after the slot `split` was filled, by the cheapest slot before that.
+
+    The costs of all other slots are the same as before, and so only two are looked at, unless the cheapest was filled.
+    """
+    if slot == split:
+        return cheapest_slot(costs, last, found, count, variant, variant)
+    slot += 1 if slot > split else 0
+    for index in (split, split + 1):
+        here = found[index - 1] if index > 0 else costs.shape[0] - 1
+        if index < count:
+            added = costs[here, variant] + costs[variant, found[index]] - costs[here, found[index]]
+        else:
+            added = costs[here, variant] + last[variant] - last[here]
+        if added < best or (added == best and index < slot):
+            best, slot = added, index
+    return best, slot
+
+
+@compiled
 def insertion(costs: Array, last: Array, found: Array, count: int, low: int, high: int) -> Tuple[float, int, int]:
     """The variant from `low` to `high`, and the slot, that cost least: time [s], slot, variant."""
     best, slot, variant = np.inf, 0, low
@@ -64,20 +85,21 @@ def built(costs: Array, last: Array, begins: Array) -> Array:
     """A tour by cheapest insertion."""
     stretches = len(begins) - 1
     found = np.empty(stretches, np.int64)
-    best, slots, variants = np.empty(stretches), np.zeros(stretches, np.int64), np.zeros(stretches, np.int64)
+    best, slots = np.full(costs.shape[1], np.inf), np.zeros(costs.shape[1], np.int64)  # of each variant
     left = np.ones(stretches, np.bool_)
+    split = 0
     for count in range(stretches):
-        chosen = -1
+        chosen, cheapest = -1, -1
         for stretch in range(stretches):
-            if left[stretch]:
-                best[stretch], slots[stretch], variants[stretch] = insertion(
-                    costs, last, found, count, begins[stretch], begins[stretch + 1])
-                if chosen < 0 or best[stretch] < best[chosen]:
-                    chosen = stretch
-        slot = slots[chosen]
-        for index in range(count, slot, -1):
+            for variant in range(begins[stretch], begins[stretch + 1] if left[stretch] else 0):
+                best[variant], slots[variant] = cheaper_slot(costs, last, found, count, variant, best[variant],
+                                                             slots[variant], split)
+                if chosen < 0 or best[variant] < best[cheapest]:
+                    chosen, cheapest = stretch, variant
+        split = slots[cheapest]
+        for index in range(count, split, -1):
             found[index] = found[index - 1]
-        found[slot] = variants[chosen]
+        found[split] = cheapest
         left[chosen] = False
     return found
 

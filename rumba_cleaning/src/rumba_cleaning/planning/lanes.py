@@ -6,13 +6,13 @@ long. What Choset calls a cell is called a block here, since a cell is a square 
 """
 
 import math
-from typing import List, NamedTuple, Tuple
+from typing import List, NamedTuple, Optional, Tuple
 
 import numpy as np
 
 from rumba_cleaning.belief.ground import Ground
 from rumba_cleaning.planning import compiled_lanes
-from rumba_cleaning.planning.turned_floor import TurnedFloor
+from rumba_cleaning.planning.turned_floor import TurnedFloor, Window
 from rumba_sim.model.kernel import Array
 from rumba_sim.model.reachability import SLACK
 
@@ -21,7 +21,6 @@ LEAST = 0.08  # [m] length of a lane, half a brush: a shorter one is left to the
 TURN, BLOCK = 2.2, 3.0  # [s] estimates of the time from lane to lane, and from block to block: large wants long lanes
 POOR = 0.12  # share of brush * speed: a block that cleans less is left to the crumbs
 JOIN = 2  # [cells] that were swept, between cells that one lane shall still clean: noise, not a gap
-Window = Tuple[slice, slice]  # rows and columns
 
 
 class Layout(NamedTuple):
@@ -44,7 +43,7 @@ class Block(NamedTuple):
 
 
 def blocks(ground: Ground, missed: Array, brush: float, speed: float, angle: float = 0.0,
-           layout: Layout = Layout()) -> List[Block]:
+           layout: Layout = Layout(), within: Optional[Window] = None) -> List[Block]:
     """Blocks whose lanes clean what was missed, except for crumbs.
 
     Args:
@@ -54,13 +53,14 @@ def blocks(ground: Ground, missed: Array, brush: float, speed: float, angle: flo
         speed: along the lanes [m/s].
         angle: between the lanes and the map's axes [rad].
         layout: how the lanes are laid out.
+        within: the smallest window that holds all that was missed, if known.
     """
     found: List[Block] = []
-    floor = TurnedFloor(ground, missed, angle, brush)
+    floor = TurnedFloor(ground, missed, angle, brush, within)
     rate = brush * speed
     remaining = floor.missed.copy()
+    grids = [_Grid(floor, remaining, ground.reach + SLACK, brush, along_x, layout) for along_x in (True, False)]
     while remaining.any():  # in each round the best block, and each other that has no better one near it
-        grids = [_Grid(floor, remaining, ground.reach + SLACK, brush, along_x, layout) for along_x in (True, False)]
         choices = [(area - layout.usual * rate * time, area, time, grid, lanes)
                    for grid in grids for lanes, area, time in grid.blocks(speed) if area > POOR * rate * time]
         if not choices:
@@ -69,7 +69,7 @@ def blocks(ground: Ground, missed: Array, brush: float, speed: float, angle: flo
         for _, area, time, grid, lanes in sorted(choices, key=lambda choice: -choice[0]):
             window = grid.window(lanes)
             if not claimed[window].any():
-                grid.take(lanes, remaining)
+                grid.take(lanes)
                 found.append(Block(grid.metres(lanes), area, time))
             claimed[window] = True
     return found
@@ -88,7 +88,7 @@ class _Grid:
 
         Args:
             floor: with the clearance at its nodes.
-            missed: the cells of it that are left to clean, bool (rows, columns).
+            missed: the cells of it that are left to clean, bool (rows, columns): as they are when blocks are found.
             clearance: that the robot needs at its centre [m].
             brush: width of the brush [m].
             along_x: whether the lanes run along x of the floor, or along y.
@@ -96,16 +96,12 @@ class _Grid:
         """
         self._clearance = np.ascontiguousarray(floor.clearance if along_x else floor.clearance.T)
         self._along_x = along_x
-        self._missed = self._view(missed)
+        self._missed = missed if along_x else missed.T  # a view
         self._floor = floor
         self._resolution = floor.resolution
         self._rule = compiled_lanes.Rule(
             clearance, 0.5 * (1.0 - layout.overlap) * brush / self._resolution, max(int(LEAST / self._resolution), 1),
             JOIN, int(layout.gap / self._resolution), layout.needed, layout.alike)
-
-    def _view(self, missed: Array) -> Array:
-        """Bool (rows, columns) of the floor, as a view with rows along the lanes."""
-        return missed if self._along_x else missed.T
 
     def window(self, lanes: Array) -> Window:
         """Rows and columns of the floor around lanes, with the margin in which these lanes change other blocks."""
@@ -116,11 +112,10 @@ class _Grid:
         rows, columns = (rows, columns) if self._along_x else (columns, rows)
         return slice(max(rows.start, 0), rows.stop), slice(max(columns.start, 0), columns.stop)
 
-    def take(self, lanes: Array, missed: Array) -> None:
-        """Set to False what lanes clean, in bool (rows, columns) of the floor."""
-        view = self._view(missed)
+    def take(self, lanes: Array) -> None:
+        """Set to False what lanes clean, for both grids over the same cells."""
         for first, after, across in lanes.tolist():
-            view[slice(*compiled_lanes.band(across, self._rule.half)), int(first):int(after)] = False
+            self._missed[slice(*compiled_lanes.band(across, self._rule.half)), int(first):int(after)] = False
 
     def blocks(self, speed: float) -> List[Tuple[Array, float, float]]:
         """The lanes of all blocks, as if none ran in the other direction; their area [m^2], and their time [s]."""

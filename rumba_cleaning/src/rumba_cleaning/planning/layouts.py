@@ -1,6 +1,6 @@
 """Chooses how the lanes of a region are laid out: several layouts are driven on paper."""
 
-from typing import List, NamedTuple, Sequence
+from typing import List, NamedTuple, Optional, Sequence
 
 import numpy as np
 
@@ -12,6 +12,7 @@ from rumba_cleaning.planning.paper import drive
 from rumba_cleaning.planning.regions import NARROW
 from rumba_cleaning.planning.rings import PASS
 from rumba_cleaning.planning.stretches import Stretch
+from rumba_cleaning.planning.turned_floor import Window
 from rumba_cleaning.route import Route
 from rumba_sim.model.kernel import Array
 
@@ -45,8 +46,8 @@ TURN = 3.0  # [s] for each turn, beyond its length: the wheels limit the turn ra
 LEFT = 50.0  # times as long as a lane takes a crumb to clean an area, about: large leaves less to the crumbs
 
 
-def laid_out(context: Context, paper: Swept, missed: Array, region: int, angle: float,
-             layouts: Sequence[Layout]) -> List[Stretch]:
+def laid_out(context: Context, paper: Swept, missed: Array, region: int, angle: float, layouts: Sequence[Layout],
+             within: Optional[Window] = None) -> List[Stretch]:
     """Blocks of lanes that clean a region, by the best layout of those tried.
 
     Args:
@@ -56,9 +57,10 @@ def laid_out(context: Context, paper: Swept, missed: Array, region: int, angle: 
         region: its label.
         angle: between the lanes and the map's axes [rad].
         layouts: those to compare.
+        within: the smallest window that holds all that was missed, if known.
     """
     ground, brush, speed = context.ground, context.robot.brush.width, context.config.speed
-    options = [blocks(ground, missed, brush, speed, angle, layout) for layout in layouts]
+    options = [blocks(ground, missed, brush, speed, angle, layout, within) for layout in layouts]
     paths = [[through(ground, block.lanes, 0) for block in option] for option in options]
     turns = [sum(len(block.lanes) - 1 for block in option) for option in options]
     best = 0

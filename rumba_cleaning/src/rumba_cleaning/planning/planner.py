@@ -21,7 +21,7 @@ from rumba_cleaning.planning.stretches import Stretch
 from rumba_cleaning.planning.surroundings import Surroundings
 from rumba_cleaning.planning.tour import Tour
 from rumba_cleaning.planning.transit import route_over
-from rumba_cleaning.planning.turned_floor import main_direction
+from rumba_cleaning.planning.turned_floor import Window, main_direction
 from rumba_cleaning.planning.walls import Walls
 from rumba_cleaning.route import Route
 from rumba_sim.model.geometry import Pose
@@ -152,9 +152,9 @@ def _lanes(surroundings: Surroundings, paper: Swept, shape: Shapes, draft: Draft
     missed = (paper.missing_share() > draft.missed) & surroundings.around
     layouts = draft.layouts[:tries(float(missed.sum()) * ground.plan.resolution ** 2)]
     found: List[Stretch] = []
-    for region, part in _by_region(ground, missed, labels).items():
+    for region, part, window in _by_region(ground, missed, labels):
         if shape.has_lanes[region]:
-            found += laid_out(context, paper, part, region, angle, layouts)
+            found += laid_out(context, paper, part, region, angle, layouts, window)
     return found
 
 
@@ -166,18 +166,17 @@ def _strips(surroundings: Surroundings, paper: Swept, draft: Draft) -> List[Stre
     return found
 
 
-def _by_region(ground: Ground, missed: Array, labels: Array) -> Dict[int, Array]:
-    """The cells to clean in each region: bool (rows, columns) each."""
+def _by_region(ground: Ground, missed: Array, labels: Array) -> Iterator[Tuple[int, Array, Window]]:
+    """The label of each region, the cells to clean in it, bool (rows, columns), and the window that holds them."""
     cells = np.argwhere(missed)
     nodes = ground.standing(cells)
     of_cells = np.zeros(missed.shape, labels.dtype)
     of_cells[missed] = labels[nodes[:, 0], nodes[:, 1]]
-    found: Dict[int, Array] = {}
     for label, window in enumerate(ndimage.find_objects(of_cells), 1):
         if window is not None:
-            found[label] = np.zeros(missed.shape, bool)  # not zeros_like, which writes to all of it
-            found[label][window] = of_cells[window] == label
-    return found
+            part = np.zeros(missed.shape, bool)  # not zeros_like, which writes to all of it
+            part[window] = of_cells[window] == label
+            yield label, part, window
 
 
 def _tours(context: Context, pose: Pose, end: Optional[Pose], labels: Array,

@@ -1,7 +1,7 @@
 """The floor on a grid that is turned so that its rows and columns run along the walls, whatever their direction."""
 
 import math
-from typing import List, Tuple
+from typing import List, Optional, Tuple
 
 import numpy as np
 from scipy import ndimage
@@ -17,6 +17,7 @@ BINS = 90  # of the histogram of directions, in a quarter turn: 1 degree each
 SMOOTH = 1.5  # [bins] standard deviation of the filter over the histogram: walls of a drawn map are not quite straight
 STRAIGHT = 2  # [bins] a direction this near to an axis of the map counts as the axis: a turned grid is less exact
 QUARTER = 0.5 * math.pi  # [rad]
+Window = Tuple[slice, slice]  # rows and columns
 
 
 class TurnedFloor:
@@ -28,7 +29,8 @@ class TurnedFloor:
         resolution: side of a cell [m].
     """
 
-    def __init__(self, ground: Ground, missed: Array, angle: float, margin: float) -> None:
+    def __init__(self, ground: Ground, missed: Array, angle: float, margin: float,
+                 within: Optional[Window] = None) -> None:
         """Turn the part of a floor.
 
         Args:
@@ -36,6 +38,7 @@ class TurnedFloor:
             missed: the cells to clean, on the map's grid, bool (rows, columns).
             angle: of this grid's axes against the map's, counter-clockwise [rad].
             margin: around the cells to clean that belongs to the part, unless the map ends [m].
+            within: the smallest window that holds all cells to clean, if known: a large map is not looked through.
         """
         self.resolution = ground.plan.resolution
         self._origin = ground.plan.origin
@@ -44,8 +47,9 @@ class TurnedFloor:
         if angle != 0.0:
             cos, sin = math.cos(angle), math.sin(angle)
             self._axes = np.array([[cos, sin], [-sin, cos]])  # rows: directions of its columns and rows on the map
-            low, missed, clearance = _turned(missed, clearance, self._axes, beside)
-        rows, columns = _window(missed, beside)
+            low, missed, clearance = _turned(missed, clearance, self._axes, _window(missed, within, 2 * beside))
+            within = None
+        rows, columns = (slice(max(side.start, 0), side.stop) for side in _window(missed, within, beside))
         self.missed = missed[rows, columns]
         self.clearance = clearance[rows.start:rows.stop + 1, columns.start:columns.stop + 1]  # one more than cells
         self._low = low + (columns.start, rows.start)
@@ -55,34 +59,38 @@ class TurnedFloor:
         return np.asarray((cells + self._low) * self.resolution @ self._axes + self._origin)
 
 
-def _turned(missed: Array, clearance: Array, axes: Array, margin: int) -> Tuple[Array, Array, Array]:
-    """The part of a map around the cells to clean, on another grid, without a look at the rest of the map.
+def _turned(missed: Array, clearance: Array, axes: Array, window: Window) -> Tuple[Array, Array, Array]:
+    """A part of a map on another grid, without a look at the rest of the map.
 
     Args:
         missed, clearance: see `TurnedFloor`, on the map's grid.
         axes: of the other grid, float64 (2, 2).
-        margin: around the cells to clean that belongs to the part at least [cells].
+        window: of the map's grid that belongs to the part at least; it may reach beyond the map.
 
     Returns:
         column and row, on a turned grid from the map's corner, at which the part begins; both arrays of the part.
     """
-    rows, columns = (_span(missed.any(axis=axis), 2 * margin) for axis in (1, 0))
-    corners = np.array([[column, row] for row in rows for column in columns]) @ axes.T
+    rows, columns = window
+    corners = np.array([[column, row] for row in (rows.start, rows.stop)
+                        for column in (columns.start, columns.stop)]) @ axes.T
     low = np.floor(corners.min(axis=0))
     width, height = (np.ceil(corners.max(axis=0)) - low).astype(int)
     return (low, *turned(missed, clearance, axes, low, int(height), int(width)))
 
 
-def _window(missed: Array, margin: int) -> Tuple[slice, slice]:
-    """The part of bool (rows, columns) that is not False, and a margin [cells] around it."""
-    (top, bottom), (left, right) = (_span(missed.any(axis=axis), margin) for axis in (1, 0))
-    return slice(max(top, 0), bottom), slice(max(left, 0), right)
+def _window(missed: Array, within: Optional[Window], margin: int) -> Window:
+    """The smallest window with all of bool (rows, columns) that is not False, which is `within` if that is known, and a
+    margin [cells] around it, which may reach beyond the map; an empty one if all is False."""
+    rows, columns = within or (_span(missed.any(axis=1)), _span(missed.any(axis=0)))
+    if rows.stop == 0:
+        return rows, columns
+    return slice(rows.start - margin, rows.stop + margin), slice(columns.start - margin, columns.stop + margin)
 
 
-def _span(line: Array, margin: int) -> Tuple[int, int]:
-    """The first element of bool (any) that is not False, and that after the last, with a margin; 0, 0: none is."""
+def _span(line: Array) -> slice:
+    """The part of bool (any) that is not False."""
     found = np.flatnonzero(line)
-    return (int(found[0]) - margin, int(found[-1]) + 1 + margin) if len(found) else (0, 0)
+    return slice(int(found[0]), int(found[-1]) + 1) if len(found) else slice(0, 0)
 
 
 def main_direction(outlines: List[Array]) -> float:
