@@ -27,6 +27,21 @@ def test_functions_run_beside_their_caller_in_so_many_threads():
     assert all(thread.daemon for thread in threads), 'the end of the process would wait for them'
 
 
+def test_no_thread_is_started_as_long_as_one_is_free():
+    """The C library keeps the memory of a plan for each thread in which one was made."""
+    many = executor.DaemonExecutor(4)
+    for _ in range(50):
+        first = many.submit(threading.current_thread).result(5.0)
+        assert many.submit(threading.current_thread).result(5.0) is first
+        with pytest.raises(ZeroDivisionError):
+            many.submit(lambda: 1 / 0).result(5.0)
+    begun, gate = threading.Event(), threading.Event()
+    held = many.submit(lambda: begun.set() or gate.wait(5.0))
+    assert begun.wait(5.0) and many.submit(threading.current_thread).result(5.0) is not first, 'that is at work'
+    gate.set()
+    assert held.result(5.0)
+
+
 def test_an_exception_is_handed_over_and_the_thread_goes_on():
     one = executor.DaemonExecutor(1)
     with pytest.raises(ZeroDivisionError):

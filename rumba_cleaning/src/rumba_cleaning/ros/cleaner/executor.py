@@ -1,6 +1,7 @@
 """Runs functions beside the loop of a node, in threads that do not keep the process alive."""
 
 import concurrent.futures
+import functools
 import queue
 import threading
 import time
@@ -14,27 +15,48 @@ Task = Tuple['concurrent.futures.Future[Any]', Callable[[], Any]]
 class DaemonExecutor(concurrent.futures.Executor):
     """An executor with daemon threads.
 
-    Unlike a ThreadPoolExecutor, it does not delay the end of the process until functions that run have returned.
+    Unlike a ThreadPoolExecutor, it does not delay the end of the process until functions that run have returned. It
+    starts a thread only if all others are at work: for each thread the C library keeps memory that was used there once.
     """
 
     def __init__(self, threads: int) -> None:
-        """Start so many threads."""
+        """Use so many threads at most."""
         self._tasks: 'queue.Queue[Task]' = queue.Queue()
-        for _ in range(threads):
-            threading.Thread(target=self._serve, daemon=True).start()
+        self._most = threads
+        self._lock = threading.Lock()
+        self._started = 0  # threads; guarded by the lock, as the next one
+        self._open = 0  # tasks that wait or run
 
     def submit(self, fn: Callable[..., Result], /, *args: Any, **kwargs: Any) -> 'concurrent.futures.Future[Result]':
         """Run a function as soon as a thread is free; returns its future, which can be cancelled until then."""
         future: 'concurrent.futures.Future[Result]' = concurrent.futures.Future()
+        with self._lock:
+            self._open += 1
+            is_needed = self._started < min(self._open, self._most)
+            self._started += int(is_needed)
         self._tasks.put((future, lambda: fn(*args, **kwargs)))
+        if is_needed:
+            threading.Thread(target=self._serve, daemon=True).start()
         return future
 
     def _serve(self) -> None:
         while True:
             future, call = self._tasks.get()
             if future.set_running_or_notify_cancel():
-                _run(future, call)
+                _run(future, functools.partial(self._do, call))
+            else:
+                self._close()
             del future, call  # else their memory is kept until the next task
+
+    def _do(self, call: Callable[[], Any]) -> Any:
+        try:
+            return call()
+        finally:
+            self._close()  # before the future is done: who waits for it may submit the next task at once
+
+    def _close(self) -> None:
+        with self._lock:
+            self._open -= 1
 
 
 class Awaited(NamedTuple):
