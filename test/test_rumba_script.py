@@ -18,6 +18,13 @@ rospy.init_node('node')
 print('handles signals', flush=True)
 rospy.spin()
 '''
+ALONE = '''
+        execute_process(COMMAND mkdir "${CMAKE_BINARY_DIR}/alone" RESULT_VARIABLE code)
+        if(code)
+          message(FATAL_ERROR "another build is at work")
+        endif()
+        execute_process(COMMAND sleep 1)
+        execute_process(COMMAND rmdir "${CMAKE_BINARY_DIR}/alone")'''
 WHEEL = 'tiny-1.0-py3-none-any.whl'
 APT_WITHOUT_NETWORK = '''#!/bin/sh
 [ "$1" = update ] || { echo 'E: Unable to locate package catkin'; exit 100; }
@@ -181,6 +188,18 @@ printf 'installed %s\\n' "$@"
     assert asked.read_text().split() == ['update', 'install']
     assert sorted('rumba: installing' in lines for lines in said) == [False, True]
     assert not any('rumba: cannot' in lines for lines in said)
+
+
+def test_of_two_commands_at_once_one_builds_and_the_other_waits(checkout, tmp_path):
+    """They took each other's half-made links for packages that are gone, and deleted what was built."""
+    with (checkout / 'sample' / 'CMakeLists.txt').open('a') as listing:
+        listing.write(ALONE)
+    both = [subprocess.Popen([checkout / 'rumba', 'shell', 'true'], text=True, stdout=subprocess.PIPE,
+                             stderr=subprocess.STDOUT, env={**clean_environment(), 'XDG_CACHE_HOME': str(tmp_path)})
+            for _ in range(2)]
+    said = [process.communicate(timeout=BUILD_TIMEOUT)[0] for process in both]
+    assert [process.returncode for process in both] == [0, 0], said
+    assert sorted('rumba: building' in lines for lines in said) == [False, True]
 
 
 def test_if_nothing_is_missing_nothing_is_asked_for(built, tmp_path):
