@@ -10,7 +10,7 @@ import zipfile
 import pytest
 from checkouts import SAMPLE, commands, make_checkout, rumba, write_package
 from sockets import wait_for
-from workspaces import BUILD_TIMEOUT, ROOT, Space, clean_environment, last_of
+from workspaces import ROOT, Space, clean_environment, last_of
 
 NODE = '''#!/usr/bin/env python3
 import rospy
@@ -18,13 +18,6 @@ rospy.init_node('node')
 print('handles signals', flush=True)
 rospy.spin()
 '''
-ALONE = '''
-        execute_process(COMMAND mkdir "${CMAKE_BINARY_DIR}/alone" RESULT_VARIABLE code)
-        if(code)
-          message(FATAL_ERROR "another build is at work")
-        endif()
-        execute_process(COMMAND sleep 1)
-        execute_process(COMMAND rmdir "${CMAKE_BINARY_DIR}/alone")'''
 WHEEL = 'tiny-1.0-py3-none-any.whl'
 APT_WITHOUT_NETWORK = '''#!/bin/sh
 [ "$1" = update ] || { echo 'E: Unable to locate package catkin'; exit 100; }
@@ -165,41 +158,6 @@ def test_a_command_installs_what_its_roles_need_and_no_more(checkout, tmp_path, 
     asked = (tmp_path / 'asked').read_text().split()
     assert code == 1
     assert set(wanted) <= set(asked) and not set(unwanted) & set(asked)
-
-
-def test_of_two_commands_at_once_one_installs_and_the_other_waits(checkout, tmp_path):
-    lock, asked = tmp_path / 'lock', tmp_path / 'asked'
-    apt = f"""#!/bin/sh
-mkdir {lock} || exit 1
-sleep 0.5
-echo "$1" >>{asked}
-rmdir {lock}
-"""
-    installed = f"""#!/bin/sh
-grep -q install {asked} || exit 1
-shift 3
-printf 'installed %s\\n' "$@"
-"""
-    path = commands(tmp_path / 'bin', **{'apt-get': apt, 'apt-cache': '#!/bin/sh\n', 'id': '#!/bin/sh\necho 0\n',
-                                         'dpkg-query': installed})
-    both = [subprocess.Popen([checkout / 'rumba', 'lint'], text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-                             env={**clean_environment(), 'PATH': f'{path}:{os.environ["PATH"]}'}) for _ in range(2)]
-    said = [process.communicate(timeout=BUILD_TIMEOUT)[0] for process in both]
-    assert asked.read_text().split() == ['update', 'install']
-    assert sorted('rumba: installing' in lines for lines in said) == [False, True]
-    assert not any('rumba: cannot' in lines for lines in said)
-
-
-def test_of_two_commands_at_once_one_builds_and_the_other_waits(checkout, tmp_path):
-    """They took each other's half-made links for packages that are gone, and deleted what was built."""
-    with (checkout / 'sample' / 'CMakeLists.txt').open('a') as listing:
-        listing.write(ALONE)
-    both = [subprocess.Popen([checkout / 'rumba', 'shell', 'true'], text=True, stdout=subprocess.PIPE,
-                             stderr=subprocess.STDOUT, env={**clean_environment(), 'XDG_CACHE_HOME': str(tmp_path)})
-            for _ in range(2)]
-    said = [process.communicate(timeout=BUILD_TIMEOUT)[0] for process in both]
-    assert [process.returncode for process in both] == [0, 0], said
-    assert sorted('rumba: building' in lines for lines in said) == [False, True]
 
 
 def test_if_nothing_is_missing_nothing_is_asked_for(built, tmp_path):

@@ -33,18 +33,22 @@ def length(costs: Array, last: Array, found: Array) -> float:
 
 
 @compiled
+def extra(costs: Array, last: Array, found: Array, count: int, slot: int, first: int, final: int) -> float:
+    """What a segment, from variant `first` to `final`, costs in a slot of a tour of `count` stretches [s]."""
+    here = found[slot - 1] if slot > 0 else costs.shape[0] - 1
+    if slot < count:
+        return float(costs[here, first] + costs[final, found[slot]] - costs[here, found[slot]])
+    return float(costs[here, first] + last[final] - last[here])
+
+
+@compiled
 def cheapest_slot(costs: Array, last: Array, found: Array, count: int, first: int, final: int) -> Tuple[float, int]:
-    """Where a segment, from variant `first` to `final`, costs least in a tour of `count` stretches: time [s], slot."""
-    best, slot, here = np.inf, 0, costs.shape[0] - 1
+    """Where a segment, from variant `first` to `final`, costs least, in the first of several slots: time [s], slot."""
+    best, slot = np.inf, 0
     for index in range(count + 1):
-        if index < count:
-            added = costs[here, first] + costs[final, found[index]] - costs[here, found[index]]
-        else:
-            added = costs[here, first] + last[final] - last[here]
+        added = extra(costs, last, found, count, index, first, final)
         if added < best:
             best, slot = added, index
-        if index < count:
-            here = found[index]
     return best, slot
 
 
@@ -59,11 +63,7 @@ def cheaper_slot(costs: Array, last: Array, found: Array, count: int, variant: i
         return cheapest_slot(costs, last, found, count, variant, variant)
     slot += 1 if slot > split else 0
     for index in (split, split + 1):
-        here = found[index - 1] if index > 0 else costs.shape[0] - 1
-        if index < count:
-            added = costs[here, variant] + costs[variant, found[index]] - costs[here, found[index]]
-        else:
-            added = costs[here, variant] + last[variant] - last[here]
+        added = extra(costs, last, found, count, index, variant, variant)
         if added < best or (added == best and index < slot):
             best, slot = added, index
     return best, slot
