@@ -50,12 +50,20 @@ class Alignment:
     def forget(self) -> None:
         """Turn along no wall any more."""
         self._heading: Optional[float] = None  # [rad]
+        self._askew = 0.0  # how the robot slid aside in the last reading, if that was askew [m/s]
 
     def turn(self, pose: Pose, slip: Slip, driven: float) -> float:
-        """How far it is to turn [rad], from a pose, as it slides while its wheels drive at a speed [m/s]; 0: not."""
-        if abs(slip.aside) > ASKEW * max(driven, LEAST):
-            self._heading = pose.theta + math.atan2(slip.aside, slip.share * driven)
-        turn = 0.0 if self._heading is None else wrap_angle(self._heading - pose.theta)
+        """How far it is to turn [rad], from a pose, as it slides while its wheels drive at a speed [m/s]; 0: not.
+
+        It turns if two readings in a row show that it slides to the same side: a pose that jumps does so once.
+        """
+        askew = slip.aside if abs(slip.aside) > ASKEW * max(driven, LEAST) else 0.0
+        if askew * self._askew > 0.0:
+            self._heading = pose.theta + math.atan2(askew, slip.share * driven)
+        self._askew = askew
+        if self._heading is None:
+            return 0.0
+        turn = wrap_angle(self._heading - pose.theta)
         if abs(turn) < ALIGNED:
             self.forget()
             return 0.0
