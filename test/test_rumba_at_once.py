@@ -51,6 +51,22 @@ printf 'installed %s\\n' "$@"
     assert not any('rumba: cannot' in lines for lines in said)
 
 
+def test_one_makes_the_site_and_the_other_waits(checkout, tmp_path):
+    (checkout / 'docs').mkdir()
+    sphinx = f"""#!/bin/sh
+mkdir {tmp_path}/alone || exit 1
+sleep 0.5
+rmdir {tmp_path}/alone
+"""
+    installed = """#!/bin/sh
+shift 3
+printf 'installed %s\\n' "$@"
+"""
+    path = commands(tmp_path / 'bin', **{'dpkg-query': installed, 'sphinx-apidoc': '#!/bin/sh\n', 'sphinx-build': sphinx})
+    said, codes = at_once(checkout, 'docs', PATH=f'{path}:{os.environ["PATH"]}')
+    assert codes == [0, 0], said
+
+
 def test_one_builds_and_the_other_waits(checkout, tmp_path):
     """They took each other's half-made links for packages that are gone, and deleted what was built."""
     with (checkout / 'sample' / 'CMakeLists.txt').open('a') as listing:
