@@ -62,7 +62,8 @@ rmdir {tmp_path}/alone
 shift 3
 printf 'installed %s\\n' "$@"
 """
-    path = commands(tmp_path / 'bin', **{'dpkg-query': installed, 'sphinx-apidoc': '#!/bin/sh\n', 'sphinx-build': sphinx})
+    path = commands(tmp_path / 'bin', **{'dpkg-query': installed, 'sphinx-apidoc': '#!/bin/sh\n',
+                                         'sphinx-build': sphinx})
     said, codes = at_once(checkout, 'docs', PATH=f'{path}:{os.environ["PATH"]}')
     assert codes == [0, 0], said
 
