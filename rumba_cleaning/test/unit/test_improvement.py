@@ -5,6 +5,7 @@ import itertools
 import numpy as np
 import pytest
 from floors import knowing, wiped_but
+from numba.core.dispatcher import _DispatcherBase
 from rooms import crooked, room
 
 from rumba_cleaning.planning import improvement, planner
@@ -208,3 +209,18 @@ def test_plans_repeat():
     draft = first_draft(surroundings)
     one, other = improved(surroundings, [draft], []), improved(surroundings, [draft], [])
     assert np.array_equal(one.waypoints, other.waypoints) and np.array_equal(one.speeds, other.speeds)
+
+
+def test_numba_does_not_take_the_types_of_what_a_plan_calls_for_new_ones(monkeypatch):
+    """It keeps each of them for good: a robot that planned every day held ever more memory."""
+    def asked(dispatcher, value):
+        names.add(dispatcher.py_func.__name__)
+        return typeof(dispatcher, value)
+
+    names, floor = set(), crooked(0.02)
+    for _ in range(2):  # the first knows none
+        planner.plan(knowing(floor, START), START)
+    typeof = _DispatcherBase.typeof_pyval
+    monkeypatch.setattr(_DispatcherBase, 'typeof_pyval', asked)
+    planner.plan(knowing(floor, START), START)
+    assert names <= {'sweep_trace', 'passed', 'changes', 'rebuilt'}  # with many arrays: these are few calls

@@ -10,6 +10,7 @@ import numpy as np
 
 from rumba_cleaning.belief.ground import INFLATION, Ground
 from rumba_cleaning.belief.search import Costs, Lattice, cheapest, path_lengths
+from rumba_sim.model.jit import plain
 from rumba_sim.model.kernel import Array
 
 # Our choice; each comment says what speaks for a larger and for a smaller value.
@@ -75,7 +76,7 @@ def _search(ground: Ground, first: Array, last: Array, margin: int, spacing: int
         return None
     costs = Costs(ground.clearance, ground.fits, ground.reach, INFLATION, INFLATION_COST)
     lattice = Lattice(int(low[0]), int(low[1]), rows, columns, spacing)
-    found = cheapest(costs, lattice, (int(begin[0]), int(begin[1])), (int(end[0]), int(end[1])))
+    found = cheapest(plain(costs), plain(lattice), (int(begin[0]), int(begin[1])), (int(end[0]), int(end[1])))
     if len(found) == 0:
         return None
     path = found * spacing + low

@@ -58,6 +58,7 @@ def cheapest(costs: Costs, lattice: Lattice, first: Tuple[int, int], last: Tuple
     Returns:
         int (any, 2), neighbouring nodes of the lattice; (0, 2) if there is no path.
     """
+    costs, lattice = Costs(*costs), Lattice(*lattice)
     shape = lattice.rows, lattice.columns
     reached = np.empty(shape)  # of the nodes that were; most of a large floor is not: to write to all of it takes long
     before = np.full(shape, NONE, np.int8)  # the step that led to a node

@@ -27,6 +27,7 @@ def shortest(clearance: Array, origin: Tuple[float, float], resolution: float, n
     Returns:
         what it adds to the length of the route [m], inf if there is none; the waypoint; the number of the path.
     """
+    needed = Needed(*needed)
     best, waypoint, number = np.inf, 0, 0
     for begin in begins:
         before, after = route[max(begin - 1, 0):begin + 1], route[begin + 1:begin + 3]
@@ -50,5 +51,5 @@ def at(path: Array, index: int) -> Tuple[float, float]:
 def sees(clearance: Array, origin: Tuple[float, float], resolution: float, needed: Needed, start: Tuple[float, float],
          end: Tuple[float, float]) -> bool:
     """Whether the robot can drive along the line between two points [m]."""
-    return sight(clearance, needed, (start[0] - origin[0]) / resolution, (start[1] - origin[1]) / resolution,
+    return sight(clearance, Needed(*needed), (start[0] - origin[0]) / resolution, (start[1] - origin[1]) / resolution,
                  (end[0] - origin[0]) / resolution, (end[1] - origin[1]) / resolution)

@@ -37,6 +37,7 @@ def blocks(remaining: Array, clearance: Array, rule: Rule) -> Tuple[Array, Array
         the lanes, float64 (any, 3): the first column, the one after the last, and the row, with fractions; where each
         block begins among them, and the number of lanes, int (blocks + 1); the cells that each cleans, int (blocks).
     """
+    rule = Rule(*rule)
     lanes, begins, counts = [(0.0, 0.0, 0.0) for _ in range(0)], [0], [0 for _ in range(0)]
     bottom, columns = 0, remaining.shape[1]  # nothing remains below
     while True:

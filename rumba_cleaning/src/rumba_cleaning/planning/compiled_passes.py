@@ -87,6 +87,7 @@ def passed(brush: Brush, trace: Array, speed: float) -> Passes:
 @compiled
 def alone(passes: Passes, count: int) -> Array:
     """How many samples are passed up to each of so many rows of a trace, and at no other time: int (count)."""
+    passes = Passes(*passes)
     found = np.zeros(count, np.int64)
     for row in range(passes.first.shape[0]):
         for column in range(passes.first.shape[1]):

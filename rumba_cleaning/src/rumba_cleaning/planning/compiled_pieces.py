@@ -36,6 +36,7 @@ class Pace(NamedTuple):
 @compiled
 def durations(points: Array, stops: Array, speed: float, drive: Drive) -> Array:
     """How long each piece takes at a speed [m/s], or less in its bends, about: float64 (pieces) [s]."""
+    drive = Drive(*drive)
     found = np.zeros(len(stops) - 1)
     for piece in range(len(found)):
         for index in range(stops[piece] + 1, stops[piece + 1]):
@@ -134,6 +135,7 @@ def links(ends: Array, headings: Array, near: Array, clearance: Array, origin: T
         those near to each end to which a link is free, the quickest first, int32 (ends, any), NONE for no more; the
         times of all links, float32 (ends, ends) [s], FAR where there is none.
     """
+    needed, pace = Needed(*needed), Pace(*pace)
     found, seconds = np.full(near.shape, NONE, np.int32), np.full((len(ends), len(ends)), FAR, np.float32)
     for one in range(len(ends)):
         count = 0

@@ -52,6 +52,7 @@ def rehearse(waypoints: Array, speeds: Array, drive: Drive, walls: Walls, begin:
     Returns:
         whether the robot gets there; its trace.
     """
+    drive, walls = Drive(*drive), Walls(*walls)
     kept, cuts = split(waypoints)
     trace, count, before = np.empty((0, COLUMNS)), 0, 0.0
     here, is_there = begin.copy(), True

@@ -40,6 +40,7 @@ def needed(floor: Floor, path: Array, brush: float) -> Array:
         path: float64 (2 or more, 2) [m].
         brush: its width [m].
     """
+    floor = Floor(*floor)
     found = np.empty(len(path), np.bool_)
     for index in range(len(path)):
         found[index] = missed_share(floor, path, index, brush) >= NEEDED and not is_ridge(

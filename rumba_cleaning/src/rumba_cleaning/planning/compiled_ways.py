@@ -80,6 +80,7 @@ def lengths(clearance: Array, needed: Needed, points: Array, stops: Array) -> Tu
     Returns:
         float64 (n, n), inf if there is no path; int (n, n), the point before the last one.
     """
+    needed = Needed(*needed)
     count = len(points)
     found = np.full((count, count), np.inf)
     before = np.empty((count, count), np.int32)

@@ -11,6 +11,7 @@ from rumba_cleaning.planning.edits import Edit
 from rumba_cleaning.planning.lines import needed
 from rumba_cleaning.planning.stretches import Stretch
 from rumba_cleaning.route import Route
+from rumba_sim.model.jit import plain
 
 # All figures are our choice; each comment says what speaks for a larger and for a smaller value.
 FARTHEST = 0.6  # [m] from the route to a crumb: large meets high targets, small leaves more to the next route
@@ -39,7 +40,7 @@ def detours(context: Context, route: Route, found: List[Stretch]) -> List[Edit]:
         distances, near = tree.query(crumb.variants[0].path()[0], TRIES, distance_upper_bound=FARTHEST)
         paths = [variant.path() for variant in crumb.variants]
         length, waypoint, number = compiled_detours.shortest(
-            ground.clearance, ground.plan.origin, ground.plan.resolution, needed(ground), route.waypoints,
+            ground.clearance, ground.plan.origin, ground.plan.resolution, plain(needed(ground)), route.waypoints,
             begins[near[np.isfinite(distances)]], np.concatenate(paths), np.cumsum([0, *map(len, paths)]), CORNER)
         if np.isfinite(length):
             edits.append(Edit(waypoint, waypoint + 1, paths[number], length / context.config.speed, crumb.area))

@@ -13,6 +13,7 @@ import numpy as np
 from rumba_cleaning.belief.ground import Ground
 from rumba_cleaning.planning import compiled_lanes
 from rumba_cleaning.planning.turned_floor import TurnedFloor, Window
+from rumba_sim.model.jit import plain
 from rumba_sim.model.kernel import Array
 from rumba_sim.model.reachability import SLACK
 
@@ -119,7 +120,7 @@ class _Grid:
 
     def blocks(self, speed: float) -> List[Tuple[Array, float, float]]:
         """The lanes of all blocks, as if none ran in the other direction; their area [m^2], and their time [s]."""
-        lanes, begins, counts = compiled_lanes.blocks(self._missed.copy(), self._clearance, self._rule)
+        lanes, begins, counts = compiled_lanes.blocks(self._missed.copy(), self._clearance, plain(self._rule))
         times = (lanes[:, 1] - lanes[:, 0]) * self._resolution / speed + TURN
         return [(lanes[first:after], count * self._resolution ** 2, BLOCK + sum(times[first:after].tolist()))
                 for first, after, count in zip(begins.tolist(), begins[1:].tolist(), counts.tolist())]

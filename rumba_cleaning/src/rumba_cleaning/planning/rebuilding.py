@@ -22,6 +22,7 @@ from rumba_cleaning.planning.surroundings import Surroundings
 from rumba_cleaning.planning.tour import BESIDE
 from rumba_cleaning.planning.transit import TRANSIT, route_over
 from rumba_cleaning.route import BENT, STOP, TURN_RATE, Route, lengths_along
+from rumba_sim.model.jit import plain
 from rumba_sim.model.kernel import Array
 
 # All figures are our choice; each comment says what speaks for a larger and for a smaller value.
@@ -52,7 +53,7 @@ def rebuilt(surroundings: Surroundings, rehearsal: Rehearsal, paths: Sequence[Ar
     wanted, size = _wanted(surroundings)
     cells, stops = compiled_pieces.cells(*_joined(parts), 0.5 * context.robot.brush.width, wanted,
                                          context.plan.origin, size)
-    durations = compiled_pieces.durations(*_joined(parts), context.config.speed, rehearsal.drive)
+    durations = compiled_pieces.durations(*_joined(parts), context.config.speed, plain(rehearsal.drive))
     middles = np.array([part[len(part) // 2] if len(part) > 2 else part.mean(axis=0) for part in parts])
     net = Net(links.near, links.times, durations, middles, cells, stops, _price(context) * size ** 2)
     found = compiled_rebuilding.rebuilt(net, tour, wanted.size, min(EACH * len(tour), STEPS))
@@ -102,10 +103,10 @@ class _Links:
         _, near = spatial.cKDTree(self._ends).query(self._ends, NEAR, distance_upper_bound=FARTHEST)
         near[near == len(self._ends)] = NONE
         ground, config = self._context.ground, self._context.config
-        self._needed = needed(ground, BESIDE)
+        self._needed = plain(needed(ground, BESIDE))
         self.near, self.times = compiled_pieces.links(
             self._ends, left, near, ground.clearance, ground.plan.origin, ground.plan.resolution, self._needed,
-            Pace(TRANSIT, config.speed, config.transit_speed, BENT, TURN_RATE, STOP))
+            plain(Pace(TRANSIT, config.speed, config.transit_speed, BENT, TURN_RATE, STOP)))
         if is_open:
             self.times[:, 2 * GOAL:2 * GOAL + 2] = self.times[2 * GOAL:2 * GOAL + 2] = 0.0
 

@@ -18,6 +18,7 @@ from rumba_cleaning.planning.compiled_rehearsal import ALONG, COLUMNS, DT, LEFT,
 from rumba_cleaning.planning.edits import Edit
 from rumba_cleaning.route import Route, lengths_along
 from rumba_sim.model.geometry import Pose
+from rumba_sim.model.jit import plain
 from rumba_sim.model.kernel import Array
 
 NO_PATH = np.zeros((0, 2))  # as that of an edit
@@ -50,7 +51,7 @@ class Rehearsal:
         begin = np.zeros(COLUMNS)
         begin[:3] = pose
         self.is_complete, self._trace = compiled_rehearsal.rehearse(
-            route.waypoints, route.speeds, self.drive, self._walls, begin, True, np.inf)
+            route.waypoints, route.speeds, plain(self.drive), plain(self._walls), begin, True, np.inf)
         self._trace[:, ALONG] = np.maximum.accumulate(self._trace[:, ALONG])
         self._before, self.swept = context.swept, context.swept.copy()
         brush = self.swept.brush
@@ -65,7 +66,7 @@ class Rehearsal:
     @property
     def alone(self) -> Array:
         """What is swept until each waypoint is reached, and at no other time: float64 (waypoints) [m^2]."""
-        return np.asarray(compiled_passes.alone(self._passes, len(self._trace))[self._rows] * self._square)
+        return np.asarray(compiled_passes.alone(plain(self._passes), len(self._trace))[self._rows] * self._square)
 
     @property
     def begun(self) -> Route:
@@ -85,8 +86,9 @@ class Rehearsal:
         if not edits:
             return []
         seconds, samples = compiled_changes.changes(
-            *self.route, self.drive, self._walls, self._speed, self._trace, self.swept.brush, self._passes,
-            np.array([edit[:2] for edit in edits]), np.concatenate([NO_PATH, *(edit.path for edit in edits)]),
+            *self.route, plain(self.drive), plain(self._walls), self._speed, self._trace, self.swept.brush,
+            plain(self._passes), np.array([edit[:2] for edit in edits]),
+            np.concatenate([NO_PATH, *(edit.path for edit in edits)]),
             np.cumsum([0, *(len(edit.path) for edit in edits)]))
         return [edit._replace(seconds=time, area=count * self._square)
                 for edit, time, count in zip(edits, seconds.tolist(), samples.tolist()) if np.isfinite(time)]

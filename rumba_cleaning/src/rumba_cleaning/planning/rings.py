@@ -17,6 +17,7 @@ from rumba_cleaning.planning.contours import contours
 from rumba_cleaning.planning.paper import drive, resampled
 from rumba_cleaning.planning.regions import Shapes
 from rumba_cleaning.planning.stretches import Stretch, Variant, pair
+from rumba_sim.model.jit import plain
 from rumba_sim.model.kernel import Array
 
 # All figures are our choice; each comment says what speaks for a larger and for a smaller value.
@@ -135,7 +136,7 @@ def rotated(ring: Array, index: int) -> Array:
 def _needed(ring: Ring, floor: compiled_rings.Floor, brush: float) -> Iterator[Ring]:
     """The parts of a ring on which the brush sweeps what was missed."""
     path = ring.waypoints
-    needed = compiled_rings.needed(floor, path, brush)
+    needed = compiled_rings.needed(plain(floor), path, brush)
     if needed.mean() > WHOLE:
         yield ring
         return

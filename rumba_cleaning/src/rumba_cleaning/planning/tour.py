@@ -11,6 +11,7 @@ from rumba_cleaning.planning.lines import needed
 from rumba_cleaning.planning.paper import simplified
 from rumba_cleaning.planning.stretches import Stretch, headings
 from rumba_cleaning.route import BENT, STOP, TURN_RATE
+from rumba_sim.model.jit import plain
 from rumba_sim.model.kernel import Array
 
 # All figures are our choice; each comment says what speaks for a larger and for a smaller value.
@@ -80,7 +81,7 @@ class Tour:
         self._entries, self._exits = numbers[:count], numbers[count:-1]  # the last exit is the start of the tour
         nodes = np.clip((self._points - ground.plan.origin) / ground.plan.resolution, 0.0,
                         np.array(ground.clearance.shape[::-1]) - 1.0)
-        metres, self._before = compiled_ways.lengths(ground.clearance, needed(ground, BESIDE), nodes, stops)
+        metres, self._before = compiled_ways.lengths(ground.clearance, plain(needed(ground, BESIDE)), nodes, stops)
         self._is_known = np.isfinite(metres)
         metres *= ground.plan.resolution
         one, other = np.nonzero(~self._is_known)

@@ -5,18 +5,29 @@ own module, and those that this imports. Compiled code is cached until the conte
 """
 
 from types import FunctionType
-from typing import Any, Callable, List, TypeVar, cast
+from typing import Any, Callable, List, Tuple, TypeVar, cast
 
 import numba
 
 from rumba_sim.model import compiled as kernel
 
 Function = TypeVar('Function', bound=Callable[..., Any])
+Named = TypeVar('Named', bound=Tuple[Any, ...])
 
 
 def compiled(function: Function) -> Function:
     """A decorator."""
     return cast(Function, kernel._cached(numba.njit(function), *_files(cast(FunctionType, function))))
+
+
+def plain(named: Named) -> Named:
+    """A named tuple as compiled functions are to get it from others: without its names.
+
+    The compiled function gives them back: `drive = Drive(*drive)`. numba 0.56 knows types by texts that hold the names
+    of fields, but it loses the first 40 characters of a longer text: then it often takes the type for a new one, which
+    takes time, and keeps that for good.
+    """
+    return cast(Named, tuple(named))
 
 
 def _files(function: FunctionType) -> List[str]:
