@@ -4,7 +4,6 @@ from typing import Any, Tuple
 
 import numpy as np
 
-from rumba_cleaning.behaviours.compiled_follower import Drive
 from rumba_cleaning.planning.compiled_passes import Passes, blank, gain
 from rumba_cleaning.planning.compiled_rehearsal import ALONG, DT, SPEED, Walls, rehearse
 from rumba_cleaning.planning.compiled_ways import distance
@@ -12,6 +11,7 @@ from rumba_sim.model.jit import compiled
 
 Array = Any  # numpy.ndarray
 Brush = Any  # rumba_sim.model.sweep.Brush
+Drive = Any  # rumba_cleaning.behaviours.compiled_follower.Drive
 
 # [m] before and behind an edit, within which the robot drives otherwise because of it: large is exact, small is fast.
 LEAD, TAIL = 0.25, 0.5
@@ -35,7 +35,7 @@ def changes(waypoints: Array, speeds: Array, drive: Drive, walls: Walls, speed: 
         how much longer the route takes: float64 (edits) [s], inf if the robot would not follow it; how many more
         samples are swept: int (edits).
     """
-    drive, walls, passes = Drive(*drive), Walls(*walls), Passes(*passes)
+    passes = Passes(*passes)
     seconds, samples = np.full(len(spans), np.inf), np.zeros(len(spans), np.int64)
     scratch = blank(brush)
     along, lengths = trace[:, ALONG].copy(), np.zeros(len(waypoints))
