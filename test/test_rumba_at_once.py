@@ -30,21 +30,21 @@ def at_once(checkout, *command, **environment):
     return said, [process.returncode for process in both]
 
 
+def alone(lock, then=''):
+    """A command that fails beside another one of its kind, and otherwise goes on."""
+    return f'#!/bin/sh\nmkdir {lock} || exit 1\nsleep 0.5\n{then}\nrmdir {lock}\n'
+
+
+def installed(but=':'):
+    """A dpkg-query that finds all packages, unless a command fails."""
+    return f'#!/bin/sh\n{but} || exit 1\nshift 3\nprintf \'installed %s\\n\' "$@"\n'
+
+
 def test_one_installs_and_the_other_waits(checkout, tmp_path):
-    lock, asked = tmp_path / 'lock', tmp_path / 'asked'
-    apt = f"""#!/bin/sh
-mkdir {lock} || exit 1
-sleep 0.5
-echo "$1" >>{asked}
-rmdir {lock}
-"""
-    installed = f"""#!/bin/sh
-grep -q install {asked} || exit 1
-shift 3
-printf 'installed %s\\n' "$@"
-"""
-    path = commands(tmp_path / 'bin', **{'apt-get': apt, 'apt-cache': '#!/bin/sh\n', 'id': '#!/bin/sh\necho 0\n',
-                                         'dpkg-query': installed})
+    asked = tmp_path / 'asked'
+    path = commands(tmp_path / 'bin', **{
+        'apt-get': alone(tmp_path / 'lock', f'echo "$1" >>{asked}'), 'apt-cache': '#!/bin/sh\n',
+        'id': '#!/bin/sh\necho 0\n', 'dpkg-query': installed(f'grep -q install {asked}')})
     said, _ = at_once(checkout, 'lint', PATH=f'{path}:{os.environ["PATH"]}')
     assert asked.read_text().split() == ['update', 'install']
     assert sorted('rumba: installing' in lines for lines in said) == [False, True]
@@ -53,17 +53,8 @@ printf 'installed %s\\n' "$@"
 
 def test_one_makes_the_site_and_the_other_waits(checkout, tmp_path):
     (checkout / 'docs').mkdir()
-    sphinx = f"""#!/bin/sh
-mkdir {tmp_path}/alone || exit 1
-sleep 0.5
-rmdir {tmp_path}/alone
-"""
-    installed = """#!/bin/sh
-shift 3
-printf 'installed %s\\n' "$@"
-"""
-    path = commands(tmp_path / 'bin', **{'dpkg-query': installed, 'sphinx-apidoc': '#!/bin/sh\n',
-                                         'sphinx-build': sphinx})
+    path = commands(tmp_path / 'bin', **{
+        'dpkg-query': installed(), 'sphinx-apidoc': '#!/bin/sh\n', 'sphinx-build': alone(tmp_path / 'lock')})
     said, codes = at_once(checkout, 'docs', PATH=f'{path}:{os.environ["PATH"]}')
     assert codes == [0, 0], said
 
