@@ -93,7 +93,7 @@ def alone(width, height):
 def beside_a_mission(speed):
     """The share of a core that the node uses while the robot cleans: the median."""
     with ros_session.fresh_parameters(), ros_session.process(
-            ['roslaunch', 'rumba_bringup', 'demo.launch', f'speed:={speed}', 'gui:=false', 'drain:=1']), \
+            ['roslaunch', 'rumba_launch', 'demo.launch', f'speed:={speed}', 'gui:=false', 'drain:=1']), \
             ros_session.process(['rosrun', 'rumba_viewer', 'viewer', '_laser:=true']):
         pid = ros_session.wait_until(pid_of_viewer)
         time.sleep(WARM)

@@ -86,10 +86,10 @@ def test_packages_need_what_they_declare_under_its_name_in_debian(debs):
         'python3-geometry-msgs', 'python3-std-msgs', 'ros-actionlib-msgs', 'ros-geometry-msgs', 'ros-message-runtime',
         'ros-std-msgs']
     versions = {name: control(deb)['Version'] for name, deb in debs.items()}
-    assert control(debs['rumba_bringup'])['Depends'] == ', '.join([
+    assert control(debs['rumba_launch'])['Depends'] == ', '.join([
         'python3', 'python3-roslaunch', 'ros-robot-state-publisher',
         *(f'ros-{name.replace("_", "-")} (= {version})' for name, version in sorted(versions.items())
-          if name != 'rumba_bringup')])
+          if name != 'rumba_launch')])
     # What users type, beside what the nodes import; what is optional.
     assert {'rosbash', 'python3-rostopic', 'python3-rosmsg'} <= {*names(control(debs['rumba_sim'])['Recommends'])}
     assert {control(deb).get('Suggests', '') for deb in debs.values()} == {'', 'rviz'}
@@ -132,7 +132,7 @@ def test_scripts_modules_messages_headers_and_maps_are_where_ros_of_debian_looks
     assert {f'{MODULES}rumba_msg/msg/_BatteryStatus.py', './usr/share/rumba_msg/msg/BatteryStatus.msg',
             './usr/include/rumba_msg/BatteryStatus.h'} <= {*files['rumba_msg']}
     assert './usr/share/rumba_sim/maps/apartment.yaml' in files['rumba_sim']
-    assert './usr/share/rumba_bringup/launch/demo.launch' in files['rumba_bringup']
+    assert './usr/share/rumba_launch/launch/demo.launch' in files['rumba_launch']
 
 
 @pytest.mark.thorough
@@ -153,8 +153,8 @@ def test_modules_are_compiled_by_the_python_that_runs_them_and_that_is_undone(de
     run('dpkg-deb', '-e', debs['rumba_sim'], tmp_path / 'sim')
     assert 'py3compile -p ros-rumba-sim\n' in (tmp_path / 'sim' / 'postinst').read_text()
     assert 'find /usr/lib/python3/dist-packages/rumba_sim ' in (tmp_path / 'sim' / 'prerm').read_text()
-    run('dpkg-deb', '-e', debs['rumba_bringup'], tmp_path / 'bringup')
-    assert sorted(os.listdir(str(tmp_path / 'bringup'))) == ['control', 'md5sums']
+    run('dpkg-deb', '-e', debs['rumba_launch'], tmp_path / 'launch')
+    assert sorted(os.listdir(str(tmp_path / 'launch'))) == ['control', 'md5sums']
 
 
 @pytest.mark.thorough
@@ -180,7 +180,7 @@ def test_a_folder_that_cannot_be_written_and_two_folders_are_refused(tmp_path):
 
 
 def test_a_dependency_without_a_name_in_debian_is_refused():
-    text = (ROOT / 'rumba_bringup' / 'package.xml').read_text().replace('turtlesim', 'turtlsim')
+    text = (ROOT / 'rumba_launch' / 'package.xml').read_text().replace('turtlesim', 'turtlsim')
     package = parse_package_string(text)
     package.filename = 'package.xml'
     with pytest.raises(ValueError, match='package.xml: no Debian package is known for turtlsim: add it to p'):

@@ -14,7 +14,7 @@ from rumba_viewer.scene.wording import live_line
 
 PACKAGE = ROOT / 'rumba_sim'
 LAUNCH_FILES = sorted(path for package in OURS for path in package.glob('launch/*.launch'))
-DEMO = 'roslaunch rumba_bringup demo.launch speed:=10 map:=studio'
+DEMO = 'roslaunch rumba_launch demo.launch speed:=10 map:=studio'
 BATTERY = re.compile(r'battery +(\d+) %   at \((-?[\d.]+), (-?[\d.]+)\) m')
 README = (ROOT / 'README.md').read_text()
 LIVE = re.search(r'^.* % swept .* left$', README, re.MULTILINE).group(0)
@@ -46,7 +46,7 @@ def test_the_page_of_interfaces_names_its_arguments(path):
     ('localisation:=slam', {'mapless': False, 'mapping': True, 'strategy': 'explore_and_clean',
                             'localisation': 'slam'})])
 def test_what_the_arguments_of_the_demo_bring(workspace, arguments, wanted):
-    told = workspace.space('devel').run(f'roslaunch --dump-params rumba_bringup demo.launch {arguments}')
+    told = workspace.space('devel').run(f'roslaunch --dump-params rumba_launch demo.launch {arguments}')
     parameters = {name.rsplit('/', 1)[-1]: value for name, value in yaml.safe_load(told).items()
                   if name.startswith(('/cleaner/', '/simulator/'))}
     assert {name: parameters[name] for name in wanted} == wanted

@@ -169,8 +169,8 @@ def test_a_package_declares_what_it_imports_and_no_package_of_ours_besides(packa
 
 
 def test_the_launch_files_that_join_the_packages_depend_on_all_of_them():
-    assert {'rumba_msg', *FOLDERS} <= dependencies('rumba_bringup', 'exec_depend')
-    assert not list((ROOT / 'rumba_bringup').glob('**/*.py'))
+    assert {'rumba_msg', *FOLDERS} <= dependencies('rumba_launch', 'exec_depend')
+    assert not list((ROOT / 'rumba_launch').glob('**/*.py'))
 
 
 @pytest.mark.parametrize('package', FOLDERS)
@@ -184,7 +184,7 @@ def test_every_folder_is_in_the_table_of_its_package(package):
 
 def test_the_picture_of_the_packages_shows_the_arrows_of_their_package_files():
     arrows = set(re.findall(r'^(\w+) -> (\w+)$', ARCHITECTURE, re.MULTILINE))
-    ours = {'rumba_msg', 'rumba_bringup', *FOLDERS}
+    ours = {'rumba_msg', 'rumba_launch', *FOLDERS}
     assert arrows == {(package, name) for package in ours for name in dependencies(package, 'exec_depend')
                       if name in ours}
 

@@ -129,5 +129,5 @@ def test_a_clone_in_another_workspace_brings_the_packages_and_no_lesson_and_no_t
     assert sorted(catkin_pkg.packages.find_package_paths(str(ROOT))) == sorted(
         str(path.relative_to(ROOT)) for path in OURS)
     assert [path.name for path in OURS] == [
-        'rumba_bringup', 'rumba_cleaning', 'rumba_evaluation', 'rumba_localisation', 'rumba_msg', 'rumba_sim',
+        'rumba_cleaning', 'rumba_evaluation', 'rumba_launch', 'rumba_localisation', 'rumba_msg', 'rumba_sim',
         'rumba_viewer']

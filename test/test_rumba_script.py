@@ -149,8 +149,8 @@ def test_no_root_and_no_sudo_says_what_an_administrator_must_do(checkout, tmp_pa
     (['deb'], '', ['catkin', 'python3-yaml'], ['python3-skimage', 'python3-pyqt5', 'rviz']),
     (['lint'], '', ['mypy', 'python3-skimage', 'python3-tornado', 'python3-pyqt5'], ['xvfb'])], ids=str)
 def test_a_command_installs_what_its_roles_need_and_no_more(checkout, tmp_path, command, display, wanted, unwanted):
-    (checkout / 'rumba_bringup' / 'launch').mkdir(parents=True)
-    shutil.copy(ROOT / 'rumba_bringup' / 'launch' / 'demo.launch', checkout / 'rumba_bringup' / 'launch')
+    (checkout / 'rumba_launch' / 'launch').mkdir(parents=True)
+    shutil.copy(ROOT / 'rumba_launch' / 'launch' / 'demo.launch', checkout / 'rumba_launch' / 'launch')
     apt = f'#!/bin/sh\n[ "$1" = update ] || {{ echo "$*" >{tmp_path}/asked; exit 100; }}\n'
     path = commands(tmp_path / 'bin', **{'apt-get': apt, 'apt-cache': '#!/bin/sh\n', 'id': '#!/bin/sh\necho 0\n',
                                          'dpkg-query': '#!/bin/sh\nexit 1\n'})

@@ -6,7 +6,7 @@ import time
 import pytest
 from workspaces import TIMEOUT, lines
 
-LAUNCH = 'roslaunch rumba_bringup turtlesim.launch gui:=false'
+LAUNCH = 'roslaunch rumba_launch turtlesim.launch gui:=false'
 CLEAN = 'rostopic pub -1 /rumba/clean/goal rumba_msg/CleanActionGoal {}'
 STUDENT = """
 import rospy

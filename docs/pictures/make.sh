@@ -35,7 +35,7 @@ until rosparam get /run_id >/dev/null 2>&1; do sleep 0.2; done
 viewer light
 viewer dark
 start rosrun rumba_viewer page _port:=$((port + 1))
-start roslaunch rumba_bringup demo.launch speed:=20 drain:=4 gui:=false
+start roslaunch rumba_launch demo.launch speed:=20 drain:=4 gui:=false
 demo=$!
 start rosbag record -O "$folder/mission.bag" /map /rumba/ground_truth /rumba/battery_state /rumba/cleaning_status \
     /rumba/bumper /rumba/dock_status /rumba/mission_status /rumba/coverage
@@ -60,7 +60,7 @@ shoot report "file://$folder/mission.html" report.png 1100x1250
 shoot gif "$folder"/frame*.png mission.gif
 kill -INT "$demo"
 wait "$demo" || true
-start roslaunch rumba_bringup demo.launch localisation:=slam speed:=5 gui:=false
+start roslaunch rumba_launch demo.launch localisation:=slam speed:=5 gui:=false
 until value cleaning_status/distance | awk '{ exit !($1 >= 4 && $1 < 20) }'; do sleep 0.2; done
 mv "$(save light)" own_map.png
 rosrun rumba_evaluation evaluate --maps apartment_docks --strategies boustrophedon --robots 2 --seeds 1 \
