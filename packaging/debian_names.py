@@ -57,7 +57,7 @@ class DebianNames:
         dashed = key.replace('_', '-')
         parts = {f'python3-{dashed}'} | ({f'lib{dashed}-dev'} if with_headers else set())
         return {name for _, name, _ in self._of_ros(key)} | {
-            name for _, name, of_noetic in self._lines if of_noetic == '-' and name in parts}
+            name for _, name, of_ros in self._lines if of_ros == '-' and name in parts}
 
     def _of_ros(self, key: str) -> List[List[str]]:
-        return [line for line in self._lines if line[2] == 'ros-noetic-' + key.replace('_', '-')]
+        return [line for line in self._lines if line[2] == key]

@@ -3,7 +3,7 @@
 import shutil
 import subprocess
 
-from workspaces import BUILD_TIMEOUT, ROOT, clean_environment
+from workspaces import BELOW, BUILD_TIMEOUT, ROOT, clean_environment
 
 SAMPLE = {
     'package.xml': '''<package format="3"><name>sample</name><version>0.1.0</version><description>Sample.</description>
@@ -52,8 +52,9 @@ def test_fails():
 def make_checkout(folder):
     """A checkout that holds one small package of one passing and one failing test."""
     (folder / 'sample').mkdir(parents=True)
-    for name in ('rumba', 'packages.txt', 'conftest.py', 'pyproject.toml'):
-        shutil.copy(ROOT / name, folder)
+    (folder / 'packaging').mkdir()
+    for name in ('rumba', 'packaging/which_ros.sh', 'packages.txt', 'conftest.py', 'pyproject.toml'):
+        shutil.copy(ROOT / name, folder / name)
     for name, text in SAMPLE.items():
         (folder / 'sample' / name).write_text(text)
     return folder
@@ -70,10 +71,21 @@ def write_package(folder):
         catkin_package()''')
 
 
+def surroundings(**environment):
+    """An environment for ./rumba, with the ROS that this repository is built with, and with some variables."""
+    return {**clean_environment(), 'CMAKE_PREFIX_PATH': ':'.join(map(str, BELOW)), **environment}
+
+
+def on_system(folder, codename='bookworm', name='Debian GNU/Linux 12 (bookworm)'):
+    """The variables that have ./rumba believe to be on another system, with a folder for /opt/ros."""
+    (folder / 'os-release').write_text(f'PRETTY_NAME="{name}"\nVERSION_CODENAME="{codename}"\n')
+    return {'RUMBA_OS_RELEASE': str(folder / 'os-release'), 'RUMBA_OPT_ROS': str(folder / 'opt'), 'CMAKE_PREFIX_PATH': ''}
+
+
 def rumba(folder, *arguments, **environment):
     """Exit code, output and error output of ./rumba."""
     done = subprocess.run([str(folder / 'rumba'), *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                          universal_newlines=True, timeout=BUILD_TIMEOUT, env={**clean_environment(), **environment})
+                          universal_newlines=True, timeout=BUILD_TIMEOUT, env=surroundings(**environment))
     return done.returncode, done.stdout, done.stderr
 
 

@@ -9,10 +9,11 @@ from workspaces import OURS, ROOT, STAND_INS, TUTORIALS
 
 KEYS = yaml.safe_load((ROOT / 'packaging' / 'rosdep_keys.yaml').read_text())
 WORKFLOW = yaml.safe_load((ROOT / '.github' / 'workflows' / 'test.yml').read_text())
+WHICH_ROS = (ROOT / 'packaging' / 'which_ros.sh').read_text()
 INSTALLED = [line.split()[1:] for line in (ROOT / 'packages.txt').read_text().splitlines() if re.match(r'\w', line)]
 OF_PACKAGE = pytest.mark.parametrize('package', OURS + TUTORIALS, ids=lambda path: path.name)
-# Packages of ROS have no entry in the lists: rosdep knows them by their release for Noetic.
-OF_ROS = {name[len('ros-noetic-'):].replace('-', '_') for _, name in INSTALLED if name.startswith('ros-noetic-')}
+# Packages of ROS have no entry in the lists: rosdep knows them by their release.
+OF_ROS = {name for _, name in INSTALLED if name not in ('=', '-')}
 
 
 def depends(package):
@@ -36,12 +37,25 @@ def test_what_rosdep_installs_is_what_rumba_installs_and_no_key_is_left_over():
     assert {*every} == {key for package in OURS + TUTORIALS for key in depends(package)} & {*every}
 
 
-def test_hosted_ci_does_what_the_local_one_does_on_systems_that_are_supported():
+def test_hosted_ci_does_what_the_local_one_does_on_systems_that_have_a_ros_of_their_own():
     job = WORKFLOW['jobs']['test']
-    assert '.ci/run' in [step.get('run') for step in job['steps']]
-    supported = re.search(r'^ +(\w+(?: \| \w+)+)\) ;;$', (ROOT / 'rumba').read_text(), re.MULTILINE).group(1)
+    assert '.ci/run' in commands(job)
+    own = re.search(r'^ +(\w+(?: \| \w+)+)\) ;;$', WHICH_ROS, re.MULTILINE).group(1)
     names = {'debian:12': 'bookworm', 'debian:13': 'trixie', 'ubuntu:22.04': 'jammy'}
-    assert {names[image] for image in job['strategy']['matrix']['image']} <= set(supported.split(' | '))
+    assert {names[image] for image in job['strategy']['matrix']['image']} == set(own.split(' | '))
+
+
+def test_hosted_ci_tests_on_the_others_with_the_ros_that_serves_them():
+    job = WORKFLOW['jobs']['ros_in_opt']
+    assert './rumba test' in commands(job)
+    names = {'ros:noetic': 'focal', 'ubuntu:24.04': 'noble'}
+    assert {names[image] for image in job['strategy']['matrix']['image']} == {
+        *re.findall(r'^ +(\w+)\) fail 2 .*: install ROS ', WHICH_ROS, re.MULTILINE)}
+
+
+def commands(job):
+    """The commands of a job of the workflow."""
+    return [step.get('run') for step in job['steps']]
 
 
 @OF_PACKAGE

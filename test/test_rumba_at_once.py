@@ -4,8 +4,8 @@ import os
 import subprocess
 
 import pytest
-from checkouts import commands, make_checkout
-from workspaces import BUILD_TIMEOUT, clean_environment
+from checkouts import commands, make_checkout, surroundings
+from workspaces import BUILD_TIMEOUT
 
 ALONE = '''
         execute_process(COMMAND mkdir "${CMAKE_BINARY_DIR}/alone" RESULT_VARIABLE code)
@@ -25,7 +25,7 @@ def checkout(tmp_path):
 def at_once(checkout, *command, **environment):
     """What two commands of the same kind say, and their exit codes."""
     both = [subprocess.Popen([checkout / 'rumba', *command], text=True, stdout=subprocess.PIPE,
-                             stderr=subprocess.STDOUT, env={**clean_environment(), **environment}) for _ in range(2)]
+                             stderr=subprocess.STDOUT, env=surroundings(**environment)) for _ in range(2)]
     said = [process.communicate(timeout=BUILD_TIMEOUT)[0] for process in both]
     return said, [process.returncode for process in both]
 

@@ -24,8 +24,10 @@ SPEED_GUARD = ROOT / 'rumba_tutorials' / '04_cpp_library' / 'speed_guard'  # whi
 TIMEOUT = 60.0
 BUILD_TIMEOUT = 900.0
 FROM_OTHER_WORKSPACES = ('CMAKE_PREFIX_PATH', 'ROS_PACKAGE_PATH', 'PYTHONPATH', 'PKG_CONFIG_PATH', 'LD_LIBRARY_PATH')
-NOETIC_SETUP = pathlib.Path('/opt/ros/noetic/setup.sh')
-UNDERLAY = [NOETIC_SETUP] if NOETIC_SETUP.exists() else []  # the setup files below every workspace
+# What ./rumba has built its own workspace over: empty if that is the ROS of the distribution, below /usr.
+BELOW = [pathlib.Path(path) for path in os.environ.get('CMAKE_PREFIX_PATH', '').split(':')
+         if path and WS not in pathlib.Path(path).parents and (pathlib.Path(path) / 'setup.sh').exists()]
+UNDERLAY = [path / 'setup.sh' for path in BELOW[:1]]  # the setup files below every workspace
 
 
 class Space:

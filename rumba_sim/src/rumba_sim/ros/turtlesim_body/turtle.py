@@ -37,8 +37,8 @@ class Turtle(rospy.SubscribeListener):
             ConfigError: turtlesim is not installed.
         """
         if PoseMessage is None:
-            raise ConfigError('the messages of turtlesim are missing: install turtlesim (ROS Noetic: '
-                              'ros-noetic-turtlesim), or build compat/turtlesim of this repository')
+            raise ConfigError('the messages of turtlesim are missing: install turtlesim (ROS One and ROS Noetic: '
+                              'ros-one-turtlesim, ros-noetic-turtlesim), or build compat/turtlesim of this repository')
         self._name = name
         self._command = STILL
         self._reminder = 0
