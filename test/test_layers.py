@@ -42,7 +42,7 @@ CLOCK = ('time',)
 WITH_CLOCK = {'rumba_viewer/window'}
 WITH_QT = {'rumba_viewer/painting', 'rumba_viewer/window', 'rumba_viewer/ros'}
 # How rosdep calls what is imported, if it is not the name of the import.
-KEYS = {'PIL': 'python3-pil', 'PyQt5': 'python3-qt5-bindings', 'matplotlib': 'python3-matplotlib',
+KEYS = {'PIL': 'python3-pil', 'PyQt5': 'python3-pyqt5', 'matplotlib': 'python3-matplotlib',
         'numba': 'python3-numba', 'numpy': 'python3-numpy', 'rospkg': 'python3-rospkg', 'scipy': 'python3-scipy',
         'skimage': 'python3-skimage', 'tornado': 'python3-tornado', 'tqdm': 'python3-tqdm', 'yaml': 'python3-yaml'}
 # Imported only if they are installed.

@@ -5,6 +5,7 @@ import xml.etree.ElementTree
 
 import pytest
 import yaml
+from catkin_pkg.package import parse_package
 from workspaces import OURS, ROOT, STAND_INS, TUTORIALS
 
 KEYS = yaml.safe_load((ROOT / 'packaging' / 'rosdep_keys.yaml').read_text())
@@ -56,6 +57,16 @@ def test_hosted_ci_tests_on_the_others_with_the_ros_that_serves_them():
 def commands(job):
     """The commands of a job of the workflow."""
     return [step.get('run') for step in job['steps']]
+
+
+@pytest.mark.parametrize('distribution, is_needed', [('noetic', True), ('one', True), ('Debian', False), ('', False)])
+def test_turtlesim_is_needed_only_with_a_ros_that_has_it_or_else_rosdep_stops(distribution, is_needed):
+    for name in ('rumba_launch', 'rumba_viewer'):
+        package = parse_package(str(ROOT / name))
+        package.evaluate_conditions({'ROS_DISTRO': distribution})
+        needed = [depend.evaluated_condition for depend in package.exec_depends + package.test_depends
+                  if depend.name == 'turtlesim']
+        assert needed == [is_needed]
 
 
 @OF_PACKAGE
