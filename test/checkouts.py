@@ -78,8 +78,9 @@ def surroundings(**environment):
 
 def on_system(folder, codename='bookworm', name='Debian GNU/Linux 12 (bookworm)'):
     """The variables that have ./rumba believe to be on another system, with a folder for /opt/ros."""
-    (folder / 'os-release').write_text(f'PRETTY_NAME="{name}"\nVERSION_CODENAME="{codename}"\n')
-    return {'RUMBA_OS_RELEASE': str(folder / 'os-release'), 'RUMBA_OPT_ROS': str(folder / 'opt'), 'CMAKE_PREFIX_PATH': ''}
+    release = folder / 'os-release'
+    release.write_text(f'PRETTY_NAME="{name}"\nVERSION_CODENAME="{codename}"\n')
+    return {'RUMBA_OS_RELEASE': str(release), 'RUMBA_OPT_ROS': str(folder / 'opt'), 'CMAKE_PREFIX_PATH': ''}
 
 
 def rumba(folder, *arguments, **environment):

@@ -33,9 +33,12 @@ def checkout(tmp_path):
 def built(tmp_path_factory):
     """Another one that is built, for tests that change nothing in it, and the environment in which it was built."""
     folder = make_checkout(tmp_path_factory.mktemp('built') / 'a checkout')
-    environment = {'XDG_CACHE_HOME': str(folder.parent / 'cache')}
+    cache = folder.parent / 'cache'
+    environment = {'XDG_CACHE_HOME': str(cache)}
     code, _, error = rumba(folder, 'shell', 'true', **environment)
     assert code == 0, error
+    assert (f'rumba: {folder} has spaces, where rosrun and catkin_make install of ROS fail: the workspace is in {cache}'
+            in error)
     return folder, environment
 
 
@@ -156,8 +159,8 @@ def test_if_nothing_is_missing_nothing_is_asked_for(built, tmp_path):
     checkout, environment = built
     forbidden = f'#!/bin/sh\ntouch {tmp_path}/asked\nexit 1\n'
     path = commands(tmp_path / 'bin', **{'apt-get': forbidden, 'sudo': forbidden})
-    code, out, _ = rumba(checkout, 'shell', 'pwd', PATH=f'{path}:{os.environ["PATH"]}', **environment)
-    assert (code, out) == (0, os.getcwd() + '\n')
+    code, out, error = rumba(checkout, 'shell', 'pwd', PATH=f'{path}:{os.environ["PATH"]}', **environment)
+    assert (code, out, error.count('\n')) == (0, os.getcwd() + '\n', 1), error  # which ROS it is
     assert not (tmp_path / 'asked').exists()
 
 

@@ -51,9 +51,9 @@ def choose(checkout, opt, system=BOOKWORM, over=(), command='build'):
     """Exit code, what ./rumba says on stderr, and the packages for which it asks if dpkg has none."""
     folder = opt.parent
     asked = folder / 'asked'
+    apt = f'#!/bin/sh\n[ "$1" = update ] || {{ echo "$*" >{asked}; exit 100; }}\n'
     path = commands(folder / 'bin', **{
-        'apt-get': f'#!/bin/sh\n[ "$1" = update ] || {{ echo "$*" >{asked}; exit 100; }}\n', 'id': '#!/bin/sh\necho 0\n',
-        'dpkg-query': '#!/bin/sh\nexit 1\n'})
+        'apt-get': apt, 'id': '#!/bin/sh\necho 0\n', 'dpkg-query': '#!/bin/sh\nexit 1\n'})
     environment = {**on_system(folder, *system), 'CMAKE_PREFIX_PATH': ':'.join(map(str, over))}
     code, _, error = rumba(checkout, command, PATH=f'{path}:{os.environ["PATH"]}', **environment)
     lines = [line for line in error.splitlines() if not line.startswith('rumba: cannot install packages: ')]
@@ -141,8 +141,8 @@ def test_neither_folders_of_others_nor_workspaces_over_one_of_rumba_are_below_ou
 @pytest.mark.parametrize('system, error', [
     (FOCAL, f'Ubuntu 20.04.6 LTS has no ROS 1 of its own: install ROS Noetic, ros-noetic-ros-base, {ELSE}'),
     (NOBLE, f'Ubuntu 24.04.3 LTS has no ROS 1 of its own: install ROS One, ros-one-ros-base, {ELSE}'),
-    (FEDORA, 'Fedora Linux 40 is not supported: Debian 12 and 13 and Ubuntu 22.04 are with ROS 1 of their own, Ubuntu '
-               f'20.04 with ROS Noetic, Ubuntu 24.04 with ROS One; {ELSE}')])
+    (FEDORA, 'Fedora Linux 40 is not supported: Debian 12 and 13 and Ubuntu 22.04 are with ROS 1 of their own, '
+             f'Ubuntu 20.04 with ROS Noetic, Ubuntu 24.04 with ROS One; {ELSE}')])
 def test_a_system_without_ros_is_told_what_would_do(checkout, opt, system, error):
     assert choose(checkout, opt, system) == (2, [f'rumba: {error}'], set())
     assert not (checkout / '.ws').exists()
@@ -158,13 +158,14 @@ def test_debian_packages_are_made_for_the_ros_of_the_system_alone(checkout, opt)
 
 def test_a_ros_that_was_built_from_source_serves_without_packages(checkout, opt, tmp_path):
     one = prefix(opt / 'one', 'one', EVERY_PACKAGE_OF_ROS)
-    code, out, error = rumba(checkout, 'shell', 'sh', '-c', 'rospack find sample; echo $CMAKE_PREFIX_PATH',
-                             RUMBA_OPT_ROS=str(opt), CMAKE_PREFIX_PATH='', XDG_CACHE_HOME=str(tmp_path / 'cache'))
+    environment = {'RUMBA_OPT_ROS': str(opt), 'CMAKE_PREFIX_PATH': '', 'XDG_CACHE_HOME': str(tmp_path / 'cache')}
+    command = 'rospack find sample; echo $CMAKE_PREFIX_PATH'
+    code, out, error = rumba(checkout, 'shell', 'sh', '-c', command, **environment)
     assert code == 0, error
     workspace = (checkout / '.ws').resolve()
     found, path = out.splitlines()
     assert (found, path.split(':')[:2]) == (str(workspace / 'src' / 'sample'), [str(workspace / 'devel'), str(one)])
-    assert error.splitlines() == [f'rumba: ROS One in {one}', 'rumba: building']
+    assert f'rumba: ROS One in {one}' in error.splitlines()
 
 
 @pytest.mark.thorough
