@@ -9,12 +9,13 @@ import re
 import shutil
 import subprocess
 import sys
+import tarfile
 
 import pytest
 from consoles import play
 from workspaces import ROOT, Space
 
-pytest.importorskip('setuptools', minversion='61')
+pytest.importorskip('setuptools', minversion='61.2')
 
 PAGE = ROOT / 'docs' / 'without_ros.md'
 PURE = ('rumba_sim', 'rumba_localisation', 'rumba_cleaning', 'rumba_evaluation')
@@ -31,17 +32,22 @@ sys.meta_path.insert(0, NoRos())
 
 
 @pytest.fixture(scope='module')
-def venv(tmp_path_factory):
-    """A virtual environment with what pip installs from the sources, without a network, and without ROS."""
-    folder = tmp_path_factory.mktemp('without_ros')
-    sources, venv = folder / 'sources', folder / 'venv'
-    sources.mkdir()
-    for name in NEEDED:  # pip builds in the folder of the sources
+def sources(tmp_path_factory):
+    """A copy of the sources, since pip builds in their folder."""
+    sources = tmp_path_factory.mktemp('sources')
+    for name in NEEDED:
         (sources / name).parent.mkdir(exist_ok=True)
         if (ROOT / name).is_dir():
             shutil.copytree(ROOT / name, sources / name, ignore=shutil.ignore_patterns('__pycache__'))
         else:
             shutil.copy(ROOT / name, sources / name)
+    return sources
+
+
+@pytest.fixture(scope='module')
+def venv(tmp_path_factory, sources):
+    """A virtual environment with what pip installs from the sources, without a network, and without ROS."""
+    venv = tmp_path_factory.mktemp('without_ros') / 'venv'
     subprocess.check_call([sys.executable, '-m', 'venv', '--system-site-packages', str(venv)], env=environment())
     subprocess.check_call([f'{venv}/bin/pip', 'install', '-q', '--no-index', '--no-deps', '--no-build-isolation', '.'],
                           cwd=sources, env=environment())
@@ -60,6 +66,11 @@ def environment():
             if 'ROS' not in name and name not in ('PYTHONPATH', 'CMAKE_PREFIX_PATH')}
 
 
+LICENSE = """
+from importlib.metadata import metadata
+rumba = metadata('rumba')
+print(rumba.get('License-Expression') or rumba['License'])
+"""
 IMPORTS = """
 import importlib, sys
 for name in sys.argv[1:]:
@@ -99,6 +110,22 @@ def test_pip_installs_the_same_modules_as_catkin_and_nothing_that_needs_ros(venv
         assert installed - {'maps/make_maps.py'} == modules(ROOT / name / 'src' / name) and len(installed) > 3
     version = re.search(r'<version>(.*)</version>', (ROOT / 'rumba_evaluation' / 'package.xml').read_text()).group(1)
     assert f'Version: {version}\n' in run(venv, 'pip', 'show', 'rumba')
+    assert run(venv, 'python', '-c', LICENSE) == 'BSD-3-Clause\n'
+
+
+def test_the_source_distribution_holds_what_it_is_built_from_and_no_tests(sources, tmp_path):
+    (sources / 'test').mkdir()
+    (sources / 'test' / 'test_of_rumba.py').touch()
+    program = 'import sys; from setuptools import build_meta; build_meta.build_sdist(sys.argv[1])'
+    subprocess.check_call([sys.executable, '-c', program, str(tmp_path)], cwd=sources, env=environment(),
+                          stdout=subprocess.DEVNULL)
+    [path] = tmp_path.iterdir()
+    with tarfile.open(str(path)) as archive:
+        names = {name.partition('/')[2] for name in archive.getnames()}
+    assert {*NEEDED[len(PURE):], 'rumba_evaluation/package.xml', 'rumba_sim/maps/studio.yaml'} <= names
+    assert sorted(name for name in names if name.split('/')[0] == 'test') == []
+    of_packages = {f'{name}/src/{name}/{path}' for name in PURE for path in modules(ROOT / name / 'src' / name)}
+    assert of_packages <= names
 
 
 def test_every_module_can_be_imported_without_ros(venv):
