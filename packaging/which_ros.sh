@@ -131,11 +131,20 @@ path_without_prefixes() (
     printf '%s\n' "${kept#:}"
 )
 
-source_prefixes() { # PREFIXES: each extends what is below it
-    case $1 in *:*) source_prefixes "${1#*:}" ;; esac
+source_prefixes() { # PREFIXES
+    source_setup "${1%%:*}" || return
+    led_to=${CMAKE_PREFIX_PATH:-}
+    [ "${led_to%:}" != "$1" ] || return 0
+    # The uppermost does not know all that is sourced below it.
+    forget_ros
     export CATKIN_SETUP_UTIL_ARGS=--extend
-    [ ! -e "${1%%:*}/setup.sh" ] || source_setup "${1%%:*}"
+    extend_by "$1" || return
     unset CATKIN_SETUP_UTIL_ARGS
+}
+
+extend_by() { # PREFIXES: from the lowest to the uppermost
+    case $1 in *:*) extend_by "${1#*:}" || return ;; esac
+    [ ! -e "${1%%:*}/setup.sh" ] || source_setup "${1%%:*}"
 }
 
 source_setup() { # FOLDER

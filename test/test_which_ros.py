@@ -80,10 +80,10 @@ def test_ros_in_opt_is_taken_on_any_system_and_its_packages_bear_its_name(checko
 
 def test_ros_one_goes_before_noetic_and_what_is_sourced_before_both(checkout, opt, tmp_path):
     for name in ('one', 'noetic'):
-        prefix(opt / name)
+        prefix(opt / name, name)
     assert choose(checkout, opt)[1] == [f'rumba: ROS One in {opt / "one"}']
     shutil.rmtree(str(tmp_path / 'bin'))
-    mine = prefix(tmp_path / 'mine', 'noetic', packages=(), over=[opt / 'noetic'])
+    mine = prefix(tmp_path / 'mine', packages=())  # which knows nothing of Noetic by itself, as after --extend
     code, said, asked = choose(checkout, opt, over=[mine, opt / 'noetic'])
     assert (code, said) == (1, [f'rumba: ROS Noetic in {mine} over {opt / "noetic"}, which is sourced'])
     assert 'ros-noetic-tf2-ros' in asked and 'ros-one-tf2-ros' not in asked and 'ros-noetic-rospy' not in asked
