@@ -5,6 +5,7 @@ from typing import NamedTuple, Optional
 
 import numpy as np
 
+from rumba_cleaning.compiled_bearings import bearings
 from rumba_sim.model.kernel import Array
 
 # All figures are our choice.
@@ -29,8 +30,7 @@ class Route(NamedTuple):
         """How long it takes from its first waypoint to each, about: float64 (any) [s]."""
         along = np.diff(self.waypoints, axis=0)
         legs = np.hypot(*along.T) / self.speeds
-        headings = np.arctan2(along[:, 1], along[:, 0])
-        turns = np.abs((np.diff(headings) + math.pi) % (2.0 * math.pi) - math.pi)
+        turns = np.abs((np.diff(bearings(along)) + math.pi) % (2.0 * math.pi) - math.pi)
         corners = np.maximum(turns - BENT, 0.0) / TURN_RATE + np.where(turns > 0.5 * math.pi, STOP, 0.0)
         return np.concatenate([[0.0], np.cumsum(legs + np.append(corners, 0.0))])
 

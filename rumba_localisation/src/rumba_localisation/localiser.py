@@ -77,7 +77,10 @@ class Localiser:
             covariance: float64 (3, 3) of x, y and heading.
         """
         count = self.config.max_particles
-        self.particles = self._generator.multivariate_normal(pose, covariance, count, method='eigh')
+        # As Generator.multivariate_normal does with method='eigh', which NumPy before 1.18 lacks.
+        squares, axes = np.linalg.eigh(covariance)
+        spread = axes * np.sqrt(np.maximum(squares, 0.0))
+        self.particles = pose + self._generator.standard_normal((count, 3)) @ spread.T
         self._begin()
 
     def search_anywhere(self) -> None:

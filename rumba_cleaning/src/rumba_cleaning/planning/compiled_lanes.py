@@ -1,5 +1,7 @@
 """The search for blocks of lanes, compiled by numba.
 
+Arrays of two dimensions are walked by index: numba before 0.55 cannot iterate over them.
+
 Arguments that many functions share:
     remaining: bool (rows, columns), the cells that are still to clean, rows along the lanes.
     clearance: float64 (rows + 1, columns + 1) [m], at the nodes.
@@ -129,9 +131,11 @@ def lowest(remaining: Array, bottom: int, top: int, left: int, right: int, join:
         if not remaining[row, left:right].any():
             continue
         first, after = 0, 0
-        for run in runs(remaining[row], join):
-            if run[0] < right and run[1] > left and run[1] - run[0] > after - first:
-                first, after = run[0], run[1]
+        found = runs(remaining[row], join)
+        for index in range(len(found)):
+            begin, end = found[index, 0], found[index, 1]
+            if begin < right and end > left and end - begin > after - first:
+                first, after = begin, end
         if after - first >= least:
             return row, first, after
         if left == 0 and right == remaining.shape[1]:
@@ -169,15 +173,17 @@ def lane(remaining: Array, clearance: Array, rule: Rule, run: Tuple[int, int],
     step = (highest - 0.5) - highest  # down by half cells, a brush width
     for count in range(math.ceil((2.0 * rule.half + 0.51) / 0.5)):
         across = highest + count * step
-        for fit in runs(fitting(clearance, across, rule.needed), 0):
-            low, high = max(fit[0], run[0]), min(fit[1] - 1, run[1])
+        fits = runs(fitting(clearance, across, rule.needed), 0)
+        for index in range(len(fits)):
+            begin, end = fits[index, 0], fits[index, 1]
+            low, high = max(begin, run[0]), min(end - 1, run[1])
             if high - low < min(rule.least, run[1] - run[0]):
                 continue
             bottom, top = band(across, rule.half)
-            rows = remaining[bottom:top, fit[0]:fit[1] - 1]
-            first, after = needed_part(rows, low - fit[0], high - fit[0], rule)
+            rows = remaining[bottom:top, begin:end - 1]
+            first, after = needed_part(rows, low - begin, high - begin, rule)
             if after > first:
-                return first + fit[0], after + fit[0], across
+                return first + begin, after + begin, across
     return 0, 0, 0.0
 
 
@@ -194,7 +200,9 @@ def needed_part(rows: Array, low: int, high: int, rule: Rule) -> Tuple[int, int]
         the first column, and the one after the last; both 0 if there are none.
     """
     if len(rows) > 0:
-        for part in runs(rows.sum(axis=0) / len(rows) > rule.missed, rule.gap):
-            if part[0] < high and part[1] > low:
-                return part[0], part[1]
+        parts = runs(rows.sum(axis=0) / len(rows) > rule.missed, rule.gap)
+        for index in range(len(parts)):
+            begin, end = parts[index, 0], parts[index, 1]
+            if begin < high and end > low:
+                return begin, end
     return 0, 0

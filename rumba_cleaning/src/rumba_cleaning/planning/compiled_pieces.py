@@ -12,12 +12,12 @@ import numpy as np
 
 from rumba_cleaning.behaviours.compiled_follower import SLOWEST_BEND, Drive, wrapped
 from rumba_cleaning.planning.compiled_ways import CLOSE, Needed, cornering, distance, sight
+from rumba_cleaning.planning.nearest import NONE
 from rumba_sim.model.jit import compiled
 
 Array = Any  # numpy.ndarray
 
 BEYOND = 0.3  # of half a brush that is swept beyond the ends of a piece: robots swing round there, or go on; our choice
-NONE = -1  # no end
 FAR = 1e4  # [s] for a link that is not known: finite, so that sums can be compared
 TOGETHER = 1e-3  # [m] ends so near to each other are one
 
@@ -148,7 +148,7 @@ def links(ends: Array, headings: Array, near: Array, clearance: Array, origin: T
                 found[one, count] = other
                 count += 1
                 seconds[one, other] = seconds[other, one] = link(ends, headings, one, other, pace)
-        quickest = np.argsort(seconds[one][found[one, :count]])
+        quickest = np.argsort(seconds[one][found[one, :count]], kind='mergesort')
         found[one, :count] = found[one][quickest]
     return found, seconds
 

@@ -128,7 +128,7 @@ def ruined(net: Net, state: State, tour: Array, random: Array) -> Tuple[Array, T
         begin = min(max(first - size // 2, 1), count + 1 - size)
         gone = np.arange(begin - 1, begin - 1 + size)
     else:
-        gone = np.argsort(away)[:size]
+        gone = np.argsort(away, kind='mergesort')[:size]
     stays = np.ones(len(tour), np.bool_)
     for index in gone:
         piece = tour[1 + index] >> 1

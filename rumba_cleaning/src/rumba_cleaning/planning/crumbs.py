@@ -11,6 +11,7 @@ from rumba_cleaning.belief.ground import Ground
 from rumba_cleaning.planning.paper import simplified
 from rumba_cleaning.planning.stretches import Stretch, Variant, pair
 from rumba_cleaning.planning.walls import Walls
+from rumba_cleaning.route import lengths_along
 from rumba_sim.model.kernel import Array
 
 # All figures are our choice; each comment says what speaks for a larger and for a smaller value.
@@ -93,7 +94,7 @@ def _strips(ground: Ground, cells: Array, corner: Array, region: int, area: floa
         if len(points) > AVERAGED:
             points = ndimage.uniform_filter1d(points, AVERAGED, axis=0, mode='nearest')
         paths.append(_standing(ground, points))
-    lengths = [float(np.hypot(*np.diff(path, axis=0).T).sum()) for path in paths]
+    lengths = [float(lengths_along(path)[-1]) for path in paths]
     found = [Stretch(pair([simplified(path, STRAIGHT)]), region, area * length / sum(lengths), True)
              for path, length in zip(paths, lengths) if length >= 2.0 * OVER]
     return found or [_spot(ground, cells, corner, region, area)]

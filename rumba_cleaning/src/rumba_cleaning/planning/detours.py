@@ -9,6 +9,7 @@ from rumba_cleaning.belief.context import Context
 from rumba_cleaning.planning import compiled_detours
 from rumba_cleaning.planning.edits import Edit
 from rumba_cleaning.planning.lines import needed
+from rumba_cleaning.planning.nearest import NONE, nearest
 from rumba_cleaning.planning.stretches import Stretch
 from rumba_cleaning.route import Route
 from rumba_sim.model.jit import plain
@@ -37,11 +38,11 @@ def detours(context: Context, route: Route, found: List[Stretch]) -> List[Edit]:
     ground = context.ground
     edits = []
     for crumb in found:
-        distances, near = tree.query(crumb.variants[0].path()[0], TRIES, distance_upper_bound=FARTHEST)
+        near = nearest(tree, crumb.variants[0].path()[:1], TRIES, FARTHEST)[0]
         paths = [variant.path() for variant in crumb.variants]
         length, waypoint, number = compiled_detours.shortest(
             ground.clearance, ground.plan.origin, ground.plan.resolution, plain(needed(ground)), route.waypoints,
-            begins[near[np.isfinite(distances)]], np.concatenate(paths), np.cumsum([0, *map(len, paths)]), CORNER)
+            begins[near[near != NONE]], np.concatenate(paths), np.cumsum([0, *map(len, paths)]), CORNER)
         if np.isfinite(length):
             edits.append(Edit(waypoint, waypoint + 1, paths[number], length / context.config.speed, crumb.area))
     return edits

@@ -5,6 +5,7 @@ import math
 import numpy as np
 
 from rumba_cleaning.belief.swept import Swept
+from rumba_cleaning.compiled_bearings import bearings
 from rumba_cleaning.planning import compiled_ways
 from rumba_cleaning.route import lengths_along
 from rumba_sim.model.kernel import Array
@@ -17,7 +18,7 @@ SAME = 0.2  # [rad] turns by less are not swept on their own: between their stri
 def drive(swept: Swept, path: Array) -> None:
     """Sweep along a path (any, 2) [m], with turns on the spot at its corners."""
     points = strides(simplified(path, OFF), STRIDE)
-    headings = np.arctan2(*np.diff(points, axis=0).T[::-1])
+    headings = bearings(np.diff(points, axis=0))
     before = np.append(headings[:1], headings[:-1])
     here, there = points[:-1], points[1:]
     moves = np.stack([_poses(here, before), _poses(here, headings), _poses(there, headings)], axis=1)  # (any, 3, 3)

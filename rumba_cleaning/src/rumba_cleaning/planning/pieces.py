@@ -5,6 +5,7 @@ from typing import Iterator, List, Sequence, Tuple
 
 import numpy as np
 
+from rumba_cleaning.compiled_bearings import bearings
 from rumba_cleaning.planning.paper import strides
 from rumba_cleaning.planning.rehearsal import Rehearsal
 from rumba_cleaning.route import lengths_along
@@ -52,7 +53,7 @@ def of_paths(paths: Sequence[Array], known: Sequence[Array]) -> List[Array]:
 
 def _cuts(waypoints: Array, others: Array) -> Iterator[Tuple[int, int]]:
     """The first waypoint and the last of each piece of a path (any, 2) [m], which is cut at corners, and at others."""
-    headings, lengths = np.arctan2(*np.diff(waypoints, axis=0).T[::-1]), lengths_along(waypoints)
+    headings, lengths = bearings(np.diff(waypoints, axis=0)), lengths_along(waypoints)
     turns = np.abs((np.diff(headings) + math.pi) % (2.0 * math.pi) - math.pi)
     ends = np.unique(np.concatenate([[0, len(waypoints) - 1], np.flatnonzero(turns > BENT) + 1, others]))
     for first, last in zip(ends.tolist(), ends[1:].tolist()):

@@ -13,9 +13,10 @@ from rumba_cleaning.belief import paths
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.planning import compiled_pieces, compiled_rebuilding, pieces
 from rumba_cleaning.planning.compiled_detours import sees
-from rumba_cleaning.planning.compiled_pieces import FAR, NONE, TOGETHER, Pace
+from rumba_cleaning.planning.compiled_pieces import FAR, TOGETHER, Pace
 from rumba_cleaning.planning.compiled_rebuilding import GOAL, START, Net
 from rumba_cleaning.planning.lines import needed
+from rumba_cleaning.planning.nearest import nearest
 from rumba_cleaning.planning.rehearsal import Rehearsal
 from rumba_cleaning.planning.stretches import Variant, headings
 from rumba_cleaning.planning.surroundings import Surroundings
@@ -100,8 +101,7 @@ class _Links:
         points = np.array([Variant([part], False).ends() for part in parts])
         self._ends = points[:, [0, 3]].reshape(-1, 2)
         left = headings(points[:, [1, 2]].reshape(-1, 2), self._ends)
-        _, near = spatial.cKDTree(self._ends).query(self._ends, NEAR, distance_upper_bound=FARTHEST)
-        near[near == len(self._ends)] = NONE
+        near = nearest(spatial.cKDTree(self._ends), self._ends, NEAR, FARTHEST)
         ground, config = self._context.ground, self._context.config
         self._needed = plain(needed(ground, BESIDE))
         self.near, self.times = compiled_pieces.links(

@@ -12,6 +12,7 @@ from scipy.sparse import csgraph
 from skimage import segmentation
 
 from rumba_cleaning.belief.ground import Ground
+from rumba_cleaning.planning.rows import distinct
 from rumba_sim.model.kernel import Array
 
 # Our choice: 2 * WIDE is wider than the doors of dwellings (0.7 to 0.9 m), and narrower than a room.
@@ -82,7 +83,7 @@ def doors(ground: Ground, labels: Array) -> Doors:
         nodes.append(where)
     pairs, places = np.concatenate(sides), np.concatenate(nodes)
     widest = np.argsort(-ground.clearance[places[:, 0], places[:, 1]], kind='stable')
-    found, first = np.unique(pairs[widest], axis=0, return_index=True)
+    found, first = distinct(pairs[widest])
     return Doors(ground.points(places[widest[first]]), found)
 
 

@@ -7,6 +7,7 @@ import numpy as np
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.planning.edits import Edit
 from rumba_cleaning.planning.rehearsal import NO_PATH, Rehearsal
+from rumba_cleaning.planning.rows import distinct
 from rumba_cleaning.route import lengths_along
 from rumba_sim.model.kernel import Array
 
@@ -28,7 +29,7 @@ def shortcuts(context: Context, rehearsal: Rehearsal, price: float) -> List[Edit
     waypoints, lengths = rehearsal.route.waypoints, lengths_along(rehearsal.route.waypoints)
     ends = np.concatenate([np.stack([begins, begins + length], axis=1) for length in LENGTHS
                            for begins in [np.arange(STEP * length, lengths[-1] - length, STEP * length)]])
-    spans = np.unique(np.searchsorted(lengths, ends), axis=0)
+    spans, _ = distinct(np.searchsorted(lengths, ends))
     spans = spans[(spans[:, 0] > 0) & (spans[:, 1] < len(waypoints) - 1) & (spans[:, 1] > spans[:, 0] + 1)]
     worth = _worth(context, rehearsal, spans, price)
     order = np.argsort(-worth, kind='stable')

@@ -4,6 +4,7 @@ from typing import List, NamedTuple
 
 import numpy as np
 
+from rumba_cleaning.compiled_bearings import bearings
 from rumba_sim.model.kernel import Array
 
 AHEAD = 2  # waypoints from the end of a path, over which its heading is measured
@@ -30,7 +31,7 @@ class Variant(NamedTuple):
 def headings(points: Array, ahead: Array) -> Array:
     """Directions from points (any, 2) [m] to others [rad]; NaN if they are the same."""
     along = ahead - points
-    return np.where(np.hypot(*along.T) > 0.0, np.arctan2(along[:, 1], along[:, 0]), np.nan)
+    return np.where(np.hypot(*along.T) > 0.0, bearings(along), np.nan)
 
 
 class Stretch(NamedTuple):

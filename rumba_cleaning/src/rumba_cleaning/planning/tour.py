@@ -9,6 +9,7 @@ from rumba_cleaning.planning import compiled_tours, compiled_ways
 from rumba_cleaning.planning.contours import contours
 from rumba_cleaning.planning.lines import needed
 from rumba_cleaning.planning.paper import simplified
+from rumba_cleaning.planning.rows import distinct
 from rumba_cleaning.planning.stretches import Stretch, headings
 from rumba_cleaning.route import BENT, STOP, TURN_RATE
 from rumba_sim.model.jit import plain
@@ -146,7 +147,7 @@ def _corners(ground: Ground, points: Array) -> Array:
                                                   for line in contours(window, ground.reach + BESIDE + OUTSIDE))])
     thin = THIN
     while True:
-        _, first = np.unique(np.floor(corners / thin), axis=0, return_index=True)
+        _, first = distinct(np.floor(corners / thin))
         if len(first) <= CORNERS:
             return np.asarray(corners[np.sort(first)])
         thin *= 2.0

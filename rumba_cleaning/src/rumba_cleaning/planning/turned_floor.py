@@ -7,6 +7,7 @@ import numpy as np
 from scipy import ndimage
 
 from rumba_cleaning.belief.ground import Ground
+from rumba_cleaning.compiled_bearings import bearings
 from rumba_cleaning.planning.compiled_turn import turned
 from rumba_cleaning.planning.rings import SPACING
 from rumba_sim.model.kernel import Array
@@ -17,6 +18,8 @@ BINS = 90  # of the histogram of directions, in a quarter turn: 1 degree each
 SMOOTH = 1.5  # [bins] standard deviation of the filter over the histogram: walls of a drawn map are not quite straight
 STRAIGHT = 2  # [bins] a direction this near to an axis of the map counts as the axis: a turned grid is less exact
 QUARTER = 0.5 * math.pi  # [rad]
+# Of a Gaussian, up to four standard deviations away; math.exp is the same with each build of NumPy, which np.exp is not.
+WEIGHTS = [math.exp(-0.5 * (offset / SMOOTH) ** 2) for offset in range(-int(4.0 * SMOOTH), int(4.0 * SMOOTH) + 1)]
 Window = Tuple[slice, slice]  # rows and columns
 
 
@@ -55,8 +58,13 @@ class TurnedFloor:
         self._low = low + (columns.start, rows.start)
 
     def points(self, cells: Array) -> Array:
-        """The points of the map at which (column, row) of this grid, with fractions, lie: float64 (any, 2) [m]."""
-        return np.asarray((cells + self._low) * self.resolution @ self._axes + self._origin)
+        """The points of the map at which (column, row) of this grid, with fractions, lie: float64 (..., 2) [m]."""
+        return _on_axes((cells + self._low) * self.resolution, self._axes) + self._origin
+
+
+def _on_axes(points: Array, axes: Array) -> Array:
+    """points @ axes, (..., 2) and (2, 2): BLAS rounds as it likes, and plans must not depend on its build."""
+    return points[..., :1] * axes[0] + points[..., 1:] * axes[1]
 
 
 def _turned(missed: Array, clearance: Array, axes: Array, window: Window) -> Tuple[Array, Array, Array]:
@@ -71,8 +79,8 @@ def _turned(missed: Array, clearance: Array, axes: Array, window: Window) -> Tup
         column and row, on a turned grid from the map's corner, at which the part begins; both arrays of the part.
     """
     rows, columns = window
-    corners = np.array([[column, row] for row in (rows.start, rows.stop)
-                        for column in (columns.start, columns.stop)]) @ axes.T
+    corners = _on_axes(np.array([[column, row] for row in (rows.start, rows.stop)
+                                 for column in (columns.start, columns.stop)]), axes.T)
     low = np.floor(corners.min(axis=0))
     width, height = (np.ceil(corners.max(axis=0)) - low).astype(int)
     return (low, *turned(missed, clearance, axes, low, int(height), int(width)))
@@ -102,9 +110,8 @@ def main_direction(outlines: List[Array]) -> float:
     counts = np.zeros(BINS)
     span = int(SPAN / SPACING)
     for path in outlines:
-        dx, dy = (path[span:] - path[:-span]).T
-        bins = np.rint(np.arctan2(dy, dx) / QUARTER * BINS).astype(int) % BINS
+        bins = np.rint(bearings(path[span:] - path[:-span]) / QUARTER * BINS).astype(int) % BINS
         counts += np.bincount(bins, minlength=BINS)
-    best = int(np.argmax(ndimage.gaussian_filter1d(counts, SMOOTH, mode='wrap')))
+    best = int(np.argmax(ndimage.correlate1d(counts, WEIGHTS, mode='wrap')))
     best = best - BINS if best > BINS // 2 else best
     return 0.0 if abs(best) <= STRAIGHT else best * QUARTER / BINS

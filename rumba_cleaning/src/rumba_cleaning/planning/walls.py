@@ -6,6 +6,8 @@ import numpy as np
 from scipy import spatial
 
 from rumba_cleaning.belief.ground import Ground
+from rumba_cleaning.compiled_bearings import bearings
+from rumba_cleaning.planning.nearest import NONE, nearest
 from rumba_cleaning.planning.rings import SHORTEST, SPACING, outlines
 from rumba_sim.model.kernel import Array
 
@@ -34,25 +36,24 @@ class Walls:
 
     def beside(self, points: Array) -> Optional[Array]:
         """The part of one ring beside all points (any, 2) [m]: float64 (any, 2) [m]; None: there is no straight one."""
-        distances, nearest = self._tree.query(points, distance_upper_bound=REACH)
-        if not np.isfinite(distances).all():
+        beside = nearest(self._tree, points, 1, REACH)[:, 0]
+        if (beside == NONE).any():
             return None
-        number = int(np.searchsorted(self._begins, nearest[0], side='right')) - 1
+        number = int(np.searchsorted(self._begins, beside[0], side='right')) - 1
         ring = self._rings[number]
         size = len(ring) - 1
-        along = (nearest - nearest[0] + size // 2) % size - size // 2  # waypoints from the first of the points
+        along = (beside - beside[0] + size // 2) % size - size // 2  # waypoints from the first of the points
         lead = int(LEAD / SPACING)
         first, last = int(along.min()) - lead, int(along.max()) + lead
-        is_one = ((nearest >= self._begins[number]) & (nearest < self._begins[number + 1])).all()
+        is_one = ((beside >= self._begins[number]) & (beside < self._begins[number + 1])).all()
         if not is_one or (last - first) * SPACING > LONGEST or last - first >= size:
             return None
-        part = ring[(nearest[0] - self._begins[number] + np.arange(first, last + 1)) % size]
+        part = ring[(beside[0] - self._begins[number] + np.arange(first, last + 1)) % size]
         return part if _turned(part) < BENT else None
 
 
 def _turned(path: Array) -> float:
     """The angle between the first direction of a path (any, 2) and the one that differs most from it [rad]."""
     ahead = min(AHEAD, len(path) - 1)
-    along = path[ahead:] - path[:-ahead]
-    headings = np.arctan2(along[:, 1], along[:, 0])
+    headings = bearings(path[ahead:] - path[:-ahead])
     return float(np.abs(np.unwrap(headings) - headings[0]).max())

@@ -123,7 +123,10 @@ class _Cache:
         not in the cache is compiled all the same, since the compiler begins with that too. Of all that, the code needs
         the functions by which it counts who uses an array: numba 0.56 has them ready anyway, later ones have not.
         """
-        from numba.core.runtime import rtsys
+        try:
+            from numba.core.runtime import rtsys
+        except ImportError:  # numba before 0.49
+            from numba.runtime import rtsys
         _, context = what
         rtsys.initialize(context)
         try:

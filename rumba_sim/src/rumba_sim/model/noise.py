@@ -11,9 +11,18 @@ NOISE_TICKS = 256  # ticks for which the noise of the wheels is drawn at once
 FLOOR, WHEELS, LASER = 0, 1, 2  # purposes of random generators, beside that of `Obstacles`
 
 
+def sequence(seed: int, purpose: int, number: int) -> np.random.SeedSequence:
+    """The seed for a purpose in a world with a seed, the same with each version of NumPy.
+
+    Since 1.19, NumPy fills entropy of less than 128 bits with zeros before it adds the key: here it has them already.
+    """
+    words = [seed >> shift & 0xFFFFFFFF for shift in range(0, max(128, seed.bit_length()), 32)]
+    return np.random.SeedSequence(words, spawn_key=(purpose, number))
+
+
 def generator(seed: int, purpose: int, number: int) -> np.random.Generator:
     """A random generator for a purpose in a world with a seed."""
-    return np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(purpose, number)))
+    return np.random.default_rng(sequence(seed, purpose, number))
 
 
 class Noise:

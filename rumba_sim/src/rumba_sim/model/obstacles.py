@@ -14,6 +14,7 @@ from rumba_sim.model.kernel import Array, Record
 from rumba_sim.model.kernel.movers import pause
 from rumba_sim.model.kernel.records import OBSTACLE
 from rumba_sim.model.name import check_name
+from rumba_sim.model.noise import sequence
 from rumba_sim.model.obstacle import Obstacle, Stop
 
 MOST = 1000  # obstacles of a world
@@ -117,8 +118,7 @@ class Obstacles:
         record['half_length'], record['half_width'] = 0.5 * obstacle.length, 0.5 * obstacle.width
         record['radius'], record['reach'], record['is_seen'] = obstacle.radius, obstacle.reach, obstacle.is_seen
         record['stops'] = len(obstacle.stops)
-        record['key'] = np.random.SeedSequence(self._seed, spawn_key=(MOVER, zlib.crc32(obstacle.name.encode()))
-                                               ).generate_state(1)[0] >> 1
+        record['key'] = sequence(self._seed, MOVER, zlib.crc32(obstacle.name.encode())).generate_state(1)[0] >> 1
         if obstacle.stops:
             record['rest'] = pause(record, np.array([_row(obstacle.stops[0], self._step_rate)]))
         return records
