@@ -15,7 +15,7 @@ from rumba_cleaning.belief.places import places_apart
 from rumba_cleaning.outcome import Outcome
 from rumba_cleaning.route import Ahead, Route
 from rumba_sim.model.errors import MapError
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.geometry import Pose, hypot
 
 STEP = 0.05  # [m]
 BEFORE = (16, 14, 12, 10, 8, 6)  # steps from the dock to the point on its axis at which homing begins: the most that
@@ -64,7 +64,7 @@ class Dock(Behaviour):
     def update(self, observation: Observation) -> Command:
         """Go to the point before the dock, then home; if that fails, try again."""
         pose = observation.pose
-        self._away = math.hypot(pose.x - self._home.x, pose.y - self._home.y)
+        self._away = hypot(pose.x - self._home.x, pose.y - self._home.y)
         is_at_home = self._context.nearest_dock(pose) == self._home
         if observation.is_docked and is_at_home:
             return self.succeed('docked')
@@ -114,7 +114,7 @@ class Dock(Behaviour):
         """What the mates at the dock do, by their names."""
         home = self._home
         return {name: report.task for name, report in self._context.mates.reports.items()
-                if report.task in STANDING and math.hypot(report.pose.x - home.x, report.pose.y - home.y) < BERTH
+                if report.task in STANDING and hypot(report.pose.x - home.x, report.pose.y - home.y) < BERTH
                 or report.task is Task.DOCKING and self._context.nearest_dock(report.pose) == home}
 
     def _wait(self, observation: Observation, occupants: Dict[str, Task]) -> Command:

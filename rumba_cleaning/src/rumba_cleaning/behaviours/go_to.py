@@ -15,7 +15,7 @@ from rumba_cleaning.belief import paths
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.outcome import Outcome
 from rumba_cleaning.route import Ahead, Route
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.geometry import Pose, hypot
 from rumba_sim.model.kernel import Array
 
 PAUSE = 5.0  # [s] before it tries again what was closed: who stands in the way may walk on; our choice
@@ -140,7 +140,7 @@ class GoTo(Behaviour):
         rate = turn.rate(pose, observation.dt)
         if not turn.is_done:
             return Command(0.0, rate, brushes_up=True)
-        if math.hypot(pose.x - self._target.x, pose.y - self._target.y) > CLOSE:
+        if hypot(pose.x - self._target.x, pose.y - self._target.y) > CLOSE:
             return self._try_again(STOP)
         return self.succeed(f'at ({pose.x:.2f}, {pose.y:.2f}) m')
 

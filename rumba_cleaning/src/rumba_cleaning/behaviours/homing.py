@@ -7,14 +7,13 @@ base).
 """
 
 import enum
-import math
 from typing import Optional
 
 from rumba_cleaning.behaviour import Behaviour, Command, Observation
 from rumba_cleaning.behaviours.follower import Turn
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.outcome import Outcome
-from rumba_sim.model.geometry import Pose, wrap_angle
+from rumba_sim.model.geometry import Pose, hypot, wrap_angle
 from rumba_sim.model.kernel.dock import FORCE_FIELD, GREEN_BUOY, RED_BUOY
 
 BUOYS = GREEN_BUOY | RED_BUOY
@@ -90,7 +89,7 @@ class Homing(Behaviour):
         self._turn = Turn(heading, self._context.robot.drive)
 
     def _driven(self, pose: Pose) -> float:
-        return math.hypot(pose.x - self._since.x, pose.y - self._since.y) if self._since is not None else 0.0
+        return hypot(pose.x - self._since.x, pose.y - self._since.y) if self._since is not None else 0.0
 
     # --- turning --------------------------------------------------------------------------------------------------
 

@@ -1,11 +1,10 @@
 """Notices where a robot is stopped again and again, and closes the way ahead of it there."""
 
-import math
 from typing import Optional
 
 from rumba_cleaning.behaviours.travel import mark
 from rumba_cleaning.belief.context import Context
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.geometry import Pose, hypot
 
 NEAR = 0.2  # [m] in which a robot that is stopped is still at the same place: more than it backs off
 OFTEN = 6  # times, one after the other: an obstacle in the way is outlined by fewer touches from so near; our choice
@@ -20,7 +19,7 @@ class Impasse:
     def stop(self, context: Context, pose: Pose) -> None:
         """Take note that something unknown stopped the robot at a pose."""
         place = self._place
-        if place is None or math.hypot(pose.x - place.x, pose.y - place.y) > NEAR:
+        if place is None or hypot(pose.x - place.x, pose.y - place.y) > NEAR:
             self._place, self._times = pose, 0
         self._times += 1
         if self._times % OFTEN == 0:

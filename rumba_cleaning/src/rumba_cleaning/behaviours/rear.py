@@ -11,7 +11,7 @@ import numpy as np
 
 from rumba_cleaning.behaviour import Observation
 from rumba_cleaning.behaviours.slip import heading_between
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.geometry import Pose, hypot
 
 # All figures below are our choice.
 GAP = 0.03  # [m] from the body to what a beam met: three standard deviations of its range
@@ -68,7 +68,7 @@ class Rear:
     @property
     def _slides(self) -> bool:
         """Whether the robot does not come back by the way that its wheels drive."""
-        return self._gone > LEAST and math.hypot(*self._off) > SLIDES * self._gone
+        return self._gone > LEAST and hypot(*self._off) > SLIDES * self._gone
 
     def _is_seen(self, observation: Observation, least: float) -> bool:
         """Whether the laser sees something behind, by a beam whose angle to the back has at least that cosine."""

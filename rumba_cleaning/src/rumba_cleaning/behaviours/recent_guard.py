@@ -1,13 +1,12 @@
 """Keeps the wheels of a robot without a map on the floor, by what it saw on its last metres."""
 
 import collections
-import math
 from typing import Deque, Optional, Tuple
 
 from rumba_cleaning.behaviour import Observation
 from rumba_cleaning.behaviours.guard import Guard
 from rumba_cleaning.belief.context import Context
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.geometry import Pose, hypot
 
 # [m] of way at least, and twice that at most: with wheels that differ by 1 %, the heading errs by 0.04 rad after a
 # metre, and what was seen at its beginning is 0.02 m off, as much as the guard spares.
@@ -34,7 +33,7 @@ class RecentGuard(Guard):
         """Remember what the cliff sensors see; forget what they saw long ago."""
         pose, last = observation.pose, self._at or observation.pose
         self._at = pose
-        self._way += math.hypot(pose.x - last.x, pose.y - last.y)
+        self._way += hypot(pose.x - last.x, pose.y - last.y)
         self._recent.append((self._way, observation))
         if self._way <= self._forgets_at:
             super().see(observation)

@@ -1,6 +1,5 @@
 """How a robot that edges hold gets away from them, if the behaviour that is in charge finds no way."""
 
-import math
 from typing import Callable, Iterable, Optional, Tuple
 
 import numpy as np
@@ -12,7 +11,7 @@ from rumba_cleaning.behaviours.preview import Preview
 from rumba_cleaning.behaviours.slip import NO_SLIP, Slip
 from rumba_cleaning.belief.footing import Footing
 from rumba_cleaning.belief.ground import Ground
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.geometry import Pose, hypot
 
 # All figures below are our choice.
 PATIENCE = 2.0  # [s] held by edges, after which it looks for a way out
@@ -61,7 +60,7 @@ class Release:
     def is_due(self, pose: Pose, is_held: bool, seconds: float) -> bool:
         """Whether to look for a way out, at a pose to which it came so long after the one before [s]."""
         at = self._held_at
-        if at is not None and math.hypot(pose.x - at.x, pose.y - at.y) > ELSEWHERE:
+        if at is not None and hypot(pose.x - at.x, pose.y - at.y) > ELSEWHERE:
             self.rest()
         if is_held:
             self._held_at = self._held_at or pose

@@ -6,7 +6,6 @@ its mate moves aside for it. A mate that does not move by itself is an obstacle 
 """
 
 import enum
-import math
 from typing import List, Optional
 
 import numpy as np
@@ -19,7 +18,7 @@ from rumba_cleaning.belief.context import Context
 from rumba_cleaning.belief.mates import Report, Task
 from rumba_cleaning.belief.places import places_apart
 from rumba_cleaning.route import Ahead, Route, lengths_along
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.geometry import Pose, hypot
 from rumba_sim.model.kernel import Array
 
 # All figures are our choice; each comment says what speaks for a larger and for a smaller value.
@@ -134,7 +133,7 @@ class RightOfWay:
 
 
 def _distance(one: Pose, other: Pose) -> float:
-    return math.hypot(one.x - other.x, one.y - other.y)
+    return hypot(one.x - other.x, one.y - other.y)
 
 
 def _points(ahead: Optional[Ahead], pose: Pose, length: float) -> Array:

@@ -1,9 +1,8 @@
 """Notices that a robot which is to drive does not get away from a place."""
 
-import math
 from typing import Optional
 
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.geometry import Pose, hypot
 
 NEAR = 0.3  # [m] in which a robot is still at the same place: as far as it backs off, twice
 LONGEST = 300.0  # [s] that it may try to get away; our choice
@@ -27,7 +26,7 @@ class Standstill:
     def watch(self, pose: Pose, dt: float) -> None:
         """Take note of where a robot is that has been driving, or planning how to, for `dt` [s]."""
         place = self._place
-        if place is None or math.hypot(pose.x - place.x, pose.y - place.y) > NEAR:
+        if place is None or hypot(pose.x - place.x, pose.y - place.y) > NEAR:
             self._place, self.time = pose, 0.0
         else:
             self.time += dt

@@ -6,7 +6,7 @@ from typing import List, Optional, Tuple
 import numpy as np
 
 from rumba_localisation.edges import JUMP
-from rumba_sim.model.geometry import Pose, wrap_angle
+from rumba_sim.model.geometry import Pose, hypot, wrap_angle
 from rumba_sim.model.kernel import Array
 
 # All figures below are our choice.
@@ -38,7 +38,7 @@ class Trail:
         """Remember a pose of a robot that does not go back."""
         if self._poses:
             last = self._poses[-1]
-            away = math.hypot(pose.x - last.x, pose.y - last.y)
+            away = hypot(pose.x - last.x, pose.y - last.y)
             if away > JUMP:
                 self.forget()
             elif away + self._half * abs(wrap_angle(pose.theta - last.theta)) < SPACING:

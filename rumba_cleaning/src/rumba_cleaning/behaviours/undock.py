@@ -8,7 +8,7 @@ from rumba_cleaning.behaviours.follower import Turn
 from rumba_cleaning.behaviours.travel import LONGEST
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.outcome import Outcome
-from rumba_sim.model.geometry import Pose, wrap_angle
+from rumba_sim.model.geometry import Pose, hypot, wrap_angle
 
 DISTANCE = 0.4  # [m] backward (create3_sim)
 SPEED = 0.2  # [m/s]
@@ -48,7 +48,7 @@ class Undock(Behaviour):
             if not observation.is_docked:
                 return self.succeed('was not docked')
             self._start = pose
-        driven = math.hypot(pose.x - self._start.x, pose.y - self._start.y)
+        driven = hypot(pose.x - self._start.x, pose.y - self._start.y)
         self._waited = 0.0 if driven > self._driven + PROGRESS else self._waited + min(observation.dt, LONGEST)
         self._driven = max(driven, self._driven)
         is_blocked = self._waited > PATIENCE

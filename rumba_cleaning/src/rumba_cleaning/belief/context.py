@@ -2,7 +2,6 @@
 
 import copy
 import dataclasses
-import math
 from concurrent.futures import Executor, Future
 from typing import TYPE_CHECKING, Any, Callable, List, Optional, Sequence, Tuple, TypeVar, Union
 
@@ -17,7 +16,7 @@ from rumba_cleaning.belief.swept import Swept
 from rumba_cleaning.cleaning_config import CleaningConfig
 from rumba_cleaning.survey import Survey
 from rumba_sim.model.floor_plan import FloorPlan
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.geometry import Pose, hypot
 from rumba_sim.model.kernel import Array
 from rumba_sim.model.robot_config import RobotConfig
 from rumba_sim.model.sweep import Part
@@ -196,7 +195,7 @@ class Context:
     def nearest_dock(self, pose: Pose) -> Optional[Pose]:
         """The dock that is nearest to a pose, as the crow flies; None without docks."""
         docks = self.plan.docks
-        return min(docks, key=lambda dock: math.hypot(dock.x - pose.x, dock.y - pose.y)) if docks else None
+        return min(docks, key=lambda dock: hypot(dock.x - pose.x, dock.y - pose.y)) if docks else None
 
     @property
     def home(self) -> Optional[Pose]:

@@ -12,7 +12,7 @@ from rumba_cleaning.belief import compiled_footing
 from rumba_localisation.edges import JUMP, Edges
 from rumba_sim.model.compiled import fast
 from rumba_sim.model.floor_plan import FloorPlan
-from rumba_sim.model.geometry import Pose, wrap_angle
+from rumba_sim.model.geometry import Pose, hypot, wrap_angle
 from rumba_sim.model.kernel import Array
 from rumba_sim.model.robot_config import RobotConfig
 
@@ -110,13 +110,13 @@ class Footing:
                 self._see(edge.x, edge.y)
         if is_docked:
             self._stamp(self._before_dock, pose)
-        if last is None or math.hypot(pose.x - last.x, pose.y - last.y) > JUMP:
+        if last is None or hypot(pose.x - last.x, pose.y - last.y) > JUMP:
             self._stamp(self._body, pose)
             self._unsure.clear()
             last = pose
         turn = wrap_angle(pose.theta - last.theta)
         change = pose.x - last.x, pose.y - last.y, turn
-        count = int((math.hypot(change[0], change[1]) + self._far * abs(turn)) / STEP) + 1
+        count = int((hypot(change[0], change[1]) + self._far * abs(turn)) / STEP) + 1
         self._stamp(self._wheels, last, change, count, compiled_footing.DRIVEN)
         if not any(cliffs):
             self._stamp(self._sensors, last, change, count)
@@ -211,7 +211,7 @@ class Footing:
 
 def _line(start: Tuple[float, float], end: Tuple[float, float]) -> Array:
     """Points on a line: float64 (any, 2) [m]."""
-    return np.linspace(start, end, int(math.hypot(end[0] - start[0], end[1] - start[1]) / STEP) + 2)
+    return np.linspace(start, end, int(hypot(end[0] - start[0], end[1] - start[1]) / STEP) + 2)
 
 
 def _distances_to(cliff: Array) -> Array:

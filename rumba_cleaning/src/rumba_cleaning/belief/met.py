@@ -1,10 +1,10 @@
 """The obstacles that one robot has met and sees: which of them may go again, and which stay."""
 
-import math
 from typing import Callable, List, NamedTuple
 
 import numpy as np
 
+from rumba_sim.model.geometry import hypot
 from rumba_sim.model.kernel import Array
 
 # All figures below are our choice; each comment says what speaks for a larger and for a smaller value.
@@ -27,11 +27,11 @@ class Mark(NamedTuple):
 
     def overlaps(self, other: 'Mark') -> bool:
         """Whether it has floor in common with another one."""
-        return math.hypot(self.x - other.x, self.y - other.y) < self.radius + other.radius
+        return hypot(self.x - other.x, self.y - other.y) < self.radius + other.radius
 
     def beside(self, x: float, y: float, radius: float) -> 'Mark':
         """The same, but as small as it must be to have no floor in common with a circle [m]."""
-        return self._replace(radius=min(self.radius, math.hypot(self.x - x, self.y - y) - radius))
+        return self._replace(radius=min(self.radius, hypot(self.x - x, self.y - y) - radius))
 
 
 class Seen(NamedTuple):
@@ -94,7 +94,7 @@ class Met:
             It, and what was forgotten there and is known again.
         """
         again = [mark.radius + GROWTH for mark in self._unsure + self._lasting
-                 if math.hypot(mark.x - touched.x, mark.y - touched.y) < SAME * touched.radius]
+                 if hypot(mark.x - touched.x, mark.y - touched.y) < SAME * touched.radius]
         touched = touched._replace(radius=min(max([touched.radius, *again]), LARGEST))
         back = [mark for mark in self._former if mark.overlaps(touched)]
         if stays or back or any(mark.overlaps(touched) for mark in self._lasting):
@@ -106,7 +106,7 @@ class Met:
 
     def leave_out(self, x: float, y: float, radius: float) -> bool:
         """As `Ground.leave_out`; whether that changed anything."""
-        if not any(math.hypot(mark.x - x, mark.y - y) < radius + mark.radius - OVERLAP
+        if not any(hypot(mark.x - x, mark.y - y) < radius + mark.radius - OVERLAP
                    for mark in self._unsure + self._lasting):
             return False
         self._unsure, self._lasting = ([mark for mark in (old.beside(x, y, radius) for old in marks)

@@ -20,7 +20,7 @@ from rumba_cleaning.mission.stages import EMPTY, HELD, START, StagedMission, Sta
 from rumba_cleaning.mission.wording import percent, swept
 from rumba_cleaning.outcome import Outcome
 from rumba_sim.model.errors import ConfigError
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.geometry import Pose, hypot
 
 JUMP = 0.5  # [m] from one observation to the next: the robot did not drive there, somebody moved it; as in `Swept`
 EXACT = 0.0002  # of coverage beyond the target: by so much the account of a robot may differ from the truth
@@ -134,7 +134,7 @@ class Mission(StagedMission):
             self._begin_floor(pose)
             if observation.is_docked:
                 self._context.moor(pose)
-        if last is not None and math.hypot(pose.x - last.x, pose.y - last.y) > JUMP and self._part is not None:
+        if last is not None and hypot(pose.x - last.x, pose.y - last.y) > JUMP and self._part is not None:
             self._is_undisturbed = False
             self._part.restart()
         if self._context.follow(pose) and self._part is not None:

@@ -13,6 +13,7 @@ from rumba_cleaning.belief.context import Context
 from rumba_cleaning.planning.compiled_ways import kept
 from rumba_cleaning.planning.edits import Edit
 from rumba_cleaning.route import Route
+from rumba_sim.model.geometry import hypot
 from rumba_sim.model.kernel import Array
 
 # All figures are our choice.
@@ -30,7 +31,7 @@ def shifts(context: Context, route: Route) -> Iterator[Edit]:
     corners = np.flatnonzero(kept(waypoints, STRAIGHT))
     for first, last in zip(corners[1:], corners[2:-1]):
         along = waypoints[last] - waypoints[first]
-        length = math.hypot(*along)
+        length = hypot(*along)
         if length >= LONG:
             left = np.array([-along[1], along[0]]) / length
             paths = (waypoints[[first, last]] + aside * left for aside in ASIDE)
@@ -53,4 +54,4 @@ def _outward(points: Array) -> Optional[Array]:
     if not BENT <= abs(math.atan2(x * to_y - y * to_x, x * to_x + y * to_y)) <= HAIRPIN:
         return None
     out = np.array([x - to_x, y - to_y])
-    return np.asarray(out / math.hypot(*out))
+    return np.asarray(out / hypot(*out))

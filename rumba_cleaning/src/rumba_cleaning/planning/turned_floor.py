@@ -18,7 +18,7 @@ BINS = 90  # of the histogram of directions, in a quarter turn: 1 degree each
 SMOOTH = 1.5  # [bins] standard deviation of the filter over the histogram: walls of a drawn map are not quite straight
 STRAIGHT = 2  # [bins] a direction this near to an axis of the map counts as the axis: a turned grid is less exact
 QUARTER = 0.5 * math.pi  # [rad]
-# Of a Gaussian, up to four standard deviations away; math.exp is the same with each build of NumPy, which np.exp is not.
+# Of a Gaussian, up to four standard deviations away. math.exp is the same with each build of NumPy, np.exp is not.
 WEIGHTS = [math.exp(-0.5 * (offset / SMOOTH) ** 2) for offset in range(-int(4.0 * SMOOTH), int(4.0 * SMOOTH) + 1)]
 Window = Tuple[slice, slice]  # rows and columns
 

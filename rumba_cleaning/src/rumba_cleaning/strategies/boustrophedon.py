@@ -1,7 +1,6 @@
 """boustrophedon: plans on the map, then drives in lanes, to and fro, as an ox ploughs."""
 
 import enum
-import math
 from concurrent.futures import Future
 from typing import NamedTuple, Optional
 
@@ -14,7 +13,7 @@ from rumba_cleaning.belief.context import Context
 from rumba_cleaning.outcome import Outcome
 from rumba_cleaning.route import Ahead, Relief, Route
 from rumba_cleaning.strategies import strategy
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.geometry import Pose, hypot
 
 WORTH = 0.0005  # of coverage: a round that gains less, and less than half of what was missing, is the last: a round for
 #                 the last spots gains little more
@@ -90,7 +89,7 @@ class Boustrophedon(Behaviour):
     def update(self, observation: Observation) -> Command:
         """Follow the plan, once there is one."""
         pose, last = observation.pose, self._last
-        self._driven += 0.0 if last is None else math.hypot(pose.x - last.x, pose.y - last.y)
+        self._driven += 0.0 if last is None else hypot(pose.x - last.x, pose.y - last.y)
         self._last = pose
         self._leave_to_mate()
         if self._travel is None:
@@ -264,7 +263,7 @@ def _retry(context: Context, is_cut_off: bool) -> Retry:
 def _own_part(context: Context, pose: Pose) -> Optional[Route]:
     """A route that cleans the robot's share of what was missed; what is near mates that need work is left to them."""
     others = context.mates.seeking
-    farthest = max(others, key=lambda other: math.hypot(other.x - pose.x, other.y - pose.y), default=None)
+    farthest = max(others, key=lambda other: hypot(other.x - pose.x, other.y - pose.y), default=None)
     route = plan(context, pose, farthest)
     if route is None or not others:
         return route

@@ -7,7 +7,7 @@ from rumba_cleaning.behaviour import Behaviour, Command, Observation
 from rumba_cleaning.behaviours import recoil
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.strategies import strategy
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.geometry import Pose, hypot
 
 SIZE = 0.6  # [m] radius of the spot (our choice; a spot of a Roomba is about a metre across)
 OVERLAP = 0.85  # of the brush's width from one turn to the next: the rest hides errors of the odometry
@@ -33,7 +33,7 @@ class Spiral(Behaviour):
         """Drive on, farther out by the way that the robot has come since: an edge may have slowed it."""
         pose, pitch = observation.pose, self._pitch / (2.0 * math.pi)
         last, self._last = self._last or pose, pose
-        self._angle += math.hypot(pose.x - last.x, pose.y - last.y) / math.hypot(pitch * self._angle, pitch)
+        self._angle += hypot(pose.x - last.x, pose.y - last.y) / hypot(pitch * self._angle, pitch)
         radius = pitch * self._angle
         if any(observation.contact) or recoil.is_near_edge(self._ground, pose):
             return self.succeed(f'something is in the way {radius:.2f} m from the middle of the spot')

@@ -9,7 +9,7 @@ from rumba_cleaning.behaviours import recoil
 from rumba_cleaning.behaviours.follower import turn_rate
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.strategies import strategy
-from rumba_sim.model.geometry import Pose, wrap_angle
+from rumba_sim.model.geometry import Pose, hypot, wrap_angle
 
 # The figures below are our choice, tried on the maps of rumba_sim: the robot gets once around each of them.
 LEAN = 1.5  # [1/m] curvature of the path back to the wall
@@ -55,7 +55,7 @@ class WallFollow(Behaviour):
         """Drive ahead, or along the wall, until a touch; then back off and turn."""
         pose, last = observation.pose, self._last or observation.pose
         self._last = pose
-        step = math.hypot(pose.x - last.x, pose.y - last.y)
+        step = hypot(pose.x - last.x, pose.y - last.y)
         self._driven += step
         if self._phase in (_Phase.AHEAD, _Phase.LEAN) and any(observation.contact):
             return self._touch(observation)
@@ -80,7 +80,7 @@ class WallFollow(Behaviour):
         pose = observation.pose
         if self._first is None:
             self._first, self._driven = pose, 0.0
-        elif self._driven > LEAST_ROUND and math.hypot(pose.x - self._first.x, pose.y - self._first.y) < ROUND:
+        elif self._driven > LEAST_ROUND and hypot(pose.x - self._first.x, pose.y - self._first.y) < ROUND:
             return self.succeed(f'once around, {self._driven:.1f} m')
         left, _ = observation.contact
         self._off = (self._off if self._leaning < SOON else 0.0) + (OFF_FRONT if left else OFF_SIDE)

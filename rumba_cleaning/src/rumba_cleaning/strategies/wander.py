@@ -1,6 +1,5 @@
 """wander: spirals, straight lines and walls in turn, as the early Roombas did: it needs neither map nor position."""
 
-import math
 from typing import Optional
 
 from rumba_cleaning.behaviour import Behaviour, Command, Observation, Status
@@ -9,7 +8,7 @@ from rumba_cleaning.strategies import strategy
 from rumba_cleaning.strategies.bounce import bounce
 from rumba_cleaning.strategies.spiral import Spiral
 from rumba_cleaning.strategies.wall_follow import WallFollow
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.geometry import Pose, hypot
 
 # The figures are our choice; bench/mapless.py shows what they bring.
 LINES, WALLS = 40.0, 25.0  # [s] of straight lines, and along walls, before the other one has its turn
@@ -61,7 +60,7 @@ class Wander(Behaviour):
         self._last = pose
         self._time += observation.dt
         self._since_spiral = 0.0 if self._part is self._spiral else self._since_spiral + observation.dt
-        self._ahead += math.hypot(pose.x - last.x, pose.y - last.y)
+        self._ahead += hypot(pose.x - last.x, pose.y - last.y)
         if any(observation.contact):
             self._ahead = 0.0
 

@@ -7,7 +7,7 @@ import numpy as np
 
 from rumba_sim.model.errors import MapError, WorldError
 from rumba_sim.model.floor_plan import FloorPlan
-from rumba_sim.model.geometry import Pose, wrap_angle
+from rumba_sim.model.geometry import Pose, hypot, wrap_angle
 from rumba_sim.model.kernel import Array
 from rumba_sim.model.obstacles import Obstacles
 from rumba_sim.model.reachability import stands
@@ -70,7 +70,7 @@ class FreeSpace:
         except MapError as error:
             raise WorldError(str(error)) from None
         for name, other in others.items():
-            if math.hypot(other.x - pose.x, other.y - pose.y) - 2.0 * self._radius < 0.0:
+            if hypot(other.x - pose.x, other.y - pose.y) - 2.0 * self._radius < 0.0:
                 raise WorldError(f'({pose.x:.2f}, {pose.y:.2f}) m: {name!r} stands there')
         obstacle = self._obstacles.near(pose.x, pose.y, self._radius)
         if obstacle:
@@ -87,7 +87,7 @@ class FreeSpace:
         """
         docks = self._terrain.further_docks if self._terrain.start is None else ()
         for place in (self.start, *docks):
-            gaps = [math.hypot(pose.x - place.x, pose.y - place.y) - 2.0 * self._radius for pose in others.values()]
+            gaps = [hypot(pose.x - place.x, pose.y - place.y) - 2.0 * self._radius for pose in others.values()]
             if min(gaps, default=0.0) >= 0.0 and not self._obstacles.near(*place[:2], self._radius):
                 return self.check(place, others)
         points = self._points()

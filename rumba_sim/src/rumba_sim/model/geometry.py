@@ -19,6 +19,11 @@ def wrap_angle(angle: float) -> float:
     return wrap(angle)
 
 
+def hypot(x: float, y: float) -> float:
+    """The length of (x, y); math.hypot has rounded otherwise since Python 3.10, and a run must not depend on that."""
+    return math.sqrt(x * x + y * y)
+
+
 def compose(frame: Pose, pose: Pose) -> Pose:
     """Transform a pose from a frame to the parent of that frame.
 

@@ -1,9 +1,8 @@
 """What an obstacle is that the map does not show: a disc or a box that stands, walks, or opens and closes."""
 
-import math
 from typing import NamedTuple, Sequence, Tuple
 
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.geometry import Pose, hypot
 
 LASER_HEIGHT = 0.106  # [m] of the laser over the floor: what is lower is not seen
 
@@ -31,7 +30,7 @@ class Obstacle(NamedTuple):
     @property
     def reach(self) -> float:
         """Distance from its centre to its farthest point [m]."""
-        return self.radius + 0.5 * math.hypot(self.length, self.width)
+        return self.radius + 0.5 * hypot(self.length, self.width)
 
     @property
     def is_seen(self) -> bool:
@@ -49,7 +48,7 @@ def walk(waypoints: Sequence[Pose], speed: float, is_loop: bool, least: float, m
         least, most: limits of its pauses at each waypoint [s].
     """
     poses = [*waypoints, *([] if is_loop else waypoints[-2:0:-1])]
-    return tuple(Stop(pose, math.hypot(pose.x - before.x, pose.y - before.y) / speed, least, most)
+    return tuple(Stop(pose, hypot(pose.x - before.x, pose.y - before.y) / speed, least, most)
                  for before, pose in zip([poses[-1], *poses], poses))
 
 

@@ -9,7 +9,7 @@ import numpy as np
 from rumba_sim.model.compiled import fast
 from rumba_sim.model.errors import WorldError
 from rumba_sim.model.floor_plan import FloorPlan
-from rumba_sim.model.geometry import Pose, wrap_angle
+from rumba_sim.model.geometry import Pose, hypot, wrap_angle
 from rumba_sim.model.kernel import Array, Record
 from rumba_sim.model.kernel.movers import pause
 from rumba_sim.model.kernel.records import OBSTACLE
@@ -131,7 +131,7 @@ class Obstacles:
         """
         for before, stop in zip((*obstacle.stops[-1:], *obstacle.stops), obstacle.stops):
             turn = abs(wrap_angle(stop.pose.theta - before.pose.theta))
-            way = math.hypot(stop.pose.x - before.pose.x, stop.pose.y - before.pose.y) + turn * obstacle.reach
+            way = hypot(stop.pose.x - before.pose.x, stop.pose.y - before.pose.y) + turn * obstacle.reach
             if way > self._radius * _ticks(stop, self._step_rate):
                 raise WorldError(f'{obstacle.name} moves too fast: at {self._step_rate:g} ticks a second, must move by '
                                  f'at most {self._radius * self._step_rate:g} m/s, a radius of a robot in a tick')

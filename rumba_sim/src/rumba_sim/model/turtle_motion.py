@@ -8,7 +8,7 @@ them happened.
 import math
 from typing import List
 
-from rumba_sim.model.geometry import Pose, wrap_angle
+from rumba_sim.model.geometry import Pose, hypot, wrap_angle
 
 FRAME_RATE = 62.5  # [Hz] rate of poses (turtlesim: a timer of 16 ms)
 FRAME = 1.0 / FRAME_RATE  # [s]
@@ -43,7 +43,7 @@ class TurtleMotion:
         fastest, self._speed = max(speed, self._speed), speed
         turning, self._turn_rate = max(abs(turn_rate), self._turn_rate), abs(turn_rate)
         dx, dy, turn = pose.x - before.x, pose.y - before.y, wrap_angle(pose.theta - before.theta)
-        distance = math.hypot(dx, dy)
+        distance = hypot(dx, dy)
         if distance <= speed * FRAME + ROUNDING and abs(wrap_angle(turn - turn_rate * FRAME)) <= ROUNDING:
             return [pose]  # the usual case: no pose got lost
         for frames in range(1, MOST_LOST + 2):
