@@ -5,10 +5,9 @@ import itertools
 import numpy as np
 import pytest
 from floors import knowing, wiped_but
-from numba.core.dispatcher import _DispatcherBase
 from rooms import crooked, room
 
-from rumba_cleaning.planning import improvement, planner
+from rumba_cleaning.planning import compiled_changes, improvement, planner
 from rumba_cleaning.planning.edits import dense
 from rumba_cleaning.planning.improvement import improved, rounds
 from rumba_cleaning.planning.lanes import Layout
@@ -22,6 +21,8 @@ from rumba_cleaning.route import Route
 from rumba_sim.model.geometry import Pose
 
 START = Pose(0.5, 0.5, 0.3)
+# numba's class of compiled functions, wherever its version keeps that
+DISPATCHER = next(kind for kind in type(compiled_changes.changes).__mro__ if 'typeof_pyval' in vars(kind))
 
 
 def surroundings_of(floor, pose=START, **config):
@@ -220,7 +221,7 @@ def test_numba_does_not_take_the_types_of_what_a_plan_calls_for_new_ones(monkeyp
     names, floor = set(), crooked(0.02)
     for _ in range(2):  # the first knows none
         planner.plan(knowing(floor, START), START)
-    typeof = _DispatcherBase.typeof_pyval
-    monkeypatch.setattr(_DispatcherBase, 'typeof_pyval', asked)
+    typeof = DISPATCHER.typeof_pyval
+    monkeypatch.setattr(DISPATCHER, 'typeof_pyval', asked)
     planner.plan(knowing(floor, START), START)
     assert names <= {'sweep_trace', 'passed', 'changes', 'rebuilt'}  # with many arrays: these are few calls

@@ -21,10 +21,13 @@ SMALL_FILES = 'import resource; resource.setrlimit(resource.RLIMIT_FSIZE, (0, 0)
 GEOMETRY = pathlib.Path('rumba_sim', 'model', 'kernel', 'geometry.py')
 NOBODY = 'import os, pwd; os.access = lambda *_: False; pwd.getpwuid = {}.__getitem__; '
 # numba 0.57 and later have the counters of who uses an array only once they compile something.
-LATER = """import numba.core.cpu
+LATER = """try:
+    from numba.core import cpu
+except ImportError:  # numba before 0.49
+    from numba.targets import cpu
 class Later:
     initialize = staticmethod(lambda context: None)
-numba.core.cpu.rtsys = Later
+cpu.rtsys = Later
 """
 ARRAY = """import numpy
 from rumba_sim.model.compiled import fast

@@ -1,0 +1,45 @@
+# shellcheck shell=sh
+# The Python and the libraries of a system that Rumba supports, in place of those of the system on which it is tested:
+# ./rumba sources this file, for `./rumba test --platform NAME`. NAME.txt lists the versions for pip; its first line
+# begins with the version of Python.
+
+choose_platform() { # [NAME ...]
+    known=$(cd "$root/test/platforms" && printf '%s ' *.txt | sed 's/\.txt//g')
+    case " $known" in
+        *" ${1:-} "*) ;;
+        *) fail 2 "unknown platform '${1:-}': give one of these: $known" ;;
+    esac
+    platform=$1 with_lessons=''
+    requirements=$root/test/platforms/$platform.txt
+    version=$(sed -n '1s/^# Python \([0-9.]*\):.*/\1/p' "$requirements")
+    interpreter=$(find_python "$version") ||
+        fail 1 "there is no Python $version, neither python$version in PATH nor in pyenv: pyenv install $version"
+}
+
+find_python() { # VERSION: one that works; pyenv's names in PATH may not
+    for candidate in "$(command -v "python$1" || true)" "${PYENV_ROOT:-${HOME:-}/.pyenv}/versions/$1".*/bin/python3; do
+        if [ -x "$candidate" ] && "$candidate" -c 'import venv' 2>/dev/null; then echo "$candidate"; return; fi
+    done
+    return 1
+}
+
+# Makes the virtual environment of the platform below its workspace, and puts it first in PATH.
+enter_platform() {
+    venv=$ws/venv python=$ws/venv/bin/python
+    wanted=$("$interpreter" --version; cat "$requirements")
+    if [ "$wanted" != "$(cat "$venv/wanted" 2>/dev/null || true)" ]; then
+        log=$ws/pip.log
+        : >"$log"
+        rm -rf "$venv" "$ws/build" "$ws/devel"
+        "$interpreter" -m venv "$venv"
+        # Some of these packages are too old for today's Cython, and for pip's own way to build them.
+        echo 'cython<3' >"$ws/constraint.txt"
+        PIP_CONSTRAINT=$ws/constraint.txt with_progress "fetching the libraries of $platform" \
+            "$python" -m pip install --progress-bar off -r "$requirements" ||
+            fail 1 "they cannot be fetched: $(tail -n 1 "$log")"
+        # The Python modules of ROS are those of this system: last, so that no library comes from there instead.
+        echo /usr/lib/python3/dist-packages >"$("$python" -c 'import sysconfig; print(sysconfig.get_path("purelib"))')/system.pth"
+        printf '%s\n' "$wanted" >"$venv/wanted"
+    fi
+    PATH=$venv/bin:$PATH
+}
