@@ -11,7 +11,8 @@ import pytest
 from workspaces import BUILD_TIMEOUT, ROOT, SPEED_GUARD, UNDERLAY, WS, Space, Workspace, clean_environment, master
 
 STRANGERS = sorted((ROOT / 'test' / 'packages').iterdir())
-LESSON = [*sorted((ROOT / 'test' / 'lesson').iterdir()), *(path for path in STRANGERS if path.name.startswith('battery_'))]
+LESSON = [*sorted((ROOT / 'test' / 'lesson').iterdir()),
+          *(path for path in STRANGERS if path.name.startswith('battery_'))]
 
 # Tests that a shell runs in its background would ignore Ctrl-C, and so would all that they start.
 signal.signal(signal.SIGINT, signal.default_int_handler)

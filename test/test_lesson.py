@@ -1,6 +1,5 @@
 """A learner's workspace over ours, with a rumba_msg and a rumba_bringup of its own: his nodes and ours meet in it."""
 
-import contextlib
 import math
 import re
 import subprocess

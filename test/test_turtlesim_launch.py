@@ -7,7 +7,7 @@ import pytest
 from workspaces import TIMEOUT, lines
 
 LAUNCH = 'roslaunch rumba_launch turtlesim.launch gui:=false'
-CLEAN = 'rostopic pub -1 /rumba/clean/goal rumba_msg/CleanActionGoal {}'
+CLEAN = "rostopic pub -1 /rumba/clean/goal rumba_msg/CleanActionGoal '{}'"
 STUDENT = """
 import rospy
 from rumba_msg.srv import TargetPosition
@@ -55,7 +55,7 @@ def test_a_turtle_cleans_and_comes_home_and_a_server_of_a_student_keeps_its_name
 
 
 @pytest.mark.thorough
-def test_the_service_answers_with_a_velocity_if_it_is_told_to_and_a_mission_without_its_turtle_ends(workspace):
+def test_the_service_answers_with_a_velocity_if_it_is_told_to_and_a_mission_waits_for_its_turtle(workspace):
     here = workspace.space('devel')
     with here.printing(f'{LAUNCH} speed:=5 autostart:=false answer:=velocity 2>&1') as launch:
         answer = answered(here, 8.5, 5.5, 0)
@@ -65,9 +65,14 @@ def test_the_service_answers_with_a_velocity_if_it_is_told_to_and_a_mission_with
         here.run(CLEAN)
         launch.find('rumba: cleaning by boustrophedon')
         here.run('rosservice call /kill turtle1')
-        reason = launch.find('no turtle: nothing publishes /turtle1/pose')
+        reason = launch.find('no turtle: nothing publishes /turtle1/pose; turtles that there are: none')
         launch.find('rumba has no body', reason)
-        launch.find(r'rumba: given up after .*: the robot is gone')
+        gone = launch.find(r'rumba: given up after .*: the robot is gone')
+        here.run('rosservice call /spawn 3 3 0 turtle1')
+        back = launch.find('rumba: the robot is back', gone)
+        assert 'the robot is back, and waits for a goal' in here.run('rostopic echo -n1 /rumba/mission_status')
+        here.run(CLEAN.replace('{}', '{goal: {resume: true}}'))
+        launch.find('rumba: cleaning by boustrophedon', back)
 
 
 @pytest.mark.thorough
