@@ -11,6 +11,8 @@ import pytest
 from workspaces import BUILD_TIMEOUT, ROOT, SPEED_GUARD, UNDERLAY, WS, Space, Workspace, clean_environment, master
 
 STRANGERS = sorted((ROOT / 'test' / 'packages').iterdir())
+LESSON = [*sorted((ROOT / 'test' / 'lesson').iterdir()),
+          *(path for path in STRANGERS if path.name.startswith('battery_'))]
 
 # Tests that a shell runs in its background would ignore Ctrl-C, and so would all that they start.
 signal.signal(signal.SIGINT, signal.default_int_handler)
@@ -46,6 +48,16 @@ def overlay(tmp_path_factory, environment, workspace):
         if is_first:
             overlay.make('install')  # after it has built all
     return overlay
+
+
+@pytest.fixture(scope='session')
+def lesson(tmp_path_factory, environment, workspace):
+    """A learner's packages, with a rumba_msg and a rumba_bringup of its own, built over our install space."""
+    with once(tmp_path_factory, 'lesson') as (path, is_first):
+        lesson = Workspace(path, LESSON, environment, [*UNDERLAY, workspace.setup('install')])
+        if is_first:
+            lesson.make()
+    return lesson
 
 
 @contextlib.contextmanager

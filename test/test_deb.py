@@ -160,6 +160,20 @@ def test_modules_are_compiled_by_the_python_that_runs_them_and_that_is_undone(de
 
 
 @pytest.mark.thorough
+def test_nodes_find_our_definitions_below_a_rumba_msg_of_a_lesson(debs, tmp_path):
+    for deb in debs.values():
+        assert run('dpkg-deb', '-x', deb, tmp_path)[0] == 0
+    for folder in ('', 'msg', 'srv'):
+        (tmp_path / 'lesson' / 'rumba_msg' / folder).mkdir(parents=True, exist_ok=True)
+        (tmp_path / 'lesson' / 'rumba_msg' / folder / '__init__.py').touch()
+    environment = {**clean_environment(), 'PYTHONPATH': f'{tmp_path}/lesson:{tmp_path}/{MODULES}'}
+    for node in ('rumba_sim/simulator', 'rumba_localisation/localiser', 'rumba_cleaning/cleaner', 'rumba_viewer/page',
+                 'rumba_evaluation/mission_report'):
+        code, out, error = run(tmp_path / 'usr' / 'lib' / node, '--help', env=environment)
+        assert code == 0 and out, error
+
+
+@pytest.mark.thorough
 def test_another_checkout_gives_the_same_bytes(debs, tmp_path):
     checkout = tmp_path / 'a checkout'
     for name in ('packaging', 'rumba_msg', 'rumba_sim'):

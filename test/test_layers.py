@@ -8,6 +8,8 @@ import xml.etree.ElementTree as ElementTree
 import pytest
 from workspaces import ROOT
 
+from rumba_sim.ros.common import definitions
+
 # Of each package, from the lowest to the highest: its folders, and which folders of the same package each may import.
 # Modules outside these folders belong to ''.
 FOLDERS = {
@@ -111,6 +113,16 @@ def test_outside_the_folder_ros_no_module_imports_ros_messages_or_a_clock(packag
     for name in imports(path):
         top = name.split('.')[0]
         assert top not in ROS and not top.endswith(ROS_ENDINGS) and (has_clock or top not in CLOCK), name
+
+
+@pytest.mark.parametrize('package', FOLDERS)
+def test_whatever_imports_messages_has_those_of_the_first_rumba_msg_with_all_of_ours(package):
+    first, *_ = imports(source(package) / 'ros' / '__init__.py')
+    assert first == ('rumba_sim.ros.common.definitions' if package == 'rumba_sim' else 'rumba_sim.ros.common')
+    defined = {f'{path.parent.name}/_{path.stem}' for path in (ROOT / 'rumba_msg').glob('*/*.*')
+               if path.suffix in ('.msg', '.srv')}
+    defined |= {f'msg/_{path.stem}Action' for path in (ROOT / 'rumba_msg').glob('action/*.action')}
+    assert set(definitions.MODULES) == defined
 
 
 @pytest.mark.parametrize('package, path', SOURCES, ids=name_of)

@@ -80,17 +80,22 @@ def topics_and_services(api, node):
     return [{f'{name} [{kinds[name]}]' for name in each} for each in (topics, services)]
 
 
-@pytest.fixture(scope='module')
-def told(workspace):
-    """For each node of the README: what topics and services it has in the namespace /readme."""
+@pytest.fixture(scope='module', params=['workspace', pytest.param('lesson', marks=pytest.mark.thorough)])
+def told(request):
+    """For each node of the README: what topics and services it has in the namespace /readme.
+
+    In our workspace, and by rosrun in that of a learner, with a rumba_msg of its own, over ours.
+    """
     found = {}
     for nodes in BESIDE:
         environment = clean_environment()
-        here = workspace.space('devel', environment)
+        here = request.getfixturevalue(request.param).space('devel', environment)
         with contextlib.ExitStack() as stack:
             stack.enter_context(master(environment))
             for node in nodes:
                 command = COMMANDS.get(node) or f'$LIB/{PACKAGES[node]}/{node}'
+                if request.param == 'lesson':
+                    command = re.sub(r'\$LIB/(\w+)/', r'rosrun \1 ', command)
                 stack.enter_context(here.running(command if '__ns' in command else f'{command} __ns:=/readme'))
             api = rosgraph.Master('/test', environment['ROS_MASTER_URI'])
             found.update({node: topics_and_services(api, node) for node in nodes if node not in found})

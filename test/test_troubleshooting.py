@@ -32,6 +32,7 @@ ELSEWHERE = ['Compatibility with CMake < 3.5 has been removed from CMake.',
              "/usr/bin/env: 'python': No such file or directory",
              'another simulator starts at the same moment: only one of them can',
              "AttributeError: 'Thread' object has no attribute 'isAlive'",
+             'Cannot load message class for [rumba_msg/...]. Are your messages built?',
              'to have datatype/md5sum [...], but our version has [...]. Dropping connection.',
              'Unable to communicate with master!',
              'drive/wheel_base is ... m and cliff/distance ... m: no cliff sensor looks at the floor before the '

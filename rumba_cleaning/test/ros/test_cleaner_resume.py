@@ -59,8 +59,9 @@ class CleanerResumeTest(unittest.TestCase):
 
     def is_nothing_to_resume(self):
         """A goal to resume is refused."""
-        self.cleaner.refuses('^nothing to resume: no cleaning was preempted or cancelled since the simulator was '
-                             'started or reset; send a goal without resume$', 'clean', CleanGoal(resume=True))
+        self.cleaner.refuses('^nothing to resume: no cleaning was preempted or cancelled, or lost its robot, since the '
+                             'simulator was started or reset; send a goal without resume$', 'clean',
+                             CleanGoal(resume=True))
 
     def test_1_there_is_nothing_to_resume_before_a_cleaning_was_interrupted(self):
         self.is_nothing_to_resume()

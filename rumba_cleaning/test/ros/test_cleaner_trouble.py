@@ -46,13 +46,20 @@ class CleanerTroubleTest(unittest.TestCase):
         cls.simulator = Simulator(fixture, '_map:=studio', '_speed:=10')
         cls.cleaner.connect()
 
-    def test_1_a_robot_that_is_gone_is_given_up_and_one_that_comes_back_is_served(self):
-        goal = self.cleaner.send('clean', CleanGoal())
+    def test_1_a_robot_that_is_gone_is_given_up_and_one_that_comes_back_goes_on_with_its_cleaning(self):
+        goal = self.cleaner.send('clean', CleanGoal(strategy='bounce'))
         self.cleaner.waits_to_drive()
         self.simulator.does('kill', 'rumba')
         self.assertEqual(goal.ends(Outcome.NO_READINGS).outcome.message, 'the robot is gone')
+        self.assertEqual(self.cleaner.settles().message, 'the robot is gone')
         self.simulator.does('spawn', 'rumba', Pose2D(1.0, 2.5, 0.0))
+        self.cleaner.status.last(lambda status: status.message == 'the robot is back, and waits for a goal')
+        self.cleaner.status.messages.clear()
+        goal = self.cleaner.send('clean', CleanGoal(resume=True))
+        cleaning = self.cleaner.status.find(lambda status: status.state == MissionStatus.CLEANING)
+        self.assertEqual(cleaning.strategy, 'bounce')
         self.cleaner.send('go_to', go_to(2.0, 2.4)).ends(Outcome.SUCCEEDED)
+        goal.ends(Outcome.PREEMPTED)
 
     def test_2_a_robot_whose_time_stands_still_is_not_gone(self):
         goal = self.cleaner.send('go_to', go_to(1.0, 2.5))

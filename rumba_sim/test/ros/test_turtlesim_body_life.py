@@ -82,6 +82,21 @@ class TurtlesimBodyLifeTest(unittest.TestCase):
         ask('kill', 'mikey')
         log.find(lambda entry: entry.msg.startswith('no turtle: nothing publishes /mikey/pose'))
 
+    def test_a_turtlesim_that_was_killed_has_no_turtle_and_the_next_one_has(self):
+        simulation = turtlesim(self, speed=1)
+        log = Heard(self, '/rosout')
+        body(self)
+        turtle = Turtle(self)
+        turtle.truth.find()
+        simulation.process.kill()
+        simulation.process.wait(TIMEOUT)
+        line = log.find(lambda entry: entry.msg.startswith('no turtle: ')).msg
+        self.assertEqual(line, 'no turtle: nothing publishes /turtle1/pose; turtles that there are: none. Start '
+                               'turtlesim, or set the parameter turtle')
+        turtlesim(self, speed=1)
+        log.find(lambda entry: entry.msg == 'there is a turtle on /turtle1/pose')
+        turtle.truth.fresh()
+
     def test_a_pose_that_is_not_finite_changes_nothing(self):
         rospy.set_param('/use_sim_time', False)
         log = Heard(self, '/rosout')

@@ -97,6 +97,27 @@ def test_without_turtlesim_the_message_says_how_to_install_it(monkeypatch):
         turtle.Turtle('turtle1', None)
 
 
+@pytest.mark.parametrize('dead, known', [
+    ([], ['/b/turtle1', '/turtle1', '/turtle2']), (['/killed'], ['/b/turtle1', '/turtle2']), (['/killed', '/b'], [])])
+def test_only_turtles_of_nodes_that_answer_are_there(monkeypatch, dead, known):
+    nodes = {'/turtle1/pose': ['/killed'], '/turtle2/pose': ['/killed', '/b'], '/b/turtle1/pose': ['/b'],
+             '/b/pose': ['/b'], '/turtle1/color_sensor': ['/b']}
+    kinds = {'/b/pose': 'geometry_msgs/Pose', '/turtle1/color_sensor': 'turtlesim/Color'}
+    monkeypatch.setattr(turtle.rospy, 'get_published_topics',
+                        lambda: [(topic, kinds.get(topic, 'turtlesim/Pose')) for topic in nodes])
+    monkeypatch.setattr(turtle.peers, 'publishers', nodes.get)
+    monkeypatch.setattr(turtle.peers, 'is_alive', lambda node: node not in dead)
+    assert turtle.turtles() == known
+
+
+def test_a_master_that_does_not_answer_knows_no_turtle(monkeypatch):
+    def fail(*_):
+        raise ConnectionRefusedError
+    monkeypatch.setattr(turtle.rospy, 'get_published_topics', lambda: [('/turtle1/pose', 'turtlesim/Pose')])
+    monkeypatch.setattr(turtle.peers, 'publishers', fail)
+    assert turtle.turtles() == []
+
+
 # --- no turtle ------------------------------------------------------------------------------------------------------
 
 def said(watch, until, is_heard=False, since=100.0):

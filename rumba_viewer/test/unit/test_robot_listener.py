@@ -55,6 +55,7 @@ def cleaning_ends(topics, code):
 @pytest.mark.parametrize('codes, can_resume', [
     ([], None), ([Outcome.CANCELLED], True), ([Outcome.PREEMPTED], True), ([Outcome.SUCCEEDED], False),
     ([Outcome.TIMED_OUT], False), ([Outcome.CANCELLED, Outcome.REFUSED], True), ([Outcome.REFUSED], None),
+    ([Outcome.SUCCEEDED, Outcome.NO_READINGS], None),
     ([Outcome.PREEMPTED, Outcome.SUCCEEDED], False)])
 def test_a_cleaning_can_be_resumed_if_the_last_one_was_interrupted(heard, topics, codes, can_resume):
     for code in codes:

@@ -165,9 +165,12 @@ class RobotListener:
         self._on_news()
 
     def _on_result(self, code: int) -> None:
-        """A cleaning ended; one that was refused never began, and leaves the last one as it is."""
+        """A cleaning ended; one that was refused never began, and leaves the last one as it is.
+
+        One whose robot was gone can be resumed, unless the simulator was started again.
+        """
         if code != Outcome.REFUSED:
-            self._learn(can_resume=code in INTERRUPTED)
+            self._learn(can_resume=None if code == Outcome.NO_READINGS else code in INTERRUPTED)
             self._on_news()
 
     def _learn(self, **changes: Any) -> None:

@@ -48,6 +48,11 @@ class Announcer:
         if is_new or is_due:
             self._publish(conversions.mission_status(state, strategy, message, stamp or rospy.Time.now()))
 
+    def welcome(self, stamp: rospy.Time) -> None:
+        """Tell that there are readings again, of a robot whose last goal has ended because there were none."""
+        self.say('the robot is back')
+        self.tell(State.IDLE, '', 'the robot is back, and waits for a goal', stamp, is_due=True)
+
     def say(self, text: str) -> None:
         """Log a line; erases what battery_status_listener may have left on the line of a terminal that both use."""
         if sys.stdout.isatty():

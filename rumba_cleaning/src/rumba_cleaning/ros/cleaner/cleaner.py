@@ -4,8 +4,9 @@ Below the robot's name it serves the actions
   clean    rumba_msg/Clean    undock   rumba_msg/Undock
   dock     rumba_msg/Dock     go_to    rumba_msg/GoTo
 of which one runs at a time: a new goal preempts the one before. A goal of clean with `resume` goes on with the last
-cleaning that was preempted or cancelled. After a reset of the simulator, the goal that is active begins again, and no
-cleaning can be resumed; a goal ends if the simulator is started again, or if this node ends. It serves
+cleaning that was preempted or cancelled, or whose robot was gone. After a reset of the simulator, the active goal
+begins again, and no cleaning can be resumed; a goal ends if the simulator is started again, or if this node ends. It
+serves
   go_to_position    rumba_msg/TargetPosition: which velocity, or heading, now leads toward a target; a node that serves
                     it already keeps it; not served without a map (mapless)
 publishes
@@ -48,6 +49,7 @@ from rumba_cleaning.ros.cleaner.action_server import Server
 from rumba_cleaning.ros.cleaner.activities import ACTIONS, Activity, Cleaning
 from rumba_cleaning.ros.cleaner.executor import DaemonExecutor, Planners
 from rumba_cleaning.ros.cleaner.go_to_position import GoToPosition
+from rumba_cleaning.ros.cleaner.interruption import Interruption
 from rumba_cleaning.ros.cleaner.robot import Robot
 from rumba_cleaning.ros.cleaner.run import Run, describe
 from rumba_cleaning.ros.cleaner.settings import Settings
@@ -67,10 +69,6 @@ FORCED_AFTER = 4.0  # ... and after this [s] the process ends without it: roslau
 def main() -> None:
     """Run the node."""
     node.run('cleaner', Settings, lambda settings: Cleaner(settings).run(), is_single=True)
-
-
-class NothingToResumeError(RumbaError):
-    """A goal asks to go on with a cleaning, and there is none that was interrupted."""
 
 
 class Cleaner:
@@ -93,7 +91,8 @@ class Cleaner:
                                     has_map=not settings.mapless)
         self._world: Optional[World] = self._workplace.world  # that of the goal and of the cleaning below
         self._run: Optional[Run] = None
-        self._interrupted: Optional[Cleaning] = None  # what a goal of clean with `resume` goes on with
+        self._interruption = Interruption()
+        self._is_missed = False  # whether the last goal ended because there were no readings, and there are none yet
         self._read_stamp: Optional[rospy.Time] = None  # of the newest reading that was acted upon
         self._is_reading_postponed = False
         self._is_reading_queued = True  # by `run`, after the goal of autostart
@@ -160,7 +159,7 @@ class Cleaner:
         if before is None or self._world is None or before == self._world:
             return
         is_new_run = before.run != self._world.run
-        self._interrupted = None
+        self._interruption.forget()
         self._forget_plans()
         self._read_stamp = None
         self._robot.senses.forget(self._world.since, is_new_run)
@@ -190,13 +189,16 @@ class Cleaner:
         self._read_stamp = stamp
         self._planners.deliver()
         self._robot.wheels.forget()
-        activities = self._run.activity if self._run is not None else None, self._interrupted
+        activities = self._run.activity if self._run is not None else None, self._interruption.cleaning
         listeners = [activity.hear for activity in activities if activity is not None]
         self._robot.team.listen(listeners, stamp, before=stamp if is_lockstep else None)
         try:
             if self._run is not None:
                 self._run.read()
                 self._forget_closed()
+            elif self._is_missed and self._robot.senses.look() is not None:
+                self._is_missed = False
+                self._robot.announcer.welcome(stamp)
         finally:
             self._tell_mates(stamp)
             self._robot.answer(rests=self._run is None)
@@ -221,6 +223,8 @@ class Cleaner:
 
     def _forget_closed(self) -> None:
         if self._run is not None and self._run.is_closed:
+            self._is_missed = self._run.outcome is Outcome.UNKNOWN
+            self._interruption.keep(self._run)
             self._run = None
 
     # --- goals ----------------------------------------------------------------------------------------------------
@@ -249,7 +253,8 @@ class Cleaner:
         activity = self._activity(name, handle.get_goal())
         self._interrupt(Outcome.PREEMPTED, f'preempted by a goal of {name}')
         if isinstance(activity, Cleaning):
-            self._interrupted = None
+            self._interruption.forget()
+        self._is_missed = False
         self._run = Run(activity, handle, self._robot)
 
     def _result(self, name: str, code: Outcome, message: str) -> Any:
@@ -262,7 +267,7 @@ class Cleaner:
             RumbaError: the goal cannot be carried out.
         """
         if name == 'clean' and goal.resume:
-            return self._rest_of_cleaning(goal.time_limit)
+            return self._interruption.rest(self._run, goal.time_limit)
         return ACTIONS[name].activity(self._context(), goal)
 
     def _context(self) -> Context:
@@ -282,21 +287,6 @@ class Cleaner:
             context.moor(pose)
         return context
 
-    def _rest_of_cleaning(self, time_limit: float) -> Cleaning:
-        """What is left of the cleaning that was interrupted, or is going on.
-
-        Raises:
-            NothingToResumeError: there is none.
-            ConfigError: the time limit is negative or not finite.
-        """
-        run, interrupted = self._run, self._interrupted
-        if run is not None and isinstance(run.activity, Cleaning) and run.outcome is Outcome.UNKNOWN:
-            interrupted = run.activity
-        if interrupted is None:
-            raise NothingToResumeError('nothing to resume: no cleaning was preempted or cancelled since the simulator '
-                                       'was started or reset; send a goal without resume')
-        return interrupted.resumed(time_limit)
-
     def _cancel(self, handle: Any) -> None:
         if self._run is not None and self._run.handle == handle:
             self._interrupt(Outcome.CANCELLED, 'cancelled')
@@ -307,8 +297,7 @@ class Cleaner:
         if run is None:
             return
         self._forget_plans()
-        if isinstance(run.activity, Cleaning) and run.outcome is Outcome.UNKNOWN:
-            self._interrupted = run.activity
+        self._interruption.keep(run)
         run.interrupt(outcome, message)
 
     def _close(self, outcome: Outcome, message: str) -> None:
@@ -317,6 +306,7 @@ class Cleaner:
         self._forget_plans()
         if run is not None and not run.is_closed:
             run.close(outcome, message)
+            self._is_missed = outcome is Outcome.NO_READINGS
 
     def _forget_plans(self) -> None:
         if self._planners.forget():

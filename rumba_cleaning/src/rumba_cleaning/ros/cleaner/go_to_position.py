@@ -23,7 +23,7 @@ from rumba_sim.ros.common import peers
 
 THERE = 0.02  # [m] from the target, at most, for a robot that is there
 PERIOD = 0.1  # [s] from one call to the next; a client that calls less often drives past bends
-NO_SPEED = -1.0  # linear_x beside a heading, as in the lesson: the caller chooses the speed
+BACKWARD = -1.0  # [m/s] beside a heading, as servers of the lesson answer: the heading is that of a robot that backs up
 
 
 class GoToPosition:
@@ -83,9 +83,10 @@ def velocity_toward(context: Context, pose: Pose, target: Pose) -> Tuple[float, 
 
 
 def heading_toward(context: Context, pose: Pose, target: Pose) -> Tuple[float, float, str]:
-    """NO_SPEED, the heading [rad] that leads from a pose toward a target, around walls, and how far that is, in words.
+    """A speed [m/s], the heading [rad] in which it leads from a pose toward a target, and how far that is, in words.
 
-    At the target, the heading is that of the target.
+    The robot backs up to the target, around walls: the heading points away from the next corner of its path. At the
+    target, the speed is 0, and the heading is that of the target.
 
     Raises:
         MapError: as for `velocity_toward`.
@@ -93,12 +94,12 @@ def heading_toward(context: Context, pose: Pose, target: Pose) -> Tuple[float, f
     path = _path(context, pose, target)
     if path is None:
         heading = wrap_angle(target.theta)
-        return NO_SPEED, heading, 'there' if abs(wrap_angle(heading - pose.theta)) < HEADING else 'turning'
+        return 0.0, heading, 'there' if abs(wrap_angle(heading - pose.theta)) < HEADING else 'turning'
     ways = np.hypot(*(path - pose[:2]).T)
     # The first corner that is not so near that the robot circles it.
     x, y = path[int(np.argmax(ways >= LEAST_AHEAD)) or -1]
     length = float(np.hypot(*np.diff(path, axis=0).T).sum())
-    return NO_SPEED, math.atan2(y - pose.y, x - pose.x), f'{length:.2f} m to go'
+    return BACKWARD, math.atan2(pose.y - y, pose.x - x), f'{length:.2f} m to go'
 
 
 def _path(context: Context, pose: Pose, target: Pose) -> Optional[Array]:

@@ -15,8 +15,9 @@ class GoToPositionSettings:
     """What the service go_to_position answers."""
 
     answer: str = setting('velocity', 'velocity: a speed in linear_x [m/s] and a turn rate in angular_z [rad/s], to be '
-                                      'commanded as they are; heading: a heading in angular_z [rad], as servers of the '
-                                      'lesson answer, and -1 in linear_x: the caller turns there and chooses the speed',
+                                      'commanded as they are; heading, as servers of the lesson answer: a heading in '
+                                      'angular_z [rad], to turn to first, and a speed in linear_x [m/s], to drive with '
+                                      'then: -1, backward, or 0 at the target',
                           choices=('velocity', 'heading'))
 
 

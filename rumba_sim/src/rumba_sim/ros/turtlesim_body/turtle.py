@@ -1,5 +1,6 @@
 """One turtle of a running turtlesim: its topics and services."""
 
+import itertools
 import queue
 import threading
 from typing import Any, Callable, List, Optional, Tuple
@@ -12,7 +13,7 @@ from std_srvs.srv import Empty
 from rumba_sim.model.errors import ConfigError, WorldError
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.robot import Twist
-from rumba_sim.ros.common.peers import ANSWER_TIMEOUT
+from rumba_sim.ros.common import peers
 
 try:
     from turtlesim.msg import Pose as PoseMessage
@@ -112,14 +113,20 @@ class Turtle(rospy.SubscribeListener):
 
 
 def turtles() -> List[str]:
-    """The names of all turtles that the master knows; none if it does not answer."""
+    """The names of all turtles whose node answers; none if the master does not.
+
+    The master still knows the topics of a turtlesim that was killed.
+    """
     try:
-        topics = rospy.get_published_topics()
-    except (rospy.ROSException, OSError):
+        topics = [topic for topic, kind in rospy.get_published_topics()
+                  if kind == 'turtlesim/Pose' and topic.endswith(POSE)]
+        nodes = {topic: peers.publishers(topic) for topic in topics}
+    except (rospy.ROSException, *peers.NO_ANSWER):
         return []
-    return sorted(topic[:-len(POSE)] for topic, kind in topics if kind == 'turtlesim/Pose' and topic.endswith(POSE))
+    alive = {node for node in set(itertools.chain(*nodes.values())) if peers.is_alive(node)}
+    return sorted(topic[:-len(POSE)] for topic in topics if alive.intersection(nodes[topic]))
 
 
 def _call(service: str, kind: Any, *arguments: Any) -> None:
-    rospy.wait_for_service(service, ANSWER_TIMEOUT)
+    rospy.wait_for_service(service, peers.ANSWER_TIMEOUT)
     rospy.ServiceProxy(service, kind)(*arguments)

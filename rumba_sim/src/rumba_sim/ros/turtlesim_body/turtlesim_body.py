@@ -146,9 +146,11 @@ class TurtlesimBody:
         """Say that the turtle is missing, and close the robot if it has been missing for long."""
         now, is_heard = time.monotonic(), self._turtle.is_heard
         line = self._watch.line(now, is_heard)
-        if line:
+        if line and not is_heard:
             known = one_line(', '.join(turtles()) or 'none')
-            rospy.logwarn(f'{line}; turtles that there are: {known}. Start turtlesim, or set the parameter turtle')
+            line += f'; turtles that there are: {known}. Start turtlesim, or set the parameter turtle'
+        if line:
+            rospy.logwarn(line)
         if self._node is not None and self._watch.is_gone(now, is_heard):
             rospy.logerr(f'{self._settings.robot} has no body: its topics are closed until there is a turtle')
             self._node.close()
