@@ -1,13 +1,13 @@
 # shellcheck shell=sh
 # The Python and the libraries of a system that Rumba supports, in place of those of the system on which it is tested:
-# ./rumba sources this file, for `./rumba test --platform NAME`. NAME.txt lists the versions for pip; its first line
-# begins with the version of Python.
+# ./rumba sources this file, for `./rumba test --platform NAME`. test/platforms/NAME.txt lists the
+# versions for pip; its first line begins with the version of Python.
 
 choose_platform() { # [NAME ...]
     known=$(cd "$root/test/platforms" && printf '%s ' *.txt | sed 's/\.txt//g')
     case " $known" in
         *" ${1:-} "*) ;;
-        *) fail 2 "unknown platform '${1:-}': give one of these: $known" ;;
+        *) fail 2 "unknown platform '${1:-}': give one of these: ${known% }" ;;
     esac
     platform=$1 with_lessons=''
     requirements=$root/test/platforms/$platform.txt
