@@ -39,9 +39,10 @@ def main():
     figures.heading(f'Missions of boustrophedon, {len(MAPS)} maps, {seeds} seeds, whose digest is that of this Python')
     wanted = digests(sys.executable, seeds)
     for path in sorted(PLATFORMS.glob('*.txt')):
-        python = WORKSPACES / path.stem / 'venv' / 'bin' / 'python'
+        workspace = WORKSPACES / path.stem
+        python = workspace / 'venv' / 'bin' / 'python'
         if python.exists():
-            row(path.stem, digests(str(python), seeds), wanted)
+            row(path.stem, digests(str(python), seeds, NUMBA_CACHE_DIR=str(workspace / 'cache')), wanted)
         else:
             print(f'  {path.stem}: left out; ./rumba test --platform {path.stem} installs it')
     row('this Python, without fused multiplication and addition in the C library',

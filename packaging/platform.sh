@@ -42,4 +42,6 @@ enter_platform() {
         printf '%s\n' "$wanted" >"$venv/wanted"
     fi
     PATH=$venv/bin:$PATH
+    # Beside the sources, a numba of another version would have its code replaced.
+    export NUMBA_CACHE_DIR="$ws/cache"
 }
