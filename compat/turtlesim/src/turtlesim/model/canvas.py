@@ -52,9 +52,11 @@ class Canvas:
         """Draw a straight line with round ends, so that there is no gap where two lines meet."""
         self._draw.line([*start, *end], pen.colour, pen.width)
         if pen.width > 1:
+            # Of an ellipse two pixels wide, Pillow before 8 draws one pixel.
+            end_of = self._draw.rectangle if pen.width == 2 else self._draw.ellipse
             for column, row in (start, end):
                 left, top = column - (pen.width - 1) // 2, row - (pen.width - 1) // 2
-                self._draw.ellipse([left, top, left + pen.width - 1, top + pen.width - 1], pen.colour)
+                end_of([left, top, left + pen.width - 1, top + pen.width - 1], pen.colour)
 
     def colour(self, pixel: Pixel) -> Colour:
         """Return the colour of a pixel."""
