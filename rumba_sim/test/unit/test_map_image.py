@@ -62,7 +62,7 @@ def palette(pixels):
     Image.fromarray(np.stack([PIXELS] * 3, axis=2)),
     Image.fromarray(np.stack([np.where(PIXELS == G, 250, PIXELS), PIXELS, np.where(PIXELS == G, 160, PIXELS)],
                              axis=2).astype(np.uint8)),
-    Image.fromarray(PIXELS.astype(np.int32) * 257),
+    Image.fromarray(PIXELS.astype(np.uint16) * 257),
 ], ids=['grey', 'palette', 'RGB', 'colours', '16 bit'])
 def test_each_kind_of_png_is_the_same_map(tmp_path, image):
     assert map_file.load(write(tmp_path, image, free_thresh=0.19)).occupancy.tolist() == grid(CUT).tolist()
@@ -77,7 +77,7 @@ def test_an_opaque_image_is_the_same_map_in_mode_scale(tmp_path):
 def test_a_tall_image_is_read_to_its_last_row(tmp_path, kind):
     pixels = np.kron(PIXELS, np.ones((150, 1), np.uint8))
     pixels[0, 2] = pixels[-1, 3] = W  # nothing is cut from top and bottom
-    image = {'colour': np.stack([pixels] * 3, axis=2), '16 bit': pixels.astype(np.int32) * 257, 'grey': pixels}[kind]
+    image = {'colour': np.stack([pixels] * 3, axis=2), '16 bit': pixels.astype(np.uint16) * 257, 'grey': pixels}[kind]
     plan = map_file.load(write(tmp_path, Image.fromarray(image)))
     assert plan.occupancy.tolist() == grid(pixels)[:, 1:].tolist()
 
@@ -116,6 +116,7 @@ def png_header(width, height):
     (b'P5\n1 1\n65536\n\x00', 'white is 65536 in this PGM image'),
     (b'P5\n3 2\n255\n12345', 'the image is cut short: 5 of its 3 x 2 pixels are there'),
     (b'P5\n3 2\n256\n12345', 'the image is cut short: 2 of its 3 x 2 pixels are there'),
+    (b'P2\n1 1\n255\n \n', 'the image is cut short: 0 of its 1 x 1 pixels are there'),
     (b'P2\n3 2\n255\n1 2 3 4', 'the image is cut short: 4 of its 3 x 2 pixels are there'),
     (b'P2\n3 2\n255\n1 2 3 x 5 6', 'the image is cut short: 3 of its 3 x 2 pixels are there'),
     (b'P5\n99999 99999\n255\n', '99999 x 99999 pixels are more than 150 million: cut the image'),

@@ -30,6 +30,7 @@ PGM_KINDS = (b'P2', b'P5')
 PGM_HEADER = re.compile(rb'P([25])' + 3 * rb'(?:\s+#[^\n]*(?=\n))*\s+(\d{1,9})' + rb'\s')
 PGM_HEADER_LENGTH = 65536  # [bytes] with its comments
 PGM_LIMIT = 65535
+NUMBERS = re.compile(rb'[\s\d]*')
 PLAIN_LENGTH = 12  # [bytes] of a pixel of a plain PGM image with the space around it
 
 
@@ -111,9 +112,7 @@ def _read_pgm(path: str, file: IO[bytes], like: Optional[Picture]) -> Picture:
     end = header.end() + size * (PLAIN_LENGTH if plain else sample.itemsize)
     data += file.read(max(0, min(end, os.fstat(file.fileno()).st_size) - len(data)))
     if plain:
-        with warnings.catch_warnings():
-            warnings.simplefilter('ignore')  # a text that ends early is reported below
-            levels = np.fromstring(data[header.end():].decode('latin-1'), dtype=np.int32, count=-1, sep=' ')[:size]
+        levels = np.fromstring(_numbers(data, header.end()), dtype=np.int32, sep=' ')[:size]
     else:
         stored = min(size, (len(data) - header.end()) // sample.itemsize)
         levels = np.frombuffer(data, sample, stored, header.end())
@@ -121,6 +120,12 @@ def _read_pgm(path: str, file: IO[bytes], like: Optional[Picture]) -> Picture:
         raise MapError(f'{path}: the image is cut short: {levels.size} of its {columns} x {rows} pixels are there')
     levels = np.clip(levels, 0, white).astype(np.uint16 if white > 255 else np.uint8)
     return Picture(path, levels.reshape(rows, columns), white)
+
+
+def _numbers(data: bytes, begin: int) -> str:
+    """The text from a place on, up to what is neither a number nor a space: NumPy refuses that, or warns of it."""
+    found = NUMBERS.match(data, begin)
+    return found.group().decode().strip() if found else ''
 
 
 def _read_png(path: str, file: IO[bytes], alpha: Alpha, like: Optional[Picture]) -> Picture:
