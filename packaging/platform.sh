@@ -38,10 +38,13 @@ enter_platform() {
             "$python" -m pip install --progress-bar off -r "$requirements" ||
             fail 1 "they cannot be fetched: $(tail -n 1 "$log")"
         # The Python modules of ROS are those of this system: last, so that no library comes from there instead.
-        echo /usr/lib/python3/dist-packages >"$("$python" -c 'import sysconfig; print(sysconfig.get_path("purelib"))')/system.pth"
+        modules=$("$python" -c 'import sysconfig; print(sysconfig.get_path("purelib"))')
+        echo /usr/lib/python3/dist-packages >"$modules/system.pth"
+        # That of the system is compiled for another Python; rosbag, which needs it for some bags only, would say so.
+        : >"$modules/roslz4.py"
         printf '%s\n' "$wanted" >"$venv/wanted"
     fi
     PATH=$venv/bin:$PATH
     # Beside the sources, a numba of another version would have its code replaced.
-    export NUMBA_CACHE_DIR="$ws/cache"
+    export NUMBA_CACHE_DIR="$ws/cache" RUMBA_PLATFORM="$platform"
 }
