@@ -3,6 +3,7 @@
 import sys
 
 import pytest
+import roslib.message
 
 import rumba_msg.srv
 from rumba_sim.ros.common import definitions
@@ -51,6 +52,7 @@ def test_that_of_a_lesson_is_passed_over_also_if_it_is_imported_already(tmp_path
         assert rumba_msg.__file__ == lessons
     definitions.take_ours()
     assert imported() == (OURS, OURS)
+    assert roslib.message.get_message_class('rumba_msg/SimulatorState') is not None
 
 
 def test_one_that_lacks_a_single_definition_is_not_ours(tmp_path):
