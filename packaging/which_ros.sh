@@ -102,7 +102,7 @@ sourced_prefixes() (
     set -f
     IFS=: found=
     for prefix in ${CMAKE_PREFIX_PATH:-}; do
-        if [ -e "${prefix%/*}/checkout" ]; then
+        if [ -f "${prefix%/*}/checkout" ]; then
             found=
         elif [ -e "$prefix/.catkin" ] && [ -e "$prefix/setup.sh" ]; then
             found=${found:+$found:}$prefix
