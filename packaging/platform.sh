@@ -23,6 +23,16 @@ find_python() { # VERSION: one that works; pyenv's names in PATH may not
     return 1
 }
 
+# Links the Python modules of ROS that the packages of this system hold, and none of their libraries.
+link_ros() { # FOLDER
+    dpkg-query -W -f '${db:Status-Status} ${source:Package} ${Package}\n' |
+        sed -n 's/^installed \(ros-\|catkin\)[^ ]* //p' | xargs -r dpkg -L |
+        sed -n 's|^/usr/lib/python3/dist-packages/[^/]*$|&|p' | sort -u | xargs -r ln -sft "$1"
+    # Compiled for the Python of the system; rosbag, which needs it for some bags only, would say that it is not there.
+    rm -f "$1/roslz4"
+    : >"$1/roslz4.py"
+}
+
 # Makes the virtual environment of the platform below its workspace, and puts it first in PATH.
 enter_platform() {
     venv=$ws/venv python=$ws/venv/bin/python
@@ -37,14 +47,12 @@ enter_platform() {
         PIP_CONSTRAINT=$ws/constraint.txt with_progress "fetching the libraries of $platform" \
             "$python" -m pip install --progress-bar off -r "$requirements" ||
             fail 1 "they cannot be fetched: $(tail -n 1 "$log")"
-        # The Python modules of ROS are those of this system: last, so that no library comes from there instead.
-        modules=$("$python" -c 'import sysconfig; print(sysconfig.get_path("purelib"))')
-        echo /usr/lib/python3/dist-packages >"$modules/system.pth"
-        # That of the system is compiled for another Python; rosbag, which needs it for some bags only, would say so.
-        : >"$modules/roslz4.py"
+        link_ros "$("$python" -c 'import sysconfig; print(sysconfig.get_path("purelib"))')"
         printf '%s\n' "$wanted" >"$venv/wanted"
     fi
     PATH=$venv/bin:$PATH
     # Beside the sources, a numba of another version would have its code replaced.
     export NUMBA_CACHE_DIR="$ws/cache" RUMBA_PLATFORM="$platform"
+    # Of the modules of ROS, whose strings later Pythons warn of.
+    export PYTHONWARNINGS=ignore::SyntaxWarning
 }

@@ -2,6 +2,7 @@
 
 import itertools
 
+import numba
 import numpy as np
 import pytest
 from floors import knowing, wiped_but
@@ -224,4 +225,7 @@ def test_numba_does_not_take_the_types_of_what_a_plan_calls_for_new_ones(monkeyp
     typeof = DISPATCHER.typeof_pyval
     monkeypatch.setattr(DISPATCHER, 'typeof_pyval', asked)
     planner.plan(knowing(floor, START), START)
-    assert names <= {'sweep_trace', 'passed', 'changes', 'rebuilt'}  # with many arrays: these are few calls
+    few = {'sweep_trace', 'passed', 'changes', 'rebuilt'}  # with many arrays: these are few calls
+    if numba.__version__ < '0.49':  # it loses more of the texts
+        few |= {'durations', 'rehearse'}
+    assert names <= few

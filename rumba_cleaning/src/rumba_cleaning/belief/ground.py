@@ -193,7 +193,8 @@ class Ground:
     def node(self, x: float, y: float) -> Tuple[int, int]:
         """The node nearest to a point [m]."""
         left, bottom = self.plan.origin
-        row, column = round((y - bottom) / self.plan.resolution), round((x - left) / self.plan.resolution)
+        # NumPy before 1.19 rounds its numbers to numbers with fractions.
+        row, column = int(round((y - bottom) / self.plan.resolution)), int(round((x - left) / self.plan.resolution))
         rows, columns = self.clearance.shape
         return min(max(row, 0), rows - 1), min(max(column, 0), columns - 1)
 

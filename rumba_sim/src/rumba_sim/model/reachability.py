@@ -92,8 +92,9 @@ def _nearest(plan: FloorPlan, fits: Array, x: float, y: float) -> Tuple[int, int
     A robot that fits at a point need not fit at the nearest of the points of `fits`.
     """
     u, v = 2.0 * (x - plan.origin[0]) / plan.resolution, 2.0 * (y - plan.origin[1]) / plan.resolution
-    around = [(i, j) for i in range(max(round(v) - 2, 0), min(round(v) + 3, fits.shape[0]))
-              for j in range(max(round(u) - 2, 0), min(round(u) + 3, fits.shape[1]))]
+    row, column = int(round(v)), int(round(u))  # NumPy before 1.19 rounds its numbers to numbers with fractions
+    around = [(i, j) for i in range(max(row - 2, 0), min(row + 3, fits.shape[0]))
+              for j in range(max(column - 2, 0), min(column + 3, fits.shape[1]))]
     return min(around, key=lambda at: (not fits[at], (at[0] - v) ** 2 + (at[1] - u) ** 2))
 
 
