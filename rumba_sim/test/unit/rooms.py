@@ -140,6 +140,7 @@ def positions(plan):
 
 
 POSITIONS = {name: positions(plan) for name, plan in PLANS.items()}
+DENT = Pose(2.0183859793980674, 0.1756949508663332, -0.4420871324757756)  # beside one, in the plan ('slanted', 0.05)
 NAMES = st.sampled_from(sorted(PLANS))
 STARTS = st.tuples(st.integers(0, 10 ** 6), st.floats(-3.1, 3.1))
 

@@ -110,7 +110,8 @@ def test_compiled_and_plain_kernel_move_led_robots_in_the_same_way():
     for functions, copy in zip((PLAIN, fast), copies):
         functions.follow(*copy.ground, 0, led)
         assert [(robot.x, robot.y, robot.theta) for robot in copy.robots] == [tuple(to) for to in led[:, :3]]
-        halted.append([functions.halted(robot, copy.constants[0], copy.plan.clearance, 0.3) for robot in copy.robots])
+        halted.append([functions.halted(robot, copy.constants[0], copy.plan.clearance, copy.floor.cells, 0.3)
+                       for robot in copy.robots])
     for name in ROBOT.names:
         np.testing.assert_allclose(copies[1].robots[name], copies[0].robots[name], ROUNDING, ROUNDING, err_msg=name)
     np.testing.assert_allclose(halted[1], halted[0], ROUNDING, ROUNDING)

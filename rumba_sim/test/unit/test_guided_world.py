@@ -3,7 +3,7 @@
 import math
 
 import pytest
-from rooms import room
+from rooms import DENT, PLANS, RADIUS, distances, room
 
 from rumba_sim.model.errors import WorldError
 from rumba_sim.model.geometry import Pose
@@ -137,6 +137,18 @@ def test_the_robot_would_stop_at_a_wall_presses_its_bumper_and_can_back_off(sign
         wish = guided.wish()
         guided.follow(guided.robot.pose)
     assert sign * wish.v == pytest.approx(-0.3)
+
+
+def test_a_robot_in_a_dent_of_the_clearance_between_two_walls_would_drive_off():
+    guided = guided_world(plan=PLANS[('slanted', 0.05)])
+    guided.jump(DENT)
+    for _ in range(60):
+        guided.robot.command(-0.3, 0.0, guided.world.tick)
+        x, y, theta = guided.robot.pose
+        way = guided.wish().v / RATE
+        guided.follow(Pose(x + way * math.cos(theta), y + way * math.sin(theta), theta))
+        assert distances(guided.world.plan, [guided.robot.pose[:2]]) >= RADIUS
+    assert math.hypot(guided.robot.pose.x - DENT.x, guided.robot.pose.y - DENT.y) > 0.2
 
 
 def test_at_the_dock_the_robot_charges():

@@ -8,7 +8,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from pytest import approx
 from rooms import PLANS, RADIUS, crooked, distances, drive, drove, positions, quiet, room
-from things import HIGH, LOW, box, corners, disc, gaps, to_segment, walker
+from things import HIGH, LOW, box, clutter, corners, disc, gaps, to_segment, walker
 
 from rumba_sim.model.constants import RECORD
 from rumba_sim.model.errors import WorldError
@@ -85,21 +85,6 @@ def test_a_robot_gets_between_two_discs_that_are_a_little_farther_apart_and_not_
         drove(world, 0.3, 0.0, 500)
         assert (robot.pose.x > 2.5) is passes
         assert robot.bumper == (NONE if passes else BOTH)
-
-
-@st.composite
-def clutter(draw):
-    """Obstacles anywhere in a room of 3 x 2.4 m."""
-    found = []
-    for number in range(draw(st.integers(1, 8))):
-        x, y, yaw = draw(st.floats(0.0, 3.0)), draw(st.floats(0.0, 2.4)), draw(st.floats(-3.1, 3.1))
-        kind, size = draw(st.sampled_from(['disc', 'box', 'walker', 'crate'])), draw(st.floats(0.02, 0.3))
-        to = (draw(st.floats(0.0, 3.0)), draw(st.floats(0.0, 2.4)), draw(st.floats(-3.1, 3.1)))
-        found.append({
-            'disc': lambda: disc(f'o{number}', x, y, size), 'box': lambda: box(f'o{number}', x, y, yaw, size, 0.1),
-            'walker': lambda: walker(f'o{number}', [(x, y), to[:2]], 0.7, size),
-            'crate': lambda: walker(f'o{number}', [(x, y, yaw), to], 0.2, size=(size, 0.2), is_loop=True)}[kind]())
-    return found
 
 
 @pytest.mark.thorough

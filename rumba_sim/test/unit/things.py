@@ -4,6 +4,7 @@ import functools
 import math
 
 import numpy as np
+from hypothesis import strategies as st
 
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.obstacle import Obstacle, walk
@@ -26,6 +27,21 @@ def walker(name, waypoints, speed=0.5, radius=0.15, is_loop=False, pause=(0.0, 0
     poses = [Pose(*waypoint, *[0.0] * (3 - len(waypoint))) for waypoint in waypoints]
     return Obstacle(name, poses[0], height, 0.0 if any(size) else radius, *size,
                     stops=walk(poses, speed, is_loop, *pause))
+
+
+@st.composite
+def clutter(draw):
+    """Obstacles anywhere in a room of 3 x 2.4 m."""
+    found = []
+    for number in range(draw(st.integers(1, 8))):
+        x, y, yaw = draw(st.floats(0.0, 3.0)), draw(st.floats(0.0, 2.4)), draw(st.floats(-3.1, 3.1))
+        kind, size = draw(st.sampled_from(['disc', 'box', 'walker', 'crate'])), draw(st.floats(0.02, 0.3))
+        to = (draw(st.floats(0.0, 3.0)), draw(st.floats(0.0, 2.4)), draw(st.floats(-3.1, 3.1)))
+        found.append({
+            'disc': lambda: disc(f'o{number}', x, y, size), 'box': lambda: box(f'o{number}', x, y, yaw, size, 0.1),
+            'walker': lambda: walker(f'o{number}', [(x, y), to[:2]], 0.7, size),
+            'crate': lambda: walker(f'o{number}', [(x, y, yaw), to], 0.2, size=(size, 0.2), is_loop=True)}[kind]())
+    return found
 
 
 def corners(pose, obstacle):

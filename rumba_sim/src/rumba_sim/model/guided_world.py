@@ -85,7 +85,8 @@ class GuidedWorld:
             wheels[name] = state[name]
         fast.drive(wheels, constants, self.world.tick)
         left, right = float(wheels['left_speed']), float(wheels['right_speed'])
-        forward = fast.halted(state, constants, self.world.terrain.clearance, 0.5 * (left + right))
+        forward = fast.halted(state, constants, self.world.terrain.clearance, self.world.floor.cells,
+                              0.5 * (left + right))
         return Twist(forward, (right - left) / self.world.config.drive.wheel_base)
 
     def check(self, pose: Pose) -> Pose:

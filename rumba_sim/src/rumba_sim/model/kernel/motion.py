@@ -6,13 +6,15 @@ from typing import Tuple
 from rumba_sim.model.kernel import Array, Record, Triple
 from rumba_sim.model.kernel.geometry import arc, clearance, wrap
 from rumba_sim.model.kernel.obstacles import nearest_obstacle
+from rumba_sim.model.kernel.walls import HELD, is_held, is_way_clear
 
 TOUCH = 0.0005  # [m] a smaller gap is a contact
 PUSH = 0.0001  # [m] a push leaves this gap, so that rounding cannot leave an overlap
 PUSHES = 8  # how often a robot is pushed in one tick before it stays where it was
 
 
-def move(robots: Array, me: int, k: Record, obstacles: Array, field: Array, now: int) -> Tuple[float, float]:
+def move(robots: Array, me: int, k: Record, obstacles: Array, field: Array, cells: Array,
+         now: int) -> Tuple[float, float]:
     """Move a robot as its wheels turn for one tick; it slides along obstacles and never enters them.
 
     Returns the vector from where the robot is now to where its wheels led: (0, 0) if nothing was in the way.
@@ -25,6 +27,9 @@ def move(robots: Array, me: int, k: Record, obstacles: Array, field: Array, now:
         return 0.0, 0.0
     to_x, to_y, robot.theta = arc(robot.x, robot.y, robot.theta, distance, turn)
     x, y = settle(robots, me, k, obstacles, field, now, to_x, to_y)
+    if (x != to_x or y != to_y) and is_held(robot, k, field, cells, to_x, to_y, x, y) and is_clear_of_others(
+            robots, me, k, obstacles, now, to_x, to_y):
+        x, y = to_x, to_y
     robot.distance += math.hypot(x - robot.x, y - robot.y)
     robot.x, robot.y = x, y
     return to_x - x, to_y - y
@@ -49,13 +54,18 @@ def lead(robot: Record, k: Record, to: Array) -> Triple:
     return from_x, from_y, from_theta
 
 
-def halted(robot: Record, k: Record, field: Array, v: float) -> float:
+def halted(robot: Record, k: Record, field: Array, cells: Array, v: float) -> float:
     """The part of a forward speed `v` that does not drive a robot into a wall within one tick."""
     gap, along_x, along_y = clearance(k, field, robot.x, robot.y)
-    nearer = -v * k.dt * (along_x * math.cos(robot.theta) + along_y * math.sin(robot.theta))
+    cos, sin = math.cos(robot.theta), math.sin(robot.theta)
+    nearer = -v * k.dt * (along_x * cos + along_y * sin)
     if nearer <= 0.0 or gap - nearer >= k.reach:
         return v
-    return v * max(gap - k.reach, 0.0) / nearer
+    slower = v * max(gap - k.reach, 0.0) / nearer
+    if abs(slower) < HELD * abs(v) and is_way_clear(
+            robot, k, field, cells, robot.x + v * k.dt * cos, robot.y + v * k.dt * sin):
+        return v
+    return slower
 
 
 def settle(robots: Array, me: int, k: Record, obstacles: Array, field: Array, now: int, x: float,
@@ -89,6 +99,13 @@ def settle(robots: Array, me: int, k: Record, obstacles: Array, field: Array, no
                 break
             return x, y
     return robots[me].x, robots[me].y
+
+
+def is_clear_of_others(robots: Array, me: int, k: Record, obstacles: Array, now: int, x: float, y: float) -> bool:
+    """Whether a robot overlaps no obstacle and no other robot at (x, y)."""
+    if len(obstacles) > 0 and nearest_obstacle(obstacles, x, y, k.radius)[0] < k.radius:
+        return False
+    return now < robots[me].alone_until or nearest(robots, me, k, now, x, y)[1] >= 2.0 * k.radius
 
 
 def max_displacement(k: Record) -> float:

@@ -25,7 +25,7 @@ def advance(robots: Array, constants: Array, obstacles: Array, docks: Array, fie
             robot = robots[me]
             drive(robot, k, now)
             start = robot.x, robot.y, robot.theta
-            toward_x, toward_y = move(robots, me, k, obstacles, field, now)
+            toward_x, toward_y = move(robots, me, k, obstacles, field, cells, now)
             traction = stand(robot, k, cells) if k.has_layers else k.floor_traction
             if k.has_cliffs:
                 look_down(robot, k, cells)
