@@ -1,7 +1,7 @@
 """Digests of missions with the libraries of each supported system: those that `./rumba test --platform` has installed.
 
-`platforms.py [--seeds N]`: 5 seeds on each of 4 maps by default. Processes without the instructions for a multiplication
-and an addition at once compute with another rounding of the C library: their digests are compared too.
+`platforms.py [--seeds N]`: N seeds on each of 4 maps, 5 by default. Without the processor's fused multiplication and
+addition, the C library rounds otherwise: the digests of such processes are compared too.
 """
 
 import argparse

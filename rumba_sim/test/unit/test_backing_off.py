@@ -33,7 +33,7 @@ def populated(plan, step_rate, obstacles, starts):
 
 
 def is_clear(world, robot, before, x, y):
-    """Whether nothing is where a robot would be that moves from a pose to (x, y), and no wall straight on from there."""
+    """Whether nothing is where a robot would be that moves from a pose to (x, y), and no wall straight on behind."""
     way = math.hypot(x - before.x, y - before.y)
     cos, sin = (x - before.x) / way, (y - before.y) / way
     apart = [math.hypot(other.pose.x - x, other.pose.y - y) - RADIUS

@@ -41,7 +41,7 @@ def test_a_robot_never_overlaps_a_wall_nor_passes_through_one(plan, step_rate, s
 
 @settings(max_examples=100)
 @given(NAMES, st.sampled_from([10, 50]), STARTS, st.sampled_from([1, -1]))
-@example(('slanted', 0.05), 50, (0, -0.4420871324757756), 1)  # between a wall and a slanted one: a dent in the clearance
+@example(('slanted', 0.05), 50, (0, -0.4420871324757756), 1)  # between a wall and a slanted one: in a dent
 def test_a_robot_that_backs_off_from_a_wall_gets_free(plan, step_rate, where, sign):
     world = World(PLANS[plan], quiet(drive={'acceleration': 1000.0}), step_rate)
     world.spawn('rumba', start(plan, where))
