@@ -1,4 +1,4 @@
-"""What plans are made of depends neither on the versions of the libraries nor on what they do with ties and rounding."""
+"""What plans are made of depends neither on versions of the libraries nor on what they do with ties and rounding."""
 
 import math
 
