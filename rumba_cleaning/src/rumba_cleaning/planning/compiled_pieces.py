@@ -12,12 +12,12 @@ import numpy as np
 
 from rumba_cleaning.behaviours.compiled_follower import SLOWEST_BEND, Drive, wrapped
 from rumba_cleaning.planning.compiled_ways import CLOSE, Needed, cornering, distance, sight
-from rumba_cleaning.planning.nearest import NONE
 from rumba_sim.model.jit import compiled
 
 Array = Any  # numpy.ndarray
 
 BEYOND = 0.3  # of half a brush that is swept beyond the ends of a piece: robots swing round there, or go on; our choice
+NONE = -1  # no end
 FAR = 1e4  # [s] for a link that is not known: finite, so that sums can be compared
 TOGETHER = 1e-3  # [m] ends so near to each other are one
 
