@@ -7,7 +7,8 @@ import pytest
 from scipy import spatial
 
 from rumba_cleaning.compiled_bearings import bearings
-from rumba_cleaning.planning.nearest import NONE, nearest
+from rumba_cleaning.planning.compiled_pieces import NONE
+from rumba_cleaning.planning.nearest import nearest
 from rumba_cleaning.planning.rows import distinct
 from rumba_cleaning.planning.turned_floor import _on_axes
 

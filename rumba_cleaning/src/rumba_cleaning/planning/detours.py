@@ -7,9 +7,10 @@ from scipy import spatial
 
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.planning import compiled_detours
+from rumba_cleaning.planning.compiled_pieces import NONE
 from rumba_cleaning.planning.edits import Edit
 from rumba_cleaning.planning.lines import needed
-from rumba_cleaning.planning.nearest import NONE, nearest
+from rumba_cleaning.planning.nearest import nearest
 from rumba_cleaning.planning.stretches import Stretch
 from rumba_cleaning.route import Route
 from rumba_sim.model.jit import plain

@@ -7,7 +7,8 @@ from scipy import spatial
 
 from rumba_cleaning.belief.ground import Ground
 from rumba_cleaning.compiled_bearings import bearings
-from rumba_cleaning.planning.nearest import NONE, nearest
+from rumba_cleaning.planning.compiled_pieces import NONE
+from rumba_cleaning.planning.nearest import nearest
 from rumba_cleaning.planning.rings import SHORTEST, SPACING, outlines
 from rumba_sim.model.kernel import Array
 
