@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """The controller of the lesson: turns to the heading that the server answers, then drives with the speed beside it.
 
-Reads targets from the terminal, X Y THETA in a line, and prints where the turtle stands after each.
+Reads targets from the terminal, X Y THETA in a line, and prints where the turtle stands after each. A turtle that the
+machine was too busy to stop in time has left its target again: it is sent back.
 """
 
 import math
@@ -48,9 +49,7 @@ ask.wait_for_service()
 threshold = rospy.get_param('/threshold_parameter')
 for line in sys.stdin:
     position = [float(word) for word in line.split()]
-    while not step(position, newest()):
-        pass
     place = newest()
-    while place.linear_velocity or place.angular_velocity:
+    while not step(position, place) or place.linear_velocity or place.angular_velocity:
         place = newest()
     print('at', place.x, place.y, flush=True)

@@ -1,6 +1,7 @@
 // The controller of the lesson: turns to the heading that the server answers, then drives with the speed beside it.
 //
-// Reads targets from the terminal, X Y THETA in a line, and prints where the turtle stands after each.
+// Reads targets from the terminal, X Y THETA in a line, and prints where the turtle stands after each. A turtle that the
+// machine was too busy to stop in time has left its target again: it is sent back.
 #include <cmath>
 #include <iostream>
 
@@ -45,13 +46,15 @@ int main(int argc, char** argv)
   while (std::cin >> call.request.target_x >> call.request.target_y >> call.request.target_theta)
   {
     bool is_there = false;
-    while (!is_there && hear())
+    bool is_standing = false;
+    while (!(is_there && is_standing) && hear())
     {
       if (!client.call(call) || !call.response.feedback)
         continue;
       const double away = std::hypot(call.request.target_x - pose.x, call.request.target_y - pose.y);
       const bool is_aligned = std::abs(pose.theta - call.response.angular_z) < threshold;
       is_there = is_aligned && away < threshold;
+      is_standing = pose.linear_velocity == 0.0F && pose.angular_velocity == 0.0F;
       geometry_msgs::Twist twist;
       if (!is_aligned)
         twist.angular.z = 1.0;
@@ -59,8 +62,6 @@ int main(int argc, char** argv)
         twist.linear.x = call.response.linear_x;
       wheels.publish(twist);
     }
-    while (hear() && (pose.linear_velocity != 0.0F || pose.angular_velocity != 0.0F))
-      ;
     std::cout << "at " << pose.x << " " << pose.y << std::endl;
   }
 }
