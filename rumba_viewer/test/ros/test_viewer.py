@@ -88,6 +88,7 @@ class ViewerTest(unittest.TestCase):
         cleaner.goals.clear()
         self.assertTrue(viewer.key_until('r', lambda: cleaner.goals, 'a goal')[0].goal.resume)
 
+    @unittest.skipIf('RUMBA_PLATFORM' in os.environ, 'roslz4 is compiled for the Python of the system alone')
     def test_a_mission_is_recorded_and_a_page_made_of_it_when_it_has_ended(self):
         Simulator(self, '_map:=studio', '_speed:=10')
         viewer = Viewer(self, display=Display(self)).is_there()

@@ -7,6 +7,7 @@ import contextlib
 import hashlib
 import json
 import os
+import zipfile
 from typing import Any, Dict, List, Mapping, NamedTuple, Sequence, Tuple
 
 import numpy as np
@@ -162,6 +163,8 @@ def read(path: str) -> Tuple[WorldState, int]:
     """
     with opened(path, WorldError) as file:
         try:
+            with zipfile.ZipFile(file):  # older NumPy would print a line of its own if it is none
+                file.seek(0)
             with np.load(file, allow_pickle=False) as content:
                 header = json.loads(bytes(content[HEADER]).decode())
                 if header['format'] != FORMAT:

@@ -65,6 +65,7 @@ class Patient(WebSocketProtocol13):
     def _abort(self) -> None:
         if self._is_too_much and not self.stream.closed():  # else the status would be lost with the connection
             self._is_too_much = False
+            self.client_terminated = True  # else what is drained would be taken for frames
             asyncio.ensure_future(self._drain())
         else:
             super()._abort()
