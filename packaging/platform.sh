@@ -31,6 +31,8 @@ link_ros() { # FOLDER
     # Compiled for the Python of the system; rosbag, which needs it for some bags only, would say that it is not there.
     rm -f "$1/roslz4"
     : >"$1/roslz4.py"
+    # The rostest of Debian 12 uses what Python 3.12 has dropped.
+    echo 'import unittest; unittest.TestCase.assert_ = unittest.TestCase.assertTrue' >"$1/rostest.pth"
 }
 
 # Makes the virtual environment of the platform below its workspace, and puts it first in PATH.

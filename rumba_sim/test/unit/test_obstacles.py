@@ -268,6 +268,20 @@ def test_what_makes_no_sense_is_refused_and_changes_nothing(act, message):
     assert world.digest() == before and list(world.obstacles.items) == ['leg', 'crate']
 
 
+def test_what_moves_is_still_met_after_an_obstacle_was_refused():
+    """A cat walks into the way of the robot, which stands in the way of a bin."""
+    tried, alone = (among(walker('cat', [(2.0, 3.5), (2.0, 2.0)], pause=(60.0, 60.0))) for _ in range(2))
+    drove(tried[0], 0.0, 0.0, 1)
+    drove(alone[0], 0.0, 0.0, 1)
+    with pytest.raises(WorldError, match='stands there$'):
+        tried[0].add_obstacle(disc('bin', 1.2, 2.0, 0.1))
+    for world, robot in (tried, alone):
+        drove(world, 0.0, 0.0, 3200)
+        drove(world, 0.3, 0.0, 200)
+        assert robot.bumps == 1
+    assert tried[0].digest() == alone[0].digest()
+
+
 def test_there_are_at_most_so_many_obstacles(monkeypatch):
     monkeypatch.setattr('rumba_sim.model.obstacles.MOST', 2)
     world, _ = among(disc('a', 3.0, 3.0, 0.1), disc('b', 3.0, 4.0, 0.1))

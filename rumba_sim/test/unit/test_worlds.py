@@ -100,6 +100,18 @@ def test_each_world_is_as_if_it_were_alone_whatever_happens_to_any_of_them(kinds
     np.testing.assert_array_equal(worlds.robots['x'], [world.robots['rumba'].pose.x for world in alone])
 
 
+def test_movers_go_on_in_a_world_that_has_refused_an_obstacle():
+    kinds = 2 * [(1, 0, (CAT,), 0.5, 0.25, 1.0, 10.0)]
+    worlds, alone = Worlds(built(kinds)), built(kinds)
+    worlds.step(12)
+    on_the_robot = Obstacle('bin', worlds[0].robots['rumba'].pose, height=0.3, radius=0.05)
+    with pytest.raises(WorldError, match='stands there$'):
+        worlds[0].add_obstacle(on_the_robot)
+    worlds.step(20)
+    alone[0].step(32)
+    assert worlds[0].digest() == worlds[1].digest() == alone[0].digest()
+
+
 def test_robots_sweep_bump_and_sense_so_that_the_comparison_says_something():
     worlds = Worlds([world_with_a_robot(FLOORS[0], config(), seed=seed) for seed in range(20)])
     generator, cliffs, infrared = np.random.default_rng(3), 0, 0

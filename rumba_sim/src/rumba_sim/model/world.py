@@ -267,7 +267,7 @@ class World:
         self.obstacles.add(obstacle)
         for member in self.robots.values():
             if self.obstacles.near(*member.pose[:2], self._config.drive.radius):
-                self.obstacles.remove(obstacle.name)
+                self.remove_obstacle(obstacle.name)
                 raise WorldError(f'{obstacle.name} at ({obstacle.pose.x:.2f}, {obstacle.pose.y:.2f}) m: '
                                  f'{member.name!r} stands there')
         self._renew()
