@@ -16,7 +16,8 @@ CMAKE = 'sweeper/CMakeLists.txt, line '
     ('bad_msg', f'{CMAKE}5: a message uses the type float, which does not exist', 'float64'),
     ('bad_msg_syntax', 'sweeper/msg/Dirt.msg is no message: Invalid declaration: float64', 'a type and a name'),
     ('bad_xml', 'sweeper/package.xml cannot be used: ', 'mismatched tag: line 13, column 2'),
-    ('generate_undeclared_dependency', f'{CMAKE}5: messages of geometry_msgs are used', '<depend>geometry_msgs</depend>'),
+    ('generate_undeclared_dependency',
+     f'{CMAKE}5: messages of geometry_msgs are used', '<depend>geometry_msgs</depend>'),
     ('install_no_script', f'{CMAKE}5: sweeper/scripts/cleaner does not exist', 'spelling'),
     ('late_generate', f'{CMAKE}6: generate_messages(...) must stand before catkin_package(...)', 'move it up'),
     ('no_cmakelists', 'sweeper has no CMakeLists.txt', 'hand in the whole folder'),
@@ -71,7 +72,8 @@ def test_a_build_that_succeeded_has_no_mistakes():
 
 @pytest.mark.parametrize('piece', [
     'CMake Error at ', 'CMake Error at submission/a:1:\n  Cannot locate message [\n', "  Assertion failed: file '",
-    'undefined reference to `', ': error: ', 'a:1:1: error: ', '\033[', 'Error(s) in package \'\n', '(', ' ', '\n', 'a'])
+    'undefined reference to `', ': error: ', 'a:1:1: error: ', '\033[', '(', ' ', '\n',
+    'Error(s) in package \'\n', 'a'])
 def test_a_megabyte_of_anything_is_read_within_seconds(piece):
     began = time.process_time()
     assert len(of_build(piece * (1_000_000 // len(piece)))) <= MOST

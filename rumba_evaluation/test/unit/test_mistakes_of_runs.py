@@ -24,7 +24,7 @@ SCRIPTS = 'sweeper/scripts/'
     ('indent', 'indent, line 4: IndentationError (expected an indented block', 'the same number of spaces'),
     ('iteritems2', 'iteritems2, line 4: AttributeError (', 'iteritems is Python 2: write items instead'),
     ('kill', 'kill was stopped by a segmentation fault', 'index'),
-    ('no_init', 'no_init, line 5: ROSException (ROS node has not been initialized yet.', "call rospy.init_node('NAME')"),
+    ('no_init', 'no_init, line 5: ROSException (ROS node has not been initialized', "call rospy.init_node('NAME')"),
     ('no_message', "no_message, line 3: ImportError (cannot import name 'Bumpers' from 'rumba_msg.msg') in ",
      '`rosmsg package rumba_msg`'),
     ('no_module', "no_module, line 3: ModuleNotFoundError (No module named 'rumba_msgs')",
@@ -92,14 +92,16 @@ def test_a_test_without_mistakes_has_no_reasons():
 
 
 def test_nothing_that_a_terminal_obeys_is_quoted():
-    printed = PRINTED['zero'].replace('division by zero', 'a\r\x1b[2J\x07\u202eb' + 300 * 'c').replace('return', '\x9b')
+    printed = PRINTED['zero'].replace('return', '\x9b').replace(
+        'division by zero', 'a\r\x1b[2J\x07\u202eb' + 300 * 'c')
     [told] = of_run(printed)
     assert told.isprintable() and 'a\\r\\x1b[2J\\x07\\u202eb' in told and 200 * 'c' not in told
 
 
 @pytest.mark.parametrize('piece', [
     'Traceback (most recent call last):\n', '  File "', '  File "/src/submission/a", line 1\n', ' \n', 'SyntaxError: ',
-    '/src/submission/', "['Traceback (most recent call last):\\n', '", "] process has died [pid 1, exit code -11, cmd /",
+    '/src/submission/', "['Traceback (most recent call last):\\n', '",
+    '] process has died [pid 1, exit code -11, cmd /',
     '/usr/bin/env: ', 'cannot launch node of type [', '\033[0;', 'During handling of the above exception\n', 'print ',
     '  File "/src/submission/a", line 1\n    print 0 <> 00', '\r'])
 def test_a_megabyte_of_anything_is_read_within_seconds(piece):
