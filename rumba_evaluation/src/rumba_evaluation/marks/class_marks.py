@@ -8,10 +8,11 @@ import os
 import pathlib
 from typing import Callable, Dict, Iterable, List, NamedTuple, Optional, Sequence
 
+from rumba_evaluation.marks import intake
 from rumba_evaluation.marks.gradescope import most, score
 from rumba_evaluation.marks.hidden_tests import HiddenTest
 from rumba_evaluation.marks.scheme import Mark, number
-from rumba_evaluation.marks.submission import Outcome
+from rumba_evaluation.marks.submission import Launch, Outcome
 
 DIGEST = '.digest'  # file beside results.json: of what was marked
 
@@ -25,17 +26,22 @@ class Row(NamedTuple):
 
 def submissions(folder: str) -> List[str]:
     """The paths of the submissions of a class, by name."""
-    return sorted(entry.path for entry in os.scandir(folder) if entry.is_dir() and not entry.name.startswith('.'))
+    with os.scandir(folder) as entries:
+        return sorted(entry.path for entry in entries if intake.is_submission(entry))
 
 
-def digest(source: str, tests: Sequence[HiddenTest]) -> str:
-    """Identifies a submission and the tests that mark it, by their contents."""
-    found = hashlib.sha256()
-    for test in tests:
-        found.update(json.dumps([test.arguments, pathlib.Path(test.path).read_text(errors='replace')]).encode())
-    for path in sorted(pathlib.Path(source).rglob('*')):
-        if path.is_file() and '.git' not in path.parts and '__pycache__' not in path.parts:
-            found.update(f'{path.relative_to(source)}\0'.encode() + hashlib.sha256(path.read_bytes()).digest())
+def digest_of_tests(folder: str, tests: Sequence[HiddenTest], launches: Sequence[Launch]) -> str:
+    """Identifies what marks: all files in the folder of the tests, their arguments, and files that parameters name.
+
+    Beside a file that a parameter names, such as a map, there may be others that belong to it, such as its picture.
+    """
+    named = {os.path.dirname(os.path.realpath(value)) for launch in launches for value in launch.parameters.values()
+             if isinstance(value, str) and os.path.isabs(value) and os.path.isfile(value)}
+    found = hashlib.sha256(json.dumps([test.arguments for test in tests]).encode() + intake.digest(folder).encode())
+    for place in sorted(named):
+        for entry in sorted(pathlib.Path(place).iterdir()):
+            if entry.is_file():
+                found.update(f'{entry}\0{intake.digest(str(entry))}'.encode(errors='surrogateescape'))
     return found.hexdigest()
 
 

@@ -1,9 +1,10 @@
 """mark: marks submissions by hidden .test files, each against a world and a master of its own, and prints the points.
 
-Each test runs in the time of its world: with lockstep, the same submission gets the same marks on any machine. Beside
-the table, results.json is for Gradescope, and a log of each test for the teacher. With --all, each folder in FOLDER is
-a submission; they are marked in parallel, marks.csv lists them, and after an interruption the same command goes on.
-docs/teaching.md shows a course.
+A submission is a script, a package, a workspace, or a zip or tar file of them. It is built and run in a sandbox, where
+bubblewrap can make one. Each test runs in the time of its world: with lockstep, the same submission gets the same marks
+on any machine. Beside the table, results.json is for Gradescope, and a log of each test for the teacher. With --all,
+each folder, archive and script in FOLDER is a submission; they are marked in parallel, marks.csv lists them, and after
+an interruption the same command goes on. docs/teaching.md shows a course, and what the sandbox promises.
 
 NAME:=VALUE is an argument that the .test files declare.
 """
@@ -11,45 +12,56 @@ NAME:=VALUE is an argument that the .test files declare.
 import argparse
 import concurrent.futures
 import os
-import pathlib
+import shutil
+import signal
 import sys
-import tempfile
 import threading
-from typing import Callable, Dict, List, Sequence, Tuple
+from typing import Callable, Dict, List, NamedTuple, Sequence, Tuple, Union
 
-from rumba_evaluation.marks import class_marks, github, gradescope, hidden_tests, submission
+from rumba_evaluation.marks import class_marks, github, gradescope, hidden_tests, intake, processes, sandbox, scratch
 from rumba_evaluation.marks.class_marks import Row
 from rumba_evaluation.marks.hidden_tests import HiddenTest
-from rumba_evaluation.marks.submission import Outcome
+from rumba_evaluation.marks.quotations import printable
+from rumba_evaluation.marks.sandbox import Bubblewrap, Plain
+from rumba_evaluation.marks.submission import Launch, Outcome, Submission
+from rumba_evaluation.marks.supervised import Stopped
 from rumba_evaluation.trials.command_line import BAD_INPUT, ERROR, INTERRUPTED, Parser
 from rumba_sim.model.errors import ConfigError, RumbaError
 
 NAME = 'mark'
 RESULTS, SHEET, NOTES = 'results.json', 'marks.csv', 'notes.txt'
 EXAM = 'exam'
-BAG = 'recording.bag'
-Examine = Callable[[str, HiddenTest], List[str]]
+BUILD_LOG, BAG = 'build.log', 'recording.bag'
 
 
-def main(arguments: Sequence[str], recorder: str, examine: Examine) -> int:
-    """Run the command with the arguments of a command line; returns the exit code.
+class Ros(NamedTuple):
+    """What needs ROS."""
 
-    Args:
-        arguments: without the name of the program.
-        recorder: what records an examination, as an element of a launch file with the path of the bag as {bag}.
-        examine: finds in the bag of an examination what was not allowed, in words.
-    """
+    recorder: str  # what records an examination, as an element of a launch file with the path of the bag as {bag}
+    examine: Callable[[str, HiddenTest], List[str]]  # finds in such a bag what was not allowed, in words
+    load: Callable[[HiddenTest, str], Launch]  # what a test starts; its second argument is the folder of the tests
+    visible: Callable[[], List[str]]  # folders that programs need which use ROS and Rumba
+
+
+def main(arguments: Sequence[str], ros: Ros) -> int:
+    """Run the command with the arguments of a command line, without the name of the program; returns the exit code."""
     options, given = _options(arguments)
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
     try:
-        marking = _Marking(options, given, recorder, examine)
+        processes.adopt_orphans()
+        scratch.remove_abandoned()
+        marking = _Marking(options, given, ros)
         return marking.mark_all() if options.all else marking.mark_one()
     except RumbaError as error:
-        print(f'{NAME}:', *str(error).split(), file=sys.stderr)
+        message = ' '.join([f'{NAME}:', *str(error).split()])
+        print(message, file=sys.stderr)
+        if options.output:  # a grader shows students what it finds there
+            _keep(options.output, RESULTS, gradescope.document([], options.visibility, message))
         return BAD_INPUT
     except OSError as error:  # for example no space left
         print(f'{NAME}: {error}', file=sys.stderr)
         return ERROR
-    except KeyboardInterrupt:
+    except (KeyboardInterrupt, Stopped):
         print(f'{NAME}: stopped; the same command goes on', file=sys.stderr)
         return INTERRUPTED
 
@@ -80,15 +92,34 @@ def _options(arguments: Sequence[str]) -> Tuple[argparse.Namespace, Dict[str, st
 class _Marking:
     """What the command line wants."""
 
-    def __init__(self, options: argparse.Namespace, given: Dict[str, str], recorder: str, examine: Examine) -> None:
-        for folder in (options.submission or options.all, options.tests):
+    def __init__(self, options: argparse.Namespace, given: Dict[str, str], ros: Ros) -> None:
+        folders: List[str] = [options.all, options.tests]
+        for folder in filter(None, folders):
             if not os.path.isdir(folder):
                 raise ConfigError(f'{folder}: is no folder')
-        self._options = options
+        if not options.all and not os.path.exists(options.submission):
+            raise ConfigError(f'{options.submission}: is not there')
+        self._options, self._ros = options, ros
         self._tests = hidden_tests.load(options.tests, given)
+        self._launches = [ros.load(test, options.tests) for test in self._tests]
         self._points = hidden_tests.all_points(self._tests)
-        self._recorder, self._examine = recorder, examine
-        self._printing = threading.Lock()
+        self._box = self._sandbox()
+        self._printing, self._stop = threading.Lock(), threading.Event()
+        self._of_tests = class_marks.digest_of_tests(options.tests, self._tests, self._launches)
+
+    def _sandbox(self) -> Union[Plain, Bubblewrap]:
+        """The sandbox, if the system allows one; otherwise a line says so."""
+        with scratch.folder() as folder:
+            for name in ('shm', 'tmp'):
+                (folder / name).mkdir()
+            trouble = sandbox.trouble(str(folder))
+        if trouble:
+            print(f'{NAME}: without a sandbox ({trouble}): submissions run with your rights, and can cheat; '
+                  'docs/teaching.md says what then holds', file=sys.stderr)
+            return Plain()
+        options = self._options
+        return Bubblewrap(self._ros.visible(), filter(None, (options.tests, options.all, options.output,
+                                                             options.submission)))
 
     def mark_one(self) -> int:
         """Mark one submission."""
@@ -104,62 +135,67 @@ class _Marking:
         folder = self._options.output or 'marks'
         sources = class_marks.submissions(self._options.all)
         if not sources:
-            raise ConfigError(f'{self._options.all}: has no folder in it: each submission must be a folder')
+            raise ConfigError(f'{self._options.all}: has no submission in it: each must be a folder, an archive (.zip, '
+                              '.tar, .tar.gz) or a script (.py)')
         with concurrent.futures.ThreadPoolExecutor(self._options.jobs) as pool:
             jobs = [pool.submit(self._mark_member, source, folder) for source in sources]
             try:
                 rows = [job.result() for job in jobs]
             except BaseException:
+                self._stop.set()
                 for job in jobs:
                     job.cancel()
                 raise
-        path = os.path.join(folder, SHEET)
-        with open(path, 'w', encoding='utf-8') as file:
-            file.write(class_marks.sheet(rows, self._points))
-        print(path)
+        _keep(folder, SHEET, class_marks.sheet(rows, self._points))
+        print(os.path.join(folder, SHEET))
         return 0
 
     def _mark_member(self, source: str, folder: str) -> Row:
-        name = os.path.basename(source)
+        name = intake.name_of(source)
         own = os.path.join(folder, name)
-        wanted = class_marks.digest(source, self._tests)
+        wanted = f'{self._of_tests} {intake.digest(source)}'
         outcome = class_marks.stored(own, wanted, _read)
         if outcome is None:
+            _keep(own, class_marks.DIGEST, '')
             outcome = self._mark(source, own)
-            with open(os.path.join(own, class_marks.DIGEST), 'w', encoding='utf-8') as file:
-                file.write(wanted)
+            _keep(own, class_marks.DIGEST, wanted)
         with self._printing:
-            print(f'{name}: {gradescope.total(outcome.marks)}', *outcome.notes, sep='; ', flush=True)
+            print(f'{printable(name)}: {gradescope.total(outcome.marks)}', *outcome.notes, sep='; ', flush=True)
         return Row(name, outcome)
 
     def _mark(self, source: str, folder: str) -> Outcome:
         """Mark a submission; its results go to a folder if one is given."""
-        found = Outcome([], [])
-        with tempfile.TemporaryDirectory(prefix='mark') as temporary:
-            scratch = pathlib.Path(temporary)
-            prepared = submission.prepare(source, self._options.tests, scratch)
-            for test in self._tests:
-                bag = str(scratch / f'{test.name}.{BAG}')
+        wanted = [node for launch in self._launches for node in launch.nodes]
+        with scratch.folder() as temporary:
+            taken = Submission(source, wanted, temporary, self._box, self._stop)
+            marks, notes = [], list(taken.notes)
+            if folder and taken.workspace.log:
+                _keep(folder, BUILD_LOG, taken.workspace.log)
+            for test, launch in zip(self._tests, self._launches):
+                bag = str(temporary / f'{test.name}.{BAG}')
                 is_exam = test.arguments.get(EXAM, '').lower() in ('true', '1')
-                outcome, log = submission.run(test, prepared, scratch,
-                                              self._recorder.format(bag=bag) if is_exam else '')
-                findings = self._examine(bag, test) if is_exam and not prepared.problem else []
-                found = Outcome(found.marks + outcome.marks, found.notes + outcome.notes + findings)
+                outcome, log = taken.run(test, launch, self._options.tests,
+                                         self._ros.recorder.format(bag=bag) if is_exam else '')
+                marks += outcome.marks
+                notes += outcome.notes + (self._ros.examine(bag, test) if is_exam and not taken.problem else [])
                 if folder:
-                    _keep(folder, f'{test.name}.log', log or prepared.problem)
+                    _keep(folder, f'{test.name}.log', log or taken.problem)
                     if is_exam and os.path.exists(bag):
-                        os.replace(bag, os.path.join(folder, os.path.basename(bag)))
+                        shutil.move(bag, os.path.join(folder, os.path.basename(bag)))
         if folder:
-            _keep(folder, NOTES, '\n'.join(found.notes))
-            words = '\n'.join([gradescope.total(found.marks), *found.notes])
-            _keep(folder, RESULTS, gradescope.document(found.marks, self._options.visibility, words))
-        return found
+            _keep(folder, NOTES, '\n'.join(notes))
+            _keep(folder, RESULTS, gradescope.document(
+                marks, self._options.visibility, '\n'.join([gradescope.total(marks), *notes])))
+        return Outcome(marks, notes)
 
 
 def _keep(folder: str, name: str, text: str) -> None:
+    """Write a file at once, so that nobody finds a half of it."""
     os.makedirs(folder, exist_ok=True)
-    with open(os.path.join(folder, name), 'w', encoding='utf-8', errors='replace') as file:
+    path = os.path.join(folder, name)
+    with open(f'{path}.new', 'w', encoding='utf-8', errors='backslashreplace') as file:
         file.write(text)
+    os.replace(f'{path}.new', path)
 
 
 def _read(folder: str) -> Outcome:

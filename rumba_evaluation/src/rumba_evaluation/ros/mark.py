@@ -9,8 +9,8 @@ from rumba_evaluation.marks.hidden_tests import HiddenTest
 
 def main() -> None:
     """Run the command line of this process; leaves the process with the exit code."""
-    from rumba_evaluation.ros import exam_recording
+    from rumba_evaluation.ros import exam_recording, launches
 
     def examine(bag: str, test: HiddenTest) -> List[str]:
         return [f'{test.name}: {finding}' for finding in exam_recording.findings(bag)]
-    sys.exit(mark.main(sys.argv[1:], exam_recording.RECORDER, examine))
+    sys.exit(mark.main(sys.argv[1:], mark.Ros(exam_recording.RECORDER, examine, launches.load, launches.visible)))

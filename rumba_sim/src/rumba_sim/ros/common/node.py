@@ -21,7 +21,7 @@ import yaml
 from rumba_sim.model import config, yaml_file
 from rumba_sim.model.errors import ConfigError, RumbaError, WorldError, one_line, quoted
 from rumba_sim.ros.common import (
-    clock, master_watch, peers, prompt_accept, prompt_connection, prompt_end, publisher_updates)
+    clock, launched, master_watch, peers, prompt_accept, prompt_connection, prompt_end, publisher_updates)
 from rumba_sim.ros.common.paths import absolute
 
 Settings = TypeVar('Settings')
@@ -184,7 +184,7 @@ def _parameters(settings_class: Type[Settings], own: Sequence[str]) -> Settings:
         if rospy.has_param(f'~{name}'):
             rospy.delete_param(f'~{name}')
     where = f'parameter of {rospy.get_name()}'
-    parameters = rospy.get_param('~', {})
+    parameters = launched.below(rospy.get_name()) if launched.is_fixed() else rospy.get_param('~', {})
     if not isinstance(parameters, Mapping):
         raise ConfigError(f'parameter {rospy.get_name()} is {quoted(parameters)}: must be a mapping of '
                           + ', '.join(config.names(settings_class)))
