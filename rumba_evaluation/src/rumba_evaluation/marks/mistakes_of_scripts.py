@@ -79,7 +79,7 @@ def _without_shebang(data: bytes, where: str) -> str:
 
 
 def _program(first: str) -> str:
-    """The program in the first line of a script, or behind env; without -S, that takes all that follows for one name."""
+    """The program in the first line of a script or behind env, which takes all that follows for one name without -S."""
     program, _, rest = first[2:].strip(' \t').partition(' ')
     if os.path.basename(program) != 'env':
         return program
