@@ -68,8 +68,27 @@ def test_guards_earn_by_the_share_of_points_that_the_goals_earned_so_that_nothin
     collisions = Collisions(0)
     marks = marked('coverage 8; collisions 2', 'coverage 0', (collisions, False), (Coverage(0.4), 0.1))
     assert marks['collisions'].score == pytest.approx(0.5)
-    assert marks['collisions'].reason.endswith('; counts by the 25 % of the points of the goals')
+    assert marks['collisions'].reason.endswith(
+        '; the rule was kept, but rules count only as far as the task is done: 25 % of the points for coverage are '
+        'earned, so this earns 25 % too')
     assert marked('', '', (collisions, False))['collisions'].score == 1.0  # without goals
+
+
+def test_a_guard_that_is_kept_in_part_tells_both_parts():
+    collisions = Collisions(1)
+    presses = [(collisions, is_pressed) for is_pressed in (True, False, True, False, True, False)]
+    marks = marked('coverage 8; docked 0; collisions 4', 'coverage 0; collisions 5', *presses, (Coverage(0.4), 0.2),
+                   (Docked(), False))
+    assert marks['collisions'].score == pytest.approx(1.0)
+    assert marks['collisions'].reason.endswith(
+        '; the rule was kept in part, which is worth 50 % of its points, but rules count only as far as the task is '
+        'done: 50 % of the points for coverage are earned, so this earns 50 % of 50 %')
+
+
+def test_a_guard_tells_that_nothing_of_the_task_is_done():
+    marks = marked('', '', (Collisions(0), False), (Coverage(0.4), 0.0), (Docked(), False))
+    assert marks['collisions'].reason.endswith(
+        'done: no points for coverage and docked are earned, so this earns none')
 
 
 def test_a_void_run_earns_nothing_and_no_part_of_it():

@@ -74,6 +74,7 @@ def test_a_submission_without_mistakes_has_no_reasons(submitted):
      ", line 1: the program '/usr/bin/pyton3' does not exist here",
      '#!/usr/bin/env python3'),
     (SCRIPT.replace('python3', '-S python2.3 -u'), ", line 1: the program 'python2.3' does not exist here", 'Python 3'),
+    (SCRIPT.replace('python3', 'python3 -u'), ", line 1: the program 'python3 -u' does not exist here", 'python3'),
     (SCRIPT.replace('python3', ''), ", line 1: the program '' does not exist here", '#!/usr/bin/env python3')])
 def test_the_first_line_of_a_script_must_name_a_program(submitted, script, begin, advice):
     [told] = of_submission(submitted({'scripts/cleaner': script}), [CLEANER])
@@ -115,8 +116,15 @@ def test_a_node_in_cpp_must_be_built_with_its_name(submitted, cmake, begin):
 
 def test_the_packages_that_are_there_are_told_if_the_wanted_one_is_missing(submitted):
     [told] = of_submission(submitted(), [Wanted('sweper', 'cleaner')])
-    assert told == ('there is no package sweper, but sweeper: write <name>sweper</name> in package.xml, and '
-                    'project(sweper) in CMakeLists.txt')
+    assert told == ('there is no package sweper, but sweeper: write <name>sweper</name> in '
+                    'sweeper/package.xml, and project(sweper) in CMakeLists.txt')
+
+
+def test_a_submission_may_be_the_folder_of_the_package_itself(submitted):
+    folder = submitted({'scripts/cleaner': 'import rospy'}) / 'sweeper'
+    assert of_submission(folder, [CLEANER])[0].startswith('scripts/cleaner does not begin with #!')
+    (folder / 'scripts' / 'cleaner').unlink()
+    assert of_submission(folder, [CLEANER])[0].startswith('the package sweeper has no node cleaner')
 
 
 def test_a_submission_needs_a_package(tmp_path):

@@ -45,14 +45,14 @@ def _cmake(package: Package, folder: pathlib.Path) -> str:
 
 def of_names(wanted: Iterable[str], found: Sequence[Package], folder: pathlib.Path) -> List[str]:
     """Packages that tests want and that are missing, and those whose name is not the same everywhere."""
-    names = [package.name for package in found if package.name]
+    packages = {package.name: package for package in found if package.name}
     told = []
     for name in dict.fromkeys(wanted):
-        if names and name not in names:
-            near = difflib.get_close_matches(name, [each[:100] for each in names], 1, 0.0)
-            others = ', '.join(printable(each, 50) for each in names[:10])
-            rename = f': write <name>{name}</name> in package.xml' if near else ''
-            told.append(f'there is no package {name}, but {others}{rename}, and project({name}) in CMakeLists.txt')
+        if packages and name not in packages:
+            nearest = max(packages, key=lambda each: difflib.SequenceMatcher(None, name, each[:100]).ratio())
+            others = ', '.join(printable(each, 50) for each in list(packages)[:10])
+            told.append(f'there is no package {name}, but {others}: write <name>{name}</name> in '
+                        f'{_xml(packages[nearest], folder)}, and project({name}) in CMakeLists.txt')
     return told + [f'{_cmake(package, folder)}: project({printable(package.project)}) is not the name in package.xml, '
                    f'{printable(package.name)}: write project({printable(package.name)})' for package in found
                    if package.name and package.project and package.project != package.name]

@@ -225,5 +225,5 @@ def _of_end(ended: _Ended) -> str:
     if ended.code:
         return (f'{printable(ended.program)} ended before the test was over, with the exit code {ended.code}: look for '
                 'sys.exit() or exit() in it')
-    return (f'{printable(ended.program)} ended before the test was over, without an error: a node must go on until ROS '
-            'stops it: end it with rospy.spin() or ros::spin(), or loop `while not rospy.is_shutdown():`')
+    return (f'{printable(ended.program)} ended before the test was over, without an error: if it shall go on, write '
+            'rospy.spin() or ros::spin() as its last line, or loop `while not rospy.is_shutdown():`')

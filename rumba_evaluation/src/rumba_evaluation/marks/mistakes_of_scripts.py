@@ -79,11 +79,13 @@ def _without_shebang(data: bytes, where: str) -> str:
 
 
 def _program(first: str) -> str:
-    """The program in the first line of a script, or behind env."""
-    words = first[2:].strip(' \t').split(' ')
-    if os.path.basename(words[0]) == 'env':
-        return next((word for word in words[1:] if word and not word.startswith('-') and '=' not in word), '')
-    return words[0]
+    """The program in the first line of a script or behind env, which takes all that follows for one name without -S."""
+    program, _, rest = first[2:].strip(' \t').partition(' ')
+    if os.path.basename(program) != 'env':
+        return program
+    if not rest.lstrip().startswith('-'):
+        return rest.strip(' \t')
+    return next((word for word in rest.split(' ') if word and not word.startswith('-') and '=' not in word), '')
 
 
 def _interpreter(first: str, where: str) -> List[str]:

@@ -1,8 +1,8 @@
 """Points for the conditions of a run, and why they were lost.
 
 A condition that is met earns its points, and one that is met in part earns a part if there is partial credit for it.
-The points of guards count only by the share of points that the goals have earned: a robot that stands still breaks no
-guard, and deserves nothing for it.
+Guards earn no larger share of their points than the goals of theirs: a robot that stands still breaks no guard, and
+deserves nothing for it. Goals are the task and guards the rules in words for students.
 """
 
 import math
@@ -89,8 +89,25 @@ class Scheme:
         is_scaled = self._conditions[verdict.name].is_guard and earned < 1.0 and share > 0.0
         score = round(most * share * (earned if is_scaled else 1.0), DIGITS)
         lost = f'{number(most - score)} of {number(most)} points lost: ' if score < most else ''
-        scaled = f'; counts by the {100.0 * earned:.0f} % of the points of the goals' if is_scaled else ''
+        scaled = self._scaled(share, earned) if is_scaled else ''
         return Mark(verdict.name, score, most, lost + verdict.words + scaled)
+
+    def _scaled(self, share: float, earned: float) -> str:
+        """Why a guard of which a share is met earns only a part of that, in words."""
+        task = ' and '.join(name for name, condition in self._conditions.items()
+                            if not condition.is_guard and self.points[name])
+        kept, factor = 'kept', 'too'
+        if share < 1.0:
+            kept = f'kept in part, which is worth {_percent(share)} of its points'
+            factor = f'of {_percent(share)}'
+        done = f'no points for {task} are earned, so this earns none'
+        if earned:
+            done = f'{_percent(earned)} of the points for {task} are earned, so this earns {_percent(earned)} {factor}'
+        return f'; the rule was {kept}, but rules count only as far as the task is done: {done}'
+
+
+def _percent(share: float) -> str:
+    return f'{100.0 * share:.0f} %'
 
 
 def nothing(points: Dict[str, float], reason: str) -> List[Mark]:
