@@ -179,12 +179,17 @@ def _processes(lines: Sequence[str], workspaces: Set[str]) -> List[_Ended]:
             code = line.partition('exit code ')[2].partition(',')[0]
             program = _program(line.partition(', cmd ')[2].partition(' ')[0], workspaces)
             if program and code.lstrip('-').isdigit():
-                ended.append(_Ended(program, int(code[:9])))
+                ended.append(_Ended(program, _signal(int(code[:9]))))
         elif FINISHED in line:
             program = programs.get(line.partition(FINISHED)[0].rpartition('[')[2], '')
             if program:
                 ended.append(_Ended(program, 0))
     return ended
+
+
+def _signal(code: int) -> int:
+    """An exit code as Python has it, below 0 for a signal: a sandbox and a shell add 128 to its number."""
+    return 128 - code if 128 < code < 128 + 32 else code
 
 
 def _workspaces(output: str) -> Set[str]:

@@ -18,6 +18,7 @@ from rumba_evaluation.marks.supervised import Limits, Stop
 from rumba_evaluation.marks.workspace import Problem, Workspace
 
 PACKAGE = 'submission'  # as rostest calls the folder for results
+LONGEST_LOG = 1_000_000  # characters
 PARAMETERS = 'RUMBA_PARAMETERS'  # names the file from which nodes of Rumba take their parameters
 
 
@@ -70,7 +71,7 @@ class Submission:
         if self.problem:
             return self._outcome(test, {}, self.problem, self._mistakes), self.workspace.log
         folder = self._ours / test.name
-        self.workspace.install(launch.nodes, folder / 'prefix')
+        programs = self.workspace.install(launch.nodes, folder / 'prefix')
         file = folder / f'{test.name}.test'
         file.write_text(_launch_file(test, extra))
         (folder / 'parameters.json').write_text(json.dumps(launch.parameters, default=str))
@@ -83,7 +84,10 @@ class Submission:
             with contextlib.suppress(OSError, ValueError):
                 marks[name] = marks_of((pathlib.Path(beside(
                     str(results / PACKAGE / f'rosunit-{name}.xml')))).read_text())
-        found = [*([done.stopped] if done.stopped else []), *self._mistakes, *mistakes.of_run(done.output)]
+        told = done.output + ''.join(map(_beginning, sorted((folder / 'log').glob('rostest-*.log'))))
+        for path, program in programs.items():
+            told = told.replace(path, program)
+        found = [*([done.stopped] if done.stopped else []), *self._mistakes, *mistakes.of_run(told)]
         reason = 'the test gave no verdict: ' + (found[0] if found else 'see the log')
         return self._outcome(test, marks, reason, found), done.output
 
@@ -110,6 +114,12 @@ class Submission:
                       for condition, most in points.items()]
         is_full = all(mark.score == mark.max_score for mark in found)
         return Outcome(found, [] if is_full else [f'{test.name}: {note}' for note in dict.fromkeys(notes)])
+
+
+def _beginning(path: pathlib.Path) -> str:
+    """What a log tells, unless it is far too long."""
+    with open(path, encoding='utf-8', errors='replace') as file:
+        return file.read(LONGEST_LOG)
 
 
 def _launch_file(test: HiddenTest, extra: str) -> str:

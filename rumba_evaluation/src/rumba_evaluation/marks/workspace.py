@@ -108,8 +108,12 @@ class Workspace:
         found = sorted(folder.rglob(node.type)) if folder is not None and '/' not in node.type else []
         return next((path for path in found if path.is_file() and os.access(str(path), os.X_OK)), None)
 
-    def install(self, nodes: Sequence[Wanted], prefix: pathlib.Path) -> None:
-        """Make a prefix whose programs run nodes of the submission, as far as they are there, in the sandbox."""
+    def install(self, nodes: Sequence[Wanted], prefix: pathlib.Path) -> Dict[str, str]:
+        """Make a prefix whose programs run nodes of the submission, as far as they are there, in the sandbox.
+
+        Returns the paths of the nodes themselves, by those of the programs.
+        """
+        found = {}
         prefix.mkdir(parents=True)
         (prefix / '.catkin').write_text('')
         for node in nodes:
@@ -123,6 +127,8 @@ class Workspace:
                 path.write_text(sandbox.script(self._environment, OF_THE_RUN,
                                                self._box.around_node([str(program)], str(self._folder))))
                 path.chmod(0o755)
+                found[str(path)] = str(program)
+        return found
 
 
 def _make_executable(folder: pathlib.Path) -> None:
