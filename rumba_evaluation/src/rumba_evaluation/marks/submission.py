@@ -69,7 +69,7 @@ class Submission:
             extra: further elements of the launch file.
         """
         if self.problem:
-            return self._outcome(test, {}, self.problem, self._mistakes), self.workspace.log
+            return self._outcome(test, {}, self.problem, [self.problem, *self._mistakes]), self.workspace.log
         folder = self._ours / test.name
         programs = self.workspace.install(launch.nodes, folder / 'prefix')
         file = folder / f'{test.name}.test'

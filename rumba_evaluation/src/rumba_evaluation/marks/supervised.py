@@ -7,7 +7,7 @@ import signal
 import subprocess
 import threading
 import time
-from typing import Iterator, List, Mapping, NamedTuple, Optional, Sequence, Set
+from typing import Iterator, Mapping, NamedTuple, Optional, Sequence, Set
 
 from rumba_evaluation.marks import processes
 
@@ -152,26 +152,27 @@ class Kept:
     def __init__(self, most: int) -> None:
         """Keep so many bytes."""
         self._half = most // 2
-        self._first = bytearray()
-        self._last: List[bytes] = []
+        self._first, self._last = bytearray(), bytearray()
         self._left_out = 0
-        self._size = 0  # of `last`
 
     def add(self, data: bytes) -> None:
         """Take what was printed."""
         room = self._half - len(self._first)
         self._first += data[:room]
-        if data[room:]:
-            self._last.append(data[room:])
-            self._size += len(data) - room
-        while self._size - len(self._last[0] if self._last else b'') > self._half:
-            self._left_out += len(self._last[0])
-            self._size -= len(self._last.pop(0))
+        self._last += data[room:]
+        if len(self._last) > 2 * self._half:
+            self._cut()
+
+    def _cut(self) -> None:
+        more = max(0, len(self._last) - self._half)
+        self._left_out += more
+        del self._last[:more]
 
     def text(self) -> str:
         """All that is kept."""
+        self._cut()
         left_out = f'\n... {self._left_out} bytes are left out ...\n'.encode() if self._left_out else b''
-        return (bytes(self._first) + left_out + b''.join(self._last)).decode(errors='replace')
+        return (self._first + left_out + self._last).decode(errors='replace')
 
 
 def size(folder: str) -> int:

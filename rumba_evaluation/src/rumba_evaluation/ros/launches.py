@@ -52,4 +52,4 @@ def _trusted(tests: str) -> Set[str]:
     """Packages that no submission replaces: those beside the tests, of Rumba, and of the system."""
     packs, own = rospkg.RosPack(), os.path.join(os.path.abspath(tests), '')
     return {name for name in packs.list()
-            if name.startswith(OURS) or packs.get_path(name).startswith((own, *SYSTEM))}
+            if name.startswith(OURS) or f'{packs.get_path(name)}/'.startswith((own, *SYSTEM))}
