@@ -466,9 +466,8 @@ def only_scripts(path):
 
 
 @wrong(BUMPER)
-def never_leaves_its_dock(path):
-    replace(path, 'self.backing = 20', 'self.backing = 0')
-    replace(path, 'self.turning = 12', 'self.turning = 0')
+def ignores_its_bumper(path):
+    replace(path, '= 3, 18', '= 0, 0')
 
 
 # --- hostile ----------------------------------------------------------------------------------------------------------

@@ -157,7 +157,7 @@ def test_what_is_too_large_is_refused_before_it_is_all_there(source, tmp_path, m
 
 
 def test_the_packages_are_found_by_their_names_also_if_a_package_xml_is_damaged(tmp_path):
-    for folder, text in (('a', MANIFEST.format('first')), ('b', '<package'), ('c', '<package><name>$x</name></package>')):
+    for folder, text in ('a', MANIFEST.format('first')), ('b', '<package'), ('c', MANIFEST.format('$x')):
         (tmp_path / folder).mkdir()
         (tmp_path / folder / 'package.xml').write_text(text)
     (tmp_path / 'd' / 'package.xml').mkdir(parents=True)
@@ -168,7 +168,8 @@ def test_a_single_script_becomes_the_node_that_is_wanted(tmp_path):
     (tmp_path / 'homework.py').write_text('#!/usr/bin/env python3\n')
     folder = tmp_path / 'taken'
     intake.take(str(tmp_path / 'homework.py'), folder)
-    assert intake.as_package(folder, 'cleaner', 'clean') and intake.packages(folder) == [('cleaner', folder / 'cleaner')]
+    assert intake.as_package(folder, 'cleaner', 'clean')
+    assert intake.packages(folder) == [('cleaner', folder / 'cleaner')]
     assert (folder / 'cleaner' / 'scripts' / 'clean').exists()
     assert not intake.as_package(folder, 'cleaner', 'clean')  # there are two files now
 

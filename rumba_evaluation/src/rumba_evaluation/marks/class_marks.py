@@ -6,15 +6,13 @@ import io
 import json
 import os
 import pathlib
-from typing import Callable, Dict, Iterable, List, NamedTuple, Optional, Sequence
+from typing import Dict, Iterable, List, NamedTuple, Sequence
 
 from rumba_evaluation.marks import intake
 from rumba_evaluation.marks.gradescope import most, score
 from rumba_evaluation.marks.hidden_tests import HiddenTest
 from rumba_evaluation.marks.scheme import Mark, number
 from rumba_evaluation.marks.submission import Launch, Outcome
-
-DIGEST = '.digest'  # file beside results.json: of what was marked
 
 
 class Row(NamedTuple):
@@ -71,12 +69,3 @@ def sheet(rows: Sequence[Row], points: Dict[str, float]) -> str:
 def _harmless(text: str) -> str:
     """A cell that no spreadsheet takes for a formula: students choose what is in it."""
     return f"'{text}" if text[:1] in ('=', '+', '-', '@', '\t', '\r') else text
-
-
-def stored(folder: str, wanted: str, read: Callable[[str], Outcome]) -> Optional[Outcome]:
-    """The outcome of an earlier run in a folder, if it is of the same submission and tests."""
-    try:
-        with open(os.path.join(folder, DIGEST), encoding='utf-8') as file:
-            return read(folder) if file.read() == wanted else None
-    except (OSError, ValueError):
-        return None

@@ -10,6 +10,7 @@ import shlex
 import shutil
 import subprocess
 import sys
+import tempfile
 from typing import Iterable, List, Mapping, Sequence
 
 MEGABYTE = 1_000_000
@@ -82,13 +83,16 @@ class Bubblewrap:
         return [*found, '--bind', own, own, '--chdir', own, 'sh', '-c', LIMITED, 'sh', *command]
 
 
-def trouble(own: str) -> str:
+def trouble() -> str:
     """Why there can be no sandbox on this system, in words; empty if there can."""
     if shutil.which('bwrap') is None:
         return 'bubblewrap is not installed'
     sandbox = Bubblewrap([], [])
-    done = subprocess.run(sandbox.around_test(sandbox.around_node(['true'], own)), stdin=subprocess.DEVNULL,
-                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=TRIAL_PATIENCE, check=False)
+    with tempfile.TemporaryDirectory() as own:
+        for name in ('shm', 'tmp'):
+            os.mkdir(os.path.join(own, name))
+        done = subprocess.run(sandbox.around_test(sandbox.around_node(['true'], own)), stdin=subprocess.DEVNULL,
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=TRIAL_PATIENCE, check=False)
     return done.stdout.decode(errors='replace').strip().split('\n')[-1] if done.returncode else ''
 
 

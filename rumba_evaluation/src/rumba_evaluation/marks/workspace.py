@@ -13,7 +13,7 @@ from rumba_evaluation.marks.supervised import Limits, Stop
 
 BUILT = re.compile(r'^\s*(add_executable|add_library|add_(message|service|action)_files|catkin_python_setup)\s*\(',
                    re.MULTILINE)
-BUILD_PATIENCE = 900.0  # [s] of the wall clock
+BUILD_PATIENCE = 300.0  # [s] of the wall clock
 ENDS_WITHIN = 60.0  # [s] of the wall clock, of a shell that reads setup.bash
 OWN = ('src', 'home', 'tmp', 'shm', 'log', 'ros')  # folders of a submission, beside what is built
 PASSED_ON = re.compile(r'PATH|LANG|LC_\w+|TERM|PYTHONPATH|PYTHON\w+|CMAKE_PREFIX_PATH|LD_LIBRARY_PATH|PKG_CONFIG_PATH|'

@@ -5,6 +5,7 @@ from typing import List
 
 from rumba_evaluation.marks import mark
 from rumba_evaluation.marks.hidden_tests import HiddenTest
+from rumba_evaluation.marks.marking import Ros
 
 
 def main() -> None:
@@ -13,4 +14,4 @@ def main() -> None:
 
     def examine(bag: str, test: HiddenTest) -> List[str]:
         return [f'{test.name}: {finding}' for finding in exam_recording.findings(bag)]
-    sys.exit(mark.main(sys.argv[1:], mark.Ros(exam_recording.RECORDER, examine, launches.load, launches.visible)))
+    sys.exit(mark.main(sys.argv[1:], Ros(exam_recording.RECORDER, examine, launches.load, launches.visible)))
