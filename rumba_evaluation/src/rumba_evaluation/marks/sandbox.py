@@ -52,7 +52,9 @@ class Bubblewrap:
         """Show folders that are no part of the system, but not what is in others, which may be below them."""
         self._visible = sorted({path for each in visible for path in (each, os.path.realpath(each))
                                 if os.path.isdir(path) and not _is_below(path, SYSTEM)})
-        self._hidden = sorted({os.path.realpath(path) for path in hidden})
+        aims = {os.path.realpath(path) for path in hidden if os.path.isdir(path)}
+        self._hidden = sorted({path + aim[len(os.path.realpath(path)):] for path in self._visible for aim in aims
+                               if _is_below(aim, [os.path.realpath(path)])})
 
     def around_test(self, command: Sequence[str]) -> List[str]:
         """The command that runs a test: what is not trusted in it is in a sandbox of its own."""
@@ -78,8 +80,7 @@ class Bubblewrap:
         for path in self._visible:
             found += ['--ro-bind', path, path]
         for path in self._hidden:
-            if _is_below(path, self._visible):
-                found += ['--tmpfs', path]
+            found += ['--tmpfs', path]
         return [*found, '--bind', own, own, '--chdir', own, 'sh', '-c', LIMITED, 'sh', *command]
 
 
