@@ -6,6 +6,8 @@ from typing import List
 from rumba_evaluation.marks import mark
 from rumba_evaluation.marks.hidden_tests import HiddenTest
 
+RECORDER = '  <param name="/judge/recording" value="{bag}" />\n'  # of the mission_test that is named so
+
 
 def main() -> None:
     """Run the command line of this process; leaves the process with the exit code."""
@@ -13,4 +15,4 @@ def main() -> None:
 
     def examine(bag: str, test: HiddenTest) -> List[str]:
         return [f'{test.name}: {finding}' for finding in exam_recording.findings(bag)]
-    sys.exit(mark.main(sys.argv[1:], exam_recording.RECORDER, examine))
+    sys.exit(mark.main(sys.argv[1:], RECORDER, examine))
