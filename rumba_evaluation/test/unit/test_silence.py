@@ -48,7 +48,8 @@ def test_a_node_that_ended_is_told_also_if_it_published_under_a_wrong_name():
 
 
 def test_a_node_that_never_came_is_told():
-    assert why(nodes=[SIMULATOR, JUDGE, DRIVER]) == f'nothing was published on {WANTED}: there was no node {STUDENT}'
+    assert why(nodes=[SIMULATOR, JUDGE, DRIVER]) == (
+        f'nothing was published on {WANTED}: no node {STUDENT} came, or it ended at once')
 
 
 def test_a_missing_field_is_told_with_those_that_there_are():

@@ -8,7 +8,7 @@ import contextlib
 import math
 import threading
 import time
-from typing import Any, Dict, List, Optional, Sequence, Tuple
+from typing import Any, Dict, List, Optional, Sequence, Set, Tuple
 
 import rosgraph
 import rospy
@@ -70,7 +70,7 @@ class MissionMonitor:
         self._known = [str(rospy.resolve_name(topic)) for topic in (
             *awaited, *(condition.paths[0] for condition in found if isinstance(condition, Rate)))]
         self._place = self._full(PLACE)
-        self._heard: Dict[str, str] = {}  # the sender of the newest message of each topic
+        self._heard: Set[str] = set()  # topics of which messages came
         self._surroundings = surroundings.Surroundings()
         self._kinds = kinds = {self._place: Odometry}
         self._taken: Dict[str, List[Tuple[Condition, Value]]] = {self._place: []}  # by topic
@@ -130,7 +130,7 @@ class MissionMonitor:
                 if self._taken[topic]:
                     self._last_message = time.monotonic()
                     self._origins.publishes(topic, sender)
-                self._heard[topic] = sender
+                self._heard.add(topic)
                 stamp = message.header.stamp.to_sec() if getattr(message, '_has_header', False) else 0.0
                 self._first_message = min(self._first_message, time.monotonic())
                 self._readings.take(topic, stamp, lambda: act(message))
@@ -273,7 +273,8 @@ class MissionMonitor:
 
     def verdicts(self) -> List[Verdict]:
         """The verdict on each condition."""
-        seen = self._surroundings.seen([rospy.get_name(), *self._origins.owners], self._heard)
+        ours = [rospy.get_name(), *self._origins.owners, str(rospy.resolve_name(self._robot))]
+        seen = self._surroundings.seen(ours, self._heard, self._feed.told)
 
         def why(condition: Condition) -> str:
             return silence.reason(self._paths(condition), self._known, seen, surroundings.fields)

@@ -107,7 +107,7 @@ class Judge:
         is_met = condition.is_met and counts
         topics = cause = ''
         if not condition.is_measured:
-            topics, why = f' on {source(condition)}', silence(condition)
+            topics, why = f' on {source(condition)}', '' if self._is_void else silence(condition)
             cause = f'; {why}' if why else ''
         reason = f': {self._reason}' if self._reason else ''
         where = ''

@@ -14,7 +14,7 @@ class Seen(NamedTuple):
     types: Mapping[str, str]  # of topics
     nodes: Collection[str]  # that were there
     ended: Collection[str]  # of these, that are not there any more
-    ours: Collection[str]  # nodes of the world and the judge, which make no slips
+    ours: Collection[str]  # nodes of the world and the judge, which make no slips, and namespaces of robots
     heard: Collection[str]  # topics of which messages came
 
 
@@ -47,7 +47,7 @@ def _reason(path: str, topics: Sequence[str], seen: Seen, fields: Callable[[str]
 def _lacks_field(path: str, topic: str, kind: str, fields: Callable[[str], Mapping[str, str]]) -> str:
     """In words, if a topic is of a type without the wanted field."""
     outer = kind
-    for field in filter(None, path[len(topic):].split('/')):
+    for field in filter(None, path[len(topic):].split('/') if kind else ()):
         name = field.split('[')[0]
         known = fields(outer)
         if name not in known:
@@ -104,8 +104,8 @@ def _who_is_missing(wanted: str, seen: Seen) -> str:
     if ended:
         return f': {_listed(ended)} has ended'
     first = '/' + wanted.strip('/').split('/')[0]
-    is_name_of_node = first not in seen.nodes and not any(_is_below(topic, first) for topic in seen.publishers)
-    return f': there was no node {first}' if is_name_of_node and first != wanted else ''
+    is_name_of_node = first not in (*seen.nodes, *seen.ours) and not any(_is_below(topic, first) for topic in seen.publishers)
+    return f': no node {first} came, or it ended at once' if is_name_of_node and first != wanted else ''
 
 
 def _beginnings(path: str) -> List[str]:

@@ -1,7 +1,7 @@
 """In an examination, what the simulator tells comes over a private channel, in the order of the world."""
 
 import threading
-from typing import Any, Callable, Dict, List, Mapping, Optional
+from typing import Any, Callable, Dict, List, Optional
 
 import roslib.message
 import rospy
@@ -36,12 +36,11 @@ class ExaminerFeed(RobotFeed):
         self._recording = recording
         self._on_void, self._on_end = on_void, on_end
         self._client = ExaminerClient()
-        self._node = ''  # that tells
-        self._topics: Optional[Mapping[str, str]] = None  # types of those of which it tells; None before it began
+        self._has_begun = False
         self._listeners: Dict[str, List[Take]] = {}
         self._lockstep = str(rospy.resolve_name(lockstep.TOPIC))
         self._run = ''
-        self._newest = Frame(MESSAGE)
+        self._newest = Frame(MESSAGE)  # the stamps of commands may be older
 
     def begin(self, on_state: OnState, on_tick: Callable[[Lockstep], None]) -> None:
         """Wait for the simulator, and know of what it tells; `follow` listens.
@@ -50,7 +49,7 @@ class ExaminerFeed(RobotFeed):
             WorldError: it does not come, or another process was first.
         """
         hello = self._client.connect(socket_path(), self._patience)
-        self._node, self._topics = hello.node, hello.topics
+        self.told, self._has_begun = hello.topics, True
         on_state(hello.node, hello.is_lockstep, hello.node)
         self._listeners.setdefault(self._lockstep, []).append(lambda tick, _: self._take_tick(tick, on_tick))
 
@@ -60,15 +59,15 @@ class ExaminerFeed(RobotFeed):
 
     def _follow(self) -> None:
         for frame in self._client.frames():
-            self._newest = frame
+            if frame.kind == MESSAGE:
+                self._newest = frame
             if frame.kind == INTRUDER:
                 self._on_void(REFUSED)
             if self._recording is not None:
                 self._recording.take(frame)
-            listeners = self._listeners.get(frame.topic, []) if frame.kind == MESSAGE else []
-            if listeners:
+            if frame.kind == MESSAGE and frame.topic in self._listeners:
                 message = frame.message()
-                for take in listeners:
+                for take in self._listeners[frame.topic]:
                     take(message, frame.sender)
         self._on_end()
 
@@ -81,18 +80,18 @@ class ExaminerFeed(RobotFeed):
 
         Before `begin`, the topics are those of the robot.
         """
-        if self._topics is None or topic in self._topics:
+        if not self._has_begun or topic in self.told:
             self._listeners.setdefault(topic, []).append(take)
         else:
             super().subscribe(topic, kind, take)
 
     def find(self, path: str) -> Optional[Found]:
         """The topic and the field at a path, if the simulator tells of it or somebody publishes it."""
-        for topic, kind in (self._topics or {}).items():
-            field = path[len(topic):]
-            found = roslib.message.get_message_class(kind)
-            if f'{path}/'.startswith(f'{topic}/') and _has_field(found(), field):
-                return topic, found, rostopic.msgevalgen(field) if field else (lambda message: message)
+        for topic, kind in self.told.items():
+            if f'{path}/'.startswith(f'{topic}/'):
+                field, found = path[len(topic):], roslib.message.get_message_class(kind)
+                if _has_field(found(), field):
+                    return topic, found, rostopic.msgevalgen(field) if field else (lambda message: message)
         return super().find(path)
 
     def now(self) -> float:

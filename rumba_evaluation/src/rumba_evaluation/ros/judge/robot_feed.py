@@ -1,7 +1,7 @@
 """What a robot, its world and the node under test tell, as ROS brings it."""
 
 import time
-from typing import Any, Callable, Optional, Tuple
+from typing import Any, Callable, Mapping, Optional, Tuple
 
 import rospy
 import rostopic
@@ -21,9 +21,11 @@ class RobotFeed:
 
     Attributes:
         is_ordered: whether all that belongs to a tick comes before it.
+        told: types of topics of which the master does not know.
     """
 
     is_ordered = False
+    told: Mapping[str, str] = {}
 
     def begin(self, on_state: OnState, on_tick: Callable[[Lockstep], None]) -> None:
         """Listen from now on; the functions are called in other threads."""

@@ -35,15 +35,21 @@ class Surroundings:
         self._nodes |= self._present
         return publishers
 
-    def seen(self, ours: Collection[str], heard: Mapping[str, str]) -> Seen:
-        """All that there was; `ours` are nodes of the world and the judge, `heard` tells who sent on a topic."""
+    def seen(self, ours: Collection[str], heard: Collection[str], told: Mapping[str, str]) -> Seen:
+        """All that there was.
+
+        Args:
+            ours: nodes of the world and the judge, and namespaces of robots.
+            heard: topics of which messages came.
+            told: types of topics of the world of which the master does not know.
+        """
         types: Dict[str, str] = {}
         with contextlib.suppress(rosgraph.MasterException, OSError):
             types = dict(rosgraph.Master(rospy.get_name()).getTopicTypes())
         silent = {node for node in self._present - set(ours) if not peers.is_alive(node)}
-        publishers = {topic: {node} for topic, node in heard.items()}
-        return Seen({**publishers, **self._publishers}, types, self._nodes, (self._nodes - self._present) | silent,
-                    [*ours, '/rosout'], list(heard))
+        publishers = {topic: set(ours) for topic in told}
+        return Seen({**publishers, **self._publishers}, {**told, **types}, self._nodes,
+                    (self._nodes - self._present) | silent, [*ours, '/rosout'], heard)
 
 
 def fields(kind: str) -> Dict[str, str]:

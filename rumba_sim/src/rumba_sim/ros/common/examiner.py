@@ -65,7 +65,8 @@ class ExaminerServer:
         self._topics[topic] = kind._type
 
     def open(self, is_lockstep: bool, on_answer: Callable[[Any], None]) -> None:
-        """Let the judge connect, and have its answers taken in a thread."""
+        """Let the judge connect until this node ends, and have its answers taken in a thread."""
+        rospy.on_shutdown(self.close)
         hello = {'node': rospy.get_name(), 'is_lockstep': is_lockstep, 'topics': self._topics}
         self._listener.listen()
         threading.Thread(target=self._accept, args=(json.dumps(hello), on_answer), daemon=True).start()

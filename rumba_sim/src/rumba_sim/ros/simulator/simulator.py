@@ -110,7 +110,6 @@ class Simulator:
         self._serve()
         self._publish_state()
         if self._examiner is not None:
-            rospy.on_shutdown(self._examiner.close)
             self._examiner.open(self._lockstep is not None, self._on_examiner)
 
     def _serve(self) -> None:
