@@ -35,7 +35,7 @@ MANIFEST = ('<package format="2"><name>examinee</name><version>0.0.0</version><d
 
 @pytest.fixture
 def examined(workspace, tmp_path):
-    """A function that has a program examined, with further nodes; returns points and words by condition, and the bag."""
+    """A function that has a program examined; returns points and words by condition, and the path of the bag."""
     def examine(program, coverage, limit, nodes=''):
         package, bag = tmp_path / 'examinee', tmp_path / 'exam.bag'
         package.mkdir()

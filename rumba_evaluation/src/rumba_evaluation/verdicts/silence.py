@@ -104,8 +104,8 @@ def _who_is_missing(wanted: str, seen: Seen) -> str:
     if ended:
         return f': {_listed(ended)} has ended'
     first = '/' + wanted.strip('/').split('/')[0]
-    is_name_of_node = first not in (*seen.nodes, *seen.ours) and not any(_is_below(topic, first) for topic in seen.publishers)
-    return f': no node {first} came, or it ended at once' if is_name_of_node and first != wanted else ''
+    is_used = first in (*seen.nodes, *seen.ours) or any(_is_below(topic, first) for topic in seen.publishers)
+    return f': no node {first} came, or it ended at once' if not is_used and first != wanted else ''
 
 
 def _beginnings(path: str) -> List[str]:
