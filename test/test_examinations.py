@@ -84,6 +84,8 @@ def test_who_tells_the_judge_in_the_name_of_the_simulator_that_all_is_clean_earn
 
 @pytest.mark.thorough
 def test_who_connects_to_the_private_channel_makes_the_run_void(examined):
-    points, words, _ = examined(EXAMINEES / 'intruder', 0.2, 30)
+    points, words, bag = examined(EXAMINEES / 'intruder', 0.2, 30)
     assert not any(points.values())
     assert 'a second process has connected to the private channel of the simulator' in words['coverage'], words
+    with rosbag.Bag(str(bag)) as recording:  # which is finished although the run ended early
+        assert recording.get_message_count('/rumba/ground_truth') >= 50

@@ -6,6 +6,7 @@ import socket
 import stat
 import threading
 import time
+import types
 
 import pytest
 import rospy
@@ -17,6 +18,9 @@ from rumba_sim.model.errors import WorldError
 from rumba_sim.ros.common import examiner
 from rumba_sim.ros.common.examiner import ExaminerClient, ExaminerServer, socket_path
 from rumba_sim.ros.common.examiner_frames import COMMAND, INTRUDER, MESSAGE, Frame, frames, packed
+from rumba_sim.ros.robot.rates import EVERYTHING
+from rumba_sim.ros.simulator.lockstep import Lockstep
+from rumba_sim.ros.simulator.settings import Settings
 
 TOPIC, COMMANDS, STUDENT = '/rumba/bumper', '/rumba/cmd_vel', '/student'
 PATIENCE = 20.0  # [s]
@@ -191,3 +195,36 @@ def test_the_folder_is_for_its_user_alone(temporary):
 def test_a_path_that_is_too_long_is_told(temporary):
     with pytest.raises(WorldError, match='set TMPDIR to another folder'):
         ExaminerServer(str(temporary / ('x' * 200)))
+
+
+# --- the simulator in an examination ------------------------------------------------------------------------------
+
+def answer_to(second):
+    """What the judge answers to a tick."""
+    return LockstepAnswer(Header(stamp=rospy.Time(second)), 'run', '/judge', LockstepAnswer.DONE, '')
+
+
+def test_once_the_judge_has_answered_nobody_answers_for_it_by_a_topic(monkeypatch):
+    monkeypatch.setattr(rospy, 'Publisher', lambda *_, **__: types.SimpleNamespace(
+        resolved_name='/simulator/lockstep', get_num_connections=lambda: 0))
+    by_topic, ticks = [], []
+    monkeypatch.setattr(rospy, 'Subscriber', lambda topic, kind, take, **_: by_topic.append(take))
+    channel = types.SimpleNamespace(declare=lambda *_: None, tell=lambda topic, tick, stamp: ticks.append(tick))
+    requests = types.SimpleNamespace(post=lambda act: act())
+    lockstep = Lockstep(requests, 'run', 'judge', 10.0, lambda _: True, channel)
+    for second in (1, 2):
+        lockstep.publish(EVERYTHING, rospy.Time(second), 0)
+        assert lockstep.is_waiting and ticks[-1].header.stamp == rospy.Time(second)
+        if second == 2:
+            by_topic[0](answer_to(second))
+            assert lockstep.is_waiting
+        lockstep.on_examiner(answer_to(second))
+        assert not lockstep.is_waiting
+    assert ticks[-1].odom == rospy.Time(2) and ticks[-1].cleaning.is_zero()  # of cleaning_status no topic tells
+
+
+def test_nodes_do_not_learn_in_an_examination_what_makes_a_world_differ_from_others():
+    usual = Settings(seed=7, obstacles='things.yaml', localisation='none')
+    assert usual.told is usual
+    told = Settings(seed=7, obstacles='things.yaml', localisation='none', exam=True).told
+    assert (told.seed, told.obstacles, told.exam) == (0, '', True)
