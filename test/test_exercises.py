@@ -1,7 +1,6 @@
 """Of each exercise, the solution earns all points, and typical wrong submissions and the starter package do not."""
 
 import csv
-import json
 import re
 import shutil
 import xml.etree.ElementTree as ElementTree
@@ -12,12 +11,6 @@ from workspaces import ROOT
 EXERCISES = sorted((ROOT / 'rumba_exercises').glob('[0-9]_*'))
 INDEX = (ROOT / 'rumba_exercises' / 'README.md').read_text()
 SLOW = 0.03  # [s] of the wall clock, many times as long as a world takes for a control tick
-
-# How a node that is being examined hears where the robot really is.
-SPY = """
-from nav_msgs.msg import Odometry
-rospy.Subscriber('simulator/examiner/rumba/ground_truth', Odometry, print)
-"""
 
 
 def name_of(path):
@@ -51,19 +44,12 @@ def test_the_solution_earns_all_points_and_each_wrong_submission_less(exercise, 
 
 
 @pytest.mark.thorough
-def test_an_examination_is_passed_by_what_a_robot_knows_and_void_for_who_looks_at_the_truth(workspace, tmp_path):
+def test_an_examination_is_passed_by_what_a_robot_knows_and_its_recording_is_kept(workspace, tmp_path):
     exercise = ROOT / 'rumba_exercises' / '2_bumper'
-    for name in ('honest', 'spy'):
-        for overlay in ('starter', 'solution'):
-            shutil.copytree(exercise / overlay, tmp_path / 'class' / name, dirs_exist_ok=True)
-    script = tmp_path / 'class' / 'spy' / 'bumper_exercise' / 'scripts' / 'cleaner'
-    script.write_text(script.read_text().replace('\nCleaner()\n', f'\nCleaner(){SPY}'))
-    rows = marked(workspace.space('install'), tmp_path, exercise / 'hidden', 'exam:=true')
-    assert {name: row['points'] for name, row in rows.items()} == {'honest': '10', 'spy': '0'}
-    for row in rows.values():  # the world does not wait for the recorder
-        assert re.fullmatch(r'(bumper: the recording begins only after [\d.]+ s)?', row['notes'])
-    reason = json.loads((tmp_path / 'marks' / 'spy' / 'results.json').read_text())['tests'][0]['output']
-    assert re.search(r': /simulator/examiner/rumba/ground_truth is heard by /student: in an examination nobody', reason)
+    for overlay in ('starter', 'solution'):
+        shutil.copytree(exercise / overlay, tmp_path / 'class' / 'honest', dirs_exist_ok=True)
+    row = marked(workspace.space('install'), tmp_path, exercise / 'hidden', 'exam:=true')['honest']
+    assert (row['points'], row['notes']) == ('10', '')
     assert (tmp_path / 'marks' / 'honest' / 'bumper.recording.bag').stat().st_size > 0
 
 

@@ -27,7 +27,8 @@ FOLDERS = {
     'rumba_evaluation': {
         'scoring': set(), 'trials': {'scoring'}, 'report': set(), 'verdicts': set(),
         'marks': {'trials', 'verdicts'}, 'ros/mission_report': {'report'},
-        'learning': {'trials'}, 'ros': {'scoring', 'trials', 'verdicts', 'marks'}},
+        'learning': {'trials'}, 'ros/judge': {'verdicts'},
+        'ros': {'scoring', 'trials', 'verdicts', 'marks', 'ros/judge'}},
     'rumba_viewer': {
         'scene': set(), 'painting': {'scene'}, 'window': {'scene', 'painting'}, 'ros': {'scene', 'window'},
         'page': set(), 'ros/page': {'page'}, 'ros/console': {'scene', 'ros'}}}

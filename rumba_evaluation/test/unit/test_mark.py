@@ -10,7 +10,6 @@ from rumba_evaluation.marks import class_marks, hidden_tests, mark, submission
 from rumba_evaluation.marks.class_marks import Row
 from rumba_evaluation.marks.scheme import Mark
 from rumba_evaluation.marks.submission import Outcome, Prepared
-from rumba_evaluation.verdicts.examination import Examination
 from rumba_sim.model.errors import ConfigError
 
 TEST = '''
@@ -161,23 +160,3 @@ def test_a_command_line_that_cannot_be_understood_is_refused_in_one_line(argumen
         code = exit_.code
     error = capsys.readouterr().err
     assert code == 2 and error.startswith(message) and error.count('\n') == 1
-
-
-TRUTH = '/simulator/examiner/rumba/ground_truth'
-
-
-def test_in_an_examination_nobody_else_hears_the_truth():
-    exam = Examination('/judge')
-    exam.look([(TRUTH, ['/judge', '/recorder']), ('/rumba/scan', ['/student'])], {})
-    assert exam.problem == ''
-    exam.look([(TRUTH, ['/judge', '/student'])], {})
-    assert exam.problem == f'{TRUTH} is heard by /student: in an examination nobody may do that'
-
-
-def test_in_an_examination_nobody_sets_a_parameter_of_the_simulator():
-    exam = Examination('/judge')
-    exam.look([], {'simulator': {'seed': 1, 'battery': {'drain': 60}}, 'student': 1})
-    exam.look([], {'simulator': {'seed': 1, 'battery': {'drain': 60}}, 'student': 2})
-    assert exam.problem == ''
-    exam.look([], {'simulator': {'seed': 1, 'battery': {'drain': 0}}, 'student': 2})
-    assert exam.problem == 'the parameter /simulator/battery/drain was changed: in an examination nobody may do that'

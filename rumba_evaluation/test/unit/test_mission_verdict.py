@@ -178,6 +178,15 @@ def test_a_condition_without_a_value_fails():
     assert 'measured nothing on /collisions after' in verdicts(judge)['collisions'][1]
 
 
+def test_it_is_told_why_a_condition_has_no_value():
+    coverage, collisions = Coverage(0.5), Collisions(5)
+    judge = judged(coverage, collisions)
+    judge.update(coverage, 0.4, 0.0)
+    judge.check_time(LIMIT)
+    words = [verdict.words for verdict in judge.verdicts(lambda _: '/topic', lambda _: 'nobody is there')]
+    assert [each.endswith('; nobody is there') for each in words] == [False, True]
+
+
 def test_a_run_without_any_message_does_not_begin_and_can_be_aborted():
     judge = judged(Coverage(0.5))
     judge.check_time(10.0 * LIMIT)

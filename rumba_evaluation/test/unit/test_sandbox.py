@@ -15,6 +15,7 @@ from rumba_evaluation.marks.supervised import Limits
 TROUBLE = sandbox.trouble()
 needs_sandbox = pytest.mark.skipif(bool(TROUBLE), reason=f'this system permits no sandbox: {TROUBLE}')
 LIMITS = Limits(60.0)
+PRINTS = 'import os, sys; print(sys.argv[1:], sorted(os.environ.items()))'
 
 
 @pytest.fixture
@@ -84,8 +85,7 @@ def test_one_process_has_bounds_of_its_own(own, box):
 def test_a_script_gives_an_environment_of_its_own_and_hides_the_log_file(tmp_path):
     path = tmp_path / 'script'
     path.write_text(sandbox.script({'NAME': "it's $HOME", 'PATH': os.environ['PATH']}, ['GIVEN', 'OTHER'],
-                                   [sys.executable, '-c', 'import os, sys; print(sys.argv[1:], sorted(os.environ.items()))',
-                                    'first']))
+                                   [sys.executable, '-c', PRINTS, 'first']))
     path.chmod(0o755)
     environment = {**os.environ, 'GIVEN': 'a b', 'SECRET': 'x'}
     environment.pop('OTHER', None)

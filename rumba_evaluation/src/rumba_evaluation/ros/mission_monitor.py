@@ -4,29 +4,32 @@ In lockstep, the monitor takes part: the world waits until all that it sent for 
 counts, and in which order, does not depend on the machine.
 """
 
+import contextlib
 import math
 import threading
 import time
-from typing import Any, Callable, Dict, List, Optional, Sequence, Tuple, Type
+from typing import Any, Dict, List, Optional, Sequence, Set, Tuple
 
 import rosgraph
 import rospy
-import rostopic
 from nav_msgs.msg import Odometry
-from sensor_msgs.msg import BatteryState
 
-from rumba_evaluation.verdicts import conditions
+from rumba_evaluation.ros.judge import surroundings
+from rumba_evaluation.ros.judge.examiner_feed import ExaminerFeed
+from rumba_evaluation.ros.judge.recording import Recording
+from rumba_evaluation.ros.judge.robot_feed import RobotFeed
+from rumba_evaluation.ros.judge.robot_topics import PLACE, TOPICS, Value, stamps
+from rumba_evaluation.verdicts import silence
 from rumba_evaluation.verdicts.awaited import Awaited
 from rumba_evaluation.verdicts.conditions import Condition
 from rumba_evaluation.verdicts.examination import Examination
-from rumba_evaluation.verdicts.field_conditions import FieldCondition
+from rumba_evaluation.verdicts.field_conditions import FieldCondition, Rate
 from rumba_evaluation.verdicts.mission_verdict import Judge, Verdict
 from rumba_evaluation.verdicts.origins import Origins
 from rumba_evaluation.verdicts.tick_readings import TickReadings
-from rumba_msg.msg import BatteryStatus, Bumper, CleaningStatus, DockStatus, Lockstep, SimulatorState
-from rumba_sim.ros.common import clock, conversions, peers, simulator_client
-from rumba_sim.ros.common.lockstep import Participant
-from rumba_sim.ros.common.names import EXAMINER
+from rumba_msg.msg import Lockstep
+from rumba_sim.model.errors import WorldError
+from rumba_sim.ros.common import conversions, simulator_client
 
 PERIOD = 0.05  # [s] of the wall clock
 LOOK_PERIOD = 0.5  # [s] of the wall clock from one look at the master to the next
@@ -34,27 +37,15 @@ MODE_PATIENCE = 3.0  # [s] of the wall clock from the first message until it is 
 STATE_PATIENCE = 30.0  # ... if the master knows a publisher of the state, which tells
 TICK_PATIENCE = 5.0  # [s] of the wall clock to wait for the messages of a tick
 REST = 0.2  # [s] of the wall clock for what is on its way at the end
-PLACE, CLEANING = 'ground_truth', 'cleaning_status'
-Value = Callable[[Any], Any]
-TOPICS: Dict[Type[Condition], List[Tuple[str, Any, Value]]] = {
-    conditions.Coverage: [(CLEANING, CleaningStatus, lambda message: message.coverage)],
-    conditions.Reach: [(PLACE, Odometry, lambda message: conversions.plane_pose(message.pose.pose))],
-    conditions.Docked: [('dock_status', DockStatus, lambda message: message.is_docked)],
-    conditions.Collisions: [
-        ('bumper', Bumper, lambda message: message.is_left_pressed or message.is_right_pressed)],
-    conditions.Battery: [
-        ('battery_state', BatteryState, lambda message: 100.0 * message.percentage),
-        ('battery_status', BatteryStatus, lambda message: float(message.percentage_battery))],
-}
-WITH_TICKS = (PLACE, 'dock_status', 'bumper', 'cliff', 'battery_state')  # sent with each control tick
+SIMULATOR = 'simulator'  # whose parameters stay as they are in an examination
 
 
 class MissionMonitor:
     """Judges a run by the messages of a robot's topics."""
 
     def __init__(self, found: List[Condition], robot: str, time_limit: float, patience: float, publisher: str,
-                 awaited: Sequence[str], is_exam: bool) -> None:
-        """Subscribe to the topics that the conditions need.
+                 awaited: Sequence[str], is_exam: bool, recording: Optional[Recording] = None) -> None:
+        """Subscribe to the topics that the conditions need, in an examination at the beginning of the run.
 
         Args:
             found: the conditions.
@@ -63,10 +54,12 @@ class MissionMonitor:
             patience: of the wall clock without any message [s], after which the run is aborted.
             publisher: full name of the node that publishes the robot's topics; empty: the one that the state names.
             awaited: topics of the node under test: in lockstep, the world waits for a message on each after a tick.
-            is_exam: whether nobody else may hear the truth, or set a parameter of the simulator.
+            is_exam: whether the simulator tells all over its private channel, and nobody may set a parameter of it.
+            recording: of an examination.
         """
         self._robot = robot
-        self._exam = Examination(rospy.get_name()) if is_exam else None
+        self._exam: Optional[Examination] = None
+        self._feed = ExaminerFeed(patience, recording, self._annul, self._on_end) if is_exam else RobotFeed()
         self._patience = patience
         self._judge = Judge(found, time_limit)
         self._lock = threading.RLock()  # held while judge, origins or readings change
@@ -74,8 +67,12 @@ class MissionMonitor:
         self._unpublished = [(condition, number) for condition in found if isinstance(condition, FieldCondition)
                              for number in range(len(condition.paths))]
         self._awaited = Awaited(str(rospy.resolve_name(topic)) for topic in awaited)
+        self._known = [str(rospy.resolve_name(topic)) for topic in (
+            *awaited, *(condition.paths[0] for condition in found if isinstance(condition, Rate)))]
         self._place = self._full(PLACE)
-        kinds = {self._place: Odometry}
+        self._heard: Set[str] = set()  # topics of which messages came
+        self._surroundings = surroundings.Surroundings()
+        self._kinds = kinds = {self._place: Odometry}
         self._taken: Dict[str, List[Tuple[Condition, Value]]] = {self._place: []}  # by topic
         for condition in found:
             for topic, kind, value in TOPICS.get(type(condition), []):
@@ -89,14 +86,34 @@ class MissionMonitor:
         self._expected = set(kinds)  # topics with a message for each tick, or for some
         state = rospy.resolve_name(simulator_client.TOPIC)
         self._origins = Origins([topic for topic, values in self._taken.items() if values], state, publisher)
-        rospy.Subscriber(state, SimulatorState, self._on_state)
-        for topic, kind in kinds.items():
+        if not is_exam:
+            self._listen()
+
+    def _listen(self) -> None:
+        """Subscribe to the topics of the robot, and then take part.
+
+        Raises:
+            WorldError: there is no simulator in an examination.
+        """
+        for topic, kind in self._kinds.items():
             self._subscribe(topic, kind)
-        self._participant = Participant(self._on_tick)
+        self._feed.begin(self._on_state, self._on_tick)
+
+    def _listen_in_examination(self, feed: ExaminerFeed) -> None:
+        """Begin with all that the simulator tells, from its first word on."""
+        try:
+            self._listen()
+        except WorldError as error:
+            self._annul(str(error))
+            return
+        launched = {name: value for name, value in rospy.get_param('/', {}).items()
+                    if name in (SIMULATOR, 'use_sim_time')}
+        self._exam = Examination(launched, [f'/{SIMULATOR}'])
+        self._subscribe_to_fields()
+        feed.follow()
 
     def _full(self, topic: str) -> str:
-        is_secret = self._exam is not None and topic == PLACE
-        return str(rospy.resolve_name(f'{EXAMINER}/{self._robot}/{topic}' if is_secret else f'{self._robot}/{topic}'))
+        return str(rospy.resolve_name(f'{self._robot}/{topic}'))
 
     # --- messages -------------------------------------------------------------------------------------------------
 
@@ -108,39 +125,48 @@ class MissionMonitor:
             for condition, value in self._taken[topic]:
                 self._judge.update(condition, value(message), self._now())
 
-        def take(message: Any) -> None:
+        def take(message: Any, sender: str) -> None:
             with self._lock:
                 if self._taken[topic]:
                     self._last_message = time.monotonic()
-                    self._origins.publishes(topic, peers.caller(message))
+                    self._origins.publishes(topic, sender)
+                self._heard.add(topic)
                 stamp = message.header.stamp.to_sec() if getattr(message, '_has_header', False) else 0.0
                 self._first_message = min(self._first_message, time.monotonic())
                 self._readings.take(topic, stamp, lambda: act(message))
                 self._awaited.hear(topic)
                 self._settle()
-        rospy.Subscriber(topic, kind, take)
+        self._feed.subscribe(topic, kind, take)
 
-    def _on_state(self, message: SimulatorState) -> None:
+    def _on_state(self, node: str, is_lockstep: bool, sender: str) -> None:
         with self._lock:
-            self._origins.publishes(rospy.resolve_name(simulator_client.TOPIC), peers.caller(message))
-            self._origins.names(message.node)
+            self._origins.publishes(rospy.resolve_name(simulator_client.TOPIC), sender)
+            self._origins.names(node)
             if self._is_lockstep is None:
-                self._is_lockstep = message.is_lockstep
+                self._is_lockstep = is_lockstep
             self._settle()
+
+    def _annul(self, reason: str) -> None:
+        with self._lock:
+            self._judge.annul(reason)
+
+    def _on_end(self) -> None:
+        with self._lock:
+            self._judge.abort('the simulator has ended')
 
     # --- lockstep -------------------------------------------------------------------------------------------------
 
     def _on_tick(self, tick: Lockstep) -> None:
         with self._lock:
             self._is_lockstep, self._tick, self._tick_came = True, tick, time.monotonic()
-            due = {**dict.fromkeys(map(self._full, WITH_TICKS), tick.header.stamp), self._full(CLEANING): tick.cleaning,
-                   self._full('odom'): tick.odom, self._full('scan'): tick.scan}
-            self._readings.expect({topic: due[topic].to_sec() for topic in self._expected if topic in due})
+            if not self._feed.is_ordered:
+                due = {self._full(topic): stamp for topic, stamp in stamps(tick).items()}
+                self._readings.expect({topic: stamp for topic, stamp in due.items() if topic in self._expected})
             self._settle()
 
     def _settle(self) -> None:
         """Judge what has come, in lockstep once everything of a tick is there, and answer for it."""
-        if self._tick is None and clock.is_unknown():
+        if self._tick is None and not self._feed.is_time_known:
             return  # a run that began at 0 s would be over as soon as the time of the robots comes
         patience = STATE_PATIENCE if self._origins.has_state else MODE_PATIENCE
         if self._is_lockstep is None and time.monotonic() < self._first_message + patience:
@@ -155,7 +181,7 @@ class MissionMonitor:
             if not self._judge.is_over:  # otherwise the world stands still until there is a verdict
                 tick, self._tick = self._tick, None
                 self._awaited.begin()
-                self._participant.answer(tick.header.stamp)
+                self._feed.answer(tick.header.stamp)
 
     def _go_on(self) -> None:
         """Wait no longer for what does not come."""
@@ -170,15 +196,14 @@ class MissionMonitor:
         self._settle()
 
     def _now(self) -> float:
-        """Time of the robots [s]; in real time one that nobody can set."""
-        if self._tick is not None:
-            return float(self._tick.header.stamp.to_sec())
-        return time.monotonic() if rospy.rostime.is_wallclock() else float(rospy.get_time())
+        return self._feed.now() if self._tick is None else float(self._tick.header.stamp.to_sec())
 
     # --- the run --------------------------------------------------------------------------------------------------
 
     def run(self) -> None:
         """Wait until the run is over."""
+        if isinstance(self._feed, ExaminerFeed):
+            self._listen_in_examination(self._feed)
         while not self._judge.is_over:
             self._subscribe_to_fields()
             self._look_at_publishers(LOOK_PERIOD)
@@ -205,18 +230,15 @@ class MissionMonitor:
         with self._lock:
             if not self._origins.is_complete:
                 self._judge.annul(self._origins.unknown())
-        self._participant.leave()
 
     def _look_at_publishers(self, period: float = 0.0) -> None:
         """Ask the master who publishes, not more often than in a period [s]; the run is void if a wrong node does."""
         if time.monotonic() - self._last_look >= period:
             self._last_look = time.monotonic()
-            try:
-                publishers, subscribers, _ = rosgraph.Master(rospy.get_name()).getSystemState()
-                if self._exam is not None and self._first_message < math.inf:
-                    self._exam.look(subscribers, rospy.get_param('/', {}))
-            except (rosgraph.MasterException, OSError):  # it ends, or is busy: messages tell their senders too
-                publishers = []
+            publishers = self._surroundings.look()
+            if self._exam is not None:
+                with contextlib.suppress(rosgraph.MasterException, OSError):  # it ends, or is busy
+                    self._exam.look(rospy.get_param('/', {}))
             with self._lock:
                 for topic, nodes in publishers:
                     for name in nodes:
@@ -231,14 +253,11 @@ class MissionMonitor:
         is_ticking = self._tick is not None
         for condition, number in self._unpublished[:]:
             path = rospy.resolve_name(condition.paths[number])
-            try:
-                kind, topic, value = rostopic.get_topic_class(path)
-            except rostopic.ROSTopicException as error:  # no master, or a type that this workspace does not have
-                rospy.logwarn_throttle(self._patience, f'{path}: {error}')
-                continue
-            if kind is not None:
+            found = self._feed.find(path)
+            if found is not None:
+                topic, kind, value = found
                 self._unpublished.remove((condition, number))
-                self._take_field(condition, number, topic, kind, value or (lambda message: message))
+                self._take_field(condition, number, topic, kind, value)
         self._has_looked = self._has_looked or is_ticking
 
     def _take_field(self, condition: FieldCondition, number: int, topic: str, kind: Any, value: Value) -> None:
@@ -254,10 +273,20 @@ class MissionMonitor:
 
     def verdicts(self) -> List[Verdict]:
         """The verdict on each condition."""
-        with self._lock:
-            return self._judge.verdicts(self._source)
+        ours = [rospy.get_name(), *self._origins.owners, str(rospy.resolve_name(self._robot))]
+        seen = self._surroundings.seen(ours, self._heard, self._feed.told)
 
-    def _source(self, condition: Condition) -> str:
+        def why(condition: Condition) -> str:
+            return silence.reason(self._paths(condition), self._known, seen, surroundings.fields)
+        with self._lock:
+            return self._judge.verdicts(lambda condition: ' or '.join(self._paths(condition)), why)
+
+    def _paths(self, condition: Condition) -> List[str]:
+        """Full names of topics, perhaps with a field, from which the values of a condition come."""
         topics = condition.paths if isinstance(condition, FieldCondition) else [
             f'{self._robot}/{topic}' for topic, _, _ in TOPICS[type(condition)]]
-        return ' or '.join(map(rospy.resolve_name, topics))
+        return [str(rospy.resolve_name(topic)) for topic in topics]
+
+    def close(self) -> None:
+        """Take part no longer."""
+        self._feed.close()

@@ -31,9 +31,10 @@ It subscribes to simulator/state (rumba_msg/SimulatorState), and to those topics
   cleaning_status  rumba_msg/CleaningStatus   ground_truth    nav_msgs/Odometry
   dock_status      rumba_msg/DockStatus       bumper          rumba_msg/Bumper
   battery_state    sensor_msgs/BatteryState   battery_status  rumba_msg/BatteryStatus
-and to the topics of `fields`, `agree` and `rates`, of any type. In an examination ground_truth is below
-simulator/examiner. It subscribes to simulator/lockstep (rumba_msg/Lockstep), and answers on simulator/lockstep_answers
-(rumba_msg/LockstepAnswer). The lower charge of the two topics counts.
+and to the topics of `fields`, `agree` and `rates`, of any type. It subscribes to simulator/lockstep
+(rumba_msg/Lockstep), and answers on simulator/lockstep_answers (rumba_msg/LockstepAnswer). The lower charge of the two
+topics counts. In an examination, all that the simulator publishes comes over a private socket instead, and the answers
+go there.
 
 Parameters:
 """
@@ -47,8 +48,9 @@ from typing import Callable, List, Sequence
 import rosunit
 
 from rumba_evaluation.marks import gradescope
-from rumba_evaluation.ros.mission_monitor import MissionMonitor
 from rumba_evaluation.marks.scheme import Mark, Scheme
+from rumba_evaluation.ros.judge.recording import Recording
+from rumba_evaluation.ros.mission_monitor import MissionMonitor
 from rumba_evaluation.verdicts.conditions import Condition
 from rumba_evaluation.verdicts.field_conditions import FieldCondition
 from rumba_evaluation.verdicts.mission_requirements import Requirements
@@ -77,8 +79,11 @@ class Settings(Requirements):
                                  'simulator/state names')
     wait_for: str = setting('', 'topics of the node that is judged, with spaces between, of those that the conditions '
                                 'name: in lockstep, the world waits for a message on each after each control tick')
-    exam: bool = setting(False, 'an examination, as of the simulator: the run is void if another node hears '
-                                'ground_truth or sets a parameter of the simulator')
+    exam: bool = setting(False, 'an examination, as of the simulator: takes what that tells from its private channel; '
+                                'the run is void if another process connects to it, or sets a parameter of the '
+                                'simulator')
+    recording: str = setting('', 'path of a bag that is written in an examination: ground_truth, who commanded, and '
+                                 'what mission_report needs; empty: none')
     results: str = setting('', 'path of results.json for Gradescope; empty: beside the file that rostest asks for, '
                                'if any')
     visibility: str = setting(gradescope.VISIBLE, 'when Gradescope shows students the marks',
@@ -104,16 +109,29 @@ def judge(settings: Settings) -> None:
     conditions = settings.conditions()
     _check_awaited(settings.wait_for.split(), conditions)
     scheme = Scheme(conditions, settings.points, settings.partial)
-    monitor = MissionMonitor(conditions, settings.robot, settings.time_limit, settings.patience, settings.publisher,
-                             settings.wait_for.split(), settings.exam)
-    monitor.run()
-    verdicts = monitor.verdicts()
+    verdicts = _verdicts(settings, conditions)
     marks = scheme.marks(verdicts)
     path = absolute(settings.results) if settings.results else gradescope.beside(_results_file())
     if path:
         _write(path, gradescope.document(marks, settings.visibility))
     if not report(verdicts, marks):
         sys.exit(FAILED)
+
+
+def _verdicts(settings: Settings, conditions: List[Condition]) -> List[Verdict]:
+    """Watch the run to its end; the recording is finished however it ends."""
+    if settings.recording and not settings.exam:
+        raise ConfigError('recording: is written in an examination only: set exam, too')
+    recording = Recording(absolute(settings.recording), settings.robot) if settings.recording else None
+    monitor = MissionMonitor(conditions, settings.robot, settings.time_limit, settings.patience, settings.publisher,
+                             settings.wait_for.split(), settings.exam, recording)
+    try:
+        monitor.run()
+        return monitor.verdicts()
+    finally:
+        monitor.close()
+        if recording is not None:
+            recording.close()
 
 
 def _check_awaited(topics: Sequence[str], conditions: Sequence[Condition]) -> None:

@@ -91,21 +91,31 @@ class Judge:
         for condition in self.conditions:
             condition.finish(self._passed)
 
-    def verdicts(self, source: Callable[[Condition], str]) -> List[Verdict]:
-        """The verdict on each condition; `source` gives the topics from which its values come."""
-        return [self._verdict(condition, source) for condition in self.conditions]
+    def verdicts(self, source: Callable[[Condition], str],
+                 silence: Callable[[Condition], str] = lambda _: '') -> List[Verdict]:
+        """The verdict on each condition.
 
-    def _verdict(self, condition: Condition, source: Callable[[Condition], str]) -> Verdict:
+        Args:
+            source: gives the topics from which the values of a condition come.
+            silence: tells of a condition without any value why that may be; empty if nothing is known.
+        """
+        return [self._verdict(condition, source, silence) for condition in self.conditions]
+
+    def _verdict(self, condition: Condition, source: Callable[[Condition], str],
+                 silence: Callable[[Condition], str]) -> Verdict:
         counts = not self._is_void and (self._is_complete or not condition.is_guard)
         is_met = condition.is_met and counts
-        topics = '' if condition.is_measured else f' on {source(condition)}'
+        topics = cause = ''
+        if not condition.is_measured:
+            topics, why = f' on {source(condition)}', '' if self._is_void else silence(condition)
+            cause = f'; {why}' if why else ''
         reason = f': {self._reason}' if self._reason else ''
         where = ''
         if not is_met:
             where = self._violations.get(condition.name, '') if condition.is_guard else self._where('; the robot was')
         return Verdict(condition.name, is_met,
                        f'{condition.name}: required {condition.required}; measured {condition.measured()}{topics} '
-                       f'after {self._passed:.1f} s of {self._time_limit:g} s{reason}{where}', counts)
+                       f'after {self._passed:.1f} s of {self._time_limit:g} s{reason}{where}{cause}', counts)
 
     def _where(self, link: str) -> str:
         return f'{link} at ({self._place.x:.2f}, {self._place.y:.2f}) m' if self._place is not None else ''

@@ -48,6 +48,11 @@ class Origins:
         return bool(self._publisher or self._named) or not any(self._publishers[topic] for topic in self._measured)
 
     @property
+    def owners(self) -> List[str]:
+        """Full names of the nodes of the robot, as far as they are known."""
+        return [self._publisher] if self._publisher else list(self._named)
+
+    @property
     def has_state(self) -> bool:
         """Whether some node publishes the state, so that a message of it comes, or has come."""
         return bool(self._publishers[self._state])

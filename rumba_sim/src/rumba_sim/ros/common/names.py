@@ -6,8 +6,6 @@ import rosgraph
 
 from rumba_sim.model.errors import ConfigError
 
-EXAMINER = 'simulator/examiner'  # in an examination, below it is what only those who mark shall hear
-
 
 def check_names(settings: Any, *names: str) -> None:
     """Check that settings, given by their names, can be parts of the name of a topic.

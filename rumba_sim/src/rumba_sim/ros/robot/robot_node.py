@@ -20,8 +20,8 @@ from rumba_sim.model.geometry import Pose, compose, inverse
 from rumba_sim.model.robot import Robot
 from rumba_sim.model.world import World
 from rumba_sim.ros.common import conversions, peers, teleop
+from rumba_sim.ros.common.examiner import ExaminerServer
 from rumba_sim.ros.common.frames import MAP, frames
-from rumba_sim.ros.common.names import EXAMINER
 from rumba_sim.ros.common.requests import Requests
 from rumba_sim.ros.robot.latecomers import Latecomers
 from rumba_sim.ros.robot.packed import OdometryPacker, TransformPacker
@@ -30,7 +30,8 @@ from rumba_sim.ros.robot.velocity_mux import Input, VelocityMux
 
 COMPLAINT_PERIOD = 1.0  # [s]
 QUEUE = 100  # messages that a subscriber may be behind, at speed 0 too, before it misses one
-SECRET = ('ground_truth', 'coverage')  # in an examination, below EXAMINER
+SECRET = ('ground_truth', 'cleaning_status', 'coverage')  # what the world knows, and the robot does not
+UNTOLD = ('coverage',)  # to the judge of an examination
 # Who may drive, below the robot's name; times are those of the wall clock.
 INPUTS = (Input(teleop.TOPIC, 100, teleop.TIMEOUT), Input('cmd_vel', 10, 0.5))
 
@@ -40,8 +41,8 @@ class RobotNode:
 
     def __init__(self, world: World, name: str, requests: Requests, has_localisation: bool,
                  stamp: rospy.Time, has_laser: bool = True, is_held: Callable[[], bool] = lambda: False,
-                 on_command: Callable[[str], None] = lambda _: None, is_exam: bool = False,
-                 frame: str = MAP) -> None:
+                 on_command: Callable[[str], None] = lambda _: None,
+                 examiner: Optional[ExaminerServer] = None, frame: str = MAP) -> None:
         """Open the robot's topics and services below its name.
 
         Args:
@@ -53,7 +54,8 @@ class RobotNode:
             has_laser: whether there is a scan.
             is_held: whether the world waits for those who come late: they are sent what they have missed.
             on_command: called after each command, with the full name of its topic, in a thread of rospy.
-            is_exam: whether to keep from others what only the world can know, and to let nobody teleport the robot.
+            examiner: in an examination, gets everything, while others get only what the robot can know, and nobody can
+                teleport the robot.
             frame: that of the world.
 
         Raises:
@@ -73,27 +75,31 @@ class RobotNode:
         self._requests = requests
         self._is_held = is_held
         self._report_command = on_command
-        self._is_exam = is_exam
+        self._examiner = examiner
         self._newest: Dict[str, Callable[[], Any]] = {'coverage': self._coverage_message}  # makes a message of a topic
         self._inputs = {each.name: rospy.resolve_name(f'{name}/{each.name}') for each in INPUTS}  # full names
         refuse_twin(name)
+        kinds = {'battery_status': BatteryStatus, 'battery_state': BatteryState, 'odom': Odometry,
+                 'ground_truth': Odometry, **({'scan': LaserScan} if has_laser else {}), 'bumper': Bumper,
+                 'cliff': Cliff, 'dock_status': DockStatus, 'cleaning_status': CleaningStatus,
+                 'coverage': OccupancyGrid}
         self._publishers = {
-            topic: rospy.Publisher(f'{EXAMINER}/{name}/{topic}' if is_exam and topic in SECRET else f'{name}/{topic}',
-                                   message,
+            topic: rospy.Publisher(f'{name}/{topic}', message,
                                    Latecomers(requests, functools.partial(self._missed, topic),
                                               functools.partial(self._newest.get, topic)),
                                    queue_size=2 if message is OccupancyGrid else QUEUE)
-            for topic, message in (
-                ('battery_status', BatteryStatus), ('battery_state', BatteryState), ('odom', Odometry),
-                ('ground_truth', Odometry), *([('scan', LaserScan)] if has_laser else []), ('bumper', Bumper),
-                ('cliff', Cliff), ('dock_status', DockStatus), ('cleaning_status', CleaningStatus),
-                ('coverage', OccupancyGrid))}
+            for topic, message in kinds.items() if examiner is None or topic not in SECRET}
+        self._told = {} if examiner is None else {
+            topic: rospy.resolve_name(f'{name}/{topic}') for topic in kinds if topic not in UNTOLD}  # full names
+        if examiner is not None:
+            for topic, full_name in self._told.items():
+                examiner.declare(full_name, kinds[topic])
         self._subscribers = [
             rospy.Subscriber(f'{name}/{each.name}', Twist, self._on_command, each.name, queue_size=1)
             for each in INPUTS]
         self._services = [
             rospy.Service(f'{name}/set_brushes_up', SetBool, self._on_brushes),
-            *([] if is_exam else [rospy.Service(f'{name}/teleport', Teleport, self._on_teleport)])]
+            *([] if examiner is not None else [rospy.Service(f'{name}/teleport', Teleport, self._on_teleport)])]
 
     @property
     def _robot(self) -> Robot:
@@ -109,6 +115,8 @@ class RobotNode:
     # --- commands and services ------------------------------------------------------------------------------------
 
     def _on_command(self, twist: Twist, topic: str) -> None:
+        if self._examiner is not None:
+            self._examiner.tell_command(self._inputs[topic], twist, self._stamp, peers.caller(twist))
         v, w = twist.linear.x, twist.angular.z
         if math.isfinite(v) and math.isfinite(w):
             with self._mux_lock:  # each input has a thread of its own
@@ -167,7 +175,7 @@ class RobotNode:
         if due.sensors:
             self._publish_sensors()
         if due.battery:
-            pose = robot.odometry if self._is_exam else robot.pose
+            pose = robot.pose if self._examiner is None else robot.odometry
             self._tell('battery_status', lambda: conversions.battery_status(
                 robot.battery, pose, robot.brushes_up, conversions.trouble(robot)))
         if due.cleaning:
@@ -185,11 +193,16 @@ class RobotNode:
             self._robot.is_docked, self._world.infrared(self._name), self._header(base)))
 
     def _tell(self, topic: str, message: Callable[[], Any]) -> None:
-        """Make and publish a message if there is a subscriber: most of the cost is in making it."""
+        """Make and publish a message if somebody listens: most of the cost is in making it."""
         self._newest[topic] = message
-        publisher = self._publishers[topic]
-        if publisher.get_num_connections():
-            publisher.publish(message())
+        publisher = self._publishers.get(topic)
+        is_heard = publisher is not None and publisher.get_num_connections()
+        if is_heard or topic in self._told:
+            made = message()
+            if self._examiner is not None and topic in self._told:
+                self._examiner.tell(self._told[topic], made, self._stamp)
+            if publisher is not None and is_heard:
+                publisher.publish(made)
 
     def _missed(self, topic: str) -> Any:
         """What a new subscriber of a topic is sent: the coverage in any case."""

@@ -14,6 +14,7 @@ from rumba_sim.model.name import check_name
 from rumba_sim.model.robot import nth_name
 from rumba_sim.model.world import World
 from rumba_sim.ros.common.conversions import transform
+from rumba_sim.ros.common.examiner import ExaminerServer
 from rumba_sim.ros.common.frames import MAP, WORLD
 from rumba_sim.ros.common.requests import Requests
 from rumba_sim.ros.robot import packed
@@ -35,7 +36,7 @@ class Fleet:
 
     def __init__(self, world: World, settings: Settings, requests: Requests, diagnostics: Diagnostics,
                  stamp: Callable[[], rospy.Time], is_held: Callable[[], bool],
-                 on_command: Callable[[str], None]) -> None:
+                 on_command: Callable[[str], None], examiner: Optional[ExaminerServer]) -> None:
         """Open the topics of the robots that the world has.
 
         Args:
@@ -46,6 +47,7 @@ class Fleet:
             stamp: gives the present time.
             is_held: whether the world waits for those who come late: they are sent what they have missed.
             on_command: called after each velocity, with the full name of its topic, in a thread of rospy.
+            examiner: in an examination, gets everything of the robots.
 
         Raises:
             WorldError: another node has a robot of that name.
@@ -57,6 +59,7 @@ class Fleet:
         self._stamp = stamp
         self._is_held = is_held
         self._on_command = on_command
+        self._examiner = examiner
         self._robots: Dict[str, RobotNode] = {}
         self._anchors: Dict[str, MapAnchor] = {}  # of robots that may make a map
         self._map: List[TransformStamped] = []  # where that is; none if it is unknown
@@ -154,7 +157,7 @@ class Fleet:
     def _open(self, name: str) -> None:
         self._robots[name] = RobotNode(self._world, name, self._requests, self.settings.localisation == TRUTH,
                                        self._stamp(), is_held=self._is_held, on_command=self._on_command,
-                                       is_exam=self.settings.exam, frame=true_frame(self.settings.localisation))
+                                       examiner=self._examiner, frame=true_frame(self.settings.localisation))
         if self.settings.localisation == SLAM and not self.settings.exam:
             self._anchors[name] = MapAnchor(name, self._requests, self._place_map)
         self._diagnostics.add(name, lambda: self._world.robots[name])

@@ -9,6 +9,7 @@ from std_msgs.msg import Header
 from rumba_msg.msg import Lockstep as LockstepMessage
 from rumba_msg.msg import LockstepAnswer
 from rumba_sim.ros.common import peers
+from rumba_sim.ros.common.examiner import ExaminerServer
 from rumba_sim.ros.common.lockstep import ANSWERS, QUEUE, TOPIC
 from rumba_sim.ros.common.requests import Requests
 from rumba_sim.ros.robot.latecomers import Latecomers
@@ -22,7 +23,7 @@ class Lockstep:
     """Has a world wait after each control tick until everybody who takes part has answered."""
 
     def __init__(self, requests: Requests, run: str, awaited: str, patience: float,
-                 has_publisher: Callable[[str], bool]) -> None:
+                 has_publisher: Callable[[str], bool], examiner: Optional[ExaminerServer]) -> None:
         """Open the topics.
 
         Args:
@@ -31,6 +32,7 @@ class Lockstep:
             awaited: names of nodes and of topics of commands to wait for from the first tick on, with spaces between.
             patience: how long to wait for someone [s] of the wall clock.
             has_publisher: whether a topic has a publisher now, given by its full name.
+            examiner: in an examination, gets each tick, and answers.
         """
         self._requests = requests
         self._has_publisher = has_publisher
@@ -41,6 +43,10 @@ class Lockstep:
         self._tick = LockstepMessage(run=run)
         self._publisher = rospy.Publisher(TOPIC, LockstepMessage, Latecomers(requests, self._held), queue_size=QUEUE)
         self._subscriber = rospy.Subscriber(ANSWERS, LockstepAnswer, self._on_answer, queue_size=QUEUE)
+        self._examiner = examiner
+        self._judges: Set[str] = set()  # nodes that have answered as the examiner: no other node answers for them
+        if examiner is not None:
+            examiner.declare(self._publisher.resolved_name, LockstepMessage)
 
     def publish(self, due: Due, stamp: rospy.Time, resets: int) -> None:
         """Publish a tick, if it is a control tick, after everything else of that tick; the world must wait then.
@@ -55,11 +61,13 @@ class Lockstep:
             tick.odom = stamp
         if due.scan:
             tick.scan = stamp
-        if due.cleaning:
+        if due.cleaning and self._examiner is None:
             tick.cleaning = stamp
         if due.sensors:
             tick.header, tick.resets = Header(stamp=stamp), resets
             self._participants.begin(stamp)
+            if self._examiner is not None:
+                self._examiner.tell(self._publisher.resolved_name, tick, stamp)
             if self._publisher.get_num_connections():
                 self._publisher.publish(tick)
 
@@ -138,7 +146,16 @@ class Lockstep:
         """A command came on a topic, given by its full name; may be called from any thread."""
         self._requests.post(lambda: self._participants.commanded(topic))
 
+    def on_examiner(self, answer: LockstepAnswer) -> None:
+        """The judge of an examination has answered; may be called from any thread."""
+        self._judges.add(answer.node)
+        self._take(answer)
+
     def _on_answer(self, answer: LockstepAnswer) -> None:
+        if answer.node not in self._judges:
+            self._take(answer)
+
+    def _take(self, answer: LockstepAnswer) -> None:
         if answer.run == self._tick.run:
             self._requests.post(lambda: self._participants.take(answer))
 

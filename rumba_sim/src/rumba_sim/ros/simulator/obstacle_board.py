@@ -19,7 +19,8 @@ RATE = 5  # [Hz] of simulated time, while something moves
 class ObstacleBoard:
     """Changes and publishes the obstacles of a world; only the owner of the world calls it."""
 
-    def __init__(self, world: World, requests: Requests, stamp: Callable[[], rospy.Time], frame: str) -> None:
+    def __init__(self, world: World, requests: Requests, stamp: Callable[[], rospy.Time], frame: str,
+                 is_exam: bool) -> None:
         """Open the topic.
 
         Args:
@@ -27,12 +28,14 @@ class ObstacleBoard:
             requests: to the owner of the world.
             stamp: the time of the world.
             frame: that of the world.
+            is_exam: whether nobody may see the obstacles.
         """
         self._world = world
         self._stamp = stamp
         self._frame = frame
         self._period = max(round(world.step_rate / RATE), 1)
-        self._publisher = rospy.Publisher(TOPIC, MarkerArray, Latecomers(requests, self._message), queue_size=10)
+        self._publisher = None if is_exam else rospy.Publisher(
+            TOPIC, MarkerArray, Latecomers(requests, self._message), queue_size=10)
 
     def add(self, request: AddObstacleRequest) -> Tuple[str]:
         """Add an obstacle.
@@ -61,7 +64,7 @@ class ObstacleBoard:
 
     def publish(self) -> None:
         """Publish where the obstacles are, if somebody listens; others get it when they begin to listen."""
-        if self._publisher.get_num_connections():
+        if self._publisher is not None and self._publisher.get_num_connections():
             self._publisher.publish(self._message())
 
     def _message(self) -> MarkerArray:

@@ -48,8 +48,9 @@ class Settings(RobotConfig):
                                              'goes on without it', 's', 0.1, 1e6)
     wait_for: str = setting('', 'who takes part from the first tick on, with spaces between: names of nodes that '
                                 'answer, and topics of commands of others, for example `cleaner` or `rumba/cmd_vel`')
-    exam: bool = setting(False, 'an examination: no perfect localisation, no coverage grid, ground_truth only below '
-                                'simulator/examiner, and neither services that change the world nor tuning')
+    exam: bool = setting(False, 'an examination: nothing is published that the robot could not know, as ground_truth, '
+                                'coverage and obstacles; no perfect localisation, no services that change the world, '
+                                'no tuning')
     rates: Rates = section(Rates, 'how often messages are published; each divides step_rate')
 
     def __post_init__(self) -> None:
@@ -63,6 +64,11 @@ class Settings(RobotConfig):
         self.rates.check(self.step_rate)
         if self.exam and self.localisation == TRUTH:
             raise ConfigError('localisation is truth: in an examination (exam) it must be mcl or none')
+
+    @property
+    def told(self) -> 'Settings':
+        """What nodes may know of the settings: in an examination not what makes this world differ from others."""
+        return dataclasses.replace(self, seed=0, obstacles='', state='') if self.exam else self
 
     @property
     def robot(self) -> RobotConfig:

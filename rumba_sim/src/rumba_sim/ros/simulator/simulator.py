@@ -20,7 +20,8 @@ that of the robot: those who look on get the true one on simulator/map (nav_msgs
 world of all that only the simulator knows, and world -> map on /tf_static. In lockstep it publishes
 simulator/lockstep (rumba_msg/Lockstep), and waits for those who answer on simulator/lockstep_answers
 (rumba_msg/LockstepAnswer). rqt_reconfigure shows it as NAME/tuning; the parameters NAME/settings are the settings in
-force.
+force. In an examination it publishes and serves nothing that the robot could not know: the judge, mission_test, gets
+that over a private socket.
 
 Parameters, as in `rosrun rumba_sim simulator _map:=studio _speed:=10 _battery/drain:=60`:
 """
@@ -43,6 +44,7 @@ from rumba_sim.model.errors import ConfigError, RumbaError, WorldError
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.world import World
 from rumba_sim.ros.common import master_watch, node, peers
+from rumba_sim.ros.common.examiner import ExaminerServer, socket_path
 from rumba_sim.ros.common.maps import map_path, refuse_second, tell_map
 from rumba_sim.ros.common.paths import absolute
 from rumba_sim.ros.common.peers import NO_ANSWER
@@ -91,20 +93,24 @@ class Simulator:
         self._world = saved or World(plan, settings.robot, settings.step_rate, settings.seed, obstacles)
         self._pace = Pace(settings.step_rate, settings.speed, is_time_simulated(settings), self._ticks)
         self._run = uuid.uuid4().hex
+        self._examiner = ExaminerServer(socket_path()) if settings.exam else None
         self._lockstep = self._lockstep_of(settings)
         self._diagnostics = Diagnostics(settings.map)
         self._fleet = Fleet(self._world, settings, self._requests, self._diagnostics, lambda: self._pace.stamp,
-                            self._is_held, self._on_command)
+                            self._is_held, self._on_command, self._examiner)
         frame = true_frame(settings.localisation)
-        self._obstacles = ObstacleBoard(self._world, self._requests, lambda: self._pace.stamp, frame)
+        self._obstacles = ObstacleBoard(self._world, self._requests, lambda: self._pace.stamp, frame,
+                                        settings.exam)
         for _ in range(0 if saved else settings.robots):
             self._fleet.spawn()
         self._file.begin(self._world, self._ticks)
         tell_map(self._world.plan, self._pace.stamp, map_topic(settings.localisation, settings.exam), frame)
-        self._state = StatePublisher(settings, path, settings.step_rate, self._pace.is_simulated, self._run,
+        self._state = StatePublisher(settings.told, path, settings.step_rate, self._pace.is_simulated, self._run,
                                      self._lockstep is not None)
         self._serve()
         self._publish_state()
+        if self._examiner is not None:
+            self._examiner.open(self._lockstep is not None, self._on_examiner)
 
     def _serve(self) -> None:
         if self._settings.exam:
@@ -212,7 +218,7 @@ class Simulator:
         if settings.lockstep == 'false' or settings.lockstep == 'auto' and not self._pace.is_simulated:
             return None
         return Lockstep(self._requests, self._run, settings.wait_for, settings.lockstep_patience,
-                        lambda topic: self._fleet.is_commanded(topic))
+                        lambda topic: self._fleet.is_commanded(topic), self._examiner)
 
     def _wake_participants(self) -> None:
         if self._lockstep is not None:
@@ -222,6 +228,11 @@ class Simulator:
         """Called in threads of rospy."""
         if self._lockstep is not None:
             self._lockstep.on_command(topic)
+
+    def _on_examiner(self, answer: Any) -> None:
+        """Called in the thread of the channel."""
+        if self._lockstep is not None:
+            self._lockstep.on_examiner(answer)
 
     def _is_held(self) -> bool:
         return self._lockstep is not None and self._lockstep.is_waiting

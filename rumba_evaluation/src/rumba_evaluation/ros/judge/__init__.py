@@ -1,0 +1,1 @@
+"""What the node mission_test hears of a run, records of it, and sees at the master."""
