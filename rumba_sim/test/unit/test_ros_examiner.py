@@ -192,9 +192,18 @@ def test_the_folder_is_for_its_user_alone(temporary):
         socket_path()
 
 
-def test_a_path_that_is_too_long_is_told(temporary):
-    with pytest.raises(WorldError, match='set TMPDIR to another folder'):
-        ExaminerServer(str(temporary / ('x' * 200)))
+def test_the_folder_for_temporary_files_may_have_a_long_path(temporary, client):
+    folder = temporary / ('x' * 200)
+    folder.mkdir()
+    server = ExaminerServer(str(folder / '11999'))
+    server.open(True, print)
+    assert client.connect(str(folder / '11999'), PATIENCE).node == '/simulator'
+    server.close()
+
+
+def test_a_path_that_cannot_be_used_is_told(temporary):
+    with pytest.raises(WorldError, match=r'/none/11999: No such file or directory$'):
+        ExaminerServer(str(temporary / 'none' / '11999'))
 
 
 # --- the simulator in an examination ------------------------------------------------------------------------------

@@ -11,13 +11,13 @@ from rumba_sim.ros.common import launched
 def parameters(tmp_path, monkeypatch):
     """Parameters as a launch file sets them."""
     path = tmp_path / 'parameters.json'
-    path.write_text(json.dumps({'/judge/coverage': 0.3, '/judge/a/b': 1, '/judge/a/c/d': [2], '/judges/x': 3,
-                                '/use_sim_time': True}))
+    path.write_text(json.dumps({'nodes': ['/judge'], 'parameters': {
+        '/judge/coverage': 0.3, '/judge/a/b': 1, '/judge/a/c/d': [2], '/judges/x': 3, '/use_sim_time': True}}))
     monkeypatch.setenv(launched.VARIABLE, str(path))
 
 
 def test_a_node_finds_those_below_its_name(parameters):
-    assert launched.is_fixed()
+    assert launched.is_fixed() and launched.nodes() == ['/judge'] and launched.parameters()['/judges/x'] == 3
     assert launched.below('/judge') == {'coverage': 0.3, 'a': {'b': 1, 'c': {'d': [2]}}}
     assert launched.below('/other') == {}
 

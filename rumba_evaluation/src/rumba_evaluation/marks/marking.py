@@ -21,7 +21,7 @@ from rumba_evaluation.trials.command_line import ERROR
 from rumba_sim.model.errors import ConfigError
 
 SHEET, BUILD_LOG, BAG = 'marks.csv', 'build.log', 'recording.bag'
-EXAM = 'exam'  # argument of a .test file
+EXAM, RECORDING = 'exam', 'recording'  # argument of a .test file, and parameter of a mission_test
 PERIOD = 1.0  # [s] of the wall clock between two looks at how far it is
 Result = TypeVar('Result')
 
@@ -29,8 +29,7 @@ Result = TypeVar('Result')
 class Ros(NamedTuple):
     """What needs ROS."""
 
-    recorder: str  # what records an examination, as an element of a launch file with the path of the bag as {bag}
-    examine: Callable[[str, HiddenTest], List[str]]  # finds in such a bag what was not allowed, in words
+    examine: Callable[[str, HiddenTest], List[str]]  # finds in the bag of an examination what was not allowed, in words
     load: Callable[[HiddenTest, str], Launch]  # what a test starts; its second argument is the folder of the tests
     visible: Callable[[], List[str]]  # folders that programs need which use ROS and Rumba
 
@@ -156,8 +155,7 @@ class Marking:
     def _run(self, taken: Submission, test: HiddenTest, launch: Launch, folder: str, bag: str) -> Outcome:
         """Run a test on a submission, in an examination with a recording at the path `bag`."""
         is_exam = test.arguments.get(EXAM, '').lower() in ('true', '1')
-        outcome, log = taken.run(test, launch, self._options.tests,
-                                 self._ros.recorder.format(bag=bag) if is_exam else '')
+        outcome, log = taken.run(test, launch, self._options.tests, {RECORDING: bag} if is_exam else {})
         if is_exam and (os.path.exists(bag) or gradescope.score(outcome.marks)):
             outcome = Outcome(outcome.marks, outcome.notes + self._ros.examine(bag, test))
         if folder:

@@ -19,7 +19,7 @@ from rumba_evaluation.marks.workspace import Problem, Workspace
 
 PACKAGE = 'submission'  # as rostest calls the folder for results
 LONGEST_LOG = 1_000_000  # characters
-PARAMETERS = 'RUMBA_PARAMETERS'  # names the file from which nodes of Rumba take their parameters
+LAUNCHED = 'RUMBA_LAUNCHED'  # names the file from which nodes of Rumba take their parameters
 
 
 class Outcome(NamedTuple):
@@ -34,10 +34,14 @@ class Launch(NamedTuple):
 
     Attributes:
         nodes: those of the submission.
+        trusted: full names of the others.
+        judges: full names of those that give points.
         parameters: all that it sets, by their full names.
     """
 
     nodes: Sequence[Wanted]
+    trusted: Sequence[str]
+    judges: Sequence[str]
     parameters: Mapping[str, Any]
 
 
@@ -59,22 +63,24 @@ class Submission:
         self._mistakes = mistakes.of_submission(self.workspace.source, wanted)
         self.notes = [printable(note) for note in self.workspace.notes]
 
-    def run(self, test: HiddenTest, launch: Launch, tests: str, extra: str = '') -> Tuple[Outcome, str]:
+    def run(self, test: HiddenTest, launch: Launch, tests: str, more: Mapping[str, Any]) -> Tuple[Outcome, str]:
         """Run one hidden test; returns the outcome and what the run printed.
 
         Args:
             test: the test.
             launch: what it starts.
             tests: folder whose packages are found before all others.
-            extra: further elements of the launch file.
+            more: further private parameters of the judges.
         """
         if self.problem:
             return self._outcome(test, {}, self.problem, [self.problem, *self._mistakes]), self.workspace.log
         folder = self._ours / test.name
         programs = self.workspace.install(launch.nodes, folder / 'prefix')
         file = folder / f'{test.name}.test'
-        file.write_text(_launch_file(test, extra))
-        (folder / 'parameters.json').write_text(json.dumps(launch.parameters, default=str))
+        given = {f'{judge}/{name}': value for judge in launch.judges for name, value in more.items()}
+        file.write_text(_launch_file(test, given))
+        (folder / 'launched.json').write_text(json.dumps(
+            {'nodes': launch.trusted, 'parameters': {**launch.parameters, **given}}))
         results = folder / 'results'
         command = ['rostest', f'--pkgdir={folder}', f'--package={PACKAGE}', f'--results-base-dir={results}', str(file)]
         done = supervised.run(self._box.around_test(command), self._environment(folder, tests),
@@ -99,7 +105,7 @@ class Submission:
             (folder / name).mkdir()
         prefix = folder / 'prefix'
         return {**kept, 'ROS_HOME': str(folder / 'ros'), 'ROS_LOG_DIR': str(folder / 'log'),
-                'TMPDIR': str(folder / 'tmp'), 'ROS_HOSTNAME': 'localhost', PARAMETERS: str(folder / 'parameters.json'),
+                'TMPDIR': str(folder / 'tmp'), 'ROS_HOSTNAME': 'localhost', LAUNCHED: str(folder / 'launched.json'),
                 'CMAKE_PREFIX_PATH': os.pathsep.join([str(prefix), kept.get('CMAKE_PREFIX_PATH', '')]),
                 'ROS_PACKAGE_PATH': os.pathsep.join([os.path.abspath(tests), str(prefix / 'share'),
                                                      kept.get('ROS_PACKAGE_PATH', '')])}
@@ -122,8 +128,9 @@ def _beginning(path: pathlib.Path) -> str:
         return file.read(LONGEST_LOG)
 
 
-def _launch_file(test: HiddenTest, extra: str) -> str:
+def _launch_file(test: HiddenTest, parameters: Mapping[str, Any]) -> str:
     quote = xml.sax.saxutils.quoteattr
+    more = ''.join(f'  <param name={quote(name)} value={quote(str(value))} />\n' for name, value in parameters.items())
     arguments = ''.join(f'    <arg name={quote(name)} value={quote(value)} />\n'
                         for name, value in test.arguments.items())
-    return f'<launch>\n{extra}  <include file={quote(test.path)}>\n{arguments}  </include>\n</launch>\n'
+    return f'<launch>\n{more}  <include file={quote(test.path)}>\n{arguments}  </include>\n</launch>\n'

@@ -2,19 +2,20 @@
 
 import os
 import sys
-from typing import List, Set
+from typing import Any, List, Set
 
 import roslaunch.config
 import roslaunch.core
 import rospkg
 
-from rumba_evaluation.marks.hidden_tests import HiddenTest
+from rumba_evaluation.marks.hidden_tests import MISSION_TEST, HiddenTest
 from rumba_evaluation.marks.mistakes import Wanted
 from rumba_evaluation.marks.submission import Launch
 from rumba_sim.model.errors import ConfigError
 
 SYSTEM = ('/usr/', '/opt/')
 OURS = 'rumba_'
+PLAIN = (bool, int, float, str, list, dict)  # what parameters can be, apart from data and times
 
 
 def load(test: HiddenTest, tests: str) -> Launch:
@@ -38,7 +39,14 @@ def load(test: HiddenTest, tests: str) -> Launch:
         trusted = _trusted(tests)
         os.environ['ROS_PACKAGE_PATH'] = path
     return Launch([Wanted(node.package, node.type) for node in config.nodes if node.package not in trusted],
-                  {name: parameter.value for name, parameter in config.params.items()})
+                  [_name(node) for node in (*config.nodes, *config.tests) if node.package in trusted],
+                  [_name(node) for node in config.tests if node.type == MISSION_TEST],
+                  {name: parameter.value for name, parameter in config.params.items()
+                   if isinstance(parameter.value, PLAIN)})
+
+
+def _name(node: Any) -> str:
+    return f'{node.namespace}{node.name}'
 
 
 def visible() -> List[str]:

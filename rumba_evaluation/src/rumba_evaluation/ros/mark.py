@@ -7,8 +7,6 @@ from rumba_evaluation.marks import mark
 from rumba_evaluation.marks.hidden_tests import HiddenTest
 from rumba_evaluation.marks.marking import Ros
 
-RECORDER = '  <param name="/judge/recording" value="{bag}" />\n'  # of the mission_test that is named so
-
 
 def main() -> None:
     """Run the command line of this process; leaves the process with the exit code."""
@@ -16,4 +14,4 @@ def main() -> None:
 
     def examine(bag: str, test: HiddenTest) -> List[str]:
         return [f'{test.name}: {finding}' for finding in exam_recording.findings(bag)]
-    sys.exit(mark.main(sys.argv[1:], Ros(RECORDER, examine, launches.load, launches.visible)))
+    sys.exit(mark.main(sys.argv[1:], Ros(examine, launches.load, launches.visible)))

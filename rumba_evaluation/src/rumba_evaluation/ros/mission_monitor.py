@@ -16,6 +16,7 @@ from nav_msgs.msg import Odometry
 
 from rumba_evaluation.ros.judge import surroundings
 from rumba_evaluation.ros.judge.examiner_feed import ExaminerFeed
+from rumba_evaluation.ros.judge.launched_parameters import as_launched
 from rumba_evaluation.ros.judge.recording import Recording
 from rumba_evaluation.ros.judge.robot_feed import RobotFeed
 from rumba_evaluation.ros.judge.robot_topics import PLACE, TOPICS, Value, stamps
@@ -37,7 +38,6 @@ MODE_PATIENCE = 3.0  # [s] of the wall clock from the first message until it is 
 STATE_PATIENCE = 30.0  # ... if the master knows a publisher of the state, which tells
 TICK_PATIENCE = 5.0  # [s] of the wall clock to wait for the messages of a tick
 REST = 0.2  # [s] of the wall clock for what is on its way at the end
-SIMULATOR = 'simulator'  # whose parameters stay as they are in an examination
 
 
 class MissionMonitor:
@@ -106,9 +106,7 @@ class MissionMonitor:
         except WorldError as error:
             self._annul(str(error))
             return
-        launched = {name: value for name, value in rospy.get_param('/', {}).items()
-                    if name in (SIMULATOR, 'use_sim_time')}
-        self._exam = Examination(launched, [f'/{SIMULATOR}'])
+        self._exam = Examination(*as_launched())
         self._subscribe_to_fields()
         feed.follow()
 

@@ -132,19 +132,32 @@ class ExaminerServer:
         _end(self._listener)
 
 
+@contextlib.contextmanager
+def _short(path: str) -> Iterator[str]:
+    """Another name of a path: sockets cannot have a name of more than 107 bytes (unix(7))."""
+    folder, name = os.path.split(path)
+    number = os.open(folder, os.O_PATH)
+    try:
+        yield f'/proc/self/fd/{number}/{name}'
+    finally:
+        os.close(number)
+
+
 def _bound(path: str) -> socket.socket:
     """A socket at a path; one that a simulator has left which was killed is taken away."""
     with contextlib.suppress(OSError), socket.socket(socket.AF_UNIX, socket.SOCK_STREAM) as probe:
-        probe.connect(path)
+        with _short(path) as short:
+            probe.connect(short)
         raise WorldError(f'{path}: another process listens there: end it')
     listener = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
     try:
         with contextlib.suppress(FileNotFoundError):
             os.unlink(path)
-        listener.bind(path)
-    except OSError as error:  # for example a path that is too long for a socket
+        with _short(path) as short:
+            listener.bind(short)
+    except OSError as error:
         listener.close()
-        raise WorldError(f'{path}: {error}: set TMPDIR to another folder') from error
+        raise WorldError(f'{path}: {error.strerror}') from error
     return listener
 
 
@@ -189,7 +202,7 @@ class ExaminerClient:
             WorldError: none has come, or another process is connected to it.
         """
         end = time.monotonic() + patience
-        while self._socket.connect_ex(path) != 0:
+        while not self._has_connected(path):
             if time.monotonic() > end or rospy.is_shutdown():
                 raise WorldError(f'no simulator in an examination listens at {path}: start one with exam:=true')
             time.sleep(PERIOD)
@@ -198,6 +211,10 @@ class ExaminerClient:
         if first.kind != HELLO:
             raise WorldError(REFUSED)
         return Hello(**json.loads(first.content.decode()))
+
+    def _has_connected(self, path: str) -> bool:
+        with _short(path) as short:
+            return self._socket.connect_ex(short) == 0
 
     def frames(self) -> Iterator[Frame]:
         """What the simulator tells, until it ends."""
