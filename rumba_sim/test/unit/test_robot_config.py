@@ -113,6 +113,7 @@ def test_the_constants_have_the_values_of_the_configuration_and_of_the_plan():
     assert k.ticks_per_metre == approx(508.8 / (math.pi * 0.072))
     assert k.sample_pitch == approx(0.01)
     assert k.takes[:3] == approx((0.9, 0.09, 0.009))
+    assert k.takes.tolist() == [0.9 * (1.0 - 0.9) ** passes for passes in range(len(k.takes))]  # on each processor
     for name in k.dtype.names:
         assert np.all(np.isfinite(k[name]))
         if name not in ('origin_x', 'origin_y', 'has_layers', 'has_cliffs', 'noise'):

@@ -12,7 +12,7 @@ from scipy import ndimage, spatial
 
 from rumba_cleaning.belief.ground import Ground
 from rumba_cleaning.belief.swept import Swept
-from rumba_cleaning.planning import compiled_rings
+from rumba_cleaning.planning import compiled_rings, gaussian
 from rumba_cleaning.planning.contours import contours
 from rumba_cleaning.planning.paper import drive, resampled
 from rumba_cleaning.planning.regions import Shapes
@@ -103,7 +103,7 @@ def _shaped(ring: Ring, is_open: bool) -> Ring:
     if not ring.is_closed or not (is_open or ring.level):
         return ring
     path = ring.waypoints[:-1]
-    smooth = ndimage.gaussian_filter1d(path, (SMOOTH if is_open else BLUR) / SPACING, axis=0, mode='wrap')
+    smooth = ndimage.correlate1d(path, gaussian.weights((SMOOTH if is_open else BLUR) / SPACING), axis=0, mode='wrap')
     path = smooth if is_open else 2.0 * path - smooth
     return ring._replace(waypoints=np.concatenate([path, path[:1]]))
 

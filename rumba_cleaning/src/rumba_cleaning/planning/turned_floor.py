@@ -8,6 +8,7 @@ from scipy import ndimage
 
 from rumba_cleaning.belief.ground import Ground
 from rumba_cleaning.compiled_bearings import bearings
+from rumba_cleaning.planning import gaussian
 from rumba_cleaning.planning.compiled_turn import turned
 from rumba_cleaning.planning.rings import SPACING
 from rumba_sim.model.kernel import Array
@@ -18,8 +19,6 @@ BINS = 90  # of the histogram of directions, in a quarter turn: 1 degree each
 SMOOTH = 1.5  # [bins] standard deviation of the filter over the histogram: walls of a drawn map are not quite straight
 STRAIGHT = 2  # [bins] a direction this near to an axis of the map counts as the axis: a turned grid is less exact
 QUARTER = 0.5 * math.pi  # [rad]
-# Of a Gaussian, up to four standard deviations away. math.exp is the same with each build of NumPy, np.exp is not.
-WEIGHTS = [math.exp(-0.5 * (offset / SMOOTH) ** 2) for offset in range(-int(4.0 * SMOOTH), int(4.0 * SMOOTH) + 1)]
 Window = Tuple[slice, slice]  # rows and columns
 
 
@@ -112,6 +111,6 @@ def main_direction(outlines: List[Array]) -> float:
     for path in outlines:
         bins = np.rint(bearings(path[span:] - path[:-span]) / QUARTER * BINS).astype(int) % BINS
         counts += np.bincount(bins, minlength=BINS)
-    best = int(np.argmax(ndimage.correlate1d(counts, WEIGHTS, mode='wrap')))
+    best = int(np.argmax(ndimage.correlate1d(counts, gaussian.weights(SMOOTH), mode='wrap')))
     best = best - BINS if best > BINS // 2 else best
     return 0.0 if abs(best) <= STRAIGHT else best * QUARTER / BINS

@@ -123,7 +123,7 @@ def _values(config: RobotConfig, plan: FloorPlan, step_rate: float) -> Constants
         release_distance=dock.release_distance, release_angle=dock.release_angle, buoy_range=dock.buoy_range,
         buoy_half=0.5 * dock.buoy_field, buoy_overlap_half=0.5 * dock.buoy_overlap, halo=dock.halo,
         brush_width=brush.width, sample_pitch=plan.sample_pitch,
-        takes=brush.pickup * (1.0 - brush.pickup) ** np.arange(MOST_PASSES + 1), capacity=battery.capacity,
+        takes=_takes(brush.pickup), capacity=battery.capacity,
         idle_current=battery.idle_current, wheel_current_slow=battery.wheel_current_slow,
         wheel_current=battery.wheel_current, wheel_speed=battery.wheel_speed, brush_current=battery.brush_current,
         charge_current=battery.charge_current, trickle_current=battery.trickle_current,
@@ -138,3 +138,8 @@ def clearance_needed(radius: float, resolution: float) -> float:
     that is larger by as much, the body itself never overlaps a wall.
     """
     return radius + 1.05 * resolution ** 2 / (8.0 * radius)
+
+
+def _takes(pickup: float) -> Array:
+    """Shares of the first dirt that passes take; a power of NumPy depends on its version and on the processor."""
+    return np.array([pickup * (1.0 - pickup) ** passes for passes in range(MOST_PASSES + 1)])

@@ -385,6 +385,9 @@ class World:
 
 
 def _fan(beams: int) -> Array:
-    """Directions of the laser's beams in the frame of the robot: float64 (beams, 2)."""
-    angles = np.arange(beams) * (2.0 * math.pi / beams) - math.pi
-    return np.stack([np.cos(angles), np.sin(angles)], axis=1)
+    """Directions of the laser's beams in the frame of the robot: float64 (beams, 2).
+
+    Sines of NumPy depend on its version and on the processor.
+    """
+    angles = [beam * (2.0 * math.pi / beams) - math.pi for beam in range(beams)]
+    return np.array([(math.cos(angle), math.sin(angle)) for angle in angles])
