@@ -26,9 +26,9 @@ FOLDERS = {
         'ros/cleaner': {'', 'belief', 'behaviours', 'strategies', 'mission'}},
     'rumba_evaluation': {
         'scoring': set(), 'trials': {'scoring'}, 'report': set(), 'verdicts': set(),
-        'marks': {'trials', 'verdicts'}, 'ros/mission_report': {'report'},
+        'submissions': set(), 'marks': {'trials', 'verdicts', 'submissions'}, 'ros/mission_report': {'report'},
         'learning': {'trials'}, 'ros/judge': {'verdicts'},
-        'ros': {'scoring', 'trials', 'verdicts', 'marks', 'ros/judge'}},
+        'ros': {'scoring', 'trials', 'verdicts', 'marks', 'submissions', 'ros/judge'}},
     'rumba_viewer': {
         'scene': set(), 'painting': {'scene'}, 'window': {'scene', 'painting'}, 'ros': {'scene', 'window'},
         'page': set(), 'ros/page': {'page'}, 'ros/console': {'scene', 'ros'}}}
@@ -42,7 +42,7 @@ ROS = ('rospy', 'roslib', 'rospkg', 'rosgraph', 'rosservice', 'actionlib', 'rosb
 ROS_ENDINGS = ('_msgs', '_msg', '_srvs', '_ros')
 QT = ('PyQt5',)
 CLOCK = ('time',)
-WITH_CLOCK = {'rumba_viewer/window'}
+WITH_CLOCK = {'rumba_evaluation/submissions', 'rumba_viewer/window'}
 WITH_QT = {'rumba_viewer/painting', 'rumba_viewer/window', 'rumba_viewer/ros'}
 # How rosdep calls what is imported, if it is not the name of the import.
 KEYS = {'PIL': 'python3-pil', 'PyQt5': 'python3-pyqt5', 'matplotlib': 'python3-matplotlib',

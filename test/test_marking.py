@@ -109,6 +109,10 @@ def test_a_pupil_is_told_what_is_wrong_and_nothing_about_nodes_that_were_interru
 @pytest.mark.thorough
 @pytest.mark.parametrize('name', [name for name, (kind, _, _) in MAKERS.items() if kind == classroom.HOSTILE])
 def test_hostile_submissions_earn_nothing_and_leave_nothing(space, tmp_path, name):
+    code = 'from rumba_evaluation.submissions import sandbox; print(sandbox.trouble())'
+    trouble = space.run(f'python3 -c "{code}"').strip()
+    if trouble:
+        pytest.skip(f'this system permits no sandbox: {trouble}')
     [row] = marked(space, tmp_path, class_of(tmp_path, name)).values()
     assert row['points'] == '0'
     log = tmp_path / 'marks' / name / 'bumper.log'

@@ -8,7 +8,7 @@ import zipfile
 
 import pytest
 
-from rumba_evaluation.marks import intake
+from rumba_evaluation.submissions import intake
 
 MANIFEST = '<package format="3"><name>{}</name></package>'
 

@@ -8,9 +8,9 @@ import sys
 
 import pytest
 
-from rumba_evaluation.marks import sandbox, supervised
-from rumba_evaluation.marks.sandbox import Bubblewrap, Plain
-from rumba_evaluation.marks.supervised import Limits
+from rumba_evaluation.submissions import sandbox, supervised
+from rumba_evaluation.submissions.sandbox import Bubblewrap, Plain
+from rumba_evaluation.submissions.supervised import Limits
 
 TROUBLE = sandbox.trouble()
 needs_sandbox = pytest.mark.skipif(bool(TROUBLE), reason=f'this system permits no sandbox: {TROUBLE}')
@@ -102,3 +102,5 @@ def test_it_is_told_why_there_is_no_sandbox(monkeypatch, tmp_path):
     program.write_text('#!/bin/sh\necho first\necho "bwrap: No permissions" >&2\nexit 1\n')
     program.chmod(0o755)
     assert sandbox.trouble() == 'bwrap: No permissions'
+    program.write_text('#!/bin/sh\nexit 3\n')
+    assert sandbox.trouble() == 'bwrap ended with exit code 3'

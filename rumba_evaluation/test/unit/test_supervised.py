@@ -10,8 +10,8 @@ import time
 
 import pytest
 
-from rumba_evaluation.marks import processes, sandbox, scratch, supervised
-from rumba_evaluation.marks.supervised import Kept, Limits, Stopped
+from rumba_evaluation.submissions import processes, sandbox, scratch, supervised
+from rumba_evaluation.submissions.supervised import Kept, Limits, Stopped
 
 LONG = 60.0  # [s]: no test takes as long
 DETACHED = """
@@ -53,7 +53,7 @@ def test_what_outlives_a_killed_keeper_is_ended_too(tmp_path):
     program = tmp_path / 'marking.py'
     program.write_text(textwrap.dedent(f"""
         import os, sys
-        from rumba_evaluation.marks import processes, sandbox, supervised
+        from rumba_evaluation.submissions import processes, sandbox, supervised
         processes.adopt_orphans()
         code = {textwrap.dedent(DETACHED.format(pid=str(pid))) + 'os.kill(os.getppid(), 9); time.sleep(1000)'!r}
         done = supervised.run(sandbox.Plain().around_test([sys.executable, '-c', code]), dict(os.environ),

@@ -7,18 +7,19 @@ import pathlib
 import xml.sax.saxutils
 from typing import Any, Dict, List, Mapping, NamedTuple, Sequence, Tuple, Union
 
-from rumba_evaluation.marks import mistakes, supervised
+from rumba_evaluation.submissions import mistakes, supervised
 from rumba_evaluation.marks.gradescope import beside, marks_of
 from rumba_evaluation.marks.hidden_tests import HiddenTest
-from rumba_evaluation.marks.mistakes import Wanted
-from rumba_evaluation.marks.quotations import printable
-from rumba_evaluation.marks.sandbox import Bubblewrap, Plain
+from rumba_evaluation.submissions.mistakes import Wanted
+from rumba_evaluation.submissions.quotations import printable
+from rumba_evaluation.submissions.sandbox import Bubblewrap, Plain
 from rumba_evaluation.marks.scheme import Mark, nothing
-from rumba_evaluation.marks.supervised import Limits, Stop
-from rumba_evaluation.marks.workspace import Problem, Workspace
+from rumba_evaluation.submissions.supervised import Limits, Stop
+from rumba_evaluation.submissions.workspace import Problem, Workspace
 
 PACKAGE = 'submission'  # as rostest calls the folder for results
 LONGEST_LOG = 1_000_000  # characters
+STDOUT = '-stdout.log'  # end of the name of such a file
 LAUNCHED = 'RUMBA_LAUNCHED'  # names the file from which nodes of Rumba take their parameters
 
 
@@ -90,12 +91,13 @@ class Submission:
             with contextlib.suppress(OSError, ValueError):
                 marks[name] = marks_of((pathlib.Path(beside(
                     str(results / PACKAGE / f'rosunit-{name}.xml')))).read_text())
-        told = done.output + ''.join(map(_beginning, sorted((folder / 'log').glob('rostest-*.log'))))
+        output = done.output + _printed(folder / 'log', launch.trusted)
+        told = output + ''.join(map(_beginning, sorted((folder / 'log').glob('rostest-*.log'))))
         for path, program in programs.items():
             told = told.replace(path, program)
         found = [*([done.stopped] if done.stopped else []), *self._mistakes, *mistakes.of_run(told)]
         reason = 'the test gave no verdict: ' + (found[0] if found else 'see the log')
-        return self._outcome(test, marks, reason, found), done.output
+        return self._outcome(test, marks, reason, found), output
 
     def _environment(self, folder: pathlib.Path, tests: str) -> Dict[str, str]:
         """The environment of the world, the judge and hidden nodes."""
@@ -120,6 +122,16 @@ class Submission:
                       for condition, most in points.items()]
         is_full = all(mark.score == mark.max_score for mark in found)
         return Outcome(found, [] if is_full else [f'{test.name}: {note}' for note in dict.fromkeys(notes)])
+
+
+def _printed(folder: pathlib.Path, trusted: Sequence[str]) -> str:
+    """What nodes of a submission have printed, which roslaunch keeps in files."""
+    found = ''
+    for path in sorted(folder.glob(f'*/*{STDOUT}')):
+        name = path.name[:-len(STDOUT)].rpartition('-')[0]  # without the number that roslaunch gives it
+        text = '' if any(each.rpartition('/')[2] == name for each in trusted) else _beginning(path)
+        found += f'\n--- {name} printed ---\n{text}' if text else ''
+    return found
 
 
 def _beginning(path: pathlib.Path) -> str:

@@ -22,7 +22,7 @@ WITHOUT_LOG = 'for each; do shift; case $each in __log:=*) ;; *) set -- "$@" "$e
 LIMITED = f'ulimit -c 0 && ulimit -f {FILE // 512} && ulimit -d {DATA // 1000} && exec "$@"'
 
 
-KEEPER = (sys.executable, '-m', 'rumba_evaluation.marks.keeper')  # ends what a command leaves behind
+KEEPER = (sys.executable, '-m', 'rumba_evaluation.submissions.keeper')  # ends what a command leaves behind
 
 
 class Plain:
@@ -94,7 +94,8 @@ def trouble() -> str:
             os.mkdir(os.path.join(own, name))
         done = subprocess.run(sandbox.around_test(sandbox.around_node(['true'], own)), stdin=subprocess.DEVNULL,
                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=TRIAL_PATIENCE, check=False)
-    return done.stdout.decode(errors='replace').strip().split('\n')[-1] if done.returncode else ''
+    told = done.stdout.decode(errors='replace').strip().split('\n')[-1]
+    return told or f'bwrap ended with exit code {done.returncode}' if done.returncode else ''
 
 
 def script(environment: Mapping[str, str], passed_on: Iterable[str], command: Sequence[str]) -> str:

@@ -5,9 +5,9 @@ import pathlib
 import re
 from typing import Dict, Iterable, List, Sequence, Set
 
-from rumba_evaluation.marks import installed_packages
-from rumba_evaluation.marks.quotations import printable, relative
-from rumba_evaluation.marks.submitted_files import Package, text
+from rumba_evaluation.submissions import installed_packages
+from rumba_evaluation.submissions.quotations import printable, relative
+from rumba_evaluation.submissions.submitted_files import Package, text
 
 BUILD = ('build_depend', 'depend')
 RUN = ('exec_depend', 'run_depend', 'depend')

@@ -7,8 +7,8 @@ import shlex
 import shutil
 from typing import List, Sequence
 
-from rumba_evaluation.marks.quotations import printable, relative
-from rumba_evaluation.marks.submitted_files import Package, content
+from rumba_evaluation.submissions.quotations import printable, relative
+from rumba_evaluation.submissions.submitted_files import Package, content
 
 MARK = b'\xef\xbb\xbf'  # UTF-8 byte order mark
 SHEBANG = '#!/usr/bin/env python3'

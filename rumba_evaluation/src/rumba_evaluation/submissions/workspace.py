@@ -6,10 +6,10 @@ import re
 import sys
 from typing import Dict, List, Mapping, Optional, Sequence, Union
 
-from rumba_evaluation.marks import intake, sandbox, supervised
-from rumba_evaluation.marks.mistakes import Wanted
-from rumba_evaluation.marks.sandbox import Bubblewrap, Plain
-from rumba_evaluation.marks.supervised import Limits, Stop
+from rumba_evaluation.submissions import intake, sandbox, supervised
+from rumba_evaluation.submissions.mistakes import Wanted
+from rumba_evaluation.submissions.sandbox import Bubblewrap, Plain
+from rumba_evaluation.submissions.supervised import Limits, Stop
 
 BUILT = re.compile(r'^\s*(add_executable|add_library|add_(message|service|action)_files|catkin_python_setup)\s*\(',
                    re.MULTILINE)

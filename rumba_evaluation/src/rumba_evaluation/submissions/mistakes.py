@@ -6,8 +6,9 @@ The most important is first, none comes twice, and what is quoted can safely be 
 import pathlib
 from typing import Iterable, List, NamedTuple, Sequence
 
-from rumba_evaluation.marks import (installed_packages, mistakes_of_builds, mistakes_of_packages, mistakes_of_runs,
-                                    mistakes_of_scripts, submitted_files)
+from rumba_evaluation.submissions import (
+    installed_packages, mistakes_of_builds, mistakes_of_packages, mistakes_of_runs, mistakes_of_scripts,
+    submitted_files)
 
 MOST = 20  # sentences
 

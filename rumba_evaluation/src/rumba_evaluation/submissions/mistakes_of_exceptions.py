@@ -3,7 +3,7 @@
 import re
 from typing import NamedTuple
 
-from rumba_evaluation.marks.quotations import printable
+from rumba_evaluation.submissions.quotations import printable
 
 SYNTAX = ('SyntaxError', 'IndentationError', 'TabError')
 RENAMED = {'xrange': 'range', 'raw_input': 'input', 'unicode': 'str', 'basestring': 'str', 'long': 'int',

@@ -2,8 +2,8 @@
 
 from typing import Dict, List, NamedTuple, Optional, Sequence, Set, Tuple
 
-from rumba_evaluation.marks.mistakes_of_exceptions import SYNTAX, WHEN_IT_ENDS, Raised, sentence
-from rumba_evaluation.marks.quotations import COPY, lines_of, printable, within_copy
+from rumba_evaluation.submissions.mistakes_of_exceptions import SYNTAX, WHEN_IT_ENDS, Raised, sentence
+from rumba_evaluation.submissions.quotations import COPY, lines_of, printable, within_copy
 
 TRACE = 'Traceback (most recent call last):'
 CHAINED = ('During handling of the above exception', 'The above exception was the direct cause')

@@ -3,7 +3,7 @@
 import re
 from typing import Callable, Iterable, List, Match, NamedTuple, Pattern, Sequence, Tuple
 
-from rumba_evaluation.marks.quotations import lines_of, printable, within_copy
+from rumba_evaluation.submissions.quotations import lines_of, printable, within_copy
 
 MOST_BLOCKS = 10  # errors of CMake that are looked at
 MOST_WORDS = 3000  # characters of an error of CMake

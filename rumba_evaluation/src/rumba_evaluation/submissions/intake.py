@@ -21,6 +21,9 @@ LEFT_OUT = frozenset(('.git', '.svn', '__pycache__', '__MACOSX', 'build', 'devel
 MOST_FILES, MOST_BYTES, MOST_DEPTH = 5_000, 200_000_000, 30
 NESTED = 2  # archives in archives
 MANIFEST = 'package.xml'
+# What a script may use that comes without a package.
+USUAL = ('rospy', 'actionlib', 'geometry_msgs', 'nav_msgs', 'rumba_msg', 'sensor_msgs', 'std_msgs', 'std_srvs',
+         'tf2_ros', 'turtlesim')
 
 
 class Refused(Exception):
@@ -237,5 +240,6 @@ def as_package(folder: pathlib.Path, package: str, script: str) -> bool:
     place = folder / package / 'scripts'
     place.mkdir(parents=True)
     shutil.move(str(files[0]), str(place / script))
-    (folder / package / MANIFEST).write_text(f'<package format="3"><name>{package}</name></package>\n')
+    needs = ''.join(f'<exec_depend>{each}</exec_depend>' for each in USUAL)
+    (folder / package / MANIFEST).write_text(f'<package format="3"><name>{package}</name>{needs}</package>\n')
     return True

@@ -9,7 +9,7 @@ import threading
 import time
 from typing import Iterator, Mapping, NamedTuple, Optional, Sequence, Set
 
-from rumba_evaluation.marks import processes
+from rumba_evaluation.submissions import processes
 
 LOOK_PERIOD = 0.2  # [s] of the wall clock between two looks at what the processes take
 DISK_PERIOD = 2.0  # [s] of the wall clock between two looks at what they have written

@@ -8,7 +8,7 @@ import signal
 import subprocess
 import sys
 
-from rumba_evaluation.marks import processes
+from rumba_evaluation.submissions import processes
 
 
 def main() -> int:
