@@ -8,7 +8,7 @@ import zipfile
 
 import pytest
 
-from rumba_evaluation.submissions import intake
+from rumba_evaluation.submissions import intake, scratch
 
 MANIFEST = '<package format="3"><name>{}</name></package>'
 
@@ -154,6 +154,19 @@ def test_what_is_too_large_is_refused_before_it_is_all_there(source, tmp_path, m
     monkeypatch.setattr(intake, 'MOST_FILES', 1)
     with pytest.raises(intake.Refused, match=r'^the submission has more than 1 files$'):
         intake.take(str(source), tmp_path / 'again')
+
+
+def test_folders_that_are_nested_too_deeply_are_refused(source, tmp_path):
+    here = os.getcwd()
+    os.chdir(source)
+    for _ in range(2000):
+        os.mkdir('deep')
+        os.chdir('deep')
+    os.chdir(here)
+    for act in (lambda: intake.digest(str(source)), lambda: intake.take(str(source), tmp_path / 'taken')):
+        with pytest.raises(intake.Refused, match='^the submission has folders in folders, more than 30 of them$'):
+            act()
+    scratch.remove(source / 'deep')  # pytest cannot
 
 
 def test_the_packages_are_found_by_their_names_also_if_a_package_xml_is_damaged(tmp_path):

@@ -69,6 +69,22 @@ def test_a_program_sees_no_other_processes_and_no_network(own):
 
 
 @needs_sandbox
+def test_a_program_does_not_see_the_environment_of_who_marks(own, monkeypatch):
+    monkeypatch.setenv('SECRET_OF_THE_TEACHER', 'x')
+    found = shell(Bubblewrap([], []), own, 'env; cat /proc/*/environ')
+    assert 'PATH=' in found and 'SECRET_OF_THE_TEACHER' not in found
+
+
+def test_what_ends_a_run_is_not_taken_from_the_folder_of_a_submission(own):
+    package = own / 'rumba_evaluation'
+    (package / 'submissions').mkdir(parents=True)
+    for path in (package / '__init__.py', package / 'submissions' / '__init__.py', own / 'os.py', own / 'signal.py'):
+        path.write_text("raise SystemExit('taken from the submission')\n")
+    found = supervised.run(Plain().around_test(['echo', 'well']), dict(os.environ), str(own), LIMITS)
+    assert found == (0, 'well\n', '')
+
+
+@needs_sandbox
 def test_a_program_has_no_rights_beyond_those_of_a_user(own):
     assert 'CapEff:\t0000000000000000\n' in shell(Bubblewrap([], []), own, 'cat /proc/self/status')
 
@@ -84,8 +100,8 @@ def test_one_process_has_bounds_of_its_own(own, box):
 
 def test_a_script_gives_an_environment_of_its_own_and_hides_the_log_file(tmp_path):
     path = tmp_path / 'script'
-    path.write_text(sandbox.script({'NAME': "it's $HOME", 'PATH': os.environ['PATH']}, ['GIVEN', 'OTHER'],
-                                   [sys.executable, '-c', PRINTS, 'first']))
+    command = sandbox.clean({'NAME': "it's $HOME", 'PATH': os.environ['PATH']}, [sys.executable, '-c', PRINTS, 'first'])
+    path.write_text(sandbox.script(command, ['GIVEN', 'OTHER']))
     path.chmod(0o755)
     environment = {**os.environ, 'GIVEN': 'a b', 'SECRET': 'x'}
     environment.pop('OTHER', None)

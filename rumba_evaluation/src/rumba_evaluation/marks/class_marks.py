@@ -1,5 +1,6 @@
 """The marks of a class: a folder with one folder for each submission, marked in parallel, and again only if need be."""
 
+import collections
 import csv
 import hashlib
 import io
@@ -26,6 +27,13 @@ def submissions(folder: str) -> List[str]:
     """The paths of the submissions of a class, by name."""
     with os.scandir(folder) as entries:
         return sorted(entry.path for entry in entries if intake.is_submission(entry))
+
+
+def names(sources: Sequence[str]) -> Dict[str, str]:
+    """The names of submissions by their paths, without endings such as .zip if those do not tell them apart."""
+    short = collections.Counter(map(intake.name_of, sources))
+    return {source: name if short[name] == 1 else os.path.basename(source)
+            for source, name in ((source, intake.name_of(source)) for source in sources)}
 
 
 def digest_of_tests(folder: str, tests: Sequence[HiddenTest], launches: Sequence[Launch]) -> str:

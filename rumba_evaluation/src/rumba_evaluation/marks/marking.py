@@ -17,12 +17,15 @@ from rumba_evaluation.marks.class_marks import Row
 from rumba_evaluation.marks.hidden_tests import HiddenTest
 from rumba_evaluation.submissions.quotations import printable
 from rumba_evaluation.submissions.sandbox import Bubblewrap, Plain
+from rumba_evaluation.marks.scheme import nothing
 from rumba_evaluation.marks.submission import Launch, Outcome, Submission
+from rumba_evaluation.submissions.supervised import Stopped
 from rumba_evaluation.trials.command_line import ERROR
 from rumba_sim.model.errors import ConfigError
 
 SHEET, BUILD_LOG, BAG = 'marks.csv', 'build.log', 'recording.bag'
 EXAM, RECORDING = 'exam', 'recording'  # argument of a .test file, and parameter of a mission_test
+LONGEST = 2000  # characters of a line about a mark
 PERIOD = 1.0  # [s] of the wall clock between two looks at how far it is
 Result = TypeVar('Result')
 
@@ -76,7 +79,8 @@ class Marking:
         if self._options.github:
             print(*github.lines(outcome.marks), sep='\n')
         else:
-            print(class_marks.table(outcome.marks), *outcome.notes, sep='\n')
+            lines = class_marks.table(outcome.marks).split('\n')
+            print(*(printable(line, LONGEST) for line in lines), *outcome.notes, sep='\n')
         return 0 if gradescope.score(outcome.marks) == gradescope.most(outcome.marks) else ERROR
 
     def mark_all(self) -> int:
@@ -90,7 +94,8 @@ class Marking:
         if not sources:
             raise ConfigError(f'{self._options.all}: has no submission in it: each must be a folder, an archive (.zip, '
                               '.tar, .tar.gz) or a script (.py)')
-        rows = self._each(lambda source: self._mark_member(source, folder), sources)
+        names = class_marks.names(sources)
+        rows = self._each(lambda source: self._mark_member(source, names[source], folder), sources)
         kept.write(folder, SHEET, class_marks.sheet(rows, self._points))
         print(os.path.join(folder, SHEET))
         return 0
@@ -122,18 +127,30 @@ class Marking:
         finally:
             self._now.discard(words)
 
-    def _mark_member(self, source: str, folder: str) -> Row:
-        name = intake.name_of(source)
+    def _mark_member(self, source: str, name: str, folder: str) -> Row:
+        """Mark one of a class, which goes on whatever is wrong with it."""
         own = os.path.join(folder, name)
-        digest = f'{self._of_tests} {intake.digest(source)}'
-        outcome = kept.earlier(own, digest)
-        if outcome is None:
-            kept.write(own, kept.DIGEST, '')
-            outcome = self._mark(source, own)
-            kept.write(own, kept.DIGEST, digest)
+        try:
+            outcome = self._mark_again(source, own)
+        except Stopped:
+            raise
+        except Exception as error:
+            reason = f'it cannot be marked: {type(error).__name__}: {printable(str(error))}'
+            outcome = Outcome(nothing(self._points, reason), [reason])
+            kept.outcome(own, outcome, self._options.visibility)
         tqdm.write('; '.join([f'{printable(name)}: {gradescope.total(outcome.marks)}', *outcome.notes]))
         sys.stdout.flush()
         return Row(name, outcome)
+
+    def _mark_again(self, source: str, folder: str) -> Outcome:
+        """Mark a submission, unless that was done before."""
+        digest = f'{self._of_tests} {intake.digest(source)}'
+        outcome = kept.earlier(folder, digest)
+        if outcome is None:
+            kept.write(folder, kept.DIGEST, '')
+            outcome = self._mark(source, folder)
+            kept.write(folder, kept.DIGEST, digest)
+        return outcome
 
     def _mark(self, source: str, folder: str) -> Outcome:
         """Mark a submission; its results go to a folder if one is given."""

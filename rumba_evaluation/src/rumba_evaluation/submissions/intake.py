@@ -3,6 +3,7 @@
 Nothing in them is trusted: what is neither a file nor a folder, or leads out of the submission, is left out.
 """
 
+import contextlib
 import hashlib
 import os
 import pathlib
@@ -85,11 +86,22 @@ def digest(source: str) -> str:
 
 
 def _files(folder: str) -> Iterator[str]:
-    """The paths of what is in a folder, without what is left out."""
-    for place, folders, names in os.walk(folder):
-        folders[:] = sorted(set(folders) - LEFT_OUT)
-        links = [name for name in folders if os.path.islink(os.path.join(place, name))]
-        yield from (os.path.join(place, name) for name in sorted((*names, *links)))
+    """The paths of what is in a folder, without what is left out.
+
+    Raises:
+        Refused: it has too many folders in folders.
+    """
+    waiting = [(folder, 0)]
+    while waiting:
+        place, depth = waiting.pop()
+        if depth > MOST_DEPTH:
+            raise Refused(f'the submission has folders in folders, more than {MOST_DEPTH} of them')
+        with contextlib.suppress(PermissionError), os.scandir(place) as entries:
+            for entry in sorted(entries, key=lambda entry: entry.name, reverse=True):
+                if not entry.is_dir(follow_symlinks=False):
+                    yield entry.path
+                elif entry.name not in LEFT_OUT:
+                    waiting.append((entry.path, depth + 1))
 
 
 def _hash(path: str) -> bytes:
@@ -159,7 +171,7 @@ class _Copy:
     def _write(self, file: IO[bytes], target: pathlib.Path, mode: int) -> None:
         self._count(0)
         if len(target.relative_to(self._folder).parts) > MOST_DEPTH:
-            raise Refused(f'the submission has folders in folders, more than {MOST_DEPTH} of them')
+            raise Refused(f'an archive has folders in folders, more than {MOST_DEPTH} of them')
         target.parent.mkdir(parents=True, exist_ok=True)
         with open(target, 'wb') as copy:
             for part in iter(lambda: file.read(1 << 20), b''):

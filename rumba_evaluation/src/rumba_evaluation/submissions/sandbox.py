@@ -13,16 +13,17 @@ import sys
 import tempfile
 from typing import Iterable, List, Mapping, Sequence
 
+from rumba_evaluation.submissions import keeper
+
 MEGABYTE = 1_000_000
 FILE, DATA = 256 * MEGABYTE, 2_000 * MEGABYTE  # [bytes] of one file, and of the data of one process
 SYSTEM = ('/usr', '/bin', '/sbin', '/lib', '/lib32', '/lib64', '/libx32', '/etc', '/opt')
 TRIAL_PATIENCE = 20.0  # [s] of the wall clock
 # Of a node: its log file is not for it to choose, and roslaunch names one that it cannot see.
 WITHOUT_LOG = 'for each; do shift; case $each in __log:=*) ;; *) set -- "$@" "$each" ;; esac; done'
-LIMITED = f'ulimit -c 0 && ulimit -f {FILE // 512} && ulimit -d {DATA // 1000} && exec "$@"'
-
-
-KEEPER = (sys.executable, '-m', 'rumba_evaluation.submissions.keeper')  # ends what a command leaves behind
+LIMITED = f'cd "$1" && shift && ulimit -c 0 && ulimit -f {FILE // 512} && ulimit -d {DATA // 1000} && exec "$@"'
+# Ends what a command leaves behind. By its path: a module would be looked for in the present folder first.
+KEEPER = (sys.executable, keeper.__file__)
 
 
 class Plain:
@@ -36,11 +37,11 @@ class Plain:
 
     def around_build(self, command: Sequence[str], own: str) -> List[str]:
         """The command that builds a submission in the folder that it owns."""
-        return self.around_test(['sh', '-c', LIMITED, 'sh', *command])
+        return self.around_test(self.around_node(command, own))
 
     def around_node(self, command: Sequence[str], own: str) -> List[str]:
         """The command that runs a node of a submission, which owns a folder."""
-        return ['sh', '-c', LIMITED, 'sh', *command]
+        return ['sh', '-c', LIMITED, 'sh', own, *command]
 
 
 class Bubblewrap:
@@ -70,8 +71,10 @@ class Bubblewrap:
         return self._closed([], command, own)
 
     def _closed(self, options: Sequence[str], command: Sequence[str], own: str) -> List[str]:
-        found = ['bwrap', '--die-with-parent', '--unshare-user', '--unshare-pid', '--unshare-ipc', '--cap-drop',
-                 'ALL', *options]
+        # What bwrap itself gets, a program in the sandbox could read in /proc/1.
+        found = clean({'PATH': os.environ['PATH']}, [
+            'bwrap', '--die-with-parent', '--unshare-user', '--unshare-pid', '--unshare-ipc', '--cap-drop', 'ALL',
+            *options])
         for path in SYSTEM:
             found += (['--symlink', os.readlink(path), path] if os.path.islink(path) else
                       ['--ro-bind-try', path, path])
@@ -81,7 +84,7 @@ class Bubblewrap:
             found += ['--ro-bind', path, path]
         for path in self._hidden:
             found += ['--tmpfs', path]
-        return [*found, '--bind', own, own, '--chdir', own, 'sh', '-c', LIMITED, 'sh', *command]
+        return [*found, '--bind', own, own, 'sh', '-c', LIMITED, 'sh', own, *command]
 
 
 def trouble() -> str:
@@ -98,18 +101,21 @@ def trouble() -> str:
     return told or f'bwrap ended with exit code {done.returncode}' if done.returncode else ''
 
 
-def script(environment: Mapping[str, str], passed_on: Iterable[str], command: Sequence[str]) -> str:
+def clean(environment: Mapping[str, str], command: Sequence[str]) -> List[str]:
+    """The command that runs another one in an environment, of which nothing counts before: it may be hostile too."""
+    return ['env', '-i', *(f'{name}={value}' for name, value in sorted(environment.items())), *command]
+
+
+def script(command: Sequence[str], passed_on: Iterable[str]) -> str:
     """A shell script that runs a command with the arguments of the script but for __log.
 
     Args:
-        environment: of the command.
-        passed_on: names of what it gets too from the environment of the script.
-        command: with its arguments.
+        command: what `clean` has made, maybe in another such command.
+        passed_on: names of variables of the script that it gets too.
     """
-    given = [shlex.quote(f'{name}={value}') for name, value in sorted(environment.items())]
-    given += [f'${{{name}:+"{name}=${name}"}}' for name in passed_on]
-    words = ' '.join(map(shlex.quote, command))
-    return '\n'.join(['#!/bin/sh', WITHOUT_LOG, f'exec env -i {" ".join(given)} {words} "$@"', ''])
+    passed = ' '.join(f'${{{name}:+"{name}=${name}"}}' for name in passed_on)
+    words = ' '.join(f'-i {passed}' if word == '-i' else shlex.quote(word) for word in command)
+    return '\n'.join(['#!/bin/sh', WITHOUT_LOG, f'exec {words} "$@"', ''])
 
 
 def _is_below(path: str, folders: Iterable[str]) -> bool:

@@ -4,7 +4,7 @@ import contextlib
 import fcntl
 import os
 import pathlib
-import shutil
+import subprocess
 import tempfile
 from typing import Iterator, List
 
@@ -38,10 +38,6 @@ def remove_abandoned() -> List[str]:
 
 
 def remove(path: pathlib.Path) -> None:
-    """Remove a folder, also one in which a program has taken away the right to do so."""
-    for place, folders, _ in os.walk(str(path)):
-        for name in folders:
-            with contextlib.suppress(OSError):
-                if not os.path.islink(os.path.join(place, name)):
-                    os.chmod(os.path.join(place, name), 0o700)
-    shutil.rmtree(str(path), ignore_errors=True)
+    """Remove a folder, also one in which a program has taken away the right to do so, or has nested very many."""
+    for command in (['chmod', '-R', 'u+rwx'], ['rm', '-rf']):
+        subprocess.run([*command, str(path)], stderr=subprocess.DEVNULL, check=False)

@@ -7,7 +7,7 @@ import signal
 import subprocess
 import threading
 import time
-from typing import Iterator, Mapping, NamedTuple, Optional, Sequence, Set
+from typing import Iterator, Mapping, NamedTuple, Optional, Sequence, Set, Tuple
 
 from rumba_evaluation.submissions import processes
 
@@ -25,6 +25,7 @@ class Limits(NamedTuple):
     memory: int = 4_000 * MEGABYTE  # [bytes] resident, of all processes
     processes: int = 300
     disk: int = 1_000 * MEGABYTE  # [bytes] below the folder
+    files: int = 50_000
     output: int = MEGABYTE  # [bytes] that are kept: half from the beginning, half from the end
 
 
@@ -69,7 +70,7 @@ def _started(command: Sequence[str], environment: Mapping[str, str], folder: str
              ) -> Iterator['subprocess.Popen[bytes]']:
     """A process that has ended after the block, with all that it has started."""
     with _starting:
-        process = subprocess.Popen(command, env={**environment, 'PWD': folder}, cwd=folder, stdin=subprocess.DEVNULL,
+        process = subprocess.Popen(command, env=environment, cwd=folder, stdin=subprocess.DEVNULL,
                                    stdout=subprocess.PIPE, stderr=subprocess.STDOUT, start_new_session=True)
         _running.add(process.pid)
     try:
@@ -139,10 +140,12 @@ class _Watch:
         if load.number > self._limits.processes:
             return f'it started more than {self._limits.processes} processes'
         if time.monotonic() >= self._disk_due:
-            written = size(self._folder)
+            written, files = _sizes(self._folder)
             self._disk_due = time.monotonic() + DISK_PERIOD
             if written > self._limits.disk:
                 return f'it wrote more than {self._limits.disk // MEGABYTE} MB into files'
+            if files > self._limits.files:
+                return f'it made more than {self._limits.files} files'
         return ''
 
 
@@ -175,11 +178,9 @@ class Kept:
         return (self._first + left_out + self._last).decode(errors='replace')
 
 
-def size(folder: str) -> int:
-    """Bytes on the disk of all files below a folder."""
-    found = 0
-    for place, _, names in os.walk(folder, onerror=None):
-        for name in names:
-            with contextlib.suppress(OSError):
-                found += 512 * os.lstat(os.path.join(place, name)).st_blocks
-    return found
+def _sizes(folder: str) -> Tuple[int, int]:
+    """Bytes of all files below a folder, and their number; folders may be nested deeper than Python can go."""
+    found = [subprocess.run(['du', '-s', *options, folder], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
+                            check=False).stdout.split() for options in (['--block-size=1'], ['--inodes'])]
+    written, files = (int(words[0]) if words else 0 for words in found)
+    return written, files

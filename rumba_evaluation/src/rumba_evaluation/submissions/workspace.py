@@ -9,7 +9,7 @@ from typing import Dict, List, Mapping, Optional, Sequence, Union
 from rumba_evaluation.submissions import intake, sandbox, supervised
 from rumba_evaluation.submissions.mistakes import Wanted
 from rumba_evaluation.submissions.sandbox import Bubblewrap, Plain
-from rumba_evaluation.submissions.supervised import Limits, Stop
+from rumba_evaluation.submissions.supervised import Limits, Run, Stop
 
 BUILT = re.compile(r'^\s*(add_executable|add_library|add_(message|service|action)_files|catkin_python_setup)\s*\(',
                    re.MULTILINE)
@@ -75,20 +75,21 @@ class Workspace:
 
     def _build(self) -> None:
         python = sys.executable
-        build = supervised.run(
-            self._box.around_build(['catkin_make', '-j2', f'-DPYTHON_EXECUTABLE={python}',
-                                    f'-DPython_EXECUTABLE={python}'], str(self._folder)),
-            self._environment, str(self._folder), Limits(BUILD_PATIENCE), self._stop)
+        build = self._run(['catkin_make', '-j2', f'-DPYTHON_EXECUTABLE={python}', f'-DPython_EXECUTABLE={python}'],
+                          BUILD_PATIENCE)
         self.log = build.output
         if build.code != 0 or build.stopped:
             raise Problem(f'it cannot be built: {build.stopped}' if build.stopped else 'it cannot be built')
-        shell = supervised.run(
-            self._box.around_build(['bash', '-c', '. devel/setup.bash && exec env -0'], str(self._folder)),
-            self._environment, str(self._folder), Limits(ENDS_WITHIN), self._stop)
+        shell = self._run(['bash', '-c', '. devel/setup.bash && exec env -0'], ENDS_WITHIN)
         found = dict(line.split('=', 1) for line in shell.output.split('\0') if '=' in line)
         if 'PATH' not in found:
             raise Problem('its workspace cannot be sourced: see the log')
         self._environment = self._passed_on(found)
+
+    def _run(self, command: Sequence[str], patience: float) -> Run:
+        """Run a command in the folder of the submission, and in its environment."""
+        return supervised.run(self._box.around_build(sandbox.clean(self._environment, command), str(self._folder)),
+                              os.environ, str(self._folder.parent), Limits(patience), self._stop)
 
     def _passed_on(self, environment: Mapping[str, str]) -> Dict[str, str]:
         """What of an environment a submission gets: its own folders, and nothing that is secret."""
@@ -96,8 +97,9 @@ class Workspace:
         for name in (*OF_THE_RUN, 'ROS_IP'):
             kept.pop(name, None)
         own = self._folder
-        return {**kept, 'HOME': str(own / 'home'), 'TMPDIR': '/tmp' if self._box.is_closed else str(own / 'tmp'),
-                'ROS_HOME': str(own / 'ros'), 'ROS_LOG_DIR': str(own / 'log'), 'ROS_HOSTNAME': 'localhost'}
+        return {**kept, 'PWD': str(own), 'HOME': str(own / 'home'),
+                'TMPDIR': '/tmp' if self._box.is_closed else str(own / 'tmp'), 'ROS_HOME': str(own / 'ros'),
+                'ROS_LOG_DIR': str(own / 'log'), 'ROS_HOSTNAME': 'localhost'}
 
     def executable(self, node: Wanted) -> Optional[pathlib.Path]:
         """The program of a node, as rosrun finds it; none if there is none."""
@@ -124,8 +126,8 @@ class Workspace:
             if program is not None:
                 path = prefix / 'lib' / node.package / node.type
                 path.parent.mkdir(parents=True, exist_ok=True)
-                path.write_text(sandbox.script(self._environment, OF_THE_RUN,
-                                               self._box.around_node([str(program)], str(self._folder))))
+                command = self._box.around_node(sandbox.clean(self._environment, [str(program)]), str(self._folder))
+                path.write_text(sandbox.script(command, OF_THE_RUN))
                 path.chmod(0o755)
                 found[str(path)] = str(program)
         return found
