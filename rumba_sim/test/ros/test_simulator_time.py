@@ -1,7 +1,10 @@
 #!/usr/bin/env python3
 """The simulator's time: clock, pause, step and reset, exact to the tick."""
 
+import os
+import pathlib
 import subprocess
+import tempfile
 import threading
 import unittest
 
@@ -170,10 +173,10 @@ class SimulatorTimeTest(unittest.TestCase):
             self.assertEqual(rospy.get_param('/use_sim_time', False), found)
             Simulator(self, '_map:=field', '_speed:=10').kill()
             self.assertTrue(rospy.get_param('/use_sim_time'))
-            log = Heard(self, '/rosout')
-            again = Simulator(self, '_map:=field')
-            line = log.find(lambda message: message.msg.startswith('an earlier simulator was killed')).msg
-            self.assertIn(f'it is {str(found).lower()} again', line)
+            with tempfile.TemporaryDirectory() as folder:  # /rosout loses what a node says before others hear it
+                again = Simulator(self, '_map:=field', environment={**os.environ, 'ROS_LOG_DIR': folder})
+                log = wait(self, lambda: pathlib.Path(folder, 'simulator.log').read_text(), 'the log')
+            self.assertRegex(log, f'an earlier simulator was killed.* it is {str(found).lower()} again')
             self.assertEqual(rospy.get_param('/use_sim_time', False), found)
             again.end()
 

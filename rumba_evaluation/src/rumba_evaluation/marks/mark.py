@@ -16,7 +16,7 @@ import sys
 from typing import Dict, Sequence, Tuple
 
 from rumba_evaluation.marks import gradescope, kept
-from rumba_evaluation.submissions import processes, scratch
+from rumba_evaluation.submissions import scratch
 from rumba_evaluation.marks.marking import Marking, Ros
 from rumba_evaluation.submissions.supervised import Stopped
 from rumba_evaluation.trials.command_line import BAD_INPUT, ERROR, INTERRUPTED, Parser
@@ -30,7 +30,6 @@ def main(arguments: Sequence[str], ros: Ros) -> int:
     options, given = _options(arguments)
     signal.signal(signal.SIGTERM, signal.default_int_handler)
     try:
-        processes.adopt_orphans()
         scratch.remove_abandoned()
         marking = Marking(options, given, ros)
         return marking.mark_all() if options.all else marking.mark_one()

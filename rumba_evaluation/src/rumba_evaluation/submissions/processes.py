@@ -4,6 +4,7 @@ import contextlib
 import ctypes
 import os
 import signal
+import threading
 import time
 from typing import Collection, Dict, List, NamedTuple
 
@@ -11,6 +12,7 @@ PAGE = os.sysconf('SC_PAGE_SIZE')
 PR_SET_PDEATHSIG, PR_SET_CHILD_SUBREAPER = 1, 36  # of linux/prctl.h
 ROUND = 0.005  # [s] of the wall clock between two looks for processes that were started while others were ended
 ENDS_WITHIN = 10.0  # [s] of the wall clock until it gives up, as for a process that waits for a disk
+_adopts = threading.Event()  # is set if children of this process may be orphans
 
 
 class Load(NamedTuple):
@@ -22,6 +24,7 @@ class Load(NamedTuple):
 
 class _Entry(NamedTuple):
     parent: int
+    session: int
     state: str
     pages: int
 
@@ -53,10 +56,15 @@ def end_all(root: int) -> None:
 
 
 def end_strangers(known: Collection[int]) -> None:
-    """End all children of this process that are not known, with all below them: orphans that it has adopted."""
-    own = os.getpid()
+    """End all children in other sessions that are not known, with all below them, if this process adopts orphans.
+
+    What this process starts in its own session, such as a tool, is no orphan: none can come into that.
+    """
+    own, session = os.getpid(), os.getsid(0)
+    if not _adopts.is_set():
+        return
     for number, entry in _table().items():
-        if entry.parent == own and number not in known:
+        if entry.parent == own and entry.session != session and number not in known:
             with contextlib.suppress(OSError):
                 os.kill(number, signal.SIGSTOP)
                 end_all(number)
@@ -65,8 +73,12 @@ def end_strangers(known: Collection[int]) -> None:
 
 
 def adopt_orphans() -> None:
-    """Become the parent of processes below this one that lose theirs: otherwise they would be below nobody."""
+    """Become the parent of processes below this one that lose theirs: otherwise they would be below nobody.
+
+    From now on, this process tells `end_strangers` of each that it starts in another session.
+    """
     _prctl(PR_SET_CHILD_SUBREAPER, 1)
+    _adopts.set()
 
 
 def end_with_parent(sent: signal.Signals) -> None:
@@ -86,7 +98,7 @@ def _table() -> Dict[int, _Entry]:
         with contextlib.suppress(OSError):
             with open(f'/proc/{name}/stat', 'rb') as file:
                 words = file.read().rpartition(b')')[2].split()  # the name before may hold anything
-            found[int(name)] = _Entry(int(words[1]), words[0].decode(), int(words[21]))
+            found[int(name)] = _Entry(int(words[1]), int(words[3]), words[0].decode(), int(words[21]))
     return found
 
 
