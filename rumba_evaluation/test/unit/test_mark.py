@@ -157,7 +157,7 @@ ROWS = [Row('anna', Outcome([Mark('a.coverage', 2.5, 8.0, 'too little')], [])),
 
 def test_the_sheet_of_a_class_has_a_row_for_each_and_no_formulas():
     assert class_marks.sheet(ROWS, {'a.coverage': 8.0}) == (
-        'submission,points,of,a.coverage,notes\nanna,2.5,8,2.5,\n'
+        'submission,points,of,a.coverage,notes\nanna,2.5,8,2.5,too little\n'
         '\'=berta,8,8,8,"a: a node, which ""failed"""\n')
 
 

@@ -63,14 +63,18 @@ def table(marks: Iterable[Mark]) -> str:
 
 
 def sheet(rows: Sequence[Row], points: Dict[str, float]) -> str:
-    """The marks of a class as CSV: points in all and for each condition, and what went wrong."""
+    """The marks of a class as CSV: points in all and for each condition, and what went wrong.
+
+    Where nothing went wrong beside the task, the first reason for points that were lost stands there.
+    """
     text = io.StringIO()
     writer = csv.writer(text, lineterminator='\n')
     writer.writerow(['submission', 'points', 'of', *points, 'notes'])
     for row in rows:
         each = {mark.name: mark.score for mark in row.outcome.marks}
+        lost = [mark.reason for mark in row.outcome.marks if mark.score < mark.max_score]
         writer.writerow([_harmless(row.name), number(score(row.outcome.marks)), number(sum(points.values())),
-                         *(number(each.get(name, 0.0)) for name in points), _harmless('; '.join(row.outcome.notes))])
+                         *(number(each.get(name, 0.0)) for name in points), _harmless('; '.join(row.outcome.notes or lost[:1]))])
     return text.getvalue()
 
 
