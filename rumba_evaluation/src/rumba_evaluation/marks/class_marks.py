@@ -72,9 +72,9 @@ def sheet(rows: Sequence[Row], points: Dict[str, float]) -> str:
     writer.writerow(['submission', 'points', 'of', *points, 'notes'])
     for row in rows:
         each = {mark.name: mark.score for mark in row.outcome.marks}
-        lost = [mark.reason for mark in row.outcome.marks if mark.score < mark.max_score]
+        notes = row.outcome.notes or [mark.reason for mark in row.outcome.marks if mark.score < mark.max_score][:1]
         writer.writerow([_harmless(row.name), number(score(row.outcome.marks)), number(sum(points.values())),
-                         *(number(each.get(name, 0.0)) for name in points), _harmless('; '.join(row.outcome.notes or lost[:1]))])
+                         *(number(each.get(name, 0.0)) for name in points), _harmless('; '.join(notes))])
     return text.getvalue()
 
 
