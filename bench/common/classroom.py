@@ -472,13 +472,23 @@ def ignores_its_bumper(path):
 
 # --- hostile ----------------------------------------------------------------------------------------------------------
 
+def lazy(path):
+    """Have a submission to exercise 2 sweep a little at the start, and no more."""
+    solved(path, BUMPER)
+    replace(path, '        self.publisher.publish(twist)', "        self.count = getattr(self, 'count', 0) + 1\n"
+            '        self.publisher.publish(twist if self.count < 40 else Twist())')
+
+
 @made(HOSTILE, BUMPER)
 def asks_for_less_coverage(path):
-    first(path, "import rospy\nrospy.set_param('/judge/coverage', 0.0001)\n")
+    lazy(path)
+    first(path, "import rospy\nrospy.set_param('/judge/partial', '')\n"
+                "for _ in range(1000): rospy.set_param('/judge/coverage', 0.0001)\n")
 
 
 @made(HOSTILE, BUMPER)
 def has_a_wide_brush(path):
+    lazy(path)
     first(path, "import rospy\nfor _ in range(1000): rospy.set_param('/simulator/brush/width', 9.0)\n")
 
 
