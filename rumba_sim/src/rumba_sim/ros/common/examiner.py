@@ -116,9 +116,9 @@ class ExaminerServer:
                 threading.Thread(target=_take_answers, args=(connection, on_answer), daemon=True).start()
             else:
                 rospy.logerr(f'examination: {REFUSED}, and is refused')
+                self._send(Frame(INTRUDER))  # before the intruder can do anything else
                 with contextlib.suppress(OSError), connection:
                     connection.sendall(packed(Frame(INTRUDER)))
-                self._send(Frame(INTRUDER))
 
     def close(self) -> None:
         """Tell nobody anything any more."""
