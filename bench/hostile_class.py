@@ -16,7 +16,7 @@ import threading
 import time
 
 from common import classroom, figures, ros_session
-from common.classroom import GOOD, HOSTILE, WRONG
+from common.homework import EXERCISES, GOOD, HOSTILE, MARKER, ROOT, SLEEP, WRONG
 
 BUSY = 'import signal; signal.signal(signal.SIGINT, signal.SIG_DFL)\nwhile True: pass'
 MEMORY = 200.0  # [MB] of mark itself
@@ -67,7 +67,7 @@ class Marking:
 
     def _mark(self, exercise):
         command = ['rosrun', 'rumba_evaluation', 'mark', '--all', str(self._base / 'class' / exercise), '--tests',
-                   str(classroom.EXERCISES / exercise / 'hidden'), '--output', str(self._folder / exercise),
+                   str(EXERCISES / exercise / 'hidden'), '--output', str(self._folder / exercise),
                    '--jobs', str(self._jobs), 'exam:=true']
         with subprocess.Popen(command, stdout=subprocess.PIPE, universal_newlines=True) as process:
             watch = threading.Thread(target=self._watch, args=(process,))
@@ -120,11 +120,11 @@ def leftovers(base):
     for path in pathlib.Path('/proc').glob('[0-9]*/cmdline'):
         with contextlib.suppress(OSError):
             words = path.read_bytes().split(b'\0')
-            if str(classroom.SLEEP).encode() in words or any(b'/rumba_mark_' in word for word in words):
+            if str(SLEEP).encode() in words or any(b'/rumba_mark_' in word for word in words):
                 found.append(f'process {path.parent.name}: {words}')
-    places = ['/tmp', '/var/tmp', '/dev/shm', '/etc', '/usr/lib/python3/dist-packages', classroom.ROOT,
-              classroom.EXERCISES, pathlib.Path.home(), base, base / 'class', *(base / 'class').iterdir()]
-    found += [str(path) for place in places for path in [pathlib.Path(place) / classroom.MARKER] if path.exists()]
+    places = ['/tmp', '/var/tmp', '/dev/shm', '/etc', '/usr/lib/python3/dist-packages', ROOT,
+              EXERCISES, pathlib.Path.home(), base, base / 'class', *(base / 'class').iterdir()]
+    found += [str(path) for place in places for path in [pathlib.Path(place) / MARKER] if path.exists()]
     return found + [str(path) for path in pathlib.Path(tempfile.gettempdir()).glob('rumba_mark_*')]
 
 

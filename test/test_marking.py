@@ -15,8 +15,9 @@ from workspaces import ROOT, TIMEOUT
 
 sys.path.append(str(ROOT / 'bench'))
 from common import classroom  # noqa: E402
+from common.homework import BUMPER, EXERCISES, GOOD, HOSTILE, MARKER, STATUS, solved  # noqa: E402
 
-HIDDEN = {exercise: ROOT / 'rumba_exercises' / exercise / 'hidden' for exercise in (classroom.STATUS, classroom.BUMPER)}
+HIDDEN = {exercise: ROOT / 'rumba_exercises' / exercise / 'hidden' for exercise in (STATUS, BUMPER)}
 MARK = 'rosrun rumba_evaluation mark'
 MAKERS = {maker.__name__: (kind, exercise, maker) for kind, makers in classroom.MAKERS.items()
           for exercise, maker in makers}
@@ -28,9 +29,9 @@ def class_of(folder, *names):
     for name in names:
         kind, exercise, maker = MAKERS[name]
         path = folder / 'class' / name
-        shutil.copytree(classroom.EXERCISES / exercise / 'starter', path)
-        if kind == classroom.GOOD:
-            classroom.solved(path, exercise)
+        shutil.copytree(EXERCISES / exercise / 'starter', path)
+        if kind == GOOD:
+            solved(path, exercise)
         maker(path)
     return exercise
 
@@ -107,7 +108,7 @@ def test_a_pupil_is_told_what_is_wrong_and_nothing_about_nodes_that_were_interru
 
 
 @pytest.mark.thorough
-@pytest.mark.parametrize('name', [name for name, (kind, _, _) in MAKERS.items() if kind == classroom.HOSTILE])
+@pytest.mark.parametrize('name', [name for name, (kind, _, _) in MAKERS.items() if kind == HOSTILE])
 def test_hostile_submissions_earn_nothing_and_leave_nothing(space, tmp_path, name):
     code = 'from rumba_evaluation.submissions import sandbox; print(sandbox.trouble())'
     trouble = space.run(f'python3 -c "{code}"').strip()
@@ -117,7 +118,7 @@ def test_hostile_submissions_earn_nothing_and_leave_nothing(space, tmp_path, nam
     assert row['points'] == '0'
     log = tmp_path / 'marks' / name / 'bumper.log'
     assert log.stat().st_size < 2_000_000 and 'FOUND' not in log.read_text()
-    assert not list(tmp_path.glob(f'*/{classroom.MARKER}'))
+    assert not list(tmp_path.glob(f'*/{MARKER}'))
 
 
 @pytest.mark.thorough
@@ -148,7 +149,7 @@ def test_what_cannot_be_marked_is_told_to_who_reads_only_the_results(space, tmp_
 
 def test_a_room_that_has_changed_is_marked_again(space, tmp_path):
     hidden = tmp_path / 'exercises' / 'x' / 'hidden'
-    shutil.copytree(HIDDEN[classroom.BUMPER], hidden)
+    shutil.copytree(HIDDEN[BUMPER], hidden)
     shutil.copytree(ROOT / 'rumba_exercises' / 'rooms', tmp_path / 'exercises' / 'rooms')
     code = ('import sys; from rumba_evaluation.marks import class_marks, hidden_tests; '
             'from rumba_evaluation.ros import launches; t = hidden_tests.load(sys.argv[1], {}); '
