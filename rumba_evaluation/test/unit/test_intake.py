@@ -26,7 +26,7 @@ def source(tmp_path):
 def taken(source, tmp_path):
     """Paths of what was taken, and the notes about the rest."""
     folder = tmp_path / 'taken'
-    notes = intake.take(str(source), folder).notes
+    notes = intake.take(str(source), folder)
     return sorted(str(path.relative_to(folder)) for path in folder.rglob('*') if not path.is_dir()), notes
 
 
@@ -129,6 +129,17 @@ def test_a_damaged_archive_is_refused_with_its_name(tmp_path, name, content):
     (tmp_path / name).write_bytes(content)
     with pytest.raises(intake.Refused, match=rf'^{name} cannot be unpacked: .'):
         intake.take(str(tmp_path / name), tmp_path / 'taken')
+
+
+def test_an_archive_with_a_bit_that_has_changed_is_refused(tmp_path):
+    path = tmp_path / 'a.zip'
+    with zipfile.ZipFile(path, 'w', zipfile.ZIP_DEFLATED) as archive:
+        archive.writestr('package.xml', 100 * MANIFEST)
+    content = bytearray(path.read_bytes())
+    content[45] ^= 0xff  # in what is compressed
+    path.write_bytes(content)
+    with pytest.raises(intake.Refused, match=r'^a.zip cannot be unpacked: .'):
+        intake.take(str(path), tmp_path / 'taken')
 
 
 def test_an_archive_with_a_password_is_refused(tmp_path):

@@ -6,7 +6,7 @@ import textwrap
 
 import pytest
 
-from rumba_evaluation.marks import class_marks, hidden_tests, mark
+from rumba_evaluation.marks import class_marks, hidden_tests, mark, submission
 from rumba_evaluation.marks.class_marks import Row
 from rumba_evaluation.marks.marking import Ros
 from rumba_evaluation.marks.scheme import Mark
@@ -16,6 +16,7 @@ from rumba_evaluation.submissions.mistakes import Wanted
 from rumba_evaluation.submissions.sandbox import Plain
 from rumba_evaluation.submissions.supervised import Run
 from rumba_sim.model.errors import ConfigError
+from rumba_sim.ros.common import launched
 
 TEST = '''
     <launch>
@@ -147,6 +148,7 @@ def test_the_launch_file_of_a_run_passes_arguments_on_and_quotes_them(tests, own
         '<launch>\n  <param name="/judge/recording" value="/a.bag" />\n'
         f'  <include file="{tmp_path}/hidden/sweeps.test">\n'
         "    <arg name=\"student\" value='a \"b\" &amp; c' />\n  </include>\n</launch>\n")
+    assert submission.LAUNCHED == launched.VARIABLE  # the nodes look there
     assert json.loads((folder / 'launched.json').read_text()) == {
         'nodes': ['/judge', '/simulator'], 'parameters': {'/judge/coverage': 0.5, '/judge/recording': '/a.bag'}}
 

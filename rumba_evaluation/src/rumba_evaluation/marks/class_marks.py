@@ -9,11 +9,11 @@ import os
 import pathlib
 from typing import Dict, Iterable, List, NamedTuple, Sequence
 
-from rumba_evaluation.submissions import intake
 from rumba_evaluation.marks.gradescope import most, score
 from rumba_evaluation.marks.hidden_tests import HiddenTest
 from rumba_evaluation.marks.scheme import Mark, number
 from rumba_evaluation.marks.submission import Launch, Outcome
+from rumba_evaluation.submissions import intake
 
 
 class Row(NamedTuple):

@@ -12,13 +12,13 @@ from typing import Callable, Dict, Iterator, List, NamedTuple, Sequence, Set, Ty
 from tqdm import tqdm
 
 from rumba_evaluation.marks import class_marks, github, gradescope, hidden_tests, kept
-from rumba_evaluation.submissions import intake, sandbox, scratch
 from rumba_evaluation.marks.class_marks import Row
 from rumba_evaluation.marks.hidden_tests import HiddenTest
-from rumba_evaluation.submissions.quotations import printable
-from rumba_evaluation.submissions.sandbox import Bubblewrap, Plain
 from rumba_evaluation.marks.scheme import nothing
 from rumba_evaluation.marks.submission import Launch, Outcome, Submission
+from rumba_evaluation.submissions import intake, sandbox, scratch
+from rumba_evaluation.submissions.quotations import printable
+from rumba_evaluation.submissions.sandbox import Bubblewrap, Plain
 from rumba_evaluation.submissions.supervised import Stopped
 from rumba_evaluation.trials.command_line import ERROR
 from rumba_sim.model.errors import ConfigError

@@ -5,6 +5,7 @@ Nothing in them is trusted: what is neither a file nor a folder, or leads out of
 
 import contextlib
 import hashlib
+import lzma
 import os
 import pathlib
 import re
@@ -12,7 +13,8 @@ import shutil
 import stat
 import tarfile
 import zipfile
-from typing import IO, Iterator, List, NamedTuple, Tuple
+import zlib
+from typing import IO, Iterator, List, Tuple
 from xml.etree import ElementTree
 
 ARCHIVES = ('.zip', '.tar', '.tar.gz', '.tgz', '.tar.bz2', '.tar.xz')
@@ -21,6 +23,8 @@ LEFT_OUT = frozenset(('.git', '.svn', '__pycache__', '__MACOSX', 'build', 'devel
                       '.catkin_workspace', '.DS_Store', '.venv'))
 MOST_FILES, MOST_BYTES, MOST_DEPTH = 5_000, 200_000_000, 30
 NESTED = 2  # archives in archives
+# What zipfile and tarfile raise if an archive is damaged, has a password, or is compressed in an unknown way.
+DAMAGED = (zipfile.BadZipFile, tarfile.TarError, zlib.error, lzma.LZMAError, EOFError, RuntimeError, ValueError)
 MANIFEST = 'package.xml'
 # What a script may use that comes without a package.
 USUAL = ('rospy', 'actionlib', 'geometry_msgs', 'nav_msgs', 'rumba_msg', 'sensor_msgs', 'std_msgs', 'std_srvs',
@@ -29,12 +33,6 @@ USUAL = ('rospy', 'actionlib', 'geometry_msgs', 'nav_msgs', 'rumba_msg', 'sensor
 
 class Refused(Exception):
     """A submission cannot be taken, in words."""
-
-
-class Taken(NamedTuple):
-    """What was taken."""
-
-    notes: List[str]  # what was left out, in words
 
 
 def is_submission(entry: 'os.DirEntry[str]') -> bool:
@@ -51,8 +49,10 @@ def name_of(path: str) -> str:
     return name[:len(name) - len(ending)] if ending and not os.path.isdir(path) else name
 
 
-def take(source: str, folder: pathlib.Path) -> Taken:
+def take(source: str, folder: pathlib.Path) -> List[str]:
     """Copy a submission into a folder that does not exist yet, and unpack what is an archive.
+
+    Returns what was left out, in words.
 
     Raises:
         Refused: it is too large, or an archive is damaged.
@@ -121,8 +121,8 @@ class _Copy:
         self._notes: List[str] = []
         self._files = self._bytes = 0
 
-    def take(self, source: str) -> Taken:
-        """Copy everything."""
+    def take(self, source: str) -> List[str]:
+        """Copy everything; returns what was left out."""
         self._folder.mkdir(parents=True)
         if os.path.isdir(source):
             self._take_folder(source)
@@ -133,7 +133,7 @@ class _Copy:
         self._drop_links()
         for _ in range(NESTED):
             self._unpack_archives()
-        return Taken(self._notes)
+        return self._notes
 
     def _take_folder(self, source: str) -> None:
         for path in _files(source):
@@ -154,7 +154,7 @@ class _Copy:
                 self._leave_out(name, 'cannot be read')
 
     def _take_link(self, path: str, name: str) -> None:
-        self._count(0)
+        self._count(files=1)
         target = self._folder / name
         target.parent.mkdir(parents=True, exist_ok=True)
         target.symlink_to(os.readlink(path))
@@ -169,20 +169,19 @@ class _Copy:
                     self._leave_out(str(path.relative_to(self._folder)), 'is a link to something outside')
 
     def _write(self, file: IO[bytes], target: pathlib.Path, mode: int) -> None:
-        self._count(0)
+        self._count(files=1)
         if len(target.relative_to(self._folder).parts) > MOST_DEPTH:
             raise Refused(f'an archive has folders in folders, more than {MOST_DEPTH} of them')
         target.parent.mkdir(parents=True, exist_ok=True)
         with open(target, 'wb') as copy:
             for part in iter(lambda: file.read(1 << 20), b''):
-                self._bytes += len(part)
-                self._count(0, 0)
+                self._count(size=len(part))
                 copy.write(part)
         target.chmod(0o755 if mode & 0o111 else 0o644)
 
-    def _count(self, bytes_more: int, files_more: int = 1) -> None:
-        self._files += files_more
-        self._bytes += bytes_more
+    def _count(self, files: int = 0, size: int = 0) -> None:
+        self._files += files
+        self._bytes += size
         if self._files > MOST_FILES:
             raise Refused(f'the submission has more than {MOST_FILES} files')
         if self._bytes > MOST_BYTES:
@@ -208,7 +207,7 @@ class _Copy:
                 self._unpack_zip(path, folder)
             else:
                 self._unpack_tar(path, folder)
-        except (zipfile.BadZipFile, tarfile.TarError, EOFError, RuntimeError, NotImplementedError, ValueError) as error:
+        except DAMAGED as error:
             raise Refused(f'{os.path.basename(path)} cannot be unpacked: {error}') from error
 
     def _unpack_zip(self, path: str, folder: pathlib.Path) -> None:

@@ -56,7 +56,7 @@ class Workspace:
             Problem: it cannot be taken, has no package, or cannot be built.
         """
         try:
-            self.notes += intake.take(source, self.source).notes
+            self.notes += intake.take(source, self.source)
         except (intake.Refused, OSError) as error:
             raise Problem(str(error)) from error
         found = intake.packages(self.source)

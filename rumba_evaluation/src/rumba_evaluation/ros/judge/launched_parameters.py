@@ -22,5 +22,7 @@ def as_launched() -> Tuple[Dict[str, Any], List[str]]:
     places = tuple(f'{node}/' for node in nodes)
     found = {name: value for name, value in launched.parameters().items()
              if name.startswith(places) or name == f'/{SIMULATED}'}
-    told = now.get(SIMULATOR, {}).get(SETTINGS, {})  # which the simulator writes itself
-    return {**found, f'/{SIMULATOR}/{SETTINGS}': told}, nodes
+    of_simulator = now.get(SIMULATOR)
+    if isinstance(of_simulator, dict):  # otherwise a node has replaced all of them by a value
+        found[f'/{SIMULATOR}/{SETTINGS}'] = of_simulator.get(SETTINGS, {})  # which the simulator writes itself
+    return found, nodes
