@@ -1,7 +1,8 @@
 """Compares scans with the walls of a map: plain functions over arrays, compiled by numba.
 
 Arguments that functions share:
-    points: float64 (beams, 2), where beams end, in the frame of the laser [m].
+    points: float64 (beams, 2), where beams end, in the frame of the robot [m].
+    laser: x and y of where they begin, in that frame [m].
     field: float32 (rows + 2, columns + 2), `Walls.log_likelihood`.
     distance: float32 (rows + 1, columns + 1), `Walls.distance`.
     left, bottom, resolution: of the map [m].
@@ -31,7 +32,7 @@ def weigh(poses: Array, points: Array, field: Array, left: float, bottom: float,
     """Sum up how likely the beams of a scan are at each pose.
 
     Args, apart from those above:
-        poses: float64 (any, 3), x, y [m] and heading [rad] of the laser.
+        poses: float64 (any, 3), x, y [m] and heading [rad] of the robot.
         sums: float64 (any), receives the sums of the field.
     """
     rows, columns = field.shape
@@ -113,7 +114,7 @@ def match(start: Array, covariance: Array, points: Array, distance: Array, left:
     """Move a pose so that the beams of a scan end at walls (Gauss-Newton on the distances), held by where it began.
 
     Args, apart from those above:
-        start: float64 (3), where the laser is supposed to be.
+        start: float64 (3), where the robot is supposed to be.
         covariance: float64 (3, 3), of that.
         sigmas: float64 (steps), standard deviation for each step, falling, so that it finds what is far off too.
         share: of the beams that err independently [0..1]; for the covariance of the result alone.
@@ -136,7 +137,47 @@ def match(start: Array, covariance: Array, points: Array, distance: Array, left:
 
 
 @compiled
-def through_walls(pose: Array, points: Array, distance: Array, left: float, bottom: float, resolution: float) -> float:
+def look_around(pose: Array, points: Array, distance: Array, left: float, bottom: float, resolution: float,
+                offsets: Array, turns: Array, width: float, scores: Array) -> None:
+    """Score how well a scan fits at poses around one (correlative scan matching, Olson 2009).
+
+    Args, apart from those above:
+        pose: float64 (3).
+        offsets: float64 (any, 2), from its place to those that are tried [m].
+        turns: float64 (any), from its heading to those that are tried [rad].
+        width: distance from a wall at which the end of a beam counts nothing [m]; at the wall it counts 1.
+        scores: float64 (turns, offsets), receives the mean of what the beams count.
+    """
+    rows, columns = distance.shape
+    for turn in range(len(turns)):
+        cos, sin = math.cos(pose[2] + turns[turn]), math.sin(pose[2] + turns[turn])
+        for offset in range(len(offsets)):
+            u = (pose[0] + offsets[offset, 0] - left) / resolution + 0.5
+            v = (pose[1] + offsets[offset, 1] - bottom) / resolution + 0.5
+            total = 0.0
+            for beam in range(len(points)):
+                x, y = points[beam, 0] / resolution, points[beam, 1] / resolution
+                column, row = int(u + cos * x - sin * y), int(v + sin * x + cos * y)
+                if 0 <= row < rows and 0 <= column < columns:
+                    total += max(1.0 - abs(distance[row, column]) / width, 0.0)
+            scores[turn, offset] = total / len(points)
+
+
+@compiled
+def distances(pose: Array, points: Array, distance: Array, left: float, bottom: float, resolution: float) -> Array:
+    """Distances from the ends of beams to walls at a pose (3): float64 (beams) [m]; NaN outside the map."""
+    cos, sin = math.cos(pose[2]), math.sin(pose[2])
+    found = np.empty(len(points))
+    for beam in range(len(points)):
+        along, across = cos * points[beam, 0] - sin * points[beam, 1], sin * points[beam, 0] + cos * points[beam, 1]
+        found[beam] = slope_at(distance, (pose[0] + along - left) / resolution,
+                               (pose[1] + across - bottom) / resolution)[0]
+    return found
+
+
+@compiled
+def through_walls(pose: Array, points: Array, laser: Tuple[float, float], distance: Array, left: float, bottom: float,
+                  resolution: float) -> float:
     """The share of the beams of a scan that would have to pass through a wall at a pose [0..1].
 
     What the map does not show shortens beams, but lengthens none: at the true pose there are hardly any such beams.
@@ -146,10 +187,12 @@ def through_walls(pose: Array, points: Array, distance: Array, left: float, bott
     """
     rows, columns = distance.shape
     cos, sin = math.cos(pose[2]), math.sin(pose[2])
-    u, v = (pose[0] - left) / resolution + 0.5, (pose[1] - bottom) / resolution + 0.5
+    u = (pose[0] + cos * laser[0] - sin * laser[1] - left) / resolution + 0.5
+    v = (pose[1] + sin * laser[0] + cos * laser[1] - bottom) / resolution + 0.5
     count = 0
     for beam in range(len(points)):
-        along, across = cos * points[beam, 0] - sin * points[beam, 1], sin * points[beam, 0] + cos * points[beam, 1]
+        x, y = points[beam, 0] - laser[0], points[beam, 1] - laser[1]
+        along, across = cos * x - sin * y, sin * x + cos * y
         length = math.hypot(along, across)
         for step in range(1, int((length - BEFORE) / STRIDE)):
             share = step * STRIDE / length / resolution
@@ -161,8 +204,8 @@ def through_walls(pose: Array, points: Array, distance: Array, left: float, bott
 
 
 @compiled
-def from_behind(pose: Array, points: Array, distance: Array, left: float, bottom: float, resolution: float,
-                sigma: float) -> float:
+def from_behind(pose: Array, points: Array, laser: Tuple[float, float], distance: Array, left: float, bottom: float,
+                resolution: float, sigma: float) -> float:
     """The share of the beams of a scan that end at a wall that faces away from the laser, weighted [0..1].
 
     Distances are negative behind a wall that was seen from one side alone. Beams that end there were met by the other
@@ -178,6 +221,7 @@ def from_behind(pose: Array, points: Array, distance: Array, left: float, bottom
         along, across = cos * points[beam, 0] - sin * points[beam, 1], sin * points[beam, 0] + cos * points[beam, 1]
         off, by_u, by_v = slope_at(distance, (pose[0] + along - left) / resolution,
                                    (pose[1] + across - bottom) / resolution)
+        along, across = along - cos * laser[0] + sin * laser[1], across - sin * laser[0] - cos * laser[1]
         if by_u * along + by_v * across > 0.0:
             total += math.exp(-0.5 * (off / sigma) ** 2)
     return total / len(points)

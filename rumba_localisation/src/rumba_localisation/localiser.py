@@ -8,7 +8,7 @@ import numpy as np
 from rumba_localisation import compiled_matching, motion, particles
 from rumba_localisation.localiser_config import LocaliserConfig
 from rumba_localisation.matcher import DOUBT, FITS, Matcher
-from rumba_localisation.scan import is_blind, thinned
+from rumba_localisation.scan import Scan, is_blind, thinned
 from rumba_localisation.search import NEAR, WRONG, Search
 from rumba_localisation.walls import Walls
 from rumba_sim.model.floor_plan import FloorPlan
@@ -37,8 +37,6 @@ class Estimate(NamedTuple):
 
 class Localiser:
     """Particles that follow the odometry and are weighed by scans; their heaviest cluster is matched with the walls.
-
-    The laser is in the centre of the robot and looks forward, as a Rumba's.
 
     Attributes:
         config: parameters.
@@ -105,29 +103,29 @@ class Localiser:
         """Where the robot is, from its odometry, by the newest correction."""
         return compose(self.correction, odometry)
 
-    def observe(self, odometry: Pose, points: Optional[Array], is_forced: bool = False) -> bool:
+    def observe(self, odometry: Pose, scan: Optional[Scan], is_forced: bool = False) -> bool:
         """Take a scan into account, if the robot has moved enough since the last one.
 
         Args:
             odometry: pose by odometry when the scan was taken.
-            points: float64 (beams, 2), where the beams that have an echo end, in the frame of the robot [m]. Without
-                echoes the particles follow the odometry alone; the same if it is None: the laser is silent.
+            scan: what the laser told. Without echoes the particles follow the odometry alone; the same if it is None:
+                the laser is silent.
             is_forced: use it even if the robot has not moved.
 
         Returns:
             Whether it was used: there is a new estimate, and a new correction if there are echoes.
         """
-        if points is None or is_blind(points):
+        if scan is None or is_blind(scan.points):
             return self._reckon(odometry)
         self._unused += 1
-        if not (is_forced or self._errors is not None or self._is_due(odometry, points)):
+        if not (is_forced or self._errors is not None or self._is_due(odometry, scan.points)):
             return False
         self._unused, self._errors = 0, None
         if self._last is not None:
             self._move(odometry, motion.noise(len(self.particles), self._generator))
         self._last = odometry
-        self._weigh(points)
-        self.estimate = self._estimated(odometry, points)
+        self._weigh(scan)
+        self.estimate = self._estimated(odometry, scan)
         self.correction = compose(self.estimate.pose, inverse(odometry))
         if self.estimate.is_sure:
             self._good = self.correction
@@ -170,57 +168,57 @@ class Localiser:
         return last is None or (math.hypot(odometry.x - last.x, odometry.y - last.y) >= distance
                                 or abs(wrap_angle(odometry.theta - last.theta)) >= turn)
 
-    def _weigh(self, points: Array) -> None:
+    def _weigh(self, scan: Scan) -> None:
         """Weigh the particles, and draw new ones if few of them carry most of the weight."""
         config = self.config
         if not len(self.particles):
-            self.particles = self._found(points, config.max_particles)
+            self.particles = self._found(scan, config.max_particles)
             self._logarithms = np.zeros(len(self.particles))
-        sums = self._likelihoods(points)
+        sums = self._likelihoods(scan)
         self._logarithms += sums
         share = particles.weights(self._logarithms)
         fresh = self._matcher.decline
         if particles.effective(share) < 0.5 * len(share) or fresh > DOUBT:
-            self._draw(share, fresh if fresh > DOUBT else 0.0, points)
+            self._draw(share, fresh if fresh > DOUBT else 0.0, scan)
 
-    def _draw(self, share: Array, fresh: float, points: Array) -> None:
+    def _draw(self, share: Array, fresh: float, scan: Scan) -> None:
         """Draw particles by their weight, and a part of them from the scan if it fits worse than others did before."""
         self.particles = particles.drawn(self.particles, share, self.config, self._generator)
         self._logarithms = np.zeros(len(self.particles))
         count = int(fresh * len(self.particles))
         if count:
-            self.particles[:count] = self._found(points, count)
-            self._logarithms = self._likelihoods(points)
+            self.particles[:count] = self._found(scan, count)
+            self._logarithms = self._likelihoods(scan)
 
-    def _found(self, points: Array, count: int) -> Array:
+    def _found(self, scan: Scan, count: int) -> Array:
         """Particles at the places to which a scan fits, more where it fits better."""
-        poses, fits = self._search.hypotheses(points, self._generator)
+        poses, fits = self._search.hypotheses(scan, self._generator)
         chosen = poses[self._generator.choice(len(poses), count, p=particles.weights(fits / 0.05))]
         return chosen + self._generator.standard_normal((count, 3)) * SPREAD
 
-    def _likelihoods(self, points: Array) -> Array:
+    def _likelihoods(self, scan: Scan) -> Array:
         """Logarithms of how likely a scan is at the particles: float64, at most 0.
 
         Only a robot that may be in the wrong place looks at what its beams pass through, which takes long.
         """
-        few = thinned(points, self.config.laser_max_beams)
+        few = thinned(scan.points, self.config.laser_max_beams)
         sums = np.empty(len(self.particles))
         compiled_matching.weigh(self.particles, few, self._field, *self._walls.origin, self._walls.resolution, sums)
         if self._is_in_doubt:
-            few = thinned(points, SOME)
+            few = thinned(scan.points, SOME)
             sums -= WRONG * self.config.laser_max_beams * np.array(
-                [self._walls.through(pose, few) for pose in self.particles])
+                [self._walls.through(pose, few, scan.laser) for pose in self.particles])
         return sums * self.config.laser_independence
 
-    def _estimated(self, odometry: Pose, points: Array) -> Estimate:
+    def _estimated(self, odometry: Pose, scan: Scan) -> Estimate:
         """The heaviest cluster, moved to where the scan fits best; the particles follow, or they would lag behind."""
         matcher = self._matcher
         share = particles.weights(self._logarithms)
         cluster = particles.heaviest(self.particles, share)
-        match = matcher.best(cluster, self.particles, share, points)
+        match = matcher.best(cluster, self.particles, share, scan)
         near = None if self._good is None else compose(self._good, odometry)
         if near is not None and not matcher.is_good(match):
-            slipped = matcher.slipped(near, points)
+            slipped = matcher.slipped(near, scan)
             if slipped is not None:
                 match, cluster = slipped, self._gather(slipped.pose)
                 share = particles.weights(self._logarithms)

@@ -7,7 +7,7 @@ import numpy as np
 
 from rumba_localisation import compiled_matching, particles
 from rumba_localisation.localiser_config import LocaliserConfig
-from rumba_localisation.scan import thinned
+from rumba_localisation.scan import Scan, thinned
 from rumba_localisation.search import NEAR, WRONG, Search
 from rumba_localisation.walls import Walls
 from rumba_sim.model.geometry import Pose, wrap_angle
@@ -84,7 +84,7 @@ class Matcher:
 
         Args:
             pose: [m, m, rad].
-            points: float64 (beams, 2), where beams end in the frame of the laser [m].
+            points: float64 (beams, 2), where beams end in the frame of the robot [m].
         """
         walls = self._walls
         fit = compiled_matching.normal_equations(pose, thinned(points, self._config.laser_max_beams),
@@ -92,38 +92,38 @@ class Matcher:
                                                  np.empty((3, 3)), np.empty(3))
         return bool(fit < WORSE * self._fit)
 
-    def best(self, cluster: particles.Cluster, poses: Array, share: Array, points: Array) -> Match:
+    def best(self, cluster: particles.Cluster, poses: Array, share: Array, scan: Scan) -> Match:
         """Where a scan fits best near a cluster.
 
         Args:
             cluster: of particles.
             poses: float64 (any, 3), particles; a match begins also at the heaviest if one does not fit well.
             share: float64 (any), their weights.
-            points: float64 (beams, 2), where beams end in the frame of the laser [m].
+            scan: with echoes.
         """
-        match = self._matched(cluster.mean, cluster.covariance, points)
+        match = self._matched(cluster.mean, cluster.covariance, scan)
         if match.fit < GOOD:  # perhaps the far side of a thin wall: it may fit better from elsewhere in the cluster
             heaviest = poses[np.argsort(-share, kind='stable')[:STARTS]]
-            starts = [self._matched(start, cluster.covariance, points) for start in heaviest]
+            starts = [self._matched(start, cluster.covariance, scan) for start in heaviest]
             match = max([match, *starts], key=lambda each: each.quality)
         return match
 
-    def slipped(self, place: Pose, points: Array) -> Optional[Match]:
+    def slipped(self, place: Pose, scan: Scan) -> Optional[Match]:
         """Where around a place a scan fits as well as usual; None if it does nowhere.
 
         Args:
             place: where the robot would be if its wheels had not slipped [m, rad], map frame.
-            points: as for `best`.
+            scan: as for `best`.
         """
-        found = [self._matched(start, SLIPPED, points) for start in self._search.near(place, points)]
+        found = [self._matched(start, SLIPPED, scan) for start in self._search.near(place, scan.points)]
         good = [match for match in found if self.is_good(match)]
         return max(good, key=lambda match: match.quality - _slip(place, match.pose)) if good else None
 
-    def _matched(self, start: Array, prior: Array, points: Array) -> Match:
+    def _matched(self, start: Array, prior: Array, scan: Scan) -> Match:
         walls, pose, covariance = self._walls, np.empty(3), np.empty((3, 3))
-        fit = compiled_matching.match(start, prior + HELD, thinned(points, MATCHED), walls.distance, *walls.origin,
+        fit = compiled_matching.match(start, prior + HELD, thinned(scan.points, MATCHED), walls.distance, *walls.origin,
                                       walls.resolution, STEPS, INDEPENDENT, pose, covariance)
-        through = walls.through(pose, thinned(points, self._config.laser_max_beams))
+        through = walls.through(pose, thinned(scan.points, self._config.laser_max_beams), scan.laser)
         return Match(pose, covariance, fit, through)
 
 

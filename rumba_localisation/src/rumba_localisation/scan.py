@@ -1,8 +1,8 @@
-"""What a laser tells, as points."""
+"""What a laser tells, as points: here alone is decided what a reading means."""
 
 import functools
 import math
-from typing import Any, NamedTuple, Optional
+from typing import Any, NamedTuple, Optional, Tuple
 
 import numpy as np
 
@@ -10,56 +10,133 @@ from rumba_sim.model.kernel import Array
 
 FEWEST = 10  # beams with an echo, fewer tell nothing
 SILENT = 1.0  # [s] of the time of a robot without a scan, from which on its laser is silent: five scans at 5 Hz
+FARTHEST = 100.0  # [m] no laser that sees a floor sees farther; drivers that tell 1e30 mean nothing
+DENSE = 2000  # beams in a scan, of more some are left out: they tell the same, and take memory for each place
+WIDEST = 1.0  # [rad] between two echoes, up to which what lies between them is believed to be free
+
+
+class Mounting(NamedTuple):
+    """Where a laser is on a robot."""
+
+    x: float = 0.0  # [m] ahead of its centre
+    y: float = 0.0  # [m] to the left of it
+    yaw: float = 0.0  # [rad] from straight ahead to the angle 0 of the laser
+    upside_down: bool = False  # its angles grow clockwise
+
+
+CENTRE = Mounting()
 
 
 class Scan(NamedTuple):
-    """What a laser tells at one moment, in its own frame [m]."""
+    """What a laser tells at one moment, in the frame of the robot [m]."""
 
     points: Array  # float64 (any, 2), where beams with an echo end
-    beyond: Array  # float64 (any, 2), as far as beams without an echo reach
+    beyond: Array  # float64 (any, 2), as far as beams without an echo are believed to be free
+    laser: Tuple[float, float] = (0.0, 0.0)  # where all beams begin
 
 
-def points(ranges: Array, angle_min: float, angle_increment: float) -> Array:
-    """Where the beams of a scan that have an echo end, in the frame of the laser: float64 (any, 2) [m].
+class Reading(NamedTuple):
+    """How the readings of a laser are taken, whatever its messages say."""
+
+    min_range: float = 0.0  # [m] a shorter one is none, as laser_min_range of amcl; 0: as the message says
+    max_range: float = 0.0  # [m] a longer one is none, as laser_max_range of amcl; 0: as the message says
+    usable: float = 0.0  # [m] so far a beam without an echo is free, as maxUrange of gmapping; 0: as far as echoes
+    #                          beside it show
+
+
+AS_TOLD = Reading()
+
+
+def scan_of(ranges: Array, angle_min: float, angle_increment: float, range_max: float, range_min: float = 0.0,
+            mounting: Mounting = CENTRE, reading: Reading = AS_TOLD) -> Scan:
+    """A scan, by its ranges.
+
+    A range is an echo from range_min on, and below range_max. What is infinite, or as long as range_max, has none
+    (REP 117). All else tells nothing: NaN, -inf, 0, and what is shorter than range_min.
+
+    A laser also misses echoes of what is near: black or shiny things, and glass. So a beam without one is believed to
+    be free only as far as the straight line between the two echoes beside it, unless `reading` says more.
 
     Args:
-        ranges: float (beams) [m]; an infinite one has no echo (REP 117).
-        angle_min: direction of the first beam [rad].
+        ranges: float (beams) [m].
+        angle_min: direction of the first beam, frame of the laser [rad].
         angle_increment: from beam to beam [rad].
+        range_max: of the laser [m].
+        range_min: of the laser [m].
+        mounting: of the laser.
+        reading: how ranges are taken.
     """
-    has_echo = np.isfinite(ranges)
-    return _directions(len(ranges), angle_min, angle_increment)[has_echo] * ranges[has_echo].astype(np.float64)[:, None]
+    each = -(-len(ranges) // DENSE)
+    if each > 1:
+        ranges, angle_increment = ranges[::each], angle_increment * each
+    nearest, farthest = reading.min_range or range_min, min(reading.max_range or range_max, FARTHEST)
+    with np.errstate(invalid='ignore'):
+        has_echo = (ranges >= nearest) & (ranges > 0.0) & (ranges < farthest)
+        has_none = ranges >= farthest
+    directions = _directions(len(ranges), angle_min, angle_increment, mounting)
+    here = np.array(mounting[:2])
+    met = directions[has_echo] * ranges[has_echo].astype(np.float64)[:, None] + here
+    if not has_none.any():
+        return Scan(met, met[:0], mounting[:2])
+    free = np.maximum(_between_echoes(ranges, has_echo, angle_increment), reading.usable)
+    has_none &= free > 0.0
+    return Scan(met, directions[has_none] * free[has_none][:, None] + here, mounting[:2])
 
 
 @functools.lru_cache(maxsize=8)
-def _directions(count: int, angle_min: float, angle_increment: float) -> Array:
-    """Directions of beams: float64 (count, 2), unit vectors in the frame of the laser."""
+def _directions(count: int, angle_min: float, angle_increment: float, mounting: Mounting) -> Array:
+    """Directions of beams: float64 (count, 2), unit vectors in the frame of the robot."""
     angles = angle_min + angle_increment * np.arange(count)
+    if mounting.yaw or mounting.upside_down:
+        angles = mounting.yaw + (-angles if mounting.upside_down else angles)
     return np.stack([np.cos(angles), np.sin(angles)], axis=1)
 
 
-def scan_of(ranges: Array, angle_min: float, angle_increment: float, range_max: float) -> Scan:
-    """A scan, by its ranges.
+def _between_echoes(ranges: Array, has_echo: Array, angle_increment: float) -> Array:
+    """How far the straight line between the echoes beside each beam is [m]: float64 (beams), 0 if there is none.
 
     Args:
-        ranges: float (beams) [m]; +inf has no echo, -inf one that is too near (REP 117).
-        angle_min: direction of the first beam [rad].
+        ranges: float (beams) [m].
+        has_echo: bool (beams).
         angle_increment: from beam to beam [rad].
-        range_max: up to which a beam without an echo met nothing [m].
     """
-    met = points(ranges, angle_min, angle_increment)
-    has_none = ranges == math.inf
-    if not has_none.any():
-        return Scan(met, met[:0])
-    return Scan(met, points(np.where(has_none, range_max, np.nan), angle_min, angle_increment))
+    count, step = len(ranges), abs(angle_increment)
+    echoes = np.flatnonzero(has_echo)
+    if len(echoes) < 2 or step == 0.0:
+        return np.zeros(count)
+    turn = round(2.0 * math.pi / step)  # beams in a full turn
+    if count >= turn:  # the last echo is beside the first
+        echoes = np.concatenate([[echoes[-1] - turn], echoes, [echoes[0] + turn]])
+    after = np.searchsorted(echoes, np.arange(count))
+    has_both = (after > 0) & (after < len(echoes))
+    after = np.where(has_both, after, 1)
+    left, right = echoes[after - 1], echoes[after]
+    to_left, to_right = (np.arange(count) - left) * step, (right - np.arange(count)) * step
+    near, far = ranges[left % count].astype(np.float64), ranges[right % count].astype(np.float64)
+    has_both &= (right - left) * step < WIDEST
+    across = near * np.sin(to_left) + far * np.sin(to_right)
+    return np.where(has_both & (across > 0.0),
+                    near * far * np.sin(to_left + to_right) / np.where(across > 0.0, across, 1.0), 0.0)
 
 
-def told(message: Any) -> Optional[Scan]:
-    """What a sensor_msgs/LaserScan tells; None if its angles or its range are no numbers."""
-    if not all(map(math.isfinite, (message.angle_min, message.angle_increment, message.range_max))):
+def told(message: Any, mounting: Mounting = CENTRE, reading: Reading = AS_TOLD) -> Optional[Scan]:
+    """What a sensor_msgs/LaserScan tells; None if it cannot be used: `fault` says why."""
+    if fault(message) is not None:
         return None
     return scan_of(np.asarray(message.ranges, np.float32), message.angle_min, message.angle_increment,
-                   message.range_max)
+                   message.range_max, message.range_min, mounting, reading)
+
+
+def fault(message: Any) -> Optional[str]:
+    """Why a sensor_msgs/LaserScan cannot be used; None if it can."""
+    for field in ('angle_min', 'angle_increment', 'range_min', 'range_max'):
+        if math.isnan(getattr(message, field)) or field.startswith('angle') and math.isinf(getattr(message, field)):
+            return f'{field} is {getattr(message, field)}: must be a number'
+    if message.range_max <= max(message.range_min, 0.0):
+        return f'range_max is {message.range_max:g}: must be above 0 and above range_min, {message.range_min:g}'
+    if message.angle_increment == 0.0 and len(message.ranges) > 1:
+        return 'angle_increment is 0: must be the angle from beam to beam'
+    return None
 
 
 def is_blind(points: Array) -> bool:

@@ -6,7 +6,7 @@ from typing import Tuple
 import numpy as np
 
 from rumba_localisation import compiled_matching
-from rumba_localisation.scan import thinned
+from rumba_localisation.scan import Scan, thinned
 from rumba_localisation.walls import Walls
 from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.model.geometry import Pose
@@ -47,11 +47,11 @@ class Search:
         nodes = np.argwhere(terrain.safe_clearance[::step, ::step] >= radius)[:, ::-1] * (step * terrain.resolution)
         self._positions = nodes + np.array(terrain.origin)
 
-    def hypotheses(self, points: Array, generator: np.random.Generator) -> Tuple[Array, Array]:
+    def hypotheses(self, scan: Scan, generator: np.random.Generator) -> Tuple[Array, Array]:
         """Poses at which a scan fits.
 
         Args:
-            points: float64 (beams, 2), where beams end in the frame of the laser [m].
+            scan: with echoes.
 
         Returns:
             Poses, float64 (BEST at most, 3), and how large a share of the beams ends at a wall there, less
@@ -60,17 +60,17 @@ class Search:
         positions = self._positions
         if len(positions) * HEADINGS > MOST:
             positions = positions[generator.permutation(len(positions))[:MOST // HEADINGS]]
-        few = thinned(points, BEAMS)
+        few = thinned(scan.points, BEAMS)
         tried, sums = self._tried(positions, few)
-        poses, fits = self._matched(tried[np.argsort(-sums, kind='stable')[:BEST]], points)
-        return poses, fits - WRONG * np.array([self._walls.through(pose, few) for pose in poses])
+        poses, fits = self._matched(tried[np.argsort(-sums, kind='stable')[:BEST]], scan.points)
+        return poses, fits - WRONG * np.array([self._walls.through(pose, few, scan.laser) for pose in poses])
 
     def near(self, place: Pose, points: Array) -> Array:
         """Poses at which a scan about fits within NEAR of a place, with any heading; they are not matched yet.
 
         Args:
             place: [m, rad], map frame.
-            points: as for `hypotheses`.
+            points: float64 (beams, 2), where beams end, in the frame of the robot [m].
 
         Returns:
             float64 (BEST_NEAR at most, 3).

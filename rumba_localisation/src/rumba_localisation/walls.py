@@ -31,14 +31,15 @@ class Walls:
         inside = terrain.resolution * _depth(~terrain.free)
         self.distance = np.clip(terrain.clearance - inside, -FARTHEST, FARTHEST).astype(np.float32)
 
-    def through(self, pose: Array, points: Array) -> float:
+    def through(self, pose: Array, points: Array, laser: Tuple[float, float]) -> float:
         """The share of beams that would have to pass through walls at a pose (3) [0..1].
 
         Args:
-            pose: of the laser [m, m, rad].
+            pose: of the robot [m, m, rad].
             points: float64 (beams, 2), where they end, in its frame [m].
+            laser: where they begin, in that frame [m].
         """
-        return compiled_matching.through_walls(pose, points, self.distance, *self.origin, self.resolution)
+        return compiled_matching.through_walls(pose, points, laser, self.distance, *self.origin, self.resolution)
 
     def log_likelihood(self, sigma: float, hit: float, rand: float, range_max: float) -> Array:
         """Likelihood field: the logarithm of how likely a beam ends in each cell, 0 at a wall.

@@ -6,11 +6,12 @@ import numpy as np
 from rooms import crooked
 
 from rumba_localisation.localiser import Localiser
-from rumba_localisation.scan import points
+from rumba_localisation.scan import Scan, scan_of
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.robot_config import RobotConfig
 from rumba_sim.model.world import World
 
+BLIND = Scan(np.empty((0, 2)), np.empty((0, 2)))
 RADIUS, RANGE = RobotConfig().drive.radius, RobotConfig().laser.range_max
 
 
@@ -22,9 +23,9 @@ def world_of(plan=None, pose=Pose(2.0, 1.3, 0.7), seed=1):
 
 
 def scanned(world):
-    """Where the beams of a scan of the robot end."""
+    """What the laser of the robot tells."""
     ranges = world.scan('rumba')
-    return points(ranges, -math.pi, 2.0 * math.pi / len(ranges))
+    return scan_of(ranges, -math.pi, 2.0 * math.pi / len(ranges), RANGE)
 
 
 def localiser_of(plan, **options):
@@ -44,5 +45,5 @@ def drive(world, localiser, v, w, seconds, is_blind=False):
     for _ in range(round(10 * seconds)):
         robot.command(v, w, world.tick)
         world.step(5)
-        localiser.observe(robot.odometry, np.empty((0, 2)) if is_blind else scanned(world))
+        localiser.observe(robot.odometry, BLIND if is_blind else scanned(world))
         yield error(localiser.pose(robot.odometry), robot.pose)

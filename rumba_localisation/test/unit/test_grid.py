@@ -7,7 +7,8 @@ import pytest
 
 from rumba_localisation.mapping import compiled_grid
 from rumba_localisation.mapping.believed_plan import believed_plan
-from rumba_localisation.mapping.grid import RESOLUTION, Grid, placed
+from rumba_localisation.mapping.grid import Grid, placed
+from rumba_localisation.scan import Scan
 from rumba_sim.model.floor_plan import FREE, OCCUPIED, UNKNOWN
 from rumba_sim.model.geometry import Pose
 
@@ -24,7 +25,7 @@ def wall(grid, distance=1.0, scans=5):
     """Show a grid a wall straight ahead of a laser at the origin, along y, by evenly spread points on it."""
     points = np.stack([np.full(400, distance), np.linspace(-1.0, 1.0, 400)], axis=1)
     for _ in range(scans):
-        grid.add(Pose(0.0, 0.0, 0.0), points, NONE)
+        grid.add(Pose(0.0, 0.0, 0.0), Scan(points, NONE))
     grid.measure()
 
 
@@ -72,10 +73,10 @@ def test_distances_to_a_wall_are_finer_than_a_cell(distance):
     wall(grid, distance)
     for ahead in (0.8, 0.9, 0.96):
         column, row = np.rint(grid.cells(np.array([ahead, 0.1]))).astype(int)
-        x = grid.origin[0] + column * RESOLUTION
+        x = grid.origin[0] + column * grid.resolution
         assert grid.field[row, column] == pytest.approx(distance - x, abs=1e-3)
     column, row = np.rint(grid.cells(np.array([1.1, 0.1]))).astype(int)
-    assert grid.field[row, column] == pytest.approx(distance - grid.origin[0] - column * RESOLUTION, abs=1e-3)
+    assert grid.field[row, column] == pytest.approx(distance - grid.origin[0] - column * grid.resolution, abs=1e-3)
 
 
 def test_the_field_is_far_where_no_wall_is_near():
@@ -88,22 +89,22 @@ def test_the_field_is_far_where_no_wall_is_near():
 @pytest.mark.parametrize('start', [Pose(0.0, 0.0, 0.0), Pose(-300.0, 712.3, 1.0)])
 def test_a_grid_that_grows_keeps_what_it_knows(start):
     grid = Grid()
-    grid.add(start, beams(360, 1.0), NONE)
+    grid.add(start, Scan(beams(360, 1.0), NONE))
     here = placed(start, beams(360, 1.0))
     before, size = grid.share_unknown(start, beams(360, 1.0)), grid.odds.size
     for direction in range(4):
         grid.add(Pose(start.x + 5.0 * math.cos(direction * math.pi / 2), start.y + 5.0 * math.sin(
-            direction * math.pi / 2), 0.0), beams(360, 1.0), NONE)
+            direction * math.pi / 2), 0.0), Scan(beams(360, 1.0), NONE))
     grid.measure()
     assert before == 0.0 and grid.share_unknown(start, beams(360, 1.0)) == 0.0
     assert size < grid.odds.size < 1_000_000
-    assert max(grid.distance_at(x, y) for x, y in here.tolist()) < RESOLUTION
+    assert max(grid.distance_at(x, y) for x, y in here.tolist()) < grid.resolution
 
 
 def test_the_plan_of_a_grid_shows_floor_walls_and_what_is_unknown():
     grid, dock = Grid(), Pose(0.2, 0.0, 0.0)
     wall(grid)
-    grid.add(Pose(0.0, 0.0, 0.0), NONE, beams(360, 0.9))
+    grid.add(Pose(0.0, 0.0, 0.0), Scan(NONE, beams(360, 0.9)))
     plan = believed_plan(grid, 'a wall', dock)
     assert plan.occupancy[plan.cell(0.5, 0.3)] == FREE
     assert plan.occupancy[plan.cell(1.0, 0.3)] == OCCUPIED
@@ -115,7 +116,7 @@ def test_the_plan_of_a_grid_shows_floor_walls_and_what_is_unknown():
 
 def test_what_lies_between_two_beams_is_free():
     grid = Grid()
-    grid.add(Pose(0.0, 0.0, 0.0), NONE, beams(90, 2.0))  # 0.13 m apart at 1.9 m
+    grid.add(Pose(0.0, 0.0, 0.0), Scan(NONE, beams(90, 2.0)))  # 0.13 m apart at 1.9 m
     plan = believed_plan(grid, 'beams')
     angle = math.radians(2.0)
     cell = plan.cell(1.8 * math.cos(angle), 1.8 * math.sin(angle))

@@ -5,11 +5,11 @@ import math
 import numpy as np
 import pytest
 from rooms import RADIUS, crooked, room
-from scans import drive, error, localiser_of, scanned, world_of
+from scans import BLIND, drive, error, localiser_of, scanned, world_of
 
 from rumba_localisation.localiser import START
 from rumba_localisation.localiser_config import LocaliserConfig
-from rumba_localisation.scan import points, scan_of, thinned
+from rumba_localisation.scan import thinned
 from rumba_sim.model.errors import ConfigError
 from rumba_sim.model.geometry import Pose, compose
 from rumba_sim.model.obstacle import Obstacle
@@ -26,18 +26,6 @@ def under_way(seconds=5.0):
     localiser.start_at(world.robots['rumba'].pose)
     list(drive(world, localiser, 0.2, 0.3, seconds))
     return world, localiser
-
-
-def test_points_are_where_beams_end():
-    found = points(np.array([1.0, np.inf, 2.0, -np.inf, np.nan]), -0.5 * math.pi, 0.5 * math.pi)
-    assert found == pytest.approx(np.array([[0.0, -1.0], [0.0, 2.0]]))
-
-
-def test_only_beams_without_an_echo_reach_as_far_as_the_laser_does():
-    near, far = (scan_of(np.array(ranges, np.float32), -0.5 * math.pi, 0.5 * math.pi, 8.0)
-                 for ranges in ([1.0, 3.0, -np.inf], [1.0, np.inf, -np.inf]))
-    assert near.beyond.shape == (0, 2) and near.points.shape == (2, 2)
-    assert far.beyond == pytest.approx(np.array([[8.0, 0.0]])) and far.points == pytest.approx(np.array([[0.0, -1.0]]))
 
 
 def test_few_points_remain_and_are_spread():
@@ -239,7 +227,7 @@ def test_without_echoes_the_pose_becomes_uncertain_and_is_found_again():
 
 def test_nothing_is_known_before_the_first_echoes():
     localiser = localiser_of(crooked())
-    assert not localiser.observe(NOBODY, np.empty((0, 2))) and localiser.estimate is None
+    assert not localiser.observe(NOBODY, BLIND) and localiser.estimate is None
 
 
 def test_in_a_room_that_looks_the_same_twice_both_places_are_kept():
@@ -275,11 +263,11 @@ def test_no_place_is_tried_where_the_robot_does_not_fit():
 @pytest.mark.parametrize('away, turn', [(0.0, math.pi), (0.3, 1.5), (0.5, -2.5)])
 def test_a_robot_that_slipped_is_found_around_its_place_and_farther_away_it_is_not(away, turn):
     plan, true = crooked(), Pose(2.0, 1.3, 0.7)
-    points, localiser = scanned(world_of(plan, true)), localiser_of(plan)
-    localiser.observe(NOBODY, points)
-    found = localiser._matcher.slipped(Pose(true.x + away, true.y, true.theta + turn), points)
+    seen, localiser = scanned(world_of(plan, true)), localiser_of(plan)
+    localiser.observe(NOBODY, seen)
+    found = localiser._matcher.slipped(Pose(true.x + away, true.y, true.theta + turn), seen)
     assert max(error(Pose(*found.pose), true)) < 0.02
-    assert localiser._matcher.slipped(Pose(true.x + away + 1.0, true.y, true.theta), points) is None
+    assert localiser._matcher.slipped(Pose(true.x + away + 1.0, true.y, true.theta), seen) is None
 
 
 @pytest.mark.parametrize('given, message', [

@@ -39,7 +39,7 @@ def test_a_pose_is_weighed_by_the_cells_in_which_its_beams_end():
 @given(st.floats(-0.06, 0.06), st.floats(-0.06, 0.06), st.floats(-0.1, 0.1))
 def test_a_match_finds_the_pose_from_nearby(x, y, theta):
     world = world_of(crooked(0.025), Pose(2.0, 1.3, 0.7))
-    pose, covariance, fit = matched(Walls(world.plan), (2.0 + x, 1.3 + y, 0.7 + theta), scanned(world))
+    pose, covariance, fit = matched(Walls(world.plan), (2.0 + x, 1.3 + y, 0.7 + theta), scanned(world).points)
     assert pose == pytest.approx([2.0, 1.3, 0.7], abs=0.006)
     assert fit > 0.85 and math.sqrt(covariance[0, 0]) < 0.01
 
@@ -73,7 +73,7 @@ def test_distances_that_are_steeper_than_distances_can_be_count_as_if_they_were_
 
 def test_beams_that_hit_what_the_map_does_not_show_count_little():
     world = world_of(crooked(0.025))
-    points = scanned(world)
+    points = scanned(world).points
     points[:60] *= 0.5  # something stands there
     pose, _, fit = matched(Walls(world.plan), (2.03, 1.27, 0.75), points)
     assert pose == pytest.approx([2.0, 1.3, 0.7], abs=0.01)
@@ -86,13 +86,13 @@ def test_beams_that_would_have_to_pass_through_walls_are_counted():
     pose = np.array([0.5, 1.0, 0.0])
 
     def through(*ends):
-        return walls.through(pose, np.array(ends, float))
+        return walls.through(pose, np.array(ends, float), (0.0, 0.0))
     assert through((0.5, 0.0), (0.0, 0.9), (0.2, 0.0), (-0.49, 0.0)) == 0.0  # at walls, and at something before them
     assert through((0.54 + 0.13, 0.0)) == 0.0  # the pose may err a little
     assert through((0.54 + 0.2, 0.0)) == 1.0
     assert through((1.5, 0.0), (1.5, 0.5), (0.3, 0.0), (-0.4, 0.1)) == 0.5
     assert through((-1.5, 0.0)) == 1.0  # out of the map
-    assert walls.through(np.array([0.5, 1.0, math.pi]), np.array([[1.5, 0.0], [-1.5, 0.0]])) == 1.0
+    assert walls.through(np.array([0.5, 1.0, math.pi]), np.array([[1.5, 0.0], [-1.5, 0.0]]), (0.0, 0.0)) == 1.0
 
 
 def test_a_match_does_not_run_away_from_a_start_that_fits_nowhere():

@@ -77,7 +77,7 @@ class Sight:
         free = np.concatenate([
             scan.points[near][~is_news] * short[:, None],
             scan.points[~near] * (FARTHEST / away[~near])[:, None],
-            scan.beyond * min(FARTHEST / max(float(np.hypot(*scan.beyond[:1].T).sum()), FARTHEST), 1.0)])
+            scan.beyond * (FARTHEST / np.maximum(np.hypot(*scan.beyond.T), FARTHEST))[:, None]])
         self._add(pose, placed(pose, free), False)
         self._add(pose, ends[is_news], True)
 

@@ -1,19 +1,21 @@
 """The floor plan that a grid shows."""
 
+import math
 from typing import List, Optional, Tuple
 
 import numpy as np
 from scipy import ndimage
 
 from rumba_localisation.mapping.findings import Findings, Point
-from rumba_localisation.mapping.grid import RESOLUTION, Grid
+from rumba_localisation.mapping.grid import Grid
 from rumba_sim.model.floor_plan import FREE, OCCUPIED, UNKNOWN, FloorPlan
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.kernel import Array
 
-GAPS = 4  # [cells] half the width of what lies unseen between two beams, and is free if all around it is
+GAPS = 0.08  # [m] half the width of what lies unseen between two beams, and is free if all around it is
 BEFORE = 0.002  # [m] before a wall, and more, a cell does not belong to it
 RADIUS = 0.03  # [m] of what the bumper found at a point
+HALF = 0.75  # of a cell, within which of any point there is the centre of a cell
 EDGE = 0.022  # [m] the same of a cliff sensor: half of what a robot drives between readings, and half a cell, about
 RIM = 2  # [cells] around all that is known
 
@@ -31,19 +33,21 @@ def believed_plan(grid: Grid, name: str, dock: Optional[Pose] = None,
     Raises:
         MapError: no cell is free.
     """
+    side = grid.resolution
     rows, columns = (np.flatnonzero((grid.odds != 0.0).any(axis=axis)) for axis in (1, 0))
     top, left = max(int(rows[0]) - RIM, 0), max(int(columns[0]) - RIM, 0)
     bottom, right = (min(int(used[-1]) + 1 + RIM, size) for used, size in zip((rows, columns), grid.odds.shape))
-    cells = occupancy(grid.odds[top:bottom, left:right], grid.field[top:bottom + 1, left:right + 1])
-    origin = grid.origin[0] + left * RESOLUTION, grid.origin[1] + top * RESOLUTION
+    cells = occupancy(grid.odds[top:bottom, left:right], grid.field[top:bottom + 1, left:right + 1],
+                      math.ceil(GAPS / grid.resolution))
+    origin = grid.origin[0] + left * side, grid.origin[1] + top * side
     cliff = None
     if findings is not None:
-        cells[around(findings.touched, RADIUS, cells.shape, origin)] = OCCUPIED
-        cliff = around(findings.cliffs, EDGE, cells.shape, origin) if findings.cliffs else None
-    return FloorPlan(name, cells, RESOLUTION, origin, cliff=cliff, dock=dock)
+        cells[around(findings.touched, RADIUS, cells.shape, origin, side)] = OCCUPIED
+        cliff = around(findings.cliffs, EDGE, cells.shape, origin, side) if findings.cliffs else None
+    return FloorPlan(name, cells, side, origin, cliff=cliff, dock=dock)
 
 
-def occupancy(odds: Array, field: Array) -> Array:
+def occupancy(odds: Array, field: Array, gaps: int) -> Array:
     """OCCUPIED, FREE or UNKNOWN: int8 (rows, columns).
 
     A beam that errs ends in the cell before a wall. If the centre of that is clearly before the wall, and another cell
@@ -52,21 +56,23 @@ def occupancy(odds: Array, field: Array) -> Array:
     Args:
         odds: logarithms (rows, columns); 0 tells nothing.
         field: of the grid (rows + 1, columns + 1).
+        gaps: half the width of gaps that are closed [cells].
     """
     free, occupied = odds < 0.0, odds > 0.0
     centre = 0.25 * (field[:-1, :-1] + field[1:, :-1] + field[:-1, 1:] + field[1:, 1:])
     before = occupied & (centre > BEFORE)
     before &= ndimage.binary_dilation(occupied & ~before, np.ones((3, 3), np.bool_))
     free, occupied = free | before, occupied & ~before
-    closed = ndimage.binary_closing(np.pad(free, GAPS), np.ones((3, 3), np.bool_), iterations=GAPS)[
-        GAPS:-GAPS, GAPS:-GAPS]
+    closed = ndimage.binary_closing(np.pad(free, gaps), np.ones((3, 3), np.bool_), iterations=gaps)[
+        gaps:-gaps, gaps:-gaps]
     cells = np.full(odds.shape, UNKNOWN, np.int8)
     cells[free | closed & ~ndimage.binary_dilation(occupied, iterations=2)] = FREE
     cells[occupied] = OCCUPIED
     return cells
 
 
-def around(points: List[Point], radius: float, shape: Tuple[int, ...], origin: Tuple[float, float]) -> Array:
+def around(points: List[Point], radius: float, shape: Tuple[int, ...], origin: Tuple[float, float],
+           side: float) -> Array:
     """The cells around points: bool (rows, columns).
 
     Args:
@@ -74,11 +80,13 @@ def around(points: List[Point], radius: float, shape: Tuple[int, ...], origin: T
         radius: to the centres of the cells [m].
         shape: rows and columns.
         origin: of the cells [m].
+        side: of a cell [m].
     """
     rows, columns = shape
-    x = origin[0] + (np.arange(columns) + 0.5) * RESOLUTION
-    y = (origin[1] + (np.arange(rows) + 0.5) * RESOLUTION)[:, np.newaxis]
+    x = origin[0] + (np.arange(columns) + 0.5) * side
+    y = (origin[1] + (np.arange(rows) + 0.5) * side)[:, np.newaxis]
     cells = np.zeros((rows, columns), np.bool_)
+    radius = max(radius, HALF * side)
     for point_x, point_y in points:
         cells |= np.hypot(x - point_x, y - point_y) < radius
     return cells

@@ -1,16 +1,20 @@
 """An occupancy grid that grows with what scans tell, and the distances to its walls, by which scans are matched."""
 
 import math
-from typing import Tuple
+from typing import Optional, Tuple
 
 import numpy as np
 
 from rumba_localisation.mapping import compiled_grid
+from rumba_localisation.scan import Scan, thinned
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.kernel import Array
 
-RESOLUTION = 0.02  # [m] side of a cell: twice the noise of a cheap laser
 REACH = 25  # [cells] up to which distances to walls are known
+SURE = -2.0  # logarithm of the odds of a cell that is surely free: four beams passed; those of a wall are the inverse
+AWAY = 2.0  # narrowest sigmas of a match, from a wall, from which on a beam has not met that
+BEFORE = 0.1  # [m] of a beam before its end that may be in a wall
+CHECKED = 180  # beams, at most, of which it is looked where they pass
 NOTHING = (1 << 30, 1 << 30, 0, 0)  # an empty box of cells
 CHUNK = 100  # [cells] by which the grid grows, at least
 
@@ -19,39 +23,34 @@ class Grid:
     """What is known of a floor: Moravec and Elfes, High Resolution Maps from Wide Angle Sonar, 1985.
 
     Attributes:
+        resolution: side of a cell [m].
         origin: x and y of the lower left corner [m]; a multiple of the resolution.
         odds: float32 (rows, columns), logarithm of the odds that a cell is occupied; 0 if nothing is known.
         field: float32 (rows + 1, columns + 1), signed distance from each node to the nearest wall [m].
     """
 
-    def __init__(self) -> None:
-        """Know nothing."""
+    def __init__(self, resolution: float = 0.02) -> None:
+        """Know nothing, in cells of a side [m]."""
+        self.resolution = resolution
         self.origin: Tuple[float, float] = (0.0, 0.0)
         self.odds: Array = np.zeros((0, 0), np.float32)
         self._hits: Array = np.zeros((0, 0, 5), np.float32)
         self.field: Array = self._far((1, 1))
         self._changed = NOTHING  # cells, since the field was measured
 
-    @staticmethod
-    def _far(shape: Tuple[int, int]) -> Array:
-        return np.full(shape, REACH * RESOLUTION, np.float32)
+    def _far(self, shape: Tuple[int, int]) -> Array:
+        return np.full(shape, REACH * self.resolution, np.float32)
 
     def cells(self, points: Array) -> Array:
         """Points (any, 2) [m] as numbers of cells from the corner of the grid, which have fractions."""
-        return (points - np.array(self.origin)) / RESOLUTION
+        return (points - np.array(self.origin)) / self.resolution
 
-    def add(self, pose: Pose, points: Array, beyond: Array) -> None:
-        """Take a scan into account.
-
-        Args:
-            pose: of the laser [m, rad].
-            points: float64 (any, 2), where beams with an echo end, in the frame of the laser [m].
-            beyond: the same for beams without one: up to there they met nothing.
-        """
-        echoes, others = placed(pose, points), placed(pose, beyond)
-        here = np.array([[pose.x, pose.y]])
+    def add(self, pose: Pose, scan: Scan) -> None:
+        """Take a scan into account that was taken at a pose of the robot [m, rad]."""
+        echoes, others, here = ends_of(pose, scan)
         self.cover(np.concatenate([here, echoes, others]))
         (x, y), = self.cells(here).tolist()
+        self.odds[int(y), int(x)] += compiled_grid.MISS  # no beam may tell it, but there the robot is
         free = compiled_grid.add_beams(self.odds, self._hits, x, y, self.cells(others), False)
         met = compiled_grid.add_beams(self.odds, self._hits, x, y, self.cells(echoes), True)
         box = (min(free[0], met[0]), min(free[1], met[1]), max(free[2], met[2]), max(free[3], met[3]))
@@ -61,12 +60,30 @@ class Grid:
     def measure(self) -> None:
         """Bring the field up to date."""
         if self._changed[2] > self._changed[0]:
-            compiled_grid.measure(self.odds, self._hits, self.field, self._changed, REACH, RESOLUTION)
+            compiled_grid.measure(self.odds, self._hits, self.field, self._changed, REACH, self.resolution)
         self._changed = NOTHING
 
     def share_unknown(self, pose: Pose, points: Array) -> float:
         """Share of the beams of a scan, as `add` gets it, that end on cells of which nothing is known [0..1]."""
         return compiled_grid.unknown(self.odds, self.cells(placed(pose, points))) / max(len(points), 1)
+
+    def share_wrong(self, pose: Pose, scan: Scan, kernel: float, cloud: Optional[Array] = None) -> float:
+        """Share of the beams of a scan that end where there is surely nothing, or would have to pass through walls.
+
+        Args:
+            pose: of the robot [m, rad].
+            scan: with echoes.
+            kernel: sigma of the narrowest step of a match [m].
+            cloud: float64 (any, 2), ends of beams that count instead of those of the scan, if they end where there is
+                nothing; in the frame of the robot [m].
+        """
+        points = thinned(scan.points, CHECKED)
+        (x, y), = self.cells(placed(pose, np.array([scan.laser]))).tolist()
+        blocked = compiled_grid.blocked(self.odds, x, y, self.cells(placed(pose, points)), -SURE,
+                                        max(AWAY * kernel, BEFORE) / self.resolution)
+        ends = points if cloud is None else cloud
+        nowhere = compiled_grid.contradicted(self.odds, self.field, self.cells(placed(pose, ends)), SURE, AWAY * kernel)
+        return blocked / max(len(points), 1) + nowhere / max(len(ends), 1)
 
     def distance_at(self, x: float, y: float) -> float:
         """Distance from a point [m] to the nearest wall [m], to the nearest node; large if none is near."""
@@ -74,10 +91,17 @@ class Grid:
         column, row = (round(cells) for cells in self.cells(np.array([x, y])).tolist())
         return abs(float(self.field[row, column])) if 0 <= row < rows and 0 <= column < columns else math.inf
 
+    def size_with(self, pose: Pose, scan: Scan) -> int:
+        """How many cells it would have with a scan that was taken at a pose."""
+        cells = self.cells(np.concatenate(ends_of(pose, scan)))
+        rows, columns = self.odds.shape
+        low, high = np.minimum(cells.min(axis=0), 0.0), np.maximum(cells.max(axis=0), (columns, rows))
+        return int(np.prod(high - low + CHUNK))
+
     def cover(self, points: Array) -> None:
         """Grow until points (any, 2) [m] lie on the grid."""
         if not self.odds.size:
-            self.origin = (round(points[0, 0] / RESOLUTION) * RESOLUTION, round(points[0, 1] / RESOLUTION) * RESOLUTION)
+            self.origin = (round(points[0, 0] / self.resolution) * self.resolution, round(points[0, 1] / self.resolution) * self.resolution)
         low, high = np.floor(self.cells(points.min(axis=0))), np.floor(self.cells(points.max(axis=0)))
         rows, columns = self.odds.shape
         before = [_needed(-int(low[1])), _needed(-int(low[0]))]
@@ -89,12 +113,17 @@ class Grid:
         self._hits = np.pad(self._hits, [*margins, (0, 0)])
         self._hits[..., 0] += before[1]
         self._hits[..., 1] += before[0]
-        self.field = np.pad(self.field, margins, constant_values=REACH * RESOLUTION)
+        self.field = np.pad(self.field, margins, constant_values=REACH * self.resolution)
         if self._changed != NOTHING:
             top, left_most, end, right = self._changed
             self._changed = top + before[0], left_most + before[1], end + before[0], right + before[1]
         left, bottom = self.origin
-        self.origin = (left - before[1] * RESOLUTION, bottom - before[0] * RESOLUTION)
+        self.origin = (left - before[1] * self.resolution, bottom - before[0] * self.resolution)
+
+
+def ends_of(pose: Pose, scan: Scan) -> Tuple[Array, Array, Array]:
+    """Where the beams of a scan end that have an echo, where the others do, and where all begin: (any, 2) [m]."""
+    return placed(pose, scan.points), placed(pose, scan.beyond), placed(pose, np.array([scan.laser]))
 
 
 def _needed(cells: int) -> int:

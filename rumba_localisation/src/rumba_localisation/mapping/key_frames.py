@@ -8,7 +8,7 @@ from scipy import sparse
 from scipy.sparse import csgraph
 
 from rumba_localisation.compiled_matrices import inverse as inverted
-from rumba_localisation.mapping.grid import Grid, placed
+from rumba_localisation.mapping.grid import Grid, ends_of, placed
 from rumba_localisation.mapping.pose_graph import Link, optimised
 from rumba_localisation.scan import Scan
 from rumba_sim.model.geometry import Pose, compose, inverse, wrap_angle
@@ -40,7 +40,7 @@ class KeyFrames:
     def add(self, pose: Pose, scan: Scan) -> int:
         """Keep a scan; returns its number."""
         self.poses.append(pose)
-        self._scans.append(Scan(scan.points.astype(np.float32), scan.beyond.astype(np.float32)))
+        self._scans.append(scan._replace(points=scan.points.astype(np.float32), beyond=scan.beyond.astype(np.float32)))
         return len(self.poses) - 1
 
     def link(self, one: int, other: int, pose: Pose, covariance: Array, is_robust: bool = False) -> None:
@@ -95,15 +95,30 @@ class KeyFrames:
             places, headings, number = places + place, headings + heading, before
         return math.sqrt(places + headings * float(ways.lengths[frame]) ** 2 / 3.0)
 
-    def drawn(self, numbers: Array) -> Grid:
-        """A map of some of the scans alone."""
-        grid = Grid()
-        shown = [(self.poses[number], *(ends.astype(np.float64) for ends in self._scans[number]))
-                 for number in numbers.tolist()]
-        met = [placed(pose, ends) for pose, *scan in shown for ends in (*scan, np.zeros((1, 2)))]
-        grid.cover(np.concatenate(met))  # at once: each time that it grows all cells are copied
-        for pose, points, beyond in shown:
-            grid.add(pose, points, beyond)
+    def cloud(self, frame: int, way: float) -> Array:
+        """Where beams of a frame and of those before it ended, back to a way [m]: float64 (any, 2), in its own frame."""
+        pose, found, left = self.poses[frame], [], way
+        for number in range(frame, -1, -1):
+            other = self.poses[number]
+            if number < frame:
+                left -= math.hypot(other.x - self.poses[number + 1].x, other.y - self.poses[number + 1].y)
+            if left < 0.0:
+                break
+            found.append(placed(compose(inverse(pose), other), self._scan(number).points))
+        return np.concatenate(found)
+
+    def _scan(self, number: int) -> Scan:
+        scan = self._scans[number]
+        return scan._replace(points=scan.points.astype(np.float64), beyond=scan.beyond.astype(np.float64))
+
+    def drawn(self, numbers: Array, resolution: float) -> Grid:
+        """A map of some of the scans alone, with cells of a side [m]."""
+        grid = Grid(resolution)
+        shown = [(self.poses[number], self._scan(number)) for number in numbers.tolist()]
+        # At once: each time that it grows all cells are copied.
+        grid.cover(np.concatenate([ends for pose, scan in shown for ends in ends_of(pose, scan)]))
+        for pose, scan in shown:
+            grid.add(pose, scan)
         grid.measure()
         return grid
 

@@ -6,44 +6,34 @@ from typing import Dict, Optional, Sequence, Tuple
 
 import numpy as np
 
-from rumba_localisation import compiled_matching
-from rumba_localisation.compiled_matrices import inverse as inverted
-from rumba_localisation.localiser import START, Estimate, Localiser
-from rumba_localisation.mapping.believed_plan import believed_plan
-from rumba_localisation.mapping.clear_match import clear_match
-from rumba_localisation.mapping.grid import RESOLUTION, Grid
+from rumba_localisation.localiser import START, Estimate
+from rumba_localisation.mapping.clear_match import Sought, clear_match
+from rumba_localisation.mapping.grid import Grid
 from rumba_localisation.mapping.key_frames import KeyFrames
 from rumba_localisation.mapping.loop_closure import LoopClosure
 from rumba_localisation.mapping.mapper_config import MapperConfig
+from rumba_localisation.mapping.relocation import Relocation
+from rumba_localisation.mapping.tracker import INDEPENDENT, LEAST, MATCHED, TWIST, Tracker
+from rumba_localisation.noise import Noise
 from rumba_localisation.scan import Scan, is_blind, thinned
 from rumba_sim.model.geometry import Pose, compose, inverse, wrap_angle
 from rumba_sim.model.kernel import Array
 
-STEPS = np.geomspace(0.1, 0.02, 6)  # [m] sigmas of `match`
-MATCHED = 180  # beams, at most, by which a pose is found
-INDEPENDENT = 0.2  # share of the beams of a match that err independently
+FINE, COARSE, LARGEST = 0.02, 0.05, 0.2  # [m] side of a cell at first, by noise at most, and of a large map at most
+COARSER = 1.5  # narrowest sigmas of a match in the side of a cell, from which on cells get larger
+MOST = 6_000_000  # cells, at most, with 28 bytes each
 SPACING, VISITS = 0.25, 4  # [m] side of a square of the floor, and scans from there that the map shows
 UNSEEN = 0.05  # share of the beams that end on unknown floor, from which on a scan from anywhere is added
 AT_ONCE = 4  # scans that are added before distances are measured again
-LEAST = np.array([0.005, 0.005, 0.005]) ** 2  # variances of any movement [m^2, m^2, rad^2]
-OPEN = 0.1  # [m] of standard deviation of the place, at most, that is left open: as far off a match finds it
-GOOD = 0.75  # a fit below which other starts of a match are tried ...
-BETTER = 0.1  # ... whose fit must be better by so much: in a corridor all fit alike
-SLIPPED = np.diag([0.1, 0.1, 0.05]) ** 2  # covariance of these
-LOST_FIT, LOST_AFTER = 0.6, 5  # the robot was carried away if, of the beams that end on known floor, so few fit in so
-#                                many scans, one after the other; meanwhile the map stays as it is
+ASTRAY = 0.3  # share of the beams that cannot be where they are, from which on the robot was carried away ...
+LOST_AFTER = 5  # ... in so many scans, one after the other; meanwhile the map stays as it is
 SLID = 1.0  # [m] along each axis, by which a robot may be off that was not carried away
-FOUND_FIT = 0.6  # from which on a place that was looked for is believed
-DRIFT = np.diag([0.0003, 0.0003, 0.0002]) ** 2  # variances by which the map drifts with each scan [m^2, m^2, rad^2]: as
-#                                                 measured on the first 24 m of drives around an office
 FOLLOWED = 1.0  # [m] of way since the newest key frame, from which on a scan was rather found by older ones nearby
 CERTAIN = np.diag(LEAST)
 
 
 class Mapper:
     """Matches each scan with the map of those before it, and adds it; redraws the map if a loop closes.
-
-    The laser is in the centre of the robot and looks forward, as a Rumba's.
 
     Attributes:
         config: parameters.
@@ -52,34 +42,43 @@ class Mapper:
         grid: the map so far.
         version: rises with each change of it.
         redrawn: how many times the map was redrawn; what was found on it must then move, as `moved` says.
+        noise: of the laser, with that of the map.
+        is_full: whether a scan was left out, since the map would have been too large with it.
     """
 
-    def __init__(self, start: Pose = Pose(0.0, 0.0, 0.0), config: MapperConfig = MapperConfig(),
-                 radius: float = 0.17425, range_max: float = 8.0) -> None:
+    def __init__(self, start: Pose = Pose(0.0, 0.0, 0.0), config: MapperConfig = MapperConfig()) -> None:
         """Begin a map.
 
         Args:
             start: where the robot is at the first scan; this defines the map frame [m, rad].
             config: parameters.
-            radius: of the robot [m].
-            range_max: of its laser [m].
         """
         self.config = config
-        self._start, self._radius, self._range_max = start, radius, range_max
-        self.grid = Grid()
+        self._start = start
+        self.grid = Grid(config.delta or FINE)
+        self.noise = Noise(config.sigma)
         self.correction = Pose(0.0, 0.0, 0.0)
         self.estimate: Optional[Estimate] = None
         self.version = self.redrawn = 0
+        self.is_full = False
         self._frames = KeyFrames()
-        self._closure = LoopClosure(self._frames)
-        self._open = np.zeros((3, 3))  # covariance of the errors of the odometry that scans left open
-        self._drift = np.zeros((3, 3))  # covariance of the way since the newest key frame
-        self._way = 0.0  # [m] since then; infinite if the robot was carried away
+        self._closure = LoopClosure(self._frames, self.noise)
+        self._tracker = Tracker(config, self.noise)
         self._visits: Dict[Tuple[int, int], int] = {}  # scans by the square of the floor in which they were taken
         self._added = 0  # scans since the distances on the grid were measured
         self._misfits = 0  # scans, one after the other
-        self._search: Optional[Localiser] = None  # for the place of a robot that was carried away
+        self._search: Optional[Relocation] = None  # for the place of a robot that was carried away
         self._last: Optional[Pose] = None  # odometry at the newest scan that was used
+
+    @property
+    def is_lost(self) -> bool:
+        """Whether the robot was carried away, and is looked for."""
+        return self._search is not None
+
+    @property
+    def is_contradicted(self) -> bool:
+        """Whether scans tell other movements than the odometry, one after the other: a laser mounted otherwise does."""
+        return self._tracker.surprise > 0.5
 
     def pose(self, odometry: Pose) -> Pose:
         """Where the robot is, from its odometry, by the newest correction."""
@@ -101,24 +100,16 @@ class Mapper:
         elif not self._has_moved(last, odometry):
             return False
         elif self._search is not None:
-            return self._find(self._search, odometry, scan.points)
+            return self._find(self._search, odometry, scan)
         else:
-            estimate = self._judged(self._followed(last, odometry, scan.points), scan.points)
+            estimate = self._judged(self._tracker.follow(self.grid, self.pose(odometry), last, odometry, scan),
+                                    scan)
         self._last, self.estimate = odometry, estimate
         self.correction = compose(estimate.pose, inverse(odometry))
         if self._search is None and self._misfits == 0 and self._is_news(estimate.pose, scan.points):
             self._add(estimate, scan)
             self.correction = compose(self.estimate.pose, inverse(odometry))
         return True
-
-    def _followed(self, last: Pose, odometry: Pose, ends: Array) -> Estimate:
-        """Where a scan fits; keeps account of the errors of the odometry since the last one."""
-        estimate, movement = self._matched(last, odometry, ends)
-        left = _share_left(estimate.covariance, self._open + movement)
-        self._open = _bounded(left @ (self._open + movement) @ left.T)
-        self._drift += left @ movement @ left.T + DRIFT
-        self._way += math.hypot(odometry.x - last.x, odometry.y - last.y)
-        return estimate
 
     @property
     def frames(self) -> Sequence[Pose]:
@@ -131,61 +122,87 @@ class Mapper:
 
     def _add(self, estimate: Estimate, scan: Scan) -> None:
         """Add a scan to the map, and redraw the map if that closes a loop."""
-        self.grid.add(estimate.pose, scan.points, scan.beyond)
+        if not self._has_room(estimate.pose, scan):
+            self.is_full = True
+            return
+        self.grid.add(estimate.pose, scan)
         self.version += 1
         self._added += 1
         if self._added >= AT_ONCE or self.version == 1:
             self.grid.measure()
             self._added = 0
-        if self._closure.closes(self._keep(estimate, scan), scan.points):
+        if self._closure.closes(self._keep(estimate, scan), scan, self.grid.resolution):
             self._redraw(estimate)
+        side = min(round(self.noise.kernel, 2), COARSE)
+        if self.noise.is_settled and not self.config.delta and side >= COARSER * self.grid.resolution:
+            self._draw(side)
+
+    def _has_room(self, pose: Pose, scan: Scan) -> bool:
+        """Whether there is room for a scan, perhaps with larger cells."""
+        cells = self.grid.size_with(pose, scan)
+        if cells <= MOST:
+            return True
+        side = math.ceil(100.0 * self.grid.resolution * math.sqrt(cells / MOST) + 1.0) / 100.0
+        if side > LARGEST:
+            return False
+        self._draw(side)
+        return True
+
+    def _draw(self, side: float) -> None:
+        """Draw the map of the key frames, with cells of a side [m]."""
+        frames = self._frames
+        self.grid = frames.drawn(np.arange(len(frames.poses)), side) if frames.poses else Grid(side)
+        self.version += 1
+        self._added = 0
 
     def _keep(self, estimate: Estimate, scan: Scan) -> int:
         """Make a scan a key frame, which was found from the one before, or from the map nearby; returns its number."""
-        frames, pose = self._frames, estimate.pose
-        is_first, is_next = not frames.poses, self._way < FOLLOWED
+        frames, pose, tracker = self._frames, estimate.pose, self._tracker
+        is_first, is_next = not frames.poses, tracker.way < FOLLOWED
         before = len(frames.poses) - 1 if is_first or is_next else frames.nearest(pose.x, pose.y)
         frame = frames.add(pose, scan)
         if not is_first:
-            frames.link(before, frame, pose, self._drift if is_next else INDEPENDENT * estimate.covariance)
-        self._way, self._drift = 0.0, np.zeros((3, 3))
+            frames.link(before, frame, pose, tracker.drift if is_next else INDEPENDENT * estimate.covariance)
+        tracker.begin_way()
         return frame
 
     def _redraw(self, estimate: Estimate) -> None:
         """Move the key frames to where they contradict each other least, and draw the map of them."""
         frames = self._frames
         frames.optimise()
-        self.grid = frames.drawn(np.arange(len(frames.poses)))
+        self._draw(self.grid.resolution)
         self.estimate = estimate._replace(pose=frames.poses[-1])
-        self.version += 1
         self.redrawn += 1
-        self._added = 0
         self._visits = dict(collections.Counter(_square(pose) for pose in frames.poses))
 
-    def _judged(self, estimate: Estimate, ends: Array) -> Estimate:
+    def _judged(self, estimate: Estimate, scan: Scan) -> Estimate:
         """If a scan does not fit, look nearby: wheels err along a bare corridor; in the end, look all over the map."""
-        known = 1.0 - self.grid.share_unknown(estimate.pose, ends)
-        if is_blind(ends) or estimate.fit >= LOST_FIT * known:
+        grid, ends = self.grid, scan.points
+        if is_blind(ends) or grid.share_wrong(estimate.pose, scan, self.noise.kernel) < ASTRAY:
             self._misfits = 0
+            self.noise.follow(np.array(estimate.pose), thinned(ends, MATCHED), grid.field, *grid.origin,
+                              grid.resolution)
             return estimate
         self._misfits += 1
-        near = clear_match(self.grid, estimate.pose, SLID, ends, LOST_FIT)
+        near = clear_match(grid, Sought(estimate.pose, SLID, TWIST, ends, scan), self.noise)
         if near is not None:
-            self._misfits, self._way = 0, math.inf
+            self._misfits = 0
+            self._tracker.begin_way(math.inf)
             return Estimate(near.pose, near.covariance, near.fit, True)
         if self._misfits < LOST_AFTER:
             return estimate
-        self._search = Localiser(believed_plan(self.grid, 'the map so far'), self._radius, self._range_max)
+        self._search = Relocation(grid, self.noise)
         return estimate._replace(covariance=START, is_sure=False)
 
-    def _find(self, search: Localiser, odometry: Pose, ends: Array) -> bool:
+    def _find(self, search: Relocation, odometry: Pose, scan: Scan) -> bool:
         """Look for the place all over the map so far, which stays as it is meanwhile."""
-        if not search.observe(odometry, ends):
-            return False
-        assert search.estimate is not None
-        self._last, self.estimate, self.correction = odometry, search.estimate, search.correction
-        if search.estimate.is_sure and search.estimate.fit > FOUND_FIT:
-            self._search, self._misfits, self._way = None, 0, math.inf
+        found = search.observe(odometry, scan)
+        self._last = odometry
+        self.estimate = found or Estimate(self.pose(odometry), START, 0.0, False)
+        if found is not None:
+            self.correction = compose(found.pose, inverse(odometry))
+            self._search, self._misfits = None, 0
+            self._tracker.begin_way(math.inf)
         return True
 
     def _is_news(self, pose: Pose, ends: Array) -> bool:
@@ -197,65 +214,6 @@ class Mapper:
     def _has_moved(self, last: Pose, odometry: Pose) -> bool:
         return (math.hypot(odometry.x - last.x, odometry.y - last.y) >= self.config.update_min_d
                 or abs(wrap_angle(odometry.theta - last.theta)) >= self.config.update_min_a)
-
-    def _matched(self, last: Pose, odometry: Pose, ends: Array) -> Tuple[Estimate, Array]:
-        """Where a scan fits, near where the odometry has the robot, and the covariance (3, 3) of the movement.
-
-        If it does not fit there, perhaps the wheels slipped, or the robot was pushed: it may fit better near the place
-        where the robot was before, or farther away from where the odometry has it. Along a bare corridor errors of
-        earlier movements are still open, and are corrected together.
-
-        Args:
-            last, odometry: pose by odometry at the scan before, and now.
-            ends: where the beams end, in the frame of the laser [m].
-        """
-        supposed, spread = self.pose(odometry), self._spread(last, odometry)
-        prior = self._open + spread
-        if is_blind(ends):
-            return Estimate(supposed, prior, 0.0, True), spread
-        best = self._match(supposed, prior, ends)
-        if best.fit < GOOD:
-            before = self.pose(last)._replace(theta=supposed.theta)
-            others = [self._match(start, SLIPPED, ends) for start in (supposed, before)]
-            better = max(others, key=lambda each: each.fit)
-            if better.fit > best.fit + BETTER:
-                return better, SLIPPED
-        return best, spread
-
-    def _match(self, start: Pose, prior: Array, ends: Array) -> Estimate:
-        """Where a scan fits near a pose, which has a covariance (3, 3)."""
-        found, covariance = np.empty(3), np.empty((3, 3))
-        fit = compiled_matching.match(np.array(start), prior, thinned(ends, MATCHED), self.grid.field,
-                                      *self.grid.origin, RESOLUTION, STEPS, INDEPENDENT, found, covariance)
-        x, y, theta = found.tolist()
-        return Estimate(Pose(x, y, wrap_angle(theta)), covariance, fit, True)
-
-    def _spread(self, last: Pose, odometry: Pose) -> Array:
-        """Covariance of a movement (3, 3): Probabilistic Robotics (Thrun, Burgard, Fox 2005), table 5.6."""
-        config = self.config
-        way = (odometry.x - last.x) ** 2 + (odometry.y - last.y) ** 2
-        turn = wrap_angle(odometry.theta - last.theta) ** 2
-        place = config.odom_alpha3 * way + config.odom_alpha4 * turn
-        return np.diag(LEAST + (place, place, config.odom_alpha1 * turn + config.odom_alpha2 * way))
-
-
-def _share_left(covariance: Array, prior: Array) -> Array:
-    """Which part (3, 3) of the error of the odometry is left in an estimate: it adds up from scan to scan.
-
-    The rest is noise of the scan. It does not add up, since all scans in sight were matched with the same map.
-
-    Args:
-        covariance: float64 (3, 3), of the estimate.
-        prior: float64 (3, 3), of what the odometry told before it.
-    """
-    held = inverted(prior)
-    seen = (inverted(covariance) - held) / INDEPENDENT
-    return np.asarray(inverted(seen + held) @ held)
-
-
-def _bounded(covariance: Array) -> Array:
-    """A covariance (3, 3), scaled so that the standard deviation of the place is at most OPEN."""
-    return covariance * min(1.0, OPEN ** 2 / max(float(covariance[0, 0] + covariance[1, 1]), OPEN ** 2))
 
 
 def _square(pose: Pose) -> Tuple[int, int]:
