@@ -9,7 +9,8 @@ from sensor_msgs.msg import BatteryState
 from std_msgs.msg import Header
 
 from rumba_sim.model.battery import Battery, BatteryConfig
-from rumba_sim.model.robot_config import LaserConfig, OdometryConfig
+from rumba_sim.model.laser_config import LaserConfig
+from rumba_sim.model.robot_config import OdometryConfig
 from rumba_sim.ros.common import conversions
 from rumba_sim.ros.common.frames import frames
 
