@@ -73,6 +73,12 @@ def test_a_printed_file_keeps_what_is_not_as_the_model_has_it():
     assert from_mapping(LaserConfig, yaml.safe_load(yaml_file.as_yaml(laser)), 'test') == laser
 
 
+@pytest.mark.parametrize('model', MODELS)
+def test_all_settings_of_a_robot_make_the_same_robot_again(model):
+    config = dataclasses.replace(RobotConfig(), laser=model_of(model, noise=0.3))
+    assert from_mapping(RobotConfig, dataclasses.asdict(config), 'test') == config
+
+
 @pytest.mark.parametrize('mapping, message', [
     ({'model': 'lds02'}, r"^here: model is 'lds02': must be ideal or rplidar_a1 or lds01 or urg04lx or tim561$"),
     ({'per_turn': 359}, r'laser/per_turn is 359: must be 0, or not below beams, 360$'),
