@@ -21,7 +21,7 @@ from rumba_cleaning.cleaning_config import CleaningConfig
 from rumba_cleaning.pose_source import Localised
 from rumba_sim.model import map_file, named_maps
 from rumba_sim.model.geometry import Pose, as_told, compose, inverse, wrap_angle
-from rumba_sim.model.robot_config import LaserConfig
+from rumba_sim.model.laser_config import LaserConfig
 from rumba_sim.model.world import World
 
 LASER = LaserConfig()

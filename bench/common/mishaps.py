@@ -2,7 +2,7 @@
 
 import math
 
-from rumba_cleaning.pose_source import scan_of_robot
+from rumba_cleaning.pose_source import due_scan
 from rumba_sim.model.world import World
 
 TRUE, COUNTED = ('x', 'y', 'theta'), ('odom_x', 'odom_y', 'odom_theta')  # fields of the record of a robot
@@ -22,7 +22,7 @@ class SilentLaser:
         trial.sources['rumba'].scans = self._scan
 
     def _scan(self, world, name):
-        return None if self.begun <= world.time < self.ended else scan_of_robot(world, name)
+        return None if self.begun <= world.time < self.ended else due_scan(world, name)
 
 
 class Slip:

@@ -160,13 +160,8 @@ export class Floor {
   paintLaser(view, robot) {
     const {scan} = robot, {context} = this;
     if (!scan) return;
-    const {x, y, theta} = scan.pose;
     context.beginPath();
-    scan.ranges.forEach((range, number) => {
-      const length = range === null ? scan.range_max : range;
-      const angle = theta + scan.angle_min + number * scan.angle_increment;
-      context.lineTo(...this.toPixel(view, x + length * Math.cos(angle), y + length * Math.sin(angle)));
-    });
+    for (const {x, y} of scan) context.lineTo(...this.toPixel(view, x, y));
     context.closePath();
     context.fillStyle = this.colour('laser');
     context.fill();

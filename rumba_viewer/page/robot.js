@@ -1,5 +1,7 @@
 // What is known of one robot, from its topics.
 
+import {outline} from './mounting.js';
+
 const TRAIL = 20000;  // points
 const RECENT = 30;  // poses that are kept, to find that of a scan
 const NEAR = 0.03;  // [m] between two points of the trail
@@ -22,10 +24,9 @@ const LEARN = {
 
 export class Robot {
   // `name` with its namespace, as in /rumba; `onNews` is called when there is something new to show.
-  constructor(link, name, onNews) {
-    this.link = link;
-    this.name = name;
-    this.onNews = onNews;
+  // `mountings` of lasers, by their frames.
+  constructor(link, name, onNews, mountings) {
+    Object.assign(this, {link, name, onNews, mountings});
     this.forget();
     link.subscribe(`${name}/ground_truth`, {throttle_rate: 100, newest: true}, msg => this.learnPose(msg));
   }
@@ -84,7 +85,7 @@ export class Robot {
     if (next < 0) return;
     const [from, to] = [recent[Math.max(next - 1, 0)], recent[next]];
     const share = to.stamp > from.stamp ? Math.min(Math.max((stamp - from.stamp) / (to.stamp - from.stamp), 0), 1) : 1;
-    this.scan = {...arrived, pose: between(from.pose, to.pose, share)};
+    this.scan = outline(between(from.pose, to.pose, share), arrived, this.mountings[arrived.header.frame_id]);
     this.arrived = null;
   }
 

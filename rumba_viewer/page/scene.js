@@ -1,6 +1,7 @@
 // What there is to show: the map, the simulator and the robots that the master knows.
 
 import {ROBOT_COLOURS} from './floor.js';
+import {mountingsIn} from './mounting.js';
 import {SAME, frameIn} from './own_map.js';
 import {Robot} from './robot.js';
 
@@ -12,11 +13,15 @@ export class Scene {
   // `onNews` is called when there is something new to show, `onResult` with the line at the end of a task.
   constructor(link, onNews, onResult) {
     Object.assign(this, {link, onNews, onResult, ownMap: null, trueMap: null, ownFrame: null, isTrueMapTold: false,
-      state: null, heard: 0, robots: [], selected: null, markers: new Map(), trouble: '',
+      mountings: {}, state: null, heard: 0, robots: [], selected: null, markers: new Map(), trouble: '',
       wanted: sessionStorage.robot});
     link.subscribe('/map', {compression: 'png', queue_length: 1}, msg => { this.ownMap = msg; onNews(); });
     link.subscribe(TRUE_MAP, {compression: 'png', queue_length: 1}, msg => { this.trueMap = msg; onNews(); });
-    link.subscribe('/tf_static', {}, msg => { this.ownFrame = frameIn(msg) ?? this.ownFrame; onNews(); });
+    link.subscribe('/tf_static', {}, msg => {
+      this.ownFrame = frameIn(msg) ?? this.ownFrame;
+      Object.assign(this.mountings, mountingsIn(msg));
+      onNews();
+    });
     link.subscribe('simulator/state', {}, msg => this.learnState(msg));
     link.subscribe('simulator/obstacles', {throttle_rate: 200, newest: true}, msg => this.learnObstacles(msg));
     setInterval(() => this.look(), LOOK);
@@ -86,7 +91,7 @@ export class Scene {
   learnRobots(names) {
     names.sort((one, other) => one.length - other.length || (one < other ? -1 : 1));
     const before = new Map(this.robots.map(robot => [robot.name, robot]));
-    this.robots = names.map(name => before.get(name) ?? new Robot(this.link, name, this.onNews));
+    this.robots = names.map(name => before.get(name) ?? new Robot(this.link, name, this.onNews, this.mountings));
     this.robots.forEach((robot, number) => {
       robot.label = robot.name.split('/').pop();
       robot.colour = ROBOT_COLOURS[number % ROBOT_COLOURS.length];

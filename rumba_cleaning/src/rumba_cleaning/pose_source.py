@@ -11,11 +11,12 @@ from rumba_localisation.localiser import Localiser, Seed
 from rumba_localisation.mapping.believed_plan import believed_plan
 from rumba_localisation.mapping.findings import Findings
 from rumba_localisation.mapping.mapper import Mapper
+from rumba_localisation.mapping.grid import placed
 from rumba_localisation.scan import Scan, scan_of
 from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.model.geometry import Pose, as_told, compose, inverse
 from rumba_sim.model.kernel import Array
-from rumba_sim.model.robot_config import TURN
+from rumba_sim.model.laser_scan import laser_scan
 from rumba_sim.model.world import World
 
 
@@ -68,7 +69,7 @@ class Localised:
     def __init__(self, plan: FloorPlan, world: World, name: str, seed: Seed = 0) -> None:
         """Have a robot of a world know a map, and where it stands now."""
         config = world.config
-        self.scans: Callable[[World, str], Optional[Scan]] = scan_of_robot
+        self.scans: Callable[[World, str], Optional[Scan]] = due_scan
         self._scanned = world.time  # [s] of the newest scan
         self.localiser = Localiser(plan, config.drive.radius, config.laser.range_max, seed=seed)
         self.localiser.start_at(world.robots[name].pose)
@@ -102,14 +103,17 @@ class Mapped(Survey):
         self._dock = dock
         self._known: Optional[Tuple[int, FloorPlan]] = None  # the newest plan, after its version
         self._frames: Tuple[int, Array] = 0, np.empty((0, 3))  # key frames, after how often the map was redrawn
-        self(world, name)
+        self._take(world, name, scan_of_robot(world, name))
 
     def __call__(self, world: World, name: str) -> Belief:
         """Scan, and see where that fits on the map."""
+        return self._take(world, name, due_scan(world, name))
+
+    def _take(self, world: World, name: str, scan: Optional[Scan]) -> Belief:
         odometry = as_told(world.robots[name].odometry)
-        scan = scan_of_robot(world, name)
         redrawn = self.mapper.redrawn
-        self.mapper.observe(odometry, scan)
+        if scan is not None:
+            self.mapper.observe(odometry, scan)
         if self.mapper.redrawn > redrawn:
             self.findings.move(self.mapper.moved)
         estimate, pose = self.mapper.estimate, self.mapper.pose(odometry)
@@ -134,18 +138,28 @@ class Mapped(Survey):
 
 
 def seeing(source: PoseSource) -> PoseSource:
-    """The same belief, with a scan in any case."""
+    """The same belief, with each scan of the laser."""
     def believe(world: World, name: str) -> Belief:
         belief = source(world, name)
-        return belief if belief.scan is not None else belief._replace(scan=scan_of_robot(world, name))
+        return belief if belief.scan is not None else belief._replace(scan=due_scan(world, name))
     return believe
 
 
+def due_scan(world: World, name: str) -> Optional[Scan]:
+    """What the laser of a robot of a world tells now; None if it tells nothing at this tick, since it turns slowly."""
+    return scan_of_robot(world, name) if world.is_scan_due else None
+
+
 def scan_of_robot(world: World, name: str) -> Scan:
-    """What the laser of a robot of a world tells, as by a sensor_msgs/LaserScan."""
-    ranges = world.scan(name).astype(np.float32)
-    return scan_of(ranges, float(np.float32(-math.pi)), float(np.float32(TURN / len(ranges))),
-                   world.config.laser.range_max)
+    """What the laser of a robot of a world sees, in the frame of the robot [m]."""
+    told, laser = laser_scan(world, name), world.config.laser
+    is_range = (told.ranges >= told.range_min) & (told.ranges <= told.range_max) | np.isinf(told.ranges)
+    seen = scan_of(np.where(is_range, told.ranges, np.float32(math.nan)), told.angle_min, told.angle_increment,
+                   told.range_max)
+    if (laser.x, laser.y, laser.yaw, laser.upside_down) == (0.0, 0.0, 0.0, False):
+        return seen
+    side = np.array([1.0, -1.0 if laser.upside_down else 1.0])
+    return Scan(*(placed(told.mounting, part * side) for part in seen))
 
 
 def _told(correction: Pose, odometry: Pose) -> Pose:

@@ -102,6 +102,30 @@ class SimulatorTopicsTest(unittest.TestCase):
         turned = heard.fresh(lambda message: abs(message.ranges[0] - 2.0) < 1e-3)
         self.assertAlmostEqual(turned.ranges[270], 3.0, delta=1e-3)
 
+    def test_a_laser_of_another_model_is_where_it_is_mounted_and_tells_what_its_driver_does(self):
+        """It looks back, upside down, from 0.1 m ahead of the centre: the wall behind is 3.1 m away, at its angle 0."""
+        simulator = Simulator(self, '_map:=field', '_speed:=10', '_laser/model:=lds01', '_laser/noise:=0',
+                              '_laser/relative_noise:=0', '_laser/relative_bias:=0', '_laser/bias:=0',
+                              '_laser/dropouts:=0', '_laser/x:=0.1', f'_laser/yaw:={math.pi}', '_laser/upside_down:=true')
+        parts = Heard(self, '/tf_static', TFMessage)
+        simulator.teleport(3.0, 2.0, 0.0)
+        heard = Heard(self, '/rumba/scan')
+        heard.fresh()
+        scan, next_scan = heard.fresh(), heard.fresh()
+        self.assertAlmostEqual((next_scan.header.stamp - scan.header.stamp).to_sec(), 0.2, places=6)
+        self.assertAlmostEqual(scan.scan_time, 0.2, places=6)
+        self.assertEqual((len(scan.ranges), scan.angle_min, scan.range_max), (360, 0.0, 3.5))
+        self.assertAlmostEqual(scan.angle_max, math.radians(359.0), places=5)
+        self.assertAlmostEqual(scan.ranges[0], 3.1, delta=2e-3)
+        self.assertAlmostEqual(scan.ranges[90], 0.0)  # to the left of the robot, nothing is within 3.5 m
+        self.assertAlmostEqual(scan.ranges[270], 2.0, delta=2e-3)
+        mounted = next(part.transform for message in parts.messages for part in message.transforms
+                       if part.child_frame_id == 'laser')
+        turn = mounted.rotation
+        self.assertAlmostEqual(mounted.translation.x, 0.1)
+        for value, wanted in zip((turn.x, turn.y, turn.z, turn.w), (0.0, 1.0, 0.0, 0.0)):
+            self.assertAlmostEqual(value, wanted)
+
     def test_messages_of_one_tick_have_the_same_stamp_and_frames_without_a_prefix(self):
         simulator = Simulator(self, '_map:=studio', '_speed:=10')
         topics = ['odom', 'ground_truth', 'scan', 'battery_state', 'bumper', 'cliff', 'dock_status', 'cleaning_status',

@@ -43,7 +43,7 @@ class Copy:
         self.plan, self.floor = world.terrain, world.floor
         self.obstacles, self.stops = world.obstacles.records, world.obstacles.stops
         angles = np.linspace(-math.pi, math.pi, 360, endpoint=False)
-        self.fan = np.stack([np.cos(angles), np.sin(angles)], axis=1)
+        self.fans = np.stack([np.cos(angles), np.sin(angles)], axis=1)[np.newaxis]
         self.docks = np.array([DOCK, (0.6, 2.2, 2.0)])
         self.noise = np.random.default_rng(2).standard_normal((len(STARTS), 64, 2))
 
@@ -74,10 +74,10 @@ class Copy:
                 functions.cliffs(self.robots, me, self.constants, self.floor.cells, cliffs)
                 seen.append((*functions.infrared(self.robots, me, self.constants, self.docks, self.plan.skips),
                              *cliffs))
-        ranges = np.empty((len(STARTS), len(self.fan)))
+        ranges = np.empty((len(STARTS), 360))
         for me in range(len(STARTS)):
-            functions.scan(self.robots, me, self.constants, self.obstacles, self.plan.skips, self.fan,
-                           self.noise.reshape(-1)[:len(self.fan)], ranges[me])
+            functions.scan(self.robots, me, self.constants, self.obstacles, self.plan.skips, self.fans,
+                           self.noise.reshape(-1)[np.newaxis, :360], 0.0, ranges[me])
         return np.concatenate(states), seen, ranges
 
 

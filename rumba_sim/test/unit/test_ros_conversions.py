@@ -5,11 +5,14 @@ import types
 
 import numpy as np
 import pytest
+import rospy
 from sensor_msgs.msg import BatteryState
 from std_msgs.msg import Header
 
 from rumba_sim.model.battery import Battery, BatteryConfig
-from rumba_sim.model.robot_config import LaserConfig, OdometryConfig
+from rumba_sim.model.config import from_mapping
+from rumba_sim.model.laser_config import LaserConfig
+from rumba_sim.model.robot_config import OdometryConfig
 from rumba_sim.ros.common import conversions
 from rumba_sim.ros.common.frames import frames
 
@@ -48,6 +51,37 @@ def test_the_angles_of_a_scan_fit_its_ranges(beams):
     assert message.angle_min == -math.pi
     assert message.angle_max == message.angle_min + (beams - 1) * message.angle_increment
     assert beams * message.angle_increment == pytest.approx(2.0 * math.pi)
+
+
+@pytest.mark.parametrize('x, y, yaw, upside_down', [
+    (0.0, 0.0, 0.0, False), (0.1, -0.05, 0.7, False), (0.1, -0.05, 0.7, True), (0.0, 0.2, -2.5, True)])
+def test_the_transform_of_the_laser_is_its_mounting(x, y, yaw, upside_down):
+    laser = LaserConfig(x=x, y=y, yaw=yaw, upside_down=upside_down)
+    base, mounted = conversions.static_transforms(frames('rumba'), rospy.Time(), 0.072, laser)
+    place, turn = mounted.transform.translation, mounted.transform.rotation
+    assert (mounted.header.frame_id, mounted.child_frame_id) == ('base_link', 'laser')
+    assert (place.x, place.y, place.z) == (x, y, 0.07) and base.transform.translation.z == 0.036
+    for angle in (0.0, 1.0, -2.0):
+        seen = rotated(turn, (math.cos(angle), math.sin(angle), 0.0))
+        there = yaw + (-angle if upside_down else angle)
+        assert seen == pytest.approx((math.cos(there), math.sin(there), 0.0))
+    assert rotated(turn, (0.0, 0.0, 1.0)) == pytest.approx((0.0, 0.0, -1.0 if upside_down else 1.0))
+
+
+def rotated(turn, vector):
+    """A vector turned by a quaternion."""
+    axis = np.array([turn.x, turn.y, turn.z])
+    across = 2.0 * np.cross(axis, vector)
+    return vector + turn.w * across + np.cross(axis, across)
+
+
+def test_the_angles_of_a_scan_are_those_of_the_laser():
+    laser = from_mapping(LaserConfig, {'model': 'urg04lx', 'clockwise': True}, 'test')
+    message = conversions.scan(np.full(682, 2.0), laser, 0.1, HEADER)
+    assert message.angle_min == pytest.approx(-340 * 2.0 * math.pi / 1024)
+    assert message.angle_increment == pytest.approx(-2.0 * math.pi / 1024)
+    assert message.angle_max == message.angle_min + 681 * message.angle_increment
+    assert (message.range_min, message.range_max, message.intensities) == (0.02, 5.6, [])
 
 
 def test_a_quaternion_turns_counter_clockwise():

@@ -1,5 +1,6 @@
 """Parts of nodes that need no master: requests, rates, diagnostics, tuning, paths."""
 
+import dataclasses
 import os
 import signal
 import threading
@@ -11,6 +12,7 @@ import rospy
 from diagnostic_updater import DiagnosticStatusWrapper
 
 from rumba_sim.model.battery import Battery, BatteryConfig
+from rumba_sim.model.config import from_mapping
 from rumba_sim.model.errors import ConfigError, MapError, WorldError
 from rumba_sim.model.name import NAME
 from rumba_sim.ros.common import maps, node, paths
@@ -140,6 +142,14 @@ def test_the_simulator_refuses_a_rate_whose_period_is_no_whole_number_of_ticks()
     with pytest.raises(ConfigError, match=r'^rates/odom is 30: must divide step_rate, 100: one of 0, 1, 2, 4, 5, '):
         Settings(step_rate=100, rates=Rates(odom=30))
     assert Settings(step_rate=60, rates=Rates(30, 10, 10, 10, 5, 0)).rates.odom == 30
+
+
+@pytest.mark.parametrize('model, step_rate, wanted, rate', [
+    ('ideal', 50, 25, 25), ('lds01', 50, 10, 5), ('lds01', 50, 2, 2), ('tim561', 60, 20, 15), ('lds01', 50, 0, 0)])
+def test_scans_come_no_more_often_than_the_laser_turns(model, step_rate, wanted, rate):
+    settings = from_mapping(Settings, {'laser': {'model': model}, 'step_rate': step_rate,
+                                       'rates': {'scan': wanted, 'odom': 1, 'battery': 1}}, 'test')
+    assert settings.paced_rates == dataclasses.replace(settings.rates, scan=rate)
 
 
 @pytest.mark.parametrize('speed', [0.0005, 5e-324, 0.00099999])

@@ -207,7 +207,7 @@ def test_a_file_of_another_version_is_refused(path):
     with open(path, 'wb') as file:
         np.savez(file, **arrays)
     with pytest.raises(WorldError, match=r'/state: was saved by another version of rumba_sim: its format is 1, must be '
-                                         '4$'):
+                                         '5$'):
         world_state.read(str(path))
 
 

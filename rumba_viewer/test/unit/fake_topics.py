@@ -15,14 +15,20 @@ class Topic:
     """A fake publisher or subscriber of rospy.
 
     Attributes:
-        opened: all of them by the name of the topic.
+        opened: all of them by the name of the topic; the newest of a name has the messages that come for the others.
     """
 
     opened = {}
 
     def __init__(self, name, kind, callback=None, queue_size=None):
-        self.kind, self.callback, self.published, self.impl = kind, callback, [], Connections()
+        self.kind, self.take, self.published, self.impl = kind, callback, [], Connections()
+        self.before = self.opened.get(name)
         self.opened[name] = self
+
+    def callback(self, message):
+        if self.before is not None and self.before.impl is not None:
+            self.before.callback(message)
+        self.take(message)
 
     def publish(self, message):
         self.published.append(message)

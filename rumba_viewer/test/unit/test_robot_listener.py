@@ -11,9 +11,12 @@ from nav_msgs.msg import Odometry
 from pytest import approx
 from sensor_msgs.msg import LaserScan
 from std_msgs.msg import Header
+from tf2_msgs.msg import TFMessage
 
 from rumba_msg.msg import BatteryStatus, CleanActionResult, CleaningStatus, CleanResult, Cliff, MissionStatus, Outcome
-from rumba_sim.ros.common.conversions import quaternion
+from rumba_sim.model.laser_config import LaserConfig
+from rumba_sim.ros.common.conversions import quaternion, static_transforms
+from rumba_sim.ros.common.frames import frames
 from rumba_viewer.ros import robot_listener
 from rumba_viewer.scene.snapshot import Size
 
@@ -92,7 +95,29 @@ def test_the_beams_of_a_scan_begin_where_the_robot_was_at_its_time(heard, topics
     topics['rumba/scan'].callback(LaserScan(
         header=Header(stamp=rospy.Time(2)), angle_min=-0.5 * math.pi, angle_increment=0.5 * math.pi, range_max=4.0,
         ranges=np.array([0.5, math.inf, -math.inf])))
-    assert heard().beams == approx(np.array([(2.5, 0.0), (2.0, 4.0), (2.0, 0.0)]))
+    assert heard().beams == approx(np.array([(2.5, 0.0), (2.0, 4.0), (2.0, 0.0), (2.0, 0.0)]))
+
+
+@pytest.mark.parametrize('upside_down, ends', [
+    (False, [(1.2, 1.5), (0.7, 2.0), (1.2, 2.5), (1.2, 2.0)]),
+    (True, [(1.2, 2.5), (0.7, 2.0), (1.2, 1.5), (1.2, 2.0)])])
+def test_the_beams_of_a_scan_begin_where_the_laser_is_mounted(heard, topics, upside_down, ends):
+    """The robot looks along x, its laser back, 0.2 m ahead of the centre; a fan with a gap ends at the laser."""
+    truth = Odometry(header=Header(stamp=rospy.Time(1)))
+    truth.pose.pose.position.x, truth.pose.pose.position.y, truth.pose.pose.orientation.w = 1.0, 2.0, 1.0
+    topics['rumba/ground_truth'].callback(truth)
+    heard.listener.subscribe_large(['scan'])
+    _, mounted = static_transforms(frames('rumba'), rospy.Time(), 0.07, LaserConfig(
+        x=0.2, yaw=math.pi, upside_down=upside_down))
+    topics['/tf_static'].callback(TFMessage([mounted]))
+    topics['/tf_static'].callback(TFMessage([]))
+    scan = LaserScan(header=truth.header, angle_min=0.5 * math.pi, angle_increment=-0.5 * math.pi, range_max=4.0,
+                     ranges=np.full(3, 0.5))
+    topics['rumba/scan'].callback(scan)
+    assert heard().beams == approx(np.array(ends))
+    scan.ranges = np.full(4, 0.5)
+    topics['rumba/scan'].callback(scan)
+    assert len(heard().beams) == 4
 
 
 SCAN = LaserScan(angle_increment=0.1, range_max=4.0, ranges=np.ones(9))

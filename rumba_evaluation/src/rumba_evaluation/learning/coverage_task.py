@@ -7,7 +7,7 @@
 Each robot has a random generator of its own: what it meets depends on its seed alone, and not on the others.
 """
 
-from typing import Dict, NamedTuple, Optional, Sequence, Tuple
+from typing import Any, Dict, NamedTuple, Optional, Sequence, Tuple
 
 import numpy as np
 
@@ -20,6 +20,7 @@ from rumba_sim.model.errors import ConfigError
 from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.model.kernel import Array
 from rumba_sim.model.kernel.brush import BEND, STRIDE
+from rumba_sim.model.laser_config import LaserConfig
 from rumba_sim.model.robot import FIRST
 from rumba_sim.model.robot_config import RobotConfig
 from rumba_sim.model.world import World
@@ -59,7 +60,7 @@ class CoverageTask:
             floors: each episode takes place on one of them.
             robots: how many, each in a world of its own.
             config: settings of the task.
-            robot: what a robot is like; the task says how many beams it has, and varies it.
+            robot: what a robot is like; the task says how many beams its field of view has, and varies it.
             threads: how many cores to use.
 
         Raises:
@@ -72,7 +73,7 @@ class CoverageTask:
         self.config = config
         self.worlds: Worlds
         self._floors = list(floors)
-        self._robot = updated(robot, {'laser': {'beams': config.beams}}, 'the task')
+        self._robot = updated(robot, {'laser': _laser(robot.laser, config.beams)}, 'the task')
         self._threads = threads
         self._generators = [np.random.default_rng() for _ in range(robots)]
         self._steps = np.zeros(robots, np.int64)
@@ -201,3 +202,9 @@ class CoverageTask:
             maps = worlds.surroundings(self.config.map_size, self.config.pitches, which)
             seen['maps'] = maps.reshape(len(robots), 2 * self.config.maps, *maps.shape[-2:])
         return seen
+
+
+def _laser(laser: LaserConfig, beams: int) -> Dict[str, Any]:
+    """Settings of a laser that has so many beams in its field of view, and tells too near from nothing there."""
+    per_turn = round(laser.per_turn * beams / laser.beams)
+    return {'beams': beams, 'per_turn': max(per_turn, beams) if per_turn else 0, 'nothing': 'rep117'}

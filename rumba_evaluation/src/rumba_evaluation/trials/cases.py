@@ -9,6 +9,7 @@ from rumba_cleaning.cleaning_config import CleaningConfig
 from rumba_cleaning.outcome import Outcome
 from rumba_sim.model.config import setting
 from rumba_sim.model.errors import ConfigError
+from rumba_sim.model.laser_config import IDEAL, MODELS
 
 TRUTH, LOCALISED, ODOMETRY, SLAM, MAPLESS = POSES = 'truth', 'localised', 'odometry', 'slam', 'mapless'
 DOCK, ANYWHERE = 'dock', 'anywhere'
@@ -42,6 +43,7 @@ class Conditions:
                             '', 0.0, 1.0)
     obstacles: str = setting('', 'path of a YAML file of obstacles that the maps do not show; robots do not know them')
     laser: bool = setting(False, 'whether robots drive around what their lasers see and the maps do not show')
+    laser_model: str = setting(IDEAL, 'laser of the robots', choices=tuple(MODELS))
     bound: float = setting(12.0, 'working time, in multiples of T, after which a mission is stopped; '
                                  f'with pose {MAPLESS} they end by themselves', '', 0.01, 1e6)
 

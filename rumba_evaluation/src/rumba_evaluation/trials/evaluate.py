@@ -27,6 +27,7 @@ from rumba_evaluation.trials.results import Results
 from rumba_sim.model import named_maps
 from rumba_sim.model.config import explain, updated
 from rumba_sim.model.errors import ConfigError, RumbaError
+from rumba_sim.model.laser_config import IDEAL, MODELS
 
 NAME = 'evaluate'
 FOLDER = 'evaluation'
@@ -90,6 +91,7 @@ def _parser() -> argparse.ArgumentParser:
     add('--obstacles', type=_path, default='', metavar='FILE',
         help='YAML file of obstacles that the maps do not show, and that the robots do not know')
     add('--laser', action='store_true', help='robots drive around what their lasers see and the maps do not show')
+    add('--laser-model', choices=tuple(MODELS), default=IDEAL, help='laser of the robots; default %(default)s')
     for field in dataclasses.fields(Conditions):
         if isinstance(field.default, float):
             add(f'--{field.name}', type=float, default=field.default,

@@ -13,7 +13,7 @@ from rumba_evaluation.scoring.ride import Ride
 from rumba_evaluation.trials import table
 from rumba_evaluation.trials.cases import LEVELS, Case, Result
 from rumba_sim.model.geometry import Pose
-from rumba_sim.model.robot_config import TURN
+from rumba_sim.model.geometry import TURN
 
 PLACES = 10  # of one kind that a person wants to read
 

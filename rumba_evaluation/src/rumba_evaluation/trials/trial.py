@@ -28,10 +28,11 @@ from rumba_evaluation.trials import starts
 from rumba_evaluation.trials.cases import ANYWHERE, LOCALISED, MAPLESS, ODOMETRY, SLAM, Conditions, Result, severity
 from rumba_sim.model.config import updated
 from rumba_sim.model.floor_plan import FloorPlan
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.geometry import TURN, Pose
+from rumba_sim.model.laser_config import IDEAL
 from rumba_sim.model.obstacle import Obstacle
 from rumba_sim.model.robot import nth_name
-from rumba_sim.model.robot_config import TURN, RobotConfig
+from rumba_sim.model.robot_config import RobotConfig
 from rumba_sim.model.world import World
 
 
@@ -52,7 +53,7 @@ class Trial:
     """
 
     def __init__(self, plan: FloorPlan, strategy: str, conditions: Conditions = Conditions(), seed: int = 0,
-                 robots: int = 1, obstacles: Sequence[Obstacle] = ()) -> None:
+                 robots: int = 1, obstacles: Sequence[Obstacle] = (), robot: RobotConfig = RobotConfig()) -> None:
         """Put charged robots on a floor plan.
 
         Args:
@@ -62,11 +63,12 @@ class Trial:
             seed: of everything that is random.
             robots: number of robots.
             obstacles: that are there from the start, and that the robots do not know.
+            robot: what a robot is like, but for what the conditions say.
 
         Raises:
             RumbaError: the strategy is unknown, there is no space for so many robots, or an obstacle is wrong.
         """
-        config = updated(RobotConfig(), {'battery': {'drain': conditions.drain}}, 'conditions')
+        config = _config(robot, conditions)
         cleaning = CleaningConfig(laser=conditions.laser)
         self._conditions = conditions
         self.world = World(plan, config, STEP_RATE, seed, obstacles)
@@ -162,6 +164,12 @@ class Trial:
         if len(messages) == 1:
             return next(iter(messages.values()))
         return '; '.join(f'{name}: {message}' for name, message in messages.items())
+
+
+def _config(robot: RobotConfig, conditions: Conditions) -> RobotConfig:
+    """What a robot is like under conditions; the ideal laser, their default, leaves the robot its own."""
+    laser = {'model': conditions.laser_model} if conditions.laser_model != IDEAL else {}
+    return updated(robot, {'battery': {'drain': conditions.drain}, 'laser': laser}, 'conditions')
 
 
 def _mission(context: Context, strategy: str, target: float) -> StagedMission:

@@ -67,19 +67,21 @@ def advance(first: int, last: int, order: Array, ticks: Array, spans: Array, rob
 
 
 def scan(first: int, last: int, order: Array, rows: Array, robots: Array, constants: Array, obstacles: Array,
-         counts: Array, plans: Array, shapes: Array, skips: Array, fan: Array, noise: Array, ranges: Array) -> None:
+         counts: Array, plans: Array, shapes: Array, skips: Array, fans: Array, noise: Array, biases: Array,
+         ranges: Array) -> None:
     """Measure with the laser of each robot.
 
     Args, apart from those above:
-        fan: float64 (beams, 2), as for the kernel.
-        noise: float64 (any, beams), standard normal.
+        fans: float64 (1 or 3, beams, 2), as for the kernel.
+        noise: float64 (any, 1 or 2, beams), as for the kernel.
+        biases: float64 (any), systematic errors of the lasers, in their standard deviations.
         ranges: float64 (any, beams), receives the measured distances.
     """
     for index in range(first, last):
         world, row = order[index], rows[index]
         alone = slice(world, world + 1)
         laser.scan(robots[alone], 0, constants[alone], obstacles[world, :counts[world]],
-                   floor_of(skips[plans[world]], shapes[world]), fan, noise[row], ranges[row])
+                   floor_of(skips[plans[world]], shapes[world]), fans, noise[row], biases[row], ranges[row])
 
 
 def infrared(first: int, last: int, order: Array, rows: Array, robots: Array, constants: Array, plans: Array,

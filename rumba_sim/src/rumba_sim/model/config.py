@@ -3,7 +3,7 @@
 import dataclasses
 import difflib
 import math
-from typing import Any, Iterator, List, Mapping, Optional, Sequence, Tuple, Type, TypeVar
+from typing import Any, Dict, Iterator, List, Mapping, Optional, Sequence, Tuple, Type, TypeVar
 
 from rumba_sim.model.errors import ConfigError, quoted
 
@@ -14,7 +14,7 @@ Field = Any  # of dataclasses.Field: Python 3.8 cannot subscript it at run time
 
 
 def setting(default: Any, doc: str, unit: str = '', low: Optional[float] = None, high: Optional[float] = None,
-            choices: Sequence[str] = ()) -> Any:
+            choices: Sequence[str] = (), presets: Optional[Mapping[str, Mapping[str, Any]]] = None) -> Any:
     """A dataclass field that a user may set.
 
     Args:
@@ -24,9 +24,12 @@ def setting(default: Any, doc: str, unit: str = '', low: Optional[float] = None,
         low: smallest allowed number; None for any finite number.
         high: largest allowed number; None for any finite number.
         choices: the texts that are allowed; empty for any. The Booleans of YAML count as 'true' and 'false' here.
+        presets: the texts that are allowed, each with values of other settings of its section. Whoever gives one of
+            the texts gives all settings that have a value in any preset: those not in its own get their defaults.
     """
     return dataclasses.field(default=default, metadata={'doc': doc, 'unit': unit, 'low': low, 'high': high,
-                                                        'choices': choices})
+                                                        'choices': choices or tuple(presets or ()),
+                                                        'presets': presets or {}})
 
 
 def section(cls: type, doc: str) -> Any:
@@ -111,7 +114,24 @@ def _updated(settings: Settings, mapping: Mapping[str, Any], path: str) -> Setti
             changes[name] = _updated(getattr(settings, name), value, f'{path}{name}/')
         else:
             changes[name] = _checked(fields[name], value, path)
-    return dataclasses.replace(settings, **changes)
+    chosen = [field for field in fields.values() if field.name in changes]
+    return dataclasses.replace(settings, **{**_preset(type(settings), chosen, changes), **changes})
+
+
+def values_by_presets(settings: Any) -> Dict[str, Any]:
+    """What settings of a section are by the presets that others of its settings name."""
+    return _preset(type(settings), dataclasses.fields(settings), vars(settings))
+
+
+def _preset(cls: type, chosen: Sequence[Field], values: Mapping[str, Any]) -> Dict[str, Any]:
+    """What the values of some fields of a class, by their names, set other fields to."""
+    defaults = {field.name: field.default for field in dataclasses.fields(cls)}
+    preset = {}
+    for field in chosen:
+        presets = field.metadata.get('presets', {})
+        preset.update({name: presets[values[field.name]].get(name, defaults[name])
+                       for each in presets.values() for name in each})
+    return preset
 
 
 def nearest(name: Any, known: List[str]) -> str:

@@ -48,7 +48,22 @@ class Constants(NamedTuple):
     overlap_half: float  # half of the angle in which a contact presses both switches [rad]
     range_min: float  # [m]
     range_max: float  # [m]
-    range_noise: float  # standard deviation of a range [m]
+    range_noise: float  # standard deviation of a range, at least [m]
+    relative_noise: float  # and in proportion to the range
+    range_bias: float  # standard deviation among lasers of their systematic errors, at least [m]
+    relative_bias: float  # and in proportion to the range
+    range_step: float  # ranges are multiples of it [m]; 0: they are any numbers
+    too_far: float  # what is told instead of a range if there is no echo [m]
+    too_near: float  # and for less than range_min [m]
+    dropouts: float  # probability that an echo is missed
+    sure_range: float  # up to this range [m]; it rises to 1 at range_max
+    beam_width: float  # angle that a beam covers [rad]
+    mixing_depth: float  # surfaces that are farther apart do not mix [m]
+    laser_x: float  # where the laser is, frame of the robot [m]
+    laser_y: float
+    first_beam: float  # direction of the first beam, frame of the robot [rad]
+    beam_step: float  # angle from beam to beam, frame of the robot [rad]
+    beams_per_turn: int  # so many of them are a full turn
     # dock
     contact_distance: float  # the contacts close at or below [m]
     contact_angle: float  # and [rad]
@@ -119,6 +134,11 @@ def _values(config: RobotConfig, plan: FloorPlan, step_rate: float) -> Constants
         cliff_hold=round(config.cliff.hold * step_rate),
         bumper_half=0.5 * bumper.field, overlap_half=0.5 * bumper.overlap,
         range_min=laser.range_min, range_max=laser.range_max, range_noise=laser.noise,
+        relative_noise=laser.relative_noise, range_bias=laser.bias, relative_bias=laser.relative_bias,
+        range_step=laser.resolution, too_far=laser.too_far, too_near=laser.too_near, dropouts=laser.dropouts,
+        sure_range=laser.sure_range, beam_width=laser.beam_width, mixing_depth=laser.mixing_depth,
+        laser_x=laser.x, laser_y=laser.y, first_beam=laser.first_in_robot, beam_step=laser.step_in_robot,
+        beams_per_turn=laser.beams_in_turn,
         contact_distance=dock.contact_distance, contact_angle=dock.contact_angle,
         release_distance=dock.release_distance, release_angle=dock.release_angle, buoy_range=dock.buoy_range,
         buoy_half=0.5 * dock.buoy_field, buoy_overlap_half=0.5 * dock.buoy_overlap, halo=dock.halo,

@@ -5,6 +5,8 @@ from typing import NamedTuple, Tuple
 
 from rumba_sim.model.kernel.geometry import wrap
 
+TURN = 2.0 * math.pi  # [rad]
+
 
 class Pose(NamedTuple):
     """Position and heading: x and y [m], theta [rad] in (-pi, pi]."""

@@ -12,8 +12,8 @@ from typing import Tuple
 from rumba_sim.model.battery import BatteryConfig
 from rumba_sim.model.config import section, setting
 from rumba_sim.model.errors import ConfigError
-
-TURN = 2.0 * math.pi
+from rumba_sim.model.geometry import TURN
+from rumba_sim.model.laser_config import LaserConfig
 
 
 @dataclasses.dataclass(frozen=True)
@@ -75,16 +75,6 @@ class CliffConfig:
     def angles(self) -> Tuple[float, float, float, float]:
         """Of the left, front left, front right and right sensor, from straight ahead [rad]."""
         return self.outer_angle, self.inner_angle, -self.inner_angle, -self.outer_angle
-
-
-@dataclasses.dataclass(frozen=True)
-class LaserConfig:
-    """A laser scanner on top, in the centre, that sees all around (no Roomba of the 600 series has one)."""
-
-    beams: int = setting(360, 'number of beams in a full turn, evenly spread', '', 1, 10000)
-    range_min: float = setting(0.12, 'shorter ranges are reported as -inf', 'm', 0.0, 10.0)
-    range_max: float = setting(8.0, 'longer ranges are reported as +inf', 'm', 0.1, 1000.0)
-    noise: float = setting(0.01, 'standard deviation of a range (our choice: that of a cheap scanner)', 'm', 0.0, 1.0)
 
 
 @dataclasses.dataclass(frozen=True)

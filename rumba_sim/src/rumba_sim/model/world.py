@@ -17,6 +17,7 @@ from rumba_sim.model.free_space import FreeSpace
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.kernel import Array
 from rumba_sim.model.kernel.records import ROBOT
+from rumba_sim.model.laser_config import LaserConfig
 from rumba_sim.model.noise import FLOOR, NOISE_TICKS, Noise, generator
 from rumba_sim.model.obstacle import Obstacle
 from rumba_sim.model.obstacles import Obstacles, check_inside, kept_clear
@@ -44,7 +45,7 @@ class World:
         robots: robots by name, in the order in which they were added.
         obstacles: what else stands or moves there; `add_obstacle` and `remove_obstacle` change it.
         tick: number of ticks since the beginning or the last reset.
-        fan: directions of the laser's beams in the frame of a robot: float64 (beams, 2), unit vectors.
+        fans: directions of the laser's beams in the frame of a robot, as for the kernel.
         version: grows whenever arrays of the world are replaced, or one of its constants changes.
     """
 
@@ -83,7 +84,7 @@ class World:
                                 float(self.constants[0]['reach']))
         self.start = self._space.start
         self.noise = Noise(seed)
-        self.fan = _fan(self._config.laser.beams)
+        self.fans = _fans(self._config.laser)
         self._docks: Array = np.reshape(np.array(plan.docks, np.float64), (-1, 3))
         self._begin()
 
@@ -172,7 +173,7 @@ class World:
         self._config = config
         self._states['charge'] = np.minimum(self._states['charge'], config.battery.capacity)
         self._take(self._states)  # robots that were far apart may meet sooner now
-        self.fan = _fan(config.laser.beams)
+        self.fans = _fans(config.laser)
         for member in self.robots.values():
             member.config = config
 
@@ -288,19 +289,27 @@ class World:
     # --- sensors --------------------------------------------------------------------------------------------------
 
     def scan(self, name: str) -> Array:
-        """Ranges that the laser of a robot measures: float64 (beams) [m], counter-clockwise from straight back.
+        """Ranges that the laser of a robot tells: float64 (beams) [m], from its first beam on.
 
-        A range is +inf if nothing is within range_max, and -inf if something is nearer than range_min (REP 117).
+        By default, they go counter-clockwise from straight back, and a range is +inf if nothing is within range_max,
+        and -inf if something is nearer than range_min (REP 117); see `LaserConfig`.
 
         Raises:
             WorldError: there is no robot of that name.
         """
         index = self._index(name)
-        ranges, noise = np.empty(len(self.fan)), np.empty(len(self.fan))
+        laser = self._config.laser
+        ranges, noise = np.empty(laser.beams), np.empty((laser.draws, laser.beams))
         self.noise.draw_laser(index, noise)
-        fast.scan(self._states, index, self.constants, self.obstacles.records, self.terrain.skips, self.fan, noise,
-                  ranges)
+        fast.scan(self._states, index, self.constants, self.obstacles.records, self.terrain.skips, self.fans, noise,
+                  self.noise.biases[index], ranges)
         return ranges
+
+    @property
+    def is_scan_due(self) -> bool:
+        """Whether lasers, which turn only so fast, tell a scan at this tick; they do at the first."""
+        step_rate = int(self.step_rate)
+        return (self.tick - 1) % (step_rate // self._config.laser.rate_at(step_rate)) == 0
 
     def infrared(self, name: str) -> Infrared:
         """What the receivers of a robot get from the docks.
@@ -384,10 +393,11 @@ class World:
         return world
 
 
-def _fan(beams: int) -> Array:
-    """Directions of the laser's beams in the frame of the robot: float64 (beams, 2).
+def _fans(laser: LaserConfig) -> Array:
+    """Directions of the laser's beams in the frame of the robot: float64 (1 or 3, beams, 2).
 
     Sines of NumPy depend on its version and on the processor.
     """
-    angles = [beam * (2.0 * math.pi / beams) - math.pi for beam in range(beams)]
-    return np.array([(math.cos(angle), math.sin(angle)) for angle in angles])
+    angles = [[beam * laser.step_in_robot + (laser.first_in_robot + off) for beam in range(laser.beams)]
+              for off in laser.offsets]
+    return np.array([[(math.cos(angle), math.sin(angle)) for angle in fan] for fan in angles])

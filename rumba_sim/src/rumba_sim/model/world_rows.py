@@ -18,7 +18,6 @@ class WorldRows:
 
     Attributes, apart from those:
         reachable: int64 (worlds), how many samples can be reached.
-        fan: directions of the beams, the same in all worlds.
     """
 
     def __init__(self, worlds: Sequence[World]) -> None:
@@ -38,7 +37,6 @@ class WorldRows:
         self.counts, self.plans, self.reachable = np.zeros((3, number), np.int64)
         self.moving = np.zeros(number, np.bool_)
         self.shapes = np.zeros((number, 3), np.int64)
-        self.fan = worlds[0].fan
         most = max(world.terrain.skips.size for world in plans.values())
         nodes = max(world.terrain.clearance.size for world in plans.values())
         self.fields: Array = np.zeros((len(plans), nodes))

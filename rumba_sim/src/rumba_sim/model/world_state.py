@@ -20,7 +20,7 @@ from rumba_sim.model.obstacle import Obstacle, Stop
 from rumba_sim.model.regular_file import opened
 from rumba_sim.model.robot import Start
 
-FORMAT, VERSION = 'world of rumba_sim', 4
+FORMAT, VERSION = 'world of rumba_sim', 5
 HEADER = 'header'
 
 
@@ -31,6 +31,7 @@ class Member(NamedTuple):
     start: Start
     wheels: Mapping[str, Any]  # state of the bit generator of its wheels
     laser: Mapping[str, Any]  # and of that of its laser
+    bias: float  # systematic error of its laser, in its standard deviations
 
 
 class WorldState(NamedTuple):
@@ -183,7 +184,8 @@ def _state(header: Mapping[str, Any], arrays: Dict[str, Array]) -> WorldState:
     for each in header['members']:
         pose, charge, brushes_up = each['start']
         start = Start(_pose(*pose), float(charge), bool(brushes_up))
-        members.append(Member(str(each['name']), start, dict(each['wheels']), dict(each['laser'])))
+        members.append(Member(str(each['name']), start, dict(each['wheels']), dict(each['laser']),
+                              float(each['bias'])))
     obstacles = [_obstacle(*each) for each in header['obstacles']]
     return WorldState(dict(header['origin']), _count(header['tick']), _count(header['spawned']), members, obstacles,
                       arrays, str(header['digest']))

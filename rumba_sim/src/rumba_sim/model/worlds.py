@@ -57,7 +57,7 @@ class Worlds:
             threads: how many cores to use.
 
         Raises:
-            WorldError: there is no world, one has no robot or several, or lasers differ in their number of beams.
+            WorldError: there is no world, one has no robot or several, or lasers differ in their beams.
         """
         if not worlds:
             raise WorldError('there is no world: give at least one')
@@ -149,11 +149,14 @@ class Worlds:
         """
         order, rows = self._order(which)
         here = self._rows
-        ranges, noise = np.empty((2, len(order), len(self._rows.fan)))
+        laser = self[0].config.laser
+        ranges, noise = np.empty((len(order), laser.beams)), np.empty((len(order), laser.draws, laser.beams))
+        biases = np.empty(len(order))
         for row, index in zip(rows.tolist(), order.tolist()):
             self._worlds[index].noise.draw_laser(0, noise[row])
+            biases[row] = self._worlds[index].noise.biases[0]
         self._run(many.scan, order, rows, here.robots, here.constants, here.obstacles, here.counts, here.plans,
-                  here.shapes, here.skips, here.fan, noise, ranges)
+                  here.shapes, here.skips, self[0].fans, noise, biases, ranges)
         return ranges
 
     def infrared(self, which: Optional[Array] = None) -> Array:
@@ -261,10 +264,13 @@ def _check(world: World, like: World) -> None:
     """Refuse a world that cannot be among others such as `like`.
 
     Raises:
-        WorldError: it has no robot, or several, or another number of beams.
+        WorldError: it has no robot, or several, or other beams.
     """
     if len(world.robots) != 1:
         raise WorldError(f'a world has {len(world.robots)} robots: each must have one')
     if world.config.laser.beams != like.config.laser.beams:
         raise WorldError(f'laser/beams is {world.config.laser.beams} in one world and {like.config.laser.beams} in '
                          'another: must be the same in all of them')
+    if world.config.laser.draws != like.config.laser.draws or not np.array_equal(world.fans, like.fans):
+        raise WorldError(f'the lasers {world.config.laser.model} and {like.config.laser.model} have other beams: must '
+                         'be the same in all of them')

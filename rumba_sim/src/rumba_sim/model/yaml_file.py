@@ -75,15 +75,21 @@ def document(settings: Any) -> str:
 
 
 def as_yaml(settings: Any, indent: str = '') -> str:
-    """Settings as YAML, each after a comment with its meaning, range and unit."""
+    """Settings as YAML, each after a comment with its meaning, range and unit.
+
+    What is as a preset has it stays a comment: otherwise it would override another preset that a user chooses.
+    """
     lines = []
+    by_preset = config.values_by_presets(settings)
     for field in config.sections_last(type(settings)):
         value = getattr(settings, field.name)
         if 'section' in field.metadata:
             lines += ['', *_comment(field.metadata['doc'], indent), f'{indent}{field.name}:',
                       as_yaml(value, indent + '  ')]
         else:
-            lines += [*_comment(config.explain(field), indent), f'{indent}{field.name}: {_scalar(value)}']
+            is_preset = field.name in by_preset and by_preset[field.name] == value
+            lines += [*_comment(config.explain(field), indent),
+                      f'{indent}{"# " if is_preset else ""}{field.name}: {_scalar(value)}']
     return '\n'.join(lines)
 
 

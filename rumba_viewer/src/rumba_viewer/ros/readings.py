@@ -18,10 +18,10 @@ from visualization_msgs.msg import Marker, MarkerArray
 
 from rumba_msg.msg import CleaningStatus, GoToActionGoal, MissionStatus, SimulatorState
 from rumba_sim.model.errors import RumbaError, one_line, quoted
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.geometry import TURN, Pose, compose
 from rumba_sim.model.map_image import MAX_PIXELS
 from rumba_sim.model.obstacle import LASER_HEIGHT
-from rumba_sim.ros.common.conversions import map_pose, plane_pose
+from rumba_sim.ros.common.conversions import map_pose, plane_pose, transform_pose
 from rumba_viewer.scene.snapshot import GOING_TO, YIELDING, Array, Battery, Cleaning, Grid, Mission, Obstacle, Point
 
 FAR = 1e7  # [m] larger coordinates are not valid
@@ -54,17 +54,27 @@ class Reading(NamedTuple):
     pose: Pose
 
 
+class Mounting(NamedTuple):
+    """Where a laser is on its robot: its pose in the frame of the robot, and whether it is upside down."""
+
+    pose: Pose
+    upside_down: bool
+
+
 class Scan(NamedTuple):
-    """What a laser measured at a time [s]: ranges (n,) [m] and angles (n,) [rad] from the heading of the robot."""
+    """What a laser measured at a time [s]: ranges (n,) [m] and angles (n,) [rad], in its own frame."""
 
     stamp: float
     ranges: Array
     angles: Array
+    is_round: bool  # whether it sees all around
 
-    def ends(self, pose: Pose) -> Array:
-        """Ends of the beams (n, 2) [m], seen from a pose."""
-        angles = pose.theta + self.angles
-        return np.stack([pose.x + self.ranges * np.cos(angles), pose.y + self.ranges * np.sin(angles)], axis=1)
+    def outline(self, robot: Pose, mounting: Mounting) -> Array:
+        """The outline (any, 2) [m] of what it sees: the ends of its beams, and the laser itself if there is a gap."""
+        x, y, theta = compose(robot, mounting.pose)
+        angles = theta - self.angles if mounting.upside_down else theta + self.angles
+        ends = np.stack([x + self.ranges * np.cos(angles), y + self.ranges * np.sin(angles)], axis=1)
+        return ends if self.is_round else np.append(ends, [(x, y)], axis=0)
 
 
 class State(NamedTuple):
@@ -175,7 +185,21 @@ def scan(message: Any) -> Scan:
     shown = np.arange(0, count, -(-count // MOST_BEAMS))
     ranges = np.nan_to_num(np.asarray(message.ranges, float)[shown], nan=0.0)
     return Scan(message.header.stamp.to_sec(), np.clip(ranges, 0.0, message.range_max),
-                message.angle_min + shown * message.angle_increment)
+                message.angle_min + shown * message.angle_increment,
+                abs((count + 0.5) * message.angle_increment) > TURN)
+
+
+def mounting(message: TFMessage, frame: str) -> Optional[Mounting]:
+    """Where the laser of a frame is mounted; None if the message does not tell it.
+
+    Raises:
+        OddMessage: it is not finite, or is too far away.
+    """
+    link = next((link.transform for link in message.transforms if link.child_frame_id == frame), None)
+    if link is None:
+        return None
+    turn = link.rotation
+    return Mounting(_checked(transform_pose(link)), turn.x * turn.x + turn.y * turn.y > 0.5)
 
 
 def grid(message: Any) -> Grid:

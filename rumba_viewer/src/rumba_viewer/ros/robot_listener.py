@@ -10,13 +10,15 @@ from geometry_msgs.msg import PoseArray, PoseWithCovarianceStamped
 from nav_msgs.msg import OccupancyGrid, Odometry, Path
 from rospy.numpy_msg import numpy_msg
 from sensor_msgs.msg import BatteryState, LaserScan
+from tf2_msgs.msg import TFMessage
 
 from rumba_msg.msg import (BatteryStatus, Bumper, CleanActionResult, CleaningStatus, Cliff, GoToActionGoal,
                            MissionStatus, Outcome)
 from rumba_sim.model.errors import one_line
 from rumba_sim.model.geometry import Pose
+from rumba_sim.ros.common.frames import frames
 from rumba_viewer.ros import readings
-from rumba_viewer.ros.readings import Reading, Scan
+from rumba_viewer.ros.readings import Mounting, Reading, Scan
 from rumba_viewer.ros.subscription import Subscription
 from rumba_viewer.scene.mission_watch import MissionWatch
 from rumba_viewer.scene.snapshot import GOING_TO, Array, Battery, Cleaning, Grid, Mission, Point, Robot, Size
@@ -75,17 +77,18 @@ class Known:
     destination: Optional[Point] = None
     coverage: Optional[Grid] = None
     scan: Optional[Scan] = None
+    mounting: Mounting = Mounting(Pose(0.0, 0.0, 0.0), False)
     believed: Optional[Pose] = None
     particles: Optional[Array] = None
     planned: Optional[Array] = None
 
     def beams(self) -> Optional[Array]:
-        """Ends of the laser's beams (n, 2) [m], seen from where the robot was when it measured them."""
+        """The outline (any, 2) [m] of what the laser sees, from where the robot was when it measured that."""
         scan = self.scan
         if scan is None or not self.recent:
             return None
         stamp = scan.stamp
-        return scan.ends(min(self.recent, key=lambda one: abs(one.stamp - stamp)).pose)
+        return scan.outline(min(self.recent, key=lambda one: abs(one.stamp - stamp)).pose, self.mounting)
 
 
 class RobotListener:
@@ -108,10 +111,13 @@ class RobotListener:
                                      lambda message: int(message.result.outcome.code), self._on_result, queue_size=10)
         self._goals = Subscription(f'{name}/go_to/goal', GoToActionGoal, readings.destination,
                                    lambda point: self._learn(destination=point), queue_size=10)
+        laser = frames(name).laser
+        self._parts = Subscription('/tf_static', TFMessage, lambda message: readings.mounting(message, laser),
+                                   self._on_mounting, queue_size=10)
 
     def close(self) -> None:
         """Stop listening."""
-        subscriptions: List[Subscription[Any]] = [self._truth, self._results, self._goals,
+        subscriptions: List[Subscription[Any]] = [self._truth, self._results, self._goals, self._parts,
                                                   *self._subscriptions.values()]
         for subscription in subscriptions:
             subscription.close()
@@ -171,6 +177,11 @@ class RobotListener:
         """
         if code != Outcome.REFUSED:
             self._learn(can_resume=None if code == Outcome.NO_READINGS else code in INTERRUPTED)
+            self._on_news()
+
+    def _on_mounting(self, mounting: Optional[Mounting]) -> None:
+        if mounting is not None:  # many nodes publish on this topic
+            self._learn(mounting=mounting)
             self._on_news()
 
     def _learn(self, **changes: Any) -> None:

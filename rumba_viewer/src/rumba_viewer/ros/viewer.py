@@ -11,7 +11,7 @@ Subscribes, for each robot that publishes a ground_truth, below its name:
   go_to/goal       rumba_msg/GoToActionGoal
 for the selected robot also
   coverage         nav_msgs/OccupancyGrid     scan             sensor_msgs/LaserScan, while the laser is shown
-and to /map (nav_msgs/OccupancyGrid) and simulator/state (rumba_msg/SimulatorState)
+to /tf_static (tf2_msgs/TFMessage), /map (nav_msgs/OccupancyGrid) and simulator/state (rumba_msg/SimulatorState)
 Publishes for the selected robot
   teleop/cmd_vel   geometry_msgs/Twist, while a key drives
 Calls

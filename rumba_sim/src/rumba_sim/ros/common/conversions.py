@@ -16,8 +16,9 @@ from rumba_msg.msg import BatteryStatus, Bumper, CleaningStatus, Cliff, DockStat
 from rumba_sim.model.battery import CELLS, Battery
 from rumba_sim.model.geometry import Pose, half_angle, yaw
 from rumba_sim.model.kernel import Array
+from rumba_sim.model.laser_config import LaserConfig
 from rumba_sim.model.robot import Infrared, Robot
-from rumba_sim.model.robot_config import TURN, LaserConfig, OdometryConfig
+from rumba_sim.model.robot_config import OdometryConfig
 from rumba_sim.ros.common.frames import MAP, WORLD, Frames
 
 if TYPE_CHECKING:  # with numba and SciPy, they take longer to import than all the rest of battery_status_publisher
@@ -113,19 +114,23 @@ def transform(frame: str, child: str, pose: Pose, stamp: object, height: float =
                             Transform(Vector3(pose.x, pose.y, height), quaternion(pose.theta)))
 
 
-def static_transforms(frames: Frames, stamp: object, wheel_diameter: float) -> List[TransformStamped]:
+def static_transforms(frames: Frames, stamp: object, wheel_diameter: float,
+                      laser: LaserConfig) -> List[TransformStamped]:
     """The parts of a robot that do not move against each other: base_link lies in the axle of its wheels [m]."""
-    here = Pose(0.0, 0.0, 0.0)
-    return [transform(frames.base_footprint, frames.base_link, here, stamp, 0.5 * wheel_diameter),
-            transform(frames.base_link, frames.laser, here, stamp, LASER_HEIGHT)]
+    mounted = transform(frames.base_link, frames.laser, Pose(laser.x, laser.y, laser.yaw), stamp, LASER_HEIGHT)
+    if laser.upside_down:  # by half a turn about its x axis before it is turned about z
+        sin, cos = half_angle(laser.yaw)
+        mounted.transform.rotation = Quaternion(cos, sin, 0.0, 0.0)
+    return [transform(frames.base_footprint, frames.base_link, Pose(0.0, 0.0, 0.0), stamp, 0.5 * wheel_diameter),
+            mounted]
 
 
 def scan(ranges: Array, config: LaserConfig, period: float, header: Header) -> LaserScan:
-    """Ranges (beams) [m], counter-clockwise from straight back, all taken at the header's stamp."""
-    increment = TURN / len(ranges)
+    """Ranges (beams) [m] from the first beam of a laser on, all taken at the header's stamp."""
     return LaserScan(
-        header=header, angle_min=-math.pi, angle_max=-math.pi + (len(ranges) - 1) * increment,
-        angle_increment=increment, time_increment=0.0, scan_time=period, range_min=config.range_min,
+        header=header, angle_min=config.first_angle,
+        angle_max=config.first_angle + (len(ranges) - 1) * config.increment,
+        angle_increment=config.increment, time_increment=0.0, scan_time=period, range_min=config.range_min,
         range_max=config.range_max, ranges=ranges.tolist(), intensities=[])
 
 

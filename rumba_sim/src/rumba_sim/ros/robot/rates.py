@@ -30,7 +30,7 @@ class Rates:
 
     odom: int = setting(50, 'odom, and the transforms of odom and map', 'Hz', 0, MAX_RATE)
     ground_truth: int = setting(10, 'ground_truth', 'Hz', 0, MAX_RATE)
-    scan: int = setting(10, 'scan', 'Hz', 0, MAX_RATE)
+    scan: int = setting(10, 'scan, no more often than laser/rate', 'Hz', 0, MAX_RATE)
     sensors: int = setting(10, 'bumper, cliff, dock_status and battery_state', 'Hz', 0, MAX_RATE)
     battery: int = setting(5, 'battery_status', 'Hz', 0, MAX_RATE)
     cleaning: int = setting(1, 'cleaning_status and coverage', 'Hz', 0, MAX_RATE)

@@ -232,7 +232,8 @@ class RobotNode:
 
     def static_transforms(self) -> List[TransformStamped]:
         """The parts of the robot that do not move against each other."""
-        return conversions.static_transforms(self._frames, self._stamp, self._robot.config.drive.wheel_diameter)
+        config = self._robot.config
+        return conversions.static_transforms(self._frames, self._stamp, config.drive.wheel_diameter, config.laser)
 
     def _coverage_message(self) -> OccupancyGrid:
         return conversions.grid(self._world.plan, self._world.swept(), self._stamp, self._frame)

@@ -84,7 +84,7 @@ class Fleet:
     def publish(self, due: Due, keep_transforms: bool = False) -> None:
         """Publish what is due; transforms that are kept are published with those of a later tick."""
         for robot in self._robots.values():
-            robot.publish(due, self.settings.rates, self._stamp())
+            robot.publish(due, self.settings.paced_rates, self._stamp())
         if due.scan:
             for name, anchor in self._anchors.items():
                 anchor.note(self._stamp(), self._world.robots[name].pose)
@@ -132,7 +132,7 @@ class Fleet:
             self._world.kill(name)
             raise
         if self._is_held():  # whoever works for the robot shall be able to answer
-            self._robots[name].publish(EVERYTHING, self.settings.rates, self._stamp())
+            self._robots[name].publish(EVERYTHING, self.settings.paced_rates, self._stamp())
             self._tf.publish(packed.transforms(self._transforms()))
         return name
 

@@ -1,6 +1,7 @@
 """The parameters of the simulator: properties of the robots, and how the node runs."""
 
 import dataclasses
+import functools
 
 import rosgraph
 
@@ -69,6 +70,11 @@ class Settings(RobotConfig):
     def told(self) -> 'Settings':
         """What nodes may know of the settings: in an examination not what makes this world differ from others."""
         return dataclasses.replace(self, seed=0, obstacles='', state='') if self.exam else self
+
+    @functools.cached_property
+    def paced_rates(self) -> Rates:
+        """The rates, with scans no more often than the laser turns."""
+        return dataclasses.replace(self.rates, scan=min(self.rates.scan, self.laser.rate_at(self.step_rate)))
 
     @property
     def robot(self) -> RobotConfig:

@@ -197,7 +197,7 @@ class Simulator:
         self._fleet.apply_commands()
         self._world.step()
         self._ticks += 1
-        due = self._settings.rates.due(self._ticks, self._settings.step_rate)
+        due = self._settings.paced_rates.due(self._ticks, self._settings.step_rate)
         is_bundled = not due.sensors and self._is_bundled
         self._pace.tick(is_told=not is_bundled)
         self._fleet.publish(due, keep_transforms=is_bundled)

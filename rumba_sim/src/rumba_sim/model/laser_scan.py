@@ -1,0 +1,34 @@
+"""What the laser of a robot of a world tells, as a driver of one tells it."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from rumba_sim.model.geometry import Pose
+from rumba_sim.model.kernel import Array
+from rumba_sim.model.world import World
+
+
+class LaserScan(NamedTuple):
+    """A sensor_msgs/LaserScan with the same numbers, which are those of a float32, and where the laser is mounted."""
+
+    ranges: Array  # float32 (beams) [m]
+    angle_min: float  # of the first beam, frame of the laser [rad]
+    angle_increment: float  # from beam to beam [rad]
+    range_min: float  # [m]
+    range_max: float  # [m]
+    mounting: Pose  # of the laser, frame of the robot [m, rad]
+    upside_down: bool  # whether angles of the laser grow clockwise there
+
+
+def laser_scan(world: World, name: str) -> LaserScan:
+    """Measure with the laser of a robot of a world.
+
+    Raises:
+        WorldError: there is no robot of that name.
+    """
+    laser = world.config.laser
+    angle_min, increment, range_min, range_max = (
+        float(np.float32(value)) for value in (laser.first_angle, laser.increment, laser.range_min, laser.range_max))
+    return LaserScan(world.scan(name).astype(np.float32), angle_min, increment, range_min, range_max,
+                     Pose(laser.x, laser.y, laser.yaw), laser.upside_down)
