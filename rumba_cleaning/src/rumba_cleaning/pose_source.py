@@ -1,6 +1,5 @@
 """Where a robot in process believes to be: by the truth, by its odometry alone, or by a localisation."""
 
-import math
 from typing import Any, Callable, Dict, NamedTuple, Optional, Tuple
 
 import numpy as np
@@ -11,11 +10,11 @@ from rumba_localisation.localiser import Localiser, Seed
 from rumba_localisation.mapping.believed_plan import believed_plan
 from rumba_localisation.mapping.findings import Findings
 from rumba_localisation.mapping.mapper import Mapper
-from rumba_localisation.mapping.grid import placed
-from rumba_localisation.scan import Scan, scan_of
+from rumba_localisation.scan import SILENT, Mounting, Reading, Scan, scan_of
 from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.model.geometry import Pose, as_told, compose, inverse
 from rumba_sim.model.kernel import Array
+from rumba_sim.model.laser_config import IDEAL, LaserConfig
 from rumba_sim.model.laser_scan import laser_scan
 from rumba_sim.model.world import World
 
@@ -78,9 +77,10 @@ class Localised:
         """Scan, and see where that fits."""
         odometry = as_told(world.robots[name].odometry)
         scan = self.scans(world, name)
-        self.localiser.observe(odometry, None if scan is None else scan.points)
         if scan is not None:
             self._scanned = world.time
+        if scan is not None or world.time - self._scanned > SILENT:
+            self.localiser.observe(odometry, scan)
         estimate = self.localiser.estimate
         pose = compose(as_told(self.localiser.correction), odometry)
         return Belief(pose, UNKNOWN if estimate is None else _rows(estimate.covariance), scan,
@@ -98,7 +98,7 @@ class Mapped(Survey):
     def __init__(self, world: World, name: str, dock: Optional[Pose] = None) -> None:
         """Begin with a first scan of a robot of a world; its true pose defines the map frame, in which the dock is."""
         config = world.config
-        self.mapper = Mapper(world.robots[name].pose, radius=config.drive.radius, range_max=config.laser.range_max)
+        self.mapper = Mapper(world.robots[name].pose)
         self.findings = Findings(config)
         self._dock = dock
         self._known: Optional[Tuple[int, FloorPlan]] = None  # the newest plan, after its version
@@ -151,15 +151,15 @@ def due_scan(world: World, name: str) -> Optional[Scan]:
 
 
 def scan_of_robot(world: World, name: str) -> Scan:
-    """What the laser of a robot of a world sees, in the frame of the robot [m]."""
-    told, laser = laser_scan(world, name), world.config.laser
-    is_range = (told.ranges >= told.range_min) & (told.ranges <= told.range_max) | np.isinf(told.ranges)
-    seen = scan_of(np.where(is_range, told.ranges, np.float32(math.nan)), told.angle_min, told.angle_increment,
-                   told.range_max)
-    if (laser.x, laser.y, laser.yaw, laser.upside_down) == (0.0, 0.0, 0.0, False):
-        return seen
-    side = np.array([1.0, -1.0 if laser.upside_down else 1.0])
-    return Scan(*(placed(told.mounting, part * side) for part in seen))
+    """What the laser of a robot of a world tells, as by a sensor_msgs/LaserScan and by tf."""
+    told = laser_scan(world, name)
+    return scan_of(told.ranges, told.angle_min, told.angle_increment, told.range_max, told.range_min,
+                   Mounting(*told.mounting, told.upside_down), Reading(usable=usable_range(world.config.laser)))
+
+
+def usable_range(laser: LaserConfig) -> float:
+    """How far beams without an echo are free [m]: as far as the laser sees if it misses none, else 0."""
+    return laser.range_max if laser.model == IDEAL else 0.0
 
 
 def _told(correction: Pose, odometry: Pose) -> Pose:

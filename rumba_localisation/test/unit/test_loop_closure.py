@@ -93,7 +93,8 @@ def test_a_redrawn_map_has_its_cells_where_those_of_the_map_before_were():
         if mapper.redrawn:
             break
     assert versions[-1] == versions[-2] + 2  # one for the scan, one for the map
-    assert np.array(origins[-1]) / mapper.grid.resolution == pytest.approx(np.rint(np.array(origins[-1]) / mapper.grid.resolution), abs=1e-6)
+    cells = np.array(origins[-1]) / mapper.grid.resolution
+    assert cells == pytest.approx(np.rint(cells), abs=1e-6)
     assert mapper.moved(START) == pytest.approx(START, abs=1e-6)  # as a dock from which it began
     assert mapper.estimate.pose == pytest.approx(mapper.pose(odometry))
 

@@ -191,7 +191,7 @@ def test_a_robot_that_was_moved_by_less_than_a_metre_is_found_at_once_and_withou
 
 
 def contradictions(change):
-    """Drive in a bend with scans that are changed, and tell whether the mapper finds that they contradict the wheels."""
+    """Whether the mapper finds that scans contradict the wheels, in a bend, if the scans are changed."""
     start = Pose(0.6, 1.2, 0.0)
     world, mapper = world_of(crooked(0.02), start), Mapper(start)
     robot = world.robots['rumba']

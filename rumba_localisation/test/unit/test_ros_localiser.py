@@ -19,7 +19,7 @@ from rumba_localisation.ros.localiser import Settings
 from rumba_localisation.ros.odometries import KEPT, Odometries
 from rumba_localisation.scan import SILENT
 from rumba_sim.model.errors import ConfigError, MapError
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.geometry import Pose, compose
 from rumba_sim.ros.common.conversions import grid, quaternion
 from rumba_sim.ros.common.maps import floor_plan
 
@@ -51,10 +51,21 @@ def test_a_map_that_makes_no_sense_is_refused(spoil, reason):
         floor_plan(message)
 
 
-def test_a_scan_ends_at_points():
-    scan = LaserScan(angle_min=0.0, angle_increment=0.5 * math.pi, ranges=[1.0, math.inf, 3.0])
-    assert conversions.scan_points(scan) == pytest.approx(np.array([[1.0, 0.0], [-3.0, 0.0]]))
-    assert len(conversions.scan_points(LaserScan(angle_min=math.nan, angle_increment=0.1, ranges=[1.0]))) == 0
+@pytest.mark.parametrize('yaw', [0.0, 0.3, -2.0, 0.5 * math.pi])
+def test_a_map_whose_origin_is_turned_is_turned_back_and_its_frame_is_told(yaw):
+    plan = crooked(0.05)
+    message = message_of(plan)
+    message.info.origin.position.x, message.info.origin.position.y = 3.0, -1.0
+    message.info.origin.orientation = quaternion(yaw)
+    found, frame = conversions.turned_plan(message)
+    assert np.array_equal(found.occupancy, plan.occupancy)
+    x, y, _ = compose(frame, Pose(found.origin[0] + 1.0, found.origin[1] + 2.0, 0.0))  # 1 m along, 2 m up its cells
+    assert (x, y) == pytest.approx((3.0 + math.cos(yaw) - 2.0 * math.sin(yaw), -1.0 + math.sin(yaw) + 2.0 * math.cos(
+        yaw)))
+
+
+def test_a_covariance_turns_with_its_axes():
+    assert conversions.turned(np.diag([4.0, 1.0, 9.0]), 0.5 * math.pi) == pytest.approx(np.diag([1.0, 4.0, 9.0]))
 
 
 def test_a_covariance_stands_at_its_places_in_a_message():
@@ -132,7 +143,7 @@ class Node:
             header = Header(stamp=stamps[-1])
             if has_scans and world.tick % 5 == 0:
                 ranges = world.scan('rumba')
-                self._node._take_scan(LaserScan(header=header, angle_min=-math.pi, range_max=8.0,
+                self._node._take_scan(LaserScan(header=header, angle_min=-math.pi, range_min=0.12, range_max=8.0,
                                                 angle_increment=2.0 * math.pi / len(ranges), ranges=ranges))
             odometry = Odometry(header=header)
             odometry.pose.pose = conversions.pose_message(*robot.odometry)

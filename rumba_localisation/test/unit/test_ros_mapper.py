@@ -7,7 +7,6 @@ import pytest
 import rospy
 from rooms import quiet
 from scans import error
-from std_msgs.msg import Header
 from test_loop_closure import START, drive_around
 
 from rumba_localisation.ros import mapper as node
@@ -31,7 +30,6 @@ class Node:
         monkeypatch.setattr(scan_loop.rospy, 'Subscriber', lambda *_, **__: None)
         monkeypatch.setattr(node.rospy, 'Service', lambda *_: None)
         monkeypatch.setattr(scan_loop, 'Participant', lambda _: None)
-        monkeypatch.setattr(node, 'told', lambda scan: scan.seen)
         monkeypatch.setattr(node, 'RobotConfig', quiet)
         x, y, theta = START
         settings = node.Settings(initial_pose_x=x, initial_pose_y=y, initial_pose_a=theta, map_update_interval=3600.0)
@@ -57,8 +55,7 @@ def until_closed(monkeypatch):
             dock = true
             heard.node._take_dock(DockStatus(is_docked=True))
         before = heard.newest() if dock is not None and heard.told['dock_pose'] else None
-        heard.node._use(types.SimpleNamespace(header=Header(stamp=rospy.Time.from_sec(0.1 * number)), seen=seen),
-                        odometry)
+        heard.node._use(seen, odometry, rospy.Time.from_sec(0.1 * number))
         if heard.node._mapper.redrawn:
             return before, heard.newest(), odometry, true, dock
     raise AssertionError('no loop closed')

@@ -37,8 +37,9 @@ def believed_plan(grid: Grid, name: str, dock: Optional[Pose] = None,
     rows, columns = (np.flatnonzero((grid.odds != 0.0).any(axis=axis)) for axis in (1, 0))
     top, left = max(int(rows[0]) - RIM, 0), max(int(columns[0]) - RIM, 0)
     bottom, right = (min(int(used[-1]) + 1 + RIM, size) for used, size in zip((rows, columns), grid.odds.shape))
-    cells = occupancy(grid.odds[top:bottom, left:right], grid.field[top:bottom + 1, left:right + 1],
-                      math.ceil(GAPS / grid.resolution))
+    odds = np.where(grid.hidden(), np.float32(0.0), grid.odds)[top:bottom, left:right]
+    cells = occupancy(odds, grid.field[top:bottom + 1, left:right + 1],
+                      math.ceil(GAPS / side))
     origin = grid.origin[0] + left * side, grid.origin[1] + top * side
     cliff = None
     if findings is not None:

@@ -29,7 +29,7 @@ class Match(NamedTuple):
 
     pose: Pose  # map frame
     covariance: Array  # float64 (3, 3)
-    fit: float  # share of all its beams that end at a wall, less WRONG times those that cannot, and those at the wrong side of one
+    fit: float  # share of its beams that end at walls, less those at their wrong sides, and WRONG times those that cannot
 
 
 class Sought(NamedTuple):
@@ -38,7 +38,7 @@ class Sought(NamedTuple):
     pose: Pose  # near which it is looked for, map frame
     reach: float  # how far off that may be, along x and along y [m]
     turn: float  # how far it may be turned [rad]
-    cloud: Array  # float64 (any, 2), where beams of this scan, and of some before it, end, in the frame of the robot [m]
+    cloud: Array  # float64 (any, 2), where beams of this scan and of some before it end, in the frame of the robot [m]
     scan: Scan
 
 

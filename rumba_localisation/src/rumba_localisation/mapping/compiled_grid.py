@@ -167,6 +167,35 @@ def fit_line(odds: Array, hits: Array, row: int, column: int, wall: Array) -> No
 
 
 @compiled
+def hidden(odds: Array, hits: Array, reach: int, found: Array) -> None:
+    """Find occupied cells that no beam could have met: on its way stands another one.
+
+    The noise of a laser scatters hits behind a wall, where no beam passes that would tell otherwise.
+
+    Args, apart from those above:
+        reach: [cells] before a cell, in which another one is looked for.
+        found: bool (rows, columns), receives whether each cell is one.
+    """
+    rows, columns = odds.shape
+    wall = np.empty(7)
+    for row in range(rows):
+        for column in range(columns):
+            found[row, column] = False
+            if odds[row, column] <= 0.0:
+                continue
+            fit_line(odds, hits, row, column, wall)
+            x, y = wall[4], wall[5]
+            if wall[6] == 0.0:
+                length = max(math.hypot(hits[row, column, 2], hits[row, column, 3]), 1e-9)
+                x, y = hits[row, column, 2] / length, hits[row, column, 3] / length
+            for step in range(2, reach + 1):
+                near_row = int(math.floor(row + 0.5 + step * y))
+                near_column = int(math.floor(column + 0.5 + step * x))
+                if 0 <= near_row < rows and 0 <= near_column < columns and odds[near_row, near_column] > 0.0:
+                    found[row, column] = True
+
+
+@compiled
 def signed_distance(wall: Array, x: float, y: float, distance: float, is_free: bool) -> float:
     """Distance from a point to a wall [cells], negative behind it.
 

@@ -11,10 +11,11 @@ from rumba_sim.model.geometry import Pose
 from rumba_sim.model.kernel import Array
 
 REACH = 25  # [cells] up to which distances to walls are known
-SURE = -2.0  # logarithm of the odds of a cell that is surely free: four beams passed; those of a wall are the inverse
+SURE = -2.0  # logarithm of the odds of a cell that is surely free: four beams passed; a wall is as sure with 2.0
 AWAY = 2.0  # narrowest sigmas of a match, from a wall, from which on a beam has not met that
 BEFORE = 0.1  # [m] of a beam before its end that may be in a wall
 CHECKED = 180  # beams, at most, of which it is looked where they pass
+HIDES = 4  # [cells] before a wall of which the noise scatters hits, at most: twice its narrowest sigma
 NOTHING = (1 << 30, 1 << 30, 0, 0)  # an empty box of cells
 CHUNK = 100  # [cells] by which the grid grows, at least
 
@@ -56,6 +57,12 @@ class Grid:
         box = (min(free[0], met[0]), min(free[1], met[1]), max(free[2], met[2]), max(free[3], met[3]))
         self._changed = (min(self._changed[0], box[0]), min(self._changed[1], box[1]),
                          max(self._changed[2], box[2]), max(self._changed[3], box[3]))
+
+    def hidden(self) -> Array:
+        """Which occupied cells stand behind others, from where they were met: bool (rows, columns)."""
+        found = np.empty(self.odds.shape, np.bool_)
+        compiled_grid.hidden(self.odds, self._hits, HIDES, found)
+        return found
 
     def measure(self) -> None:
         """Bring the field up to date."""
@@ -101,7 +108,8 @@ class Grid:
     def cover(self, points: Array) -> None:
         """Grow until points (any, 2) [m] lie on the grid."""
         if not self.odds.size:
-            self.origin = (round(points[0, 0] / self.resolution) * self.resolution, round(points[0, 1] / self.resolution) * self.resolution)
+            x, y = (np.rint(points[0] / self.resolution) * self.resolution).tolist()
+            self.origin = x, y
         low, high = np.floor(self.cells(points.min(axis=0))), np.floor(self.cells(points.max(axis=0)))
         rows, columns = self.odds.shape
         before = [_needed(-int(low[1])), _needed(-int(low[0]))]

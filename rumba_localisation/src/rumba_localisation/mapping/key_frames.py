@@ -96,7 +96,7 @@ class KeyFrames:
         return math.sqrt(places + headings * float(ways.lengths[frame]) ** 2 / 3.0)
 
     def cloud(self, frame: int, way: float) -> Array:
-        """Where beams of a frame and of those before it ended, back to a way [m]: float64 (any, 2), in its own frame."""
+        """Where beams of a frame and of those before it ended, back to a way [m]: float64 (any, 2), in its frame."""
         pose, found, left = self.poses[frame], [], way
         for number in range(frame, -1, -1):
             other = self.poses[number]

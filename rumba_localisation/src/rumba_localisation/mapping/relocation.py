@@ -83,14 +83,14 @@ class Relocation:
                                       turns, WIDTH, scores)
         best = np.argsort(-scores, axis=None, kind='stable')[:KEPT]
         rows, columns = np.unravel_index(best, scores.shape)
-        return [Place(Pose(*now[column].tolist(), wrap_angle(float(turns[row]))), SPREAD, 0.0, 0)
-                for row, column in zip(rows.tolist(), columns.tolist())]
+        poses = np.column_stack([now[columns], turns[rows]]).tolist()
+        return [Place(Pose(x, y, wrap_angle(theta)), SPREAD, 0.0, 0) for x, y, theta in poses]
 
     def _matched(self, place: Place, scan: Scan) -> Place:
         """Where a scan fits near a place."""
         grid, found, covariance = self._grid, np.empty(3), np.empty((3, 3))
-        fit = compiled_matching.match(np.array(place.pose), SPREAD, thinned(scan.points, MATCHED), grid.field, *grid.origin, grid.resolution,
-                                      self._noise.steps, 1.0, found, covariance)
+        fit = compiled_matching.match(np.array(place.pose), SPREAD, thinned(scan.points, MATCHED), grid.field,
+                                      *grid.origin, grid.resolution, self._noise.steps, 1.0, found, covariance)
         x, y, theta = found.tolist()
         pose = Pose(x, y, wrap_angle(theta))
         score = fit - WRONG * grid.share_wrong(pose, scan, self._noise.kernel)

@@ -1,27 +1,46 @@
 """Converts between messages and what the localisation knows: pure functions."""
 
 import math
-from typing import Any, List
+from typing import Any, List, Tuple
 
 import numpy as np
 from geometry_msgs.msg import Point, PoseArray, PoseWithCovariance, PoseWithCovarianceStamped
 from geometry_msgs.msg import Pose as PoseMessage
-from sensor_msgs.msg import LaserScan
+from nav_msgs.msg import MapMetaData, OccupancyGrid
 from std_msgs.msg import Header
 
-from rumba_localisation.scan import points
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.floor_plan import FloorPlan
+from rumba_sim.model.geometry import Pose, compose, inverse
 from rumba_sim.model.kernel import Array
-from rumba_sim.ros.common.conversions import quaternion
+from rumba_sim.ros.common.conversions import heading, quaternion
+from rumba_sim.ros.common.maps import floor_plan
 
 PLANE = (0, 1, 5)  # rows and columns of x, y and the rotation about z in a covariance of ROS
 
 
-def scan_points(scan: LaserScan) -> Array:
-    """Where the beams of a scan that have an echo end: float64 (any, 2) [m]; none if its angles are no numbers."""
-    if not (math.isfinite(scan.angle_min) and math.isfinite(scan.angle_increment)):
-        return np.empty((0, 2))
-    return points(np.asarray(scan.ranges, np.float32), scan.angle_min, scan.angle_increment)
+def turned_plan(message: OccupancyGrid) -> Tuple[FloorPlan, Pose]:
+    """The map of a message, turned so that its cells lie along its axes, and the frame of that in the map frame.
+
+    Raises:
+        MapError: as for `maps.floor_plan`, but that its origin may be turned.
+    """
+    origin = message.info.origin
+    corner, yaw = Pose(origin.position.x, origin.position.y, 0.0), heading(origin.orientation)
+    if not math.isfinite(yaw) or abs(yaw) <= 1e-6:
+        return floor_plan(message), Pose(0.0, 0.0, 0.0)
+    level = MapMetaData(message.info.map_load_time, message.info.resolution, message.info.width, message.info.height,
+                        pose_message(*corner))
+    plan = floor_plan(OccupancyGrid(message.header, level, message.data))
+    return plan, compose(corner._replace(theta=yaw), inverse(corner))
+
+
+def turned(covariance: Array, angle: float) -> Array:
+    """A covariance (3, 3) of x, y and heading, in axes that are turned by an angle [rad]."""
+    if angle == 0.0:
+        return covariance
+    cos, sin = math.cos(angle), math.sin(angle)
+    turn = np.array([[cos, -sin, 0.0], [sin, cos, 0.0], [0.0, 0.0, 1.0]])
+    return np.asarray(turn @ covariance @ turn.T)
 
 
 def covariance_of(message: PoseWithCovariance) -> Array:

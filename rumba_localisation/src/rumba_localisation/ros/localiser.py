@@ -10,9 +10,11 @@ and below the robot's name
 It subscribes to
   /map            nav_msgs/OccupancyGrid
 and below the robot's name to
-  scan            sensor_msgs/LaserScan: of a laser in the centre of the robot that looks forward
+  scan            sensor_msgs/LaserScan: of a laser that is level, or upside down, where tf says on base_link
   odom            nav_msgs/Odometry
   initialpose     geometry_msgs/PoseWithCovarianceStamped: where the robot is, by a person
+and to
+  /tf_static, /tf tf2_msgs/TFMessage: where the laser is on base_link
 and serves, below the robot's name,
   global_localization       std_srvs/Empty: look for the place all over the map
   request_nomotion_update   std_srvs/Empty: use the next scan even if the robot has not moved
@@ -27,30 +29,33 @@ import dataclasses
 import math
 from typing import Optional
 
+import numpy as np
 import rospy
 from geometry_msgs.msg import PoseArray, PoseWithCovarianceStamped
 from nav_msgs.msg import OccupancyGrid
-from sensor_msgs.msg import LaserScan
 from std_msgs.msg import Header
 from std_srvs.srv import Empty, EmptyResponse
 
 from rumba_localisation.localiser import Localiser
 from rumba_localisation.localiser_config import LocaliserConfig
 from rumba_localisation.ros import conversions
+from rumba_localisation.ros.laser_settings import LaserSettings
 from rumba_localisation.ros.scan_loop import COMPLAINT_PERIOD, QUEUE, ScanLoop
+from rumba_localisation.scan import Scan
 from rumba_sim.model.config import part, setting
 from rumba_sim.model.errors import ConfigError, MapError
 from rumba_sim.model.floor_plan import FloorPlan
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.geometry import Pose, compose, inverse
 from rumba_sim.ros.common import node
 from rumba_sim.ros.common.conversions import plane_pose
 from rumba_sim.ros.common.frames import MAP
-from rumba_sim.ros.common.maps import floor_plan
 from rumba_sim.ros.common.names import check_names
+
+HERE = Pose(0.0, 0.0, 0.0)
 
 
 @dataclasses.dataclass(frozen=True)
-class Settings(LocaliserConfig):
+class Settings(LocaliserConfig, LaserSettings):
     """The node's private parameters."""
 
     robot: str = setting('rumba', 'name of the robot, below which its topics are')
@@ -86,14 +91,15 @@ class LocaliserNode(ScanLoop):
     def __init__(self, settings: Settings) -> None:
         """Open all topics and services."""
         self._settings = settings
-        self._plan: Optional[FloorPlan] = None
+        self._plan: Optional[FloorPlan] = None  # turned so that its cells lie along its axes ...
+        self._turned = HERE  # ... and the frame of that in the map frame
         self._localiser: Optional[Localiser] = None  # None until there are a map and a scan
         self._is_forced = False
         self._was_sure: Optional[bool] = None
         name = settings.robot
         self._pose = rospy.Publisher(f'{name}/amcl_pose', PoseWithCovarianceStamped, queue_size=QUEUE, latch=True)
         self._cloud = rospy.Publisher(f'{name}/particlecloud', PoseArray, queue_size=2)
-        super().__init__(name)
+        super().__init__(name, settings.reading)
         self._subscribe('/map', OccupancyGrid, self._take_map)
         self._subscribe(f'{name}/initialpose', PoseWithCovarianceStamped, self._take_start)
         rospy.Service(f'{name}/global_localization', Empty, lambda _: self._requests.call(self._search_anywhere))
@@ -103,7 +109,7 @@ class LocaliserNode(ScanLoop):
 
     def _take_map(self, message: OccupancyGrid) -> None:
         try:
-            self._plan, self._localiser = floor_plan(message), None
+            (self._plan, self._turned), self._localiser = conversions.turned_plan(message), None
         except MapError as error:
             rospy.logerr_throttle(COMPLAINT_PERIOD, f'{error}; ignored')
         self._look()
@@ -118,7 +124,8 @@ class LocaliserNode(ScanLoop):
         elif self._localiser is None:
             rospy.logerr_throttle(COMPLAINT_PERIOD, 'initialpose: there is no map or no scan yet; ignored')
         else:
-            self._localiser.start_at(pose, covariance)
+            self._localiser.start_at(compose(inverse(self._turned), pose),
+                                     conversions.turned(covariance, -self._turned.theta))
             self._force()
 
     def _search_anywhere(self) -> EmptyResponse:
@@ -136,30 +143,30 @@ class LocaliserNode(ScanLoop):
     def _is_ready(self) -> bool:
         return self._plan is not None
 
-    def _use(self, scan: LaserScan, odometry: Pose) -> None:
+    @property
+    def _not_ready(self) -> str:
+        return 'no map came on /map'
+
+    def _use(self, scan: Scan, odometry: Pose, stamp: rospy.Time) -> None:
         assert self._plan is not None
-        self._localise(self._known(self._plan, scan), odometry, scan)
-
-    def _known(self, plan: FloorPlan, scan: LaserScan) -> Localiser:
-        """The localiser, made with the first scan."""
-        if self._localiser is None:
-            range_max = scan.range_max if math.isfinite(scan.range_max) and scan.range_max > 0.0 else 1.0
-            settings = self._settings
-            self._localiser = Localiser(plan, settings.robot_radius, range_max, part(settings, LocaliserConfig),
-                                        settings.seed)
-            if settings.start is not None:
-                self._localiser.start_at(settings.start)
-        return self._localiser
-
-    def _localise(self, localiser: Localiser, odometry: Pose, scan: LaserScan) -> None:
-        is_used = localiser.observe(odometry, conversions.scan_points(scan), self._is_forced)
+        localiser = self._known(self._plan)
+        is_used = localiser.observe(odometry, scan, self._is_forced)
         if localiser.estimate is None:
             return
-        stamp = scan.header.stamp
         self._is_forced = self._is_forced and not is_used
-        self._correct(localiser.correction, stamp)
+        self._correct(compose(self._turned, localiser.correction), stamp)
         self._tell(localiser, odometry, stamp, is_used)
         self._say(localiser)
+
+    def _known(self, plan: FloorPlan) -> Localiser:
+        """The localiser, made with the first scan."""
+        if self._localiser is None:
+            settings = self._settings
+            self._localiser = Localiser(plan, settings.robot_radius, self._range_max, part(settings, LocaliserConfig),
+                                        settings.seed)
+            if settings.start is not None:
+                self._localiser.start_at(compose(inverse(self._turned), settings.start))
+        return self._localiser
 
     def _reckon(self, odometry: Pose, stamp: rospy.Time) -> None:
         """Go by odometry alone while the laser is silent."""
@@ -175,16 +182,19 @@ class LocaliserNode(ScanLoop):
         assert localiser.estimate is not None
         header = Header(stamp=stamp, frame_id=MAP)
         self._pose.publish(conversions.pose_with_covariance(
-            localiser.pose(odometry), localiser.estimate.covariance, header))
+            compose(self._turned, localiser.pose(odometry)),
+            conversions.turned(localiser.estimate.covariance, self._turned.theta), header))
         if has_moved and self._cloud.get_num_connections():
-            self._cloud.publish(conversions.cloud(localiser.particles, header))
+            particles = localiser.particles if self._turned == HERE else np.array(
+                [compose(self._turned, Pose(*each)) for each in localiser.particles.tolist()])
+            self._cloud.publish(conversions.cloud(particles, header))
 
     def _say(self, localiser: Localiser) -> None:
         """Tell a person when the robot finds its place, or loses it."""
         estimate = localiser.estimate
         if estimate is None or estimate.is_sure == self._was_sure:
             return
-        x, y, theta = estimate.pose
+        x, y, theta = compose(self._turned, estimate.pose)
         if estimate.is_sure:
             rospy.loginfo(f'{self._settings.robot}: is at ({x:.2f}, {y:.2f}) m, heading {theta:.2f} rad; '
                           f'{100.0 * estimate.fit:.0f} % of the beams fit')

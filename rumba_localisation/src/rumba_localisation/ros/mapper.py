@@ -9,10 +9,12 @@ and below the robot's name
   key_frames      geometry_msgs/PoseArray: latched; with each /map, where the scans were taken that it shows; each keeps
                   its place in the array, so that it tells how the map moved if it was redrawn
 It subscribes, below the robot's name, to
-  scan            sensor_msgs/LaserScan: of a laser in the centre of the robot that looks forward
+  scan            sensor_msgs/LaserScan: of a laser that is level, or upside down, where tf says on base_link
   odom            nav_msgs/Odometry
   bumper, cliff   rumba_msg/Bumper, Cliff: for what the laser does not see
   dock_status     rumba_msg/DockStatus
+and to
+  /tf_static, /tf tf2_msgs/TFMessage: where the laser is on base_link
 and serves
   ~save_map       std_srvs/Trigger: writes the map, with the dock, to the file of the parameter map_file
 It takes part in a lockstep by simulator/lockstep and simulator/lockstep_answers (rumba_msg/Lockstep, LockstepAnswer).
@@ -29,7 +31,6 @@ import numpy as np
 import rospy
 from geometry_msgs.msg import PoseArray, PoseStamped, PoseWithCovarianceStamped
 from nav_msgs.msg import OccupancyGrid
-from sensor_msgs.msg import LaserScan
 from std_msgs.msg import Header
 from std_srvs.srv import Trigger, TriggerResponse
 
@@ -39,8 +40,9 @@ from rumba_localisation.mapping.findings import Findings
 from rumba_localisation.mapping.mapper import Mapper
 from rumba_localisation.mapping.mapper_config import MapperConfig
 from rumba_localisation.ros import conversions
+from rumba_localisation.ros.laser_settings import LaserSettings
 from rumba_localisation.ros.scan_loop import COMPLAINT_PERIOD, QUEUE, ScanLoop
-from rumba_localisation.scan import told
+from rumba_localisation.scan import Reading, Scan
 from rumba_msg.msg import Bumper, Cliff, DockStatus
 from rumba_sim.model.config import part, setting
 from rumba_sim.model.errors import MapError
@@ -57,19 +59,26 @@ CALM = (False, False), (False,) * 4  # bumper and cliff sensors
 
 
 @dataclasses.dataclass(frozen=True)
-class Settings(MapperConfig):
+class Settings(MapperConfig, LaserSettings):
     """The node's private parameters."""
 
     robot: str = setting('rumba', 'name of the robot, below which its topics are')
     initial_pose_x: float = setting(0.0, 'where the robot is at the first scan; this defines the map frame', 'm')
     initial_pose_y: float = setting(0.0, 'the same', 'm')
     initial_pose_a: float = setting(0.0, 'the same', 'rad')
+    maxUrange: float = setting(0.0, 'a beam without an echo is free up to here, as for gmapping; 0: only as far as '
+                                    'the echoes beside it show, since lasers miss echoes of near things, too', 'm', 0.0, 100.0)
     map_update_interval: float = setting(2.0, 'time between two publications of the map, at least', 's', 0.0, 3600.0)
     map_file: str = setting('rumba_map.yaml', 'path of the file to which ~save_map writes; its images go beside it')
 
     def __post_init__(self) -> None:
         """Check the robot's name."""
         check_names(self, 'robot')
+
+    @property
+    def reading(self) -> Reading:
+        """How ranges are taken."""
+        return super().reading._replace(usable=self.maxUrange)
 
 
 def main() -> None:
@@ -96,7 +105,7 @@ class MapperNode(ScanLoop):
         self._pose = rospy.Publisher(f'{name}/amcl_pose', PoseWithCovarianceStamped, queue_size=QUEUE, latch=True)
         self._docked = rospy.Publisher(f'{name}/dock_pose', PoseStamped, queue_size=1, latch=True)
         self._frames_told = rospy.Publisher(f'{name}/key_frames', PoseArray, queue_size=1, latch=True)
-        super().__init__(name)
+        super().__init__(name, settings.reading)
         self._subscribe(f'{name}/bumper', Bumper, self._take_bumper)
         self._subscribe(f'{name}/cliff', Cliff, self._take_cliff)
         self._subscribe(f'{name}/dock_status', DockStatus, self._take_dock)
@@ -112,19 +121,16 @@ class MapperNode(ScanLoop):
     def _take_dock(self, message: DockStatus) -> None:
         self._is_docked = message.is_docked
 
-    def _use(self, scan: LaserScan, odometry: Pose) -> None:
-        seen = told(scan)
-        if seen is None:
-            rospy.logerr_throttle(COMPLAINT_PERIOD, 'scan: its angles and its range must be numbers; ignored')
-            return
-        mapper, stamp, redrawn = self._mapper, scan.header.stamp, self._mapper.redrawn
-        mapper.observe(odometry, seen)
+    def _use(self, scan: Scan, odometry: Pose, stamp: rospy.Time) -> None:
+        mapper, redrawn = self._mapper, self._mapper.redrawn
+        mapper.observe(odometry, scan)
         if mapper.redrawn > redrawn:
             self._follow(stamp)
         if mapper.estimate is None:
             return
         pose = mapper.pose(odometry)
         self._findings.note(mapper.grid, pose, self._bumper, self._cliffs)
+        self._warn()
         self._correct(mapper.correction, stamp)
         header = Header(stamp=stamp, frame_id=MAP)
         self._pose.publish(conversions.pose_with_covariance(pose, mapper.estimate.covariance, header))
@@ -132,6 +138,18 @@ class MapperNode(ScanLoop):
             self._dock = pose
             self._tell_dock(pose, stamp)
         self._tell_map(stamp)
+
+    def _warn(self) -> None:
+        """Say what a person should know of the map."""
+        mapper, name = self._mapper, self._settings.robot
+        if mapper.is_lost:
+            rospy.logwarn_throttle(COMPLAINT_PERIOD, f'{name}: was carried away, and looks for its place on its map')
+        if mapper.is_contradicted:
+            rospy.logwarn_throttle(COMPLAINT_PERIOD, f'{name}: scans and odometry tell of different movements: is '
+                                                     'the laser where tf says, and does odom turn the right way?')
+        if mapper.is_full:
+            rospy.logwarn_throttle(COMPLAINT_PERIOD, f'{name}: the map is as large as it can be: what lies farther '
+                                                     'away is left out')
 
     def _follow(self, stamp: rospy.Time) -> None:
         """Move what was found on the map to where that is since the map was redrawn, and have that told at once."""

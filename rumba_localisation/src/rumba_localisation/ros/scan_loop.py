@@ -10,8 +10,10 @@ from nav_msgs.msg import Odometry
 from sensor_msgs.msg import LaserScan
 from tf2_msgs.msg import TFMessage
 
+from rumba_localisation.ros.mountings import Mountings
 from rumba_localisation.ros.odometries import Odometries
-from rumba_localisation.scan import SILENT
+from rumba_localisation.scan import FARTHEST as FARTHEST_ECHO
+from rumba_localisation.scan import SILENT, Reading, Scan, fault, told
 from rumba_msg.msg import Lockstep
 from rumba_sim.model.geometry import Pose
 from rumba_sim.ros.common.conversions import plane_pose, transform
@@ -29,8 +31,9 @@ SILENT_WALL = 0.2  # [s] of the wall clock, too, for which a silent laser tells 
 class ScanLoop(abc.ABC):
     """A loop that owns all state; callbacks only queue what it is to do."""
 
-    def __init__(self, robot: str) -> None:
-        """Listen to scans and odometry of a robot, by its name."""
+    def __init__(self, robot: str, reading: Reading) -> None:
+        """Listen to scans and odometry of a robot, by its name; `reading` says how ranges are taken."""
+        self._name, self._reading = robot, reading
         self._frames = frames(robot)
         self._requests = Requests()
         self._odometries = Odometries()
@@ -38,9 +41,13 @@ class ScanLoop(abc.ABC):
         self._tick: Optional[Lockstep] = None  # that was not answered yet
         self._scanned = rospy.Time()  # stamp of the newest scan that was dealt with
         self._heard = time.monotonic()  # when the newest scan came
+        self._range_max = FARTHEST_ECHO  # [m] of the newest scan
+        self._begun = self._heard  # when the node began to wait
+        self._has_odometry = self._has_scan = False  # whether any came
         self._newest = Resent()
         self._tf = rospy.Publisher('/tf', TFMessage, self._newest, queue_size=QUEUE)
         self._participant = Participant(lambda tick: self._requests.post(lambda: self._take_tick(tick)))
+        self._mountings = Mountings(self._frames.base_link, lambda: self._requests.post(self._look))
         self._subscribe(f'{robot}/odom', Odometry, self._take_odom)
         self._subscribe(f'{robot}/scan', LaserScan, self._take_scan)
 
@@ -55,6 +62,7 @@ class ScanLoop(abc.ABC):
         """Work until ROS shuts down."""
         while not rospy.is_shutdown():
             self._requests.serve(time.monotonic() + PERIOD)
+            self._complain()
         self._participant.leave()
 
     @property
@@ -62,15 +70,21 @@ class ScanLoop(abc.ABC):
         """Whether scans can be used."""
         return True
 
+    @property
+    def _not_ready(self) -> str:
+        """Why scans cannot be used."""
+        return ''
+
     @abc.abstractmethod
-    def _use(self, scan: LaserScan, odometry: Pose) -> None:
-        """Called with each scan, and where the robot was then by its odometry."""
+    def _use(self, scan: Scan, odometry: Pose, stamp: rospy.Time) -> None:
+        """Called with each scan, where the robot was then by its odometry, and when that was."""
 
     def _reckon(self, odometry: Pose, stamp: rospy.Time) -> None:
         """Called with each odometry while the laser is silent."""
 
     def _take_odom(self, message: Odometry) -> None:
         pose = plane_pose(message.pose.pose)
+        self._has_odometry = True
         if all(math.isfinite(number) and abs(number) <= FARTHEST for number in pose):
             self._odometries.add(message.header.stamp, pose)
             self._look()
@@ -78,7 +92,7 @@ class ScanLoop(abc.ABC):
                 self._reckon(pose, message.header.stamp)
 
     def _take_scan(self, message: LaserScan) -> None:
-        self._waiting = message
+        self._waiting, self._has_scan = message, True
         self._heard = time.monotonic()
         self._look()
 
@@ -91,14 +105,38 @@ class ScanLoop(abc.ABC):
         scan = self._waiting
         if scan is None or not self._is_ready:
             return
-        odometry = self._odometries.at(scan.header.stamp)
-        if odometry is None and not self._odometries.is_before(scan.header.stamp):
+        stamp, mounting = scan.header.stamp, self._mountings.of(scan)
+        odometry = self._odometries.at(stamp)
+        if mounting is None or odometry is None and not self._odometries.is_before(stamp):
             return
         self._waiting = None
-        if odometry is not None:
-            self._use(scan, odometry)
-        self._scanned = scan.header.stamp
+        seen = told(scan, mounting, self._reading)
+        if seen is None:
+            rospy.logerr_throttle(COMPLAINT_PERIOD, f'{self._name}/scan: {fault(scan)}; ignored')
+        elif odometry is not None:
+            self._range_max = min(scan.range_max, FARTHEST_ECHO)
+            self._use(seen, odometry, stamp)
+        self._scanned, self._begun = stamp, time.monotonic()
         self._answer()
+
+    def _complain(self) -> None:
+        """Say what is missing, if no scan could be used for some time since the node began."""
+        if self._scanned.is_zero() and time.monotonic() - self._begun > COMPLAINT_PERIOD:
+            self._begun = time.monotonic()
+            rospy.logwarn(f'{rospy.get_name()} waits: {self._missing()}')
+
+    def _missing(self) -> str:
+        """What is missing for a scan that can be used."""
+        if not self._is_ready:
+            return self._not_ready
+        silent = [topic for topic, is_heard in (('scan', self._has_scan), ('odom', self._has_odometry)) if not is_heard]
+        if silent:
+            return 'nothing came on ' + ' and '.join(rospy.resolve_name(f'{self._name}/{topic}') for topic in silent)
+        scan = self._waiting
+        if scan is not None and self._mountings.of(scan) is None:
+            return self._mountings.fault(scan)
+        return (f'no odometry is as new as the scan, which has stamp {scan.header.stamp.to_sec():.3f} s'
+                if scan is not None else 'no scan is as new as the odometry')
 
     def _silence(self, stamp: rospy.Time) -> float:
         """Time from the newest scan to a stamp [s]; 0 before the first scan."""

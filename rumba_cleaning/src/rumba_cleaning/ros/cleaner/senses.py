@@ -13,10 +13,12 @@ from rumba_cleaning.behaviour import Observation
 from rumba_cleaning.ros.cleaner import conversions
 from rumba_cleaning.ros.cleaner.certainty import Certainty
 from rumba_cleaning.ros.cleaner.location import QUEUE, Location
+from rumba_localisation.ros.mountings import Mountings
 from rumba_localisation.scan import SILENT, told
 from rumba_msg.msg import Bumper, CleaningStatus, Cliff, DockStatus, Lockstep
 from rumba_sim.model.geometry import Pose
 from rumba_sim.ros.common.clock import LATEST
+from rumba_sim.ros.common.frames import frames
 
 SECOND = 1_000_000_000  # [ns]
 PAUSE = SECOND  # [ns] between two stamps; more is not counted as time: a pause in real time, or another simulator
@@ -72,6 +74,7 @@ class Senses:
         self._certainty = Certainty(robot, self._check_in_lockstep)
         self._has_laser = has_laser
         if has_laser:
+            self._mountings = Mountings(frames(robot).base_link, self._check_in_lockstep)
             rospy.Subscriber(f'{robot}/scan', LaserScan, self._on_scan, queue_size=QUEUE)
         rospy.Subscriber(f'{robot}/battery_state', BatteryState, self._on_battery, queue_size=QUEUE)
         rospy.Subscriber(f'{robot}/cleaning_status', CleaningStatus, self._on_cleaning, queue_size=QUEUE)
@@ -147,6 +150,8 @@ class Senses:
         stamp = tick.header.stamp
         parts = [(self._newest.get(topic), stamp) for topic in READING]
         if self._has_laser:
+            if self._scan is not None and self._mountings.of(self._scan) is None:
+                return False
             parts.append((self._scan, tick.scan))
         location, certainty = self._location, self._certainty
         is_silent = location.silence(certainty.stamp) > SILENT  # then map -> odom is as old as the newest scan
@@ -206,7 +211,8 @@ class Senses:
             return None
         is_new = scan is not None and scan is not self._observed_scan
         self._observed_scan = scan
-        return found._replace(dt=dt / SECOND, scan=told(scan) if is_new else None)
+        mounting = self._mountings.of(scan) if scan is not None and is_new else None
+        return found._replace(dt=dt / SECOND, scan=None if mounting is None else told(scan, mounting))
 
     def look(self) -> Optional[Observation]:
         """What the robot knows now, with dt 0; None if something is missing."""
