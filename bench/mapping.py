@@ -107,8 +107,8 @@ def compared(plan, truth):
     """Shares of wall cells that agree, after the best rigid alignment: `near`, `close` and `found` of `Mission`."""
     walls = Walls(truth)
     cells, pose = centres(plan), np.empty(3)
-    compiled_matching.match(np.zeros(3), np.diag([0.5, 0.5, 0.1]) ** 2, cells, walls.distance, *walls.origin,
-                            walls.resolution, STEPS, 1.0, pose, np.empty((3, 3)))
+    compiled_matching.match(np.zeros(3), np.diag([0.5, 0.5, 0.1]) ** 2, cells, np.zeros(len(cells)), walls.distance,
+                            *walls.origin, walls.resolution, STEPS, 1.0, pose, np.empty((3, 3)))
     cos, sin = math.cos(pose[2]), math.sin(pose[2])
     aligned = cells @ np.array([[cos, sin], [-sin, cos]]) + pose[:2]
     away = distances(aligned, edges(truth))

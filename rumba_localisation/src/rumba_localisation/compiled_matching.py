@@ -3,6 +3,7 @@
 Arguments that functions share:
     points: float64 (beams, 2), where beams end, in the frame of the robot [m].
     laser: x and y of where they begin, in that frame [m].
+    kernels: float64 (beams), standard deviation of the distance from the end of each to a wall, at least [m].
     field: float32 (rows + 2, columns + 2), `Walls.log_likelihood`.
     distance: float32 (rows + 1, columns + 1), `Walls.distance`.
     left, bottom, resolution: of the map [m].
@@ -61,8 +62,8 @@ def slope_at(distance: Array, u: float, v: float) -> Triple:
 
 
 @compiled
-def normal_equations(pose: Array, points: Array, distance: Array, left: float, bottom: float, resolution: float,
-                     sigma: float, matrix: Array, vector: Array) -> float:
+def normal_equations(pose: Array, points: Array, kernels: Array, distance: Array, left: float, bottom: float,
+                     resolution: float, least: float, matrix: Array, vector: Array) -> float:
     """Linearise the distances from the ends of beams to the walls around a pose.
 
     A beam that ends far from any wall, in units of sigma, counts little (Welsch's weight): it hit something that the
@@ -72,7 +73,7 @@ def normal_equations(pose: Array, points: Array, distance: Array, left: float, b
 
     Args, apart from those above:
         pose: float64 (3).
-        sigma: standard deviation of a distance [m].
+        least: standard deviation of a distance, at least [m].
         matrix, vector: float64 (3, 3) and (3), receive the information and the gradient of half the sum of squares.
 
     Returns:
@@ -92,6 +93,7 @@ def normal_equations(pose: Array, points: Array, distance: Array, left: float, b
         if steep > STEEP:
             off, by_x, by_y = off / steep, by_x / steep, by_y / steep
         by_theta = by_y * along - by_x * across
+        sigma = max(least, kernels[beam])
         share = math.exp(-0.5 * (off / sigma) ** 2)
         weight = share / sigma ** 2
         count += share
@@ -109,14 +111,14 @@ def normal_equations(pose: Array, points: Array, distance: Array, left: float, b
 
 
 @compiled
-def match(start: Array, covariance: Array, points: Array, distance: Array, left: float, bottom: float,
-          resolution: float, sigmas: Array, share: float, pose: Array, result: Array) -> float:
+def match(start: Array, covariance: Array, points: Array, kernels: Array, distance: Array, left: float,
+          bottom: float, resolution: float, sigmas: Array, share: float, pose: Array, result: Array) -> float:
     """Move a pose so that the beams of a scan end at walls (Gauss-Newton on the distances), held by where it began.
 
     Args, apart from those above:
         start: float64 (3), where the robot is supposed to be.
         covariance: float64 (3, 3), of that.
-        sigmas: float64 (steps), standard deviation for each step, falling, so that it finds what is far off too.
+        sigmas: float64 (steps), standard deviation for each step, at least, falling, so that it finds what is far off too.
         share: of the beams that err independently [0..1]; for the covariance of the result alone.
         pose: float64 (3), receives the result.
         result: float64 (3, 3), receives its covariance.
@@ -128,10 +130,10 @@ def match(start: Array, covariance: Array, points: Array, distance: Array, left:
     information, vector = np.zeros((3, 3)), np.zeros(3)
     pose[:] = start
     for step in range(len(sigmas)):
-        normal_equations(pose, points, distance, left, bottom, resolution, sigmas[step], information, vector)
+        normal_equations(pose, points, kernels, distance, left, bottom, resolution, sigmas[step], information, vector)
         change = product(inverse(information + prior), vector + product(prior, pose - start))
         pose -= np.minimum(np.maximum(change, -FARTHEST), FARTHEST)
-    fit = normal_equations(pose, points, distance, left, bottom, resolution, sigmas[-1], information, vector)
+    fit = normal_equations(pose, points, kernels, distance, left, bottom, resolution, sigmas[-1], information, vector)
     result[:] = inverse(share * information + prior)
     return fit
 

@@ -87,9 +87,9 @@ class Matcher:
             points: float64 (beams, 2), where beams end in the frame of the robot [m].
         """
         walls = self._walls
-        fit = compiled_matching.normal_equations(pose, thinned(points, self._config.laser_max_beams),
-                                                 walls.distance, *walls.origin, walls.resolution, STEPS[-1],
-                                                 np.empty((3, 3)), np.empty(3))
+        few = thinned(points, self._config.laser_max_beams)
+        fit = compiled_matching.normal_equations(pose, few, np.zeros(len(few)), walls.distance, *walls.origin,
+                                                 walls.resolution, STEPS[-1], np.empty((3, 3)), np.empty(3))
         return bool(fit < WORSE * self._fit)
 
     def best(self, cluster: particles.Cluster, poses: Array, share: Array, scan: Scan) -> Match:
@@ -121,7 +121,8 @@ class Matcher:
 
     def _matched(self, start: Array, prior: Array, scan: Scan) -> Match:
         walls, pose, covariance = self._walls, np.empty(3), np.empty((3, 3))
-        fit = compiled_matching.match(start, prior + HELD, thinned(scan.points, MATCHED), walls.distance, *walls.origin,
+        few = thinned(scan.points, MATCHED)
+        fit = compiled_matching.match(start, prior + HELD, few, np.zeros(len(few)), walls.distance, *walls.origin,
                                       walls.resolution, STEPS, INDEPENDENT, pose, covariance)
         through = walls.through(pose, thinned(scan.points, self._config.laser_max_beams), scan.laser)
         return Match(pose, covariance, fit, through)

@@ -91,8 +91,9 @@ class Search:
 
     def _matched(self, poses: Array, points: Array) -> Tuple[Array, Array]:
         found, fits = np.empty_like(poses), np.empty(len(poses))
-        wide, covariance = np.diag(APART), np.empty((3, 3))
+        wide, covariance, kernels = np.diag(APART), np.empty((3, 3)), np.zeros(len(points))
         for index, pose in enumerate(poses):
-            fits[index] = compiled_matching.match(pose, wide, points, self._walls.distance, *self._walls.origin,
-                                                  self._walls.resolution, STEPS, 1.0, found[index], covariance)
+            fits[index] = compiled_matching.match(pose, wide, points, kernels, self._walls.distance,
+                                                  *self._walls.origin, self._walls.resolution, STEPS, 1.0,
+                                                  found[index], covariance)
         return found, fits

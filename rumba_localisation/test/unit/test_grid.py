@@ -8,11 +8,12 @@ import pytest
 from rumba_localisation.mapping import compiled_grid
 from rumba_localisation.mapping.believed_plan import believed_plan
 from rumba_localisation.mapping.grid import Grid, placed
+from rumba_localisation.noise import Noise
 from rumba_localisation.scan import Scan
 from rumba_sim.model.floor_plan import FREE, OCCUPIED, UNKNOWN
 from rumba_sim.model.geometry import Pose
 
-NONE = np.empty((0, 2))
+NONE, NOISE = np.empty((0, 2)), Noise(0.01)
 
 
 def beams(count, length):
@@ -25,13 +26,13 @@ def wall(grid, distance=1.0, scans=5):
     """Show a grid a wall straight ahead of a laser at the origin, along y, by evenly spread points on it."""
     points = np.stack([np.full(400, distance), np.linspace(-1.0, 1.0, 400)], axis=1)
     for _ in range(scans):
-        grid.add(Pose(0.0, 0.0, 0.0), Scan(points, NONE))
+        grid.add(Pose(0.0, 0.0, 0.0), Scan(points, NONE), NOISE)
     grid.measure()
 
 
 def test_a_beam_frees_the_cells_that_it_passes_and_raises_the_odds_of_the_last():
     odds, hits = np.zeros((3, 8), np.float32), np.zeros((3, 8, 5), np.float32)
-    box = compiled_grid.add_beams(odds, hits, 0.5, 1.5, np.array([[5.25, 1.5]]), True)
+    box = compiled_grid.add_beams(odds, hits, 0.5, 1.5, np.array([[5.25, 1.5]]), np.ones(1), True)
     assert odds[1].tolist() == pytest.approx([compiled_grid.MISS] * 5 + [compiled_grid.HIT, 0.0, 0.0])
     assert not odds[[0, 2]].any()
     assert box == (1, 5, 2, 6)
@@ -40,7 +41,7 @@ def test_a_beam_frees_the_cells_that_it_passes_and_raises_the_odds_of_the_last()
 
 def test_a_slanting_beam_passes_each_cell_that_it_crosses():
     odds, hits = np.zeros((4, 4), np.float32), np.zeros((4, 4, 5), np.float32)
-    compiled_grid.add_beams(odds, hits, 0.1, 0.5, np.array([[3.1, 2.5]]), False)
+    compiled_grid.add_beams(odds, hits, 0.1, 0.5, np.array([[3.1, 2.5]]), np.ones(1), False)
     passed = {(int(row), int(column)) for row, column in np.argwhere(odds < 0.0)}
     along = np.linspace(0.0, 1.0, 5000)[:-1]
     crossed = {(int(0.5 + 2.0 * share), int(0.1 + 3.0 * share)) for share in along}
@@ -49,7 +50,7 @@ def test_a_slanting_beam_passes_each_cell_that_it_crosses():
 
 def test_a_beam_without_an_echo_frees_and_occupies_nothing():
     odds, hits = np.zeros((1, 8), np.float32), np.zeros((1, 8, 5), np.float32)
-    box = compiled_grid.add_beams(odds, hits, 0.5, 0.5, np.array([[6.5, 0.5]]), False)
+    box = compiled_grid.add_beams(odds, hits, 0.5, 0.5, np.array([[6.5, 0.5]]), np.ones(1), False)
     assert (odds[0, :6] < 0.0).all() and odds[0, 6] == 0.0
     assert box[0] >= box[2]
 
@@ -57,11 +58,11 @@ def test_a_beam_without_an_echo_frees_and_occupies_nothing():
 def test_odds_have_limits_so_that_what_has_changed_is_believed():
     odds, hits = np.zeros((1, 4), np.float32), np.zeros((1, 4, 5), np.float32)
     for _ in range(100):
-        compiled_grid.add_beams(odds, hits, 0.5, 0.5, np.array([[2.5, 0.5]]), True)
+        compiled_grid.add_beams(odds, hits, 0.5, 0.5, np.array([[2.5, 0.5]]), np.ones(1), True)
     assert odds[0].tolist() == pytest.approx([-compiled_grid.MOST] * 2 + [compiled_grid.MOST, 0.0])
     scans = math.ceil(compiled_grid.MOST / -compiled_grid.MISS)
     for _ in range(scans):
-        box = compiled_grid.add_beams(odds, hits, 0.5, 0.5, np.array([[3.5, 0.5]]), False)
+        box = compiled_grid.add_beams(odds, hits, 0.5, 0.5, np.array([[3.5, 0.5]]), np.ones(1), False)
     assert odds[0, 2] <= 0.0
     assert hits[0, 2, 4] == 0.0  # what stood there is forgotten
     assert box == (0, 2, 1, 3)
@@ -89,7 +90,7 @@ def test_the_field_is_far_where_no_wall_is_near():
 @pytest.mark.parametrize('start', [Pose(0.0, 0.0, 0.0), Pose(-300.0, 712.3, 1.0)])
 def test_a_grid_that_grows_keeps_what_it_knows(start):
     grid = Grid()
-    grid.add(start, Scan(beams(360, 1.0), NONE))
+    grid.add(start, Scan(beams(360, 1.0), NONE), NOISE)
     here = placed(start, beams(360, 1.0))
     before, size = grid.share_unknown(start, beams(360, 1.0)), grid.odds.size
     for direction in range(4):
@@ -104,7 +105,7 @@ def test_a_grid_that_grows_keeps_what_it_knows(start):
 def test_the_plan_of_a_grid_shows_floor_walls_and_what_is_unknown():
     grid, dock = Grid(), Pose(0.2, 0.0, 0.0)
     wall(grid)
-    grid.add(Pose(0.0, 0.0, 0.0), Scan(NONE, beams(360, 0.9)))
+    grid.add(Pose(0.0, 0.0, 0.0), Scan(NONE, beams(360, 0.9)), NOISE)
     plan = believed_plan(grid, 'a wall', dock)
     assert plan.occupancy[plan.cell(0.5, 0.3)] == FREE
     assert plan.occupancy[plan.cell(1.0, 0.3)] == OCCUPIED

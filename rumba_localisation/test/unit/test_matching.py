@@ -20,8 +20,8 @@ WIDE = np.diag([0.1, 0.1, 0.1]) ** 2
 def matched(walls, start, points, covariance=WIDE):
     """Pose, its covariance, and the fit."""
     pose, result = np.empty(3), np.empty((3, 3))
-    fit = compiled_matching.match(np.array(start, float), covariance, points, walls.distance, *walls.origin,
-                                  walls.resolution, STEPS, 1.0, pose, result)
+    fit = compiled_matching.match(np.array(start, float), covariance, points, np.zeros(len(points)),
+                                  walls.distance, *walls.origin, walls.resolution, STEPS, 1.0, pose, result)
     return pose, result, fit
 
 
@@ -56,8 +56,8 @@ def test_along_a_bare_wall_the_prior_decides():
 def normal_equations(field, points):
     """Matrix, vector and share for beams from a pose in a field with cells of 1 m."""
     matrix, vector = np.empty((3, 3)), np.empty(3)
-    share = compiled_matching.normal_equations(np.array([5.0, 5.0, 0.3]), points, field, 0.0, 0.0, 1.0, 0.5, matrix,
-                                               vector)
+    pose, kernels = np.array([5.0, 5.0, 0.3]), np.zeros(len(points))
+    share = compiled_matching.normal_equations(pose, points, kernels, field, 0.0, 0.0, 1.0, 0.5, matrix, vector)
     return matrix, vector, share
 
 

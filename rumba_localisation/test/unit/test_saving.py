@@ -10,6 +10,7 @@ from rumba_localisation.mapping import saving
 from rumba_localisation.mapping.believed_plan import believed_plan
 from rumba_localisation.mapping.findings import Findings
 from rumba_localisation.mapping.grid import Grid
+from rumba_localisation.noise import Noise
 from rumba_localisation.scan import Scan
 from rumba_sim.model import map_file
 from rumba_sim.model.errors import MapError
@@ -30,7 +31,7 @@ def grid_with_wall(x):
     """A grid with a wall along y, and floor before it."""
     grid = Grid()
     points = np.stack([np.full(300, x), np.linspace(-1.0, 1.0, 300)], axis=1)
-    grid.add(Pose(0.0, 0.0, 0.0), Scan(points, np.empty((0, 2))))
+    grid.add(Pose(0.0, 0.0, 0.0), Scan(points, np.empty((0, 2))), Noise())
     grid.measure()
     return grid
 
@@ -67,7 +68,7 @@ def test_a_switch_that_stays_pressed_tells_nothing_new():
 def test_both_switches_are_pressed_by_what_the_map_shows_ahead_or_at_both_sides(sides, is_known):
     found, grid = findings(), Grid()
     legs = np.array([[AWAY * math.cos(side), AWAY * math.sin(side)] for side in sides])
-    grid.add(Pose(0.0, 0.0, 0.0), Scan(legs, np.empty((0, 2))))
+    grid.add(Pose(0.0, 0.0, 0.0), Scan(legs, np.empty((0, 2))), Noise())
     grid.measure()
     found.note(grid, Pose(0.0, 0.0, 0.0), (True, True), QUIET)
     assert not found.touched if is_known else len(found.touched) == 1

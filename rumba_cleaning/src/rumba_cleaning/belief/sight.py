@@ -101,7 +101,7 @@ class Sight:
         limit = np.array(self._shape)[::-1] - 1e-6
         cells = np.clip((ends - self._plan.origin) / CELL, 0.0, limit)
         x, y = np.clip((np.array(pose[:2]) - self._plan.origin) / CELL, 0.0, limit).tolist()
-        compiled_grid.add_beams(self._odds, self._hits, x, y, cells, has_echo)
+        compiled_grid.add_beams(self._odds, self._hits, x, y, cells, np.ones(len(cells)), has_echo)
 
     def seen(self) -> Seen:
         """The middles of the cells on which there is something."""

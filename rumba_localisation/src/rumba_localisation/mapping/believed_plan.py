@@ -5,6 +5,7 @@ from typing import List, Optional, Tuple
 
 import numpy as np
 from scipy import ndimage
+from scipy.spatial import cKDTree
 
 from rumba_localisation.mapping.findings import Findings, Point
 from rumba_localisation.mapping.grid import Grid
@@ -14,6 +15,7 @@ from rumba_sim.model.kernel import Array
 
 GAPS = 0.08  # [m] half the width of what lies unseen between two beams, and is free if all around it is
 BEFORE = 0.002  # [m] before a wall, and more, a cell does not belong to it
+SLACK = 0.03  # [m] of its body, at the rim of which the robot may have touched a wall
 RADIUS = 0.03  # [m] of what the bumper found at a point
 HALF = 0.75  # of a cell, within which of any point there is the centre of a cell
 EDGE = 0.022  # [m] the same of a cliff sensor: half of what a robot drives between readings, and half a cell, about
@@ -43,9 +45,21 @@ def believed_plan(grid: Grid, name: str, dock: Optional[Pose] = None,
     origin = grid.origin[0] + left * side, grid.origin[1] + top * side
     cliff = None
     if findings is not None:
+        _clear_body(cells, findings, origin, side)
         cells[around(findings.touched, RADIUS, cells.shape, origin, side)] = OCCUPIED
         cliff = around(findings.cliffs, EDGE, cells.shape, origin, side) if findings.cliffs else None
     return FloorPlan(name, cells, side, origin, cliff=cliff, dock=dock)
+
+
+def _clear_body(cells: Array, findings: Findings, origin: Point, side: float) -> None:
+    """Free the occupied cells in which the body of the robot was: a laser that tells too little shows walls there."""
+    rows, columns = np.nonzero(cells == OCCUPIED)
+    if not findings.stood or not len(rows):
+        return
+    centres = (np.stack([columns, rows], axis=1) + 0.5) * side + origin
+    away = cKDTree(list(findings.stood.values())).query(centres, distance_upper_bound=findings.radius)[0]
+    is_body = away < findings.radius - max(side, SLACK)
+    cells[rows[is_body], columns[is_body]] = FREE
 
 
 def occupancy(odds: Array, field: Array, gaps: int) -> Array:

@@ -10,7 +10,7 @@ from rumba_localisation.mapping.grid import Grid
 from rumba_localisation.mapping.look_around import best_around
 from rumba_localisation.noise import Noise
 from rumba_localisation.scan import Scan, thinned
-from rumba_sim.model.geometry import Pose, wrap_angle
+from rumba_sim.model.geometry import Pose
 from rumba_sim.model.kernel import Array
 
 BEAMS, INDEPENDENT = 360, 0.2  # of a match, at most, and the share of them that err independently
@@ -29,7 +29,7 @@ class Match(NamedTuple):
 
     pose: Pose  # map frame
     covariance: Array  # float64 (3, 3)
-    fit: float  # share of its beams that end at walls, less those at their wrong sides, and WRONG times those that cannot
+    fit: float  # share of its beams that end at walls, less those behind, and WRONG times those that cannot
 
 
 class Sought(NamedTuple):
@@ -68,12 +68,7 @@ def clear_match(grid: Grid, sought: Sought, noise: Noise, supposed: Optional[Pos
 
 
 def _match(grid: Grid, start: Pose, points: Array, scan: Scan, noise: Noise) -> Match:
-    found, covariance = np.empty(3), np.empty((3, 3))
-    fit = compiled_matching.match(np.array(start), HELD, points, grid.field, *grid.origin, grid.resolution, noise.steps,
-                                  INDEPENDENT, found, covariance)
-    x, y, theta = found.tolist()
-    pose = Pose(x, y, wrap_angle(theta))
-    fit -= WRONG * grid.share_wrong(pose, scan, noise.kernel, points)
-    fit -= compiled_matching.from_behind(found, scan.points, scan.laser, grid.field, *grid.origin, grid.resolution,
-                                         noise.kernel)
-    return Match(pose, covariance, fit)
+    found = grid.matched(start, HELD, points, noise.kernels(points, scan.laser), noise.steps, INDEPENDENT)
+    behind = compiled_matching.from_behind(np.array(found.pose), scan.points, scan.laser, grid.field, *grid.origin,
+                                           grid.resolution, noise.kernel)
+    return Match(*found[:2], found.fit - behind - WRONG * grid.share_wrong(found.pose, scan, noise, points))

@@ -3,7 +3,7 @@
 Arguments that functions share:
     odds: float32 (rows, columns), logarithm of the odds that a cell is occupied; 0 if nothing is known.
     hits: float32 (rows, columns, 5), for each cell the means over the beams that ended in it: of x and y [cells from
-        the corner of the grid], and of the x and y of the directions toward the laser; and the number of these beams.
+        the corner of the grid], and of the x and y of the directions toward the laser; and the weight of these beams.
     field: float32 (rows + 1, columns + 1), signed distance from each node to the nearest wall [m].
 """
 
@@ -21,16 +21,17 @@ HIT, MISS = 0.9, -0.5  # logarithms of odds: what more than a third of the beams
 MOST = 4.0  # the largest, so that what has changed is believed after some scans
 BESIDE = 3  # [cells] around a cell to which a line is fitted
 STRAIGHT, THIN = 1.0, 0.2  # [cells^2] variance along a line, at least, and that across in units of it, at most
-ENOUGH = 20.0  # beams over which the means of a cell are taken, at most: after that walls do not drift
+ENOUGH = 20.0  # weight of the beams over which means are taken, at most: after that walls do not drift
 
 
 @compiled
-def add_beams(odds: Array, hits: Array, x: float, y: float, ends: Array, has_echo: bool) -> Box:
+def add_beams(odds: Array, hits: Array, x: float, y: float, ends: Array, weights: Array, has_echo: bool) -> Box:
     """Take beams into account: the cells that they pass are free, those in which they end are occupied.
 
     Args, apart from those above:
         x, y: of the laser [cells from the corner of the grid].
         ends: float64 (beams, 2), where they end, on the grid [cells from its corner].
+        weights: float64 (beams), 1 for a beam that is as exact as any, less for one that errs more.
         has_echo: whether they end at something.
 
     Returns:
@@ -71,11 +72,12 @@ def add_beams(odds: Array, hits: Array, x: float, y: float, ends: Array, has_ech
         cell = hits[row, column]
         if cell[4] < ENOUGH:
             length = math.hypot(by_x, by_y)
-            cell[4] += 1.0
-            cell[0] += (to_x - cell[0]) / cell[4]
-            cell[1] += (to_y - cell[1]) / cell[4]
-            cell[2] += (-by_x / length - cell[2]) / cell[4]
-            cell[3] += (-by_y / length - cell[3]) / cell[4]
+            cell[4] += weights[beam]
+            share = weights[beam] / cell[4]
+            cell[0] += (to_x - cell[0]) * share
+            cell[1] += (to_y - cell[1]) * share
+            cell[2] += (-by_x / length - cell[2]) * share
+            cell[3] += (-by_y / length - cell[3]) * share
     return top, left, bottom, right
 
 
@@ -263,19 +265,19 @@ def unknown(odds: Array, ends: Array) -> int:
 
 
 @compiled
-def contradicted(odds: Array, field: Array, ends: Array, free: float, away: float) -> int:
+def contradicted(odds: Array, field: Array, ends: Array, free: float, away: Array) -> int:
     """How many beams end where there is surely nothing: neither there nor in the cells beside, which beams may graze.
 
     Args, apart from those above:
         ends: float64 (beams, 2), where they end [cells from the corner of the grid].
         free: odds of cells that are surely free, at most.
-        away: from walls, at least [m].
+        away: float64 (beams), from walls, at least [m].
     """
     rows, columns = odds.shape
     count = 0
     for beam in range(len(ends)):
         column, row = int(math.floor(ends[beam, 0])), int(math.floor(ends[beam, 1]))
-        if 0 < row < rows - 1 and 0 < column < columns - 1 and field[row, column] > away:
+        if 0 < row < rows - 1 and 0 < column < columns - 1 and field[row, column] > away[beam]:
             is_free = True
             for near_row in range(row - 1, row + 2):
                 for near_column in range(column - 1, column + 2):
@@ -285,21 +287,21 @@ def contradicted(odds: Array, field: Array, ends: Array, free: float, away: floa
 
 
 @compiled
-def blocked(odds: Array, x: float, y: float, ends: Array, wall: float, before: float) -> int:
+def blocked(odds: Array, x: float, y: float, ends: Array, wall: float, before: Array) -> int:
     """How many beams would have to pass through a wall.
 
     Args, apart from those above:
         x, y: of the laser [cells from the corner of the grid].
         ends: float64 (beams, 2), where they end [cells from there].
         wall: odds of cells that are surely walls, at least.
-        before: the end of a beam, up to which it may be in a wall [cells].
+        before: float64 (beams), the end of a beam, up to which it may be in a wall [cells].
     """
     rows, columns = odds.shape
     count = 0
     for beam in range(len(ends)):
         by_x, by_y = ends[beam, 0] - x, ends[beam, 1] - y
         length = math.hypot(by_x, by_y)
-        for step in range(1, int(length - before)):
+        for step in range(1, int(length - before[beam])):
             column, row = int(math.floor(x + by_x * step / length)), int(math.floor(y + by_y * step / length))
             if 0 <= row < rows and 0 <= column < columns and odds[row, column] >= wall:
                 count += 1

@@ -1,7 +1,7 @@
-"""What bumper and cliff sensors found where the laser saw nothing."""
+"""What a robot found where the laser saw nothing, or erred: by bumper and cliff sensors, and by having stood there."""
 
 import math
-from typing import Callable, List, Sequence, Tuple
+from typing import Callable, Dict, List, Sequence, Tuple
 
 from rumba_localisation.edges import Edges
 from rumba_localisation.mapping.grid import Grid
@@ -15,6 +15,7 @@ ARC = (-0.7, -0.35, 0.0, 0.35, 0.7)  # [rad] from there: a switch tells no more 
 KNOWN = 0.06  # [m] from a wall of the map, a contact is one with that
 DEPTH = 0.02  # [m] from the body to the middle of what it touched
 SAME = 0.03  # [m] between two points that tell the same
+STEP = 0.05  # [m] side of a square of the floor, for which one place tells where the robot stood
 
 
 class Findings:
@@ -23,10 +24,14 @@ class Findings:
     Attributes:
         touched: points of obstacles.
         cliffs: points without floor.
+        stood: where it stood, by squares of the floor of STEP.
+        radius: of the robot [m].
     """
 
     def __init__(self, robot: RobotConfig) -> None:
         """Know nothing."""
+        self.radius = robot.drive.radius
+        self.stood: Dict[Tuple[int, int], Point] = {}
         self._away = robot.drive.radius + DEPTH
         self._edges = Edges(robot)
         self._pressed = (False, False)  # the newest state of the bumper
@@ -50,6 +55,7 @@ class Findings:
             bumper: whether it is pressed on the left and on the right.
             cliffs: whether there is no floor under each sensor, from left to right.
         """
+        self.stood[round(pose.x / STEP), round(pose.y / STEP)] = pose.x, pose.y
         is_new = any(now and not before for now, before in zip(bumper, self._pressed))
         self._pressed = bumper
         if is_new and not self._is_known(grid, pose, bumper):
@@ -68,6 +74,8 @@ class Findings:
         """Follow a redrawn map; `moved` tells where on it is what was at a pose before."""
         for points in (self.touched, self.cliffs):
             points[:] = [moved(Pose(x, y, 0.0))[:2] for x, y in points]
+        places = [moved(Pose(x, y, 0.0))[:2] for x, y in self.stood.values()]
+        self.stood = {(round(x / STEP), round(y / STEP)): (x, y) for x, y in places}
 
 
 def _ahead(pose: Pose, angle: float, distance: float) -> Point:

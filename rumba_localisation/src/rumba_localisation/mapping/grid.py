@@ -1,13 +1,15 @@
 """An occupancy grid that grows with what scans tell, and the distances to its walls, by which scans are matched."""
 
 import math
-from typing import Optional, Tuple
+from typing import NamedTuple, Optional, Tuple
 
 import numpy as np
 
+from rumba_localisation import compiled_matching
 from rumba_localisation.mapping import compiled_grid
+from rumba_localisation.noise import Noise
 from rumba_localisation.scan import Scan, thinned
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.geometry import Pose, wrap_angle
 from rumba_sim.model.kernel import Array
 
 REACH = 25  # [cells] up to which distances to walls are known
@@ -18,6 +20,14 @@ CHECKED = 180  # beams, at most, of which it is looked where they pass
 HIDES = 4  # [cells] before a wall of which the noise scatters hits, at most: twice its narrowest sigma
 NOTHING = (1 << 30, 1 << 30, 0, 0)  # an empty box of cells
 CHUNK = 100  # [cells] by which the grid grows, at least
+
+
+class Fit(NamedTuple):
+    """Where a scan fits."""
+
+    pose: Pose  # [m, rad] map frame
+    covariance: Array  # float64 (3, 3)
+    fit: float  # share of its beams that end at a wall there, weighted [0..1]
 
 
 class Grid:
@@ -46,14 +56,15 @@ class Grid:
         """Points (any, 2) [m] as numbers of cells from the corner of the grid, which have fractions."""
         return (points - np.array(self.origin)) / self.resolution
 
-    def add(self, pose: Pose, scan: Scan) -> None:
-        """Take a scan into account that was taken at a pose of the robot [m, rad]."""
+    def add(self, pose: Pose, scan: Scan, noise: Noise) -> None:
+        """Take a scan into account that was taken at a pose of the robot [m, rad], with the noise of its laser."""
         echoes, others, here = ends_of(pose, scan)
         self.cover(np.concatenate([here, echoes, others]))
         (x, y), = self.cells(here).tolist()
         self.odds[int(y), int(x)] += compiled_grid.MISS  # no beam may tell it, but there the robot is
-        free = compiled_grid.add_beams(self.odds, self._hits, x, y, self.cells(others), False)
-        met = compiled_grid.add_beams(self.odds, self._hits, x, y, self.cells(echoes), True)
+        weights = (noise.kernel / noise.kernels(scan.points, scan.laser)) ** 2
+        free = compiled_grid.add_beams(self.odds, self._hits, x, y, self.cells(others), np.ones(len(others)), False)
+        met = compiled_grid.add_beams(self.odds, self._hits, x, y, self.cells(echoes), weights, True)
         box = (min(free[0], met[0]), min(free[1], met[1]), max(free[2], met[2]), max(free[3], met[3]))
         self._changed = (min(self._changed[0], box[0]), min(self._changed[1], box[1]),
                          max(self._changed[2], box[2]), max(self._changed[3], box[3]))
@@ -74,23 +85,43 @@ class Grid:
         """Share of the beams of a scan, as `add` gets it, that end on cells of which nothing is known [0..1]."""
         return compiled_grid.unknown(self.odds, self.cells(placed(pose, points))) / max(len(points), 1)
 
-    def share_wrong(self, pose: Pose, scan: Scan, kernel: float, cloud: Optional[Array] = None) -> float:
+    def share_wrong(self, pose: Pose, scan: Scan, noise: Noise, cloud: Optional[Array] = None) -> float:
         """Share of the beams of a scan that end where there is surely nothing, or would have to pass through walls.
 
         Args:
             pose: of the robot [m, rad].
             scan: with echoes.
-            kernel: sigma of the narrowest step of a match [m].
+            noise: of the laser.
             cloud: float64 (any, 2), ends of beams that count instead of those of the scan, if they end where there is
                 nothing; in the frame of the robot [m].
         """
         points = thinned(scan.points, CHECKED)
+        kernels = noise.kernels(points, scan.laser)
         (x, y), = self.cells(placed(pose, np.array([scan.laser]))).tolist()
         blocked = compiled_grid.blocked(self.odds, x, y, self.cells(placed(pose, points)), -SURE,
-                                        max(AWAY * kernel, BEFORE) / self.resolution)
-        ends = points if cloud is None else cloud
-        nowhere = compiled_grid.contradicted(self.odds, self.field, self.cells(placed(pose, ends)), SURE, AWAY * kernel)
-        return blocked / max(len(points), 1) + nowhere / max(len(ends), 1)
+                                        np.maximum(AWAY * kernels, BEFORE) / self.resolution)
+        if cloud is not None:
+            points, kernels = cloud, noise.kernels(cloud, scan.laser)
+        nowhere = compiled_grid.contradicted(self.odds, self.field, self.cells(placed(pose, points)), SURE,
+                                             AWAY * kernels)
+        return blocked / max(min(len(scan.points), CHECKED), 1) + nowhere / max(len(points), 1)
+
+    def matched(self, start: Pose, prior: Array, points: Array, kernels: Array, steps: Array,
+                share: float) -> Fit:
+        """Where a scan fits near a pose.
+
+        Args:
+            start: from where it is moved [m, rad].
+            prior: float64 (3, 3), covariance of that.
+            points: float64 (beams, 2), where beams end, in the frame of the robot [m].
+            kernels, steps: as for `compiled_matching.match`.
+            share: of the beams that err independently.
+        """
+        found, covariance = np.empty(3), np.empty((3, 3))
+        fit = compiled_matching.match(np.array(start), prior, points, kernels, self.field, *self.origin,
+                                      self.resolution, steps, share, found, covariance)
+        x, y, theta = found.tolist()
+        return Fit(Pose(x, y, wrap_angle(theta)), covariance, fit)
 
     def distance_at(self, x: float, y: float) -> float:
         """Distance from a point [m] to the nearest wall [m], to the nearest node; large if none is near."""

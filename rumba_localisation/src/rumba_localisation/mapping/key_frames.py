@@ -10,6 +10,7 @@ from scipy.sparse import csgraph
 from rumba_localisation.compiled_matrices import inverse as inverted
 from rumba_localisation.mapping.grid import Grid, ends_of, placed
 from rumba_localisation.mapping.pose_graph import Link, optimised
+from rumba_localisation.noise import Noise
 from rumba_localisation.scan import Scan
 from rumba_sim.model.geometry import Pose, compose, inverse, wrap_angle
 from rumba_sim.model.kernel import Array
@@ -111,14 +112,14 @@ class KeyFrames:
         scan = self._scans[number]
         return scan._replace(points=scan.points.astype(np.float64), beyond=scan.beyond.astype(np.float64))
 
-    def drawn(self, numbers: Array, resolution: float) -> Grid:
-        """A map of some of the scans alone, with cells of a side [m]."""
+    def drawn(self, numbers: Array, resolution: float, noise: Noise) -> Grid:
+        """A map of some of the scans alone, with cells of a side [m], by the noise of their laser."""
         grid = Grid(resolution)
         shown = [(self.poses[number], self._scan(number)) for number in numbers.tolist()]
         # At once: each time that it grows all cells are copied.
         grid.cover(np.concatenate([ends for pose, scan in shown for ends in ends_of(pose, scan)]))
         for pose, scan in shown:
-            grid.add(pose, scan)
+            grid.add(pose, scan, noise)
         grid.measure()
         return grid
 

@@ -93,7 +93,7 @@ class LoopClosure:
         centre, pose = frames.poses[nearest], frames.poses[frame]
         around = np.sort(np.intersect1d(frames.near(centre.x, centre.y, NEAR), old))
         sought = Sought(pose, reach, TURN, frames.cloud(frame, LOCAL), scan)
-        best = clear_match(frames.drawn(around, resolution), sought, self._noise,
+        best = clear_match(frames.drawn(around, resolution, self._noise), sought, self._noise,
                            None if self._doubted is None else compose(self._doubted.change, pose))
         return None if best is None else Found(nearest, frame, best, compose(best.pose, inverse(pose)))
 

@@ -20,7 +20,7 @@ from rumba_sim.model.geometry import Pose, compose, inverse, wrap_angle
 from rumba_sim.model.kernel import Array
 
 FINE, COARSE, LARGEST = 0.02, 0.05, 0.2  # [m] side of a cell at first, by noise at most, and of a large map at most
-COARSER = 1.5  # narrowest sigmas of a match in the side of a cell, from which on cells get larger
+COARSER = 2.5  # narrowest sigmas of a match in the side of a cell, from which on cells get larger
 MOST = 6_000_000  # cells, at most, with 28 bytes each
 SPACING, VISITS = 0.25, 4  # [m] side of a square of the floor, and scans from there that the map shows
 UNSEEN = 0.05  # share of the beams that end on unknown floor, from which on a scan from anywhere is added
@@ -125,7 +125,7 @@ class Mapper:
         if not self._has_room(estimate.pose, scan):
             self.is_full = True
             return
-        self.grid.add(estimate.pose, scan)
+        self.grid.add(estimate.pose, scan, self.noise)
         self.version += 1
         self._added += 1
         if self._added >= AT_ONCE or self.version == 1:
@@ -151,7 +151,7 @@ class Mapper:
     def _draw(self, side: float) -> None:
         """Draw the map of the key frames, with cells of a side [m]."""
         frames = self._frames
-        self.grid = frames.drawn(np.arange(len(frames.poses)), side) if frames.poses else Grid(side)
+        self.grid = frames.drawn(np.arange(len(frames.poses)), side, self.noise) if frames.poses else Grid(side)
         self.version += 1
         self._added = 0
 
@@ -178,9 +178,9 @@ class Mapper:
     def _judged(self, estimate: Estimate, scan: Scan) -> Estimate:
         """If a scan does not fit, look nearby: wheels err along a bare corridor; in the end, look all over the map."""
         grid, ends = self.grid, scan.points
-        if is_blind(ends) or grid.share_wrong(estimate.pose, scan, self.noise.kernel) < ASTRAY:
+        if is_blind(ends) or grid.share_wrong(estimate.pose, scan, self.noise) < ASTRAY:
             self._misfits = 0
-            self.noise.follow(np.array(estimate.pose), thinned(ends, MATCHED), grid.field, *grid.origin,
+            self.noise.follow(np.array(estimate.pose), thinned(ends, MATCHED), scan.laser, grid.field, *grid.origin,
                               grid.resolution)
             return estimate
         self._misfits += 1

@@ -88,13 +88,10 @@ class Relocation:
 
     def _matched(self, place: Place, scan: Scan) -> Place:
         """Where a scan fits near a place."""
-        grid, found, covariance = self._grid, np.empty(3), np.empty((3, 3))
-        fit = compiled_matching.match(np.array(place.pose), SPREAD, thinned(scan.points, MATCHED), grid.field,
-                                      *grid.origin, grid.resolution, self._noise.steps, 1.0, found, covariance)
-        x, y, theta = found.tolist()
-        pose = Pose(x, y, wrap_angle(theta))
-        score = fit - WRONG * grid.share_wrong(pose, scan, self._noise.kernel)
-        return Place(pose, covariance, place.score + score, place.scans + 1)
+        few, noise = thinned(scan.points, MATCHED), self._noise
+        found = self._grid.matched(place.pose, SPREAD, few, noise.kernels(few, scan.laser), noise.steps, 1.0)
+        score = found.fit - WRONG * self._grid.share_wrong(found.pose, scan, noise)
+        return Place(found.pose, found.covariance, place.score + score, place.scans + 1)
 
     def _clear(self) -> Optional[Estimate]:
         """The best place, if all were tried, enough was seen, and it is far better than the others."""

@@ -5,7 +5,6 @@ from typing import Tuple
 
 import numpy as np
 
-from rumba_localisation import compiled_matching
 from rumba_localisation.compiled_matrices import inverse as inverted
 from rumba_localisation.localiser import Estimate
 from rumba_localisation.mapping.clear_match import WRONG
@@ -76,7 +75,7 @@ class Tracker:
         prior, ends = self._open + movement, scan.points
         if is_blind(ends):
             return Estimate(supposed, prior, 0.0, True), movement
-        best = self._match(grid, supposed, prior, ends)
+        best = self._match(grid, supposed, prior, scan)
         reach, turn = 3.0 * math.sqrt(max(prior[0, 0], prior[1, 1])), 3.0 * math.sqrt(prior[2, 2])
         if best.fit >= GOOD and max(reach, turn) < CAUGHT:
             self.surprise -= SOON * self.surprise
@@ -89,22 +88,20 @@ class Tracker:
             return min(float(off @ held @ off), RARE)
 
         def evidence(estimate: Estimate) -> float:
-            quality = estimate.fit - WRONG * grid.share_wrong(estimate.pose, scan, self._noise.kernel)
+            quality = estimate.fit - WRONG * grid.share_wrong(estimate.pose, scan, self._noise)
             return EVIDENCE * quality - error(estimate)
 
         starts = best_around(grid, supposed, max(reach, SLIP), max(turn, TWIST), ends, STARTS)
-        other = max((self._match(grid, start, SLIPPED, ends) for start in starts), key=evidence)
+        other = max((self._match(grid, start, SLIPPED, scan) for start in starts), key=evidence)
         is_better = evidence(other) > evidence(best)
         self.surprise += SOON * ((is_better and error(other) >= RARE) - self.surprise)
         return (other, SLIPPED) if is_better else (best, movement)
 
-    def _match(self, grid: Grid, start: Pose, prior: Array, ends: Array) -> Estimate:
+    def _match(self, grid: Grid, start: Pose, prior: Array, scan: Scan) -> Estimate:
         """Where a scan fits near a pose, which has a covariance (3, 3)."""
-        found, covariance = np.empty(3), np.empty((3, 3))
-        fit = compiled_matching.match(np.array(start), prior, thinned(ends, MATCHED), grid.field, *grid.origin,
-                                      grid.resolution, self._noise.steps, INDEPENDENT, found, covariance)
-        x, y, theta = found.tolist()
-        return Estimate(Pose(x, y, wrap_angle(theta)), covariance, fit, True)
+        few = thinned(scan.points, MATCHED)
+        found = grid.matched(start, prior, few, self._noise.kernels(few, scan.laser), self._noise.steps, INDEPENDENT)
+        return Estimate(*found, True)
 
     def _spread(self, last: Pose, odometry: Pose) -> Array:
         """Covariance of a movement (3, 3): Probabilistic Robotics (Thrun, Burgard, Fox 2005), table 5.6."""
