@@ -118,7 +118,7 @@ def match(start: Array, covariance: Array, points: Array, kernels: Array, distan
     Args, apart from those above:
         start: float64 (3), where the robot is supposed to be.
         covariance: float64 (3, 3), of that.
-        sigmas: float64 (steps), standard deviation for each step, at least, falling, so that it finds what is far off too.
+        sigmas: float64 (steps), standard deviation for each step, at least, falling: it finds what is far off too.
         share: of the beams that err independently [0..1]; for the covariance of the result alone.
         pose: float64 (3), receives the result.
         result: float64 (3, 3), receives its covariance.

@@ -95,7 +95,7 @@ def test_a_grid_that_grows_keeps_what_it_knows(start):
     before, size = grid.share_unknown(start, beams(360, 1.0)), grid.odds.size
     for direction in range(4):
         grid.add(Pose(start.x + 5.0 * math.cos(direction * math.pi / 2), start.y + 5.0 * math.sin(
-            direction * math.pi / 2), 0.0), Scan(beams(360, 1.0), NONE))
+            direction * math.pi / 2), 0.0), Scan(beams(360, 1.0), NONE), NOISE)
     grid.measure()
     assert before == 0.0 and grid.share_unknown(start, beams(360, 1.0)) == 0.0
     assert size < grid.odds.size < 1_000_000
@@ -117,7 +117,7 @@ def test_the_plan_of_a_grid_shows_floor_walls_and_what_is_unknown():
 
 def test_what_lies_between_two_beams_is_free():
     grid = Grid()
-    grid.add(Pose(0.0, 0.0, 0.0), Scan(NONE, beams(90, 2.0)))  # 0.13 m apart at 1.9 m
+    grid.add(Pose(0.0, 0.0, 0.0), Scan(NONE, beams(90, 2.0)), NOISE)  # 0.13 m apart at 1.9 m
     plan = believed_plan(grid, 'beams')
     angle = math.radians(2.0)
     cell = plan.cell(1.8 * math.cos(angle), 1.8 * math.sin(angle))
