@@ -78,7 +78,8 @@ class Localised:
         """Scan, and see where that fits."""
         odometry = as_told(world.robots[name].odometry)
         scan = self.scans(world, name)
-        self.localiser.observe(odometry, None if scan is None else scan.points)
+        if scan is not None or world.is_scan_due:  # else the laser is still turning
+            self.localiser.observe(odometry, None if scan is None else scan.points)
         if scan is not None:
             self._scanned = world.time
         estimate = self.localiser.estimate

@@ -76,3 +76,16 @@ def test_sources_go_on_between_two_scans():
             assert (belief.scan is not None) == (step % 2 == 0)
             assert math.hypot(belief.pose.x - POSE.x, belief.pose.y - POSE.y) < 0.02
         world.step(5)
+
+
+def test_between_two_scans_of_a_slow_laser_the_localiser_believes_what_it_did():
+    world = world_with(model='rplidar_a1', rate=1.0)
+    source = Localised(world.plan, world, 'rumba')
+    estimates = []
+    for _ in range(21):
+        source(world, 'rumba')
+        estimates.append(source.localiser.estimate)
+        world.robots['rumba'].command(0.3, 0.0, world.tick)
+        world.step(5)
+    changes = [step for step in range(1, 21) if estimates[step] is not estimates[step - 1]]
+    assert changes == [10, 20]
