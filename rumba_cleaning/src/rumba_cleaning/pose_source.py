@@ -10,7 +10,7 @@ from rumba_localisation.localiser import Localiser, Seed
 from rumba_localisation.mapping.believed_plan import believed_plan
 from rumba_localisation.mapping.findings import Findings
 from rumba_localisation.mapping.mapper import Mapper
-from rumba_localisation.scan import SILENT, Mounting, Reading, Scan, scan_of
+from rumba_localisation.scan import Mounting, Reading, Scan, scan_of
 from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.model.geometry import Pose, as_told, compose, inverse
 from rumba_sim.model.kernel import Array
@@ -77,10 +77,10 @@ class Localised:
         """Scan, and see where that fits."""
         odometry = as_told(world.robots[name].odometry)
         scan = self.scans(world, name)
+        if scan is not None or world.is_scan_due:  # else the laser is still turning
+            self.localiser.observe(odometry, scan)
         if scan is not None:
             self._scanned = world.time
-        if scan is not None or world.time - self._scanned > SILENT:
-            self.localiser.observe(odometry, scan)
         estimate = self.localiser.estimate
         pose = compose(as_told(self.localiser.correction), odometry)
         return Belief(pose, UNKNOWN if estimate is None else _rows(estimate.covariance), scan,

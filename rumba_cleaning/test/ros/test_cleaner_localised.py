@@ -25,6 +25,7 @@ from rumba_cleaning.mission.mission import Mission
 from rumba_cleaning.pose_source import Localised
 from rumba_msg.msg import CleanGoal, DockStatus, MissionStatus, Outcome
 from rumba_sim.model import map_file, obstacle_file
+from rumba_sim.model.config import updated
 from rumba_sim.model.robot import FIRST
 from rumba_sim.model.robot_config import RobotConfig
 from rumba_sim.model.world import World
@@ -37,15 +38,15 @@ SEED, TARGET = 3, 0.08  # of the floor: by then the robot has met an obstacle
 SIMULATOR = '_map:=studio', f'_seed:={SEED}', '_speed:=0', '_brushes_up:=true', '_localisation:=none'
 
 
-def digest_in_process(ticks, obstacles, laser):
+def digest_in_process(ticks, obstacles, laser, model='ideal'):
     """The digest of the world so many ticks after the start of a mission by a pose that is localised."""
-    plan = map_file.load(map_path('studio'))
-    world, planners = World(plan, RobotConfig(), STEP_RATE, SEED, obstacles), BeforeNextStep()
+    plan, robot = map_file.load(map_path('studio')), updated(RobotConfig(), {'laser': {'model': model}}, 'test')
+    world, planners = World(plan, robot, STEP_RATE, SEED, obstacles), BeforeNextStep()
     world.spawn(FIRST, brushes_up=True)
     source = Localised(plan, world, FIRST, SEED)
     world.step()
     config = dataclasses.replace(QUICKLY, laser=laser)
-    mission = Mission(Context(plan, RobotConfig(), config, own_seed(SEED, FIRST), planners), 'boustrophedon', TARGET)
+    mission = Mission(Context(plan, robot, config, own_seed(SEED, FIRST), planners), 'boustrophedon', TARGET)
     dt = 0.0
     while mission.status is Status.RUNNING:
         planners.work()
@@ -61,9 +62,16 @@ class CleanerLocalisedTest(unittest.TestCase):
 
     @thorough
     def test_a_mission_by_a_localised_pose_and_by_laser_among_obstacles_is_the_same_as_in_process(self):
+        self.assert_same_as_in_process('ideal')
+
+    @thorough
+    def test_so_is_a_mission_with_a_laser_that_turns_slowly_and_misses_echoes(self):
+        self.assert_same_as_in_process('rplidar_a1')
+
+    def assert_same_as_in_process(self, model):
         path = os.path.join(os.path.dirname(map_path('studio')), '..', 'config', 'obstacles_studio.yaml')
         simulator = Simulator(self, *SIMULATOR, f'_obstacles:={path}', '_wait_for:=cleaner localiser',
-                              '_lockstep_patience:=60')
+                              '_lockstep_patience:=60', f'_laser/model:={model}')
         start = map_file.load(map_path('studio')).dock
         Localiser(self, f'_seed:={SEED}', f'_initial_pose_x:={start.x}', f'_initial_pose_y:={start.y}',
                   f'_initial_pose_a:={start.theta}')
@@ -72,8 +80,8 @@ class CleanerLocalisedTest(unittest.TestCase):
         ended = cleaner.status.find(lambda status: status.state == MissionStatus.IDLE and 'swept' in status.message)
         self.assertRegex(ended.message, rf'^{100.0 * TARGET:.0f}\.\d % swept$')
         (digest, tick), obstacles = simulator.digest(), obstacle_file.load(path)
-        self.assertEqual(digest, digest_in_process(tick, obstacles, laser=True))
-        self.assertNotEqual(digest, digest_in_process(tick, obstacles, laser=False))  # it saw something
+        self.assertEqual(digest, digest_in_process(tick, obstacles, laser=True, model=model))
+        self.assertNotEqual(digest, digest_in_process(tick, obstacles, laser=False, model=model))  # it saw something
 
     def test_a_robot_whose_localisation_falls_silent_stands_still_until_it_is_back(self):
         Simulator(self, '_map:=studio', '_speed:=10', '_brushes_up:=true', '_localisation:=none',

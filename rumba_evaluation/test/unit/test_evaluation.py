@@ -254,10 +254,11 @@ def test_missions_among_obstacles_begin_beside_them_and_a_wrong_file_is_one_line
     good.write_text('bin: {pose: [0.5, 0.5], radius: 0.1, height: 0.3}\n')
     bad.write_text('bin: {pose: [0.5, 0.5], radus: 0.1, height: 0.3}\n')
     code, _, errors = run('--strategies', 'turn', '--obstacles', str(good), '--laser', '--start', 'anywhere',
-                          '--bound', '0.5')
+                          '--bound', '0.5', '--laser-model', 'lds01')
     assert (code, errors) == (0, '')
     for row in rows(tmp_path):
         assert (row['obstacles'], row['laser'], row['penetrated']) == (str(good), 'True', 'False')
+        assert row['laser_model'] == 'lds01'
         assert np.hypot(float(row['x']) - 0.5, float(row['y']) - 0.5) > 0.27
     assert run('--obstacles', str(bad)) == (
         2, '', f"evaluate: {bad}: bin/radus is unknown: did you mean 'radius'?\n")

@@ -154,6 +154,17 @@ def test_a_range_without_a_wall_is_one_and_one_that_is_too_near_is_zero():
     np.testing.assert_allclose(found.look()['ranges'], [[0.0, 1.0, 1.0, 1.0]])
 
 
+def test_a_laser_that_does_not_see_all_around_keeps_its_field_of_view_and_tells_nothing_from_too_near():
+    exact = {'noise': 0.0, 'relative_noise': 0.0, 'dropouts': 0.0}
+    robot = updated(STEADY, {'laser': {'model': 'urg04lx', **exact}}, 'test')
+    found = task(beams=24, robot=robot)
+    place(found, 1.0, 2.6, 0.0)
+    laser = found.worlds[0].config.laser
+    assert math.degrees(23 * laser.increment) == pytest.approx(230.0, abs=5.0)
+    ranges = found.look()['ranges'][0]
+    assert ranges.shape == (24,) and ranges[12] == 1.0 and (ranges > 0.0).all() and (ranges < 1.0).any()
+
+
 def test_maps_are_as_many_and_as_large_as_asked_for():
     found = task(maps=3, map_size=10, map_pitch=0.1, map_factor=2.0)
     place(found, 0.5, 2.0, 0.0)

@@ -15,6 +15,7 @@ from rumba_cleaning.outcome import Outcome
 from rumba_evaluation.trials.cases import ANYWHERE, Conditions
 from rumba_evaluation.trials.trial import Trial
 from rumba_sim.model import map_file
+from rumba_sim.model.config import updated
 from rumba_sim.model.errors import ConfigError, StrategyError, WorldError
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.obstacle import Obstacle
@@ -303,3 +304,11 @@ def test_a_pose_of_no_known_kind_is_refused():
     with pytest.raises(ConfigError, match='^pose is .dreamt.: must be one of truth, localised, odometry, slam, '
                                           'mapless$'):
         Conditions(pose='dreamt')
+
+
+@pytest.mark.parametrize('model', ['ideal', 'lds01'])
+def test_a_trial_has_the_laser_of_its_conditions_and_otherwise_the_robot_that_it_is_given(model):
+    robot = updated(ROBOT, {'laser': {'x': 0.1, 'beams': 90}, 'battery': {'drain': 3.0}}, 'test')
+    config = Trial(hall(), 'wait', Conditions(laser_model=model, drain=2.0), robot=robot).world.config
+    assert (config.laser.model, config.laser.x, config.battery.drain) == (model, 0.1, 2.0)
+    assert config.laser.beams == (90 if model == 'ideal' else 360)

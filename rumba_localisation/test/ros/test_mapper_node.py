@@ -114,10 +114,10 @@ class MapperNodeTest(unittest.TestCase):
         wait(self, scans.get_num_connections, 'the mapper to listen')
 
         def is_said():
-            scan = LaserScan(angle_min=math.nan, ranges=[1.0] * 9)
+            scan = LaserScan(angle_min=math.nan, range_max=8.0, ranges=[1.0] * 9)
             scan.header.stamp = self.odom.fresh().header.stamp
             scans.publish(scan)
-            return any(each.msg == 'scan: its angles and its range must be numbers; ignored'
+            return any(each.msg == 'rumba/scan: angle_min is nan: must be a number; ignored'
                        for each in log.messages[:])
         wait(self, is_said, 'a complaint')
         self.moved()

@@ -106,7 +106,8 @@ class SimulatorTopicsTest(unittest.TestCase):
         """It looks back, upside down, from 0.1 m ahead of the centre: the wall behind is 3.1 m away, at its angle 0."""
         simulator = Simulator(self, '_map:=field', '_speed:=10', '_laser/model:=lds01', '_laser/noise:=0',
                               '_laser/relative_noise:=0', '_laser/relative_bias:=0', '_laser/bias:=0',
-                              '_laser/dropouts:=0', '_laser/x:=0.1', f'_laser/yaw:={math.pi}', '_laser/upside_down:=true')
+                              '_laser/dropouts:=0', '_laser/x:=0.1', f'_laser/yaw:={math.pi}',
+                              '_laser/upside_down:=true')
         parts = Heard(self, '/tf_static', TFMessage)
         simulator.teleport(3.0, 2.0, 0.0)
         heard = Heard(self, '/rumba/scan')

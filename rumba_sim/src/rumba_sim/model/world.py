@@ -84,7 +84,7 @@ class World:
                                 float(self.constants[0]['reach']))
         self.start = self._space.start
         self.noise = Noise(seed)
-        self.fans = _fans(self._config.laser)
+        self._take_laser(self._config.laser)
         self._docks: Array = np.reshape(np.array(plan.docks, np.float64), (-1, 3))
         self._begin()
 
@@ -173,9 +173,13 @@ class World:
         self._config = config
         self._states['charge'] = np.minimum(self._states['charge'], config.battery.capacity)
         self._take(self._states)  # robots that were far apart may meet sooner now
-        self.fans = _fans(config.laser)
+        self._take_laser(config.laser)
         for member in self.robots.values():
             member.config = config
+
+    def _take_laser(self, laser: LaserConfig) -> None:
+        self.fans = _fans(laser)
+        self._draws = laser.draws, laser.beams  # random numbers for a scan
 
     def spawn(self, name: str, pose: Optional[Pose] = None, state_of_charge: float = 1.0,
               brushes_up: bool = False) -> Robot:
@@ -298,8 +302,7 @@ class World:
             WorldError: there is no robot of that name.
         """
         index = self._index(name)
-        laser = self._config.laser
-        ranges, noise = np.empty(laser.beams), np.empty((laser.draws, laser.beams))
+        ranges, noise = np.empty(self._draws[1]), np.empty(self._draws)
         self.noise.draw_laser(index, noise)
         fast.scan(self._states, index, self.constants, self.obstacles.records, self.terrain.skips, self.fans, noise,
                   self.noise.biases[index], ranges)
