@@ -19,7 +19,7 @@ FOLDERS = {
         'ros/simulator': {'model', 'model/kernel', 'ros/common', 'ros/robot'},
         'ros/turtlesim_body': {'model', 'model/kernel', 'ros/common', 'ros/robot'},
         'ros/teleop_key': {'model', 'ros/common'}, 'ros': {'model', 'ros/common'}},
-    'rumba_localisation': {'': set(), 'mapping': {''}, 'ros': {'', 'mapping'}},
+    'rumba_localisation': {'': set(), 'mapping': {''}, 'logs': {''}, 'ros': {'', 'mapping', 'logs'}},
     'rumba_cleaning': {
         '': set(), 'belief': {''}, 'behaviours': {'', 'belief'}, 'planning': {'', 'belief', 'behaviours'},
         'strategies': {'', 'belief', 'behaviours', 'planning'}, 'mission': {'', 'belief', 'behaviours', 'strategies'},

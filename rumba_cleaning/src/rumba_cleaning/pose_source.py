@@ -10,7 +10,7 @@ from rumba_localisation.localiser import Localiser, Seed
 from rumba_localisation.mapping.believed_plan import believed_plan
 from rumba_localisation.mapping.findings import Findings
 from rumba_localisation.mapping.mapper import Mapper
-from rumba_localisation.scan import Mounting, Reading, Scan, scan_of
+from rumba_localisation.scan import Reading, Scan, scan_of
 from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.model.geometry import Pose, as_told, compose, inverse
 from rumba_sim.model.kernel import Array
@@ -154,7 +154,7 @@ def scan_of_robot(world: World, name: str) -> Scan:
     """What the laser of a robot of a world tells, as by a sensor_msgs/LaserScan and by tf."""
     told = laser_scan(world, name)
     return scan_of(told.ranges, told.angle_min, told.angle_increment, told.range_max, told.range_min,
-                   Mounting(*told.mounting, told.upside_down), Reading(usable=usable_range(world.config.laser)))
+                   told.mounting, Reading(usable=usable_range(world.config.laser)))
 
 
 def usable_range(laser: LaserConfig) -> float:

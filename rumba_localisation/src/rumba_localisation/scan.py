@@ -7,24 +7,13 @@ from typing import Any, NamedTuple, Optional, Tuple
 import numpy as np
 
 from rumba_sim.model.kernel import Array
+from rumba_sim.model.mounting import CENTRE, Mounting
 
 FEWEST = 10  # beams with an echo, fewer tell nothing
 SILENT = 1.0  # [s] of the time of a robot without a scan, from which on its laser is silent: five scans at 5 Hz
 FARTHEST = 100.0  # [m] no laser that sees a floor sees farther; drivers that tell 1e30 mean nothing
 DENSE = 2000  # beams in a scan, of more some are left out: they tell the same, and take memory for each place
 WIDEST = 1.0  # [rad] between two echoes, up to which what lies between them is believed to be free
-
-
-class Mounting(NamedTuple):
-    """Where a laser is on a robot."""
-
-    x: float = 0.0  # [m] ahead of its centre
-    y: float = 0.0  # [m] to the left of it
-    yaw: float = 0.0  # [rad] from straight ahead to the angle 0 of the laser
-    upside_down: bool = False  # its angles grow clockwise
-
-
-CENTRE = Mounting()
 
 
 class Scan(NamedTuple):

@@ -6,7 +6,8 @@ import types
 import numpy as np
 import pytest
 
-from rumba_localisation.scan import DENSE, FARTHEST, Mounting, Reading, fault, scan_of, told
+from rumba_localisation.scan import DENSE, FARTHEST, Reading, fault, scan_of, told
+from rumba_sim.model.mounting import Mounting
 
 RIGHT, AHEAD, LEFT = (0.0, -1.0), (1.0, 0.0), (0.0, 1.0)  # directions
 QUARTER = 0.5 * math.pi

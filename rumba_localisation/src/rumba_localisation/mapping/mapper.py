@@ -128,7 +128,7 @@ class Mapper:
         self.grid.add(estimate.pose, scan, self.noise)
         self.version += 1
         self._added += 1
-        if self._added >= AT_ONCE or self.version == 1:
+        if self._added >= AT_ONCE or not self._frames.poses:
             self.grid.measure()
             self._added = 0
         if self._closure.closes(self._keep(estimate, scan), scan, self.grid.resolution):

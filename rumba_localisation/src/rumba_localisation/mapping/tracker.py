@@ -25,6 +25,7 @@ DRIFT = np.diag([0.0003, 0.0003, 0.0002]) ** 2  # variances by which the map dri
 GOOD = 0.75  # a fit below which the scan may fit better elsewhere: wheels slip, and a robot may be pushed ...
 CAUGHT = 0.1  # [m], [rad] off, a match finds where a scan fits: after a movement that may err by more, too ...
 SLIP, TWIST, STARTS = 0.3, 0.4, 3  # ... by so much at least [m], [rad]; and from how many poses a match begins there
+MOST = 0.6  # [m], [rad] that is looked for around a scan that does not fit, however far the robot went
 SLIPPED = np.diag([0.1, 0.1, 0.05]) ** 2  # covariance of these
 EVIDENCE, RARE = 40.0, 16.0  # how much a quality of 1 counts, in units of a squared error of the odometry, and the
 #                              largest such error that counts: in a corridor all places fit alike, but wheels do slip
@@ -91,7 +92,7 @@ class Tracker:
             quality = estimate.fit - WRONG * grid.share_wrong(estimate.pose, scan, self._noise)
             return EVIDENCE * quality - error(estimate)
 
-        starts = best_around(grid, supposed, max(reach, SLIP), max(turn, TWIST), ends, STARTS)
+        starts = best_around(grid, supposed, min(max(reach, SLIP), MOST), min(max(turn, TWIST), MOST), ends, STARTS)
         other = max((self._match(grid, start, SLIPPED, scan) for start in starts), key=evidence)
         is_better = evidence(other) > evidence(best)
         self.surprise += SOON * ((is_better and error(other) >= RARE) - self.surprise)

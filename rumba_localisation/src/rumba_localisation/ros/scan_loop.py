@@ -10,7 +10,6 @@ from nav_msgs.msg import Odometry
 from sensor_msgs.msg import LaserScan
 from tf2_msgs.msg import TFMessage
 
-from rumba_localisation.ros.mountings import Mountings
 from rumba_localisation.ros.odometries import Odometries
 from rumba_localisation.scan import FARTHEST as FARTHEST_ECHO
 from rumba_localisation.scan import SILENT, Reading, Scan, fault, told
@@ -20,6 +19,7 @@ from rumba_sim.ros.common.conversions import plane_pose, transform
 from rumba_sim.ros.common.frames import MAP, frames
 from rumba_sim.ros.common.lockstep import Participant, Resent
 from rumba_sim.ros.common.maps import FARTHEST
+from rumba_sim.ros.common.mountings import HeardMountings
 from rumba_sim.ros.common.requests import Requests
 
 PERIOD = 0.1  # [s] of the wall clock between two looks whether ROS shuts down
@@ -47,7 +47,7 @@ class ScanLoop(abc.ABC):
         self._newest = Resent()
         self._tf = rospy.Publisher('/tf', TFMessage, self._newest, queue_size=QUEUE)
         self._participant = Participant(lambda tick: self._requests.post(lambda: self._take_tick(tick)))
-        self._mountings = Mountings(self._frames.base_link, lambda: self._requests.post(self._look))
+        self._mountings = HeardMountings(self._frames.base_link, lambda: self._requests.post(self._look))
         self._subscribe(f'{robot}/odom', Odometry, self._take_odom)
         self._subscribe(f'{robot}/scan', LaserScan, self._take_scan)
 

@@ -4,8 +4,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from rumba_sim.model.geometry import Pose
 from rumba_sim.model.kernel import Array
+from rumba_sim.model.mounting import Mounting
 from rumba_sim.model.world import World
 
 
@@ -17,8 +17,7 @@ class LaserScan(NamedTuple):
     angle_increment: float  # from beam to beam [rad]
     range_min: float  # [m]
     range_max: float  # [m]
-    mounting: Pose  # of the laser, frame of the robot [m, rad]
-    upside_down: bool  # whether angles of the laser grow clockwise there
+    mounting: Mounting
 
 
 def laser_scan(world: World, name: str) -> LaserScan:
@@ -31,4 +30,4 @@ def laser_scan(world: World, name: str) -> LaserScan:
     angle_min, increment, range_min, range_max = (
         float(np.float32(value)) for value in (laser.first_angle, laser.increment, laser.range_min, laser.range_max))
     return LaserScan(world.scan(name).astype(np.float32), angle_min, increment, range_min, range_max,
-                     Pose(laser.x, laser.y, laser.yaw), laser.upside_down)
+                     Mounting(laser.x, laser.y, laser.yaw, laser.upside_down))

@@ -13,12 +13,12 @@ from rumba_cleaning.behaviour import Observation
 from rumba_cleaning.ros.cleaner import conversions
 from rumba_cleaning.ros.cleaner.certainty import Certainty
 from rumba_cleaning.ros.cleaner.location import QUEUE, Location
-from rumba_localisation.ros.mountings import Mountings
 from rumba_localisation.scan import SILENT, told
 from rumba_msg.msg import Bumper, CleaningStatus, Cliff, DockStatus, Lockstep
 from rumba_sim.model.geometry import Pose
 from rumba_sim.ros.common.clock import LATEST
 from rumba_sim.ros.common.frames import frames
+from rumba_sim.ros.common.mountings import HeardMountings
 
 SECOND = 1_000_000_000  # [ns]
 PAUSE = SECOND  # [ns] between two stamps; more is not counted as time: a pause in real time, or another simulator
@@ -74,7 +74,7 @@ class Senses:
         self._certainty = Certainty(robot, self._check_in_lockstep)
         self._has_laser = has_laser
         if has_laser:
-            self._mountings = Mountings(frames(robot).base_link, self._check_in_lockstep)
+            self._mountings = HeardMountings(frames(robot).base_link, self._check_in_lockstep)
             rospy.Subscriber(f'{robot}/scan', LaserScan, self._on_scan, queue_size=QUEUE)
         rospy.Subscriber(f'{robot}/battery_state', BatteryState, self._on_battery, queue_size=QUEUE)
         rospy.Subscriber(f'{robot}/cleaning_status', CleaningStatus, self._on_cleaning, queue_size=QUEUE)

@@ -9,8 +9,8 @@ from geometry_msgs.msg import Transform
 from sensor_msgs.msg import LaserScan
 from tf2_msgs.msg import TFMessage
 
-from rumba_localisation.scan import CENTRE, Mounting
 from rumba_sim.model.kernel import Array
+from rumba_sim.model.mounting import CENTRE, Mounting
 
 QUEUE = 100  # messages that may wait to be read
 FARTHEST = 10.0  # [m] from the centre of a robot, at most
@@ -27,13 +27,11 @@ class Mountings:
     robot. A buffer of tf2 would keep those of everybody.
     """
 
-    def __init__(self, base: str, on_change: Callable[[], None]) -> None:
-        """Listen to tf; `base` is the frame of the robot, and `on_change` is called in a thread of rospy."""
-        self._base, self._on_change = base, on_change
+    def __init__(self, base: str) -> None:
+        """Know none; `base` is the frame of the robot."""
+        self._base = base
         self._links: Dict[str, Link] = {}  # by child
         self._known: Dict[str, Mounting] = {}  # by frame
-        self._moving: Optional[rospy.Subscriber] = None  # to /tf, if something is not static
-        rospy.Subscriber('/tf_static', TFMessage, self.take, queue_size=QUEUE)
 
     def take(self, message: TFMessage) -> None:
         """Learn from a message."""
@@ -43,7 +41,6 @@ class Mountings:
             if link is not None and child != self._base:
                 self._links[child] = link
         self._known.clear()
-        self._on_change()
 
     def of(self, scan: LaserScan) -> Optional[Mounting]:
         """How the laser of a scan is mounted; None if tf does not tell, or it is not level."""
@@ -56,8 +53,6 @@ class Mountings:
             known = None if placed is None else _mounting(*placed)
             if known is not None:
                 self._known[frame] = known
-            elif self._moving is None:
-                self._moving = rospy.Subscriber('/tf', TFMessage, self.take, queue_size=QUEUE)
         return known
 
     def fault(self, scan: LaserScan) -> str:
@@ -79,6 +74,29 @@ class Mountings:
             if frame == self._base:
                 return rotation, place
         return None
+
+
+class HeardMountings(Mountings):
+    """The same, by what is heard of tf: /tf is listened to only if /tf_static does not tell."""
+
+    def __init__(self, base: str, on_change: Callable[[], None]) -> None:
+        """Listen; `on_change` is called in a thread of rospy."""
+        super().__init__(base)
+        self._on_change = on_change
+        self._moving: Optional[rospy.Subscriber] = None
+        rospy.Subscriber('/tf_static', TFMessage, self.take, queue_size=QUEUE)
+
+    def take(self, message: TFMessage) -> None:
+        """Learn from a message."""
+        super().take(message)
+        self._on_change()
+
+    def of(self, scan: LaserScan) -> Optional[Mounting]:
+        """How the laser of a scan is mounted; None if tf does not tell, or it is not level."""
+        known = super().of(scan)
+        if known is None and self._moving is None:
+            self._moving = rospy.Subscriber('/tf', TFMessage, self.take, queue_size=QUEUE)
+        return known
 
 
 def _mounting(rotation: Array, place: Array) -> Optional[Mounting]:

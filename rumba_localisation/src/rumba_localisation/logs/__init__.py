@@ -1,0 +1,1 @@
+"""Logs of lasers and odometry, and how good a trajectory is."""
