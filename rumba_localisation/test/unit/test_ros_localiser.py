@@ -164,3 +164,35 @@ def test_while_the_laser_is_silent_the_node_tells_a_pose_by_odometry_and_no_corr
     assert heard.warnings[-1] == 'rumba: the laser has been silent for 6 s: goes by odometry alone'
     heard.drives(0.2, has_scans=True)
     assert poses[-1].pose.covariance[0] < 10.0 * known[0] and len(corrections) == 22
+
+
+def test_a_node_that_cannot_use_a_scan_says_what_is_missing(monkeypatch):
+    world = world_of()
+    heard = Node(monkeypatch, world)
+    heard._node._plan = None
+    assert heard._node._missing() == 'no map came on /map'
+    heard._node._take_map(message_of(world.plan))
+    assert heard._node._missing() == 'nothing came on /rumba/scan and /rumba/odom'
+    scan = LaserScan(header=Header(stamp=rospy.Time(5), frame_id='eye'), angle_increment=0.1, range_max=8.0)
+    heard._node._take_scan(scan)
+    assert heard._node._missing() == 'nothing came on /rumba/odom'
+    heard._node._take_odom(Odometry(header=Header(stamp=rospy.Time(2))))
+    assert heard._node._missing() == 'neither /tf_static nor /tf leads from base_link to eye'
+    scan.header.frame_id = ''
+    assert heard._node._missing() == 'no odometry is as new as the scan, which has stamp 5.000 s'
+
+
+def test_it_says_so_each_time_that_some_time_has_passed_until_a_scan_was_used(monkeypatch):
+    heard, said = Node(monkeypatch, world_of()), []
+    monkeypatch.setattr(node.rospy, 'logwarn', said.append)
+    monkeypatch.setattr(node.rospy, 'get_name', lambda: '/localiser')
+    heard._node._complain()
+    assert not said
+    heard._node._begun -= 11.0
+    heard._node._complain()
+    heard._node._complain()
+    assert said == ['/localiser waits: nothing came on /rumba/scan and /rumba/odom']
+    heard.drives(0.3, has_scans=True)
+    heard._node._begun -= 11.0
+    heard._node._complain()
+    assert len(said) == 1
