@@ -1,8 +1,8 @@
 """How well robots map and find themselves by the lasers that people buy, and by logs of real ones.
 
-`lasers.py [--logs FOLDER] [--seeds N] [--jobs N] [--models NAME ...] [--floors NAME ...]` maps each log of CARMEN in the
-folder, whose poses must be corrected, and has robots clean homes with each laser of the simulator: by a map of their
-own, and localised on the map; seeds 1 to N, 20 by default.
+`lasers.py [--logs FOLDER] [--seeds N] [--jobs N] [--models NAME ...] [--floors NAME ...]` maps each log of CARMEN in
+the folder, whose poses must be corrected, and has robots clean homes with each laser of the simulator: by a map of
+their own, and localised on the map; seeds 1 to N, 20 by default.
 """
 
 import argparse
