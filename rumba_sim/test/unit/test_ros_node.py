@@ -28,6 +28,19 @@ def test_a_config_that_is_no_path_is_refused_and_not_opened(monkeypatch, value, 
         node._parameters(Settings, [])
 
 
+@pytest.mark.parametrize('arguments, told', [
+    ([], 'speed: 3, state: \'x\''), (['_speed:=3'], "state: 'x'"), (['_speed:=3', '_state:=x'], ''),
+    (['__log:=/tmp/x'], '')], ids=str)
+def test_parameters_of_an_earlier_start_are_named(monkeypatch, arguments, told):
+    given(monkeypatch, {'speed': 3, 'state': 'x'})
+    lines = []
+    monkeypatch.setattr(node.rospy, 'loginfo', lines.append)
+    monkeypatch.setattr(node.sys, 'argv', ['simulator', *arguments])
+    assert node._parameters(Settings, []).speed == 3.0
+    assert lines == ([f'the master keeps parameters of an earlier start, which hold for this one too: {told}; `rosparam '
+                      'delete /simulator` forgets them'] if told else [])
+
+
 @pytest.mark.parametrize('value', ['text', 5, ['a'], 1.5, True])
 def test_parameters_that_are_no_mapping_are_refused(monkeypatch, value):
     given(monkeypatch, value)

@@ -194,6 +194,7 @@ def _parameters(settings_class: Type[Settings], own: Sequence[str]) -> Settings:
             rospy.delete_param(f'~{name}')
     where = f'parameter of {rospy.get_name()}'
     parameters = launched.below(rospy.get_name()) if launched.is_fixed() else rospy.get_param('~', {})
+    _tell_of_parameters_from_before(parameters)
     if not isinstance(parameters, Mapping):
         raise ConfigError(f'parameter {rospy.get_name()} is {quoted(parameters)}: must be a mapping of '
                           + ', '.join(config.names(settings_class)))
@@ -206,8 +207,33 @@ def _parameters(settings_class: Type[Settings], own: Sequence[str]) -> Settings:
     return config.updated(settings, parameters, where)
 
 
+def _tell_of_parameters_from_before(parameters: Any) -> None:
+    """Name the parameters that rule this node although neither its command line nor a launch file gives them.
+
+    The master keeps what an earlier command line gave, which its user may have forgotten.
+    """
+    if not isinstance(parameters, Mapping) or launched.is_fixed() or _is_launched():
+        return
+    given = {assignment.group(1).partition('/')[0] for assignment in map(_assignment, sys.argv) if assignment}
+    before = {name: value for name, value in sorted(parameters.items()) if name not in given}
+    if before:
+        shown = ', '.join(f'{name}: {quoted(value)}' for name, value in before.items())
+        rospy.loginfo(one_line(f'the master keeps parameters of an earlier start, which hold for this one too: {shown}; '
+                               f'`rosparam delete {rospy.get_name()}` forgets them'))
+
+
+def _is_launched() -> bool:
+    """Whether roslaunch has started this node: it sets the parameters before."""
+    return any(argument.startswith('__log:=') for argument in sys.argv)
+
+
+def _assignment(argument: str) -> Any:
+    """What sets a parameter on the command line, with its name; None for other arguments."""
+    return re.match(r'_([^_]\w*(?:/\w+)*):=', argument)
+
+
 def _take_parameters_back() -> None:
     """Delete the parameters that a refused command line has set: otherwise the next start would be refused too."""
-    for assignment in filter(None, (re.match(r'_([^_]\w*(?:/\w+)*):=', argument) for argument in sys.argv)):
+    for assignment in filter(None, map(_assignment, sys.argv)):
         if rospy.has_param(f'~{assignment.group(1)}'):
             rospy.delete_param(f'~{assignment.group(1)}')
