@@ -22,7 +22,7 @@ TURTLE_POSE = '/turtle1/pose'  # of the body of the robot
 LARGEST = 1e3  # [m] coordinates in a map, at most
 CURRENT = 6.0  # [A] more than all loads together, and more than the charger gives
 ROUNDING = 1e-3  # [Ah]
-MOVES_WITHIN = 15.0  # [s] of the wall clock until the next tick
+MOVES_WITHIN = 60.0  # [s] of the wall clock until the next tick: a world waits for participants that start
 
 
 class RobotReading(NamedTuple):

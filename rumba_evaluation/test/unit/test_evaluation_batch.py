@@ -109,7 +109,8 @@ def test_dask_finds_the_same_results(tmp_path):
 
 def test_a_cluster_that_loses_its_last_worker_in_the_middle_is_told_once(monkeypatch, capsys):
     monkeypatch.setattr(batch, 'WORKERS_PERIOD', 0.001)
-    has_ended, looks = threading.Event(), [False, False, True, True, OSError('busy'), False, False, OSError('busy'), True]
+    has_ended = threading.Event()
+    looks = [False, False, True, True, OSError('busy'), False, False, OSError('busy'), True]
 
     def has_workers():
         look = looks.pop(0)
@@ -143,8 +144,8 @@ def test_a_system_without_semaphores_is_named(monkeypatch):
     def refuse(*_, **__):
         raise PermissionError(13, 'Permission denied')
     monkeypatch.setattr(batch.concurrent.futures, 'ProcessPoolExecutor', refuse)
-    with pytest.raises(ConfigError, match=r'need semaphores, for which this system has no room \(\[Errno 13\] Permission '
-                                          r'denied\): make /dev/shm a writable folder$'):
+    with pytest.raises(ConfigError, match=r'need semaphores, for which this system has no room \(\[Errno 13\] '
+                                          r'Permission denied\): make /dev/shm a writable folder$'):
         with batch.local(1):
             pass
 

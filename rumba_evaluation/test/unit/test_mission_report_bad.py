@@ -64,7 +64,8 @@ def test_a_healthy_bag_with_another_definition_of_a_message_is_not_called_damage
     with rosbag.Bag(str(path), 'a') as bag:
         bag.write('/rumba/battery_state', other(), genpy.Time(101))
     line = refusal(path)
-    assert line.startswith(f'{path}: was recorded with another definition of sensor_msgs/BatteryState than the one here (')
+    assert line.startswith(f'{path}: was recorded with another definition of sensor_msgs/BatteryState than the one '
+                           'here (')
     assert line.endswith(': make the report where it was recorded') and 'reindex' not in line
 
 

@@ -37,8 +37,8 @@ def test_parameters_of_an_earlier_start_are_named(monkeypatch, arguments, told):
     monkeypatch.setattr(node.rospy, 'loginfo', lines.append)
     monkeypatch.setattr(node.sys, 'argv', ['simulator', *arguments])
     assert node._parameters(Settings, []).speed == 3.0
-    assert lines == ([f'the master keeps parameters of an earlier start, which hold for this one too: {told}; `rosparam '
-                      'delete /simulator` forgets them'] if told else [])
+    assert lines == ([f'the master keeps parameters of an earlier start, which hold for this one too: {told}; '
+                      '`rosparam delete /simulator` forgets them'] if told else [])
 
 
 @pytest.mark.parametrize('value', ['text', 5, ['a'], 1.5, True])

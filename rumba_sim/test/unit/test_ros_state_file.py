@@ -10,7 +10,8 @@ from rumba_sim.ros.simulator import state_file
 from rumba_sim.ros.simulator.settings import Settings
 from rumba_sim.ros.simulator.state_file import StateFile
 
-FULL, GONE = '/x: cannot save the world: No space left on device', '/x: cannot save the world: No such file or directory'
+FULL = '/x: cannot save the world: No space left on device'
+GONE = '/x: cannot save the world: No such file or directory'
 
 
 @pytest.fixture

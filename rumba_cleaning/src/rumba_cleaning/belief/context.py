@@ -267,8 +267,8 @@ class Context:
         """Have the executor compute `function(context, *args)` with a copy of this context as it is now.
 
         The function may run in another thread, while this context changes. So the copy has a ground, swept floor and
-        mates of its own; the ground shows what the laser has seen. It has neither sight nor footing nor generator: these
-        would be those of this context, and to use them is an AttributeError.
+        mates of its own; the ground shows what the laser has seen. It has neither sight nor footing nor generator:
+        these would be those of this context, and to use them is an AttributeError.
         """
         self.show_seen()
         snapshot = copy.copy(self)

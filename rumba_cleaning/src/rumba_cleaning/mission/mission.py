@@ -92,6 +92,7 @@ class Mission(StagedMission):
         if not self._watch.is_ready:
             self.message = 'planning'
             return STOP
+        self._watch.look(observation.pose)
         command = self._guard.step(self._decide, observation)
         if self._guard.held_time > HELD:
             return self._strand(f'{percent(self._context.swept.coverage)} swept: the robot is so near to edges that no '
@@ -201,6 +202,8 @@ class Mission(StagedMission):
         return self._enter(State.UNDOCKING, Undock(self._context, turns=False))
 
     def _clean(self, observation: Observation) -> Command:
+        if self._closing is not None:
+            return self._close(*self._closing)
         coverage = self._context.swept.coverage
         if self._is_target_met(observation):
             return self._succeed()
@@ -317,8 +320,12 @@ class Mission(StagedMission):
         return self._close(*self._success())
 
     def _close(self, status: Status, message: str, outcome: Outcome) -> Command:
-        """Return to the dock, if a path leads there, and end then."""
+        """Return to the dock, if a path leads there, and end then; wait until it is known whether one does."""
         self._closing = status, message, outcome
+        if self._last is not None:
+            self._watch.look(self._last)
+            if self._watch.is_looking:
+                return STOP
         if self._last is None or not math.isfinite(self._watch.needed(self._last)):
             return self._end()
         return self._enter(State.RETURNING, Dock(self._context))

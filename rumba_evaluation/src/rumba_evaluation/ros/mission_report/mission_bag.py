@@ -50,8 +50,8 @@ def read(path: str, robot: str = '', target: float = 0.0) -> MissionRecord:
         if isinstance(error, OSError) and error.strerror:
             raise ReportError(f'{path}: {error.strerror}') from error
         if others and not isinstance(error, rosbag.ROSBagException):
-            raise ReportError(f'{path}: was recorded with another definition of {" and ".join(others)} than the one here '
-                              f'({error}): make the report where it was recorded') from error
+            raise ReportError(f'{path}: was recorded with another definition of {" and ".join(others)} than the one '
+                              f'here ({error}): make the report where it was recorded') from error
         raise ReportError(f'{path}: is not a bag, or is damaged ({type(error).__name__}: {error}): '
                           f'rosbag reindex {path} repairs what it can') from error
 

@@ -218,8 +218,8 @@ def _tell_of_parameters_from_before(parameters: Any) -> None:
     before = {name: value for name, value in sorted(parameters.items()) if name not in given}
     if before:
         shown = ', '.join(f'{name}: {quoted(value)}' for name, value in before.items())
-        rospy.loginfo(one_line(f'the master keeps parameters of an earlier start, which hold for this one too: {shown}; '
-                               f'`rosparam delete {rospy.get_name()}` forgets them'))
+        rospy.loginfo(one_line('the master keeps parameters of an earlier start, which hold for this one too: '
+                               f'{shown}; `rosparam delete {rospy.get_name()}` forgets them'))
 
 
 def _is_launched() -> bool:
