@@ -296,6 +296,6 @@ def test_a_checkout_that_belongs_to_somebody_else_is_named_in_one_line(open_fold
 def test_a_folder_for_temporary_files_that_cannot_be_written_is_named_in_one_line(tmp_path):
     code, _, error = rumba(make_checkout(tmp_path / 'checkout'), 'shell', 'true', TMPDIR=str(tmp_path / 'none'))
     assert code == 1
-    assert error.splitlines()[-1] == (f'rumba: no file can be written to {tmp_path}/none: free some space there, or let '
-                                      'TMPDIR name another folder')
+    assert error.splitlines()[-1] == (f'rumba: no file can be written to {tmp_path}/none: free some space there, or '
+                                      'let TMPDIR name another folder')
     assert 'Traceback' not in error

@@ -140,8 +140,7 @@ ARGUMENTS = ('--nothing', '-x', '', 'a:=b', '__ns:=/a//b', '__log:=/dev/null/x',
 
 def odd_arguments(ground, chance, blow):
     """Nodes get parameters and arguments full of nonsense."""
-    for _ in range(STARTS):
-        role = chance.choice(sorted(PROGRAMS))
+    for role in chance.sample(sorted(PROGRAMS), STARTS):
         arguments = [_argument(chance, PROGRAMS[role]) for _ in range(chance.choice((1, 1, 2)))]
         blow.say(f'{role.program} {" ".join(argument[:60] for argument in arguments)!r}', faults=1)
         blow.say(fresh.judge(ground, role, arguments))

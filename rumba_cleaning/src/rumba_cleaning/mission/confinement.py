@@ -1,4 +1,4 @@
-"""Notices that a robot does not get out of a small area: obstacles are all around it, or something that moves pins it."""
+"""Notices that a robot does not get out of a small area: obstacles are around it, or something that moves pins it."""
 
 from typing import Optional, Tuple
 

@@ -12,7 +12,7 @@ import threading
 import time
 import traceback
 import xmlrpc.client
-from typing import Any, Callable, Iterator, List, Mapping, Sequence, Type, TypeVar
+from typing import Any, Callable, Iterator, List, Mapping, Match, Optional, Sequence, Type, TypeVar
 from xml.parsers.expat import ExpatError
 
 import rosgraph
@@ -227,7 +227,7 @@ def _is_launched() -> bool:
     return any(argument.startswith('__log:=') for argument in sys.argv)
 
 
-def _assignment(argument: str) -> Any:
+def _assignment(argument: str) -> Optional[Match[str]]:
     """What sets a parameter on the command line, with its name; None for other arguments."""
     return re.match(r'_([^_]\w*(?:/\w+)*):=', argument)
 
