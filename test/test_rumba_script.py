@@ -1,9 +1,11 @@
 """./rumba in checkouts of its own: what it says of bad input, and that its verdict is true."""
 
 import os
+import pathlib
 import re
 import shutil
 import subprocess
+import tempfile
 import zipfile
 
 import pytest
@@ -17,6 +19,7 @@ rospy.init_node('node')
 print('handles signals', flush=True)
 rospy.spin()
 '''
+NOBODY = 65534  # number of the user nobody
 WHEEL = 'tiny-1.0-py3-none-any.whl'
 APT_WITHOUT_NETWORK = '''#!/bin/sh
 [ "$1" = update ] || { echo 'E: Unable to locate package catkin'; exit 100; }
@@ -264,3 +267,35 @@ def test_a_shell_builds_again_only_if_something_changed(checkout, tmp_path):
     assert has_built() and not has_built()
     shutil.rmtree((checkout / '.ws').resolve() / 'devel')
     assert has_built()
+
+
+@pytest.fixture
+def open_folder():
+    """A new folder that everybody can enter."""
+    with tempfile.TemporaryDirectory(dir='/tmp') as folder:
+        os.chmod(folder, 0o755)
+        yield pathlib.Path(folder)
+
+
+@pytest.mark.skipif(os.getuid() != 0, reason='only root can make a checkout of root')
+@pytest.mark.parametrize('has_built', [False, True])
+def test_a_checkout_that_belongs_to_somebody_else_is_named_in_one_line(open_folder, has_built):
+    checkout = make_checkout(open_folder / 'checkout')
+    if has_built:
+        (checkout / '.ws' / 'src').mkdir(parents=True)
+    done = subprocess.run(['setpriv', f'--reuid={NOBODY}', '--clear-groups', str(checkout / 'rumba'), 'shell', 'true'],
+                          stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True, timeout=60.0,
+                          env=surroundings(HOME='/nonexistent'))
+    assert done.returncode == 1
+    assert done.stderr.splitlines()[-1] == (
+        f'rumba: nobody cannot write to {checkout}/.ws, since somebody else made the checkout, or built there: run '
+        f"./rumba as root, or have root run: chown -R nobody '{checkout}'")
+    assert 'ermission denied' not in done.stderr
+
+
+def test_a_folder_for_temporary_files_that_cannot_be_written_is_named_in_one_line(tmp_path):
+    code, _, error = rumba(make_checkout(tmp_path / 'checkout'), 'shell', 'true', TMPDIR=str(tmp_path / 'none'))
+    assert code == 1
+    assert error.splitlines()[-1] == (f'rumba: no file can be written to {tmp_path}/none: free some space there, or '
+                                      'let TMPDIR name another folder')
+    assert 'Traceback' not in error

@@ -124,7 +124,7 @@ PROGRAMS = {
     Role('/simulator', 'rumba_sim', 'simulator', '/simulator/tuning/parameter_updates', is_world=True):
         ('map', 'speed', 'robots', 'seed', 'step_rate', 'percentage', 'brushes_up', 'config', 'rates/odom',
          'battery/drain', 'drive/radius', 'nothing'),
-    Role('/publisher', 'rumba_sim', 'battery_status_publisher', '/rumba/battery_status'):
+    Role('/publisher', 'rumba_sim', 'battery_status_publisher', '/rumba/battery_status', pulse='charge'):
         ('rate', 'drain', 'location_x', 'brushes_up', 'percentage'),
     Role('/listener', 'rumba_sim', 'battery_status_listener', '/rumba/battery_status'): ('robot', 'nothing'),
     Role('/cleaner', 'rumba_cleaning', 'cleaner'):
@@ -140,8 +140,7 @@ ARGUMENTS = ('--nothing', '-x', '', 'a:=b', '__ns:=/a//b', '__log:=/dev/null/x',
 
 def odd_arguments(ground, chance, blow):
     """Nodes get parameters and arguments full of nonsense."""
-    for _ in range(STARTS):
-        role = chance.choice(sorted(PROGRAMS))
+    for role in chance.sample(sorted(PROGRAMS), STARTS):
         arguments = [_argument(chance, PROGRAMS[role]) for _ in range(chance.choice((1, 1, 2)))]
         blow.say(f'{role.program} {" ".join(argument[:60] for argument in arguments)!r}', faults=1)
         blow.say(fresh.judge(ground, role, arguments))

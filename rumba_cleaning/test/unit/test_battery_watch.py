@@ -10,8 +10,11 @@ from rooms import room
 
 from rumba_cleaning.behaviour import Observation
 from rumba_cleaning.behaviours.dock import approach
+from rumba_cleaning.belief.context import BeforeNextStep
 from rumba_cleaning.mission.battery_watch import BatteryWatch
 from rumba_sim.model.geometry import Pose
+
+HERE = Pose(1.0, 1.0, 0.0)
 
 
 def test_the_charge_that_the_way_to_the_dock_needs_grows_with_its_length():
@@ -56,9 +59,29 @@ def test_a_path_that_an_obstacle_barred_is_found_once_the_obstacle_is_forgotten(
     context.ground.mark(2.5, 2.75, 0.1)
     watch = BatteryWatch(context)
     assert watch.needed(Pose(1.0, 1.0, 0.0)) == math.inf
-    assert watch.needed(Pose(1.0, 1.0, 0.0)) == math.inf
+    watch.look(Pose(1.0, 1.0, 0.0))
+    assert watch.needed(Pose(1.0, 1.0, 0.0)) == math.inf and not watch.is_looking
     context.ground.forget()
+    watch.look(Pose(1.0, 1.0, 0.0))
     assert watch.needed(Pose(1.0, 1.0, 0.0)) < 1.0
+
+
+def test_no_step_waits_while_paths_are_measured_again():
+    plan = room(4.0, 3.0, boxes=[(2.4, 0.0, 2.6, 2.5)], dock=DOCK, start=HERE)
+    planners = BeforeNextStep()
+    context = context_of(plan, mission(plan)[0])
+    context.executor = planners
+    context.ground.mark(2.5, 2.75, 0.1)
+    watch = BatteryWatch(context)
+    assert not watch.is_ready
+    planners.work()
+    assert watch.is_ready and watch.needed(HERE) == math.inf
+    context.ground.forget()
+    watch.look(HERE)
+    assert watch.is_looking and watch.needed(HERE) == math.inf  # as before, without waiting
+    planners.work()
+    watch.look(HERE)
+    assert not watch.is_looking and watch.needed(HERE) < 1.0
 
 
 @pytest.mark.parametrize('first', [0.9001, 0.905, 0.91])

@@ -47,6 +47,14 @@ def test_work_does_not_see_what_the_robot_meets_and_sweeps_later():
     assert other.swept.coverage == 0.0 < context.swept.coverage
 
 
+@pytest.mark.parametrize('name', ['sight', 'footing', 'generator'])
+def test_work_cannot_use_what_changes_meanwhile_and_is_not_copied(name):
+    context = knowing()
+    with pytest.raises(AttributeError, match=name):
+        context.submit(lambda other: getattr(other, name)).result()
+    assert hasattr(context, name)
+
+
 def test_work_changes_nothing_that_the_robot_knows():
     context = knowing()
     context.ground.mark(2.0, 1.5, 0.1)

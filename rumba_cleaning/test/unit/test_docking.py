@@ -14,6 +14,7 @@ from rumba_cleaning.behaviours.undock import Undock
 from rumba_cleaning.control import observe, steps
 from rumba_cleaning.outcome import Outcome
 from rumba_sim.model.errors import MapError
+from rumba_sim.model.config import updated
 from rumba_sim.model.geometry import Pose, wrap_angle
 from rumba_sim.model.obstacle import Obstacle
 from rumba_sim.model.world import World
@@ -202,6 +203,17 @@ def test_something_right_behind_keeps_it_on_the_dock():
     run(behaviour, world)
     assert (behaviour.status, behaviour.message) == (
         Status.FAILED, 'something behind the robot keeps it on the dock')
+    assert behaviour.outcome is Outcome.BLOCKED
+
+
+def test_wheels_that_never_turn_are_named_and_nothing_behind_the_robot_is_blamed():
+    world = World(PLAN, updated(quiet(), {'drive': {'max_speed': 0.05, 'dead_band': 0.08}}, 'test'))
+    world.spawn('rumba', DOCK)
+    world.step()
+    behaviour = Undock(context_of(PLAN, world))
+    run(behaviour, world)
+    assert behaviour.message == ('the wheels do not turn: drive/max_speed is 0.05 m/s, and below drive/dead_band, '
+                                 '0.08 m/s, they stand still')
     assert behaviour.outcome is Outcome.BLOCKED
 
 

@@ -4,11 +4,13 @@ import itertools
 import os
 
 import genpy
+import genpy.dynamic
 import mission_bags
 import odd_messages
 import pytest
 import rosbag
 from mission_bags import write
+from sensor_msgs.msg import BatteryState
 from std_msgs.msg import String
 
 from rumba_evaluation.ros.mission_report import mission_report
@@ -53,6 +55,18 @@ def test_a_topic_of_another_type_is_ignored(tmp_path, refusal):
         for topic in ('ground_truth', 'battery_state'):
             bag.write(f'/rumba/{topic}', String('here'), genpy.Time(1))
     assert 'lacks ground_truth or battery_status and battery_status or battery_state' in refusal(path)
+
+
+def test_a_healthy_bag_with_another_definition_of_a_message_is_not_called_damaged(tmp_path, refusal):
+    path = write(tmp_path / 'a.bag', ['ground_truth'])
+    text = BatteryState._full_text.replace('float32 percentage', 'float32 state_of_charge', 1)
+    other = genpy.dynamic.generate_dynamic(BatteryState._type, text)[BatteryState._type]
+    with rosbag.Bag(str(path), 'a') as bag:
+        bag.write('/rumba/battery_state', other(), genpy.Time(101))
+    line = refusal(path)
+    assert line.startswith(f'{path}: was recorded with another definition of sensor_msgs/BatteryState than the one '
+                           'here (')
+    assert line.endswith(': make the report where it was recorded') and 'reindex' not in line
 
 
 def test_a_bag_without_messages_is_refused(tmp_path, refusal):

@@ -28,6 +28,19 @@ def test_a_config_that_is_no_path_is_refused_and_not_opened(monkeypatch, value, 
         node._parameters(Settings, [])
 
 
+@pytest.mark.parametrize('arguments, told', [
+    ([], 'speed: 3, state: \'x\''), (['_speed:=3'], "state: 'x'"), (['_speed:=3', '_state:=x'], ''),
+    (['__log:=/tmp/x'], '')], ids=str)
+def test_parameters_of_an_earlier_start_are_named(monkeypatch, arguments, told):
+    given(monkeypatch, {'speed': 3, 'state': 'x'})
+    lines = []
+    monkeypatch.setattr(node.rospy, 'loginfo', lines.append)
+    monkeypatch.setattr(node.sys, 'argv', ['simulator', *arguments])
+    assert node._parameters(Settings, []).speed == 3.0
+    assert lines == ([f'the master keeps parameters of an earlier start, which hold for this one too: {told}; '
+                      '`rosparam delete /simulator` forgets them'] if told else [])
+
+
 @pytest.mark.parametrize('value', ['text', 5, ['a'], 1.5, True])
 def test_parameters_that_are_no_mapping_are_refused(monkeypatch, value):
     given(monkeypatch, value)
@@ -101,3 +114,17 @@ def test_ctrl_c_ends_a_node_also_while_it_asks_for_the_master():
     """rosgraph takes the KeyboardInterrupt for a no, and the node went on once the master answered."""
     done = subprocess.run([sys.executable, '-c', INTERRUPTED], stdout=subprocess.PIPE, universal_newlines=True)
     assert (done.returncode, done.stdout) == (-signal.SIGINT, '')
+
+
+@pytest.mark.parametrize('argument', ['--help', '--config'])
+def test_whoever_reads_only_the_beginning_of_a_help_ends_it_quietly(argument):
+    """As `| head -1` does; a pipe that nobody reads any more is an error."""
+    code = 'import sys; from rumba_sim.ros.simulator import simulator; sys.argv[1:] = sys.stdin.read().split(); ' \
+           'simulator.main()'
+    with subprocess.Popen([sys.executable, '-c', code], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+                          stderr=subprocess.PIPE, universal_newlines=True) as process:
+        process.stdout.close()
+        process.stdin.write(argument)
+        process.stdin.close()
+        assert process.stderr.read() == ''
+        assert process.wait(60.0) == 0

@@ -53,12 +53,20 @@ class Undock(Behaviour):
         self._driven = max(driven, self._driven)
         is_blocked = self._waited > PATIENCE
         if is_blocked and observation.is_docked:
-            return self.fail('something behind the robot keeps it on the dock', Outcome.BLOCKED)
+            return self.fail(self._why(), Outcome.BLOCKED)
         if is_blocked or self._driven >= DISTANCE:
             if not self._turns:
                 return self.succeed('free')
             self._turn = Turn(wrap_angle(pose.theta + math.pi), self._context.robot.drive)
         return Command(-SPEED, 0.0, brushes_up=True)
+
+    def _why(self) -> str:
+        """What keeps the robot on the dock."""
+        drive = self._context.robot.drive
+        if min(SPEED, drive.max_speed) < drive.dead_band:
+            return (f'the wheels do not turn: drive/max_speed is {drive.max_speed:g} m/s, and below drive/dead_band, '
+                    f'{drive.dead_band:g} m/s, they stand still')
+        return 'something behind the robot keeps it on the dock'
 
     def take_note(self, observation: Observation) -> None:
         """Measure the distance again: the person may have brought the robot back."""

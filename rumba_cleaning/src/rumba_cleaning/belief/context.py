@@ -27,6 +27,7 @@ if TYPE_CHECKING:
 Result = TypeVar('Result')
 Seed = Union[int, Sequence[int]]
 CUT_OFF = 0.02  # of the reachable floor: less than a room, more than corners beside things; our choice
+NOT_COPIED = ('sight', 'footing', 'generator')  # attributes that what is submitted does without
 OPENED = 0.05  # [m^2] half of what a robot covers: a gap that opens less is not worth squeezing through; our choice
 
 
@@ -265,9 +266,13 @@ class Context:
     def submit(self, function: Callable[..., Result], *args: Any) -> 'Future[Result]':
         """Have the executor compute `function(context, *args)` with a copy of this context as it is now.
 
-        The function may run in another thread. It must not draw from the generator, whose state the copy shares.
+        The function may run in another thread, while this context changes. So the copy has a ground, swept floor and
+        mates of its own; the ground shows what the laser has seen. It has neither sight nor footing nor generator:
+        these would be those of this context, and to use them is an AttributeError.
         """
         self.show_seen()
         snapshot = copy.copy(self)
         snapshot.ground, snapshot.swept, snapshot.mates = self.ground.copy(), self.swept.copy(), self.mates.copy()
+        for name in NOT_COPIED:
+            delattr(snapshot, name)
         return self.executor.submit(function, snapshot, *args)

@@ -9,7 +9,7 @@ import numpy as np
 from rumba_cleaning.behaviour import Observation
 from rumba_cleaning.behaviours.dock import approach
 from rumba_cleaning.belief import paths
-from rumba_cleaning.belief.context import Context, InPlace
+from rumba_cleaning.belief.context import Context
 from rumba_sim.model.errors import MapError
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.kernel import Array
@@ -39,6 +39,7 @@ class BatteryWatch:
     def _measure_ways(self) -> None:
         """Have the lengths of the paths to the dock computed, on the plan as it is now."""
         self._lengths: 'Optional[Future[Tuple[Array, float]]]' = None  # see `_lengths_to`
+        self._newer: 'Optional[Future[Tuple[Array, float]]]' = None  # that will take their place
         self._plan, self._home = self._context.plan, self._context.home
         self._fits = self._context.ground.fits
         try:
@@ -71,17 +72,32 @@ class BatteryWatch:
     def needed(self, pose: Pose) -> float:
         """State of charge that is enough to reach the dock from a pose, with the reserve; inf if no path leads there.
 
-        It waits for the lengths of the paths if they are not ready, and measures them again where no path led before
-        obstacles were forgotten.
+        It waits for the lengths of the paths if they are not ready.
         """
+        return math.inf if self._lengths is None else self._needed_for(self._length(self._lengths, pose))
+
+    def look(self, pose: Pose) -> None:
+        """Have the paths measured again, beside the steps, if none led from a pose and the ground has changed since."""
         if self._lengths is None:
-            return math.inf
-        ground = self._context.ground
-        node = ground.standing_at(pose.x, pose.y)
-        if not math.isfinite(self._lengths.result()[0][node]) and self._fits is not ground.fits:
-            self._fits = ground.fits
-            self._lengths = InPlace().submit(_lengths_to, self._context, self._goal)
-        return self._needed_for(float(self._lengths.result()[0][node]))
+            return
+        self._take_newer()
+        fits = self._context.ground.fits
+        if self._newer is None and self._fits is not fits and not math.isfinite(self._length(self._lengths, pose)):
+            self._fits = fits
+            self._newer = self._context.submit(_lengths_to, self._goal)
+            self._take_newer()
+
+    def _take_newer(self) -> None:
+        if self._newer is not None and self._newer.done():
+            self._lengths, self._newer = self._newer, None
+
+    @property
+    def is_looking(self) -> bool:
+        """Whether the paths are being measured again."""
+        return self._newer is not None
+
+    def _length(self, lengths: 'Future[Tuple[Array, float]]', pose: Pose) -> float:
+        return float(lengths.result()[0][self._context.ground.standing_at(pose.x, pose.y)])
 
     def is_enough_anywhere(self, state_of_charge: float) -> bool:
         """Whether a charge is enough wherever a path leads to the dock, so that `needed` need not be asked.

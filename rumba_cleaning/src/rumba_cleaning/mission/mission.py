@@ -14,6 +14,7 @@ from rumba_cleaning.behaviours.right_of_way import RightOfWay
 from rumba_cleaning.behaviours.undock import Undock
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.belief.mates import Report, Task
+from rumba_cleaning.mission import confinement
 from rumba_cleaning.mission.battery_watch import BatteryWatch
 from rumba_cleaning.mission.second_try import SecondTry
 from rumba_cleaning.mission.stages import EMPTY, HELD, START, StagedMission, State
@@ -62,6 +63,7 @@ class Mission(StagedMission):
         self._waits = False  # for mates that may leave something to it
         self._homes = 0  # failed attempts to return to the dock
         self._second_try = SecondTry(self._context)
+        self._confinement = confinement.Confinement()
         self._vain = 0  # charges that brought little, one after the other
         self._is_undisturbed = True  # nobody drove or moved the robot since it began or was charged
         if not self._resumes:
@@ -90,6 +92,7 @@ class Mission(StagedMission):
         if not self._watch.is_ready:
             self.message = 'planning'
             return STOP
+        self._watch.look(observation.pose)
         command = self._guard.step(self._decide, observation)
         if self._guard.held_time > HELD:
             return self._strand(f'{percent(self._context.swept.coverage)} swept: the robot is so near to edges that no '
@@ -117,12 +120,29 @@ class Mission(StagedMission):
             if command is not None:
                 self.message = 'giving way to a mate'
                 return command
+        is_returning = self.state in (State.RETURNING, State.DOCKING)
+        if self.state is State.CLEANING or is_returning and self._confinement.is_known:
+            self._confinement.watch(observation.pose, observation.dt)
+            if self._confinement.is_hopeless:
+                return self._give_up()
+        else:
+            self._confinement.rest()
         return self._act(observation)
+
+    def _give_up(self) -> Command:
+        """Try to get home from where the robot does not get away; if it has tried that, too, stay."""
+        message = f'{percent(self._context.swept.coverage)} swept: {confinement.REASON}'
+        if self._confinement.is_known:
+            return self._strand(message, Outcome.BLOCKED)
+        self._confinement.rest()
+        self._confinement.is_known = True
+        return self._close(Status.FAILED, message, Outcome.BLOCKED)
 
     def take_note(self, observation: Observation) -> None:
         """Follow the robot; what it passes over does not count as swept, since the person may move the brushes."""
         self._brushes_up = True
         self._is_undisturbed = False
+        self._confinement.rest()
         self._guard.stand_by(observation)
         self._track(observation)
         if self._part is not None:
@@ -182,6 +202,8 @@ class Mission(StagedMission):
         return self._enter(State.UNDOCKING, Undock(self._context, turns=False))
 
     def _clean(self, observation: Observation) -> Command:
+        if self._closing is not None:
+            return self._close(*self._closing)
         coverage = self._context.swept.coverage
         if self._is_target_met(observation):
             return self._succeed()
@@ -298,8 +320,12 @@ class Mission(StagedMission):
         return self._close(*self._success())
 
     def _close(self, status: Status, message: str, outcome: Outcome) -> Command:
-        """Return to the dock, if a path leads there, and end then."""
+        """Return to the dock, if a path leads there, and end then; wait until it is known whether one does."""
         self._closing = status, message, outcome
+        if self._last is not None:
+            self._watch.look(self._last)
+            if self._watch.is_looking:
+                return STOP
         if self._last is None or not math.isfinite(self._watch.needed(self._last)):
             return self._end()
         return self._enter(State.RETURNING, Dock(self._context))

@@ -17,7 +17,7 @@ from rumba_msg.msg import Lockstep
 from rumba_sim.model.geometry import Pose
 from rumba_sim.ros.common.conversions import plane_pose, transform
 from rumba_sim.ros.common.frames import MAP, frames
-from rumba_sim.ros.common.lockstep import Participant, Resent
+from rumba_sim.ros.common.lockstep import Participant, Resent, Work
 from rumba_sim.ros.common.maps import FARTHEST
 from rumba_sim.ros.common.mountings import HeardMountings
 from rumba_sim.ros.common.requests import Requests
@@ -36,6 +36,7 @@ class ScanLoop(abc.ABC):
         self._name, self._reading = robot, reading
         self._frames = frames(robot)
         self._requests = Requests()
+        self._work = Work()
         self._odometries = Odometries()
         self._waiting: Optional[LaserScan] = None  # for its odometry
         self._tick: Optional[Lockstep] = None  # that was not answered yet
@@ -46,8 +47,8 @@ class ScanLoop(abc.ABC):
         self._has_odometry = self._has_scan = False  # whether any came
         self._newest = Resent()
         self._tf = rospy.Publisher('/tf', TFMessage, self._newest, queue_size=QUEUE)
-        self._participant = Participant(lambda tick: self._requests.post(lambda: self._take_tick(tick)))
-        self._mountings = HeardMountings(self._frames.base_link, lambda: self._requests.post(self._look))
+        self._participant = Participant(lambda tick: self._post(tick, self._take_tick), lambda: self._work.goes_on)
+        self._mountings = HeardMountings(self._frames.base_link, lambda: self._post(None, lambda _: self._look()))
         self._subscribe(f'{robot}/odom', Odometry, self._take_odom)
         self._subscribe(f'{robot}/scan', LaserScan, self._take_scan)
 
@@ -56,10 +57,14 @@ class ScanLoop(abc.ABC):
         rospy.Subscriber(topic, kind, self._post, take, queue_size=QUEUE)
 
     def _post(self, message: Any, take: Any) -> None:
-        self._requests.post(lambda: take(message))
+        def work() -> None:
+            with self._work:
+                take(message)
+        self._requests.post(work)
 
     def run(self) -> None:
         """Work until ROS shuts down."""
+        self._work.rest()
         while not rospy.is_shutdown():
             self._requests.serve(time.monotonic() + PERIOD)
             self._complain()

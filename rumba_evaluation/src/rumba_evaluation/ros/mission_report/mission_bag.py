@@ -1,8 +1,9 @@
 """Reads a bag: finds the robots in it, checks that a report can be made, and makes the record of one robot."""
 
-from typing import Dict, Iterable
+from typing import Dict, Iterable, List
 
 import rosbag
+import roslib.message
 
 from rumba_evaluation.report.mission_record import MissionRecord
 from rumba_evaluation.ros.mission_report.recorded_maps import read_maps
@@ -35,8 +36,10 @@ def read(path: str, robot: str = '', target: float = 0.0) -> MissionRecord:
     Raises:
         ReportError: the bag cannot be read, or lacks needed topics.
     """
+    others: List[str] = []
     try:
         with rosbag.Bag(path) as bag:
+            others = _other_definitions(bag)
             return _read(bag, path, robot, target)
     except ReportError:
         raise
@@ -46,8 +49,21 @@ def read(path: str, robot: str = '', target: float = 0.0) -> MissionRecord:
     except Exception as error:  # rosbag raises exceptions of many types if a bag is damaged
         if isinstance(error, OSError) and error.strerror:
             raise ReportError(f'{path}: {error.strerror}') from error
+        if others and not isinstance(error, rosbag.ROSBagException):
+            raise ReportError(f'{path}: was recorded with another definition of {" and ".join(others)} than the one '
+                              f'here ({error}): make the report where it was recorded') from error
         raise ReportError(f'{path}: is not a bag, or is damaged ({type(error).__name__}: {error}): '
                           f'rosbag reindex {path} repairs what it can') from error
+
+
+def _other_definitions(bag: rosbag.Bag) -> List[str]:
+    """Types that the bag and this system both know, by different definitions."""
+    found = []
+    for name, md5 in sorted(bag.get_type_and_topic_info().msg_types.items()):
+        kind = roslib.message.get_message_class(name)
+        if kind is not None and kind._md5sum != md5:
+            found.append(name)
+    return found
 
 
 def _read(bag: rosbag.Bag, path: str, wanted: str, target: float) -> MissionRecord:

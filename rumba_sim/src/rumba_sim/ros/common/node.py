@@ -4,6 +4,7 @@ import contextlib
 import inspect
 import io
 import logging
+import os
 import re
 import signal
 import sys
@@ -11,7 +12,7 @@ import threading
 import time
 import traceback
 import xmlrpc.client
-from typing import Any, Callable, Iterator, List, Mapping, Sequence, Type, TypeVar
+from typing import Any, Callable, Iterator, List, Mapping, Match, Optional, Sequence, Type, TypeVar
 from xml.parsers.expat import ExpatError
 
 import rosgraph
@@ -50,10 +51,10 @@ def run(name: str, settings_class: Type[Settings], main: Callable[[Settings], No
         sys.stdout.reconfigure(line_buffering=True)  # otherwise log lines stay in the buffer of a pipe until it is full
     arguments = [argument for argument in rospy.myargv()[1:] if not argument.startswith(tuple(arguments_of_others))]
     if '-h' in arguments or '--help' in arguments:
-        print(inspect.getdoc(inspect.getmodule(main)), config.describe(settings_class), sep='\n\n')
+        _show(f'{inspect.getdoc(inspect.getmodule(main))}\n\n{config.describe(settings_class)}\n')
         return
     if '--config' in arguments:
-        print(yaml_file.document(settings_class()), end='')
+        _show(yaml_file.document(settings_class()))
         return
     try:
         _check_command_line(arguments, config.names(settings_class))
@@ -76,6 +77,14 @@ def run(name: str, settings_class: Type[Settings], main: Callable[[Settings], No
         if not rospy.core.is_shutdown_requested():  # otherwise a topic was closed while the main thread published
             rospy.logfatal(f'{name} ends because of an error of its own:\n{traceback.format_exc()}')
             sys.exit(OWN_ERROR)
+
+
+def _show(text: str) -> None:
+    """Print a text for somebody who may read only its beginning, as `| head` does."""
+    try:
+        print(text, end='', flush=True)
+    except BrokenPipeError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # or Python would try again at its end
 
 
 def _register(name: str, own_clock: bool, is_single: bool) -> None:
@@ -185,6 +194,7 @@ def _parameters(settings_class: Type[Settings], own: Sequence[str]) -> Settings:
             rospy.delete_param(f'~{name}')
     where = f'parameter of {rospy.get_name()}'
     parameters = launched.below(rospy.get_name()) if launched.is_fixed() else rospy.get_param('~', {})
+    _tell_of_parameters_from_before(parameters)
     if not isinstance(parameters, Mapping):
         raise ConfigError(f'parameter {rospy.get_name()} is {quoted(parameters)}: must be a mapping of '
                           + ', '.join(config.names(settings_class)))
@@ -197,8 +207,33 @@ def _parameters(settings_class: Type[Settings], own: Sequence[str]) -> Settings:
     return config.updated(settings, parameters, where)
 
 
+def _tell_of_parameters_from_before(parameters: Any) -> None:
+    """Name the parameters that rule this node although neither its command line nor a launch file gives them.
+
+    The master keeps what an earlier command line gave, which its user may have forgotten.
+    """
+    if not isinstance(parameters, Mapping) or launched.is_fixed() or _is_launched():
+        return
+    given = {assignment.group(1).partition('/')[0] for assignment in map(_assignment, sys.argv) if assignment}
+    before = {name: value for name, value in sorted(parameters.items()) if name not in given}
+    if before:
+        shown = ', '.join(f'{name}: {quoted(value)}' for name, value in before.items())
+        rospy.loginfo(one_line('the master keeps parameters of an earlier start, which hold for this one too: '
+                               f'{shown}; `rosparam delete {rospy.get_name()}` forgets them'))
+
+
+def _is_launched() -> bool:
+    """Whether roslaunch has started this node: it sets the parameters before."""
+    return any(argument.startswith('__log:=') for argument in sys.argv)
+
+
+def _assignment(argument: str) -> Optional[Match[str]]:
+    """What sets a parameter on the command line, with its name; None for other arguments."""
+    return re.match(r'_([^_]\w*(?:/\w+)*):=', argument)
+
+
 def _take_parameters_back() -> None:
     """Delete the parameters that a refused command line has set: otherwise the next start would be refused too."""
-    for assignment in filter(None, (re.match(r'_([^_]\w*(?:/\w+)*):=', argument) for argument in sys.argv)):
+    for assignment in filter(None, map(_assignment, sys.argv)):
         if rospy.has_param(f'~{assignment.group(1)}'):
             rospy.delete_param(f'~{assignment.group(1)}')

@@ -69,8 +69,8 @@ class RobotNode:
         self._odometry, self._truth = OdometryPacker(odom, base), OdometryPacker(frame, base)
         self._body, self._correction = TransformPacker(odom, base), TransformPacker(MAP, odom)
         self._has_localisation = has_localisation
-        self._command: Optional[Tuple[float, float]] = None
         self._mux, self._mux_lock = VelocityMux(INPUTS), threading.Lock()
+        self._command: Optional[Tuple[float, float]] = None  # guarded by the lock, as the mux
         self._stamp = stamp
         self._requests = requests
         self._is_held = is_held
@@ -133,13 +133,15 @@ class RobotNode:
 
     def apply_command(self) -> None:
         """Give the robot the newest command that counts, if one came since the last tick."""
-        command, self._command = self._command, None
+        with self._mux_lock:  # a command that comes at this moment is kept for the next tick
+            command, self._command = self._command, None
         if command is not None:
             self._robot.command(*command, self._world.tick)
 
     def forget_command(self) -> None:
         """Do not give the robot what came since the last tick."""
-        self._command = None
+        with self._mux_lock:
+            self._command = None
 
     def _on_brushes(self, request: Any) -> SetBoolResponse:
         def set_brushes() -> None:
