@@ -56,10 +56,11 @@ class Ros(abc.ABC):
 class Session:
     """What one client has asked for."""
 
-    def __init__(self, ros: Ros, allowed: AllowList, rights: Rights, namespace: str, client: Any, reply: Reply) -> None:
-        """Serve a client; `reply` sends it an operation."""
+    def __init__(self, ros: Ros, allowed: AllowList, rights: Rights, namespace: str, client: Any, reply: Reply,
+                 note: Callable[[str], Any] = lambda _: None) -> None:
+        """Serve a client; `reply` sends it an operation, `note` gets a line about each refusal."""
         self._ros, self._allowed, self._rights, self._namespace = ros, allowed, rights, namespace
-        self._client, self._reply = client, reply
+        self._client, self._reply, self._note = client, reply, note
         self._level = LEVELS.index('error')
         self._listens: Dict[str, Set[Any]] = {}  # ids by topic
         self._publishes: Dict[str, List[Any]] = {}
@@ -87,7 +88,12 @@ class Session:
                               + ', '.join(sorted(self._operations)))
             act(operation)
         except Refusal as refusal:
-            self.tell('error', str(refusal), operation.get('id'))
+            self.refuse(str(refusal), operation.get('id'))
+
+    def refuse(self, line: str, reason: Any = None) -> None:
+        """Say that something is not carried out, and why."""
+        self._note(line)
+        self.tell('error', line, reason)
 
     def tell(self, level: str, line: str, reason: Any = None) -> None:
         """Send the client a status, if it wants to hear of such."""
@@ -166,6 +172,8 @@ class Session:
             answer['id'] = operation['id']
 
         def done(worked: bool, values: Any) -> None:
+            if not worked:
+                self._note(str(values))
             self._reply({**answer, 'values': values, 'result': worked})
         try:
             service = self._name(operation, 'service')

@@ -13,6 +13,7 @@ import dataclasses
 import functools
 import pathlib
 import resource
+import time
 from typing import Any, Callable, List, Optional
 
 import rospkg
@@ -76,7 +77,8 @@ def run(settings: Settings) -> None:
     loop = IOLoop.current()
     encoder = Encoder(rospy.logwarn)
     hub = Hub(namespace, allowed, _parts(settings.origins),
-              Bounds(settings.connections, settings.rate, settings.size), encoder.encode)
+              Bounds(settings.connections, settings.rate, settings.size), encoder.encode,
+              time.thread_time, rospy.logwarn)
     link = RosLink(hub, encoder, Graph(allowed, lambda: hub.clients > 0), functools.partial(_later, loop))
     hub.ros = link
     serve(hub, tokens, pathlib.Path(rospkg.RosPack().get_path('rumba_viewer')) / 'page', where)
