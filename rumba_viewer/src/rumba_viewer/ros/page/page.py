@@ -22,9 +22,9 @@ from tornado.ioloop import IOLoop
 from rumba_sim.model.config import setting
 from rumba_sim.ros.common import node
 from rumba_viewer.page.allow_list import AllowList, Tokens, robot_tokens
-from rumba_viewer.page.conversion import Filler
 from rumba_viewer.page.errors import Refusal
 from rumba_viewer.page.feeds import Demand
+from rumba_viewer.page.filling import Filler, serialised
 from rumba_viewer.page.protocol import Ros
 from rumba_viewer.page.server import Bounds, Hub, check_address, serve, sockets
 from rumba_viewer.ros.page.graph import Graph, now
@@ -142,7 +142,7 @@ class RosLink(Ros):
     def publish(self, client: Any, topic: str, values: Any) -> None:
         """Publish a message with these values."""
         outlet = self._talking.outlet(topic)
-        outlet.publish(self._filler.fill(outlet.make(), values))
+        outlet.publish(serialised(self._filler.fill(outlet.make(), values)))
 
     def call(self, client: Any, service: str, values: Any, done: Callable[[bool, Any], None]) -> None:
         """Call a service."""

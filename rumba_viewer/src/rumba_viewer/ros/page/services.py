@@ -8,8 +8,9 @@ import rospy
 import rosservice
 
 from rumba_sim.model.errors import one_line
-from rumba_viewer.page import conversion
+from rumba_viewer.page.conversion import to_json
 from rumba_viewer.page.errors import Refusal
+from rumba_viewer.page.filling import Filler
 from rumba_viewer.page.protocol import API
 from rumba_viewer.ros.page.graph import Graph
 
@@ -28,7 +29,7 @@ class Call(NamedTuple):
 class Services:
     """Calls services. Its methods are called in the thread of the loop, and never block."""
 
-    def __init__(self, graph: Graph, filler: conversion.Filler, later: Callable[..., Any]) -> None:
+    def __init__(self, graph: Graph, filler: Filler, later: Callable[..., Any]) -> None:
         """Fill requests by `filler`; call functions in the loop `later`, after a time [s]."""
         self._graph, self._filler, self._later = graph, filler, later
         self._executor = concurrent.futures.ThreadPoolExecutor(THREADS)
@@ -80,7 +81,7 @@ class Services:
         if isinstance(values, list):
             values = dict(zip(request.__slots__, values))  # in their order
         answer = rospy.ServiceProxy(service, kind)(self._filler.fill(request, values or {}))
-        return conversion.to_json(answer)
+        return to_json(answer)
 
 
 def _reason(service: str, error: BaseException) -> str:

@@ -1,6 +1,7 @@
 """Publishers of the topics that clients have advertised. One serves all clients of a topic."""
 
 import concurrent.futures
+import struct
 import time
 from typing import Any, Callable, Dict, List, Optional, Set
 
@@ -13,6 +14,7 @@ QUEUE = 20  # messages that wait for a subscriber that is slow; of more, the old
 PATIENCE = 1.0  # [s] for which a new publisher waits for the subscribers that the master knows
 LOOK = 0.02  # [s] between two looks whether they are connected
 MOST_PENDING = 20  # messages that wait for that
+SEQUENCE = struct.Struct('<I')  # the number of a message, with which its header begins
 
 
 class Outlet:
@@ -29,22 +31,30 @@ class Outlet:
         self.kind, self.make = kind, make
         self.clients: Set[Any] = set()
         self.publisher: Any = None
-        self.pending: Optional[List[Any]] = []
+        self.pending: Optional[List[bytes]] = []
         self.is_closed = False
+        self._number = 0  # of the newest message
 
-    def publish(self, message: Any) -> None:
-        """Publish a message, as soon as that is possible."""
+    def publish(self, data: bytes) -> None:
+        """Publish a serialised message, as soon as that is possible."""
         if self.pending is not None:
-            self.pending.append(message)
+            self.pending.append(data)
             del self.pending[:-MOST_PENDING]
         else:
-            self.publisher.publish(message)
+            self._send(data)
 
     def release(self) -> None:
         """Publish what has waited."""
         pending, self.pending = self.pending or [], None
-        for message in pending:
-            self.publisher.publish(message)
+        for data in pending:
+            self._send(data)
+
+    def _send(self, data: bytes) -> None:
+        """Hand rospy bytes that need no more work; as it does, count the messages that begin with a header."""
+        self._number += 1
+        message = rospy.AnyMsg()
+        message._buff = SEQUENCE.pack(self._number) + data[SEQUENCE.size:] if self.make._has_header else data
+        self.publisher.publish(message)
 
 
 class Talking:

@@ -9,6 +9,7 @@ from typing import Any, Callable, Dict, Optional
 
 import numpy as np
 import roslib.message
+import rospy
 
 from rumba_sim.model.errors import one_line
 from rumba_viewer.page import conversion
@@ -16,7 +17,18 @@ from rumba_viewer.page.client import framed
 from rumba_viewer.page.feeds import Arrival
 
 LARGEST = 4_000_000  # [bytes] of a serialised message; a larger one is not handed on
+NOT_MESSAGES = {'time': rospy.Time, 'duration': rospy.Duration}
 FAST = 1  # level of zlib: of the coverage of the map apartment, 450 kB, it leaves 20 kB in 1 ms; Pillow takes 3 to 5 ms
+
+
+class _Numpy:
+    """NumPy as genpy expects it: `bool` was missing in some versions, and genpy asks for it."""
+
+    def __getattr__(self, name: str) -> Any:
+        return np.bool_ if name == 'bool' else getattr(np, name)
+
+
+NUMPY = _Numpy()
 
 
 class Encoder:
@@ -25,11 +37,11 @@ class Encoder:
     def __init__(self, warn: Callable[[str], object]) -> None:
         """Tell of what cannot be made by `warn`."""
         self._warn = warn
-        self._classes: Dict[str, Any] = {}
+        self._classes: Dict[str, Any] = dict(NOT_MESSAGES)
         self._told: Dict[str, str] = {}  # by topic
 
     def find(self, kind: str) -> Any:
-        """The class of a type of message; None if it is not installed."""
+        """The class of the type of a field; None if it is not installed."""
         if kind not in self._classes:
             try:
                 self._classes[kind] = roslib.message.get_message_class(kind)
@@ -42,7 +54,7 @@ class Encoder:
         trouble = self._trouble(arrival)
         if not trouble:
             try:
-                values = conversion.to_text(self.find(arrival.type)().deserialize_numpy(arrival.data, np))
+                values = conversion.to_text(self.find(arrival.type)().deserialize_numpy(arrival.data, NUMPY))
             except Exception as error:  # whatever a publisher sent
                 trouble = f'{type(error).__name__}: {error}'
         if trouble:
