@@ -1,6 +1,7 @@
 """Every type of field that a definition of a message can have, from ROS to a client and back."""
 
 import json
+import unittest.mock
 
 import pytest
 
@@ -12,6 +13,7 @@ from genpy.dynamic import generate_dynamic  # noqa: E402
 from rumba_viewer.page.errors import Refusal  # noqa: E402
 from rumba_viewer.page.feeds import Arrival  # noqa: E402
 from rumba_viewer.page.filling import Filler, serialised  # noqa: E402
+from rumba_viewer.ros.page import types  # noqa: E402
 from rumba_viewer.ros.page.wire import Encoder  # noqa: E402
 
 INTEGERS = {f'{sign}int{bits}': [-(1 << bits - 1), 7, (1 << bits - 1) - 1] if not sign else [0, 7, (1 << bits) - 1]
@@ -41,17 +43,16 @@ def made(definition):
 
 def shown(message):
     """The values that a client gets of a message, by all of the way that it takes."""
-    encoder = Encoder(pytest.fail)
-    encoder._classes[message._type] = type(message)
-    data = serialised(message)
-    frame = encoder.encode(Arrival(data, message._type, message._md5sum, '/node', False), '/t', False)
+    arrival = Arrival(serialised(message), message._type, message._md5sum, '/node', False)
+    with unittest.mock.patch.object(types, 'of_message', lambda _: type(message)):
+        frame = Encoder(pytest.fail).encode(arrival, '/t', False)
     return json.loads(frame[frame.index(b'{'):].decode())['msg']
 
 
 def filled(kind, values):
     """A message with values of a client."""
     inner = generate_dynamic('page_test/Inner', INNER)['page_test/Inner']
-    find = {**Encoder(pytest.fail)._classes, 'page_test/Inner': inner}.get
+    find = {**types.NOT_MESSAGES, 'page_test/Inner': inner}.get
     return Filler(find, lambda: (12, 34)).fill(kind(), values)
 
 

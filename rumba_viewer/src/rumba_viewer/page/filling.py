@@ -49,6 +49,18 @@ class Filler:
         """
         return self._fill(message, values, [])
 
+    def fill_any(self, message: Any, values: Any) -> Any:
+        """Set fields by a mapping, or by a list of values in their order; None: none. Returns the message.
+
+        Raises:
+            Refusal: a field is unknown, or its value does not fit.
+        """
+        if isinstance(values, list):
+            if len(values) > len(message.__slots__):
+                raise Refusal(f'there are {len(values)} values: {message._type} has {len(message.__slots__)} fields')
+            values = dict(zip(message.__slots__, values))
+        return self.fill(message, {} if values is None else values)
+
     def _fill(self, message: Any, values: Any, path: List[str]) -> Any:
         if len(path) > MOST_NESTED:
             raise Refusal(f'{_at(path)} is nested too deeply')

@@ -16,7 +16,8 @@ from rumba_viewer.page.allow_list import AllowList, Rights, Tokens, host_name, i
 from rumba_viewer.page.client import Client
 from rumba_viewer.page.errors import Refusal
 from rumba_viewer.page.feeds import Arrival, Demand, Feed
-from rumba_viewer.page.protocol import Ros, Session
+from rumba_viewer.page.protocol import Session
+from rumba_viewer.page.ros import Ros
 
 TICK = 0.05  # [s] between two looks at what has arrived from ROS
 REQUEST = 65536  # [bytes] of the head or the body of a request, at most

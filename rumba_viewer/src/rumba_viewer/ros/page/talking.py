@@ -9,6 +9,7 @@ import rosgraph
 import rospy
 
 from rumba_viewer.page.errors import Refusal
+from rumba_viewer.ros.page import types
 
 QUEUE = 20  # messages that wait for a subscriber that is slow; of more, the oldest are dropped
 PATIENCE = 1.0  # [s] for which a new publisher waits for the subscribers that the master knows
@@ -60,9 +61,9 @@ class Outlet:
 class Talking:
     """Publishes for clients. Its methods are called in the thread of the loop, and never block."""
 
-    def __init__(self, find: Callable[[str], Any], later: Callable[..., Any]) -> None:
-        """Find classes of messages by `find`; call functions in the loop `later`, after a time [s]."""
-        self._find, self._later = find, later
+    def __init__(self, later: Callable[..., Any]) -> None:
+        """Call functions in the loop `later`, after a time [s]."""
+        self._later = later
         self._outlets: Dict[str, Outlet] = {}
         self._executor = concurrent.futures.ThreadPoolExecutor(1)  # for what waits for the master
 
@@ -74,7 +75,7 @@ class Talking:
         """
         outlet = self._outlets.get(topic)
         if outlet is None:
-            make = self._find(kind)
+            make = types.of_message(kind)
             if make is None:
                 raise Refusal(f'{topic}: the type {kind} is not installed here')
             outlet = self._outlets[topic] = Outlet(kind, make)
@@ -93,6 +94,10 @@ class Talking:
             del self._outlets[topic]
             outlet.is_closed = True
             self._submit(self._take_back, outlet)
+
+    def kinds(self) -> Dict[str, str]:
+        """The types of all topics that clients have advertised; in any thread."""
+        return {topic: outlet.kind for topic, outlet in list(self._outlets.items())}
 
     def outlet(self, topic: str) -> Outlet:
         """The outlet of a topic that was advertised."""
