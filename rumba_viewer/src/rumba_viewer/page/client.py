@@ -14,8 +14,8 @@ from rumba_viewer.page.allow_list import Rights, is_origin_allowed
 from rumba_viewer.page.errors import Hostile, Refusal
 from rumba_viewer.page.protocol import Session
 
-REFUSED = 1008  # code of RFC 6455 for an end because of what the client did
-TOO_BIG = 1009
+BROKEN, REFUSED, TOO_BIG = 1002, 1008, 1009  # codes of RFC 6455 for an end because of what the client did
+MASKED = 0x80  # bit of the second byte of a frame
 BURST = 2.0  # [s] of its rate that a client may send at once
 MOST_REPLIES = 200  # that wait for a slow client; a client for which more would wait is disconnected
 SEND_BUFFER = 65536  # [bytes] in the kernel for each client: what it holds grows old
@@ -53,6 +53,27 @@ class Patient(WebSocketProtocol13):
     """Ends so that a client that sends too much can still read why."""
 
     _is_too_much = False
+    _begins_frame = False
+
+    async def _receive_frame(self) -> None:
+        self._begins_frame = True
+        await super()._receive_frame()
+
+    async def _read_bytes(self, n: int) -> bytes:
+        """Read; the second byte of a frame must say that the client has masked it."""
+        data = await super()._read_bytes(n)
+        begins, self._begins_frame = self._begins_frame, False
+        if begins and not data[1] & MASKED:
+            client: Any = self.handler
+            client.tell_and_drop('a client must mask its frames: RFC 6455, section 5.1', BROKEN)
+            raise StreamClosedError
+        return data
+
+    def _handle_message(self, opcode: int, data: bytes) -> Any:
+        try:
+            return super()._handle_message(opcode, data)
+        except UnicodeDecodeError:  # the reason of a close is no text
+            return self._abort()
 
     def close(self, code: Optional[int] = None, reason: Optional[str] = None) -> None:
         """Say it in a status first."""
@@ -143,12 +164,12 @@ class Client(WebSocketHandler):
             self.push(None, framed(json.dumps(operation, separators=(',', ':'))), MOST_REPLIES)
             self.deliver()
 
-    def tell_and_drop(self, line: str) -> None:
+    def tell_and_drop(self, line: str, code: int = REFUSED) -> None:
         """Send a status, and close the connection."""
         if not self._is_dropped:
             self._is_dropped = True
             self._write(framed(json.dumps({'op': 'status', 'level': 'error', 'msg': line})))
-            self.close(REFUSED, 'refused')
+            self.close(code, 'refused')
 
     def push(self, topic: Optional[str], frame: bytes, most: int) -> None:
         """Have a message of a topic sent with the next `deliver`; at most so many wait, and the newest win."""

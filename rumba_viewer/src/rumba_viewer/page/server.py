@@ -9,24 +9,20 @@ from typing import Any, Callable, Dict, List, Optional, Sequence, Set
 from tornado.httpserver import HTTPServer
 from tornado.ioloop import IOLoop, PeriodicCallback
 from tornado.netutil import bind_sockets
-from tornado.web import Application, HTTPError, RequestHandler, StaticFileHandler
 
 from rumba_sim.model.errors import ConfigError
-from rumba_viewer.page.allow_list import AllowList, Rights, Tokens, host_name, is_loopback
+from rumba_viewer.page.allow_list import AllowList, Rights, Tokens, is_loopback
 from rumba_viewer.page.client import Client
 from rumba_viewer.page.errors import Refusal
 from rumba_viewer.page.feeds import Arrival, Demand, Feed
 from rumba_viewer.page.protocol import Session
 from rumba_viewer.page.ros import Ros
+from rumba_viewer.page.web import Files, Guarded, Root
 
 TICK = 0.05  # [s] between two looks at what has arrived from ROS
-REQUEST = 65536  # [bytes] of the head or the body of a request, at most
+HEAD = 8192  # [bytes] of the head of a request, at most
 IDLE = 30.0  # [s] after which a connection that asks for nothing is closed
 PING, SILENT = 20.0, 60.0  # [s] between two pings of a websocket; without an answer, until it is closed
-HEADERS = {
-    'Content-Security-Policy': "default-src 'self'; connect-src 'self' ws: wss:; img-src 'self' data:; "
-                               "frame-ancestors 'none'; base-uri 'none'; form-action 'none'",
-    'X-Content-Type-Options': 'nosniff', 'Referrer-Policy': 'no-referrer', 'Cache-Control': 'no-cache'}
 
 
 @dataclasses.dataclass(frozen=True)
@@ -109,47 +105,6 @@ class Hub:
                 self._with_mail.discard(client)
 
 
-class _Root(Client):
-    """A websocket if the client asks for one, else the page."""
-
-    async def get(self, *args: Any, **kwargs: Any) -> None:
-        if self.request.headers.get('Upgrade', '').lower() == 'websocket':
-            await super().get(*args, **kwargs)
-        else:
-            for name, value in HEADERS.items():
-                self.set_header(name, value)
-            self.set_header('Content-Type', 'text/html; charset=utf-8')
-            self.finish((self.application.settings['folder'] / 'index.html').read_bytes())
-
-
-class _Files(StaticFileHandler):
-    """The other files of the page."""
-
-    def set_extra_headers(self, _: str) -> None:
-        for name, value in HEADERS.items():
-            self.set_header(name, value)
-
-
-class _Guarded(Application):
-    """Answers only those who call this server by a name of its own, so that no other site can pose as it."""
-
-    is_local = False
-
-    def find_handler(self, request: Any, **kwargs: Any) -> Any:
-        name, _ = host_name(request.headers.get('Host', ''))
-        if self.is_local and not is_loopback(name):
-            return self.get_handler_delegate(request, _Stranger)
-        return super().find_handler(request, **kwargs)
-
-
-class _Stranger(RequestHandler):
-    def prepare(self) -> None:
-        raise HTTPError(403)
-
-    def write_error(self, status_code: int, **_: Any) -> None:
-        self.finish('This server answers at localhost only: start it with address:= and token:= for others.\n')
-
-
 def sockets(address: str, port: int) -> List[socket.socket]:
     """Sockets that listen at an address; port 0: any free one.
 
@@ -165,14 +120,14 @@ def sockets(address: str, port: int) -> List[socket.socket]:
 
 def serve(hub: Hub, tokens: Tokens, folder: pathlib.Path, where: List[socket.socket]) -> HTTPServer:
     """Begin to serve in the loop of this thread; returns the server."""
-    application = _Guarded(
-        [(r'/', _Root, {'hub': hub, 'rights_of': tokens.rights}),
-         (r'/([a-z_]+\.(?:js|css|svg))', _Files, {'path': str(folder)})],
+    application = Guarded(
+        [(r'/', Root, {'hub': hub, 'rights_of': tokens.rights}),
+         (r'/([a-z_]+\.(?:js|css|svg))', Files, {'path': str(folder)})],
         folder=folder, log_function=lambda _: None, websocket_max_message_size=hub.bounds.size,
         websocket_ping_interval=PING, websocket_ping_timeout=SILENT)
     application.is_local = all(is_loopback(one.getsockname()[0]) for one in where)
-    server = HTTPServer(application, idle_connection_timeout=IDLE, body_timeout=IDLE, max_header_size=REQUEST,
-                        max_body_size=REQUEST, max_buffer_size=max(4 * REQUEST, 2 * hub.bounds.size))
+    server = HTTPServer(application, idle_connection_timeout=IDLE, body_timeout=IDLE, max_header_size=HEAD,
+                        max_buffer_size=max(262144, 2 * hub.bounds.size))
     server.add_sockets(where)
     PeriodicCallback(hub.tick, 1000.0 * TICK).start()
     return server
