@@ -21,8 +21,9 @@ READ = ('/map', '/clock', '/tf', '/tf_static', 'simulator/state', 'simulator/map
 WRITE = ('*/cmd_vel', '*/teleop/cmd_vel', *(f'*/{action}/{part}' for action in ACTIONS for part in ('goal', 'cancel')))
 CALL = ('*/set_brushes_up', '*/go_to_position', 'simulator/pause', 'simulator/resume', 'simulator/reset',
         'simulator/tuning/set_parameters', 'turtlesim_body/reset')
-DEFAULTS = {'read': READ, 'write': WRITE, 'call': CALL}
-VERBS = {'read': 'subscribed to', 'write': 'published to', 'call': 'called'}
+DEFAULTS = {'read': READ, 'write': WRITE, 'call': CALL, 'serve': (), 'get': (), 'set': ()}
+VERBS = {'read': 'subscribed to', 'write': 'published to', 'call': 'called', 'serve': 'served', 'get': 'read',
+         'set': 'set'}
 
 
 class Rights(NamedTuple):
@@ -47,7 +48,7 @@ class Rights(NamedTuple):
 
 
 class AllowList:
-    """Names that clients may read, write and call."""
+    """Names of topics that clients may read and write, of services to call and serve, of parameters to get and set."""
 
     def __init__(self, namespace: str = '/', defaults: bool = True, **more: Sequence[str]) -> None:
         """Allow the names that the page needs, unless `defaults` is false, and others.
@@ -55,7 +56,7 @@ class AllowList:
         Args:
             namespace: that of the node, with a `/` at its end; patterns without a leading `/` begin there.
             defaults: whether what the page needs is allowed.
-            more: further patterns for `read`, `write` and `call`.
+            more: further patterns for `read`, `write`, `call`, `serve`, `get` and `set`.
 
         Raises:
             ConfigError: a pattern is no name of ROS with `*`.
@@ -69,8 +70,8 @@ class AllowList:
         """The robot to which a name belongs, None if to none.
 
         Args:
-            what: `read`, `write` or `call`.
-            name: full name of a topic or service.
+            what: `read`, `write`, `call`, `serve`, `get` or `set`.
+            name: full name of a topic, service or parameter.
 
         Raises:
             Refusal: the name is not on the list.

@@ -18,7 +18,8 @@ from rumba_viewer.page.client import Client
 from rumba_viewer.page.door import Door
 from rumba_viewer.page.errors import Refusal
 from rumba_viewer.page.feeds import Arrival, Demand, Feed
-from rumba_viewer.page.protocol import Ros, Session
+from rumba_viewer.page.protocol import Session
+from rumba_viewer.page.ros import Ros
 from rumba_viewer.page.turns import Account, Limit, Turns
 from rumba_viewer.page.web import Files, Guarded, Root
 

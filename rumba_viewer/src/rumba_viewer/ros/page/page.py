@@ -23,14 +23,18 @@ from tornado.ioloop import IOLoop
 from rumba_sim.model.config import setting
 from rumba_sim.ros.common import node
 from rumba_viewer.page.allow_list import AllowList, Tokens, robot_tokens
-from rumba_viewer.page.conversion import Filler
 from rumba_viewer.page.errors import Refusal
 from rumba_viewer.page.feeds import Demand
-from rumba_viewer.page.protocol import Ros
+from rumba_viewer.page.filling import Filler, serialised
+from rumba_viewer.page.ros import Done, Ros
 from rumba_viewer.page.server import Bounds, Hub, check_address, serve, sockets
-from rumba_viewer.ros.page.graph import Graph, now
+from rumba_viewer.ros.page import types
+from rumba_viewer.ros.page.api import Api
+from rumba_viewer.ros.page.clock import Clock
+from rumba_viewer.ros.page.graph import Graph
 from rumba_viewer.ros.page.listening import Listening
 from rumba_viewer.ros.page.services import Services
+from rumba_viewer.ros.page.serving import Serving
 from rumba_viewer.ros.page.talking import Talking
 from rumba_viewer.ros.page.wire import Encoder
 
@@ -49,11 +53,17 @@ class Settings:
     read: str = setting('', 'further topics that can be subscribed to, separated by commas; * stands for a robot')
     write: str = setting('', 'further topics that can be published to')
     call: str = setting('', 'further services that can be called')
+    serve: str = setting('', 'services that clients can serve')
+    get: str = setting('', 'parameters that can be read')
+    set: str = setting('', 'parameters that can be set and deleted')
     defaults: bool = setting(True, 'whether what the page itself needs can be reached')
     origins: str = setting('', 'further origins of web pages that may connect, as in http://example.org; * matches any')
     connections: int = setting(200, 'clients at the same time', '', 1, 10000)
     rate: float = setting(100.0, 'messages of one client', '1/s', 1.0, 10000.0)
     size: int = setting(65536, 'size of a message of a client', 'bytes', 1024, 16777216)
+    bandwidth: int = setting(524288, 'what one client may send', 'bytes/s', 1024, 1073741824)
+    elements: int = setting(20000, 'values in a message of a client, and in all of a second', '', 100, 100000000)
+    share: float = setting(0.05, 'share of a core that one client may use', '', 0.001, 1.0)
 
 
 def main() -> None:
@@ -70,16 +80,16 @@ def run(settings: Settings) -> None:
     namespace = rospy.get_namespace()
     tokens = Tokens(settings.token, robot_tokens(settings.robot_tokens, namespace))
     check_address(settings.address, tokens)
-    allowed = AllowList(namespace, settings.defaults, read=_parts(settings.read), write=_parts(settings.write),
-                        call=_parts(settings.call))
+    allowed = AllowList(namespace, settings.defaults, **{
+        what: _parts(getattr(settings, what)) for what in ('read', 'write', 'call', 'serve', 'get', 'set')})
     where = sockets(settings.address, settings.port)
     _raise_limit_of_files()
     loop = IOLoop.current()
     encoder = Encoder(rospy.logwarn)
     hub = Hub(namespace, allowed, _parts(settings.origins),
-              Bounds(settings.connections, settings.rate, settings.size), encoder.encode,
-              time.thread_time, rospy.logwarn)
-    link = RosLink(hub, encoder, Graph(allowed, lambda: hub.clients > 0), functools.partial(_later, loop))
+              Bounds(**{field.name: getattr(settings, field.name) for field in dataclasses.fields(Bounds)}),
+              encoder.encode, time.thread_time, rospy.logwarn)
+    link = RosLink(hub, allowed, functools.partial(_later, loop))
     hub.ros = link
     serve(hub, tokens, pathlib.Path(rospkg.RosPack().get_path('rumba_viewer')) / 'page', where)
     rospy.on_shutdown(lambda: loop.add_callback(loop.stop))
@@ -92,19 +102,24 @@ def run(settings: Settings) -> None:
 class RosLink(Ros):
     """What clients ask of ROS. Its methods are called in the thread of the loop, and never block."""
 
-    def __init__(self, hub: Hub, encoder: Encoder, graph: Graph, later: Callable[..., Any]) -> None:
+    def __init__(self, hub: Hub, allowed: AllowList, later: Callable[..., Any]) -> None:
         """Serve the clients of a hub; call functions in the loop `later`, after a time [s], from any thread."""
-        self._hub, self._graph, self._later = hub, graph, later
-        self._filler = Filler(encoder.find, lambda: (now()['secs'], now()['nsecs']))
+        clock = Clock()
+        self._hub, self._later = hub, later
+        self._graph = Graph(lambda: hub.clients > 0, clock)
+        self._filler = Filler(types.of_message, clock.now)
         self._listening = Listening(later)
-        self._talking = Talking(encoder.find, later)
-        self._services = Services(graph, self._filler, later)
-        graph.start()
+        self._talking = Talking(later)
+        self._serving = Serving(self._filler, later)
+        api = Api(self._graph, allowed, self._talking.kinds, clock)
+        self._services = Services(api, self._serving, self._filler, later)
+        self._graph.start()
 
     def close(self) -> None:
         """Begin nothing more."""
         self._listening.close()
         self._talking.close()
+        self._serving.close()
         self._services.close()
 
     def subscribe(self, client: Any, topic: str, reason: Any, demand: Demand) -> None:
@@ -144,11 +159,24 @@ class RosLink(Ros):
     def publish(self, client: Any, topic: str, values: Any) -> None:
         """Publish a message with these values."""
         outlet = self._talking.outlet(topic)
-        outlet.publish(self._filler.fill(outlet.make(), values))
+        outlet.publish(serialised(self._filler.fill(outlet.make(), values)))
 
-    def call(self, client: Any, service: str, values: Any, done: Callable[[bool, Any], None]) -> None:
+    def call(self, client: Any, service: str, values: Any, done: Done, timeout: float) -> None:
         """Call a service."""
-        self._services.call(client, service, values, done)
+        self._services.call(client, service, values, done, timeout)
+
+    def serve(self, client: Any, service: str, kind: str, ask: Callable[[str, Any], None],
+              failed: Callable[[str], None]) -> None:
+        """Serve a service on behalf of a client."""
+        self._serving.serve(client, service, kind, ask, failed)
+
+    def unserve(self, client: Any, service: str) -> None:
+        """The client no longer serves it."""
+        self._serving.unserve(client, service)
+
+    def answer(self, client: Any, service: str, request: Any, worked: bool, values: Any) -> None:
+        """Answer a request."""
+        self._serving.answer(client, service, request, worked, values)
 
 
 def _later(loop: IOLoop, seconds: float, act: Callable[[], Any]) -> None:

@@ -8,15 +8,25 @@ import zlib
 from typing import Any, Callable, Dict, Optional
 
 import numpy as np
-import roslib.message
 
 from rumba_sim.model.errors import one_line
 from rumba_viewer.page import conversion
 from rumba_viewer.page.client import framed
 from rumba_viewer.page.feeds import Arrival
+from rumba_viewer.ros.page import types
 
 LARGEST = 4_000_000  # [bytes] of a serialised message; a larger one is not handed on
 FAST = 1  # level of zlib: of the coverage of the map apartment, 450 kB, it leaves 20 kB in 1 ms; Pillow takes 3 to 5 ms
+
+
+class _Numpy:
+    """NumPy as genpy expects it: `bool` was missing in some versions, and genpy asks for it."""
+
+    def __getattr__(self, name: str) -> Any:
+        return np.bool_ if name == 'bool' else getattr(np, name)
+
+
+NUMPY = _Numpy()
 
 
 class Encoder:
@@ -25,24 +35,14 @@ class Encoder:
     def __init__(self, warn: Callable[[str], object]) -> None:
         """Tell of what cannot be made by `warn`."""
         self._warn = warn
-        self._classes: Dict[str, Any] = {}
         self._told: Dict[str, str] = {}  # by topic
-
-    def find(self, kind: str) -> Any:
-        """The class of a type of message; None if it is not installed."""
-        if kind not in self._classes:
-            try:
-                self._classes[kind] = roslib.message.get_message_class(kind)
-            except (ImportError, ValueError, AttributeError, SyntaxError):
-                self._classes[kind] = None
-        return self._classes[kind]
 
     def encode(self, arrival: Arrival, topic: str, is_png: bool) -> Optional[bytes]:
         """The frame with a message of a topic; None if it cannot be made."""
         trouble = self._trouble(arrival)
         if not trouble:
             try:
-                values = conversion.to_text(self.find(arrival.type)().deserialize_numpy(arrival.data, np))
+                values = conversion.to_text(types.of_message(arrival.type)().deserialize_numpy(arrival.data, NUMPY))
             except Exception as error:  # whatever a publisher sent
                 trouble = f'{type(error).__name__}: {error}'
         if trouble:
@@ -56,7 +56,7 @@ class Encoder:
     def _trouble(self, arrival: Arrival) -> str:
         if len(arrival.data) > LARGEST:
             return f'a message has {len(arrival.data)} bytes: at most {LARGEST} can be handed on'
-        found = self.find(arrival.type)
+        found = types.of_message(arrival.type)
         if found is None:
             return f'the type {arrival.type} is not installed here'
         if arrival.md5 not in ('*', found._md5sum):
