@@ -194,6 +194,10 @@ class Client(WebSocketHandler):
             self._session.refuse(f'you are slowed down: a client may use {self._account.bound(now)}')
         await self._hub.turn(self._account)
 
+    def charge(self, seconds: float) -> None:
+        """Pay for what was done elsewhere [s of CPU time]."""
+        self._hub.turns.pay(self._account, seconds)
+
     def on_close(self) -> None:
         """Give back what the client has asked for."""
         self._waiting.clear()

@@ -13,6 +13,7 @@ import dataclasses
 import functools
 import pathlib
 import resource
+import sys
 import time
 from typing import Any, Callable, List, Optional
 
@@ -39,6 +40,7 @@ from rumba_viewer.ros.page.talking import Talking
 from rumba_viewer.ros.page.wire import Encoder
 
 REMEMBERED = 5.0  # [s] for which a topic stays subscribed to without a client, as while a page is loaded again
+SWITCH = 0.001  # [s] for which the loop waits for a thread that is at work
 MOST_FEEDS = 1000  # topics to which all clients together listen
 
 
@@ -84,6 +86,7 @@ def run(settings: Settings) -> None:
         what: _parts(getattr(settings, what)) for what in ('read', 'write', 'call', 'serve', 'get', 'set')})
     where = sockets(settings.address, settings.port)
     _raise_limit_of_files()
+    sys.setswitchinterval(SWITCH)
     loop = IOLoop.current()
     encoder = Encoder(rospy.logwarn)
     hub = Hub(namespace, allowed, _parts(settings.origins),
