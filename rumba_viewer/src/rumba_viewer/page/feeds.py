@@ -4,7 +4,7 @@ Threads of ROS only store what arrives; `Feed.tick` hands it on, some twenty tim
 """
 
 import collections
-from typing import Any, Callable, Deque, Dict, NamedTuple, Optional, Tuple
+from typing import Any, Callable, Deque, Dict, List, NamedTuple, Optional, Tuple
 
 MOST_ARRIVALS = 100  # messages of a topic between two ticks; of more, the oldest are dropped
 MOST_KEPT = 20  # messages of a topic that wait for a slow client
@@ -95,6 +95,11 @@ class Feed:
     def has_listeners(self) -> bool:
         """Whether anybody listens."""
         return bool(self._listeners)
+
+    @property
+    def clients(self) -> List[Any]:
+        """Those who listen."""
+        return list(self._listeners)
 
     @property
     def has_news(self) -> bool:
