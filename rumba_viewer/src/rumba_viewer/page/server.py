@@ -4,7 +4,7 @@ import dataclasses
 import pathlib
 import re
 import socket
-from typing import Any, Callable, Dict, List, Optional, Sequence, Set
+from typing import Any, Dict, List, Sequence, Set
 
 from tornado.httpserver import HTTPServer
 from tornado.ioloop import IOLoop, PeriodicCallback
@@ -14,7 +14,7 @@ from rumba_sim.model.errors import ConfigError
 from rumba_viewer.page.allow_list import AllowList, Rights, Tokens, is_loopback
 from rumba_viewer.page.client import Client
 from rumba_viewer.page.errors import Refusal
-from rumba_viewer.page.feeds import Arrival, Demand, Feed
+from rumba_viewer.page.feeds import Demand, Encode, Feed
 from rumba_viewer.page.protocol import Session
 from rumba_viewer.page.ros import Ros
 from rumba_viewer.page.web import Files, Guarded, Root
@@ -38,7 +38,7 @@ class Hub:
     """All clients and all topics to which they listen."""
 
     def __init__(self, namespace: str, allowed: AllowList, origins: Sequence[str], bounds: Bounds,
-                 encode: Callable[[Arrival, str, bool], Optional[bytes]]) -> None:
+                 encode: Encode) -> None:
         """Serve names of a namespace; `encode` makes the frame of an arrival on a topic."""
         self.origins, self.bounds = origins, bounds
         self.feeds: Dict[str, Feed] = {}

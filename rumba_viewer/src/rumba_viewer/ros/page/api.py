@@ -6,6 +6,7 @@ import rosgraph
 import rosservice
 
 from rumba_sim.model.errors import quoted
+from rumba_viewer.page import republishing
 from rumba_viewer.page.allow_list import AllowList
 from rumba_viewer.page.definitions import details
 from rumba_viewer.page.errors import Refusal
@@ -91,8 +92,11 @@ class Api:
     def _topics(self) -> Dict[str, str]:
         """Types of the topics that there are and that can be reached; '' if it is not known."""
         known = {**self._known.types, **self._own()}
-        return {name: kind.replace('*', '') for name, kind in sorted(known.items())
-                if self._may('read', name) or self._may('write', name)}
+        found = {name: kind.replace('*', '') for name, kind in known.items()
+                 if self._may('read', name) or self._may('write', name)}
+        if self._may('read', republishing.SOURCE):
+            found.update(republishing.TYPES)
+        return dict(sorted(found.items()))
 
     def _nodes(self, known: Dict[str, List[str]], values: Any) -> List[str]:
         name = _text(values, 'topic')
@@ -110,9 +114,12 @@ class Api:
         return {**_columns(topics, 'topics', 'types'), 'typedefs_full_text': texts}
 
     def _services(self) -> List[str]:
-        return sorted(name for name in self._known.services if self._may('call', name))
+        own = [republishing.SERVICE] if self._may('read', republishing.SOURCE) else []
+        return sorted([*own, *(name for name in self._known.services if self._may('call', name))])
 
     def _service_type(self, name: str) -> str:
+        if name == republishing.SERVICE:
+            return republishing.SERVICE_TYPE
         return rosservice.get_service_type(name) or '' if name in self._services() else ''
 
 
