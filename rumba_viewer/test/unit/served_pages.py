@@ -3,6 +3,8 @@
 import asyncio
 import json
 import pathlib
+import struct
+import time
 
 import pytest
 
@@ -18,6 +20,9 @@ from rumba_viewer.page.server import Bounds, Hub, serve, sockets  # noqa: E402
 
 FOLDER = pathlib.Path(__file__).resolve().parents[2] / 'page'
 TIMEOUT = 30.0  # [s]
+GREETING = (b'GET / HTTP/1.1\r\nHost: localhost\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n'
+            b'Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n')
+TEXT, CLOSE, PING, FINAL = 0x1, 0x8, 0x9, 0x80
 
 
 class Topics:
@@ -40,9 +45,11 @@ class Page:
     """A server at a free port."""
 
     def __init__(self, tokens=Tokens(), **bounds):
+        self.noted = []
         self.hub = Hub('/', AllowList(), [], Bounds(**bounds),
                        lambda arrival, name, _: framed(json.dumps({'op': 'publish', 'topic': name,
-                                                                   'msg': arrival.data.decode()})))
+                                                                   'msg': arrival.data.decode()})),
+                       time.thread_time, self.noted.append)
         self.hub.ros = Topics(self.hub)
         where = sockets('127.0.0.1', 0)
         self.at = f'127.0.0.1:{where[0].getsockname()[1]}'
@@ -96,3 +103,8 @@ async def listener(page, **headers):
 def run(act):
     """Run a test in a loop of its own."""
     asyncio.run(asyncio.wait_for(act(), 4 * TIMEOUT))
+
+
+def frame(opcode, data, is_masked=True):
+    """A frame of a client; the mask is zero."""
+    return struct.pack('!BB', FINAL | opcode, len(data) | (FINAL if is_masked else 0)) + 4 * is_masked * b'\0' + data

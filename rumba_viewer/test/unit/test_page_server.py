@@ -1,15 +1,20 @@
 """The web server with real sockets and without ROS: files, origins, tokens, hostile and slow clients."""
 
 import asyncio
+import re
 import socket
 
 import pytest
-from served_pages import FOLDER, Page, is_served, is_told_and_ended, listener, read, run, until
+from served_pages import (
+    FOLDER, GREETING, PING, Page, frame, is_served, is_told_and_ended, listener, read, run, until)
 from tornado.httpclient import AsyncHTTPClient, HTTPClientError
 
 from rumba_sim.model.errors import ConfigError
+from rumba_viewer.page.addresses import GUESSES
 from rumba_viewer.page.allow_list import Tokens
+from rumba_viewer.page.client import DELAY
 from rumba_viewer.page.server import check_address, sockets
+from rumba_viewer.page.turns import Turns
 
 
 def test_every_file_that_the_page_names_is_served_with_its_type_and_nothing_else():
@@ -63,6 +68,57 @@ def test_a_flood_of_messages_ends_its_own_client():
     run(act)
 
 
+@pytest.mark.parametrize('tokens, message, words', [
+    (Tokens(), '[' + 1001 * '0,' + '0]', 'a message can have 1000 values at most'),
+    (Tokens('secret'), '"' + 9000 * '.' + '"', 'without a token a message can have 8192 bytes at most')],
+    ids=['values', 'bytes of a watcher'])
+def test_a_message_that_is_too_large_for_its_client_is_refused_and_not_even_read(tokens, message, words):
+    async def act():
+        page = Page(tokens, elements=1000)
+        client = await listener(page)
+        await client.write_message(message)
+        assert words in (await read(client))['msg']
+        await is_served(page, client)
+        assert page.noted == [f'client at 127.0.0.1: {words}']
+    run(act)
+
+
+@pytest.mark.parametrize('bounds, words', [
+    ({'elements': 100}, '100 values in a second'), ({'bandwidth': 2000}, '2000 bytes in a second'),
+    ({'share': 1e-3}, '0.1 % of a core')], ids=lambda value: value if isinstance(value, str) else '')
+def test_a_client_that_uses_more_than_it_may_is_slowed_down_and_told_which_bound_it_is(bounds, words):
+    async def act():
+        page = Page(**bounds)
+        good, greedy = await listener(page), await page.open()
+        for _ in range(150):
+            await greedy.write_message('{"op": "status", "id": [' + 40 * '0,' + '0]}')
+        assert (await read(greedy))['msg'] == f'you are slowed down: a client may use {words}'
+        await is_served(page, good)
+        assert page.hub.clients == 2
+    run(act)
+
+
+def test_frames_of_one_packet_are_read_one_in_a_turn(monkeypatch):
+    """Ten thousand pings in one packet took half a second, in which nobody else was served."""
+    asked = []
+    monkeypatch.setattr(Turns, 'ask', lambda turns, account, begin: asked.append(begin))
+
+    async def act():
+        page = Page()
+        _, writer = await asyncio.open_connection(*page.at.split(':'))
+        writer.write(GREETING)
+        await until(lambda: asked)
+        asked.pop()()
+        await until(lambda: page.hub.clients)
+        writer.write(100 * frame(PING, b''))
+        for _ in range(5):
+            await until(lambda: asked)
+            assert len(asked) == 1
+            asked.pop()()
+        writer.close()
+    run(act)
+
+
 def test_a_thousand_connections_are_told_that_there_are_too_many_and_the_first_is_served():
     async def act():
         page = Page(connections=20)
@@ -83,12 +139,29 @@ def test_a_thousand_connections_are_told_that_there_are_too_many_and_the_first_i
 def test_a_wrong_token_ends_the_connection_and_none_lets_watch():
     async def act():
         page = Page(Tokens('secret'))
+        begin = page.hub.now()
         await is_told_and_ended(await page.open('?token=guess'), 'wrong token')
+        assert page.hub.now() - begin >= DELAY
+        await is_told_and_ended(await page.open('?token=%ff'), 'the token is no text')
         watching, driving = await listener(page), await page.open('?token=secret')
         await is_served(page, watching)
         await watching.write_message('{"op": "advertise", "topic": "/rumba/cmd_vel", "type": "geometry_msgs/Twist"}')
         assert 'needs a token' in (await read(watching))['msg']
+        assert [re.sub('[:,].*', '', line.partition(': ')[2]) for line in page.noted] == [
+            'disconnected', 'disconnected', '/rumba/cmd_vel needs a token']
         driving.close()
+    run(act)
+
+
+def test_after_many_wrong_tokens_not_even_the_right_one_is_tried():
+    async def act():
+        page = Page(Tokens('secret'))
+        guesses = await asyncio.gather(*(page.open(f'?token=guess{number}') for number in range(GUESSES)))
+        for client in guesses:
+            await is_told_and_ended(client, 'wrong token')
+        await is_told_and_ended(await page.open('?token=guess0'), 'wrong token')
+        await is_told_and_ended(await page.open('?token=secret'), 'too many wrong tokens came from 127.0.0.1')
+        assert await listener(page)
     run(act)
 
 

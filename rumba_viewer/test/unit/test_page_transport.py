@@ -4,11 +4,7 @@ import asyncio
 import struct
 
 import pytest
-from served_pages import TIMEOUT, Page, is_served, listener, run
-
-GREETING = (b'GET / HTTP/1.1\r\nHost: localhost\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n'
-            b'Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n')
-TEXT, CLOSE, FINAL = 0x1, 0x8, 0x80
+from served_pages import CLOSE, GREETING, TEXT, TIMEOUT, Page, frame, is_served, listener, run
 
 
 async def answer(page, data):
@@ -19,11 +15,6 @@ async def answer(page, data):
         return await asyncio.wait_for(reader.read(), TIMEOUT)
     finally:
         writer.close()
-
-
-def frame(opcode, data, is_masked=True):
-    """A frame of a client; the mask is zero."""
-    return struct.pack('!BB', FINAL | opcode, len(data) | (FINAL if is_masked else 0)) + 4 * is_masked * b'\0' + data
 
 
 @pytest.mark.parametrize('request_line', ['POST / HTTP/1.1', 'GET / HTTP/1.1', 'PUT /app.js HTTP/1.0'])

@@ -37,6 +37,11 @@ class Rights(NamedTuple):
     everything: bool = False
     robots: FrozenSet[str] = frozenset()
 
+    @property
+    def are_none(self) -> bool:
+        """Whether the client can only watch."""
+        return not self.everything and not self.robots
+
     def may_change(self, robot: Optional[str]) -> bool:
         """Whether something of a robot may be changed; None: something that belongs to no robot."""
         return self.everything or robot is not None and robot in self.robots

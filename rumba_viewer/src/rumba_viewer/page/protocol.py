@@ -34,10 +34,11 @@ Reply = Callable[[Dict[str, Any]], None]
 class Session:
     """What one client has asked for."""
 
-    def __init__(self, ros: Ros, allowed: AllowList, rights: Rights, namespace: str, client: Any, reply: Reply) -> None:
-        """Serve a client; `reply` sends it an operation."""
+    def __init__(self, ros: Ros, allowed: AllowList, rights: Rights, namespace: str, client: Any, reply: Reply,
+                 note: Callable[[str], Any] = lambda _: None) -> None:
+        """Serve a client; `reply` sends it an operation, `note` gets a line about each refusal."""
         self._ros, self._allowed, self._rights, self._namespace = ros, allowed, rights, namespace
-        self._client, self._reply = client, reply
+        self._client, self._reply, self._note = client, reply, note
         self._level = LEVELS.index('error')
         self._listens: Dict[str, Set[Any]] = {}  # ids by topic
         self._publishes: Dict[str, List[Any]] = {}
@@ -64,7 +65,12 @@ class Session:
         try:
             self._carry_out(operation)
         except Refusal as refusal:
-            self.tell('error', str(refusal), reason if operations.can_be_id(reason) else None)
+            self.refuse(str(refusal), reason if operations.can_be_id(reason) else None)
+
+    def refuse(self, line: str, reason: Any = None) -> None:
+        """Say that something is not carried out, and why."""
+        self._note(line)
+        self.tell('error', line, reason)
 
     def _carry_out(self, operation: Operation) -> None:
         name = operation['op']
@@ -167,6 +173,8 @@ class Session:
             answer['id'] = operation['id']
 
         def done(worked: bool, values: Any) -> None:
+            if not worked:
+                self._note(str(values))
             self._reply({**answer, 'values': values, 'result': worked})
         try:
             service, values = self._name(operation, 'service'), operation.get('args', {})
@@ -205,7 +213,9 @@ class Session:
         def tell(level: str, line: str) -> None:
             if level == 'error':
                 self._serves.discard(service)
-            self.tell(level, line, reason)
+                self.refuse(line, reason)
+            else:
+                self.tell(level, line, reason)
         operations.reason(operation)
         self._ros.serve(self._client, service, kind, ask, tell)
         self._serves.add(service)

@@ -1,51 +1,100 @@
 """The web server: static files and websockets on one port, all in one thread."""
 
+import asyncio
 import dataclasses
 import pathlib
 import re
 import socket
-from typing import Any, Dict, List, Sequence, Set
+from typing import Any, Callable, Dict, List, Sequence, Set
 
 from tornado.httpserver import HTTPServer
 from tornado.ioloop import IOLoop, PeriodicCallback
 from tornado.netutil import bind_sockets
 
 from rumba_sim.model.errors import ConfigError
+from rumba_viewer.page.addresses import Address, Addresses
 from rumba_viewer.page.allow_list import AllowList, Rights, Tokens, is_loopback
 from rumba_viewer.page.client import Client
+from rumba_viewer.page.door import Door
 from rumba_viewer.page.errors import Refusal
 from rumba_viewer.page.feeds import Demand, Encode, Feed
 from rumba_viewer.page.protocol import Session
 from rumba_viewer.page.ros import Ros
+from rumba_viewer.page.turns import Account, Limit, Turns
 from rumba_viewer.page.web import Files, Guarded, Root
 
 TICK = 0.05  # [s] between two looks at what has arrived from ROS
 HEAD = 8192  # [bytes] of the head of a request, at most
+AHEAD = 4  # messages of the largest size that are read before the first of them is understood
+BURST, FIRST = 0.1, 0.02  # [s] of CPU time that a client may use at once, and when it has just come
 IDLE = 30.0  # [s] after which a connection that asks for nothing is closed
 PING, SILENT = 20.0, 60.0  # [s] between two pings of a websocket; without an answer, until it is closed
 
 
 @dataclasses.dataclass(frozen=True)
 class Bounds:
-    """What clients may do at most: connections, messages per second of each, bytes of a message."""
+    """What clients may do at most.
+
+    Attributes:
+        connections: of all together.
+        rate: messages of one client in a second.
+        size: bytes of a message.
+        bandwidth: bytes of one client in a second.
+        elements: values in a message, and of one client in a second.
+        share: of a core that one client may use.
+    """
 
     connections: int = 200
     rate: float = 100.0
     size: int = 65536
+    bandwidth: int = 524288
+    elements: int = 20000
+    share: float = 0.05
+
+    def account(self, now: float, used: float) -> Account:
+        """What one client may use, whose address used so much CPU time lately [s]."""
+        return Account(
+            now, Limit(self.share, BURST, FIRST, f'{100.0 * self.share:g} % of a core'), used,
+            bandwidth=Limit(self.bandwidth, self.bandwidth, self.bandwidth, f'{self.bandwidth} bytes in a second'),
+            elements=Limit(self.elements, self.elements, self.elements, f'{self.elements} values in a second'))
 
 
 class Hub:
     """All clients and all topics to which they listen."""
 
     def __init__(self, namespace: str, allowed: AllowList, origins: Sequence[str], bounds: Bounds,
-                 encode: Encode) -> None:
-        """Serve names of a namespace; `encode` makes the frame of an arrival on a topic."""
+                 encode: Encode, cpu: Callable[[], float], warn: Callable[[str], object]) -> None:
+        """Serve names of a namespace.
+
+        Args:
+            namespace: in which names begin.
+            allowed: names that clients may reach.
+            origins: patterns of further origins from which pages may connect.
+            bounds: what clients may do at most.
+            encode: makes the frame of an arrival on a topic.
+            cpu: tells the CPU time of this thread [s].
+            warn: writes a line of the log.
+        """
         self.origins, self.bounds = origins, bounds
         self.feeds: Dict[str, Feed] = {}
         self.ros: Ros  # set before the first client comes
         self._namespace, self._allowed, self._encode = namespace, allowed, encode
         self._clients: Set[Client] = set()
         self._with_mail: Set[Client] = set()
+        self.cpu = cpu
+        self.turns = Turns(self.now, _later)
+        self.addresses = Addresses(self.now, warn)
+
+    async def turn(self, account: Account) -> None:
+        """Wait for the turn of an account."""
+        begun = asyncio.get_event_loop().create_future()
+        self.turns.ask(account, lambda: begun.done() or begun.set_result(None))
+        await begun
+
+    async def request(self, address: Address, seconds: float) -> None:
+        """Wait for the turn of a request of an address, which takes some CPU time [s]."""
+        await self.turn(address.account)
+        self.turns.pay(address.account, seconds)
 
     @staticmethod
     def now() -> float:
@@ -76,7 +125,8 @@ class Hub:
 
     def session(self, client: Client, rights: Rights) -> Session:
         """A session for a client."""
-        return Session(self.ros, self._allowed, rights, self._namespace, client, client.reply)
+        return Session(self.ros, self._allowed, rights, self._namespace, client, client.reply,
+                       client.note)
 
     def has_mail(self, client: Client) -> None:
         """Deliver what waits for a client at the end of the tick."""
@@ -103,6 +153,13 @@ class Hub:
         for client in list(self._with_mail):
             if client.deliver():
                 self._with_mail.discard(client)
+        self.addresses.flush()
+
+
+def _later(seconds: float, act: Callable[[], None]) -> None:
+    """Call a function in this loop after a time [s]; 0: after all that is ready now."""
+    loop = asyncio.get_event_loop()
+    loop.call_later(seconds, act) if seconds else loop.call_soon(act)
 
 
 def sockets(address: str, port: int) -> List[socket.socket]:
@@ -121,14 +178,15 @@ def sockets(address: str, port: int) -> List[socket.socket]:
 def serve(hub: Hub, tokens: Tokens, folder: pathlib.Path, where: List[socket.socket]) -> HTTPServer:
     """Begin to serve in the loop of this thread; returns the server."""
     application = Guarded(
-        [(r'/', Root, {'hub': hub, 'rights_of': tokens.rights}),
+        [(r'/', Root, {'hub': hub, 'tokens': tokens}),
          (r'/([a-z_]+\.(?:js|css|svg))', Files, {'path': str(folder)})],
         folder=folder, log_function=lambda _: None, websocket_max_message_size=hub.bounds.size,
         websocket_ping_interval=PING, websocket_ping_timeout=SILENT)
     application.is_local = all(is_loopback(one.getsockname()[0]) for one in where)
-    server = HTTPServer(application, idle_connection_timeout=IDLE, body_timeout=IDLE, max_header_size=HEAD,
-                        max_buffer_size=max(262144, 2 * hub.bounds.size))
-    server.add_sockets(where)
+    server = HTTPServer(application, idle_connection_timeout=IDLE, body_timeout=IDLE, max_header_size=HEAD)
+    door = Door(hub.addresses, hub.request, AHEAD * hub.bounds.size, server.handle_stream)
+    for one in where:
+        door.open(one)
     PeriodicCallback(hub.tick, 1000.0 * TICK).start()
     return server
 

@@ -13,6 +13,7 @@ import dataclasses
 import functools
 import pathlib
 import resource
+import time
 from typing import Any, Callable, List, Optional
 
 import rospkg
@@ -61,6 +62,9 @@ class Settings:
     connections: int = setting(200, 'clients at the same time', '', 1, 10000)
     rate: float = setting(100.0, 'messages of one client', '1/s', 1.0, 10000.0)
     size: int = setting(65536, 'size of a message of a client', 'bytes', 1024, 16777216)
+    bandwidth: int = setting(524288, 'what one client may send', 'bytes/s', 1024, 1073741824)
+    elements: int = setting(20000, 'values in a message of a client, and in all of a second', '', 100, 100000000)
+    share: float = setting(0.05, 'share of a core that one client may use', '', 0.001, 1.0)
 
 
 def main() -> None:
@@ -84,7 +88,8 @@ def run(settings: Settings) -> None:
     loop = IOLoop.current()
     clock = Clock()
     hub = Hub(namespace, allowed, _parts(settings.origins),
-              Bounds(settings.connections, settings.rate, settings.size), Encoder(rospy.logwarn, clock.now).encode)
+              Bounds(**{field.name: getattr(settings, field.name) for field in dataclasses.fields(Bounds)}),
+              Encoder(rospy.logwarn, clock.now).encode, time.thread_time, rospy.logwarn)
     later = functools.partial(_later, loop)
     link = RosLink(hub, allowed, clock, later)
     hub.ros = Frames(link, hub, link.listening, later)
