@@ -126,7 +126,7 @@ class Api:
 def _message(values: Any) -> Any:
     """A message of a type."""
     found = types.of_message(_text(values, 'type'))
-    if found is None or not hasattr(found, '_slot_types'):
+    if found is None or found in types.NOT_MESSAGES.values():
         raise Refusal(f'the type {quoted(values["type"])} is not installed here')
     return found()
 
