@@ -52,6 +52,16 @@ class MessageTest(unittest.TestCase):
         heard.find(lambda message: message.goal_id.id == 'last')
         self.assertEqual([message.header.seq for message in heard.messages], list(range(1, 7)))
 
+    def test_what_a_client_publishes_just_before_it_leaves_arrives(self):
+        page, heard = Page(self, '_write:=/brief'), Heard(self, '/brief', String, waits=False)
+        for number in range(3):
+            client = Client(self, page)
+            client.send(op='advertise', topic='/brief', type='std_msgs/String')
+            client.send(op='publish', topic='/brief', msg={'data': str(number)})
+            client.send(op='unadvertise', topic='/brief')
+            client.close()
+            heard.find(lambda message: message.data == str(number))
+
     def test_cbor_is_binary_and_cbor_raw_has_the_bytes_of_ros(self):
         page = Page(self, '_read:=/words')
         sender(self, '/words', String, latch=True).publish('ä')
