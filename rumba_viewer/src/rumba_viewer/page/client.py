@@ -109,8 +109,8 @@ class Client(WebSocketHandler):
         self._waiting: Dict[Optional[str], Deque[bytes]] = {}  # frames by topic; None: answers
         now = hub.now()
         self._messages = Bucket(hub.bounds.rate, BURST * hub.bounds.rate, now, BURST * hub.bounds.rate)
-        self._address = hub.addresses.find(str(self.request.remote_ip))
-        self._account = hub.bounds.account(now, self._address.account.used(now))
+        self.address = hub.addresses.find(str(self.request.remote_ip))
+        self._account = hub.bounds.account(now, self.address.account.used(now))
         self._patience = Bucket(SLOW_SHARE, SLOW, now, SLOW)  # [s]
         self._told_slow = -SLOW_PERIOD  # when it was told last that it is slowed down
         self._is_dropped = False
@@ -133,7 +133,7 @@ class Client(WebSocketHandler):
         stream.socket.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, SEND_BUFFER)
         try:
             self._rights = await self._admitted()
-            self._hub.enter(self)
+            self._hub.enter(self, self._rights)
         except Refusal as refusal:
             self.tell_and_drop(str(refusal))
             return
@@ -145,12 +145,12 @@ class Client(WebSocketHandler):
             token = self.get_query_argument('token', None)
         except HTTPError:
             raise Refusal('the token is no text') from None
-        guesses = self._address.guesses
+        guesses = self.address.guesses
         if token is None or not self._tokens.are_needed:
             return self._tokens.rights(token)
         wait = guesses.wait(token, self._hub.now())
         if wait:
-            raise Refusal(f'too many wrong tokens came from {self._address.name}: try again in {wait:.0f} s')
+            raise Refusal(f'too many wrong tokens came from {self.address.name}: try again in {wait:.0f} s')
         try:
             return self._tokens.rights(token)
         except Refusal:
@@ -194,6 +194,15 @@ class Client(WebSocketHandler):
             self._session.refuse(f'you are slowed down: a client may use {self._account.bound(now)}')
         await self._hub.turn(self._account)
 
+    def charge(self, seconds: float) -> None:
+        """Pay for what was done elsewhere [s of CPU time]."""
+        self._hub.turns.pay(self._account, seconds)
+
+    def lose(self, topic: str) -> None:
+        """Take a topic from this client, for others that listen to less."""
+        if self._session is not None:
+            self._session.lose(topic)
+
     def on_close(self) -> None:
         """Give back what the client has asked for."""
         self._waiting.clear()
@@ -204,7 +213,7 @@ class Client(WebSocketHandler):
 
     def note(self, line: str) -> None:
         """Write a line about what was refused to this client."""
-        self._hub.addresses.note(self._address, line)
+        self._hub.addresses.note(self.address, line)
 
     # --- to the client ------------------------------------------------------------------------------------------------
 

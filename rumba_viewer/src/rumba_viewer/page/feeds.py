@@ -89,12 +89,19 @@ class Feed:
         self._latched: Dict[str, Arrival] = {}  # by publisher
         self._newest: Optional[Arrival] = None
         self._number = 0  # of the newest message
+        self._made: Dict[Tuple[int, str, str], Optional[bytes]] = {}  # frames of what is kept for those who come
+        self._has_made = False  # whether a frame was made in this tick
         self._affordable = 0.0  # when the next text may be made for those who accept fewer
 
     @property
     def has_listeners(self) -> bool:
         """Whether anybody listens."""
         return bool(self._listeners) or self._tap is not None
+
+    @property
+    def clients(self) -> List[Any]:
+        """Those who listen."""
+        return list(self._listeners)
 
     @property
     def has_news(self) -> bool:
@@ -125,7 +132,7 @@ class Feed:
         if not first and listener.demand.newest and self._newest is not None:
             first = [self._newest]
         for arrival in first:
-            self._push(listener, encode(arrival, listener.demand.name, listener.demand.compression))
+            self._push(listener, self._frame(arrival, listener.demand, encode))
 
     def remove(self, client: Any, reason: Any = None) -> None:
         """Let a client no longer listen for a reason; None: for any."""
@@ -154,28 +161,32 @@ class Feed:
             self._number += len(arrived)
         if self._newest is not None:
             self._hand_on(arrived, self._newest, now, encode)
+        if arrived:
+            kept = {id(arrival) for arrival in (self._newest, *self._latched.values())}
+            self._made = {key: frame for key, frame in self._made.items() if key[0] in kept}
 
     def _hand_on(self, arrived: Any, newest: Arrival, now: float, encode: Encode) -> None:
-        made: Dict[Tuple[int, str, str], Optional[bytes]] = {}
-
-        def frame(arrival: Arrival, demand: Demand) -> Optional[bytes]:
-            key = id(arrival), demand.name, demand.compression
-            if key not in made:
-                made[key] = encode(arrival, demand.name, demand.compression)
-            return made[key]
-        begin = self._clock()
+        begin, self._has_made = self._clock(), False
         for listener in list(self._listeners.values()):
             demand = listener.demand
             if not demand.throttle:
                 for arrival in arrived:
-                    self._push(listener, frame(arrival, demand))
+                    self._push(listener, self._frame(arrival, demand, encode))
                 listener.seen = self._number
             elif listener.seen < self._number and now >= max(listener.due, self._affordable):
-                self._push(listener, frame(newest, demand))
+                self._push(listener, self._frame(newest, demand, encode))
                 listener.seen = self._number
                 listener.due = max(listener.due, now - demand.throttle / 2) + demand.throttle
-        if made:
+        if self._has_made:
             self._affordable = now + (self._clock() - begin) / SHARE
+
+    def _frame(self, arrival: Arrival, demand: Demand, encode: Encode) -> Optional[bytes]:
+        """The frame of a message, which is made once for all who want it so."""
+        key = id(arrival), demand.name, demand.compression
+        if key not in self._made:
+            self._made[key] = encode(arrival, demand.name, demand.compression)
+            self._has_made = True
+        return self._made[key]
 
     def _push(self, listener: Listener, frame: Optional[bytes]) -> None:
         if frame is not None:

@@ -87,6 +87,12 @@ class Session:
             status = {'op': 'status', 'level': level, 'msg': line}
             self._reply(status if reason is None else {**status, 'id': reason})
 
+    def lose(self, topic: str) -> None:
+        """No longer get the messages of a topic: there are too many topics, and others listen to less."""
+        if self._listens.pop(topic, None) is not None:
+            self._ros.unsubscribe(self._client, topic, None)
+            self.refuse(f'{topic} is no longer sent: the clients of this page listen to too many topics, you to most')
+
     def close(self) -> None:
         """Give back all that the client has asked for."""
         for topic in self._listens:

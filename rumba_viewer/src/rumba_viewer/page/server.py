@@ -1,6 +1,7 @@
 """The web server: static files and websockets on one port, all in one thread."""
 
 import asyncio
+import collections
 import dataclasses
 import pathlib
 import re
@@ -26,6 +27,7 @@ from rumba_viewer.page.web import Files, Guarded, Root
 TICK = 0.05  # [s] between two looks at what has arrived from ROS
 HEAD = 8192  # [bytes] of the head of a request, at most
 AHEAD = 4  # messages of the largest size that are read before the first of them is understood
+MOST_TOPICS = 1000  # to which all clients together listen
 BURST, FIRST = 0.1, 0.02  # [s] of CPU time that a client may use at once, and when it has just come
 IDLE = 30.0  # [s] after which a connection that asks for nothing is closed
 PING, SILENT = 20.0, 60.0  # [s] between two pings of a websocket; without an answer, until it is closed
@@ -79,7 +81,7 @@ class Hub:
         self.feeds: Dict[str, Feed] = {}
         self.ros: Ros  # set before the first client comes
         self._namespace, self._allowed, self._encode = namespace, allowed, encode
-        self._clients: Set[Client] = set()
+        self._clients: Dict[Client, Rights] = {}  # the first that came first
         self._with_mail: Set[Client] = set()
         self.cpu = cpu
         self.turns = Turns(self.now, _later)
@@ -108,19 +110,29 @@ class Hub:
         """How many clients there are."""
         return len(self._clients)
 
-    def enter(self, client: Client) -> None:
-        """Take in one more client.
+    def enter(self, client: Client, rights: Rights) -> None:
+        """Take in one more client; if there are too many, it can take the place of one that can only watch.
 
         Raises:
             Refusal: there are too many.
         """
         if len(self._clients) >= self.bounds.connections:
+            self._give_place(client.address, rights)
+        self._clients[client] = rights
+
+    def _give_place(self, newcomer: Address, rights: Rights) -> None:
+        """Disconnect a watcher of the address with most clients, for one with a token or from where fewer come."""
+        of_each = collections.Counter(client.address for client in self._clients)
+        watchers = [client for client, others in self._clients.items() if others.are_none]
+        last = max(reversed(watchers), key=lambda client: of_each[client.address], default=None)
+        if last is None or rights.are_none and of_each[last.address] <= of_each[newcomer] + 1:
             raise Refusal(f'this page has {self.bounds.connections} clients already: close one, or raise connections')
-        self._clients.add(client)
+        last.tell_and_drop(f'this page has {self.bounds.connections} clients already, and another one came')
+        self.leave(last)
 
     def leave(self, client: Client) -> None:
         """Forget a client."""
-        self._clients.discard(client)
+        self._clients.pop(client, None)
         self._with_mail.discard(client)
 
     def session(self, client: Client, rights: Rights) -> Session:
@@ -143,6 +155,32 @@ class Hub:
     def listen(self, client: Client, topic: str, reason: Any, demand: Demand) -> None:
         """Let a client listen to a topic."""
         self.feed(topic).add(client, reason, demand, self._encode)
+
+    def topic_to_give_up(self, client: Client) -> str:
+        """A topic that can make room for one more of a client, now that there are too many.
+
+        The one that loses it listens to more than this client, or comes from an address that does.
+
+        Raises:
+            Refusal: nobody does.
+        """
+        free = next((feed.topic for feed in self.feeds.values() if not feed.has_listeners), None)
+        if free is not None:
+            return free
+        of_each = collections.Counter(one for feed in self.feeds.values() for one in feed.clients)
+        of_address: 'collections.Counter[Address]' = collections.Counter()
+        for one, number in of_each.items():
+            of_address[one.address] += number
+        feed = max((feed for feed in self.feeds.values() if len(feed.clients) == 1), default=None,
+                   key=lambda feed: (of_address[feed.clients[0].address], of_each[feed.clients[0]]))
+        if feed is not None:
+            loser = feed.clients[0]
+            more = of_each[loser] - of_each[client] if loser.address is client.address else \
+                of_address[loser.address] - of_address[client.address]
+            if more > 1:
+                loser.lose(feed.topic)
+                return feed.topic
+        raise Refusal(f'this page listens to {MOST_TOPICS} topics already, {of_each[client]} of them for you')
 
     def tick(self) -> None:
         """Hand on what has arrived."""

@@ -13,6 +13,7 @@ import dataclasses
 import functools
 import pathlib
 import resource
+import sys
 import time
 from typing import Any, Callable, List, Optional
 
@@ -27,7 +28,7 @@ from rumba_viewer.page.errors import Refusal
 from rumba_viewer.page.feeds import Demand
 from rumba_viewer.page.filling import Filler, serialised
 from rumba_viewer.page.ros import Done, Ros
-from rumba_viewer.page.server import Bounds, Hub, check_address, serve, sockets
+from rumba_viewer.page.server import MOST_TOPICS, Bounds, Hub, check_address, serve, sockets
 from rumba_viewer.ros.page import types
 from rumba_viewer.ros.page.api import Api
 from rumba_viewer.ros.page.clock import Clock
@@ -40,7 +41,7 @@ from rumba_viewer.ros.page.talking import Talking
 from rumba_viewer.ros.page.wire import Encoder
 
 REMEMBERED = 5.0  # [s] for which a topic stays subscribed to without a client, as while a page is loaded again
-MOST_FEEDS = 1000  # topics to which all clients together listen
+SWITCH = 0.001  # [s] for which the loop waits for a thread that is at work
 
 
 @dataclasses.dataclass(frozen=True)
@@ -85,6 +86,7 @@ def run(settings: Settings) -> None:
         what: _parts(getattr(settings, what)) for what in ('read', 'write', 'call', 'serve', 'get', 'set')})
     where = sockets(settings.address, settings.port)
     _raise_limit_of_files()
+    sys.setswitchinterval(SWITCH)
     loop = IOLoop.current()
     clock = Clock()
     hub = Hub(namespace, allowed, _parts(settings.origins),
@@ -129,8 +131,8 @@ class RosLink(Ros):
 
     def subscribe(self, client: Any, topic: str, reason: Any, demand: Demand) -> None:
         """Send the messages of a topic to a client."""
-        if topic not in self._hub.feeds and len(self._hub.feeds) >= MOST_FEEDS:
-            raise Refusal(f'this page is subscribed to {MOST_FEEDS} topics already')
+        if topic not in self._hub.feeds and len(self._hub.feeds) >= MOST_TOPICS:
+            self._forget(self._hub.topic_to_give_up(client))
         self._hub.listen(client, topic, reason, demand)
         self.listening.want(self._hub.feed(topic))
 
