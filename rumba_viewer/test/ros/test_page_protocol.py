@@ -102,6 +102,9 @@ class GraphTest(unittest.TestCase):
         wait(self, lambda: client.call('/rosapi/publishers', topic='/words')[1]['publishers'] == [rospy.get_name()],
              'the publisher')
         self.assertEqual(client.call('/rosapi/publishers', topic='/rosout'), (True, {'publishers': []}))
+        self.assertEqual(client.call('/rosapi/nodes'), (True, {'nodes': [rospy.get_name()]}))
+        self.assertEqual(client.call('/rosapi/node_details', node=rospy.get_name()), (True, {
+            'publishing': ['/words'], 'subscribing': [], 'services': []}))
         typedefs = client.call('/rosapi/message_details', type='geometry_msgs/PointStamped')[1]['typedefs']
         found = {one['type']: one for one in typedefs}
         self.assertEqual(set(found), {'geometry_msgs/PointStamped', 'std_msgs/Header', 'geometry_msgs/Point', 'time'})

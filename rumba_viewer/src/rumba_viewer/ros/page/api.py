@@ -59,6 +59,11 @@ class Api:
             'topics_and_raw_types': self._raw_types,
             'publishers': lambda values: {'publishers': self._nodes(self._known.publishers, values)},
             'subscribers': lambda values: {'subscribers': self._nodes(self._known.subscribers, values)},
+            'nodes': lambda _: {'nodes': sorted({node for one in self._tables().values() for nodes in one.values()
+                                                 for node in nodes})},
+            'node_details': lambda values: {what: sorted(
+                name for name, nodes in names.items() if values.get('node') in nodes)
+                for what, names in self._tables().items()},
             'action_servers': lambda _: {'action_servers': self._actions()}}
 
     def _on_services(self) -> Answers:
@@ -97,6 +102,13 @@ class Api:
         if self._may('read', republishing.SOURCE):
             found.update(republishing.TYPES)
         return dict(sorted(found.items()))
+
+    def _tables(self) -> Dict[str, Dict[str, List[str]]]:
+        """What nodes do, by names that can be reached: who publishes, subscribes and serves."""
+        topics, services, known = self._topics(), self._services(), self._known
+        return {'publishing': {name: known.publishers.get(name, []) for name in topics},
+                'subscribing': {name: known.subscribers.get(name, []) for name in topics},
+                'services': {name: known.services.get(name, []) for name in services}}
 
     def _nodes(self, known: Dict[str, List[str]], values: Any) -> List[str]:
         name = _text(values, 'topic')
