@@ -45,7 +45,7 @@ def shown(message):
     """The values that a client gets of a message, by all of the way that it takes."""
     arrival = Arrival(serialised(message), message._type, message._md5sum, '/node', False)
     with unittest.mock.patch.object(types, 'of_message', lambda _: type(message)):
-        frame = Encoder(pytest.fail).encode(arrival, '/t', False)
+        frame = Encoder(pytest.fail, lambda: (0, 0)).encode(arrival, '/t', 'none')
     return json.loads(frame[frame.index(b'{'):].decode())['msg']
 
 

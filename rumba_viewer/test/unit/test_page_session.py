@@ -18,7 +18,8 @@ class FakeRos:
         self.asked = []
 
     def __getattribute__(self, name):
-        if name in ('subscribe', 'unsubscribe', 'advertise', 'unadvertise', 'publish', 'unserve', 'answer'):
+        if name in ('subscribe', 'unsubscribe', 'advertise', 'unadvertise', 'publish', 'unserve', 'answer',
+                    'leave'):
             return lambda _, *arguments: self.asked.append((name, *arguments))
         return super().__getattribute__(name)
 
@@ -27,9 +28,9 @@ class FakeRos:
             raise Refusal('it is late')
         done(True, {'of': service, 'timeout': timeout, **values})
 
-    def serve(self, _, service, kind, ask, failed):
+    def serve(self, _, service, kind, ask, tell):
         self.asked.append(('serve', service, kind))
-        self.ask, self.failed = ask, failed
+        self.ask, self.tell = ask, tell
 
 
 class Client:
@@ -94,7 +95,7 @@ def test_all_is_given_back_at_the_end():
     del client.ros.asked[:]
     client.session.close()
     client.session.close()
-    assert client.ros.asked == [('unsubscribe', '/map', None), ('unadvertise', '/rumba/cmd_vel')]
+    assert client.ros.asked[:3] == [('unsubscribe', '/map', None), ('unadvertise', '/rumba/cmd_vel'), ('leave',)]
 
 
 @pytest.mark.parametrize('operation, line', [
@@ -112,7 +113,7 @@ def test_all_is_given_back_at_the_end():
     ({'op': 'call_service', 'service': '/simulator/pause', 'id': []}, 'id is []: must be a text or a number'),
     ({'op': 'subscribe', 'topic': '/rosout'}, "'/rosout' cannot be subscribed to here"),
     ({'op': 'subscribe'}, 'topic is None: must be a name'),
-    ({'op': 'subscribe', 'topic': '/map', 'compression': 'cbor'}, "compression is 'cbor': must be one of none, png"),
+    ({'op': 'subscribe', 'topic': '/map', 'compression': 'zip'}, "compression is 'zip': must be one of none, png"),
     ({'op': 'subscribe', 'topic': '/map', 'throttle_rate': -1}, 'throttle_rate is -1: must be a number from 0'),
     ({'op': 'subscribe', 'topic': '/map', 'id': {}}, 'id is {}: must be a text'),
     ({'op': 'subscribe', 'topic': '/map/../x'}, "topic is '/map/../x': must be a name"),
@@ -168,12 +169,12 @@ def test_a_service_of_a_client_is_asked_and_answers():
             ('answer', '/sum', 'r1', worked, values)]
     assert client.says(op='unadvertise_service', service='/sum')[0] == [('unserve', '/sum')]
     client.says(op='advertise_service', service='/sum', type='a/Sum', id='me')
-    client.ros.failed('another node serves it')
+    client.ros.tell('error', 'another node serves it')
     assert client.replies == [{'op': 'status', 'level': 'error', 'msg': 'another node serves it', 'id': 'me'}]
     client.says(op='advertise_service', service='/nothing', type='a/Nothing')
     del client.ros.asked[:]
     client.session.close()
-    assert client.ros.asked == [('unserve', '/nothing')]
+    assert client.ros.asked == [('unserve', '/nothing'), ('leave',)]
 
 
 def test_to_serve_needs_the_allow_list_and_a_token():
@@ -200,6 +201,19 @@ def test_parameters_need_the_allow_list_and_a_change_a_token():
     assert 'name is 5: must be a name' in answer(watching, 'get_param', 5)
     reply, = watching.says(op='call_service', service='/rosapi/get_param', args=['/b'])[1]
     assert "must be an object with the name" in reply['values']
+
+
+def test_frames_are_followed_by_whoever_may_subscribe_to_transforms_without_a_token():
+    watching = Client(Rights())
+    assert watching.says(op='advertise', topic='/tf2_web_republisher/goal', type='a/Goal')[0]
+    assert watching.says(op='publish', topic='/tf2_web_republisher/cancel', msg={})[0]
+    assert watching.says(op='call_service', service='/republish_tfs')[1][0]['result']
+    for topic in ('/tf2_web_republisher/feedback', '/tf_repub_0'):
+        assert watching.says(op='subscribe', topic=topic)[0]
+    without = Client(defaults=False)
+    assert "'/tf' cannot be subscribed to here" in without.is_refused(op='subscribe', topic='/tf_repub_0')
+    assert "'/tf' cannot" in without.says(op='call_service', service='/republish_tfs')[1][0]['values']
+    assert 'cannot be published to' in watching.is_refused(op='publish', topic='/tf2_web_republisher/status', msg={})
 
 
 def test_what_is_harmless_is_a_warning_for_those_who_want_it():
@@ -261,7 +275,7 @@ class Encoding:
     def __init__(self):
         self.made = []
 
-    def __call__(self, arrival, name, is_png):
+    def __call__(self, arrival, name, compression):
         self.made.append(arrival.data)
         return name.encode() + b':' + arrival.data
 
@@ -316,6 +330,29 @@ def test_a_new_listener_gets_what_is_latched_or_what_it_wants(is_latched, wants_
     feed.add(late, '', Demand(newest=wants_newest), encoding)
     feed.tick(0.02, encoding)
     assert late.got == got
+
+
+def test_the_page_itself_can_listen_too_and_gets_what_is_latched():
+    feed, encoding, _ = feed_of()
+    arrivals(feed, b'1', is_latched=True)
+    feed.tick(0.0, encoding)
+    got = []
+    feed.tap(got.extend)
+    arrivals(feed, b'2', b'3')
+    assert feed.has_listeners
+    feed.tick(0.1, encoding)
+    assert [arrival.data for arrival in got] == [b'1', b'2', b'3'] and not encoding.made
+    feed.tap(None)
+    assert not feed.has_listeners
+
+
+def test_a_client_gets_one_compression_only_if_it_always_asks_for_it():
+    feed, _, (reader,) = feed_of(Demand(compression='cbor'))
+    listener = feed._listeners[reader]
+    feed.add(reader, 'b', Demand(compression='cbor'), None)
+    assert listener.demand.compression == 'cbor'
+    feed.add(reader, 'c', Demand(compression='png'), None)
+    assert listener.demand.compression == 'none'
 
 
 def test_several_subscriptions_of_a_client_are_one():

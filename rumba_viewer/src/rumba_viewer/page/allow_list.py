@@ -85,7 +85,7 @@ class AllowList:
 
 def _compiled(text: str, namespace: str) -> 're.Pattern[str]':
     full = text if text.startswith('/') else namespace + text
-    if not re.fullmatch(r'/(\*|[A-Za-z]\w*)(/(\*|[A-Za-z]\w*))*', full):
+    if not re.fullmatch(r'/(\*|[A-Za-z][\w-]*)(/(\*|[A-Za-z][\w-]*))*', full):
         raise ConfigError(f'{quoted(text)} cannot be allowed: must be a name such as /chatter or */scan')
     belongs_to_a_robot = not text.startswith('/') and '*' in text
     before, star, after = full.partition('*')

@@ -5,7 +5,7 @@ import collections
 import json
 import socket
 import struct
-from typing import Any, Deque, Dict, Optional
+from typing import Any, Deque, Dict, Optional, Union
 
 from tornado.iostream import StreamClosedError
 from tornado.web import HTTPError
@@ -28,17 +28,17 @@ REASON = 120  # [bytes] of the reason of a close: RFC 6455, section 5.5
 MOST_REPLIES = 200  # that wait for a slow client; a client for which more would wait is disconnected
 SEND_BUFFER = 65536  # [bytes] in the kernel for each client: what it holds grows old
 LINGER = 5.0  # [s] in which the rest of a message that is too big is read and thrown away
-TEXT = 0x81  # first byte of a frame that is a whole text: RFC 6455, section 5.2
+TEXT, BINARY = 0x81, 0x82  # first byte of a frame that is a whole text, or whole data: RFC 6455, section 5.2
 
 
-def framed(text: str) -> bytes:
-    """The frame of a websocket in which a server sends a text; it is the same for all clients."""
-    data = text.encode()
+def framed(content: Union[str, bytes]) -> bytes:
+    """The frame of a websocket in which a server sends a text or data; it is the same for all clients."""
+    first, data = (TEXT, content.encode()) if isinstance(content, str) else (BINARY, content)
     if len(data) < 126:
-        return struct.pack('!BB', TEXT, len(data)) + data
+        return struct.pack('!BB', first, len(data)) + data
     if len(data) < 1 << 16:
-        return struct.pack('!BBH', TEXT, 126, len(data)) + data
-    return struct.pack('!BBQ', TEXT, 127, len(data)) + data
+        return struct.pack('!BBH', first, 126, len(data)) + data
+    return struct.pack('!BBQ', first, 127, len(data)) + data
 
 
 class Patient(WebSocketProtocol13):

@@ -1,4 +1,4 @@
-"""Messages of ROS as values of JSON, by the rules of rosbridge v2.
+"""Messages of ROS as values of JSON and CBOR, by the rules of rosbridge v2.
 
 Lists of bytes (uint8[], char[]) are base64 texts, NaN and infinities are null, a time has `secs` and `nsecs`. A message
 is any object with `__slots__` and `_slot_types`, as genpy makes them; its lists may be arrays of NumPy.
@@ -18,6 +18,7 @@ INTEGERS = {f'{sign}int{bits}': (-(1 << bits - 1), (1 << bits - 1) - 1) if not s
 INTEGERS.update(byte=INTEGERS['int8'], char=INTEGERS['uint8'])
 FLOATS = ('float32', 'float64')
 BYTES = ('uint8', 'char')
+NUMBERS = {**{base: base for base in (*INTEGERS, *FLOATS)}, 'byte': 'int8', 'char': 'uint8'}  # as NumPy calls them
 TIMES = {'time': (0, (1 << 32) - 1), 'duration': (-(1 << 31), (1 << 31) - 1)}  # [s] that fit
 WIDEST = 5  # characters of the text of an int8 with a comma
 SMALL = np.array([list(f'{number - 256 if number > 127 else number},'.encode().ljust(WIDEST, b'\0'))
@@ -57,6 +58,26 @@ def to_text(message: Any) -> str:
     """The JSON of a message; for the cells of a map, `json.dumps` would take twenty times as long."""
     return '{' + ','.join(f'"{name}":{_text(getattr(message, name), kind(of))}'
                           for name, of in zip(message.__slots__, message._slot_types)) + '}'
+
+
+def to_packed(message: Any) -> Any:
+    """What `cbor.encoded` makes the bytes of a message from: numbers keep what JSON cannot express."""
+    return {name: _packed(getattr(message, name), kind(of))
+            for name, of in zip(message.__slots__, message._slot_types)}
+
+
+def _packed(value: Any, of: Kind) -> Any:
+    if of.is_list and of.base in BYTES:
+        return bytes(value)
+    if of.is_list and of.base in NUMBERS:
+        return np.asarray(value, NUMBERS[of.base])
+    if of.is_list:
+        return [_packed(one, Kind(of.base, False, None)) for one in value]
+    if of.base in FLOATS:
+        return float(value)
+    if hasattr(value, '_slot_types'):
+        return to_packed(value)
+    return _single(value, of.base)
 
 
 def _text(value: Any, of: Kind) -> str:

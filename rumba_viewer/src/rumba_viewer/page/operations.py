@@ -8,7 +8,7 @@ from rumba_sim.model.errors import quoted
 from rumba_viewer.page.errors import Refusal
 
 MOST_NAME = 255  # characters
-NAME = re.compile(r'/[A-Za-z]\w*(/[A-Za-z]\w*)*', re.ASCII)
+NAME = re.compile(r'/[A-Za-z][\w-]*(/[A-Za-z][\w-]*)*', re.ASCII)  # rospy only warns of hyphens
 TYPE = re.compile(r'[A-Za-z]\w*/[A-Za-z]\w*', re.ASCII)
 Operation = Dict[str, Any]
 

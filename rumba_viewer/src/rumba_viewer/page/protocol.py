@@ -7,7 +7,7 @@ import json
 from typing import Any, Callable, Dict, List, Optional, Set
 
 from rumba_sim.model.errors import quoted
-from rumba_viewer.page import operations
+from rumba_viewer.page import operations, republishing
 from rumba_viewer.page.allow_list import AllowList, Rights
 from rumba_viewer.page.errors import Hostile, Refusal
 from rumba_viewer.page.feeds import Demand
@@ -15,7 +15,7 @@ from rumba_viewer.page.operations import Operation
 from rumba_viewer.page.ros import Ros
 
 LEVELS = ('none', 'error', 'warning', 'info')
-COMPRESSIONS = ('none', 'png')
+COMPRESSIONS = ('none', 'png', 'cbor', 'cbor-raw')
 API = '/rosapi/'  # below it, services tell about the graph
 PARAMETERS = {'get_param': 'get', 'has_param': 'get', 'set_param': 'set', 'delete_param': 'set'}  # of the API: rights
 MOST_TOPICS = 128  # that a client listens to, and that it publishes to; and services that it serves
@@ -101,21 +101,22 @@ class Session:
             self._ros.unadvertise(self._client, topic)
         for service in self._serves:
             self._ros.unserve(self._client, service)
+        self._ros.leave(self._client)
         self._listens, self._publishes, self._serves = {}, {}, set()
 
     # --- topics -------------------------------------------------------------------------------------------------------
 
     def _subscribe(self, operation: Operation) -> None:
         topic = self._name(operation, 'topic')
-        self._allowed.robot('read', topic)
+        self._robot('read', topic)
         if topic not in self._listens and len(self._listens) >= MOST_TOPICS:
             raise Refusal(f'a client can subscribe to {MOST_TOPICS} topics at most')
         reason = operations.reason(operation)
         if len(self._listens.get(topic, ())) >= MOST_TOPICS:
             raise Refusal(f'{topic} has {MOST_TOPICS} subscriptions of this client already')
-        compression = operations.one(operation, 'compression', COMPRESSIONS, 'none')
         demand = Demand(min(operations.number(operation, 'throttle_rate') / 1000.0, LONGEST_THROTTLE),
-                        int(operations.number(operation, 'queue_length')), compression == 'png', operation['topic'],
+                        int(operations.number(operation, 'queue_length')),
+                        operations.one(operation, 'compression', COMPRESSIONS, 'none'), operation['topic'],
                         operation.get('newest') is True)
         self._ros.subscribe(self._client, topic, reason, demand)
         self._listens.setdefault(topic, set()).add(reason)
@@ -215,11 +216,14 @@ class Session:
         def ask(request: str, values: Any) -> None:
             self._reply({'op': 'call_service', 'id': request, 'service': operation['service'], 'args': values})
 
-        def failed(line: str) -> None:
-            self._serves.discard(service)
-            self.tell('error', line, reason)
+        def tell(level: str, line: str) -> None:
+            if level == 'error':
+                self._serves.discard(service)
+                self.refuse(line, reason)
+            else:
+                self.tell(level, line, reason)
         operations.reason(operation)
-        self._ros.serve(self._client, service, kind, ask, failed)
+        self._ros.serve(self._client, service, kind, ask, tell)
         self._serves.add(service)
 
     def _unserve(self, operation: Operation) -> None:
@@ -246,11 +250,17 @@ class Session:
         """The full name of a topic, service or parameter."""
         return operations.name(operation, key, self._namespace)
 
+    def _robot(self, what: str, name: str) -> Optional[str]:
+        """The robot to which a name belongs, None if to none; what follows frames is allowed if their source is."""
+        if republishing.is_ours(what, name):
+            what, name = 'read', republishing.SOURCE
+        return self._allowed.robot(what, name)
+
     def _changed(self, what: str, operation: Operation, key: str) -> str:
         """The name of something that is changed, if this client may do so."""
         name = self._name(operation, key)
-        robot = self._allowed.robot(what, name)
-        if not self._rights.may_change(robot):
+        robot = self._robot(what, name)
+        if not self._rights.may_change(robot) and not republishing.is_ours(what, name):
             raise Refusal(f'{name} needs {"the token of " + robot + " or that" if robot else "the token"} of the '
                           'whole page: yours permits less' if self._rights.robots else
                           f'{name} needs a token: without one you can only watch')

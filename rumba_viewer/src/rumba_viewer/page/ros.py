@@ -37,10 +37,10 @@ class Ros(abc.ABC):
 
     @abc.abstractmethod
     def serve(self, client: Any, service: str, kind: str, ask: Callable[[str, Any], None],
-              failed: Callable[[str], None]) -> None:
+              tell: Callable[[str, str], None]) -> None:
         """Serve a service on behalf of a client: `ask` gets an id and the values of each request, for `answer`.
 
-        `failed` is called with a line if the service turns out to be impossible.
+        `tell` gets a level and a line if there is something to say; after an error, the service is not served.
         """
 
     @abc.abstractmethod
@@ -50,3 +50,7 @@ class Ros(abc.ABC):
     @abc.abstractmethod
     def answer(self, client: Any, service: str, request: Any, worked: bool, values: Any) -> None:
         """Answer a request by its id: with values, or with a line that says why it did not work."""
+
+    @abc.abstractmethod
+    def leave(self, client: Any) -> None:
+        """Forget a client, which has given back its topics and services."""

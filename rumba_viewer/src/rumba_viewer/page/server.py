@@ -6,7 +6,7 @@ import dataclasses
 import pathlib
 import re
 import socket
-from typing import Any, Callable, Dict, List, Optional, Sequence, Set
+from typing import Any, Callable, Dict, List, Sequence, Set
 
 from tornado.httpserver import HTTPServer
 from tornado.ioloop import IOLoop, PeriodicCallback
@@ -18,7 +18,7 @@ from rumba_viewer.page.allow_list import AllowList, Rights, Tokens, is_loopback
 from rumba_viewer.page.client import Client
 from rumba_viewer.page.door import Door
 from rumba_viewer.page.errors import Refusal
-from rumba_viewer.page.feeds import Arrival, Demand, Feed
+from rumba_viewer.page.feeds import Demand, Encode, Feed
 from rumba_viewer.page.protocol import Session
 from rumba_viewer.page.ros import Ros
 from rumba_viewer.page.turns import Account, Limit, Turns
@@ -65,8 +65,7 @@ class Hub:
     """All clients and all topics to which they listen."""
 
     def __init__(self, namespace: str, allowed: AllowList, origins: Sequence[str], bounds: Bounds,
-                 encode: Callable[[Arrival, str, bool], Optional[bytes]], cpu: Callable[[], float],
-                 warn: Callable[[str], object]) -> None:
+                 encode: Encode, cpu: Callable[[], float], warn: Callable[[str], object]) -> None:
         """Serve names of a namespace.
 
         Args:

@@ -6,6 +6,7 @@ import rosgraph
 import rosservice
 
 from rumba_sim.model.errors import quoted
+from rumba_viewer.page import republishing
 from rumba_viewer.page.allow_list import AllowList
 from rumba_viewer.page.definitions import details
 from rumba_viewer.page.errors import Refusal
@@ -58,6 +59,11 @@ class Api:
             'topics_and_raw_types': self._raw_types,
             'publishers': lambda values: {'publishers': self._nodes(self._known.publishers, values)},
             'subscribers': lambda values: {'subscribers': self._nodes(self._known.subscribers, values)},
+            'nodes': lambda _: {'nodes': sorted({node for one in self._tables().values() for nodes in one.values()
+                                                 for node in nodes})},
+            'node_details': lambda values: {what: sorted(
+                name for name, nodes in names.items() if values.get('node') in nodes)
+                for what, names in self._tables().items()},
             'action_servers': lambda _: {'action_servers': self._actions()}}
 
     def _on_services(self) -> Answers:
@@ -91,8 +97,18 @@ class Api:
     def _topics(self) -> Dict[str, str]:
         """Types of the topics that there are and that can be reached; '' if it is not known."""
         known = {**self._known.types, **self._own()}
-        return {name: kind.replace('*', '') for name, kind in sorted(known.items())
-                if self._may('read', name) or self._may('write', name)}
+        found = {name: kind.replace('*', '') for name, kind in known.items()
+                 if self._may('read', name) or self._may('write', name)}
+        if self._may('read', republishing.SOURCE):
+            found.update(republishing.TYPES)
+        return dict(sorted(found.items()))
+
+    def _tables(self) -> Dict[str, Dict[str, List[str]]]:
+        """What nodes do, by names that can be reached: who publishes, subscribes and serves."""
+        topics, services, known = self._topics(), self._services(), self._known
+        return {'publishing': {name: known.publishers.get(name, []) for name in topics},
+                'subscribing': {name: known.subscribers.get(name, []) for name in topics},
+                'services': {name: known.services.get(name, []) for name in services}}
 
     def _nodes(self, known: Dict[str, List[str]], values: Any) -> List[str]:
         name = _text(values, 'topic')
@@ -110,16 +126,19 @@ class Api:
         return {**_columns(topics, 'topics', 'types'), 'typedefs_full_text': texts}
 
     def _services(self) -> List[str]:
-        return sorted(name for name in self._known.services if self._may('call', name))
+        own = [republishing.SERVICE] if self._may('read', republishing.SOURCE) else []
+        return sorted([*own, *(name for name in self._known.services if self._may('call', name))])
 
     def _service_type(self, name: str) -> str:
+        if name == republishing.SERVICE:
+            return republishing.SERVICE_TYPE
         return rosservice.get_service_type(name) or '' if name in self._services() else ''
 
 
 def _message(values: Any) -> Any:
     """A message of a type."""
     found = types.of_message(_text(values, 'type'))
-    if found is None or not hasattr(found, '_slot_types'):
+    if found is None or found in types.NOT_MESSAGES.values():
         raise Refusal(f'the type {quoted(values["type"])} is not installed here')
     return found()
 

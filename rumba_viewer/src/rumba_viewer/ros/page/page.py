@@ -27,6 +27,7 @@ from rumba_viewer.ros.page import types
 from rumba_viewer.ros.page.api import Api
 from rumba_viewer.ros.page.clock import Clock
 from rumba_viewer.ros.page.early import Early
+from rumba_viewer.ros.page.frames import Frames
 from rumba_viewer.ros.page.graph import Graph
 from rumba_viewer.ros.page.listening import Listening
 from rumba_viewer.ros.page.services import Services
@@ -52,14 +53,15 @@ def run(settings: Settings, early: Early) -> None:
         ConfigError: it is not possible with these settings.
     """
     tokens = tokens_of(settings)
-    encoder = Encoder(rospy.logwarn)
-    hub = hub_of(settings, encoder.encode, rospy.logwarn)
+    clock = Clock()
+    hub = hub_of(settings, Encoder(rospy.logwarn, clock.now).encode, rospy.logwarn)
     where = early.end(settings) or sockets(settings.address, settings.port)
     _raise_limit_of_files()
     sys.setswitchinterval(SWITCH)
     loop = IOLoop.current()
-    link = RosLink(hub, functools.partial(_later, loop))
-    hub.ros = link
+    later = functools.partial(_later, loop)
+    link = RosLink(hub, clock, later)
+    hub.ros = Frames(link, hub, link.listening, later)
     serve(hub, tokens, folder(), where)
     rospy.on_shutdown(lambda: loop.add_callback(loop.stop))
     rospy.loginfo(f'the page is at {url(settings, where)}'
@@ -69,15 +71,18 @@ def run(settings: Settings, early: Early) -> None:
 
 
 class RosLink(Ros):
-    """What clients ask of ROS. Its methods are called in the thread of the loop, and never block."""
+    """What clients ask of ROS. Its methods are called in the thread of the loop, and never block.
 
-    def __init__(self, hub: Hub, later: Callable[..., Any]) -> None:
+    Attributes:
+        listening: the subscriptions.
+    """
+
+    def __init__(self, hub: Hub, clock: Clock, later: Callable[..., Any]) -> None:
         """Serve the clients of a hub; call functions in the loop `later`, after a time [s], from any thread."""
-        clock = Clock()
         self._hub, self._later = hub, later
         self._graph = Graph(lambda: hub.clients > 0, clock)
         self._filler = Filler(types.of_message, clock.now)
-        self._listening = Listening(later)
+        self.listening = Listening(later)
         self._talking = Talking(later)
         self._serving = Serving(self._filler, later)
         api = Api(self._graph, hub.allowed, self._talking.kinds, clock)
@@ -86,7 +91,7 @@ class RosLink(Ros):
 
     def close(self) -> None:
         """Begin nothing more."""
-        self._listening.close()
+        self.listening.close()
         self._talking.close()
         self._serving.close()
         self._services.close()
@@ -96,7 +101,7 @@ class RosLink(Ros):
         if topic not in self._hub.feeds and len(self._hub.feeds) >= MOST_TOPICS:
             self._forget(self._hub.topic_to_give_up(client))
         self._hub.listen(client, topic, reason, demand)
-        self._listening.want(self._hub.feed(topic))
+        self.listening.want(self._hub.feed(topic))
 
     def unsubscribe(self, client: Any, topic: str, reason: Any) -> None:
         """No longer send them; reason None: for no reason."""
@@ -110,7 +115,7 @@ class RosLink(Ros):
         feed = self._hub.feeds.get(topic)
         if feed is not None and not feed.has_listeners:
             del self._hub.feeds[topic]
-            self._listening.drop(topic)
+            self.listening.drop(topic)
 
     def advertise(self, client: Any, topic: str, kind: Optional[str], latch: bool) -> None:
         """Prepare to publish messages of a type; None: that which the topic has."""
@@ -135,9 +140,9 @@ class RosLink(Ros):
         self._services.call(client, service, values, done, timeout)
 
     def serve(self, client: Any, service: str, kind: str, ask: Callable[[str, Any], None],
-              failed: Callable[[str], None]) -> None:
+              tell: Callable[[str, str], None]) -> None:
         """Serve a service on behalf of a client."""
-        self._serving.serve(client, service, kind, ask, failed)
+        self._serving.serve(client, service, kind, ask, tell)
 
     def unserve(self, client: Any, service: str) -> None:
         """The client no longer serves it."""
@@ -146,6 +151,9 @@ class RosLink(Ros):
     def answer(self, client: Any, service: str, request: Any, worked: bool, values: Any) -> None:
         """Answer a request."""
         self._serving.answer(client, service, request, worked, values)
+
+    def leave(self, client: Any) -> None:
+        """Forget a client."""
 
 
 def _later(loop: IOLoop, seconds: float, act: Callable[[], Any]) -> None:

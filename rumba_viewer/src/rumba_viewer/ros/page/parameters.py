@@ -33,6 +33,7 @@ def put(values: Any) -> Dict[str, Any]:
         if _master().hasParam(parent) and not isinstance(_master().getParam(parent), dict):
             raise Refusal(f'{name} cannot be set: {parent} is a parameter, and would be lost')
     try:
+        json.dumps(value, allow_nan=False)
         xmlrpc.client.loads(xmlrpc.client.dumps((value,)))
     except (TypeError, ValueError, OverflowError, RecursionError, ExpatError) as error:
         raise Refusal(f'value is {quoted(value)}, which cannot be a parameter: {error}') from None

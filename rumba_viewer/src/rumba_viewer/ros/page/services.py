@@ -99,7 +99,9 @@ class Services:
     def _answer(self, service: str, values: Any) -> Any:
         if service.startswith(API):
             return self._api.answer(service[len(API):], values)
-        self._serving.wait(service)
+        private = self._serving.private(service)
+        if private is not None:
+            return self._serving.fetch(private, values)
         kind = rosservice.get_service_class_by_name(service)
         request = self._filler.fill_any(kind._request_class(), values)
         serialised(request)

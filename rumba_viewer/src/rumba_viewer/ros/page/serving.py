@@ -3,11 +3,11 @@
 import concurrent.futures
 import itertools
 import threading
-from typing import Any, Callable, Dict
+from typing import Any, Callable, Dict, Optional
 
 import rospy
 
-from rumba_sim.model.errors import one_line
+from rumba_sim.model.errors import one_line, quoted
 from rumba_sim.ros.common import peers
 from rumba_viewer.page.conversion import to_json
 from rumba_viewer.page.errors import Refusal
@@ -24,8 +24,9 @@ class Served:
 
     Attributes:
         pending: requests that wait for an answer, by id.
-        is_settled: set as soon as ROS knows the service, or it turned out to be impossible.
-        server: None before that.
+        is_settled: set as soon as ROS knows the service, or cannot know it.
+        is_private: whether only clients of this page can call it, since its type is not installed.
+        server: of rospy; None if there is none.
     """
 
     def __init__(self, client: Any, service: str, ask: Callable[[str, Any], None]) -> None:
@@ -33,12 +34,12 @@ class Served:
         self.client, self.service, self.ask = client, service, ask
         self.pending: Dict[str, 'concurrent.futures.Future[Any]'] = {}
         self.is_settled = threading.Event()
-        self.is_closed = False
+        self.is_closed = self.is_private = False
         self.server: Any = None
 
 
 class Serving:
-    """Serves for clients. Its methods are called in the thread of the loop, and do not block; `wait` does."""
+    """Serves for clients. Its methods are called in the thread of the loop, and do not block, unless they say so."""
 
     def __init__(self, filler: Filler, later: Callable[..., Any]) -> None:
         """Fill answers by `filler`; call functions in the loop `later`, after a time [s]."""
@@ -48,7 +49,7 @@ class Serving:
         self._executor = concurrent.futures.ThreadPoolExecutor(1)  # for what waits for the master
 
     def serve(self, client: Any, service: str, kind: str, ask: Callable[[str, Any], None],
-              failed: Callable[[str], None]) -> None:
+              tell: Callable[[str, str], None]) -> None:
         """Serve a service on behalf of a client; a client that serves it already begins anew.
 
         Raises:
@@ -64,7 +65,10 @@ class Serving:
             error = future.exception()
             if error is not None:
                 line = str(error) if isinstance(error, Refusal) else one_line(f'{service} cannot be served: {error}')
-                self._later(0.0, lambda: self._fail(served, failed, line))
+                self._later(0.0, lambda: self._fail(served, tell, line))
+            elif served.is_private:
+                self._later(0.0, lambda: tell('warning', f'{service}: the type {kind} is not installed here, so only '
+                                                         'clients of this page can call it'))
             served.is_settled.set()
         self._submit(self._register, served, kind).add_done_callback(on_registered)
 
@@ -96,8 +100,7 @@ class Serving:
             if not worked:
                 raise Refusal(f'{service}: ' + one_line(values if isinstance(values, str) and values else
                                                         'the client that serves it says that it failed'))
-            response = self._filler.fill_any(served.server.response_class(), values)
-            serialised(response)
+            response = self._response(served, values)
         except Refusal as refusal:
             waiting.set_exception(refusal)
             if worked:
@@ -105,11 +108,25 @@ class Serving:
         else:
             waiting.set_result(response)
 
-    def wait(self, service: str) -> None:
-        """Wait until a service that a client has just begun to serve can be called; in any thread."""
+    def _response(self, served: Served, values: Any) -> Any:
+        """A response, complete, or as the client gave it if the type of the service is not installed."""
+        if served.is_private:
+            if not isinstance(values or {}, dict):
+                raise Refusal(f'values is {quoted(values)}: must be an object')
+            return values or {}
+        response = self._filler.fill_any(served.server.response_class(), values)
+        serialised(response)
+        return response
+
+    def private(self, service: str) -> Optional[Served]:
+        """The service of a client that ROS does not know; None if it is another one; in any thread.
+
+        This waits for a service that a client has just begun to serve.
+        """
         served = self._served.get(service)
-        if served is not None:
-            served.is_settled.wait(PATIENCE)
+        if served is None or not served.is_settled.wait(PATIENCE):
+            return None
+        return served if served.is_private else None
 
     def close(self) -> None:
         """Begin nothing more."""
@@ -123,17 +140,16 @@ class Serving:
 
     def _register(self, served: Served, kind: str) -> None:
         found = types.of_service(kind)
-        if found is None:
-            raise Refusal(f'{served.service}: the type {kind} is not installed here')
         if peers.is_served(served.service):
             raise Refusal(f'{served.service} is served by another node already')
-        if not served.is_closed:
+        served.is_private = found is None
+        if found is not None and not served.is_closed:
             served.server = rospy.Service(served.service, found, lambda request: self._handle(served, request))
 
-    def _fail(self, served: Served, failed: Callable[[str], None], line: str) -> None:
+    def _fail(self, served: Served, tell: Callable[[str, str], None], line: str) -> None:
         if not served.is_closed:
             self.unserve(served.client, served.service)
-            failed(line)
+            tell('error', line)
 
     @staticmethod
     def _take_back(served: Served) -> None:
@@ -141,17 +157,26 @@ class Serving:
             served.server.shutdown('the client no longer serves it')
 
     def _handle(self, served: Served, request: Any) -> Any:
-        """The response to a request; called in a thread of rospy for each."""
-        waiting: 'concurrent.futures.Future[Any]' = concurrent.futures.Future()
-        number = f'service_request:{served.service}:{next(self._numbers)}'
-        self._later(0.0, lambda: self._begin(served, number, to_json(request), waiting))
+        """The response to a request of ROS; called in a thread of rospy for each."""
         try:
-            return waiting.result(LONGEST)
+            return self.fetch(served, to_json(request))
         except Refusal as refusal:
             raise rospy.ServiceException(str(refusal)) from None
+
+    def fetch(self, served: Served, values: Any) -> Any:
+        """The response to a request; blocks until the client has given it.
+
+        Raises:
+            Refusal: it does not work.
+        """
+        waiting: 'concurrent.futures.Future[Any]' = concurrent.futures.Future()
+        number = f'service_request:{served.service}:{next(self._numbers)}'
+        self._later(0.0, lambda: self._begin(served, number, values, waiting))
+        try:
+            return waiting.result(LONGEST)
         except concurrent.futures.TimeoutError:
             self._later(0.0, lambda: served.pending.pop(number, None))
-            raise rospy.ServiceException(f'the client has not answered within {LONGEST:g} s') from None
+            raise Refusal(f'{served.service}: the client has not answered within {LONGEST:g} s') from None
 
     @staticmethod
     def _begin(served: Served, number: str, values: Any, waiting: 'concurrent.futures.Future[Any]') -> None:

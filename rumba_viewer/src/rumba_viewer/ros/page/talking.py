@@ -13,6 +13,7 @@ from rumba_viewer.ros.page import types
 
 QUEUE = 20  # messages that wait for a subscriber that is slow; of more, the oldest are dropped
 PATIENCE = 1.0  # [s] for which a new publisher waits for the subscribers that the master knows
+LINGER = 2.0  # [s] for which a publisher without clients stays: what they sent at last is still under way
 LOOK = 0.02  # [s] between two looks whether they are connected
 MOST_PENDING = 20  # messages that wait for that
 SEQUENCE = struct.Struct('<I')  # the number of a message, with which its header begins
@@ -23,6 +24,8 @@ class Outlet:
 
     Attributes:
         kind: type of its messages.
+        clients: who publishes.
+        uses: how often a client has begun to publish.
         publisher: None until the master knows of it.
         pending: messages that came before that, and before subscribers were connected.
     """
@@ -31,6 +34,7 @@ class Outlet:
         """Publish messages that `make` makes."""
         self.kind, self.make = kind, make
         self.clients: Set[Any] = set()
+        self.uses = 0
         self.publisher: Any = None
         self.pending: Optional[List[bytes]] = []
         self.is_closed = False
@@ -74,6 +78,9 @@ class Talking:
             Refusal: the type is not installed, or another client publishes another type there.
         """
         outlet = self._outlets.get(topic)
+        if outlet is not None and not outlet.clients and outlet.kind != kind:
+            self._close(topic, outlet)
+            outlet = None
         if outlet is None:
             make = types.of_message(kind)
             if make is None:
@@ -83,21 +90,31 @@ class Talking:
         if outlet.kind != kind:
             raise Refusal(f'{topic} has the type {outlet.kind} and not {kind}')
         outlet.clients.add(client)
+        outlet.uses += 1
 
     def unadvertise(self, client: Any, topic: str) -> None:
-        """A client no longer publishes; the last one takes the publisher back."""
+        """A client no longer publishes; soon after the last one, the publisher is taken back."""
         outlet = self._outlets.get(topic)
-        if outlet is None:
-            return
-        outlet.clients.discard(client)
-        if not outlet.clients:
+        if outlet is not None:
+            left, uses = outlet, outlet.uses
+            outlet.clients.discard(client)
+            if not outlet.clients:
+                self._later(LINGER, lambda: self._end(topic, left, uses))
+
+    def _end(self, topic: str, outlet: Outlet, uses: int) -> None:
+        """Take a publisher back, unless a client has begun to publish again."""
+        if outlet.uses == uses:
+            self._close(topic, outlet)
+
+    def _close(self, topic: str, outlet: Outlet) -> None:
+        if not outlet.is_closed:
             del self._outlets[topic]
             outlet.is_closed = True
             self._submit(self._take_back, outlet)
 
     def kinds(self) -> Dict[str, str]:
         """The types of all topics that clients have advertised; in any thread."""
-        return {topic: outlet.kind for topic, outlet in list(self._outlets.items())}
+        return {topic: outlet.kind for topic, outlet in list(self._outlets.items()) if outlet.clients}
 
     def outlet(self, topic: str) -> Outlet:
         """The outlet of a topic that was advertised."""
