@@ -107,6 +107,9 @@ class NoRos(Ros):
     def answer(self, client: Any, service: str, request: Any, worked: bool, values: Any) -> None:
         """Nothing was asked."""
 
+    def leave(self, client: Any) -> None:
+        """Nothing is left of it."""
+
 
 def _trouble() -> Refusal:
     return Refusal(f'no roscore answers at {rosgraph.get_master_uri()} yet')
