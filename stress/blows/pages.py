@@ -178,7 +178,7 @@ def operations(_, chance, blow):
     for number in range(OPERATIONS):
         if number % 100 == 0:
             session = Session(_Sink(), allowed, Rights(everything=chance.random() < 0.9), '/', None, replies.append)
-            session.receive(json.dumps({'op': 'advertise', 'topic': '/hostile/a', 'type': page_inputs.EVERYTHING._type}))
+            session.receive(json.dumps({'op': 'advertise', 'topic': '/hostile/a', 'type': kinds[-1]}))
         text = page_inputs.operation(chance, kinds)
         begin = time.thread_time()
         try:

@@ -14,7 +14,7 @@ from rumba_sim.model import config
 from rumba_viewer.page.errors import Refusal
 from rumba_viewer.page.feeds import Demand
 from rumba_viewer.page.ros import Done, Ros
-from rumba_viewer.page.server import Hub, serve, sockets
+from rumba_viewer.page.server import serve, sockets
 from rumba_viewer.ros.page.settings import Settings, folder, hub_of, tokens_of, url
 
 RESTART = 1012  # code of a websocket: the server restarts, connect again
