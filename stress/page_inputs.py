@@ -45,7 +45,8 @@ HEADERS = ('Host', 'Origin', 'Upgrade', 'Connection', 'Sec-WebSocket-Version', '
            'Authorization')
 VALUES = ('localhost', HOST, 'evil.example', 'websocket', 'Upgrade', 'keep-alive', '13', '-1', '0', '5', 'chunked',
           'gzip', 'permessage-deflate; client_max_window_bits=99', 'Mon, 01 Jan 99999 00:00:00 GMT', 'bytes=0-0',
-          'bytes=-9999', 'bytes=5-1', 'bytes=x-', '"' + 200 * 'e' + '"', '100-continue', '[::1', 'null', '', '\x7f', 'a=b; c=%ff')
+          'bytes=-9999', 'bytes=5-1', 'bytes=x-', '"' + 200 * 'e' + '"', '100-continue', '[::1', 'null', '', '\x7f',
+          'a=b; c=%ff')
 
 
 def find(kind):
