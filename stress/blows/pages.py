@@ -21,7 +21,7 @@ from stress.scenarios import PAGE_PORT
 HOSTILE = 10  # clients at the same time
 CONNECTIONS = 60  # of each, one after the other
 FRAMES, REQUESTS = 40, 15  # on one connection before one that ends it
-OPERATIONS = 20_000  # without a socket
+OPERATIONS = 40_000  # without a socket
 ENDS_WITHIN = 30.0  # [s] after the last byte of a connection
 VICTIM_WITHIN = 2.0  # [s] for an answer to the victim, however busy this machine is
 IMPORTS = [str(folder) for folder in (pathlib.Path(page_session.__file__).parents[1],
