@@ -80,15 +80,28 @@ class Client:
         """Send an operation."""
         self._run(self._socket.write_message, json.dumps(operation))
 
+    def raw(self):
+        """The next text, or data."""
+        message = self._run(self._socket.read_message)
+        if message is None:
+            raise EOFError('the connection has ended')
+        return message
+
     def find(self, condition):
         """The next operation that meets a condition."""
         while True:
-            message = self._run(self._socket.read_message)
-            if message is None:
-                raise EOFError('the connection has ended')
-            operation = json.loads(message)
+            operation = json.loads(self.raw())
             if condition(operation):
                 return operation
+
+    def status(self):
+        """The text of the next status."""
+        return self.find(lambda one: one['op'] == 'status')['msg']
+
+    def close(self):
+        """Leave."""
+        self._socket.close()
+        self._run(self._socket.read_message)
 
     def message(self, topic, condition=lambda message: True):
         """The next message of a topic that meets a condition."""

@@ -1,100 +1,20 @@
 """The web server with real sockets and without ROS: files, origins, tokens, hostile and slow clients."""
 
 import asyncio
-import json
-import pathlib
+import re
 import socket
 
 import pytest
+from served_pages import (
+    FOLDER, GREETING, PING, Page, frame, is_served, is_told_and_ended, listener, read, run, until)
+from tornado.httpclient import AsyncHTTPClient, HTTPClientError
 
-pytest.importorskip('tornado', reason='the page needs python3-tornado')
-
-from tornado.httpclient import AsyncHTTPClient, HTTPClientError, HTTPRequest  # noqa: E402
-from tornado.websocket import websocket_connect  # noqa: E402
-
-from rumba_sim.model.errors import ConfigError  # noqa: E402
-from rumba_viewer.page.allow_list import AllowList, Tokens  # noqa: E402
-from rumba_viewer.page.client import framed  # noqa: E402
-from rumba_viewer.page.feeds import Arrival  # noqa: E402
-from rumba_viewer.page.server import Bounds, Hub, check_address, serve, sockets  # noqa: E402
-
-FOLDER = pathlib.Path(__file__).resolve().parents[2] / 'page'
-TIMEOUT = 30.0  # [s]
-
-
-class Topics:
-    """Lets clients subscribe to what `arrive` brings."""
-
-    def __init__(self, hub):
-        self._hub = hub
-
-    def subscribe(self, client, topic, reason, demand):
-        self._hub.listen(client, topic, reason, demand)
-
-    def unsubscribe(self, client, topic, reason):
-        self._hub.feed(topic).remove(client, reason)
-
-
-class Page:
-    """A server at a free port."""
-
-    def __init__(self, tokens=Tokens(), **bounds):
-        self.hub = Hub('/', AllowList(), [], Bounds(**bounds),
-                       lambda arrival, name, _: framed(json.dumps({'op': 'publish', 'topic': name,
-                                                                   'msg': arrival.data.decode()})))
-        self.hub.ros = Topics(self.hub)
-        where = sockets('127.0.0.1', 0)
-        self.at = f'127.0.0.1:{where[0].getsockname()[1]}'
-        self._server = serve(self.hub, tokens, FOLDER, where)
-
-    def arrive(self, data):
-        """Let a message of /map arrive."""
-        self.hub.feed('/map').arrivals.append(Arrival(data, 'a/B', '*', '/n', False))
-
-    async def open(self, query='', **headers):
-        """A client."""
-        return await websocket_connect(HTTPRequest(f'ws://{self.at}/{query}', headers=headers))
-
-
-async def read(client):
-    """The next operation that a client gets; None if its connection has ended."""
-    message = await asyncio.wait_for(client.read_message(), TIMEOUT)
-    return message and json.loads(message)
-
-
-async def until(condition):
-    """Wait until a condition holds."""
-    for _ in range(int(TIMEOUT / 0.01)):
-        if condition():
-            return
-        await asyncio.sleep(0.01)
-    raise AssertionError('waited in vain')
-
-
-async def is_told_and_ended(client, words):
-    """A client gets a status, and then its connection ends."""
-    status = await read(client)
-    assert status['op'] == 'status' and words in status['msg']
-    assert await read(client) is None
-
-
-async def is_served(page, client):
-    """A client still gets what arrives."""
-    page.arrive(b'still here')
-    assert (await read(client))['msg'] == 'still here'
-
-
-async def listener(page, **headers):
-    """A client that listens to /map."""
-    client = await page.open(**headers)
-    await client.write_message('{"op": "subscribe", "topic": "/map"}')
-    await until(lambda: '/map' in page.hub.feeds and page.hub.feeds['/map'].has_listeners)
-    return client
-
-
-def run(act):
-    """Run a test in a loop of its own."""
-    asyncio.run(asyncio.wait_for(act(), 4 * TIMEOUT))
+from rumba_sim.model.errors import ConfigError
+from rumba_viewer.page.addresses import GUESSES
+from rumba_viewer.page.allow_list import Tokens
+from rumba_viewer.page.client import DELAY
+from rumba_viewer.page.server import check_address, sockets
+from rumba_viewer.page.turns import Turns
 
 
 def test_every_file_that_the_page_names_is_served_with_its_type_and_nothing_else():
@@ -148,6 +68,57 @@ def test_a_flood_of_messages_ends_its_own_client():
     run(act)
 
 
+@pytest.mark.parametrize('tokens, message, words', [
+    (Tokens(), '[' + 1001 * '0,' + '0]', 'a message can have 1000 values at most'),
+    (Tokens('secret'), '"' + 9000 * '.' + '"', 'without a token a message can have 8192 bytes at most')],
+    ids=['values', 'bytes of a watcher'])
+def test_a_message_that_is_too_large_for_its_client_is_refused_and_not_even_read(tokens, message, words):
+    async def act():
+        page = Page(tokens, elements=1000)
+        client = await listener(page)
+        await client.write_message(message)
+        assert words in (await read(client))['msg']
+        await is_served(page, client)
+        assert page.noted == [f'client at 127.0.0.1: {words}']
+    run(act)
+
+
+@pytest.mark.parametrize('bounds, words', [
+    ({'elements': 100}, '100 values in a second'), ({'bandwidth': 2000}, '2000 bytes in a second'),
+    ({'share': 1e-3}, '0.1 % of a core')], ids=lambda value: value if isinstance(value, str) else '')
+def test_a_client_that_uses_more_than_it_may_is_slowed_down_and_told_which_bound_it_is(bounds, words):
+    async def act():
+        page = Page(**bounds)
+        good, greedy = await listener(page), await page.open()
+        for _ in range(150):
+            await greedy.write_message('{"op": "status", "id": [' + 40 * '0,' + '0]}')
+        assert (await read(greedy))['msg'] == f'you are slowed down: a client may use {words}'
+        await is_served(page, good)
+        assert page.hub.clients == 2
+    run(act)
+
+
+def test_frames_of_one_packet_are_read_one_in_a_turn(monkeypatch):
+    """Ten thousand pings in one packet took half a second, in which nobody else was served."""
+    asked = []
+    monkeypatch.setattr(Turns, 'ask', lambda turns, account, begin: asked.append(begin))
+
+    async def act():
+        page = Page()
+        _, writer = await asyncio.open_connection(*page.at.split(':'))
+        writer.write(GREETING)
+        await until(lambda: asked)
+        asked.pop()()
+        await until(lambda: page.hub.clients)
+        writer.write(100 * frame(PING, b''))
+        for _ in range(5):
+            await until(lambda: asked)
+            assert len(asked) == 1
+            asked.pop()()
+        writer.close()
+    run(act)
+
+
 def test_a_thousand_connections_are_told_that_there_are_too_many_and_the_first_is_served():
     async def act():
         page = Page(connections=20)
@@ -168,12 +139,29 @@ def test_a_thousand_connections_are_told_that_there_are_too_many_and_the_first_i
 def test_a_wrong_token_ends_the_connection_and_none_lets_watch():
     async def act():
         page = Page(Tokens('secret'))
+        begin = page.hub.now()
         await is_told_and_ended(await page.open('?token=guess'), 'wrong token')
+        assert page.hub.now() - begin >= DELAY
+        await is_told_and_ended(await page.open('?token=%ff'), 'the token is no text')
         watching, driving = await listener(page), await page.open('?token=secret')
         await is_served(page, watching)
         await watching.write_message('{"op": "advertise", "topic": "/rumba/cmd_vel", "type": "geometry_msgs/Twist"}')
         assert 'needs a token' in (await read(watching))['msg']
+        assert [re.sub('[:,].*', '', line.partition(': ')[2]) for line in page.noted] == [
+            'disconnected', 'disconnected', '/rumba/cmd_vel needs a token']
         driving.close()
+    run(act)
+
+
+def test_after_many_wrong_tokens_not_even_the_right_one_is_tried():
+    async def act():
+        page = Page(Tokens('secret'))
+        guesses = await asyncio.gather(*(page.open(f'?token=guess{number}') for number in range(GUESSES)))
+        for client in guesses:
+            await is_told_and_ended(client, 'wrong token')
+        await is_told_and_ended(await page.open('?token=guess0'), 'wrong token')
+        await is_told_and_ended(await page.open('?token=secret'), 'too many wrong tokens came from 127.0.0.1')
+        assert await listener(page)
     run(act)
 
 

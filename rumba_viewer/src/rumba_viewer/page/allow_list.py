@@ -21,8 +21,9 @@ READ = ('/map', '/clock', '/tf', '/tf_static', 'simulator/state', 'simulator/map
 WRITE = ('*/cmd_vel', '*/teleop/cmd_vel', *(f'*/{action}/{part}' for action in ACTIONS for part in ('goal', 'cancel')))
 CALL = ('*/set_brushes_up', '*/go_to_position', 'simulator/pause', 'simulator/resume', 'simulator/reset',
         'simulator/tuning/set_parameters', 'turtlesim_body/reset')
-DEFAULTS = {'read': READ, 'write': WRITE, 'call': CALL}
-VERBS = {'read': 'subscribed to', 'write': 'published to', 'call': 'called'}
+DEFAULTS = {'read': READ, 'write': WRITE, 'call': CALL, 'serve': (), 'get': (), 'set': ()}
+VERBS = {'read': 'subscribed to', 'write': 'published to', 'call': 'called', 'serve': 'served', 'get': 'read',
+         'set': 'set'}
 
 
 class Rights(NamedTuple):
@@ -36,13 +37,18 @@ class Rights(NamedTuple):
     everything: bool = False
     robots: FrozenSet[str] = frozenset()
 
+    @property
+    def are_none(self) -> bool:
+        """Whether the client can only watch."""
+        return not self.everything and not self.robots
+
     def may_change(self, robot: Optional[str]) -> bool:
         """Whether something of a robot may be changed; None: something that belongs to no robot."""
         return self.everything or robot is not None and robot in self.robots
 
 
 class AllowList:
-    """Names that clients may read, write and call."""
+    """Names of topics that clients may read and write, of services to call and serve, of parameters to get and set."""
 
     def __init__(self, namespace: str = '/', defaults: bool = True, **more: Sequence[str]) -> None:
         """Allow the names that the page needs, unless `defaults` is false, and others.
@@ -50,7 +56,7 @@ class AllowList:
         Args:
             namespace: that of the node, with a `/` at its end; patterns without a leading `/` begin there.
             defaults: whether what the page needs is allowed.
-            more: further patterns for `read`, `write` and `call`.
+            more: further patterns for `read`, `write`, `call`, `serve`, `get` and `set`.
 
         Raises:
             ConfigError: a pattern is no name of ROS with `*`.
@@ -64,8 +70,8 @@ class AllowList:
         """The robot to which a name belongs, None if to none.
 
         Args:
-            what: `read`, `write` or `call`.
-            name: full name of a topic or service.
+            what: `read`, `write`, `call`, `serve`, `get` or `set`.
+            name: full name of a topic, service or parameter.
 
         Raises:
             Refusal: the name is not on the list.
@@ -79,7 +85,7 @@ class AllowList:
 
 def _compiled(text: str, namespace: str) -> 're.Pattern[str]':
     full = text if text.startswith('/') else namespace + text
-    if not re.fullmatch(r'/(\*|[A-Za-z]\w*)(/(\*|[A-Za-z]\w*))*', full):
+    if not re.fullmatch(r'/(\*|[A-Za-z][\w-]*)(/(\*|[A-Za-z][\w-]*))*', full):
         raise ConfigError(f'{quoted(text)} cannot be allowed: must be a name such as /chatter or */scan')
     belongs_to_a_robot = not text.startswith('/') and '*' in text
     before, star, after = full.partition('*')

@@ -5,54 +5,70 @@ import collections
 import json
 import socket
 import struct
-from typing import Any, Callable, Deque, Dict, Optional
+from typing import Any, Deque, Dict, Optional, Union
 
 from tornado.iostream import StreamClosedError
+from tornado.web import HTTPError
 from tornado.websocket import WebSocketHandler, WebSocketProtocol13
 
-from rumba_viewer.page.allow_list import Rights, is_origin_allowed
+from rumba_viewer.page.allow_list import Rights, Tokens, is_origin_allowed
 from rumba_viewer.page.errors import Hostile, Refusal
 from rumba_viewer.page.protocol import Session
+from rumba_viewer.page.turns import Bucket
 
-REFUSED = 1008  # code of RFC 6455 for an end because of what the client did
-TOO_BIG = 1009
+BROKEN, REFUSED, TOO_BIG = 1002, 1008, 1009  # codes of RFC 6455 for an end because of what the client did
+MASKED = 0x80  # bit of the second byte of a frame
 BURST = 2.0  # [s] of its rate that a client may send at once
+FRAME = 1e-4  # [s] of CPU time to read a frame
+SLOW, SLOW_SHARE = 0.5, 0.05  # [s] to wait, and share of its time, with which a client is told that it is slowed down
+SLOW_PERIOD = 10.0  # [s] until it is told again
+LARGEST_OF_WATCHERS = 8192  # [bytes] of a message of a client that can only watch
+DELAY = 1.0  # [s] until a wrong token is answered
+REASON = 120  # [bytes] of the reason of a close: RFC 6455, section 5.5
 MOST_REPLIES = 200  # that wait for a slow client; a client for which more would wait is disconnected
 SEND_BUFFER = 65536  # [bytes] in the kernel for each client: what it holds grows old
 LINGER = 5.0  # [s] in which the rest of a message that is too big is read and thrown away
-TEXT = 0x81  # first byte of a frame that is a whole text: RFC 6455, section 5.2
+TEXT, BINARY = 0x81, 0x82  # first byte of a frame that is a whole text, or whole data: RFC 6455, section 5.2
 
 
-def framed(text: str) -> bytes:
-    """The frame of a websocket in which a server sends a text; it is the same for all clients."""
-    data = text.encode()
+def framed(content: Union[str, bytes]) -> bytes:
+    """The frame of a websocket in which a server sends a text or data; it is the same for all clients."""
+    first, data = (TEXT, content.encode()) if isinstance(content, str) else (BINARY, content)
     if len(data) < 126:
-        return struct.pack('!BB', TEXT, len(data)) + data
+        return struct.pack('!BB', first, len(data)) + data
     if len(data) < 1 << 16:
-        return struct.pack('!BBH', TEXT, 126, len(data)) + data
-    return struct.pack('!BBQ', TEXT, 127, len(data)) + data
-
-
-class Bucket:
-    """Says whether messages come too fast: a token bucket."""
-
-    def __init__(self, rate: float, now: float) -> None:
-        """Allow so many messages per second [1/s]."""
-        self._rate, self._before = rate, now
-        self._left = rate * BURST
-
-    def takes(self, now: float) -> bool:
-        """Whether one more message may come at a time [s]."""
-        self._left = min(self._left + (now - self._before) * self._rate, self._rate * BURST)
-        self._before = now
-        self._left -= 1.0
-        return self._left >= 0.0
+        return struct.pack('!BBH', first, 126, len(data)) + data
+    return struct.pack('!BBQ', first, 127, len(data)) + data
 
 
 class Patient(WebSocketProtocol13):
     """Ends so that a client that sends too much can still read why."""
 
     _is_too_much = False
+    _begins_frame = False
+
+    async def _receive_frame(self) -> None:
+        """Receive one frame, and then wait for the next turn: a single packet may bring thousands of them."""
+        self._begins_frame = True
+        await super()._receive_frame()
+        client: Any = self.handler
+        await client.spend(FRAME)
+
+    async def _read_bytes(self, n: int) -> bytes:
+        """Read; the second byte of a frame must say that the client has masked it."""
+        data = await super()._read_bytes(n)
+        begins, self._begins_frame = self._begins_frame, False
+        if begins and not data[1] & MASKED:
+            client: Any = self.handler
+            client.tell_and_drop('a client must mask its frames: RFC 6455, section 5.1', BROKEN)
+            raise StreamClosedError
+        return data
+
+    def _handle_message(self, opcode: int, data: bytes) -> Any:
+        try:
+            return super()._handle_message(opcode, data)
+        except UnicodeDecodeError:  # the reason of a close is no text
+            return self._abort()
 
     def close(self, code: Optional[int] = None, reason: Optional[str] = None) -> None:
         """Say it in a status first."""
@@ -75,6 +91,8 @@ class Patient(WebSocketProtocol13):
         try:
             while asyncio.get_event_loop().time() < end:
                 await asyncio.wait_for(self.stream.read_bytes(SEND_BUFFER, partial=True), LINGER)
+                client: Any = self.handler
+                await client.spend(FRAME)
         except (asyncio.TimeoutError, StreamClosedError):
             pass
         super()._abort()
@@ -83,12 +101,18 @@ class Patient(WebSocketProtocol13):
 class Client(WebSocketHandler):
     """A websocket; `hub` is the server to which it belongs."""
 
-    def initialize(self, hub: Any, rights_of: Callable[[Optional[str]], Rights]) -> None:
-        """Belong to a server; `rights_of` tells what a token permits."""
-        self._hub, self._rights_of = hub, rights_of
+    def initialize(self, hub: Any, tokens: Tokens) -> None:
+        """Belong to a server; `tokens` tell what a client may change."""
+        self._hub, self._tokens = hub, tokens
         self._session: Optional[Session] = None
+        self._rights = Rights()
         self._waiting: Dict[Optional[str], Deque[bytes]] = {}  # frames by topic; None: answers
-        self._bucket = Bucket(hub.bounds.rate, hub.now())
+        now = hub.now()
+        self._messages = Bucket(hub.bounds.rate, BURST * hub.bounds.rate, now, BURST * hub.bounds.rate)
+        self.address = hub.addresses.find(str(self.request.remote_ip))
+        self._account = hub.bounds.account(now, self.address.account.used(now))
+        self._patience = Bucket(SLOW_SHARE, SLOW, now, SLOW)  # [s]
+        self._told_slow = -SLOW_PERIOD  # when it was told last that it is slowed down
         self._is_dropped = False
         self.lost = 0  # messages that it did not get because it was slow
 
@@ -101,29 +125,83 @@ class Client(WebSocketHandler):
         found: Any = super().get_websocket_protocol()
         return found and Patient(self, False, found.params)
 
-    def open(self, *_: str, **__: str) -> None:
+    async def open(self, *_: str, **__: str) -> None:
         """Begin a session, or say why not and close."""
-        self.set_nodelay(True)
-        self.ws_connection.stream.socket.setsockopt(  # type: ignore[union-attr]
-            socket.SOL_SOCKET, socket.SO_SNDBUF, SEND_BUFFER)
+        stream: Any = self.ws_connection.stream  # type: ignore[union-attr]
+        stream.keep()
+        stream.set_nodelay(True)
+        stream.socket.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, SEND_BUFFER)
         try:
-            rights = self._rights_of(self.get_query_argument('token', None))
-            self._hub.enter(self)
+            self._rights = await self._admitted()
+            self._hub.enter(self, self._rights)
         except Refusal as refusal:
             self.tell_and_drop(str(refusal))
             return
-        self._session = self._hub.session(self, rights)
+        self._session = self._hub.session(self, self._rights)
 
-    def on_message(self, message: Any) -> None:
-        """Carry out an operation."""
+    async def _admitted(self) -> Rights:
+        """What the token of this client permits; a wrong one is answered late, and not many are tried."""
+        try:
+            token = self.get_query_argument('token', None)
+        except HTTPError:
+            raise Refusal('the token is no text') from None
+        guesses = self.address.guesses
+        if token is None or not self._tokens.are_needed:
+            return self._tokens.rights(token)
+        wait = guesses.wait(token, self._hub.now())
+        if wait:
+            raise Refusal(f'too many wrong tokens came from {self.address.name}: try again in {wait:.0f} s')
+        try:
+            return self._tokens.rights(token)
+        except Refusal:
+            guesses.add(token, self._hub.now())
+            await asyncio.sleep(DELAY)
+            raise
+
+    async def on_message(self, message: Any) -> None:
+        """Carry out an operation when it is the turn of this client."""
+        text = message if isinstance(message, str) else message.decode(errors='replace')
+        elements = sum(map(text.count, ',[{'))
+        await self.spend(FRAME, bandwidth=len(message), elements=elements)
         if self._session is None or self._is_dropped:
             return
+        begin = self._hub.cpu()
         try:
-            if not self._bucket.takes(self._hub.now()):
+            if not self._messages.takes(self._hub.now()):
                 raise Hostile(f'too many messages: at most {self._hub.bounds.rate:g} in a second')
-            self._session.receive(message)
+            self._act(text, elements)
         except Hostile as error:
             self.tell_and_drop(str(error))
+        await self.spend(self._hub.cpu() - begin)
+
+    def _act(self, text: str, elements: int) -> None:
+        """Carry out an operation; one that is too large is not even read."""
+        session: Any = self._session
+        if elements > self._hub.bounds.elements:
+            session.refuse(f'a message can have {self._hub.bounds.elements} values at most')
+        elif self._rights.are_none and len(text) > LARGEST_OF_WATCHERS:
+            session.refuse(f'without a token a message can have {LARGEST_OF_WATCHERS} bytes at most')
+        else:
+            session.receive(text)
+
+    async def spend(self, seconds: float, **others: float) -> None:
+        """Pay CPU time [s] and others, and wait until this client may go on."""
+        self._hub.turns.pay(self._account, seconds, **others)
+        now = self._hub.now()
+        self._patience.pay(self._account.wait(now), now)
+        if self._session is not None and self._patience.wait(now) and now > self._told_slow + SLOW_PERIOD:
+            self._told_slow = now
+            self._session.refuse(f'you are slowed down: a client may use {self._account.bound(now)}')
+        await self._hub.turn(self._account)
+
+    def charge(self, seconds: float) -> None:
+        """Pay for what was done elsewhere [s of CPU time]."""
+        self._hub.turns.pay(self._account, seconds)
+
+    def lose(self, topic: str) -> None:
+        """Take a topic from this client, for others that listen to less."""
+        if self._session is not None:
+            self._session.lose(topic)
 
     def on_close(self) -> None:
         """Give back what the client has asked for."""
@@ -132,6 +210,10 @@ class Client(WebSocketHandler):
             self._session.close()
             self._session = None
         self._hub.leave(self)
+
+    def note(self, line: str) -> None:
+        """Write a line about what was refused to this client."""
+        self._hub.addresses.note(self.address, line)
 
     # --- to the client ------------------------------------------------------------------------------------------------
 
@@ -143,12 +225,13 @@ class Client(WebSocketHandler):
             self.push(None, framed(json.dumps(operation, separators=(',', ':'))), MOST_REPLIES)
             self.deliver()
 
-    def tell_and_drop(self, line: str) -> None:
-        """Send a status, and close the connection."""
+    def tell_and_drop(self, line: str, code: int = REFUSED) -> None:
+        """Send a status, and close the connection with the same words: not every library shows a status."""
         if not self._is_dropped:
             self._is_dropped = True
+            self.note(f'disconnected: {line}')
             self._write(framed(json.dumps({'op': 'status', 'level': 'error', 'msg': line})))
-            self.close(REFUSED, 'refused')
+            self.close(code, line.encode()[:REASON].decode(errors='ignore'))
 
     def push(self, topic: Optional[str], frame: bytes, most: int) -> None:
         """Have a message of a topic sent with the next `deliver`; at most so many wait, and the newest win."""

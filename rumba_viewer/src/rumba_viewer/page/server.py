@@ -1,54 +1,102 @@
 """The web server: static files and websockets on one port, all in one thread."""
 
+import asyncio
+import collections
 import dataclasses
 import pathlib
 import re
 import socket
-from typing import Any, Callable, Dict, List, Optional, Sequence, Set
+from typing import Any, Callable, Dict, List, Sequence, Set
 
 from tornado.httpserver import HTTPServer
 from tornado.ioloop import IOLoop, PeriodicCallback
 from tornado.netutil import bind_sockets
-from tornado.web import Application, HTTPError, RequestHandler, StaticFileHandler
 
 from rumba_sim.model.errors import ConfigError
-from rumba_viewer.page.allow_list import AllowList, Rights, Tokens, host_name, is_loopback
+from rumba_viewer.page.addresses import Address, Addresses
+from rumba_viewer.page.allow_list import AllowList, Rights, Tokens, is_loopback
 from rumba_viewer.page.client import Client
+from rumba_viewer.page.door import Door
 from rumba_viewer.page.errors import Refusal
-from rumba_viewer.page.feeds import Arrival, Demand, Feed
-from rumba_viewer.page.protocol import Ros, Session
+from rumba_viewer.page.feeds import Demand, Encode, Feed
+from rumba_viewer.page.protocol import Session
+from rumba_viewer.page.ros import Ros
+from rumba_viewer.page.turns import Account, Limit, Turns
+from rumba_viewer.page.web import Files, Guarded, Root
 
 TICK = 0.05  # [s] between two looks at what has arrived from ROS
-REQUEST = 65536  # [bytes] of the head or the body of a request, at most
+HEAD = 8192  # [bytes] of the head of a request, at most
+AHEAD = 4  # messages of the largest size that are read before the first of them is understood
+MOST_TOPICS = 1000  # to which all clients together listen
+BURST, FIRST = 0.1, 0.02  # [s] of CPU time that a client may use at once, and when it has just come
 IDLE = 30.0  # [s] after which a connection that asks for nothing is closed
 PING, SILENT = 20.0, 60.0  # [s] between two pings of a websocket; without an answer, until it is closed
-HEADERS = {
-    'Content-Security-Policy': "default-src 'self'; connect-src 'self' ws: wss:; img-src 'self' data:; "
-                               "frame-ancestors 'none'; base-uri 'none'; form-action 'none'",
-    'X-Content-Type-Options': 'nosniff', 'Referrer-Policy': 'no-referrer', 'Cache-Control': 'no-cache'}
 
 
 @dataclasses.dataclass(frozen=True)
 class Bounds:
-    """What clients may do at most: connections, messages per second of each, bytes of a message."""
+    """What clients may do at most.
+
+    Attributes:
+        connections: of all together.
+        rate: messages of one client in a second.
+        size: bytes of a message.
+        bandwidth: bytes of one client in a second.
+        elements: values in a message, and of one client in a second.
+        share: of a core that one client may use.
+    """
 
     connections: int = 200
     rate: float = 100.0
     size: int = 65536
+    bandwidth: int = 524288
+    elements: int = 20000
+    share: float = 0.05
+
+    def account(self, now: float, used: float) -> Account:
+        """What one client may use, whose address used so much CPU time lately [s]."""
+        return Account(
+            now, Limit(self.share, BURST, FIRST, f'{100.0 * self.share:g} % of a core'), used,
+            bandwidth=Limit(self.bandwidth, self.bandwidth, self.bandwidth, f'{self.bandwidth} bytes in a second'),
+            elements=Limit(self.elements, self.elements, self.elements, f'{self.elements} values in a second'))
 
 
 class Hub:
     """All clients and all topics to which they listen."""
 
     def __init__(self, namespace: str, allowed: AllowList, origins: Sequence[str], bounds: Bounds,
-                 encode: Callable[[Arrival, str, bool], Optional[bytes]]) -> None:
-        """Serve names of a namespace; `encode` makes the frame of an arrival on a topic."""
+                 encode: Encode, cpu: Callable[[], float], warn: Callable[[str], object]) -> None:
+        """Serve names of a namespace.
+
+        Args:
+            namespace: in which names begin.
+            allowed: names that clients may reach.
+            origins: patterns of further origins from which pages may connect.
+            bounds: what clients may do at most.
+            encode: makes the frame of an arrival on a topic.
+            cpu: tells the CPU time of this thread [s].
+            warn: writes a line of the log.
+        """
         self.origins, self.bounds = origins, bounds
         self.feeds: Dict[str, Feed] = {}
         self.ros: Ros  # set before the first client comes
-        self._namespace, self._allowed, self._encode = namespace, allowed, encode
-        self._clients: Set[Client] = set()
+        self._namespace, self.allowed, self._encode = namespace, allowed, encode
+        self._clients: Dict[Client, Rights] = {}  # the first that came first
         self._with_mail: Set[Client] = set()
+        self.cpu = cpu
+        self.turns = Turns(self.now, _later)
+        self.addresses = Addresses(self.now, warn)
+
+    async def turn(self, account: Account) -> None:
+        """Wait for the turn of an account."""
+        begun = asyncio.get_event_loop().create_future()
+        self.turns.ask(account, lambda: begun.done() or begun.set_result(None))
+        await begun
+
+    async def request(self, address: Address, seconds: float) -> None:
+        """Wait for the turn of a request of an address, which takes some CPU time [s]."""
+        await self.turn(address.account)
+        self.turns.pay(address.account, seconds)
 
     @staticmethod
     def now() -> float:
@@ -62,24 +110,39 @@ class Hub:
         """How many clients there are."""
         return len(self._clients)
 
-    def enter(self, client: Client) -> None:
-        """Take in one more client.
+    def everybody(self) -> List[Client]:
+        """All clients."""
+        return list(self._clients)
+
+    def enter(self, client: Client, rights: Rights) -> None:
+        """Take in one more client; if there are too many, it can take the place of one that can only watch.
 
         Raises:
             Refusal: there are too many.
         """
         if len(self._clients) >= self.bounds.connections:
+            self._give_place(client.address, rights)
+        self._clients[client] = rights
+
+    def _give_place(self, newcomer: Address, rights: Rights) -> None:
+        """Disconnect a watcher of the address with most clients, for one with a token or from where fewer come."""
+        of_each = collections.Counter(client.address for client in self._clients)
+        watchers = [client for client, others in self._clients.items() if others.are_none]
+        last = max(reversed(watchers), key=lambda client: of_each[client.address], default=None)
+        if last is None or rights.are_none and of_each[last.address] <= of_each[newcomer] + 1:
             raise Refusal(f'this page has {self.bounds.connections} clients already: close one, or raise connections')
-        self._clients.add(client)
+        last.tell_and_drop(f'this page has {self.bounds.connections} clients already, and another one came')
+        self.leave(last)
 
     def leave(self, client: Client) -> None:
         """Forget a client."""
-        self._clients.discard(client)
+        self._clients.pop(client, None)
         self._with_mail.discard(client)
 
     def session(self, client: Client, rights: Rights) -> Session:
         """A session for a client."""
-        return Session(self.ros, self._allowed, rights, self._namespace, client, client.reply)
+        return Session(self.ros, self.allowed, rights, self._namespace, client, client.reply,
+                       client.note)
 
     def has_mail(self, client: Client) -> None:
         """Deliver what waits for a client at the end of the tick."""
@@ -97,6 +160,32 @@ class Hub:
         """Let a client listen to a topic."""
         self.feed(topic).add(client, reason, demand, self._encode)
 
+    def topic_to_give_up(self, client: Client) -> str:
+        """A topic that can make room for one more of a client, now that there are too many.
+
+        The one that loses it listens to more than this client, or comes from an address that does.
+
+        Raises:
+            Refusal: nobody does.
+        """
+        free = next((feed.topic for feed in self.feeds.values() if not feed.has_listeners), None)
+        if free is not None:
+            return free
+        of_each = collections.Counter(one for feed in self.feeds.values() for one in feed.clients)
+        of_address: 'collections.Counter[Address]' = collections.Counter()
+        for one, number in of_each.items():
+            of_address[one.address] += number
+        feed = max((feed for feed in self.feeds.values() if len(feed.clients) == 1), default=None,
+                   key=lambda feed: (of_address[feed.clients[0].address], of_each[feed.clients[0]]))
+        if feed is not None:
+            loser = feed.clients[0]
+            more = of_each[loser] - of_each[client] if loser.address is client.address else \
+                of_address[loser.address] - of_address[client.address]
+            if more > 1:
+                loser.lose(feed.topic)
+                return feed.topic
+        raise Refusal(f'this page listens to {MOST_TOPICS} topics already, {of_each[client]} of them for you')
+
     def tick(self) -> None:
         """Hand on what has arrived."""
         now = self.now()
@@ -106,47 +195,13 @@ class Hub:
         for client in list(self._with_mail):
             if client.deliver():
                 self._with_mail.discard(client)
+        self.addresses.flush()
 
 
-class _Root(Client):
-    """A websocket if the client asks for one, else the page."""
-
-    async def get(self, *args: Any, **kwargs: Any) -> None:
-        if self.request.headers.get('Upgrade', '').lower() == 'websocket':
-            await super().get(*args, **kwargs)
-        else:
-            for name, value in HEADERS.items():
-                self.set_header(name, value)
-            self.set_header('Content-Type', 'text/html; charset=utf-8')
-            self.finish((self.application.settings['folder'] / 'index.html').read_bytes())
-
-
-class _Files(StaticFileHandler):
-    """The other files of the page."""
-
-    def set_extra_headers(self, _: str) -> None:
-        for name, value in HEADERS.items():
-            self.set_header(name, value)
-
-
-class _Guarded(Application):
-    """Answers only those who call this server by a name of its own, so that no other site can pose as it."""
-
-    is_local = False
-
-    def find_handler(self, request: Any, **kwargs: Any) -> Any:
-        name, _ = host_name(request.headers.get('Host', ''))
-        if self.is_local and not is_loopback(name):
-            return self.get_handler_delegate(request, _Stranger)
-        return super().find_handler(request, **kwargs)
-
-
-class _Stranger(RequestHandler):
-    def prepare(self) -> None:
-        raise HTTPError(403)
-
-    def write_error(self, status_code: int, **_: Any) -> None:
-        self.finish('This server answers at localhost only: start it with address:= and token:= for others.\n')
+def _later(seconds: float, act: Callable[[], None]) -> None:
+    """Call a function in this loop after a time [s]; 0: after all that is ready now."""
+    loop = asyncio.get_event_loop()
+    loop.call_later(seconds, act) if seconds else loop.call_soon(act)
 
 
 def sockets(address: str, port: int) -> List[socket.socket]:
@@ -164,15 +219,16 @@ def sockets(address: str, port: int) -> List[socket.socket]:
 
 def serve(hub: Hub, tokens: Tokens, folder: pathlib.Path, where: List[socket.socket]) -> HTTPServer:
     """Begin to serve in the loop of this thread; returns the server."""
-    application = _Guarded(
-        [(r'/', _Root, {'hub': hub, 'rights_of': tokens.rights}),
-         (r'/([a-z_]+\.(?:js|css|svg))', _Files, {'path': str(folder)})],
+    application = Guarded(
+        [(r'/', Root, {'hub': hub, 'tokens': tokens}),
+         (r'/([a-z_]+\.(?:js|css|svg))', Files, {'path': str(folder)})],
         folder=folder, log_function=lambda _: None, websocket_max_message_size=hub.bounds.size,
         websocket_ping_interval=PING, websocket_ping_timeout=SILENT)
     application.is_local = all(is_loopback(one.getsockname()[0]) for one in where)
-    server = HTTPServer(application, idle_connection_timeout=IDLE, body_timeout=IDLE, max_header_size=REQUEST,
-                        max_body_size=REQUEST, max_buffer_size=max(4 * REQUEST, 2 * hub.bounds.size))
-    server.add_sockets(where)
+    server = HTTPServer(application, idle_connection_timeout=IDLE, body_timeout=IDLE, max_header_size=HEAD)
+    door = Door(hub.addresses, hub.request, AHEAD * hub.bounds.size, server.handle_stream)
+    for one in where:
+        door.open(one)
     PeriodicCallback(hub.tick, 1000.0 * TICK).start()
     return server
 

@@ -9,108 +9,99 @@ Subscribes, publishes and calls what clients ask for, if its allow-list names it
 Parameters, as in `rosrun rumba_viewer page _port:=9090`:
 """
 
-import dataclasses
 import functools
-import pathlib
 import resource
-from typing import Any, Callable, List, Optional
+import sys
+from typing import Any, Callable, Optional
 
-import rospkg
 import rospy
 from tornado.ioloop import IOLoop
 
-from rumba_sim.model.config import setting
 from rumba_sim.ros.common import node
-from rumba_viewer.page.allow_list import AllowList, Tokens, robot_tokens
-from rumba_viewer.page.conversion import Filler
 from rumba_viewer.page.errors import Refusal
 from rumba_viewer.page.feeds import Demand
-from rumba_viewer.page.protocol import Ros
-from rumba_viewer.page.server import Bounds, Hub, check_address, serve, sockets
-from rumba_viewer.ros.page.graph import Graph, now
+from rumba_viewer.page.filling import Filler, serialised
+from rumba_viewer.page.ros import Done, Ros
+from rumba_viewer.page.server import MOST_TOPICS, Hub, serve, sockets
+from rumba_viewer.ros.page import types
+from rumba_viewer.ros.page.api import Api
+from rumba_viewer.ros.page.clock import Clock
+from rumba_viewer.ros.page.early import Early
+from rumba_viewer.ros.page.frames import Frames
+from rumba_viewer.ros.page.graph import Graph
 from rumba_viewer.ros.page.listening import Listening
 from rumba_viewer.ros.page.services import Services
+from rumba_viewer.ros.page.serving import Serving
+from rumba_viewer.ros.page.settings import Settings, folder, hub_of, tokens_of, url
 from rumba_viewer.ros.page.talking import Talking
 from rumba_viewer.ros.page.wire import Encoder
 
 REMEMBERED = 5.0  # [s] for which a topic stays subscribed to without a client, as while a page is loaded again
-MOST_FEEDS = 1000  # topics to which all clients together listen
-
-
-@dataclasses.dataclass(frozen=True)
-class Settings:
-    """The node's private parameters."""
-
-    address: str = setting('127.0.0.1', 'address at which to serve; 0.0.0.0: all of this machine, needs a token')
-    port: int = setting(8080, 'port; 0: any free one, which a line tells', '', 0, 65535)
-    token: str = setting('', 'text that permits changes; empty: everybody may change everything')
-    robot_tokens: str = setting('', 'texts that permit to drive one robot, as in rumba:blue,rumba2:green')
-    read: str = setting('', 'further topics that can be subscribed to, separated by commas; * stands for a robot')
-    write: str = setting('', 'further topics that can be published to')
-    call: str = setting('', 'further services that can be called')
-    defaults: bool = setting(True, 'whether what the page itself needs can be reached')
-    origins: str = setting('', 'further origins of web pages that may connect, as in http://example.org; * matches any')
-    connections: int = setting(200, 'clients at the same time', '', 1, 10000)
-    rate: float = setting(100.0, 'messages of one client', '1/s', 1.0, 10000.0)
-    size: int = setting(65536, 'size of a message of a client', 'bytes', 1024, 16777216)
+SWITCH = 0.001  # [s] for which the loop waits for a thread that is at work
 
 
 def main() -> None:
-    """Run the node."""
-    node.run('page', Settings, run, own_clock=True)
+    """Run the node; while there is no master, the page is served, and says that it waits for one."""
+    early = Early()
+    node.run('page', Settings, lambda settings: run(settings, early), own_clock=True, before=early.begin)
 
 
-def run(settings: Settings) -> None:
-    """Serve until ROS shuts down.
+def run(settings: Settings, early: Early) -> None:
+    """Serve until ROS shuts down, with the sockets of the page that waited for a master, if it did.
 
     Raises:
         ConfigError: it is not possible with these settings.
     """
-    namespace = rospy.get_namespace()
-    tokens = Tokens(settings.token, robot_tokens(settings.robot_tokens, namespace))
-    check_address(settings.address, tokens)
-    allowed = AllowList(namespace, settings.defaults, read=_parts(settings.read), write=_parts(settings.write),
-                        call=_parts(settings.call))
-    where = sockets(settings.address, settings.port)
+    tokens = tokens_of(settings)
+    clock = Clock()
+    hub = hub_of(settings, Encoder(rospy.logwarn, clock.now).encode, rospy.logwarn)
+    where = early.end(settings) or sockets(settings.address, settings.port)
     _raise_limit_of_files()
+    sys.setswitchinterval(SWITCH)
     loop = IOLoop.current()
-    encoder = Encoder(rospy.logwarn)
-    hub = Hub(namespace, allowed, _parts(settings.origins),
-              Bounds(settings.connections, settings.rate, settings.size), encoder.encode)
-    link = RosLink(hub, encoder, Graph(allowed, lambda: hub.clients > 0), functools.partial(_later, loop))
-    hub.ros = link
-    serve(hub, tokens, pathlib.Path(rospkg.RosPack().get_path('rumba_viewer')) / 'page', where)
+    later = functools.partial(_later, loop)
+    link = RosLink(hub, clock, later)
+    hub.ros = Frames(link, hub, link.listening, later)
+    serve(hub, tokens, folder(), where)
     rospy.on_shutdown(lambda: loop.add_callback(loop.stop))
-    rospy.loginfo(f'the page is at http://{_shown(settings.address)}:{where[0].getsockname()[1]}'
+    rospy.loginfo(f'the page is at {url(settings, where)}'
                   + (' (add #token=TOKEN to change anything)' if tokens.are_needed else ''))
     loop.start()
     link.close()
 
 
 class RosLink(Ros):
-    """What clients ask of ROS. Its methods are called in the thread of the loop, and never block."""
+    """What clients ask of ROS. Its methods are called in the thread of the loop, and never block.
 
-    def __init__(self, hub: Hub, encoder: Encoder, graph: Graph, later: Callable[..., Any]) -> None:
+    Attributes:
+        listening: the subscriptions.
+    """
+
+    def __init__(self, hub: Hub, clock: Clock, later: Callable[..., Any]) -> None:
         """Serve the clients of a hub; call functions in the loop `later`, after a time [s], from any thread."""
-        self._hub, self._graph, self._later = hub, graph, later
-        self._filler = Filler(encoder.find, lambda: (now()['secs'], now()['nsecs']))
-        self._listening = Listening(later)
-        self._talking = Talking(encoder.find, later)
-        self._services = Services(graph, self._filler, later)
-        graph.start()
+        self._hub, self._later = hub, later
+        self._graph = Graph(lambda: hub.clients > 0, clock)
+        self._filler = Filler(types.of_message, clock.now)
+        self.listening = Listening(later)
+        self._talking = Talking(later)
+        self._serving = Serving(self._filler, later)
+        api = Api(self._graph, hub.allowed, self._talking.kinds, clock)
+        self._services = Services(api, self._serving, self._filler, later)
+        self._graph.start()
 
     def close(self) -> None:
         """Begin nothing more."""
-        self._listening.close()
+        self.listening.close()
         self._talking.close()
+        self._serving.close()
         self._services.close()
 
     def subscribe(self, client: Any, topic: str, reason: Any, demand: Demand) -> None:
         """Send the messages of a topic to a client."""
-        if topic not in self._hub.feeds and len(self._hub.feeds) >= MOST_FEEDS:
-            raise Refusal(f'this page is subscribed to {MOST_FEEDS} topics already')
+        if topic not in self._hub.feeds and len(self._hub.feeds) >= MOST_TOPICS:
+            self._forget(self._hub.topic_to_give_up(client))
         self._hub.listen(client, topic, reason, demand)
-        self._listening.want(self._hub.feed(topic))
+        self.listening.want(self._hub.feed(topic))
 
     def unsubscribe(self, client: Any, topic: str, reason: Any) -> None:
         """No longer send them; reason None: for no reason."""
@@ -124,7 +115,7 @@ class RosLink(Ros):
         feed = self._hub.feeds.get(topic)
         if feed is not None and not feed.has_listeners:
             del self._hub.feeds[topic]
-            self._listening.drop(topic)
+            self.listening.drop(topic)
 
     def advertise(self, client: Any, topic: str, kind: Optional[str], latch: bool) -> None:
         """Prepare to publish messages of a type; None: that which the topic has."""
@@ -142,11 +133,27 @@ class RosLink(Ros):
     def publish(self, client: Any, topic: str, values: Any) -> None:
         """Publish a message with these values."""
         outlet = self._talking.outlet(topic)
-        outlet.publish(self._filler.fill(outlet.make(), values))
+        outlet.publish(serialised(self._filler.fill(outlet.make(), values)))
 
-    def call(self, client: Any, service: str, values: Any, done: Callable[[bool, Any], None]) -> None:
+    def call(self, client: Any, service: str, values: Any, done: Done, timeout: float) -> None:
         """Call a service."""
-        self._services.call(client, service, values, done)
+        self._services.call(client, service, values, done, timeout)
+
+    def serve(self, client: Any, service: str, kind: str, ask: Callable[[str, Any], None],
+              tell: Callable[[str, str], None]) -> None:
+        """Serve a service on behalf of a client."""
+        self._serving.serve(client, service, kind, ask, tell)
+
+    def unserve(self, client: Any, service: str) -> None:
+        """The client no longer serves it."""
+        self._serving.unserve(client, service)
+
+    def answer(self, client: Any, service: str, request: Any, worked: bool, values: Any) -> None:
+        """Answer a request."""
+        self._serving.answer(client, service, request, worked, values)
+
+    def leave(self, client: Any) -> None:
+        """Forget a client."""
 
 
 def _later(loop: IOLoop, seconds: float, act: Callable[[], Any]) -> None:
@@ -155,15 +162,6 @@ def _later(loop: IOLoop, seconds: float, act: Callable[[], Any]) -> None:
         loop.add_callback(lambda: loop.call_later(seconds, act) if seconds else act())
     except RuntimeError:
         pass  # the loop has ended
-
-
-def _parts(text: str) -> List[str]:
-    """The parts of a text between commas and spaces."""
-    return text.replace(',', ' ').split()
-
-
-def _shown(address: str) -> str:
-    return {'0.0.0.0': 'THIS_MACHINE', '::': 'THIS_MACHINE'}.get(address, f'[{address}]' if ':' in address else address)
 
 
 def _raise_limit_of_files() -> None:

@@ -1,51 +1,65 @@
 """Calls services in threads, so that the page waits for none of them."""
 
-import collections
 import concurrent.futures
-from typing import Any, Callable, Deque, Dict, NamedTuple
+import time
+from typing import Any, Callable, Dict, List
 
 import rospy
 import rosservice
 
 from rumba_sim.model.errors import one_line
-from rumba_viewer.page import conversion
+from rumba_viewer.page.conversion import to_json
 from rumba_viewer.page.errors import Refusal
+from rumba_viewer.page.filling import Filler, serialised
 from rumba_viewer.page.protocol import API
-from rumba_viewer.ros.page.graph import Graph
+from rumba_viewer.page.ros import Done
+from rumba_viewer.ros.page.api import Api
+from rumba_viewer.ros.page.serving import Serving
 
-THREADS = 8
+THREADS = 64  # calls at the same time; a service that does not answer keeps one
 MOST = 20  # calls of one client that wait for an answer
 
 
-class Call(NamedTuple):
+class Call:
     """A call that a client has made: the service, its values, and what gets the answer."""
 
-    service: str
-    values: Any
-    done: Callable[[bool, Any], None]
+    def __init__(self, service: str, values: Any, done: Done) -> None:
+        """Call a service with these values."""
+        self.service, self.values, self.done = service, values, done
 
 
 class Services:
     """Calls services. Its methods are called in the thread of the loop, and never block."""
 
-    def __init__(self, graph: Graph, filler: conversion.Filler, later: Callable[..., Any]) -> None:
+    def __init__(self, api: Api, serving: Serving, filler: Filler, later: Callable[..., Any]) -> None:
         """Fill requests by `filler`; call functions in the loop `later`, after a time [s]."""
-        self._graph, self._filler, self._later = graph, filler, later
+        self._api, self._serving, self._filler, self._later = api, serving, filler, later
         self._executor = concurrent.futures.ThreadPoolExecutor(THREADS)
-        self._calls: Dict[Any, Deque[Call]] = {}  # by client, in their order; the first is under way
+        self._calls: Dict[Any, List[Call]] = {}  # by client, in their order; the first is under way
 
-    def call(self, client: Any, service: str, values: Any, done: Callable[[bool, Any], None]) -> None:
+    def call(self, client: Any, service: str, values: Any, done: Done, timeout: float) -> None:
         """Call a service after the earlier calls of this client; `done` gets the answer, in the thread of the loop.
+
+        Args:
+            client: who calls.
+            service: what is called.
+            values: of the request.
+            done: gets the answer.
+            timeout: [s] after which `done` gets to know that there was none; 0: however long it takes.
 
         Raises:
             Refusal: too many calls wait already.
         """
-        calls = self._calls.setdefault(client, collections.deque())
+        calls = self._calls.setdefault(client, [])
         if len(calls) >= MOST:
             raise Refusal(f'{service}: {MOST} calls of this client wait for an answer already')
-        calls.append(Call(service, values, done))
+        call = Call(service, values, done)
+        calls.append(call)
         if len(calls) == 1:
             self._begin(client)
+        if timeout:
+            line = f'{service}: no answer within {timeout:g} s'
+            self._later(timeout, lambda: self._end(client, call, False, line))
 
     def close(self) -> None:
         """Begin nothing more."""
@@ -53,34 +67,45 @@ class Services:
         self._executor.shutdown(wait=False)
 
     def _begin(self, client: Any) -> None:
-        service, values, _ = self._calls[client][0]
+        call = self._calls[client][0]
 
         def on_answer(future: Any) -> None:
             error = future.exception()
-            answer = (True, future.result()) if error is None else (False, _reason(service, error))
-            self._later(0.0, lambda: self._end(client, *answer))
-        self._executor.submit(self._ask, service, values).add_done_callback(on_answer)
+            answer = (True, future.result()) if error is None else (False, _reason(call.service, error))
+            self._later(0.0, lambda: self._end(client, call, *answer))
+        self._executor.submit(self._ask, client, call.service, call.values).add_done_callback(on_answer)
 
-    def _end(self, client: Any, worked: bool, values: Any) -> None:
-        calls = self._calls.get(client)
-        if calls is None:
-            return  # the node ends
-        done = calls.popleft().done
-        if calls:
-            self._begin(client)
-        else:
+    def _end(self, client: Any, call: Call, worked: bool, values: Any) -> None:
+        calls = self._calls.get(client, [])
+        if call not in calls:
+            return  # it has ended already, or the node ends
+        was_first = calls[0] is call
+        calls.remove(call)
+        if not calls:
             del self._calls[client]
-        done(worked, values)
+        elif was_first:
+            self._begin(client)
+        call.done(worked, values)
 
-    def _ask(self, service: str, values: Any) -> Any:
+    def _ask(self, client: Any, service: str, values: Any) -> Any:
+        """Call a service; its client pays for the CPU time of this thread, which the others miss."""
+        begin = time.thread_time()
+        try:
+            return self._answer(service, values)
+        finally:
+            seconds = time.thread_time() - begin
+            self._later(0.0, lambda: client.charge(seconds))
+
+    def _answer(self, service: str, values: Any) -> Any:
         if service.startswith(API):
-            return self._graph.api(service[len(API):], values)
+            return self._api.answer(service[len(API):], values)
+        private = self._serving.private(service)
+        if private is not None:
+            return self._serving.fetch(private, values)
         kind = rosservice.get_service_class_by_name(service)
-        request = kind._request_class()
-        if isinstance(values, list):
-            values = dict(zip(request.__slots__, values))  # in their order
-        answer = rospy.ServiceProxy(service, kind)(self._filler.fill(request, values or {}))
-        return conversion.to_json(answer)
+        request = self._filler.fill_any(kind._request_class(), values)
+        serialised(request)
+        return to_json(rospy.ServiceProxy(service, kind)(request))
 
 
 def _reason(service: str, error: BaseException) -> str:

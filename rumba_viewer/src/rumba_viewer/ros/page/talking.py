@@ -1,6 +1,7 @@
 """Publishers of the topics that clients have advertised. One serves all clients of a topic."""
 
 import concurrent.futures
+import struct
 import time
 from typing import Any, Callable, Dict, List, Optional, Set
 
@@ -8,11 +9,14 @@ import rosgraph
 import rospy
 
 from rumba_viewer.page.errors import Refusal
+from rumba_viewer.ros.page import types
 
 QUEUE = 20  # messages that wait for a subscriber that is slow; of more, the oldest are dropped
 PATIENCE = 1.0  # [s] for which a new publisher waits for the subscribers that the master knows
+LINGER = 2.0  # [s] for which a publisher without clients stays: what they sent at last is still under way
 LOOK = 0.02  # [s] between two looks whether they are connected
 MOST_PENDING = 20  # messages that wait for that
+SEQUENCE = struct.Struct('<I')  # the number of a message, with which its header begins
 
 
 class Outlet:
@@ -20,6 +24,8 @@ class Outlet:
 
     Attributes:
         kind: type of its messages.
+        clients: who publishes.
+        uses: how often a client has begun to publish.
         publisher: None until the master knows of it.
         pending: messages that came before that, and before subscribers were connected.
     """
@@ -28,31 +34,40 @@ class Outlet:
         """Publish messages that `make` makes."""
         self.kind, self.make = kind, make
         self.clients: Set[Any] = set()
+        self.uses = 0
         self.publisher: Any = None
-        self.pending: Optional[List[Any]] = []
+        self.pending: Optional[List[bytes]] = []
         self.is_closed = False
+        self._number = 0  # of the newest message
 
-    def publish(self, message: Any) -> None:
-        """Publish a message, as soon as that is possible."""
+    def publish(self, data: bytes) -> None:
+        """Publish a serialised message, as soon as that is possible."""
         if self.pending is not None:
-            self.pending.append(message)
+            self.pending.append(data)
             del self.pending[:-MOST_PENDING]
         else:
-            self.publisher.publish(message)
+            self._send(data)
 
     def release(self) -> None:
         """Publish what has waited."""
         pending, self.pending = self.pending or [], None
-        for message in pending:
-            self.publisher.publish(message)
+        for data in pending:
+            self._send(data)
+
+    def _send(self, data: bytes) -> None:
+        """Hand rospy bytes that need no more work; as it does, count the messages that begin with a header."""
+        self._number += 1
+        message = rospy.AnyMsg()
+        message._buff = SEQUENCE.pack(self._number) + data[SEQUENCE.size:] if self.make._has_header else data
+        self.publisher.publish(message)
 
 
 class Talking:
     """Publishes for clients. Its methods are called in the thread of the loop, and never block."""
 
-    def __init__(self, find: Callable[[str], Any], later: Callable[..., Any]) -> None:
-        """Find classes of messages by `find`; call functions in the loop `later`, after a time [s]."""
-        self._find, self._later = find, later
+    def __init__(self, later: Callable[..., Any]) -> None:
+        """Call functions in the loop `later`, after a time [s]."""
+        self._later = later
         self._outlets: Dict[str, Outlet] = {}
         self._executor = concurrent.futures.ThreadPoolExecutor(1)  # for what waits for the master
 
@@ -63,8 +78,11 @@ class Talking:
             Refusal: the type is not installed, or another client publishes another type there.
         """
         outlet = self._outlets.get(topic)
+        if outlet is not None and not outlet.clients and outlet.kind != kind:
+            self._close(topic, outlet)
+            outlet = None
         if outlet is None:
-            make = self._find(kind)
+            make = types.of_message(kind)
             if make is None:
                 raise Refusal(f'{topic}: the type {kind} is not installed here')
             outlet = self._outlets[topic] = Outlet(kind, make)
@@ -72,17 +90,31 @@ class Talking:
         if outlet.kind != kind:
             raise Refusal(f'{topic} has the type {outlet.kind} and not {kind}')
         outlet.clients.add(client)
+        outlet.uses += 1
 
     def unadvertise(self, client: Any, topic: str) -> None:
-        """A client no longer publishes; the last one takes the publisher back."""
+        """A client no longer publishes; soon after the last one, the publisher is taken back."""
         outlet = self._outlets.get(topic)
-        if outlet is None:
-            return
-        outlet.clients.discard(client)
-        if not outlet.clients:
+        if outlet is not None:
+            left, uses = outlet, outlet.uses
+            outlet.clients.discard(client)
+            if not outlet.clients:
+                self._later(LINGER, lambda: self._end(topic, left, uses))
+
+    def _end(self, topic: str, outlet: Outlet, uses: int) -> None:
+        """Take a publisher back, unless a client has begun to publish again."""
+        if outlet.uses == uses:
+            self._close(topic, outlet)
+
+    def _close(self, topic: str, outlet: Outlet) -> None:
+        if not outlet.is_closed:
             del self._outlets[topic]
             outlet.is_closed = True
             self._submit(self._take_back, outlet)
+
+    def kinds(self) -> Dict[str, str]:
+        """The types of all topics that clients have advertised; in any thread."""
+        return {topic: outlet.kind for topic, outlet in list(self._outlets.items()) if outlet.clients}
 
     def outlet(self, topic: str) -> Outlet:
         """The outlet of a topic that was advertised."""

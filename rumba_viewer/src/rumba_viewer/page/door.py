@@ -1,0 +1,77 @@
+"""Lets connections in: few at a time, each of its requests in turn, and of those that ask for nothing not too many."""
+
+import asyncio
+import socket
+from typing import Any, Awaitable, Callable, Optional
+
+from tornado.ioloop import IOLoop
+from tornado.iostream import IOStream
+
+from rumba_viewer.page.addresses import Address, Addresses
+
+AT_ONCE = 4  # connections that are let in before others get their turn
+PAUSE = 0.1  # [s] without new connections after the system refused one
+MOST = 2000  # connections that are no websockets
+REQUEST, BYTE = 1e-3, 6e-7  # [s] of CPU time that a request costs, and each byte of its head
+Turn = Callable[[Address, float], Awaitable[None]]  # waits for the turn of an address, and pays CPU time [s]
+
+
+class Stream(IOStream):
+    """A connection, whose requests are parsed when it is its turn."""
+
+    def __init__(self, connection: socket.socket, address: Address, turn: Turn, most: int) -> None:
+        """Serve a connection; read up to so many bytes ahead."""
+        self._address, self._turn = address, turn
+        super().__init__(connection, max_buffer_size=most)
+        address.streams[self] = None
+
+    def read_until_regex(self, regex: bytes, max_bytes: Optional[int] = None) -> Any:
+        """Read the head of a request."""
+        return asyncio.ensure_future(self._in_turn(super().read_until_regex(regex, max_bytes)))
+
+    async def _in_turn(self, head: Awaitable[bytes]) -> bytes:
+        data = await head
+        await self._turn(self._address, REQUEST + BYTE * len(data))
+        return data
+
+    def keep(self) -> None:
+        """Be a websocket, which is not closed for a new connection."""
+        self._address.streams.pop(self, None)
+
+    def close_fd(self) -> None:
+        """Close the socket."""
+        self.keep()
+        super().close_fd()
+
+
+class Door:
+    """Accepts connections."""
+
+    def __init__(self, addresses: Addresses, turn: Turn, most: int, begin: Callable[[Stream, Any], None]) -> None:
+        """Have each served by `begin`, and read up to so many bytes ahead of it."""
+        self._addresses, self._turn, self._most, self._begin = addresses, turn, most, begin
+
+    def open(self, listening: socket.socket) -> None:
+        """Accept the connections of a socket."""
+        IOLoop.current().add_handler(listening, self._accept, IOLoop.READ)
+
+    def _accept(self, listening: Any, _: int) -> None:
+        for _ in range(AT_ONCE):
+            try:
+                connection, where = listening.accept()
+            except (BlockingIOError, ConnectionAbortedError):
+                return
+            except OSError:  # such as too many open files
+                loop = IOLoop.current()
+                loop.remove_handler(listening)
+                loop.call_later(PAUSE, lambda: listening.fileno() >= 0 and self.open(listening))
+                return
+            address = self._addresses.find(where[0])
+            self._make_room()
+            self._begin(Stream(connection, address, self._turn, self._most), where)
+
+    def _make_room(self) -> None:
+        """Close the oldest connection of the address that has most of them, if there are too many."""
+        fullest = self._addresses.fullest()
+        if fullest is not None and self._addresses.streams >= MOST:
+            next(iter(fullest.streams)).close()
