@@ -138,7 +138,7 @@ class Ground:
     @property
     def world(self):
         """The node in which the robots are; None if there is none."""
-        return self.members[self.scenario.world.name] if self.scenario.world else None
+        return next((member for member in self.members.values() if member.role.is_world), None)
 
     @property
     def cleaner(self):

@@ -4,13 +4,14 @@ import math
 import time
 
 import psutil
-from geometry_msgs.msg import Pose2D
+from geometry_msgs.msg import Pose2D, PoseWithCovarianceStamped
 from std_srvs.srv import Trigger
 
 from rumba_msg.msg import BatteryStatus
-from stress import goals, printed, wire, world
+from stress import goals, page, printed, wire, world
 from stress.failure import Failure
 from stress.member import Usage
+from stress.scenarios import PAGE_PORT
 
 ANSWERS_WITHIN = 20.0  # [s] ...
 SECONDS_PER_INPUT = 0.01  # ... and so much more, since what is in the queue comes first
@@ -132,9 +133,34 @@ def _picture(ground, member, patience):
 
 def _charge(ground, member, patience):
     """Its battery has a charge."""
-    status = ground.read('/lesson/rumba/battery_status', BatteryStatus, member, patience)
+    status = ground.read(member.role.ready, BatteryStatus, member, patience)
     if not 0 <= status.percentage_battery <= 100:
         raise Failure('sane', member.name, f'percentage_battery is {status.percentage_battery}')
 
 
-PULSES = {'': lambda *_: None, 'goals': _goals, 'picture': _picture, 'charge': _charge}
+def _pose(ground, member, patience):
+    """It tells where the robot is, again and again."""
+    with ground.listen('/rumba/amcl_pose', PoseWithCovarianceStamped, member) as poses:
+        first = newest = poses.next(patience)
+        while newest.header.stamp <= first.header.stamp:
+            newest = poses.next(patience)
+    pose = newest.pose.pose
+    numbers = pose.position.x, pose.position.y, pose.orientation.z, pose.orientation.w, *newest.pose.covariance
+    if not all(map(math.isfinite, numbers)):
+        raise Failure('sane', member.name, f'amcl_pose is {numbers[:4]}')
+
+
+def _page(_ground, member, patience):
+    """A browser gets the page, and the newest charge of the robot."""
+    try:
+        text = page.get(PAGE_PORT, '/', patience)
+        with page.Client(PAGE_PORT, patience) as client:
+            client.subscribe('/rumba/battery_state', 'sensor_msgs/BatteryState')
+            charge = client.next()['msg']['charge']
+    except page.NO_PAGE as error:
+        raise Failure('pulse', member.name, f'{type(error).__name__}: {error}') from error
+    if '<html' not in text or not isinstance(charge, float):
+        raise Failure('pulse', member.name, f'the page begins with {text[:40]!r}, the charge is {charge!r}')
+
+
+PULSES = {'': lambda *_: None, 'goals': _goals, 'picture': _picture, 'charge': _charge, 'pose': _pose, 'page': _page}

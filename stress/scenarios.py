@@ -2,10 +2,13 @@
 
 from typing import Any, NamedTuple, Tuple
 
+from common.ports import free_port
+
 from stress.member import Role
 
 SPEED = 10.0  # times real time
 MAP = 'studio'
+PAGE_PORT = free_port()
 
 
 class Scenario(NamedTuple):
@@ -25,9 +28,11 @@ class Scenario(NamedTuple):
 CLEANER = Role('/cleaner', 'rumba_cleaning', 'cleaner', '/rumba/go_to/goal', pulse='goals')
 LISTENER = Role('/battery_status_listener', 'rumba_sim', 'battery_status_listener', '/rumba/battery_status', talks=True)
 
+SIMULATOR = Role('/simulator', 'rumba_sim', 'simulator', '/simulator/tuning/parameter_updates',
+                 (f'_map:={MAP}', f'_speed:={SPEED:g}'), is_world=True)
+PAGE = Role('/page', 'rumba_viewer', 'page', arguments=(f'_port:={PAGE_PORT}',), pulse='page')
 FLAT = Scenario('flat', (
-    Role('/simulator', 'rumba_sim', 'simulator', '/simulator/tuning/parameter_updates',
-         (f'_map:={MAP}', f'_speed:={SPEED:g}'), is_world=True),
+    SIMULATOR,
     CLEANER,
     Role('/viewer', 'rumba_viewer', 'viewer', '/rumba/go_to/goal', ('_laser:=true', '_folder:=.'),
          pulse='picture'),
@@ -42,6 +47,16 @@ TURTLE = Scenario('turtle', (
          pulse='charge'),
     LISTENER._replace(name='/lesson/battery_status_listener', ready='/lesson/rumba/battery_status')),
     ('rumba',), (('/use_sim_time', True),))
+LOCALISED = Scenario('localised', (
+    SIMULATOR._replace(arguments=(*SIMULATOR.arguments, '_localisation:=mcl')),
+    Role('/localiser', 'rumba_localisation', 'localiser', '/rumba/initialpose', pulse='pose'),
+    CLEANER._replace(arguments=('_laser:=true',)),
+    PAGE), ('rumba',))
+MAPPED = Scenario('mapped', (
+    SIMULATOR._replace(arguments=(*SIMULATOR.arguments, '_localisation:=slam')),
+    Role('/mapper', 'rumba_localisation', 'mapper', '/rumba/dock_status', pulse='pose'),
+    CLEANER._replace(arguments=('_mapping:=true', '_strategy:=explore_and_clean')),
+    PAGE), ('rumba',))
 # Here fresh nodes get what no running node would read.
 CRADLE = Scenario('cradle', ())
-SCENARIOS = {scenario.name: scenario for scenario in (FLAT, TURTLE, CRADLE)}
+SCENARIOS = {scenario.name: scenario for scenario in (FLAT, TURTLE, LOCALISED, MAPPED, CRADLE)}

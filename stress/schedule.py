@@ -4,10 +4,10 @@ import random
 
 from stress.blows import KINDS
 from stress.blows.blow import Blow
-from stress.scenarios import CRADLE, FLAT, TURTLE
+from stress.scenarios import CRADLE, FLAT, LOCALISED, MAPPED, TURTLE
 
 ROUND = 30  # blows on one ground, before a new one is made
-ROUNDS = (FLAT, TURTLE, FLAT, CRADLE)
+ROUNDS = (FLAT, LOCALISED, TURTLE, CRADLE, FLAT, MAPPED)
 
 
 def scenario(number):
@@ -17,10 +17,17 @@ def scenario(number):
 
 def blow(seed, number, kinds=KINDS):
     """Blow `number` of a seed."""
-    chance = random.Random(f'{seed} {number}')
     fitting = [kind for kind in kinds if scenario(number).name in kind.scenarios]
-    kind = chance.choices(fitting, [kind.weight for kind in fitting])[0]
-    return Blow(number, kind, chance)
+    kind = dealt(fitting, random.Random(f'{seed} round {number // ROUND}'))[number % ROUND]
+    return Blow(number, kind, random.Random(f'{seed} {number}'))
+
+
+def dealt(kinds, chance):
+    """The kinds of the blows of a round, in their order: each once, and more of those that weigh more."""
+    more = chance.choices(kinds, [kind.weight for kind in kinds], k=max(ROUND - len(kinds), 0))
+    deck = [*kinds, *more]
+    chance.shuffle(deck)
+    return deck[:ROUND]
 
 
 def round_of(number):

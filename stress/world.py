@@ -1,5 +1,6 @@
 """The world of a ground: what is true in it, read from its topics, and its services."""
 
+import contextlib
 import math
 import time
 from typing import Dict, NamedTuple
@@ -12,6 +13,7 @@ from std_srvs.srv import Empty, Trigger
 
 from rumba_msg.msg import CleaningStatus, SimulatorState
 from rumba_msg.srv import Kill
+from stress import wire
 from stress.failure import Failure
 from stress.scenarios import SPEED
 
@@ -60,10 +62,10 @@ def names(ground):
             if topic.endswith(ending) and ground.world.name in publishers]
 
 
-def _robot(ground, name):
-    truth = ground.read(f'/{name}/ground_truth', Odometry).pose.pose
-    battery = ground.read(f'/{name}/battery_state', BatteryState)
-    cleaning = ground.read(f'/{name}/cleaning_status', CleaningStatus)
+def _robot(ground, name, patience=wire.PATIENCE):
+    truth = ground.read(f'/{name}/ground_truth', Odometry, timeout=patience).pose.pose
+    battery = ground.read(f'/{name}/battery_state', BatteryState, timeout=patience)
+    cleaning = ground.read(f'/{name}/cleaning_status', CleaningStatus, timeout=patience)
     return RobotReading((truth.position.x, truth.position.y, truth.orientation.z, truth.orientation.w),
                         battery.charge, battery.capacity, cleaning.coverage, cleaning.distance, cleaning.time)
 
@@ -84,6 +86,17 @@ def check(ground):
     if ground.memory is not None:
         _compare(ground.memory, now)
     ground.memory = now
+
+
+def check_robots(ground, patience):
+    """Ask whether the robots of a world are sane that may tell nothing, because it was asked to.
+
+    Raises:
+        Failure: one is not.
+    """
+    with contextlib.suppress(wire.WireError):
+        for name in names(ground):
+            _check_robot(name, _robot(ground, name, patience))
 
 
 def _moves(ground):

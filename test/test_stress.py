@@ -14,13 +14,14 @@ from workspaces import ROOT
 
 sys.path[:0] = [str(ROOT), str(ROOT / 'bench')]
 
+import planted_faults  # noqa: E402
 from common.ros_session import wait_until  # noqa: E402
 
-from stress import printed, report, run, shrink  # noqa: E402
-from stress.blows import KINDS, fresh, messages  # noqa: E402
+from stress import growth, printed, report, run, schedule, shrink  # noqa: E402
+from stress.blows import KINDS, fresh, messages, repeated  # noqa: E402
 from stress.blows.blow import Blow, Kind  # noqa: E402
 from stress.failure import Failure  # noqa: E402
-from stress.member import Member, Role  # noqa: E402
+from stress.member import Member, Role, Usage  # noqa: E402
 from stress.publishers import Publishers  # noqa: E402
 from stress.scenarios import Scenario  # noqa: E402
 
@@ -81,6 +82,18 @@ def verdict(fault, publishers, monkeypatch):
 @pytest.mark.parametrize('fault, seen', [
     ('dies', r'ended: /frail: exit code 0: it printed nothing'),
     ('leaks', r'leak: /frail: \d+ files of which \d+ sockets'),
+    ('leaks-threads', r'leak: /frail: \d+ files of which \d+ sockets, 2\d\d threads'),
+    ('leaks-memory', r'leak: /frail: \d+ files of which \d+ sockets, \d+ threads, [34]\d\d MB'),
+    ('below-zero', r'sane: world: charge of rumba is -0.1\d*, capacity 2.'),
+    ('overfull', r'sane: world: charge of rumba is 2.\d*, capacity 2.\d*'),
+    ('no-number', r'sane: world: charge of rumba is nan, capacity 2.'),
+    ('too-clean', r'sane: world: coverage of rumba is 1.1'),
+    ('backwards', r'sane: world: distance of rumba is -1.0'),
+    ('nowhere', r'sane: world: pose of rumba is \(inf, '),
+    ('floods', r'flood: /frail: \d+ lines: a planted fault'),
+    ('long-line', r'long line: /frail: 5000 characters: yyy'),
+    ('escape', r"escape: /frail: '\\x1b\[2J'"),
+    ('silent', r'silent: ground: getPid of'),
     ('hangs', r'goal: /frail: no result of 1 goals of go_to'),
     ('forgets', r'lost: world: charge of rumba jumped from 2.0 to 0.1'),
     ('stops', r'time: world: stands still at tick'),
@@ -92,6 +105,80 @@ def test_a_planted_fault_is_found_and_the_blow_that_shows_it(fault, seen, publis
     assert re.search(f'FAILED, seed 5, blow {GUILTY}\n  asked: guilty: odd twists\n  seen:  {seen}', text), text
     assert f'the shortest sequence that shows it:\n    {GUILTY}: guilty: odd twists\n' in text
     assert f'./rumba stress --seed 5 --only {GUILTY}\n' in text
+
+
+class Dripping(Frail):
+    """A schedule with a blow that does one thing over and over."""
+
+    def blow(self, seed, number):
+        """Goals that are refused, again and again."""
+        kind = Kind('again and again', repeated.again, ('frail',))
+        return Blow(number, kind, random.Random(f'{seed} {number}'))
+
+
+@pytest.mark.thorough(except_for=['drips-files-fds'])
+@pytest.mark.parametrize('fault, seen', [
+    ('drips-files', 'fds'), ('drips-sockets', 'fds'), ('drips-threads', 'threads'), ('drips-memory', 'megabytes'),
+    ('none', None)])
+def test_what_each_goal_leaves_behind_is_found_although_it_is_little(fault, seen, publishers, monkeypatch):
+    """One file descriptor for each goal; what a node may hold more than at its start is 90 of them."""
+    monkeypatch.setattr(repeated, 'DEEDS', repeated.DEEDS[:1])
+    monkeypatch.setattr('stress.goals.cancel_all', lambda _: None)
+    stream = io.StringIO()
+    told = report.Report(5, 600.0, stream)
+    run.Run(5, told, publishers, make=Dripping(fault)).only([0])
+    text = stream.getvalue()
+    assert told.failures == (seen is not None), text
+    if seen:
+        assert re.search(f'seen:  growth: /frail: each 60 goals that are refused leave something behind: {seen} ', text)
+
+
+@pytest.mark.parametrize('series, is_leak', [
+    ([10, 70, 130, 190], True), ([10, 25, 40, 55], True), ([10, 24, 38, 52], False),  # 14 of 60: not each time
+    ([10, 70, 130, 130], False), ([10, 500, 501, 502], False), ([10, 90, 20, 100], False), ([10, 10, 10, 10], False)])
+def test_growth_is_a_leak_if_it_is_the_same_each_time(series, is_leak):
+    held = [{'/node': Usage(fds=fds, sockets=5, threads=9, megabytes=50.0)} for fds in series]
+    if not is_leak:
+        growth.check(held, 60, 'goals')
+    else:
+        with pytest.raises(Failure, match=rf'^growth: /node: each 60 goals leave something behind: fds {series[0]}, '):
+            growth.check(held, 60, 'goals')
+
+
+@pytest.mark.parametrize('megabytes, is_leak', [([50.0, 51.2, 52.4, 53.6], True), ([50.0, 50.4, 50.8, 51.2], False)])
+def test_memory_grows_too(megabytes, is_leak):
+    held = [{'/node': Usage(20, 5, 9, amount)} for amount in megabytes]
+    if not is_leak:
+        growth.check(held, 60, 'goals')
+    else:
+        with pytest.raises(Failure, match='megabytes 50, 51, 52, 54$'):
+            growth.check(held, 60, 'goals')
+
+
+def test_each_round_has_each_kind_of_blow_that_fits_its_ground():
+    for number, scenario in enumerate(schedule.ROUNDS):
+        first = number * schedule.ROUND
+        kinds = {schedule.blow(7, blow).kind.name for blow in schedule.round_of(first)}
+        assert kinds == {kind.name for kind in KINDS if scenario.name in kind.scenarios}
+
+
+def test_every_kind_of_blow_and_of_node_is_on_some_ground():
+    assert {name for kind in KINDS for name in kind.scenarios} == {scenario.name for scenario in schedule.ROUNDS}
+    programs = {role.program for scenario in schedule.ROUNDS for role in scenario.roles}
+    assert programs >= {'simulator', 'cleaner', 'viewer', 'page', 'localiser', 'mapper', 'turtlesim_body'}
+
+
+def test_there_is_a_planted_fault_for_each_kind_of_blow():
+    assert {planted.blow for planted in planted_faults.FAULTS} == {kind.name for kind in KINDS}
+    assert len(planted_faults.FAULTS) >= 20
+
+
+@pytest.mark.thorough
+def test_a_fault_that_is_planted_into_a_real_node_is_found(publishers):
+    """The bench plants one for each kind of blow."""
+    planted = next(each for each in planted_faults.FAULTS if each.fault == 'charge_below_zero')
+    seconds, seen = planted_faults.search(planted, 1, publishers)
+    assert seconds is not None and seen.startswith('sane: world: charge of rumba is -0.1'), seen
 
 
 def test_a_node_without_a_fault_passes(publishers, monkeypatch):

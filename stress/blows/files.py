@@ -124,7 +124,7 @@ PROGRAMS = {
     Role('/simulator', 'rumba_sim', 'simulator', '/simulator/tuning/parameter_updates', is_world=True):
         ('map', 'speed', 'robots', 'seed', 'step_rate', 'percentage', 'brushes_up', 'config', 'rates/odom',
          'battery/drain', 'drive/radius', 'nothing'),
-    Role('/publisher', 'rumba_sim', 'battery_status_publisher', '/rumba/battery_status'):
+    Role('/publisher', 'rumba_sim', 'battery_status_publisher', '/rumba/battery_status', pulse='charge'):
         ('rate', 'drain', 'location_x', 'brushes_up', 'percentage'),
     Role('/listener', 'rumba_sim', 'battery_status_listener', '/rumba/battery_status'): ('robot', 'nothing'),
     Role('/cleaner', 'rumba_cleaning', 'cleaner'):

@@ -8,12 +8,13 @@ import time
 import psutil
 
 from rumba_msg.msg import SimulatorState
-from stress import oracles, world
+from stress import oracles, wire, world
 from stress.failure import Failure
 from stress.member import Member
 from stress.printed import ESCAPES, TRACEBACK, tail
 
 DECIDES_WITHIN = 60.0  # [s]
+TELLS_WITHIN = 3.0  # [s]
 MEGABYTES = 1500.0  # of memory, at most
 FAILED, REFUSED = 1, 2  # exit codes
 GOOD_CODES = (0, -signal.SIGTERM, -signal.SIGINT)  # after a signal
@@ -36,6 +37,10 @@ def judge(ground, role, arguments):
             if role.is_world:
                 ground.members[role.name] = member
                 ground.read(world.STATE, SimulatorState, member)
+                world.check_robots(ground, TELLS_WITHIN)
+            elif role.pulse:
+                with contextlib.suppress(wire.WireError):  # it may have been asked to tell nothing
+                    oracles.PULSES[role.pulse](ground, member, TELLS_WITHIN)
             if ends(member, signal.SIGINT, may_refuse=True) != REFUSED:
                 return 'ran'
         check_refusal(member)

@@ -22,7 +22,7 @@ def spawn_and_kill(ground, chance, blow):
     simulator = ground.world.name
     come = []
     for _ in range(ROBOTS):
-        answer = ground.call(f'{simulator}/spawn', Spawn, '', _pose(chance))
+        answer = ground.call(f'{simulator}/spawn', Spawn, '', some_pose(chance))
         if answer.success:
             come.append(answer.name)
     for name in come:
@@ -42,7 +42,8 @@ def _topics_of(ground, robots):
             if name.split('/')[1] in robots and (subscribers or publishers)}
 
 
-def _pose(chance):
+def some_pose(chance):
+    """A pose in or around the walls."""
     return Pose2D(chance.uniform(0.0, BOX), chance.uniform(0.0, BOX), chance.uniform(-7.0, 7.0))
 
 
@@ -77,7 +78,7 @@ def teleport(ground, chance, blow):
         name = f'/{robot}/teleport'
         with wire.Service(ground.ask_master('lookupService', name), name, Teleport) as service:
             for _ in range(POSES):
-                service.call(Teleport._request_class(_pose(chance)))
+                service.call(Teleport._request_class(some_pose(chance)))
 
 
 def tune_speed(ground, chance, blow):

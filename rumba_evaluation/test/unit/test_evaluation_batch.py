@@ -4,6 +4,7 @@ import os
 import signal
 import subprocess
 import sys
+import threading
 import time
 from concurrent.futures import BrokenExecutor, CancelledError
 
@@ -104,6 +105,48 @@ def test_dask_finds_the_same_results(tmp_path):
             with batch.remote(cluster.scheduler_address):
                 raise CancelledError  # as Dask does if the scheduler has died
     assert found == {one: batch.run(one) for one in jobs}
+
+
+def test_a_cluster_that_loses_its_last_worker_in_the_middle_is_told_once(monkeypatch, capsys):
+    monkeypatch.setattr(batch, 'WORKERS_PERIOD', 0.001)
+    has_ended, looks = threading.Event(), [False, False, True, True, OSError('busy'), False, False, OSError('busy'), True]
+
+    def has_workers():
+        look = looks.pop(0)
+        if not looks:
+            has_ended.set()
+        if isinstance(look, OSError):
+            raise look
+        return look
+    batch.watch_workers('tcp://x:1', has_workers, has_ended)
+    lost, come = 'evaluate: tcp://x:1 has no workers: waiting for them', 'evaluate: tcp://x:1 has workers now'
+    assert capsys.readouterr().err.splitlines() == [lost, come, lost, come]
+
+
+@pytest.mark.thorough
+def test_it_says_so_if_the_workers_of_a_real_cluster_leave(tmp_path, monkeypatch, capsys):
+    distributed = pytest.importorskip('distributed', reason='Dask is optional: the package python3-distributed')
+    monkeypatch.setattr(batch, 'WORKERS_PERIOD', 0.1)
+    said = ''
+    with distributed.LocalCluster(n_workers=1, threads_per_worker=1, dashboard_address=None, silence_logs=50,
+                                  local_directory=str(tmp_path)) as cluster:
+        with batch.remote(cluster.scheduler_address):
+            cluster.scale(0)
+            until = time.monotonic() + TIMEOUT
+            while 'has no workers: waiting for them' not in said:
+                assert time.monotonic() < until
+                said += capsys.readouterr().err
+                time.sleep(0.05)
+
+
+def test_a_system_without_semaphores_is_named(monkeypatch):
+    def refuse(*_, **__):
+        raise PermissionError(13, 'Permission denied')
+    monkeypatch.setattr(batch.concurrent.futures, 'ProcessPoolExecutor', refuse)
+    with pytest.raises(ConfigError, match=r'need semaphores, for which this system has no room \(\[Errno 13\] Permission '
+                                          r'denied\): make /dev/shm a writable folder$'):
+        with batch.local(1):
+            pass
 
 
 def test_without_dask_the_message_names_the_package(monkeypatch):

@@ -154,3 +154,31 @@ def test_a_file_with_an_endless_column_is_refused(path):
     path.write_bytes(written(path) + b'x' * 1_000_000 + b'\n')
     with pytest.raises(ConfigError, match='results.csv is not a file of results of this version: choose another'):
         opened(path)
+
+
+def test_the_rows_are_in_the_order_of_the_cases_at_the_end_and_those_of_others_after_them(path):
+    other = case(seed=9)
+    results = opened(path)
+    for one, found in ((other, FOUND[0]), (CASES[2], FOUND[2]), (CASES[0], FOUND[0]), (CASES[1], FOUND[1])):
+        results.add(one, found)
+    results.arrange(CASES)
+    more = case(seed=10)
+    results.add(more, FOUND[1])
+    results.close()
+    with open(path, newline='') as file:
+        assert [row['seed'] for row in csv.DictReader(file)] == ['1', '2', '3', '9', '10']
+    assert list(read(path)) == [*CASES, other, more]
+    assert [each.name for each in path.parent.iterdir()] == ['results.csv']
+
+
+def test_rows_that_were_read_are_arranged_without_a_change(path):
+    results = opened(path)
+    for one, found in zip(reversed(CASES), reversed(FOUND)):
+        results.add(one, found)
+    results.close()
+    again = opened(path)
+    again.arrange(CASES)
+    again.close()
+    arranged = path.read_bytes()
+    path.unlink()
+    assert arranged == written(path)

@@ -108,7 +108,7 @@ class Node:
         monkeypatch.setattr(scan_loop.rospy, 'Publisher', self._publisher)
         monkeypatch.setattr(scan_loop.rospy, 'Subscriber', lambda *_, **__: None)
         monkeypatch.setattr(node.rospy, 'Service', lambda *_: None)
-        monkeypatch.setattr(scan_loop, 'Participant', lambda _: None)
+        monkeypatch.setattr(scan_loop, 'Participant', self._participant)
         monkeypatch.setattr(node.rospy, 'loginfo', lambda _: None)
         monkeypatch.setattr(node.rospy, 'logwarn_throttle', lambda _, line: self.warnings.append(line))
         monkeypatch.setattr(scan_loop, 'SILENT_WALL', 0.0)
@@ -116,6 +116,22 @@ class Node:
         x, y, theta = self._start
         self._node = node.LocaliserNode(Settings(initial_pose_x=x, initial_pose_y=y, initial_pose_a=theta))
         self._node._take_map(message_of(world.plan))
+
+    def _participant(self, _, is_busy):
+        self.is_busy = is_busy
+
+    def works_at(self, message, take):
+        """Have its loop take a message; returns whether it counted as busy before, meanwhile and after."""
+        was_busy = [self.is_busy()]
+
+        def take_it(message):
+            was_busy.append(self.is_busy())
+            take(message)
+        self._node._work.rest()  # as it does when its loop begins
+        was_busy.append(self.is_busy())
+        self._node._post(message, take_it)
+        self._node._requests.serve(0.0)
+        return [*was_busy, self.is_busy()]
 
     def _publisher(self, topic, *_, **__):
         told = self.told.setdefault(topic.replace('rumba/', ''), [])
@@ -153,3 +169,11 @@ def test_while_the_laser_is_silent_the_node_tells_a_pose_by_odometry_and_no_corr
     assert heard.warnings[-1] == 'rumba: the laser has been silent for 6 s: goes by odometry alone'
     heard.drives(0.2, has_scans=True)
     assert poses[-1].pose.covariance[0] < 10.0 * known[0] and len(corrections) == 22
+
+
+def test_a_node_that_starts_or_looks_at_a_scan_is_alive_to_a_world_in_lockstep(monkeypatch):
+    """It may have to compile then, for minutes on a busy machine."""
+    taken = []
+    heard = Node(monkeypatch, world_of(pose=Pose(0.5, 0.6, 0.3)))
+    assert heard.works_at('a scan', taken.append) == [True, False, True, False]
+    assert taken == ['a scan']

@@ -3,6 +3,7 @@
 
 import threading
 import unittest
+import xmlrpc.server
 
 import rosgraph
 import rospy
@@ -82,6 +83,27 @@ class SimulatorLockstepTest(unittest.TestCase):
             self.assertEqual(simulator.digest()[1], 1 + CONTROL_TICKS * number)
             answers.release()
 
+    def test_a_participant_that_takes_long_for_a_tick_is_waited_for_without_a_word(self):
+        log, ticks, may_go_on, is_over = Heard(self, '/rosout'), [], threading.Event(), threading.Event()
+
+        def take(tick):
+            ticks.append(tick)
+            if len(ticks) == 2:
+                may_go_on.wait()
+            if not is_over.is_set():
+                participant.answer(tick.header.stamp)
+        participant = Participant(take)
+        self.addCleanup(is_over.set)
+        self.addCleanup(participant.leave)
+        self.addCleanup(may_go_on.set)
+        simulator = self.start(f'_wait_for:={rospy.get_name()}')
+        wait(self, lambda: len(ticks) == 2, 'the second control tick')
+        rospy.rostime.wallsleep(3.0 * PATIENCE)
+        self.assertEqual(simulator.digest()[1], 1 + CONTROL_TICKS)
+        may_go_on.set()
+        wait(self, lambda: len(ticks) > COUNT, 'the world to go on')
+        self.assertEqual([message.msg for message in log.messages if 'without it' in message.msg], [])
+
     def test_a_topic_without_commands_is_named_in_one_line_and_waited_for_again_after_its_next_one(self):
         log = Heard(self, '/rosout')
         simulator = self.start('_wait_for:=rumba/cmd_vel')
@@ -102,15 +124,29 @@ class SimulatorLockstepTest(unittest.TestCase):
         Commands(self)
         self.assertEqual(ticks.find().header.stamp.to_nsec(), TICK)
 
-    def subscribed(self):
-        """A node of another name, as the master knows it, that has subscribed and does not connect."""
-        node, topic = rosgraph.Master('/late'), '/rumba/odom'
-        node.registerSubscriber(topic, 'nav_msgs/Odometry', NOWHERE)
-        self.addCleanup(node.unregisterSubscriber, topic, NOWHERE)
-        return lambda: node.unregisterSubscriber(topic, NOWHERE)
+    def subscribed(self, *topics, is_alive=True):
+        """A node of another name, as the master knows it, that has subscribed to topics and does not connect."""
+        node, uri = rosgraph.Master('/late'), NOWHERE
+        if is_alive:
+            server = xmlrpc.server.SimpleXMLRPCServer(('localhost', 0), logRequests=False)
+            server.register_function(lambda _: (1, '', '/late'), 'getName')
+            server.register_function(lambda _: (1, '', rosgraph.get_master_uri()), 'getMasterUri')
+            server.register_function(lambda *_: (1, '', 0), 'publisherUpdate')
+            threading.Thread(target=server.serve_forever, args=[0.01], daemon=True).start()
+            self.addCleanup(server.server_close)
+            self.addCleanup(server.shutdown)
+            uri = f'http://localhost:{server.server_address[1]}/'
+
+        def unsubscribe():
+            for topic in topics:
+                node.unregisterSubscriber(topic, uri)
+        for topic in topics:
+            node.registerSubscriber(topic, 'nav_msgs/Odometry', uri)
+        self.addCleanup(unsubscribe)
+        return unsubscribe
 
     def test_a_world_begins_once_those_who_have_subscribed_are_connected(self):
-        unsubscribe = self.subscribed()
+        unsubscribe = self.subscribed('/rumba/odom')
         simulator = Simulator(self, '_map:=field', '_speed:=0', '_lockstep_patience:=60')
         wait(self, lambda: simulator.digest()[1] == 1, 'the first tick')
         rospy.rostime.wallsleep(SLOW)
@@ -118,14 +154,21 @@ class SimulatorLockstepTest(unittest.TestCase):
         unsubscribe()
         wait(self, lambda: simulator.digest()[1] > 1, 'the world to go on')
 
-    def test_who_has_subscribed_and_does_not_connect_is_named_and_not_waited_for_again(self):
-        self.subscribed()
+    def test_who_has_subscribed_and_does_not_connect_is_named_in_one_line_and_not_waited_for_again(self):
+        self.subscribed('/rumba/odom', '/rumba/ground_truth')
         log = Heard(self, '/rosout')
         simulator = self.start()
         wait(self, lambda: simulator.digest()[1] > COUNT, 'the world to go on')
         self.assertEqual([message.msg for message in log.messages if message.msg.startswith('lockstep')],
-                         ['lockstep: /late has subscribed to /rumba/odom, but does not connect: the world goes on '
-                          'without it'])
+                         ['lockstep: /late has subscribed to /rumba/ground_truth, /rumba/odom, but does not connect: '
+                          'the world goes on without it'])
+
+    def test_a_world_does_not_wait_for_subscribers_that_were_killed(self):
+        self.subscribed('/rumba/odom', '/rumba/ground_truth', is_alive=False)
+        log = Heard(self, '/rosout')
+        simulator = Simulator(self, '_map:=field', '_speed:=0', '_lockstep_patience:=600')
+        wait(self, lambda: simulator.digest()[1] > COUNT, 'the world to go on')
+        self.assertEqual([message.msg for message in log.messages if message.msg.startswith('lockstep')], [])
 
     def test_without_lockstep_nobody_is_waited_for(self):
         self.start('_wait_for:=rumba/cmd_vel', '_lockstep:=false')

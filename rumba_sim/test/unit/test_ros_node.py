@@ -101,3 +101,17 @@ def test_ctrl_c_ends_a_node_also_while_it_asks_for_the_master():
     """rosgraph takes the KeyboardInterrupt for a no, and the node went on once the master answered."""
     done = subprocess.run([sys.executable, '-c', INTERRUPTED], stdout=subprocess.PIPE, universal_newlines=True)
     assert (done.returncode, done.stdout) == (-signal.SIGINT, '')
+
+
+@pytest.mark.parametrize('argument', ['--help', '--config'])
+def test_whoever_reads_only_the_beginning_of_a_help_ends_it_quietly(argument):
+    """As `| head -1` does; a pipe that nobody reads any more is an error."""
+    code = 'import sys; from rumba_sim.ros.simulator import simulator; sys.argv[1:] = sys.stdin.read().split(); ' \
+           'simulator.main()'
+    with subprocess.Popen([sys.executable, '-c', code], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+                          stderr=subprocess.PIPE, universal_newlines=True) as process:
+        process.stdout.close()
+        process.stdin.write(argument)
+        process.stdin.close()
+        assert process.stderr.read() == ''
+        assert process.wait(60.0) == 0

@@ -6,7 +6,7 @@ from std_msgs.msg import Header
 
 from rumba_msg.msg import LockstepAnswer
 from rumba_sim.ros.simulator import participants
-from rumba_sim.ros.simulator.participants import FIRST_COMMAND, STARTING, Participants
+from rumba_sim.ros.simulator.participants import FIRST_COMMAND, SILENT, STARTING, Participants
 
 PATIENCE = FIRST_COMMAND  # on purpose: they are different things
 TOPIC = '/rumba/cmd_vel'
@@ -197,3 +197,34 @@ def test_the_first_command_after_a_topic_has_a_publisher_may_be_lost(clock):
     assert begun(members, TOPIC)
     clock.now += PATIENCE + 0.1
     assert members.give_up(lambda _: True) == [(TOPIC, PATIENCE)]
+
+
+def test_a_sign_of_life_alone_makes_nobody_a_member():
+    members = Participants([], PATIENCE)
+    members.begin(rospy.Time(1))
+    members.take(answer('/a', 0, LockstepAnswer.BUSY))
+    assert begun(members)
+
+
+def test_whoever_was_awaited_and_gives_signs_is_waited_for_however_long_it_takes_to_start(clock):
+    members = Participants(['/a'], PATIENCE)
+    members.begin(rospy.Time(1))
+    for _ in range(10 * int(STARTING)):
+        clock.now += 0.9 * PATIENCE
+        members.take(answer('/a', 0, LockstepAnswer.BUSY))
+        assert members.give_up(lambda _: True) == []
+    assert members.missing() == {'/a'}
+
+
+def test_only_a_node_that_was_heard_and_has_been_silent_for_a_while_may_have_ended(clock):
+    members = Participants(['/a', '/b', TOPIC], 10.0 * SILENT)
+    members.begin(rospy.Time(1))
+    members.take(answer('/a', 1))
+    members.commanded(TOPIC)
+    members.begin(rospy.Time(2))
+    clock.now += SILENT
+    assert members.silent() == []
+    clock.now += 0.1
+    assert members.silent() == ['/a']
+    members.forget('/a')
+    assert members.silent() == [] and members.missing() == {'/b', TOPIC} and not members.has('/a')

@@ -1,11 +1,13 @@
 """Whether a node that the master knows is alive; a server answers as a master, and as a node of rospy or of roscpp."""
 
+import socket
 import threading
 import xmlrpc.server
 
 import pytest
 
-from rumba_sim.ros.common.peers import is_alive
+from rumba_sim.ros.common import peers
+from rumba_sim.ros.common.peers import has_ended, is_alive
 
 NAME = '/simulator'
 
@@ -66,3 +68,27 @@ def test_a_node_that_tells_neither_as_those_of_roscpp_is_alive(both):
 def test_a_node_that_does_not_answer_is_not(both):
     both.answer('lookupNode', 'http://localhost:1')
     assert not is_alive(NAME)
+
+
+def test_a_node_has_ended_if_nobody_or_another_node_is_where_the_master_knows_it(both):
+    both.answer('getName', NAME)
+    both.answer('getMasterUri', both.uri)
+    assert not has_ended(NAME)
+    both.answer('getName', '/other')
+    assert has_ended(NAME)
+    both.answer('lookupNode', 'http://localhost:1')
+    assert has_ended(NAME)
+
+
+def test_a_node_that_does_not_answer_in_time_has_not_ended(both, monkeypatch):
+    """It may be stopped, or its machine be busy."""
+    monkeypatch.setattr(peers, 'ANSWER_TIMEOUT', 0.05)
+    with socket.create_server(('localhost', 0)) as silent:
+        both.answer('lookupNode', f'http://localhost:{silent.getsockname()[1]}')
+        assert not has_ended(NAME) and not is_alive(NAME)
+
+
+def test_a_node_has_not_ended_because_the_master_has(both):
+    both.answer('lookupNode', 'http://localhost:1')
+    both.end()
+    assert not has_ended(NAME)

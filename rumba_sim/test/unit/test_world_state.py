@@ -3,6 +3,8 @@
 import json
 import os
 import pathlib
+import subprocess
+import sys
 import tempfile
 
 import numpy as np
@@ -226,3 +228,26 @@ def test_the_old_file_stays_if_the_new_one_cannot_be_written(path, monkeypatch):
 def test_a_folder_that_is_not_there_is_one_line(tmp_path):
     with pytest.raises(WorldError, match=r'none/state: cannot save the world: No such file or directory$'):
         world_state.write(str(tmp_path / 'none' / 'state'), World(PLAN, CONFIG).state(), 0)
+
+
+def test_a_disk_that_is_full_in_the_middle_of_a_file_is_one_error_and_nothing_more(tmp_path):
+    """A ZipFile whose end could not be written tries again when it is collected, and prints a traceback."""
+    code = f'''
+import gc, resource, signal, sys
+sys.path.insert(0, {str(pathlib.Path(__file__).parent)!r})
+from rooms import room
+from rumba_sim.model import world_state
+from rumba_sim.model.errors import WorldError
+from rumba_sim.model.world import World
+signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+resource.setrlimit(resource.RLIMIT_FSIZE, (300, 300))
+try:
+    world_state.write("{tmp_path}/state", World(room(3.0, 2.0)).state(), 0)
+except WorldError as error:
+    print(error)
+gc.collect()
+'''
+    done = subprocess.run([sys.executable, '-c', code], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                          universal_newlines=True, check=True)
+    assert done.stdout == f'{tmp_path}/state: cannot save the world: File too large\n'
+    assert done.stderr == '' and not list(tmp_path.iterdir())

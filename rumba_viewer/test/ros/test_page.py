@@ -8,6 +8,7 @@ import shutil
 import subprocess
 import sys
 import unittest
+import urllib.request
 
 import programs
 import rospy
@@ -126,6 +127,30 @@ class PageTest(unittest.TestCase):
         wait(self, lambda: '/rumba/odom' in str(client.call('/rosapi/topics')), 'the new master')
         client.send(op='subscribe', topic='/rumba/odom')
         client.message('/rumba/odom')
+
+    def test_without_a_master_the_page_is_served_and_says_what_it_waits_for(self):
+        master = OwnMaster(self)
+        page = Page(self, master=master.uri)
+        with urllib.request.urlopen(page.url, timeout=TIMEOUT) as answer:
+            self.assertIn('<canvas id="floor"', answer.read().decode())
+        client = Client(self, page)
+        client.send(op='subscribe', topic='/rumba/odom')
+        works, line = client.call('/rosapi/topics')
+        self.assertFalse(works)
+        self.assertIn(f'no roscore answers at {master.uri}', line)
+        master.start()
+        with self.assertRaises(EOFError):  # and connects again, as browsers do
+            client.find(lambda _: False)
+        client = Client(self, page)
+        self.assertTrue(client.call('/rosapi/topics')[0])
+        page.end()
+
+    def test_refusals_are_in_the_log(self):
+        page = Page(self, '_token:=teacher')
+        client = Client(self, page)
+        client.send(op='subscribe', topic='/rosout')
+        client.find(lambda one: one['op'] == 'status')
+        wait(self, lambda: "client at 127.0.0.1: '/rosout' cannot be subscribed to here" in page.printed, 'the line')
 
     def test_bad_parameters_are_refused_in_one_line(self):
         for arguments, words in ((['_address:=0.0.0.0'], 'which others can reach: give a token:= too'),

@@ -28,6 +28,8 @@ from rumba_sim.model.kernel import Array
 from rumba_sim.model.obstacle import Obstacle
 
 SCHEDULER_TIMEOUT = 10.0  # [s]
+WORKERS_PERIOD = 5.0  # [s] between two looks whether a cluster has workers
+SEMAPHORES = '/dev/shm'
 EXAMPLE = 'tcp://10.0.0.1:8786'
 PLANS = 8  # floor plans that a worker keeps
 MISSED = 50  # [%] of a cell that were swept: cells with less are shown as missed
@@ -142,8 +144,16 @@ def each(executor: Executor, function: Callable[[Work], Done], jobs: Sequence[Wo
 
 @contextlib.contextmanager
 def local(count: int) -> Iterator[Executor]:
-    """Processes on this machine."""
-    executor = concurrent.futures.ProcessPoolExecutor(count, initializer=_begin_worker)
+    """Processes on this machine.
+
+    Raises:
+        ConfigError: the system has no semaphores for them.
+    """
+    try:
+        executor = concurrent.futures.ProcessPoolExecutor(count, initializer=_begin_worker)
+    except (OSError, ImportError) as error:
+        raise ConfigError('processes that work in parallel need semaphores, for which this system has no room '
+                          f'({error}): make {SEMAPHORES} a writable folder') from None
     try:
         yield executor
     except BaseException:
@@ -189,10 +199,35 @@ def remote(address: str) -> Iterator[Executor]:
         client = make_client(address, timeout=SCHEDULER_TIMEOUT, set_as_default=False)
     except (OSError, ValueError) as error:
         raise ConfigError(f'--scheduler {address}: no Dask scheduler answers there ({error})') from None
+    has_ended = threading.Event()
     with client:
-        if not client.scheduler_info()['workers']:
-            print(f'evaluate: {address} has no workers yet: waiting for them', file=sys.stderr)
+        watch = threading.Thread(target=watch_workers, daemon=True, args=[
+            address, lambda: bool(client.scheduler_info()['workers']), has_ended])
+        watch.start()
         try:
             yield client.get_executor(pure=False)
         except (distributed.scheduler.KilledWorker, concurrent.futures.CancelledError) as error:
             raise BrokenExecutor(f'{address}: {type(error).__name__}') from error
+        finally:
+            has_ended.set()
+            watch.join(WORKERS_PERIOD)
+
+
+def watch_workers(address: str, has_workers: Callable[[], bool], has_ended: threading.Event) -> None:
+    """Say that a cluster has no workers, each time that begins, and that it has some again; look until the end.
+
+    Args:
+        address: of its scheduler.
+        has_workers: whether it has any now; may raise an OSError while the scheduler does not answer.
+        has_ended: whether nobody waits for it any more.
+    """
+    had_any, period = True, 0.0
+    while not has_ended.wait(period):
+        with contextlib.suppress(OSError):
+            has_any = has_workers()
+            if had_any and not has_any:
+                print(f'evaluate: {address} has no workers: waiting for them', file=sys.stderr, flush=True)
+            elif has_any and not had_any:
+                print(f'evaluate: {address} has workers now', file=sys.stderr, flush=True)
+            had_any = has_any
+        period = WORKERS_PERIOD

@@ -143,6 +143,7 @@ def _evaluate_jobs(options: argparse.Namespace, jobs: Sequence[Job], results: Re
     try:
         with _workers(options) as executor:
             _run_missing(executor, jobs, results)
+            results.arrange(cases)
             _report(options, cases, results.found)
             if not options.no_plots:
                 _draw(executor, options.output, jobs, results.found)

@@ -5,7 +5,7 @@ import dataclasses
 import io
 import math
 import os
-from typing import Any, Dict, List, Tuple
+from typing import Any, Dict, List, Sequence, Tuple
 
 from rumba_cleaning.outcome import Outcome
 from rumba_evaluation.trials.cases import LEVELS, Case, Conditions, Curve, Result
@@ -34,6 +34,7 @@ class Results:
         self.path = path
         self._conditions = conditions
         self.found: Dict[Case, Result] = {}
+        self._rows: Dict[Case, List[str]] = {}  # as they are in the file
         try:
             self._file = open(path, 'ab+')  # creates it if it does not exist
         except OSError as error:
@@ -68,6 +69,7 @@ class Results:
                 if old != new:
                     raise self._refusal(f'was made with {field.name} {old}, not {new}')
             self.found[case] = result
+            self._rows[case] = row
 
     def _refusal(self, what: str) -> ConfigError:
         return ConfigError(f'{self.path} {what}: choose another --output, or delete it')
@@ -77,20 +79,43 @@ class Results:
         values = [*case, *dataclasses.astuple(self._conditions), *dataclasses.astuple(result)]
         times = [time for percent in LEVELS for time in (result.time_to(percent), result.multiple_to(percent))]
         texts = [_text(value) for value in values]
-        self._write(texts + [_text(time) for time in times])
+        self._rows[case] = texts + [_text(time) for time in times]
+        self._write(self._rows[case])
         # Rounded as in the file, so that an interrupted run ends with the same table.
         _, _, self.found[case] = _parts([_value(kind, text) for kind, text in zip(_kinds(), texts)])
 
     def _write(self, row: List[str]) -> None:
-        line = io.StringIO()
-        csv.writer(line, lineterminator='\n').writerow(row)
-        self._file.write(line.getvalue().encode('utf-8'))
+        self._file.write(_line(row))
         self._file.flush()
         os.fsync(self._file.fileno())
+
+    def arrange(self, cases: Sequence[Case]) -> None:
+        """Put the rows of cases into their order, before those of others: they were written as missions ended.
+
+        Either the whole new file is there afterwards, or the old one.
+        """
+        order = {case: number for number, case in enumerate(cases)}
+        rows = sorted(self._rows, key=lambda case: order.get(case, len(order)))
+        if rows == list(self._rows):
+            return
+        beside = f'{self.path}.new'
+        with open(beside, 'wb') as file:
+            file.write(_line(_header()) + b''.join(_line(self._rows[case]) for case in rows))
+            file.flush()
+            os.fsync(file.fileno())
+        os.replace(beside, self.path)
+        self._file.close()
+        self._file = open(self.path, 'ab+')
 
     def close(self) -> None:
         """Close the file."""
         self._file.close()
+
+
+def _line(row: List[str]) -> bytes:
+    line = io.StringIO()
+    csv.writer(line, lineterminator='\n').writerow(row)
+    return line.getvalue().encode('utf-8')
 
 
 def _header() -> List[str]:

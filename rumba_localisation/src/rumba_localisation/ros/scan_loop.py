@@ -16,7 +16,7 @@ from rumba_msg.msg import Lockstep
 from rumba_sim.model.geometry import Pose
 from rumba_sim.ros.common.conversions import plane_pose, transform
 from rumba_sim.ros.common.frames import MAP, frames
-from rumba_sim.ros.common.lockstep import Participant, Resent
+from rumba_sim.ros.common.lockstep import Participant, Resent, Work
 from rumba_sim.ros.common.maps import FARTHEST
 from rumba_sim.ros.common.requests import Requests
 
@@ -33,6 +33,7 @@ class ScanLoop(abc.ABC):
         """Listen to scans and odometry of a robot, by its name."""
         self._frames = frames(robot)
         self._requests = Requests()
+        self._work = Work()
         self._odometries = Odometries()
         self._waiting: Optional[LaserScan] = None  # for its odometry
         self._tick: Optional[Lockstep] = None  # that was not answered yet
@@ -40,7 +41,7 @@ class ScanLoop(abc.ABC):
         self._heard = time.monotonic()  # when the newest scan came
         self._newest = Resent()
         self._tf = rospy.Publisher('/tf', TFMessage, self._newest, queue_size=QUEUE)
-        self._participant = Participant(lambda tick: self._requests.post(lambda: self._take_tick(tick)))
+        self._participant = Participant(lambda tick: self._post(tick, self._take_tick), lambda: self._work.goes_on)
         self._subscribe(f'{robot}/odom', Odometry, self._take_odom)
         self._subscribe(f'{robot}/scan', LaserScan, self._take_scan)
 
@@ -49,10 +50,14 @@ class ScanLoop(abc.ABC):
         rospy.Subscriber(topic, kind, self._post, take, queue_size=QUEUE)
 
     def _post(self, message: Any, take: Any) -> None:
-        self._requests.post(lambda: take(message))
+        def work() -> None:
+            with self._work:
+                take(message)
+        self._requests.post(work)
 
     def run(self) -> None:
         """Work until ROS shuts down."""
+        self._work.rest()
         while not rospy.is_shutdown():
             self._requests.serve(time.monotonic() + PERIOD)
         self._participant.leave()

@@ -5,6 +5,7 @@ The file is an .npz of NumPy without pickled objects: the arrays, and a header i
 
 import contextlib
 import hashlib
+import io
 import json
 import os
 import zipfile
@@ -134,9 +135,12 @@ def write(path: str, state: WorldState, ticks: int) -> None:
     header = {'format': FORMAT, 'version': VERSION, 'ticks': ticks, **state._asdict(), 'members': members}
     del header['arrays']
     beside = f'{path}.new'
+    # In memory first: a ZipFile that could not write to the disk would try again when it is collected.
+    content = io.BytesIO()
+    np.savez(content, **{HEADER: np.frombuffer(json.dumps(header).encode(), np.uint8)}, **state.arrays)
     try:
         with open(beside, 'wb') as file:
-            np.savez(file, **{HEADER: np.frombuffer(json.dumps(header).encode(), np.uint8)}, **state.arrays)
+            file.write(content.getbuffer())
             file.flush()
             os.fsync(file.fileno())
         os.replace(beside, path)

@@ -80,7 +80,7 @@ class Hub:
         self.origins, self.bounds = origins, bounds
         self.feeds: Dict[str, Feed] = {}
         self.ros: Ros  # set before the first client comes
-        self._namespace, self._allowed, self._encode = namespace, allowed, encode
+        self._namespace, self.allowed, self._encode = namespace, allowed, encode
         self._clients: Dict[Client, Rights] = {}  # the first that came first
         self._with_mail: Set[Client] = set()
         self.cpu = cpu
@@ -110,6 +110,10 @@ class Hub:
         """How many clients there are."""
         return len(self._clients)
 
+    def everybody(self) -> List[Client]:
+        """All clients."""
+        return list(self._clients)
+
     def enter(self, client: Client, rights: Rights) -> None:
         """Take in one more client; if there are too many, it can take the place of one that can only watch.
 
@@ -137,7 +141,7 @@ class Hub:
 
     def session(self, client: Client, rights: Rights) -> Session:
         """A session for a client."""
-        return Session(self.ros, self._allowed, rights, self._namespace, client, client.reply,
+        return Session(self.ros, self.allowed, rights, self._namespace, client, client.reply,
                        client.note)
 
     def has_mail(self, client: Client) -> None:

@@ -58,6 +58,7 @@ from rumba_cleaning.ros.cleaner.workplace import Workplace, World
 from rumba_msg.msg import CleanActionGoal
 from rumba_sim.model.errors import RumbaError
 from rumba_sim.ros.common import node
+from rumba_sim.ros.common.lockstep import Work
 
 LOOK_PERIOD = 0.2  # [s] of the wall clock from one look after a silent robot to the next
 PLANNERS = 4  # threads: a plan that is not needed any more may occupy one for seconds, and the next goal needs another
@@ -84,6 +85,7 @@ class Cleaner:
         strategies.load(settings.strategies)
         (strategies.check_mapless if settings.mapless else strategies.check)(settings.strategy)
         self._settings = settings
+        self._work = Work()
         self._events: 'queue.Queue[Callable[[], None]]' = queue.Queue()
         self._has_ended = threading.Event()
         self._workplace = Workplace(settings.map, lambda: self._events.put(self._look_at_world),
@@ -100,7 +102,8 @@ class Cleaner:
                                   lambda: self._events.put(self._read_postponed))
         self._robot = Robot(settings.robot, self._on_reading, settings.team.split(),
                             lambda: self._events.put(self._read_postponed), lambda: self._workplace.lockstep,
-                            lambda: self._planners.are_at_work, settings.laser, settings.mapless)
+                            lambda: self._work.goes_on or self._planners.are_at_work, settings.laser,
+                            settings.mapless)
         if not settings.mapless:
             GoToPosition(settings, self._workplace, self._robot.senses)
         self._servers = {name: self._serve(name) for name in ACTIONS}
@@ -121,13 +124,15 @@ class Cleaner:
         if self._settings.autostart:
             self._servers['clean'].internal_goal_callback(CleanActionGoal())
         self._events.put(self._read)
+        self._work.rest()
         while not self._has_ended.is_set():
             try:
                 event = self._events.get(timeout=LOOK_PERIOD)
             except queue.Empty:
                 event = self._look_after
             try:
-                event()
+                with self._work:
+                    event()
             except (Exception, SystemExit) as error:  # a strategy may raise anything
                 self._close(Outcome.ERROR, describe(error))
 

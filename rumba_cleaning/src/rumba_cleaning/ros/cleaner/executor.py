@@ -7,8 +7,9 @@ import threading
 import time
 from typing import Any, Callable, List, NamedTuple, Tuple, TypeVar
 
+from rumba_sim.ros.common.lockstep import LONGEST
+
 Result = TypeVar('Result')
-LONGEST = 600.0  # [s] of the wall clock for which a world in lockstep waits for a plan
 Task = Tuple['concurrent.futures.Future[Any]', Callable[[], Any]]
 
 

@@ -4,6 +4,7 @@ import contextlib
 import inspect
 import io
 import logging
+import os
 import re
 import signal
 import sys
@@ -50,10 +51,10 @@ def run(name: str, settings_class: Type[Settings], main: Callable[[Settings], No
         sys.stdout.reconfigure(line_buffering=True)  # otherwise log lines stay in the buffer of a pipe until it is full
     arguments = [argument for argument in rospy.myargv()[1:] if not argument.startswith(tuple(arguments_of_others))]
     if '-h' in arguments or '--help' in arguments:
-        print(inspect.getdoc(inspect.getmodule(main)), config.describe(settings_class), sep='\n\n')
+        _show(f'{inspect.getdoc(inspect.getmodule(main))}\n\n{config.describe(settings_class)}\n')
         return
     if '--config' in arguments:
-        print(yaml_file.document(settings_class()), end='')
+        _show(yaml_file.document(settings_class()))
         return
     try:
         _check_command_line(arguments, config.names(settings_class))
@@ -76,6 +77,14 @@ def run(name: str, settings_class: Type[Settings], main: Callable[[Settings], No
         if not rospy.core.is_shutdown_requested():  # otherwise a topic was closed while the main thread published
             rospy.logfatal(f'{name} ends because of an error of its own:\n{traceback.format_exc()}')
             sys.exit(OWN_ERROR)
+
+
+def _show(text: str) -> None:
+    """Print a text for somebody who may read only its beginning, as `| head` does."""
+    try:
+        print(text, end='', flush=True)
+    except BrokenPipeError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # or Python would try again at its end
 
 
 def _register(name: str, own_clock: bool, is_single: bool) -> None:

@@ -41,12 +41,39 @@ def is_alive(name: str) -> bool:
     of rospy tell their name and their master; those of roscpp tell neither, and count.
     """
     try:
-        node: Any = xmlrpc.client.ServerProxy(rosgraph.Master(name).lookupNode(name), _Hasty())
-        answered, master = node.getName(name)[-1], node.getMasterUri(name)[-1]
-    except xmlrpc.client.Fault:
+        return _is_at(rosgraph.Master(name).lookupNode(name), name)
+    except NO_ANSWER:
+        return False
+
+
+def has_ended(name: str) -> bool:
+    """Whether a node has ended without telling the master, given by its full name: nobody is there, or another node.
+
+    Unlike one that is not alive, it is gone for sure: a node that is stopped, or too busy to answer, has not ended.
+    """
+    try:
+        uri = hasty_master(name).lookupNode(name)
+    except NO_ANSWER:
+        return False
+    try:
+        return not _is_at(uri, name)
+    except ConnectionRefusedError:
         return True
     except NO_ANSWER:
         return False
+
+
+def _is_at(uri: str, name: str) -> bool:
+    """Whether a node of our master is at an address, given by its full name.
+
+    Raises:
+        OSError, xmlrpc.client.Error, http.client.HTTPException: it does not answer.
+    """
+    node: Any = xmlrpc.client.ServerProxy(uri, _Hasty())
+    try:
+        answered, master = node.getName(name)[-1], node.getMasterUri(name)[-1]
+    except xmlrpc.client.Fault:
+        return True
     return bool(answered == name and _port(master) == _port(rosgraph.get_master_uri()))
 
 

@@ -1,7 +1,10 @@
 """The lockstep of a simulator: what it publishes after each control tick, and the answers."""
 
+import collections
+import functools
+import threading
 import time
-from typing import Callable, Optional, Set, Tuple
+from typing import Callable, Dict, List, Optional, Set, Tuple
 
 import rospy
 from std_msgs.msg import Header
@@ -14,7 +17,7 @@ from rumba_sim.ros.common.lockstep import ANSWERS, QUEUE, TOPIC
 from rumba_sim.ros.common.requests import Requests
 from rumba_sim.ros.robot.latecomers import Latecomers
 from rumba_sim.ros.robot.rates import Due
-from rumba_sim.ros.simulator.participants import Participants
+from rumba_sim.ros.simulator.participants import STARTING, Participants
 
 LOOK_PERIOD = 0.1  # [s] of the wall clock between two looks at those who do not answer
 
@@ -40,6 +43,7 @@ class Lockstep:
         self._is_connecting = False  # whether the world waits for connections
         self._is_new = True  # whether it has not waited yet
         self._lost: Set[Tuple[str, str]] = set()  # topics, and nodes that never connected to them
+        self._asked: Optional[threading.Thread] = None  # asks whether someone who is silent has ended
         self._tick = LockstepMessage(run=run)
         self._publisher = rospy.Publisher(TOPIC, LockstepMessage, Latecomers(requests, self._held), queue_size=QUEUE)
         self._subscriber = rospy.Subscriber(ANSWERS, LockstepAnswer, self._on_answer, queue_size=QUEUE)
@@ -99,32 +103,64 @@ class Lockstep:
     def _wait_for_answers(self, meanwhile: Callable[[], None], but: str) -> None:
         while self._participants.missing(but) and not rospy.is_shutdown():
             self._requests.serve(time.monotonic() + LOOK_PERIOD, lambda: not self._participants.missing(but))
+            self._look_for_the_ended()
             for name, patience in self._participants.give_up(self._has_publisher):
                 rospy.logwarn(f'lockstep: nothing was heard of {name} for {patience:g} s: the world goes on without it '
                               'until it answers again')
             if self._participants.missing(but):
                 meanwhile()
 
+    def _look_for_the_ended(self) -> None:
+        """Ask, in a thread, whether those who are silent have ended: nobody needs to wait for these."""
+        silent = self._participants.silent()
+        if silent and (self._asked is None or not self._asked.is_alive()):
+            self._asked = threading.Thread(target=self._ask, args=[silent], daemon=True)
+            self._asked.start()
+
+    def _ask(self, nodes: List[str]) -> None:
+        for node in filter(peers.has_ended, nodes):
+            self._requests.post(functools.partial(self._lose, node))
+
+    def _lose(self, node: str) -> None:
+        """Wait no longer for a node that has ended, unless it was started again meanwhile."""
+        if node in self._participants.silent():
+            self._participants.forget(node)
+            rospy.logwarn(f'lockstep: {node} has ended without a word: the world goes on without it until it answers '
+                          'again')
+
     def _wait_for_connections(self, meanwhile: Callable[[], None]) -> None:
         """Serve requests, and so send this tick to new subscribers, until all who have subscribed are connected."""
-        end = time.monotonic() + self._participants.patience
+        begin = time.monotonic()
+        ended: Dict[str, bool] = {}  # by the names of nodes, whether they have ended
         while True:
-            lacking = self._unconnected()
+            lacking = self._unconnected(ended)
             self._requests.serve(time.monotonic())  # also for those who connected just before that look
-            if not lacking or time.monotonic() > end or rospy.is_shutdown():
+            if not lacking or time.monotonic() > begin + self._patience_with(lacking) or rospy.is_shutdown():
                 break
             self._requests.serve(time.monotonic() + LOOK_PERIOD)
             meanwhile()
+        topics = collections.defaultdict(list)
         for topic, node in sorted(lacking):
-            rospy.logwarn(f'lockstep: {node} has subscribed to {topic}, but does not connect: the world goes on '
-                          'without it')
+            topics[node].append(topic)
+        for node, names in topics.items():
+            rospy.logwarn(f'lockstep: {node} has subscribed to {", ".join(names)}, but does not connect: the world '
+                          'goes on without it')
         self._lost |= lacking
 
-    def _unconnected(self) -> Set[Tuple[str, str]]:
+    def _patience_with(self, lacking: Set[Tuple[str, str]]) -> float:
+        """How long to wait for connections [s]: a participant that starts has more time."""
+        is_awaited = any(self._participants.has(node) for _, node in lacking)
+        return self._participants.patience * (STARTING if is_awaited else 1.0)
+
+    def _unconnected(self, ended: Dict[str, bool]) -> Set[Tuple[str, str]]:
+        """Topics, and nodes that have subscribed and may still connect; `ended` keeps what is known of these."""
         try:
-            return peers.unconnected() - self._lost
+            lacking = peers.unconnected() - self._lost
         except peers.NO_ANSWER:  # the master has ended
             return set()
+        for node in {node for _, node in lacking}.difference(ended):
+            ended[node] = peers.has_ended(node)
+        return {(topic, node) for topic, node in lacking if not ended[node]}
 
     def wait_for_commanders(self, meanwhile: Callable[[], None]) -> None:
         """Serve requests until each topic that is waited for from the first tick on has a publisher, for its patience.

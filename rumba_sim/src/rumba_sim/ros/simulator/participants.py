@@ -9,6 +9,7 @@ from rumba_msg.msg import LockstepAnswer
 
 COMMANDS = '/cmd_vel'  # a name that ends so is that of a topic, every other one that of a node
 STARTING = 3.0  # times the usual patience for a participant that was never heard: it may still be starting
+SILENT = 1.0  # [s] of the wall clock without a sign, after which it is worth asking whether a node has ended
 FIRST_COMMAND = 1.0  # [s] of the wall clock from the first publisher of a topic to its first command, which may be lost
 
 
@@ -18,6 +19,7 @@ class Member:
     Attributes:
         patience: how long the world waits for a sign of it [s] of the wall clock.
         heard: when it gave the last sign, as a time of `time.monotonic`.
+        was_heard: whether it has ever given a sign.
         command: the topic whose command it has announced, and that has not come yet; empty if there is none.
         rests: whether it has nothing to do, so that the world does not wait for it.
         first_until: time of `time.monotonic` until which the world waits for a first command that may be lost.
@@ -27,6 +29,7 @@ class Member:
         """Nothing was heard of it, until now."""
         self.patience = patience
         self.heard = time.monotonic()
+        self.was_heard = False
         self.command = ''
         self.rests = False
         self.first_until: Optional[float] = None
@@ -83,10 +86,11 @@ class Participants:
             self._missing.discard(name)
 
     def take(self, answer: LockstepAnswer) -> None:
-        """Someone has answered."""
+        """Someone has answered; a sign of life alone makes nobody a member."""
         if answer.state == LockstepAnswer.LEAVES:
-            self._members.pop(answer.node, None)
-            self._missing.discard(answer.node)
+            self.forget(answer.node)
+            return
+        if answer.state == LockstepAnswer.BUSY and not self.has(answer.node):
             return
         member = self._hear(answer.node)
         if answer.state != LockstepAnswer.RESTS:
@@ -97,10 +101,26 @@ class Participants:
             if not answer.command or answer.command in self._commanded:
                 self._missing.discard(answer.node)
 
+    def has(self, name: str) -> bool:
+        """Whether someone takes part."""
+        return name in self._members
+
+    def forget(self, name: str) -> None:
+        """Someone takes part no longer, until it answers again."""
+        self._members.pop(name, None)
+        self._missing.discard(name)
+
+    def silent(self) -> List[str]:
+        """The nodes whose answer is missing, and that have been silent for a while: they may have ended."""
+        now = time.monotonic()
+        return [name for name in sorted(self._missing) if not name.endswith(COMMANDS) and self._members[name].was_heard
+                and now - self._members[name].heard > SILENT]
+
     def _hear(self, name: str) -> Member:
         """Note a sign of someone, who is a member from the next tick on."""
         member = self._members.setdefault(name, Member(self.patience))
         member.heard, member.patience, member.first_until = time.monotonic(), self.patience, None
+        member.was_heard = True
         return member
 
     def give_up(self, has_publisher: Callable[[str], bool]) -> List[Tuple[str, float]]:
@@ -125,7 +145,6 @@ class Participants:
                     self._missing.discard(name)
                     member.first_until = None
             elif time.monotonic() - member.heard > member.patience:
-                self._missing.discard(name)
-                del self._members[name]
+                self.forget(name)
                 late.append((name, member.patience))
         return late

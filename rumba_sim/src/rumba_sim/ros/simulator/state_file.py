@@ -23,6 +23,7 @@ class StateFile:
         """Read nothing and write nothing yet."""
         self._path = absolute(settings.state) if settings.state else ''
         self._period = PERIOD * settings.step_rate
+        self._trouble = ''  # why the last save failed; empty: it did not
 
     def world(self, plan: FloorPlan, settings: Settings,
               obstacles: Sequence[Obstacle]) -> Tuple[Optional[World], int]:
@@ -59,11 +60,17 @@ class StateFile:
             world_state.write(self._path, world.state(), ticks)
 
     def save(self, world: World, ticks: int) -> None:
-        """Save; if that fails, say so, and keep what was saved before."""
+        """Save; if that fails, say so once, and keep what was saved before."""
+        before, self._trouble = self._trouble, ''
         try:
             self.begin(world, ticks)
         except WorldError as error:
-            rospy.logerr(f'{error}; what was saved before is still there')
+            self._trouble = str(error)
+            if self._trouble != before:
+                rospy.logerr(f'{error}; what was saved before is still there')
+        else:
+            if before:
+                rospy.loginfo(f'{self._path}: the world is saved again')
 
     def save_if_due(self, world: World, ticks: int) -> None:
         """Save every minute of simulated time."""

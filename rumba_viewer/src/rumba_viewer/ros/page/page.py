@@ -9,34 +9,30 @@ Subscribes, publishes and calls what clients ask for, if its allow-list names it
 Parameters, as in `rosrun rumba_viewer page _port:=9090`:
 """
 
-import dataclasses
 import functools
-import pathlib
 import resource
 import sys
-import time
-from typing import Any, Callable, List, Optional
+from typing import Any, Callable, Optional
 
-import rospkg
 import rospy
 from tornado.ioloop import IOLoop
 
-from rumba_sim.model.config import setting
 from rumba_sim.ros.common import node
-from rumba_viewer.page.allow_list import AllowList, Tokens, robot_tokens
 from rumba_viewer.page.errors import Refusal
 from rumba_viewer.page.feeds import Demand
 from rumba_viewer.page.filling import Filler, serialised
 from rumba_viewer.page.ros import Done, Ros
-from rumba_viewer.page.server import MOST_TOPICS, Bounds, Hub, check_address, serve, sockets
+from rumba_viewer.page.server import MOST_TOPICS, Hub, serve, sockets
 from rumba_viewer.ros.page import types
 from rumba_viewer.ros.page.api import Api
 from rumba_viewer.ros.page.clock import Clock
+from rumba_viewer.ros.page.early import Early
 from rumba_viewer.ros.page.frames import Frames
 from rumba_viewer.ros.page.graph import Graph
 from rumba_viewer.ros.page.listening import Listening
 from rumba_viewer.ros.page.services import Services
 from rumba_viewer.ros.page.serving import Serving
+from rumba_viewer.ros.page.settings import Settings, folder, hub_of, tokens_of, url
 from rumba_viewer.ros.page.talking import Talking
 from rumba_viewer.ros.page.wire import Encoder
 
@@ -44,60 +40,31 @@ REMEMBERED = 5.0  # [s] for which a topic stays subscribed to without a client, 
 SWITCH = 0.001  # [s] for which the loop waits for a thread that is at work
 
 
-@dataclasses.dataclass(frozen=True)
-class Settings:
-    """The node's private parameters."""
-
-    address: str = setting('127.0.0.1', 'address at which to serve; 0.0.0.0: all of this machine, needs a token')
-    port: int = setting(8080, 'port; 0: any free one, which a line tells', '', 0, 65535)
-    token: str = setting('', 'text that permits changes; empty: everybody may change everything')
-    robot_tokens: str = setting('', 'texts that permit to drive one robot, as in rumba:blue,rumba2:green')
-    read: str = setting('', 'further topics that can be subscribed to, separated by commas; * stands for a robot')
-    write: str = setting('', 'further topics that can be published to')
-    call: str = setting('', 'further services that can be called')
-    serve: str = setting('', 'services that clients can serve')
-    get: str = setting('', 'parameters that can be read')
-    set: str = setting('', 'parameters that can be set and deleted')
-    defaults: bool = setting(True, 'whether what the page itself needs can be reached')
-    origins: str = setting('', 'further origins of web pages that may connect, as in http://example.org; * matches any')
-    connections: int = setting(200, 'clients at the same time', '', 1, 10000)
-    rate: float = setting(100.0, 'messages of one client', '1/s', 1.0, 10000.0)
-    size: int = setting(65536, 'size of a message of a client', 'bytes', 1024, 16777216)
-    bandwidth: int = setting(524288, 'what one client may send', 'bytes/s', 1024, 1073741824)
-    elements: int = setting(20000, 'values in a message of a client, and in all of a second', '', 100, 100000000)
-    share: float = setting(0.05, 'share of a core that one client may use', '', 0.001, 1.0)
-
-
 def main() -> None:
-    """Run the node."""
-    node.run('page', Settings, run, own_clock=True)
+    """Run the node; while there is no master, the page is served, and says that it waits for one."""
+    early = Early()
+    node.run('page', Settings, lambda settings: run(settings, early), own_clock=True, before=early.begin)
 
 
-def run(settings: Settings) -> None:
-    """Serve until ROS shuts down.
+def run(settings: Settings, early: Early) -> None:
+    """Serve until ROS shuts down, with the sockets of the page that waited for a master, if it did.
 
     Raises:
         ConfigError: it is not possible with these settings.
     """
-    namespace = rospy.get_namespace()
-    tokens = Tokens(settings.token, robot_tokens(settings.robot_tokens, namespace))
-    check_address(settings.address, tokens)
-    allowed = AllowList(namespace, settings.defaults, **{
-        what: _parts(getattr(settings, what)) for what in ('read', 'write', 'call', 'serve', 'get', 'set')})
-    where = sockets(settings.address, settings.port)
+    tokens = tokens_of(settings)
+    clock = Clock()
+    hub = hub_of(settings, Encoder(rospy.logwarn, clock.now).encode, rospy.logwarn)
+    where = early.end(settings) or sockets(settings.address, settings.port)
     _raise_limit_of_files()
     sys.setswitchinterval(SWITCH)
     loop = IOLoop.current()
-    clock = Clock()
-    hub = Hub(namespace, allowed, _parts(settings.origins),
-              Bounds(**{field.name: getattr(settings, field.name) for field in dataclasses.fields(Bounds)}),
-              Encoder(rospy.logwarn, clock.now).encode, time.thread_time, rospy.logwarn)
     later = functools.partial(_later, loop)
-    link = RosLink(hub, allowed, clock, later)
+    link = RosLink(hub, clock, later)
     hub.ros = Frames(link, hub, link.listening, later)
-    serve(hub, tokens, pathlib.Path(rospkg.RosPack().get_path('rumba_viewer')) / 'page', where)
+    serve(hub, tokens, folder(), where)
     rospy.on_shutdown(lambda: loop.add_callback(loop.stop))
-    rospy.loginfo(f'the page is at http://{_shown(settings.address)}:{where[0].getsockname()[1]}'
+    rospy.loginfo(f'the page is at {url(settings, where)}'
                   + (' (add #token=TOKEN to change anything)' if tokens.are_needed else ''))
     loop.start()
     link.close()
@@ -110,7 +77,7 @@ class RosLink(Ros):
         listening: the subscriptions.
     """
 
-    def __init__(self, hub: Hub, allowed: AllowList, clock: Clock, later: Callable[..., Any]) -> None:
+    def __init__(self, hub: Hub, clock: Clock, later: Callable[..., Any]) -> None:
         """Serve the clients of a hub; call functions in the loop `later`, after a time [s], from any thread."""
         self._hub, self._later = hub, later
         self._graph = Graph(lambda: hub.clients > 0, clock)
@@ -118,7 +85,7 @@ class RosLink(Ros):
         self.listening = Listening(later)
         self._talking = Talking(later)
         self._serving = Serving(self._filler, later)
-        api = Api(self._graph, allowed, self._talking.kinds, clock)
+        api = Api(self._graph, hub.allowed, self._talking.kinds, clock)
         self._services = Services(api, self._serving, self._filler, later)
         self._graph.start()
 
@@ -195,15 +162,6 @@ def _later(loop: IOLoop, seconds: float, act: Callable[[], Any]) -> None:
         loop.add_callback(lambda: loop.call_later(seconds, act) if seconds else act())
     except RuntimeError:
         pass  # the loop has ended
-
-
-def _parts(text: str) -> List[str]:
-    """The parts of a text between commas and spaces."""
-    return text.replace(',', ' ').split()
-
-
-def _shown(address: str) -> str:
-    return {'0.0.0.0': 'THIS_MACHINE', '::': 'THIS_MACHINE'}.get(address, f'[{address}]' if ':' in address else address)
 
 
 def _raise_limit_of_files() -> None:
