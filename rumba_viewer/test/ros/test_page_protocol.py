@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """The page beside nodes of ROS, without a simulator: messages, services, parameters, transforms and time."""
 
+import functools
 import threading
 import unittest
 
@@ -226,6 +227,14 @@ class ServiceTest(unittest.TestCase):
         server.send(op='service_response', service='/odd', id=request['id'], values={'b': None}, result=True)
         answer = caller.find(lambda one: one['op'] == 'service_response')
         self.assertEqual((answer['result'], answer['values']), (True, {'b': None}))
+        for values in ({'a': float('nan')}, {'a': {'a': [float('inf')]}}, functools.reduce(
+                lambda inner, _: {'a': inner}, range(100), {})):
+            self.assertIn('must be an object of finite numbers', caller.call('/odd', **{'x': values})[1])
+            caller.send(op='call_service', service='/odd', id='y')
+            request = self.asked(server)
+            server.send(op='service_response', service='/odd', id=request['id'], values=[values], result=True)
+            self.assertIn('must be an object of finite', server.status())
+            self.assertFalse(caller.find(lambda one: one['op'] == 'service_response')['result'])
 
     def test_a_call_that_takes_too_long_ends_and_the_next_one_is_made(self):
         self.server(page := Page(self, '_serve:=/switch', '_call:=/switch'))

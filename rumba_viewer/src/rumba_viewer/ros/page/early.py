@@ -97,7 +97,7 @@ class NoRos(Ros):
         raise _trouble()
 
     def serve(self, client: Any, service: str, kind: str, ask: Callable[[str, Any], None],
-              failed: Callable[[str], None]) -> None:
+              tell: Callable[[str, str], None]) -> None:
         """Nothing can be served yet."""
         raise _trouble()
 
@@ -106,6 +106,9 @@ class NoRos(Ros):
 
     def answer(self, client: Any, service: str, request: Any, worked: bool, values: Any) -> None:
         """Nothing was asked."""
+
+    def leave(self, client: Any) -> None:
+        """Nothing is known of it."""
 
 
 def _trouble() -> Refusal:
