@@ -23,6 +23,9 @@ class FakeRos:
             return lambda _, *arguments: self.asked.append((name, *arguments))
         return super().__getattribute__(name)
 
+    def kind(self, topic):
+        return 'nav_msgs/OccupancyGrid' if topic == '/map' else ''
+
     def call(self, _, service, values, done, timeout):
         if service == '/simulator/pause':
             raise Refusal('it is late')
@@ -221,7 +224,9 @@ def test_what_is_harmless_is_a_warning_for_those_who_want_it():
     client.says(op='set_level', level='warning')
     for operation, words in (({'op': 'unsubscribe', 'topic': '/map'}, 'has not subscribed to /map'),
                              ({'op': 'unadvertise', 'topic': '/map'}, 'has not advertised /map'),
-                             ({'op': 'subscribe', 'topic': '/map', 'fragment_size': 5}, 'fragment_size is ignored')):
+                             ({'op': 'subscribe', 'topic': '/map', 'fragment_size': 5}, 'fragment_size is ignored'),
+                             ({'op': 'subscribe', 'topic': '/map', 'type': 'std_msgs/String', 'fragment_size': None},
+                              "/map has the type nav_msgs/OccupancyGrid and not 'std_msgs/String'")):
         reply, = client.says(**operation)[1]
         assert reply['level'] == 'warning' and words in reply['msg']
 

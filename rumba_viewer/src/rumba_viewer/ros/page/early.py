@@ -14,7 +14,7 @@ from rumba_sim.model import config
 from rumba_viewer.page.errors import Refusal
 from rumba_viewer.page.feeds import Demand
 from rumba_viewer.page.ros import Done, Ros
-from rumba_viewer.page.server import Hub, serve, sockets
+from rumba_viewer.page.server import serve, sockets
 from rumba_viewer.ros.page.settings import Settings, folder, hub_of, tokens_of, url
 
 RESTART = 1012  # code of a websocket: the server restarts, connect again
@@ -80,6 +80,10 @@ class NoRos(Ros):
 
     def unsubscribe(self, client: Any, topic: str, reason: Any) -> None:
         """Nothing came."""
+
+    def kind(self, topic: str) -> str:
+        """It is not known yet."""
+        return ''
 
     def advertise(self, client: Any, topic: str, kind: Optional[str], latch: bool) -> None:
         """Nothing can be published yet."""
