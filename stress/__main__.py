@@ -6,7 +6,8 @@ import random
 import re
 import sys
 
-from stress import publishers, report, run
+from stress import publishers, report, run, schedule
+from stress.scenarios import SCENARIOS
 
 FAILED, USAGE = 1, 2
 MINUTES = 10.0
@@ -18,7 +19,8 @@ def main():
     seed = random.SystemRandom().randrange(10 ** 6) if arguments.seed is None else arguments.seed
     told = report.Report(seed, 60.0 * arguments.minutes)
     told.say(f'seed {seed}')
-    trials = run.Run(seed, told, publishers.Publishers())
+    make = schedule.OneGround(arguments.ground) if arguments.ground else schedule
+    trials = run.Run(seed, told, publishers.Publishers(), make)
     try:
         if arguments.only:
             trials.only(arguments.only)
@@ -38,6 +40,7 @@ def _arguments():
                         help=f'how long; default {MINUTES:g}')
     parser.add_argument('--seed', type=int, metavar='N', help='of all that is random; default: drawn, and printed')
     parser.add_argument('--only', type=_numbers, metavar='N,N,...', help='strike these blows of the seed alone')
+    parser.add_argument('--ground', choices=sorted(SCENARIOS), help='strike on this ground alone')
     return parser.parse_args()
 
 

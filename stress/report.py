@@ -1,6 +1,7 @@
 """What a person sees: one line while it runs, each failure, and the counts at the end."""
 
 import collections
+import statistics
 import sys
 import time
 
@@ -22,6 +23,7 @@ class Report:
         self._seed, self._seconds, self._stream = seed, seconds, stream
         self._begun = self._said = time.monotonic()
         self._blows, self._inputs, self._faults = (collections.Counter() for _ in range(3))
+        self._waits = []
         self._is_terminal = stream.isatty()
 
     @property
@@ -44,6 +46,7 @@ class Report:
         """Count a blow."""
         for counter, number in ((self._blows, 1), (self._inputs, blow.inputs), (self._faults, blow.faults)):
             counter[blow.kind.name] += number
+        self._waits += blow.waits
 
     def failed(self, failure, blow, ground):
         """Print a failure at once; blow and ground are None if it came before the first one."""
@@ -82,6 +85,10 @@ class Report:
             self.say(f'  {name:{WIDTH}} {blows:8,} {self._inputs[name]:15,} {self._faults[name]:8,}')
         self.say(f'  {"all":{WIDTH}} {sum(self._blows.values()):8,} {sum(self._inputs.values()):15,} '
                  f'{sum(self._faults.values()):8,}')
+        if self._waits:
+            self.say(f'  {sum(wait["calls"] for wait in self._waits):,} calls of a client of the page meanwhile: the median '
+                     f'took {1e3 * statistics.median(wait["median"] for wait in self._waits):.1f} ms, the slowest '
+                     f'{1e3 * max(wait["worst"] for wait in self._waits):.0f} ms')
         self.say(f'{self.failures} failures')
 
 

@@ -57,6 +57,12 @@ MAPPED = Scenario('mapped', (
     Role('/mapper', 'rumba_localisation', 'mapper', '/rumba/dock_status', pulse='pose'),
     CLEANER._replace(arguments=('_mapping:=true', '_strategy:=explore_and_clean')),
     PAGE), ('rumba',))
+# Its clients may send more than by default, so that more can be tried.
+BROWSED = Scenario('browsed', (
+    SIMULATOR,
+    PAGE._replace(arguments=(*PAGE.arguments, '_rate:=10000', '_bandwidth:=100000000', '_elements:=1000000',
+                             '_share:=0.5', '_read:=/hostile/*', '_write:=/hostile/*', '_serve:=/hostile/*',
+                             '_get:=/hostile/*', '_set:=/hostile/*'))), ('rumba',))
 # Here fresh nodes get what no running node would read.
 CRADLE = Scenario('cradle', ())
-SCENARIOS = {scenario.name: scenario for scenario in (FLAT, TURTLE, LOCALISED, MAPPED, CRADLE)}
+SCENARIOS = {scenario.name: scenario for scenario in (FLAT, TURTLE, LOCALISED, MAPPED, BROWSED, CRADLE)}

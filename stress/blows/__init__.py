@@ -1,10 +1,11 @@
 """All kinds of blows, in one table."""
 
-from stress.blows import files, messages, network, processes, repeated, resources, robots, tools
+from stress.blows import files, messages, network, pages, processes, repeated, resources, robots, tools
 from stress.blows.blow import Blow, Kind  # noqa: F401
 
 WORLDS = ('flat', 'localised', 'mapped')  # of the simulator
 NODES = (*WORLDS, 'turtle')
+PAGE = ('browsed',)
 KINDS = (
     Kind('handshakes', network.handshakes, NODES),
     Kind('frames', network.frames, NODES, 3),
@@ -34,4 +35,7 @@ KINDS = (
     Kind('map', files.mutated_map, ('cradle',), 3),
     Kind('settings', files.mutated_settings, ('cradle',), 3),
     Kind('arguments', files.odd_arguments, ('cradle',), 3),
+    Kind('requests to the page', pages.requests, PAGE, 3),
+    Kind('frames to the page', pages.frames, PAGE, 9),
+    Kind('operations of the page', pages.operations, PAGE, 18),
 )

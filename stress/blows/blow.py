@@ -13,12 +13,13 @@ class Blow:
         asked: what was done, for a person; it grows while the blow is struck.
         inputs: hostile inputs so far.
         faults: faults so far.
+        waits: how long others waited meanwhile, as `common.page_victim` tells.
     """
 
     def __init__(self, number, kind, chance):
         """Prepare a blow."""
         self.number, self.kind, self.chance = number, kind, chance
-        self.asked, self.inputs, self.faults = [], 0, 0
+        self.asked, self.inputs, self.faults, self.waits = [], 0, 0, []
 
     def say(self, text, inputs=0, faults=0):
         """Note what is done, and how much it counts."""

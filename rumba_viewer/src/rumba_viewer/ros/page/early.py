@@ -112,7 +112,7 @@ class NoRos(Ros):
         """Nothing was asked."""
 
     def leave(self, client: Any) -> None:
-        """Nothing is known of it."""
+        """Nothing is left of it."""
 
 
 def _trouble() -> Refusal:
