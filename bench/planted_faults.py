@@ -75,6 +75,9 @@ FAULTS = (
     Planted('raises_for_a_bad_map', 'simulator', 'cradle', 'map'),
     Planted('charge_below_zero', 'simulator', 'cradle', 'settings'),
     Planted('refuses_in_two_lines', 'simulator', 'cradle', 'settings'),
+    Planted('raises_for_an_odd_date', 'page', 'browsed', 'requests to the page'),
+    Planted('sleeps_over_what_is_no_number', 'page', 'browsed', 'frames to the page'),
+    Planted('repeats_what_is_no_id', 'page_session.py', 'browsed', 'operations of the page'),
     Planted('percentage_below_zero', 'battery_status_publisher', 'cradle', 'arguments'),
 )
 

@@ -17,9 +17,9 @@ LARGEST = 60_000  # characters of an operation
 PACKAGES = ('std_msgs', 'geometry_msgs', 'nav_msgs', 'sensor_msgs', 'actionlib_msgs', 'diagnostic_msgs', 'tf2_msgs',
             'rosgraph_msgs', 'trajectory_msgs', 'visualization_msgs', 'rumba_msg')
 NAMES = ('/rumba/cmd_vel', '/rumba/odom', '/rumba/scan', '/map', '/tf', '/rumba/clean/goal', '/rumba/clean/cancel',
-         'rumba/coverage', '/rosout', '/rosapi/topics', '/rosapi/get_time', '/rosapi/get_param', '/rosapi/message_details',
-         '/rosapi/services', '/rosapi/service_type', '/simulator/get_loggers', '/rumba/set_brushes_up', '/hostile/a',
-         '/hostile/b', '/tf2_web_republisher/goal')
+         'rumba/coverage', '/rosout', '/rosapi/topics', '/rosapi/get_time', '/rosapi/get_param',
+         '/rosapi/message_details', '/rosapi/services', '/rosapi/service_type', '/simulator/get_loggers',
+         '/rumba/set_brushes_up', '/hostile/a', '/hostile/b', '/tf2_web_republisher/goal')
 OPERATIONS = ('advertise', 'unadvertise', 'publish', 'subscribe', 'unsubscribe', 'call_service', 'advertise_service',
               'unadvertise_service', 'service_response', 'set_level', 'status', 'fragment', 'png', 'auth',
               'send_action_goal', 'nothing', '')
@@ -37,14 +37,16 @@ EVERYTHING = genpy.dynamic.generate_dynamic('hostile/Everything', '\n'.join(
 NUMBERS = (0, 1, -1, 255, 256, 2 ** 31, 2 ** 32 - 1, -2 ** 63, 2 ** 64, 10 ** 400, 0.5, -0.0, 1e308, 1e-320,
            float('nan'), float('inf'), -float('inf'))
 LONE = '\ud83d'
-PATHS = ('/', '/app.js', '/style.css', '/..%2fpackage.xml', '/%00', '/' + 3000 * 'a', '/?token=x', '/?token=%ff', '//', '*',
-         'http://evil.example/', '/app.js/..', '/.')
+PATHS = ('/', '/app.js', '/style.css', '/..%2fpackage.xml', '/%00', '/' + 3000 * 'a', '/?token=x', '/?token=%ff', '//',
+         '*', 'http://evil.example/', '/app.js/..', '/.')
 HEADERS = ('Host', 'Origin', 'Upgrade', 'Connection', 'Sec-WebSocket-Version', 'Sec-WebSocket-Key', 'Range', 'Cookie',
-           'Sec-WebSocket-Extensions', 'Sec-WebSocket-Protocol', 'If-Modified-Since', 'If-None-Match', 'Accept-Encoding',
-           'Expect', 'Content-Length', 'Transfer-Encoding', 'Content-Type', 'X-Forwarded-For', 'Authorization')
-VALUES = ('localhost', HOST, 'evil.example', 'websocket', 'Upgrade', 'keep-alive', '13', '-1', '0', '5', 'chunked', 'gzip',
-          'permessage-deflate; client_max_window_bits=99', 'Mon, 01 Jan 99999 00:00:00 GMT', 'bytes=0-0', 'bytes=-9999',
-          'bytes=5-1', 'bytes=x-', '"' + 200 * 'e' + '"', '100-continue', '[::1', 'null', '', '\x7f', 'a=b; c=%ff')
+           'Sec-WebSocket-Extensions', 'Sec-WebSocket-Protocol', 'If-Modified-Since', 'If-None-Match',
+           'Accept-Encoding', 'Expect', 'Content-Length', 'Transfer-Encoding', 'Content-Type', 'X-Forwarded-For',
+           'Authorization')
+VALUES = ('localhost', HOST, 'evil.example', 'websocket', 'Upgrade', 'keep-alive', '13', '-1', '0', '5', 'chunked',
+          'gzip', 'permessage-deflate; client_max_window_bits=99', 'Mon, 01 Jan 99999 00:00:00 GMT', 'bytes=0-0',
+          'bytes=-9999', 'bytes=5-1', 'bytes=x-', '"' + 200 * 'e' + '"', '100-continue', '[::1', 'null', '', '\x7f',
+          'a=b; c=%ff')
 
 
 def find(kind):
@@ -79,7 +81,8 @@ def operation(chance, kinds):
 def _spoilt(chance, text):
     """A text with a piece left out or doubled."""
     start, size = chance.randint(0, len(text)), chance.randint(1, 20)
-    return text[:start] + chance.choice(('', 2 * text[start:start + size], '[' * 500, '{"a":' * 300)) + text[start + size:]
+    piece = chance.choice(('', 2 * text[start:start + size], '[' * 500, '{"a":' * 300))
+    return text[:start] + piece + text[start + size:]
 
 
 def anything(chance, depth=0):
@@ -94,7 +97,8 @@ def anything(chance, depth=0):
     if choice == 5:
         return [anything(chance, depth + 1) for _ in range(chance.choice((0, 1, 3, 30)))]
     if choice == 6:
-        return {chance.choice((*KEYS, '', 'x', 'secs')): anything(chance, depth + 1) for _ in range(chance.randint(0, 4))}
+        return {chance.choice((*KEYS, '', 'x', 'secs')): anything(chance, depth + 1)
+                for _ in range(chance.randint(0, 4))}
     nested = anything(chance, depth + 1)
     for _ in range(chance.choice((1, 30, 30 if depth else 850))):
         nested = [nested]

@@ -86,8 +86,9 @@ class Report:
         self.say(f'  {"all":{WIDTH}} {sum(self._blows.values()):8,} {sum(self._inputs.values()):15,} '
                  f'{sum(self._faults.values()):8,}')
         if self._waits:
-            self.say(f'  {sum(wait["calls"] for wait in self._waits):,} calls of a client of the page meanwhile: the median '
-                     f'took {1e3 * statistics.median(wait["median"] for wait in self._waits):.1f} ms, the slowest '
+            median = statistics.median(wait['median'] for wait in self._waits)
+            self.say(f'  {sum(wait["calls"] for wait in self._waits):,} calls of a client of the page meanwhile: the '
+                     f'median took {1e3 * median:.1f} ms, the slowest '
                      f'{1e3 * max(wait["worst"] for wait in self._waits):.0f} ms')
         self.say(f'{self.failures} failures')
 

@@ -30,10 +30,11 @@ KEYS = frame(('{"op":"x",' + ','.join(f'"{number}":{number}' for number in range
 REPEATED = filled('{"op":"x"', ',"a":0', '}')
 TEXTS = filled('{"op":"status","id":"', '\\u00e4', '"}')
 MAPS = b''.join(text(op=op, topic='/map', newest=True, compression='png') for op in ('unsubscribe', 'subscribe'))
-OTHERS = b''.join(text(op=op, topic='/rumba/cmd_vel', type='geometry_msgs/Twist') for op in ('advertise', 'unadvertise'))
+OTHERS = b''.join(text(op=op, topic='/rumba/cmd_vel', type='geometry_msgs/Twist')
+                  for op in ('advertise', 'unadvertise'))
 CALLS = b''.join(text(op='call_service', service=f'/rosapi/{name}', id='x') for name in ROSAPI)
 PAGE = f'GET / HTTP/1.1\r\nHost: {HOST}\r\n\r\n'.encode()
-HEADS = f'GET /app.js HTTP/1.1\r\nHost: {HOST}\r\n{"".join(f"a{n}:0{chr(13)}{chr(10)}" for n in range(1000))}\r\n'.encode()
+HEADS = f'GET /app.js HTTP/1.1\r\nHost: {HOST}\r\n'.encode() + b''.join(b'a%d:0\r\n' % n for n in range(1000)) + b'\r\n'
 
 
 def new_topics():
@@ -57,7 +58,7 @@ KINDS = {
     'pings without reading': (200 * frame(120 * b'x', PING), {'reads': False}),
     'frames without end': (frame(b'', TEXT, 0) + 1000 * frame(b'', CONTINUATION, 0), {}),
     'a message of ten megabytes': (frame(10 ** 7 * b' '), {'is_new': True}),
-    'an announced exabyte': (bytes([FINAL | TEXT, MASKED | EIGHT]) + 8 * b'\x7f' + 100000 * b'x', {'is_new': True}),
+    'an announced exabyte': (bytes([FINAL | TEXT, MASKED | EIGHT]) + 8 * b'\x7f' + LARGEST * b'x', {'is_new': True}),
     'the map again and again': (MAPS, {'rate': RATE / 2}),
     'the map without reading': (MAPS, {'rate': RATE / 2, 'reads': False}),
     'new topics': (new_topics, {'rate': RATE / 10}),
@@ -72,7 +73,8 @@ KINDS = {
 }
 
 
-async def attack(port, query, chance, data, rate=0.0, is_new=False, reads=True, is_websocket=True, noise=0, guesses=False):
+async def attack(port, query, chance, data, rate=0.0, is_new=False, reads=True, is_websocket=True, noise=0,
+                 guesses=False):
     """Be one hostile client for ever."""
     while True:
         try:

@@ -35,7 +35,7 @@ KINDS = (
     Kind('map', files.mutated_map, ('cradle',), 3),
     Kind('settings', files.mutated_settings, ('cradle',), 3),
     Kind('arguments', files.odd_arguments, ('cradle',), 3),
-    Kind('requests to the page', pages.requests, PAGE, 3),
-    Kind('frames to the page', pages.frames, PAGE, 9),
-    Kind('operations of the page', pages.operations, PAGE, 18),
+    Kind('requests to the page', pages.requests, PAGE, 1),
+    Kind('frames to the page', pages.frames, PAGE, 3),
+    Kind('operations of the page', pages.operations, PAGE, 12),
 )

@@ -3,6 +3,7 @@
 import concurrent.futures
 import contextlib
 import json
+import os
 import pathlib
 import random
 import socket
@@ -13,23 +14,18 @@ import time
 from common import page_victim
 from common.websockets import FINAL, HOST, PING, PONG, frame, greeting
 
-from rumba_viewer.page.allow_list import AllowList, Rights
-from rumba_viewer.page.conversion import to_text
-from rumba_viewer.page.errors import Hostile, Refusal
-from rumba_viewer.page.filling import Filler, serialised
-from rumba_viewer.page.protocol import Session
-from rumba_viewer.page.ros import Ros
-from stress import page_inputs, wire
+from stress import page_inputs, page_session, wire
 from stress.failure import Failure
 from stress.scenarios import PAGE_PORT
 
 HOSTILE = 10  # clients at the same time
 CONNECTIONS = 60  # of each, one after the other
 FRAMES, REQUESTS = 40, 15  # on one connection before one that ends it
-OPERATIONS = 20_000  # without a socket
+OPERATIONS = 40_000  # without a socket
 ENDS_WITHIN = 30.0  # [s] after the last byte of a connection
-SLOWEST = 0.1  # [s] of CPU time for one operation
 VICTIM_WITHIN = 2.0  # [s] for an answer to the victim, however busy this machine is
+IMPORTS = [str(folder) for folder in (pathlib.Path(page_session.__file__).parents[1],
+                                      pathlib.Path(page_victim.__file__).parents[1])]
 LAST = b'is this the last?'
 
 
@@ -122,72 +118,16 @@ def _watched(blow):
         raise Failure('victim', '/page', f'a client waited {blow.waits[-1]["worst"]:.1f} s for an answer')
 
 
-# --- without a socket -------------------------------------------------------------------------------------------------
-
-class _Sink(Ros):
-    """Does with messages what the page does, and sends them nowhere."""
-
-    def __init__(self):
-        self._filler, self._kinds = Filler(page_inputs.find, lambda: (1, 2)), {}
-
-    def subscribe(self, client, topic, reason, demand):
-        pass
-
-    def unsubscribe(self, client, topic, reason):
-        pass
-
-    def advertise(self, client, topic, kind, latch):
-        kind = kind or self._kinds.get(topic, 'nothing/Such')
-        if page_inputs.find(kind) is None:
-            raise Refusal(f'the type {kind} is not installed here')
-        self._kinds[topic] = kind
-
-    def unadvertise(self, client, topic):
-        pass
-
-    def publish(self, client, topic, values):
-        kind = page_inputs.find(self._kinds[topic])
-        data = serialised(self._filler.fill(kind(), values))
-        json.loads(to_text(kind().deserialize(data)), parse_constant=_no_constant)
-
-    def call(self, client, service, values, done, timeout):
-        done(True, {})
-
-    def serve(self, client, service, kind, ask, failed):
-        ask('1', {})
-
-    def unserve(self, client, service):
-        pass
-
-    def answer(self, client, service, request, worked, values):
-        pass
-
-    def leave(self, client):
-        pass
-
-
-def _no_constant(name):
-    raise ValueError(f'{name} is no JSON')
-
-
-def operations(_, chance, blow):
-    """Operations with fields of every type, in this process: what is understood, made into bytes, and answered."""
+def operations(ground, chance, blow):
+    """Operations with fields of every type, in a process of its own without a socket: see `page_session`."""
+    seed = chance.getrandbits(32)
     blow.say(f'{OPERATIONS} operations without a socket')
-    kinds, replies = [*page_inputs.types(), *20 * [page_inputs.EVERYTHING._type]], []
-    allowed = AllowList(**{what: ['/hostile/*'] for what in ('read', 'write', 'call', 'serve', 'get', 'set')})
-    for number in range(OPERATIONS):
-        if number % 100 == 0:
-            session = Session(_Sink(), allowed, Rights(everything=chance.random() < 0.9), '/', None, replies.append)
-            session.receive(json.dumps({'op': 'advertise', 'topic': '/hostile/a', 'type': page_inputs.EVERYTHING._type}))
-        text = page_inputs.operation(chance, kinds)
-        begin = time.thread_time()
-        try:
-            with contextlib.suppress(Hostile):
-                session.receive(text)
-            json.dumps(replies, allow_nan=False).encode()
-        except Exception as error:
-            raise Failure('session', '/page', f'{type(error).__name__}: {error}: {text[:300]!r}') from error
-        if time.thread_time() - begin > SLOWEST:
-            raise Failure('session', '/page', f'{time.thread_time() - begin:.3f} s of CPU time: {text[:300]!r}')
-        replies.clear()
-        blow.inputs += 1
+    path = os.pathsep.join([os.environ.get('PYTHONPATH', ''), *IMPORTS])  # what is first may plant a fault
+    done = subprocess.run(
+        [sys.executable, page_session.__file__, str(seed), str(OPERATIONS)], stdout=subprocess.PIPE,
+        universal_newlines=True, env={**ground.environment, 'PYTHONPATH': path},
+        timeout=ENDS_WITHIN + OPERATIONS * page_session.SLOWEST)
+    lines = done.stdout.splitlines() or [f'ended with exit code {done.returncode}']
+    if done.returncode:
+        raise Failure('session', '/page', lines[-1])
+    blow.inputs += int(lines[-1])

@@ -293,3 +293,18 @@ def forgets_rows():
 def page_falls_silent():
     from tornado.websocket import WebSocketHandler
     before(WebSocketHandler, 'write_message', lambda *_: time.sleep(FOR_EVER))
+
+
+def raises_for_an_odd_date():
+    from rumba_viewer.page.web import Files
+    del Files.should_return_304
+
+
+def sleeps_over_what_is_no_number():
+    from rumba_viewer.page.protocol import Session
+    before(Session, 'receive', lambda _, text: time.sleep(5.0 * ('Infinity' in text)))
+
+
+def repeats_what_is_no_id():
+    from rumba_viewer.page import operations
+    after(operations, 'can_be_id', lambda _: True)

@@ -10,7 +10,7 @@ import os
 import sys
 
 DIED = 3  # exit code
-COMMANDS = ('forgets_rows',)  # faults of programs that are no nodes: they are planted at once
+COMMANDS = ('forgets_rows', 'repeats_what_is_no_id')  # faults of programs that are no nodes: they are planted at once
 
 
 def plant(name):

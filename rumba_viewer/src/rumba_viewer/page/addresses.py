@@ -77,14 +77,13 @@ class Addresses:
         found = self._known.pop(name, None) or Address(name, self._clock())
         self._known[name] = found
         if len(self._known) > REMEMBERED:
-            oldest = next((one for one in self._known.values() if not one.streams and one is not found), None)
-            if oldest is not None:
+            for oldest in [one for one in self._known.values() if not one.streams and one is not found][:1]:
                 del self._known[oldest.name]
         return found
 
     def fullest(self) -> Optional[Address]:
         """The address with most connections that may be closed."""
-        return max(self._known.values(), key=lambda one: len(one.streams), default=None)
+        return max(self._known.values(), default=None, key=lambda one: len(one.streams))
 
     @property
     def streams(self) -> int:
