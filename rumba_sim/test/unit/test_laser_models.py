@@ -18,6 +18,7 @@ from rumba_sim.model.geometry import Pose, compose
 from rumba_sim.model.kernel import laser as kernel
 from rumba_sim.model.laser_config import MODELS, LaserConfig
 from rumba_sim.model.laser_scan import laser_scan
+from rumba_sim.model.mounting import Mounting
 from rumba_sim.model.robot_config import RobotConfig
 from rumba_sim.model.world import World
 from rumba_sim.model.worlds import Worlds
@@ -292,4 +293,4 @@ def test_a_scan_has_the_numbers_of_a_message_and_the_mounting():
     assert told.ranges.dtype == np.float32 and told.ranges.shape == (682,)
     assert (told.range_min, told.range_max) == (float(np.float32(0.02)), float(np.float32(5.6)))
     assert told.angle_min + 340 * told.angle_increment == approx(0.0, abs=1e-4)
-    assert (told.mounting, told.upside_down) == (Pose(0.1, 0.0, 1.0), True)
+    assert told.mounting == Mounting(0.1, 0.0, 1.0, True)
