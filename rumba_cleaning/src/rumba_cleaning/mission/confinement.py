@@ -6,7 +6,7 @@ from rumba_cleaning.behaviours.travel import LONGEST
 from rumba_sim.model.geometry import Pose
 
 AREA = 1.0  # [m] side of the area: what is larger is floor that is worth cleaning; our choice
-CLEANING = 360.0  # [s] that a robot may clean there: a minute more than it may stand at one place; our choice
+CLEANING = 400.0  # [s] that a robot may clean there: longer than it may try at one place; our choice
 RETURNING = 120.0  # [s] that it may try to get home from there after that; our choice
 REASON = f'has not got out of {AREA:g} m by {AREA:g} m for {CLEANING:g} s: something is all around the robot'
 

@@ -136,6 +136,8 @@ class Mission(StagedMission):
             return self._strand(message, Outcome.BLOCKED)
         self._confinement.rest()
         self._confinement.is_known = True
+        assert self._last is not None
+        self._second_try.give_up(self._last)
         return self._close(Status.FAILED, message, Outcome.BLOCKED)
 
     def take_note(self, observation: Observation) -> None:
