@@ -19,6 +19,7 @@ SIMULATOR = Role('/simulator', 'rumba_sim', 'simulator', '/simulator/tuning/para
 SCALARS = ('nan', '.inf', '-.inf', '-1', '0', '1e308', '9' * 40, '9' * 5000, 'true', 'null', '~', '[]', '{}', '[1, 2]',
            '"\\e[2J"', 'x' * 5000, '&a [*a]', '!!python/object:os.system', '2001-01-01', '0x10', '1_000', "''", '../..',
            '/dev/zero', '/dev/null', '[[[[[[[[1]]]]]]]]', '1e-320', '{a: {b: c}}', '[.nan, .nan, .nan]', '\t', '%')
+NUMBERS = ('0', '1', '2.5', '1e-9', '50', '99.9')  # odd for some parameters, and possible for many
 BOMB = 'a: &a [1,1,1,1,1,1,1,1,1]\n' + ''.join(
     f'{new}: &{new} [{",".join([f"*{old}"] * 9)}]\n' for old, new in zip('abcdefg', 'bcdefgh')) + 'seed: *h\n'
 IMAGES = ('studio.png', 'studio_carpet.png')
@@ -147,7 +148,7 @@ def odd_arguments(ground, chance, blow):
 
 
 def _argument(chance, names):
-    value = chance.choice(SCALARS).strip('"') or ' '
+    value = chance.choice(SCALARS if chance.random() < 0.5 else NUMBERS).strip('"') or ' '
     choice = chance.randrange(6)
     if choice == 0:
         return chance.choice((*ARGUMENTS, value))

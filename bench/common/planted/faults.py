@@ -292,7 +292,7 @@ def forgets_rows():
 
 def page_falls_silent():
     from tornado.iostream import IOStream
-    writes = iter(range(20))
+    writes = iter(range(6))
     before(IOStream, 'write', lambda *_: next(writes, None) is None and time.sleep(FOR_EVER))
 
 
