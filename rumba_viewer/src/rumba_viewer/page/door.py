@@ -27,7 +27,9 @@ class Stream(IOStream):
 
     def read_until_regex(self, regex: bytes, max_bytes: Optional[int] = None) -> Any:
         """Read the head of a request."""
-        return asyncio.ensure_future(self._in_turn(super().read_until_regex(regex, max_bytes)))
+        reading = asyncio.ensure_future(self._in_turn(super().read_until_regex(regex, max_bytes)))
+        reading.add_done_callback(lambda _: reading.cancelled() or reading.exception())  # whoever waited may have gone
+        return reading
 
     async def _in_turn(self, head: Awaitable[bytes]) -> bytes:
         data = await head
