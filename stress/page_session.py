@@ -36,6 +36,9 @@ class _Sink(Ros):
     def unsubscribe(self, client, topic, reason):
         pass
 
+    def kind(self, topic):
+        return self._kinds.get(topic, '')
+
     def advertise(self, client, topic, kind, latch):
         kind = kind or self._kinds.get(topic, 'nothing/Such')
         if page_inputs.find(kind) is None:
@@ -53,7 +56,7 @@ class _Sink(Ros):
     def call(self, client, service, values, done, timeout):
         done(True, {})
 
-    def serve(self, client, service, kind, ask, failed):
+    def serve(self, client, service, kind, ask, tell):
         ask('1', {})
 
     def unserve(self, client, service):

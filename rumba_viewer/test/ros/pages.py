@@ -16,6 +16,7 @@ from tornado.ioloop import IOLoop
 from tornado.websocket import websocket_connect
 
 PHONE, DESK = (360, 740), (1280, 800)  # [pixels]
+HALF = '\ud83d'  # of a character, as JavaScript cuts texts
 ROBOT = (31, 111, 214)  # colour of the first robot
 
 

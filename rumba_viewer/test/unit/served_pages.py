@@ -37,6 +37,9 @@ class Topics:
     def unsubscribe(self, client, topic, reason):
         self._hub.feed(topic).remove(client, reason)
 
+    def kind(self, topic):
+        return ''
+
     def leave(self, client):
         pass
 

@@ -26,6 +26,7 @@ LARGEST_OF_WATCHERS = 8192  # [bytes] of a message of a client that can only wat
 DELAY = 1.0  # [s] until a wrong token is answered
 REASON = 120  # [bytes] of the reason of a close: RFC 6455, section 5.5
 MOST_REPLIES = 200  # that wait for a slow client; a client for which more would wait is disconnected
+MOST_REPLY_BYTES = 4_000_000  # the same for all of them together
 SEND_BUFFER = 65536  # [bytes] in the kernel for each client: what it holds grows old
 LINGER = 5.0  # [s] in which the rest of a message that is too big is read and thrown away
 TEXT, BINARY = 0x81, 0x82  # first byte of a frame that is a whole text, or whole data: RFC 6455, section 5.2
@@ -219,7 +220,8 @@ class Client(WebSocketHandler):
 
     def reply(self, operation: Dict[str, Any]) -> None:
         """Send an operation that must not be lost."""
-        if len(self._waiting.get(None, ())) >= MOST_REPLIES:
+        waiting = self._waiting.get(None, ())
+        if len(waiting) >= MOST_REPLIES or sum(map(len, waiting)) > MOST_REPLY_BYTES:
             self.tell_and_drop('too many answers wait for this client')
         else:
             self.push(None, framed(json.dumps(operation, separators=(',', ':'))), MOST_REPLIES)

@@ -12,10 +12,10 @@ from typing import Any, Callable, List, Sequence, Tuple
 from rumba_sim.model.errors import quoted
 from rumba_viewer.page.conversion import BYTES, FLOATS, INTEGERS, TIMES, Kind, kind
 from rumba_viewer.page.errors import Refusal
+from rumba_viewer.page.operations import MOST_NESTED
 
 Find = Callable[[str], Any]  # the class of a type, None if it is not installed
 HEADERS = ('Header', 'std_msgs/Header', 'roslib/Header')
-MOST_NESTED = 32  # levels of a message
 PARTS = ('secs', 'nsecs'), ('sec', 'nanosec')  # of a time: as ROS 1 calls them, and as ROS 2 does
 SECOND = 1_000_000_000  # [ns]
 

@@ -8,6 +8,7 @@ from rumba_sim.model.errors import quoted
 from rumba_viewer.page.errors import Refusal
 
 MOST_NAME = 255  # characters
+MOST_NESTED = 32  # levels of a value
 NAME = re.compile(r'/[A-Za-z][\w-]*(/[A-Za-z][\w-]*)*', re.ASCII)  # rospy only warns of hyphens
 TYPE = re.compile(r'[A-Za-z]\w*/[A-Za-z]\w*', re.ASCII)
 Operation = Dict[str, Any]
@@ -41,6 +42,14 @@ def reason(operation: Operation) -> Any:
 def can_be_id(value: Any) -> bool:
     """Whether answers can repeat an id: JSON has neither NaN nor infinities, and ids are no objects."""
     return value is None or isinstance(value, (str, int)) or isinstance(value, float) and math.isfinite(value)
+
+
+def can_be_repeated(value: Any, levels: int = MOST_NESTED) -> bool:
+    """Whether a value of one client can be sent to another: it is not nested deeply, and all numbers are finite."""
+    if isinstance(value, (dict, list)):
+        parts = value.values() if isinstance(value, dict) else value
+        return levels > 0 and all(can_be_repeated(part, levels - 1) for part in parts)
+    return not isinstance(value, float) or math.isfinite(value)
 
 
 def number(operation: Operation, key: str) -> float:

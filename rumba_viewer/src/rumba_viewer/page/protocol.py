@@ -120,8 +120,10 @@ class Session:
                         operation.get('newest') is True)
         self._ros.subscribe(self._client, topic, reason, demand)
         self._listens.setdefault(topic, set()).add(reason)
-        if operation.get('fragment_size') is not None:
-            self.tell('warning', 'fragment_size is ignored: each message is sent whole', operation.get('id'))
+        self._warn_of_ignored(operation, 'fragment_size')
+        wanted, known = operation.get('type'), self._ros.kind(topic)
+        if wanted is not None and known and wanted != known:
+            self.tell('warning', f'{topic} has the type {known} and not {quoted(wanted)}', operation.get('id'))
 
     def _unsubscribe(self, operation: Operation) -> None:
         topic, reason = self._name(operation, 'topic'), operations.reason(operation)
@@ -189,6 +191,7 @@ class Session:
             else:
                 self._changed('call', operation, 'service')
             timeout = min(operations.number(operation, 'timeout'), LONGEST_WAIT)
+            self._warn_of_ignored(operation, 'fragment_size', 'compression')
             self._ros.call(self._client, service, values, done, timeout)
         except Refusal as refusal:
             done(False, str(refusal))
@@ -245,6 +248,11 @@ class Session:
 
     def _set_level(self, operation: Operation) -> None:
         self._level = LEVELS.index(operations.one(operation, 'level', LEVELS, 'error'))
+
+    def _warn_of_ignored(self, operation: Operation, *keys: str) -> None:
+        for key in keys:
+            if operation.get(key, 'none') not in ('none', None):
+                self.tell('warning', f'{key} is ignored here', operation.get('id'))
 
     def _name(self, operation: Operation, key: str) -> str:
         """The full name of a topic, service or parameter."""

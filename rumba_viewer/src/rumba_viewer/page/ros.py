@@ -20,6 +20,10 @@ class Ros(abc.ABC):
         """No longer send them; reason None: for no reason."""
 
     @abc.abstractmethod
+    def kind(self, topic: str) -> str:
+        """The type of a topic; empty if it is not known."""
+
+    @abc.abstractmethod
     def advertise(self, client: Any, topic: str, kind: Optional[str], latch: bool) -> None:
         """Prepare to publish messages of a type; None: that which the topic has."""
 

@@ -81,6 +81,10 @@ class NoRos(Ros):
     def unsubscribe(self, client: Any, topic: str, reason: Any) -> None:
         """Nothing came."""
 
+    def kind(self, topic: str) -> str:
+        """It is not known yet."""
+        return ''
+
     def advertise(self, client: Any, topic: str, kind: Optional[str], latch: bool) -> None:
         """Nothing can be published yet."""
         raise _trouble()
@@ -97,7 +101,7 @@ class NoRos(Ros):
         raise _trouble()
 
     def serve(self, client: Any, service: str, kind: str, ask: Callable[[str, Any], None],
-              failed: Callable[[str], None]) -> None:
+              tell: Callable[[str, str], None]) -> None:
         """Nothing can be served yet."""
         raise _trouble()
 

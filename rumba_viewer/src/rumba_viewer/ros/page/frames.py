@@ -40,6 +40,10 @@ class Frames(Ros):
         else:
             self._ros.unsubscribe(client, topic, reason)
 
+    def kind(self, topic: str) -> str:
+        """The type of a topic; empty if it is not known."""
+        return republishing.TYPES.get(topic) or self._ros.kind(topic)
+
     def advertise(self, client: Any, topic: str, kind: Optional[str], latch: bool) -> None:
         """Prepare to publish messages of a type; None: that which the topic has."""
         if not republishing.is_ours('write', topic):

@@ -117,12 +117,16 @@ class RosLink(Ros):
             del self._hub.feeds[topic]
             self.listening.drop(topic)
 
+    def kind(self, topic: str) -> str:
+        """The type of a topic; empty if it is not known."""
+        return self._graph.known.types.get(topic, '').replace('*', '')
+
     def advertise(self, client: Any, topic: str, kind: Optional[str], latch: bool) -> None:
         """Prepare to publish messages of a type; None: that which the topic has."""
-        known = self._graph.known.types.get(topic, '*')
-        if kind is None and known == '*':
+        known = self.kind(topic)
+        if kind is None and not known:
             raise Refusal(f'the type of {topic} is not known: advertise it first')
-        if kind is not None and known not in (kind, '*'):
+        if kind is not None and known not in (kind, ''):
             raise Refusal(f'{topic} has the type {known} and not {kind}')
         self._talking.advertise(client, topic, kind or known, latch)
 

@@ -85,7 +85,9 @@ class Services:
             del self._calls[client]
         elif was_first:
             self._begin(client)
+        begin = time.thread_time()
         call.done(worked, values)
+        client.charge(time.thread_time() - begin)
 
     def _ask(self, client: Any, service: str, values: Any) -> Any:
         """Call a service; its client pays for the CPU time of this thread, which the others miss."""
@@ -101,7 +103,7 @@ class Services:
             return self._api.answer(service[len(API):], values)
         private = self._serving.private(service)
         if private is not None:
-            return self._serving.fetch(private, values)
+            return self._serving.call(private, values)
         kind = rosservice.get_service_class_by_name(service)
         request = self._filler.fill_any(kind._request_class(), values)
         serialised(request)

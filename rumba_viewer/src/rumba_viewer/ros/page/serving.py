@@ -12,6 +12,7 @@ from rumba_sim.ros.common import peers
 from rumba_viewer.page.conversion import to_json
 from rumba_viewer.page.errors import Refusal
 from rumba_viewer.page.filling import Filler, serialised
+from rumba_viewer.page.operations import can_be_repeated
 from rumba_viewer.ros.page import types
 
 MOST_PENDING = 20  # requests of a service that wait for its client
@@ -111,9 +112,7 @@ class Serving:
     def _response(self, served: Served, values: Any) -> Any:
         """A response, complete, or as the client gave it if the type of the service is not installed."""
         if served.is_private:
-            if not isinstance(values or {}, dict):
-                raise Refusal(f'values is {quoted(values)}: must be an object')
-            return values or {}
+            return _checked('values', values)
         response = self._filler.fill_any(served.server.response_class(), values)
         serialised(response)
         return response
@@ -127,6 +126,14 @@ class Serving:
         if served is None or not served.is_settled.wait(PATIENCE):
             return None
         return served if served.is_private else None
+
+    def call(self, served: Served, values: Any) -> Any:
+        """Call a service that ROS does not know, for another client; blocks until there is an answer.
+
+        Raises:
+            Refusal: it does not work.
+        """
+        return self._fetch(served, _checked('args', values))
 
     def close(self) -> None:
         """Begin nothing more."""
@@ -159,16 +166,12 @@ class Serving:
     def _handle(self, served: Served, request: Any) -> Any:
         """The response to a request of ROS; called in a thread of rospy for each."""
         try:
-            return self.fetch(served, to_json(request))
+            return self._fetch(served, to_json(request))
         except Refusal as refusal:
             raise rospy.ServiceException(str(refusal)) from None
 
-    def fetch(self, served: Served, values: Any) -> Any:
-        """The response to a request; blocks until the client has given it.
-
-        Raises:
-            Refusal: it does not work.
-        """
+    def _fetch(self, served: Served, values: Any) -> Any:
+        """The response to a request; blocks until the client has given it."""
         waiting: 'concurrent.futures.Future[Any]' = concurrent.futures.Future()
         number = f'service_request:{served.service}:{next(self._numbers)}'
         self._later(0.0, lambda: self._begin(served, number, values, waiting))
@@ -187,3 +190,10 @@ class Serving:
         else:
             served.pending[number] = waiting
             served.ask(number, values)
+
+
+def _checked(key: str, values: Any) -> Any:
+    """Values for a service whose type is not known."""
+    if not isinstance(values or {}, dict) or not can_be_repeated(values):
+        raise Refusal(f'{key} is {quoted(values)}: must be an object of finite numbers, not nested deeply')
+    return values or {}
