@@ -64,9 +64,8 @@ class Door:
             except (BlockingIOError, ConnectionAbortedError):
                 return
             except OSError:  # such as too many open files
-                loop = IOLoop.current()
-                loop.remove_handler(listening)
-                loop.call_later(PAUSE, lambda: listening.fileno() >= 0 and self.open(listening))
+                IOLoop.current().remove_handler(listening)
+                IOLoop.current().call_later(PAUSE, self.open, listening)
                 return
             address = self._addresses.find(where[0])
             self._make_room()

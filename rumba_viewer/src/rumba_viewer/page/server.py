@@ -89,9 +89,9 @@ class Hub:
 
     async def turn(self, account: Account) -> None:
         """Wait for the turn of an account."""
-        begun = asyncio.get_event_loop().create_future()
-        self.turns.ask(account, lambda: begun.done() or begun.set_result(None))
-        await begun
+        begun = asyncio.Event()
+        self.turns.ask(account, begun.set)
+        await begun.wait()
 
     async def request(self, address: Address, seconds: float) -> None:
         """Wait for the turn of a request of an address, which takes some CPU time [s]."""
