@@ -7,6 +7,8 @@ import pytest
 from served_pages import (
     CLOSE, FINAL, FOLDER, GREETING, PING, TEXT, TIMEOUT, Page, answer, frame, is_served, listener, run, until)
 
+from rumba_viewer.page.turns import AT_ONCE, OF_ALL
+
 CONTINUATION, BINARY, PONG = 0x0, 0x2, 0xA
 HOSTS = ('localhost', 'LOCALHOST:8080', '127.0.0.1', '127.9.9.9:1', '[::1]:80')
 STRANGE_HOSTS = ('evil.example', 'localhost.evil.example', '127.0.0.1.evil.example', 'localhost@evil.example', '', '0',
@@ -113,5 +115,19 @@ def test_of_too_many_connections_the_oldest_that_ask_for_nothing_are_closed(monk
         assert page.hub.addresses.streams <= 10
         await is_served(page, good)
         for _, writer in idle:
+            writer.close()
+    run(act)
+
+
+def test_new_connections_are_accepted_when_those_before_them_are_paid_for(monkeypatch):
+    monkeypatch.setattr('rumba_viewer.page.door.CONNECTION', 0.2)
+
+    async def act():
+        page = Page()
+        begin = page.hub.now()
+        writers = [(await asyncio.open_connection(*page.at.split(':')))[1] for _ in range(5)]
+        await until(lambda: page.hub.addresses.streams == 5)
+        assert page.hub.now() - begin > 0.9 * (0.2 - AT_ONCE) / OF_ALL
+        for writer in writers:
             writer.close()
     run(act)
