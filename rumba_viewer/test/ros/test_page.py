@@ -24,8 +24,9 @@ HAS_BROWSER = all(map(shutil.which, ('chromium', 'chromedriver'))) and importlib
 TELEOP = '/rumba/teleop/cmd_vel'
 MIDDLE = 5.54  # [m] x and y of the middle of the map field
 DIRTY, UNMAPPED = (160, 127, 105), (211, 189, 183)  # floor that is to sweep, on the robot's map or not, below its laser
+ALLOWED = ('_read:=/chatter', '_write:=/chatter', '_serve:=/half', '_call:=/half', '_get:=/lesson', '_set:=/lesson')
 PYTHON_CLIENT = '''
-import sys, time, roslibpy
+import sys, threading, time, roslibpy, roslibpy.tf
 ros = roslibpy.Ros(host="127.0.0.1", port=int(sys.argv[1]))
 ros.run()
 heard = []
@@ -34,7 +35,16 @@ talker = roslibpy.Topic(ros, "/chatter", "std_msgs/String")
 while not heard:
     talker.publish(roslibpy.Message({"data": "Hello World!"}))
     time.sleep(0.05)
-print(heard[0], "/rumba/scan" in ros.get_topics(), ros.get_topic_type("/map"),
+def half(request, response):
+    response["message"] = str(request["data"])
+    return True
+roslibpy.Service(ros, "/half", "std_srvs/SetBool").advertise(half)
+half_of_ros = roslibpy.Service(ros, "/half", "std_srvs/SetBool")
+lesson, moved = roslibpy.Param(ros, "/lesson"), threading.Event()
+lesson.set([1, "x"])
+roslibpy.tf.TFClient(ros, fixed_frame="map").subscribe("laser", lambda transform: moved.set())
+print(heard[0], "/rumba/scan" in ros.get_topics(), ros.get_topic_type("/map"), lesson.get(), moved.wait(30),
+      half_of_ros.call(roslibpy.ServiceRequest({"data": True}))["message"],
       roslibpy.Service(ros, "/simulator/pause", "std_srvs/Trigger").call(roslibpy.ServiceRequest()))
 ros.terminate()
 '''
@@ -43,14 +53,31 @@ import * as ROSLIB from "roslib";
 const ros = new ROSLIB.Ros({url: `ws://127.0.0.1:${process.argv[1]}`});
 const topic = new ROSLIB.Topic({ros, name: "/chatter", messageType: "std_msgs/String"});
 const pause = new ROSLIB.Service({ros, name: "/simulator/pause", serviceType: "std_srvs/Trigger"});
-const map = new ROSLIB.Topic({ros, name: "/map", messageType: "nav_msgs/OccupancyGrid", compression: "png"});
+const cells = compression => new Promise(done => {
+  const map = new ROSLIB.Topic({ros, name: "/map", messageType: "nav_msgs/OccupancyGrid", compression});
+  map.subscribe(({info, data}) => {
+    map.unsubscribe();
+    done(data.length === info.width * info.height);
+  });
+});
+const half = () => new ROSLIB.Service({ros, name: "/half", serviceType: "std_srvs/SetBool"});
+const lesson = new ROSLIB.Param({ros, name: "/lesson"});
+const tf = new ROSLIB.TFClient({ros, fixedFrame: "map"});
 const timer = setInterval(() => topic.publish({data: "Hello World!"}), 50);
 topic.subscribe(heard => {
+  topic.unsubscribe();
   clearInterval(timer);
-  map.subscribe(({info, data}) => ros.getTopics(({topics}) => pause.callService({}, answer => {
-    console.log(heard.data, topics.includes("/rumba/scan"), answer.message, data.length === info.width * info.height);
+  const called = (service, values) => new Promise((done, failed) => service.callService(values, done, failed));
+  (async () => {
+    await half().advertiseAsync(async ({data}) => ({message: String(data)}));
+    await new Promise(done => lesson.set([1, "x"], done));
+    const {topics} = await new Promise(done => ros.getTopics(done));
+    await new Promise(done => tf.subscribe("laser", done));
+    console.log(heard.data, topics.includes("/rumba/scan"), await cells("png"), await cells("cbor"),
+      await new Promise(done => lesson.get(done)), (await called(half(), {data: true})).message,
+      (await called(pause, {})).message);
     process.exit(0);
-  })));
+  })();
 });
 '''
 NODE_FOLDER = os.path.dirname(os.environ.get('NODE_PATH', '').rstrip('/')) or None  # that contains node_modules
@@ -170,21 +197,23 @@ class LibraryTest(unittest.TestCase):
     """Client libraries of others, unchanged."""
 
     def start(self):
-        """A simulator, and a page at which /chatter can be used."""
+        """A simulator, and a page at which more can be used."""
         Simulator(self, '_map:=field')
-        return str(Page(self, '_read:=/chatter', '_write:=/chatter').port)
+        self.addCleanup(rospy.delete_param, '/lesson')
+        return str(Page(self, *ALLOWED).port)
 
     @unittest.skipUnless(importlib.util.find_spec('roslibpy'), 'roslibpy is not installed: pip install roslibpy')
     def test_roslibpy_talks_listens_and_calls(self):
         output = printed_by(self, sys.executable, '-c', PYTHON_CLIENT, self.start())
         self.assertEqual(
-            output.strip(), "Hello World! True nav_msgs/OccupancyGrid {'success': True, 'message': 'paused'}")
+            output.strip(), "Hello World! True nav_msgs/OccupancyGrid [1, 'x'] True True "
+                            "{'success': True, 'message': 'paused'}")
 
     @unittest.skipUnless(shutil.which('node') and NODE_FOLDER and os.path.isdir(f'{NODE_FOLDER}/node_modules/roslib'),
                          'roslib is not installed: npm install roslib, and its node_modules in NODE_PATH')
     def test_roslib_talks_listens_and_calls(self):
         output = printed_by(self, 'node', '--input-type=module', '-e', NODE_CLIENT, self.start(), folder=NODE_FOLDER)
-        self.assertEqual(output.strip(), 'Hello World! true paused true')
+        self.assertEqual(output.strip(), "Hello World! true true true [ 1, 'x' ] true paused")
 
 
 @unittest.skipUnless(HAS_BROWSER, 'needs chromium, chromium-driver and python3-selenium')

@@ -101,6 +101,16 @@ def test_a_client_gets_one_compression_only_if_it_always_asks_for_it():
     assert listener.demand.compression == 'none'
 
 
+def test_each_subscription_of_a_client_begins_with_what_is_latched():
+    feed, encoding, (reader,) = feed_of(Demand())
+    arrivals(feed, b'1', is_latched=True)
+    feed.tick(0.0, encoding)
+    feed.add(reader, 'another part of its program', Demand(), encoding)
+    assert reader.got == [b':1', b':1']
+    feed.add(reader, 'another part of its program', Demand(1.0), encoding)
+    assert len(reader.got) == 2
+
+
 def test_several_subscriptions_of_a_client_are_one():
     feed, encoding, (reader,) = feed_of(Demand(10.0))
     feed.add(reader, 'quick', Demand(), encoding)

@@ -112,7 +112,7 @@ class Feed:
     def add(self, client: Any, reason: Any, demand: Demand, encode: Encode) -> None:
         """Let a client listen, and send it what it gets at once."""
         listener = self._listeners.get(client)
-        is_new = listener is None
+        is_new = listener is None or reason not in listener.demands
         if listener is None:
             listener = self._listeners[client] = Listener(client)
             listener.seen = self._number

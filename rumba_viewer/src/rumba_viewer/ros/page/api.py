@@ -42,7 +42,7 @@ class Api:
         answer = self._answers.get(name)
         if answer is None:
             raise Refusal(f'there is no /rosapi/{name} here: there are ' + ', '.join(self._answers))
-        if not self._known.is_there:
+        if not self._graph.fresh().is_there:
             raise Refusal(f'no roscore answers at {rosgraph.get_master_uri()}')
         return answer(values if isinstance(values, dict) else {})
 

@@ -48,8 +48,14 @@ class Graph:
     def __init__(self, has_clients: Callable[[], bool], clock: Clock) -> None:
         """Look once, and while there are clients."""
         self._has_clients, self._clock = has_clients, clock
-        self.known = look()
+        self._look()
         self._look_at_time()
+
+    def fresh(self) -> Known:
+        """What the master knows now, or a moment ago; blocks if it must be asked, as after a time without clients."""
+        if time.monotonic() > self._looked + 2 * PERIOD:
+            self._look()
+        return self.known
 
     def start(self) -> None:
         """Look again and again, in a thread of its own."""
@@ -60,7 +66,10 @@ class Graph:
             time.sleep(PERIOD)
             self._look_at_time()
             if self._has_clients():
-                self.known = look()
+                self._look()
+
+    def _look(self) -> None:
+        self.known, self._looked = look(), time.monotonic()
 
     def _look_at_time(self) -> None:
         try:
