@@ -40,7 +40,8 @@ def _arguments():
                         help=f'how long; default {MINUTES:g}')
     parser.add_argument('--seed', type=int, metavar='N', help='of all that is random; default: drawn, and printed')
     parser.add_argument('--only', type=_numbers, metavar='N,N,...', help='strike these blows of the seed alone')
-    parser.add_argument('--ground', choices=sorted(SCENARIOS), help='strike on this ground alone')
+    parser.add_argument('--ground', choices=sorted(SCENARIOS), metavar='NAME', help='strike on one ground alone: '
+                        + ', '.join(sorted(SCENARIOS)))
     return parser.parse_args()
 
 

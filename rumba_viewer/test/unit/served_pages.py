@@ -111,3 +111,13 @@ def run(act):
 def frame(opcode, data, is_masked=True):
     """A frame of a client; the mask is zero."""
     return struct.pack('!BB', FINAL | opcode, len(data) | (FINAL if is_masked else 0)) + 4 * is_masked * b'\0' + data
+
+
+async def answer(page, data):
+    """All that the server sends until it closes the connection."""
+    reader, writer = await asyncio.open_connection(*page.at.split(':'))
+    writer.write(data)
+    try:
+        return await asyncio.wait_for(reader.read(), TIMEOUT)
+    finally:
+        writer.close()

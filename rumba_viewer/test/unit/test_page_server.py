@@ -6,7 +6,7 @@ import socket
 
 import pytest
 from served_pages import (
-    FOLDER, GREETING, PING, Page, frame, is_served, is_told_and_ended, listener, read, run, until)
+    FOLDER, GREETING, PING, TIMEOUT, Page, frame, is_served, is_told_and_ended, listener, read, run, until)
 from tornado.httpclient import AsyncHTTPClient, HTTPClientError
 
 from rumba_sim.model.errors import ConfigError
@@ -201,3 +201,12 @@ def test_a_port_that_is_taken_is_named():
     with pytest.raises(ConfigError, match='cannot serve at 127.0.0.1, port .*: choose another port:='):
         sockets('127.0.0.1', taken.getsockname()[1])
     taken.close()
+
+
+def test_a_change_of_the_clock_of_the_system_moves_no_bound(monkeypatch):
+    async def act():
+        hub = Page().hub
+        before = hub.now()
+        monkeypatch.setattr('time.time', lambda: 0.0)
+        assert 0.0 <= hub.now() - before < TIMEOUT
+    run(act)

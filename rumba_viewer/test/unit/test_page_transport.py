@@ -1,20 +1,9 @@
 """What no browser and no library sends: requests with bodies, broken frames, dates that no calendar knows."""
 
-import asyncio
 import struct
 
 import pytest
-from served_pages import CLOSE, GREETING, TEXT, TIMEOUT, Page, frame, is_served, listener, run
-
-
-async def answer(page, data):
-    """All that the server sends until it closes the connection."""
-    reader, writer = await asyncio.open_connection(*page.at.split(':'))
-    writer.write(data)
-    try:
-        return await asyncio.wait_for(reader.read(), TIMEOUT)
-    finally:
-        writer.close()
+from served_pages import CLOSE, GREETING, TEXT, Page, answer, frame, is_served, listener, run
 
 
 @pytest.mark.parametrize('request_line', ['POST / HTTP/1.1', 'GET / HTTP/1.1', 'PUT /app.js HTTP/1.0'])

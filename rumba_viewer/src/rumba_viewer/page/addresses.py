@@ -77,13 +77,14 @@ class Addresses:
         found = self._known.pop(name, None) or Address(name, self._clock())
         self._known[name] = found
         if len(self._known) > REMEMBERED:
-            for oldest in [one for one in self._known.values() if not one.streams and one is not found][:1]:
+            unused = (known for known in self._known.values() if not known.streams and known is not found)
+            for oldest in list(unused)[:1]:
                 del self._known[oldest.name]
         return found
 
     def fullest(self) -> Optional[Address]:
         """The address with most connections that may be closed."""
-        return max(self._known.values(), default=None, key=lambda one: len(one.streams))
+        return max(self._known.values(), key=lambda one: len(one.streams)) if self._known else None
 
     @property
     def streams(self) -> int:

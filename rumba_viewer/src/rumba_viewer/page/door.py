@@ -8,11 +8,12 @@ from tornado.ioloop import IOLoop
 from tornado.iostream import IOStream
 
 from rumba_viewer.page.addresses import Address, Addresses
+from rumba_viewer.page.turns import Turns
 
 AT_ONCE = 4  # connections that are let in before others get their turn
 PAUSE = 0.1  # [s] without new connections after the system refused one
 MOST = 2000  # connections that are no websockets
-REQUEST, BYTE = 1e-3, 6e-7  # [s] of CPU time that a request costs, and each byte of its head
+CONNECTION, REQUEST, BYTE = 2e-4, 1e-3, 6e-7  # [s] of CPU time that each costs; a byte of the head of a request
 Turn = Callable[[Address, float], Awaitable[None]]  # waits for the turn of an address, and pays CPU time [s]
 
 
@@ -27,7 +28,9 @@ class Stream(IOStream):
 
     def read_until_regex(self, regex: bytes, max_bytes: Optional[int] = None) -> Any:
         """Read the head of a request."""
-        return asyncio.ensure_future(self._in_turn(super().read_until_regex(regex, max_bytes)))
+        reading = asyncio.ensure_future(self._in_turn(super().read_until_regex(regex, max_bytes)))
+        reading.add_done_callback(lambda _: reading.cancelled() or reading.exception())  # whoever waited may have gone
+        return reading
 
     async def _in_turn(self, head: Awaitable[bytes]) -> bytes:
         data = await head
@@ -47,9 +50,10 @@ class Stream(IOStream):
 class Door:
     """Accepts connections."""
 
-    def __init__(self, addresses: Addresses, turn: Turn, most: int, begin: Callable[[Stream, Any], None]) -> None:
+    def __init__(self, addresses: Addresses, turns: Turns, turn: Turn, most: int,
+                 begin: Callable[[Stream, Any], None]) -> None:
         """Have each served by `begin`, and read up to so many bytes ahead of it."""
-        self._addresses, self._turn, self._most, self._begin = addresses, turn, most, begin
+        self._addresses, self._turns, self._turn, self._most, self._begin = addresses, turns, turn, most, begin
 
     def open(self, listening: socket.socket) -> None:
         """Accept the connections of a socket."""
@@ -60,15 +64,22 @@ class Door:
             try:
                 connection, where = listening.accept()
             except (BlockingIOError, ConnectionAbortedError):
-                return
+                break
             except OSError:  # such as too many open files
-                loop = IOLoop.current()
-                loop.remove_handler(listening)
-                loop.call_later(PAUSE, lambda: listening.fileno() >= 0 and self.open(listening))
+                self._rest(listening, PAUSE)
                 return
             address = self._addresses.find(where[0])
+            self._turns.pay(address.account, CONNECTION)
             self._make_room()
             self._begin(Stream(connection, address, self._turn, self._most), where)
+        pause = self._turns.pause()
+        if pause:
+            self._rest(listening, pause)
+
+    def _rest(self, listening: Any, seconds: float) -> None:
+        """Accept nothing for a while [s]."""
+        IOLoop.current().remove_handler(listening)
+        IOLoop.current().call_later(seconds, self.open, listening)
 
     def _make_room(self) -> None:
         """Close the oldest connection of the address that has most of them, if there are too many."""

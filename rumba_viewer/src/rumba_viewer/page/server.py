@@ -89,9 +89,9 @@ class Hub:
 
     async def turn(self, account: Account) -> None:
         """Wait for the turn of an account."""
-        begun = asyncio.get_event_loop().create_future()
-        self.turns.ask(account, lambda: begun.done() or begun.set_result(None))
-        await begun
+        begun = asyncio.Event()
+        self.turns.ask(account, begun.set)
+        await begun.wait()
 
     async def request(self, address: Address, seconds: float) -> None:
         """Wait for the turn of a request of an address, which takes some CPU time [s]."""
@@ -100,8 +100,9 @@ class Hub:
 
     @staticmethod
     def now() -> float:
-        """The time of the loop [s]."""
-        return IOLoop.current().time()
+        """A time [s] that no change of the system's clock moves."""
+        loop: Any = IOLoop.current()
+        return float(loop.asyncio_loop.time())
 
     # --- clients ------------------------------------------------------------------------------------------------------
 
@@ -226,7 +227,7 @@ def serve(hub: Hub, tokens: Tokens, folder: pathlib.Path, where: List[socket.soc
         websocket_ping_interval=PING, websocket_ping_timeout=SILENT)
     application.is_local = all(is_loopback(one.getsockname()[0]) for one in where)
     server = HTTPServer(application, idle_connection_timeout=IDLE, body_timeout=IDLE, max_header_size=HEAD)
-    door = Door(hub.addresses, hub.request, AHEAD * hub.bounds.size, server.handle_stream)
+    door = Door(hub.addresses, hub.turns, hub.request, AHEAD * hub.bounds.size, server.handle_stream)
     for one in where:
         door.open(one)
     PeriodicCallback(hub.tick, 1000.0 * TICK).start()

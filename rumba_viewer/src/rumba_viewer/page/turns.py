@@ -104,6 +104,10 @@ class Turns:
         account.pay(now, seconds, **others)
         self._all.pay(seconds, now)
 
+    def pause(self) -> float:
+        """How long until anybody may go on [s]."""
+        return self._all.wait(self._clock())
+
     def _look(self, seconds: float) -> None:
         """Look in some seconds who is next, unless that is done earlier."""
         due = self._clock() + seconds

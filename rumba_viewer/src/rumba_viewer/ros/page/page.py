@@ -10,6 +10,7 @@ Parameters, as in `rosrun rumba_viewer page _port:=9090`:
 """
 
 import functools
+import gc
 import resource
 import sys
 from typing import Any, Callable, Optional
@@ -66,6 +67,8 @@ def run(settings: Settings, early: Early) -> None:
     rospy.on_shutdown(lambda: loop.add_callback(loop.stop))
     rospy.loginfo(f'the page is at {url(settings, where)}'
                   + (' (add #token=TOKEN to change anything)' if tokens.are_needed else ''))
+    gc.collect()
+    gc.freeze()  # otherwise each collection looks at all that was imported, while all clients wait
     loop.start()
     link.close()
 
