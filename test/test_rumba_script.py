@@ -109,8 +109,8 @@ def test_an_unknown_command_is_refused():
 def test_an_unknown_argument_of_run_is_refused(argument):
     assert rumba(ROOT, 'run', argument) == (
         2, '', f"rumba: unknown argument '{argument}': use NAME:=VALUE with one of these names: "
-        'robots map speed seed obstacles laser drain localisation percentage strategy target_coverage map_file state '
-        'gui page rviz\n')
+        'robots map speed seed obstacles laser laser_model drain localisation percentage strategy target_coverage '
+        'map_file state gui page rviz\n')
 
 
 def test_no_network_leaves_nothing_behind(checkout, tmp_path):

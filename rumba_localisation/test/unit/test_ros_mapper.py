@@ -29,7 +29,7 @@ class Node:
         monkeypatch.setattr(scan_loop.rospy, 'Publisher', self._publisher)
         monkeypatch.setattr(scan_loop.rospy, 'Subscriber', lambda *_, **__: None)
         monkeypatch.setattr(node.rospy, 'Service', lambda *_: None)
-        monkeypatch.setattr(scan_loop, 'Participant', lambda _: None)
+        monkeypatch.setattr(scan_loop, 'Participant', lambda *_: None)
         monkeypatch.setattr(node, 'RobotConfig', quiet)
         x, y, theta = START
         settings = node.Settings(initial_pose_x=x, initial_pose_y=y, initial_pose_a=theta, map_update_interval=3600.0)

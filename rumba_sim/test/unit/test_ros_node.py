@@ -41,6 +41,14 @@ def test_parameters_of_an_earlier_start_are_named(monkeypatch, arguments, told):
                       '`rosparam delete /simulator` forgets them'] if told else [])
 
 
+def test_what_a_deleted_parameter_left_behind_is_not_named(monkeypatch):
+    lines = []
+    monkeypatch.setattr(node.rospy, 'loginfo', lines.append)
+    monkeypatch.setattr(node.sys, 'argv', ['simulator'])
+    node._tell_of_parameters_from_before({'drive': {}})
+    assert not lines
+
+
 @pytest.mark.parametrize('value', ['text', 5, ['a'], 1.5, True])
 def test_parameters_that_are_no_mapping_are_refused(monkeypatch, value):
     given(monkeypatch, value)

@@ -215,7 +215,8 @@ def _tell_of_parameters_from_before(parameters: Any) -> None:
     if not isinstance(parameters, Mapping) or launched.is_fixed() or _is_launched():
         return
     given = {assignment.group(1).partition('/')[0] for assignment in map(_assignment, sys.argv) if assignment}
-    before = {name: value for name, value in sorted(parameters.items()) if name not in given}
+    # What was deleted leaves an empty mapping behind.
+    before = {name: value for name, value in sorted(parameters.items()) if name not in given and value != {}}
     if before:
         shown = ', '.join(f'{name}: {quoted(value)}' for name, value in before.items())
         rospy.loginfo(one_line('the master keeps parameters of an earlier start, which hold for this one too: '
