@@ -6,7 +6,7 @@ from typing import NamedTuple, Optional, Tuple
 import numpy as np
 
 from rumba_localisation import compiled_matching
-from rumba_localisation.mapping import compiled_grid
+from rumba_localisation.mapping import compiled_beams, compiled_grid
 from rumba_localisation.noise import Noise
 from rumba_localisation.scan import Scan, thinned
 from rumba_sim.model.geometry import Pose, wrap_angle
@@ -83,7 +83,7 @@ class Grid:
 
     def share_unknown(self, pose: Pose, points: Array) -> float:
         """Share of the beams of a scan, as `add` gets it, that end on cells of which nothing is known [0..1]."""
-        return compiled_grid.unknown(self.odds, self.cells(placed(pose, points))) / max(len(points), 1)
+        return compiled_beams.unknown(self.odds, self.cells(placed(pose, points))) / max(len(points), 1)
 
     def share_wrong(self, pose: Pose, scan: Scan, noise: Noise, cloud: Optional[Array] = None) -> float:
         """Share of the beams of a scan that end where there is surely nothing, or would have to pass through walls.
@@ -98,11 +98,11 @@ class Grid:
         points = thinned(scan.points, CHECKED)
         kernels = noise.kernels(points, scan.laser)
         (x, y), = self.cells(placed(pose, np.array([scan.laser]))).tolist()
-        blocked = compiled_grid.blocked(self.odds, x, y, self.cells(placed(pose, points)), -SURE,
+        blocked = compiled_beams.blocked(self.odds, x, y, self.cells(placed(pose, points)), -SURE,
                                         np.maximum(AWAY * kernels, BEFORE) / self.resolution)
         if cloud is not None:
             points, kernels = cloud, noise.kernels(cloud, scan.laser)
-        nowhere = compiled_grid.contradicted(self.odds, self.field, self.cells(placed(pose, points)), SURE,
+        nowhere = compiled_beams.contradicted(self.odds, self.field, self.cells(placed(pose, points)), SURE,
                                              AWAY * kernels)
         return blocked / max(min(len(scan.points), CHECKED), 1) + nowhere / max(len(points), 1)
 
