@@ -20,6 +20,7 @@ BROKEN, REFUSED, TOO_BIG = 1002, 1008, 1009  # codes of RFC 6455 for an end beca
 MASKED = 0x80  # bit of the second byte of a frame
 BURST = 2.0  # [s] of its rate that a client may send at once
 FRAME = 1e-4  # [s] of CPU time to read a frame
+NEW = 1.0  # [s] of CPU time that a new client counts as having used: those that are there go first
 SLOW, SLOW_SHARE = 0.5, 0.05  # [s] to wait, and share of its time, with which a client is told that it is slowed down
 SLOW_PERIOD = 10.0  # [s] until it is told again
 LARGEST_OF_WATCHERS = 8192  # [bytes] of a message of a client that can only watch
@@ -111,7 +112,7 @@ class Client(WebSocketHandler):
         now = hub.now()
         self._messages = Bucket(hub.bounds.rate, BURST * hub.bounds.rate, now, BURST * hub.bounds.rate)
         self.address = hub.addresses.find(str(self.request.remote_ip))
-        self._account = hub.bounds.account(now, self.address.account.used(now))
+        self._account = hub.bounds.account(now, NEW + self.address.account.used(now))
         self._patience = Bucket(SLOW_SHARE, SLOW, now, SLOW)  # [s]
         self._told_slow = -SLOW_PERIOD  # when it was told last that it is slowed down
         self._is_dropped = False
