@@ -106,3 +106,16 @@ def test_clients_and_new_connections_alternate_whoever_used_more():
         turns.ask(client, lambda: order.append('client'))
     time.run(1.0)
     assert order == ['client', 'address', 'client', 'address', 'address']
+
+
+def test_whoever_has_left_waits_no_longer():
+    time = Time()
+    turns, begun = Turns(lambda: time.now, time.later), []
+    debtor = Account(0.0, CPU)
+    debtor.pay(0.0, 10.0)
+    for number in range(2):
+        turns.ask(debtor, lambda number=number: begun.append(number))
+    turns.release(debtor)
+    assert begun == [0, 1]
+    time.run(300.0)
+    assert begun == [0, 1]

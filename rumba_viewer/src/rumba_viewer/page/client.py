@@ -115,7 +115,7 @@ class Client(WebSocketHandler):
         self._account = hub.bounds.account(now, NEW + self.address.account.used(now))
         self._patience = Bucket(SLOW_SHARE, SLOW, now, SLOW)  # [s]
         self._told_slow = -SLOW_PERIOD  # when it was told last that it is slowed down
-        self._is_dropped = False
+        self._is_dropped = self._has_left = False
         self.lost = 0  # messages that it did not get because it was slow
 
     def check_origin(self, origin: str) -> bool:
@@ -194,7 +194,8 @@ class Client(WebSocketHandler):
         if self._session is not None and self._patience.wait(now) and now > self._told_slow + SLOW_PERIOD:
             self._told_slow = now
             self._session.refuse(f'you are slowed down: a client may use {self._account.bound(now)}')
-        await self._hub.turn(self._account)
+        if not self._has_left:
+            await self._hub.turn(self._account)
 
     def charge(self, seconds: float) -> None:
         """Pay for what was done elsewhere [s of CPU time]."""
@@ -208,6 +209,8 @@ class Client(WebSocketHandler):
     def on_close(self) -> None:
         """Give back what the client has asked for."""
         self._waiting.clear()
+        self._has_left = True
+        self._hub.turns.release(self._account)
         if self._session is not None:
             self._session.close()
             self._session = None

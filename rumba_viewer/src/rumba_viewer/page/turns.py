@@ -107,6 +107,13 @@ class Turns:
         self._waiting.append((account, begin))
         self._look(0.0)
 
+    def release(self, account: Account) -> None:
+        """Let all go on that wait for the turn of an account, whose client has left."""
+        released = [begin for other, begin in self._waiting if other is account]
+        self._waiting = [(other, begin) for other, begin in self._waiting if other is not account]
+        for begin in released:
+            begin()
+
     def pay(self, account: Account, seconds: float, **others: float) -> None:
         """Note what an account has used: CPU time [s] and others."""
         now = self._clock()
