@@ -94,3 +94,28 @@ def test_a_newcomer_does_not_wait_until_somebody_in_debt_may_go_on():
     assert begun == ['newcomer']
     time.run(200.0)
     assert begun == ['newcomer', 'debtor']
+
+
+def test_clients_and_new_connections_alternate_whoever_used_more():
+    time = Time()
+    turns, order = Turns(lambda: time.now, time.later), []
+    client, address = Account(0.0, CPU, used=5.0), Account(0.0, CPU, is_client=False)
+    for _ in range(3):
+        turns.ask(address, lambda: order.append('address'))
+    for _ in range(2):
+        turns.ask(client, lambda: order.append('client'))
+    time.run(1.0)
+    assert order == ['client', 'address', 'client', 'address', 'address']
+
+
+def test_whoever_has_left_waits_no_longer():
+    time = Time()
+    turns, begun = Turns(lambda: time.now, time.later), []
+    debtor = Account(0.0, CPU)
+    debtor.pay(0.0, 10.0)
+    for number in range(2):
+        turns.ask(debtor, lambda number=number: begun.append(number))
+    turns.release(debtor)
+    assert begun == [0, 1]
+    time.run(300.0)
+    assert begun == [0, 1]

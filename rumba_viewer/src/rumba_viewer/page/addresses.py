@@ -6,7 +6,7 @@ from typing import Any, Callable, Deque, Dict, Optional
 from rumba_sim.model.errors import one_line
 from rumba_viewer.page.turns import Account, Bucket, Limit
 
-SHARE, BURST = 0.2, 0.5  # of a core, and [s] of CPU time at once, for all requests of one address
+SHARE, BURST = 0.2, 0.1  # of a core, and [s] of CPU time at once, for all requests of one address
 GUESSES, GUESS_PERIOD = 10, 12.0  # wrong tokens at once of one address, and [s] until one more
 LINES, LINE_PERIOD = 5, 10.0  # lines of the log at once about one address, and [s] until one more
 LINES_OF_ALL = 50  # at once about all addresses together
@@ -56,7 +56,7 @@ class Address:
     def __init__(self, name: str, now: float) -> None:
         """Begin with nothing used."""
         self.name = name
-        self.account = Account(now, Limit(SHARE, BURST, BURST, 'requests'))
+        self.account = Account(now, Limit(SHARE, BURST, BURST, 'requests'), is_client=False)
         self.guesses = Guesses(now)
         self.lines = Lines(now)
         self.newest = ''  # line that was not written

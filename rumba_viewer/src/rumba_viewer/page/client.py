@@ -20,6 +20,7 @@ BROKEN, REFUSED, TOO_BIG = 1002, 1008, 1009  # codes of RFC 6455 for an end beca
 MASKED = 0x80  # bit of the second byte of a frame
 BURST = 2.0  # [s] of its rate that a client may send at once
 FRAME = 1e-4  # [s] of CPU time to read a frame
+NEW = 1.0  # [s] of CPU time that a new client counts as having used: those that are there go first
 SLOW, SLOW_SHARE = 0.5, 0.05  # [s] to wait, and share of its time, with which a client is told that it is slowed down
 SLOW_PERIOD = 10.0  # [s] until it is told again
 LARGEST_OF_WATCHERS = 8192  # [bytes] of a message of a client that can only watch
@@ -111,10 +112,10 @@ class Client(WebSocketHandler):
         now = hub.now()
         self._messages = Bucket(hub.bounds.rate, BURST * hub.bounds.rate, now, BURST * hub.bounds.rate)
         self.address = hub.addresses.find(str(self.request.remote_ip))
-        self._account = hub.bounds.account(now, self.address.account.used(now))
+        self._account = hub.bounds.account(now, NEW + self.address.account.used(now))
         self._patience = Bucket(SLOW_SHARE, SLOW, now, SLOW)  # [s]
         self._told_slow = -SLOW_PERIOD  # when it was told last that it is slowed down
-        self._is_dropped = False
+        self._is_dropped = self._has_left = False
         self.lost = 0  # messages that it did not get because it was slow
 
     def check_origin(self, origin: str) -> bool:
@@ -193,7 +194,8 @@ class Client(WebSocketHandler):
         if self._session is not None and self._patience.wait(now) and now > self._told_slow + SLOW_PERIOD:
             self._told_slow = now
             self._session.refuse(f'you are slowed down: a client may use {self._account.bound(now)}')
-        await self._hub.turn(self._account)
+        if not self._has_left:
+            await self._hub.turn(self._account)
 
     def charge(self, seconds: float) -> None:
         """Pay for what was done elsewhere [s of CPU time]."""
@@ -207,6 +209,8 @@ class Client(WebSocketHandler):
     def on_close(self) -> None:
         """Give back what the client has asked for."""
         self._waiting.clear()
+        self._has_left = True
+        self._hub.turns.release(self._account)
         if self._session is not None:
             self._session.close()
             self._session = None

@@ -53,10 +53,15 @@ class Limit(NamedTuple):
 
 
 class Account:
-    """What one client, or all connections of one address, have used."""
+    """What one client, or all connections of one address, have used.
 
-    def __init__(self, now: float, cpu: Limit, used: float = 0.0, **others: Limit) -> None:
+    Attributes:
+        is_client: whether it is a client's.
+    """
+
+    def __init__(self, now: float, cpu: Limit, used: float = 0.0, is_client: bool = True, **others: Limit) -> None:
         """Count CPU time [s], of which so much counts as used already, and others, by name."""
+        self.is_client = is_client
         self._limits = {'cpu': cpu, **others}
         self._buckets = {name: Bucket(limit.rate, limit.most, now, limit.first)
                          for name, limit in self._limits.items()}
@@ -84,19 +89,30 @@ class Account:
 
 
 class Turns:
-    """Lets clients work one after the other: whoever used least lately is next."""
+    """Lets clients work one after the other: whoever used least lately is next.
+
+    If both clients and new connections wait, they alternate.
+    """
 
     def __init__(self, clock: Callable[[], float], later: Callable[[float, Callable[[], None]], Any]) -> None:
         """Read the time from a clock; call functions `later`, after a time [s]."""
         self._clock, self._later = clock, later
         self._all = Bucket(OF_ALL, AT_ONCE, clock(), AT_ONCE)
         self._waiting: List[Tuple[Account, Callable[[], None]]] = []
+        self._was_client = False
         self._due = math.inf  # when the next look is due
 
     def ask(self, account: Account, begin: Callable[[], None]) -> None:
         """Call `begin` as soon as it is the turn of an account."""
         self._waiting.append((account, begin))
         self._look(0.0)
+
+    def release(self, account: Account) -> None:
+        """Let all go on that wait for the turn of an account, whose client has left."""
+        released = [begin for other, begin in self._waiting if other is account]
+        self._waiting = [(other, begin) for other, begin in self._waiting if other is not account]
+        for begin in released:
+            begin()
 
     def pay(self, account: Account, seconds: float, **others: float) -> None:
         """Note what an account has used: CPU time [s] and others."""
@@ -124,9 +140,15 @@ class Turns:
             waits: Dict[int, float] = {number: account.wait(now) for number, (account, _) in enumerate(self._waiting)}
             ready = [number for number, wait in waits.items() if not wait]
             if ready:
-                _, begin = self._waiting.pop(min(ready, key=lambda number: self._waiting[number][0].used(now)))
+                first = min(ready, key=lambda number: self._rank(self._waiting[number][0], now))
+                account, begin = self._waiting.pop(first)
+                self._was_client = account.is_client
                 begin()
             else:
                 pause = min(waits.values(), default=0.0)
         if self._waiting:
             self._look(pause)
+
+    def _rank(self, account: Account, now: float) -> Tuple[bool, float]:
+        """The lower, the sooner an account gets its turn."""
+        return account.is_client == self._was_client, account.used(now)
