@@ -99,11 +99,11 @@ class Grid:
         kernels = noise.kernels(points, scan.laser)
         (x, y), = self.cells(placed(pose, np.array([scan.laser]))).tolist()
         blocked = compiled_beams.blocked(self.odds, x, y, self.cells(placed(pose, points)), -SURE,
-                                        np.maximum(AWAY * kernels, BEFORE) / self.resolution)
+                                         np.maximum(AWAY * kernels, BEFORE) / self.resolution)
         if cloud is not None:
             points, kernels = cloud, noise.kernels(cloud, scan.laser)
         nowhere = compiled_beams.contradicted(self.odds, self.field, self.cells(placed(pose, points)), SURE,
-                                             AWAY * kernels)
+                                              AWAY * kernels)
         return blocked / max(min(len(scan.points), CHECKED), 1) + nowhere / max(len(points), 1)
 
     def matched(self, start: Pose, prior: Array, points: Array, kernels: Array, steps: Array,
