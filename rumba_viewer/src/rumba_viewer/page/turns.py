@@ -5,16 +5,15 @@ from typing import Any, Callable, Dict, List, NamedTuple, Tuple
 
 OF_ALL = 0.5  # of a core that the work for all clients together may take
 AT_ONCE = 0.02  # [s] of CPU time that all together may take at once
-OWED = 0.005  # [s] of CPU time that all together may owe: who took little must not wait for what others took at once
 LATELY = 10.0  # [s] in which what was used is forgotten: the time constant
 
 
 class Bucket:
     """A token bucket: it fills at a rate, and whoever takes more than is in it must wait."""
 
-    def __init__(self, rate: float, most: float, now: float, first: float, debt: float = math.inf) -> None:
-        """Fill at a rate [1/s] up to `most`; `first` is in it at first, and no more than `debt` is owed."""
-        self._rate, self._most, self._before, self._debt = rate, most, now, debt
+    def __init__(self, rate: float, most: float, now: float, first: float) -> None:
+        """Fill at a rate [1/s] up to `most`; `first` is in it at first."""
+        self._rate, self._most, self._before = rate, most, now
         self._left = first
 
     def left(self, now: float) -> float:
@@ -25,7 +24,7 @@ class Bucket:
 
     def pay(self, amount: float, now: float) -> None:
         """Take an amount, even if so much is not in it."""
-        self._left = max(self.left(now) - amount, -self._debt)
+        self._left = self.left(now) - amount
 
     def takes(self, now: float) -> bool:
         """Take one; returns whether it was in it."""
@@ -98,7 +97,7 @@ class Turns:
     def __init__(self, clock: Callable[[], float], later: Callable[[float, Callable[[], None]], Any]) -> None:
         """Read the time from a clock; call functions `later`, after a time [s]."""
         self._clock, self._later = clock, later
-        self._all = Bucket(OF_ALL, AT_ONCE, clock(), AT_ONCE, OWED)
+        self._all = Bucket(OF_ALL, AT_ONCE, clock(), AT_ONCE)
         self._waiting: List[Tuple[Account, Callable[[], None]]] = []
         self._was_client = False
         self._due = math.inf  # when the next look is due
