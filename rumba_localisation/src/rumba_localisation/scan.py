@@ -12,6 +12,7 @@ from rumba_sim.model.mounting import CENTRE, Mounting
 FEWEST = 10  # beams with an echo, fewer tell nothing
 SILENT = 1.0  # [s] of the time of a robot without a scan, from which on its laser is silent: five scans at 5 Hz
 FARTHEST = 100.0  # [m] no laser that sees a floor sees farther; drivers that tell 1e30 mean nothing
+NEAREST = 0.005  # [m] no laser sees nearer: a beam without a length has no direction
 DENSE = 2000  # beams in a scan, of more some are left out: they tell the same, and take memory for each place
 WIDEST = 1.0  # [rad] between two echoes, up to which what lies between them is believed to be free
 
@@ -60,7 +61,7 @@ def scan_of(ranges: Array, angle_min: float, angle_increment: float, range_max: 
         ranges, angle_increment = ranges[::each], angle_increment * each
     nearest, farthest = reading.min_range or range_min, min(reading.max_range or range_max, FARTHEST)
     with np.errstate(invalid='ignore'):
-        has_echo = (ranges >= nearest) & (ranges > 0.0) & (ranges < farthest)
+        has_echo = (ranges >= max(nearest, NEAREST)) & (ranges < farthest)
         has_none = ranges >= farthest
     directions = _directions(len(ranges), angle_min, angle_increment, mounting)
     here = np.array(mounting[:2])

@@ -9,6 +9,7 @@ from test_mapper import drive, scan, world_of
 
 from rumba_localisation.mapping import relocation
 from rumba_localisation.mapping.mapper import Mapper
+from rumba_localisation.mapping.mapper_config import MapperConfig
 from rumba_localisation.mapping.relocation import Relocation
 from rumba_sim.model.geometry import Pose
 
@@ -60,6 +61,14 @@ def test_nothing_is_found_where_the_map_has_nothing():
     other = world_of(room(9.0, 7.0, 0.05, [(3.0, 3.0, 4.0, 3.5), (6.0, 1.0, 6.5, 2.0)]), Pose(1.0, 1.0, 0.0))
     found, _ = looked_for(other, mapper, Pose(1.0, 1.5, 0.0), [(5.0, 2.5), (5.0, 5.5), (1.0, 5.5)])
     assert found is None and world is not other
+
+
+def test_on_a_map_too_small_for_a_place_to_be_tried_nothing_is_found():
+    world, mapper = world_of(crooked(0.05), Pose(0.6, 1.2, 0.0)), Mapper(config=MapperConfig(delta=0.2))
+    mapper.observe(Pose(0.0, 0.0, 0.0), scan(world))
+    mapper.grid.odds[:] = 1.0
+    search = Relocation(mapper.grid, mapper.noise)
+    assert search.observe(Pose(0.0, 0.0, 0.0), scan(world)) is None
 
 
 def test_no_scan_tries_more_places_than_it_may(monkeypatch):

@@ -37,6 +37,12 @@ def test_each_reading_means_an_echo_or_free_floor_or_nothing(reading, meaning):
     assert np.isfinite(seen.points).all() and np.isfinite(seen.beyond).all()
 
 
+@pytest.mark.parametrize('reading', [0.0, 1e-30, 1e-38, 1e-4])
+def test_a_range_that_is_no_length_tells_nothing_even_if_the_laser_says_that_it_sees_so_near(reading):
+    seen = scan_of(np.array([reading, 2.0, 2.0], np.float32), 0.0, 1.0, 8.0, 0.0)
+    assert len(seen.points) == 2
+
+
 def test_a_beam_without_an_echo_is_free_no_farther_than_the_echoes_beside_it_show():
     seen = room_scan(math.inf)
     assert seen.beyond == pytest.approx(np.array([[2.0 * math.cos(math.pi / 180.0), 0.0]]))

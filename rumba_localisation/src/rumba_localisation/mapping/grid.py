@@ -61,7 +61,8 @@ class Grid:
         echoes, others, here = ends_of(pose, scan)
         self.cover(np.concatenate([here, echoes, others]))
         (x, y), = self.cells(here).tolist()
-        self.odds[int(y), int(x)] += compiled_grid.MISS  # no beam may tell it, but there the robot is
+        if self.odds[int(y), int(x)] == 0.0:
+            self.odds[int(y), int(x)] = compiled_grid.MISS  # no beam may tell it, but there the robot is
         weights = (noise.kernel / noise.kernels(scan.points, scan.laser)) ** 2
         free = compiled_grid.add_beams(self.odds, self._hits, x, y, self.cells(others), np.ones(len(others)), False)
         met = compiled_grid.add_beams(self.odds, self._hits, x, y, self.cells(echoes), weights, True)

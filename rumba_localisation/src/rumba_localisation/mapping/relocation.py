@@ -95,6 +95,8 @@ class Relocation:
 
     def _clear(self) -> Optional[Estimate]:
         """The best place, if all were tried, enough was seen, and it is far better than the others."""
+        if not self._places:
+            return None
         best, *others = self._places
         if len(self._untried) or best.scans < SCANS or self._way < WAY or best.mean < FITS:
             return None

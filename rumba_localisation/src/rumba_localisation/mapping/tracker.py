@@ -68,7 +68,7 @@ class Tracker:
         return estimate
 
     def begin_way(self, way: float = 0.0) -> None:
-        """Count way and drift anew, after a way [m]; an infinite one if the robot may have been carried away."""
+        """Begin to count way and drift, the way from a length [m]: infinite if the robot may have been carried away."""
         self.drift, self.way = np.zeros((3, 3)), way
 
     def _matched(self, grid: Grid, supposed: Pose, movement: Array, scan: Scan) -> Tuple[Estimate, Array]:

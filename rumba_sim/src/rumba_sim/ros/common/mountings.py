@@ -77,7 +77,7 @@ class Mountings:
 
 
 class HeardMountings(Mountings):
-    """The same, by what is heard of tf: /tf is listened to only if /tf_static does not tell."""
+    """Mountings by the messages of tf; listens to /tf only if /tf_static does not tell enough."""
 
     def __init__(self, base: str, on_change: Callable[[], None]) -> None:
         """Listen; `on_change` is called in a thread of rospy."""
