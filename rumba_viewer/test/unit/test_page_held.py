@@ -7,7 +7,7 @@ import pytest
 from served_pages import (
     CLOSE, FINAL, FOLDER, GREETING, PING, TEXT, TIMEOUT, Page, answer, frame, is_served, listener, run, until)
 
-from rumba_viewer.page.turns import AT_ONCE, OF_ALL
+from rumba_viewer.page.turns import AT_ONCE, OF_CONNECTIONS
 
 CONTINUATION, BINARY, PONG = 0x0, 0x2, 0xA
 HOSTS = ('localhost', 'LOCALHOST:8080', '127.0.0.1', '127.9.9.9:1', '[::1]:80')
@@ -112,7 +112,7 @@ def test_of_too_many_connections_the_oldest_that_ask_for_nothing_are_closed(monk
         idle = [await asyncio.open_connection(*page.at.split(':')) for _ in range(20)]
         assert (await answer(page, request())).startswith(b'HTTP/1.1 200 ')
         assert await asyncio.wait_for(idle[0][0].read(), TIMEOUT) == b''
-        assert page.hub.addresses.streams <= 10
+        assert len(page.hub.addresses.find('127.0.0.1').streams) <= 10
         await is_served(page, good)
         for _, writer in idle:
             writer.close()
@@ -126,8 +126,44 @@ def test_new_connections_are_accepted_when_those_before_them_are_paid_for(monkey
         page = Page()
         begin = page.hub.now()
         writers = [(await asyncio.open_connection(*page.at.split(':')))[1] for _ in range(5)]
-        await until(lambda: page.hub.addresses.streams == 5)
-        assert page.hub.now() - begin > 0.9 * (0.2 - AT_ONCE) / OF_ALL
+        await until(lambda: len(page.hub.addresses.find('127.0.0.1').streams) == 5)
+        assert page.hub.now() - begin > 0.9 * (0.2 - AT_ONCE) / OF_CONNECTIONS
         for writer in writers:
             writer.close()
+    run(act)
+
+
+def test_of_too_many_requests_that_wait_the_oldest_are_dropped_and_those_that_left_cost_nothing(monkeypatch):
+    monkeypatch.setattr('rumba_viewer.page.door.MOST_ASKING', 10)
+
+    async def act():
+        page = Page()
+        here = page.hub.addresses.find('127.0.0.1')
+        here.account.pay(page.hub.now(), 0.7)
+        connections = []
+        for number in range(30):
+            connections.append(await asyncio.open_connection(*page.at.split(':')))
+            connections[-1][1].write(request())
+            await until(lambda: len(here.asking) == min(number + 1, 10))
+        assert await asyncio.wait_for(connections[0][0].read(), TIMEOUT) == b''
+        for _, writer in connections[-9:]:
+            writer.close()
+        await until(lambda: len(here.asking) == 1)
+        assert (await asyncio.wait_for(connections[-10][0].read(), TIMEOUT)).startswith(b'HTTP/1.1 200 ')
+    run(act)
+
+
+def test_what_is_thrown_away_is_paid_for_like_a_new_connection(monkeypatch):
+    monkeypatch.setattr('rumba_viewer.page.client.PIECE', 0.1)
+
+    async def act():
+        page = Page()
+        _, writer = await asyncio.open_connection(*page.at.split(':'))
+        writer.write(GREETING)
+        await until(lambda: page.hub.clients == 1)
+        good = await listener(page)
+        writer.write(bytes([FINAL | TEXT, FINAL | 127]) + struct.pack('!Q', 10 ** 7) + 10 ** 6 * b' ')
+        await until(lambda: page.hub.turns.pause() > 0.2)
+        await is_served(page, good)
+        writer.close()
     run(act)

@@ -2,7 +2,7 @@
 
 import pytest
 
-from rumba_viewer.page.turns import AT_ONCE, OF_ALL, Account, Bucket, Limit, Turns
+from rumba_viewer.page.turns import AT_ONCE, OF_CLIENTS, Account, Bucket, Limit, Turns
 
 CPU = Limit(0.05, 0.1, 0.1, '5 % of a core')
 
@@ -66,7 +66,7 @@ def test_each_gets_its_share_and_all_together_no_more_than_theirs():
     crowd = [one, *(Worker(time, turns, 0.01) for _ in range(39))]
     time.run(200.0)
     counts = [sum(moment > 100.0 for moment in worker.times) for worker in crowd]
-    assert 0.01 * sum(counts) == pytest.approx(100.0 * OF_ALL + AT_ONCE, abs=0.05)
+    assert 0.01 * sum(counts) == pytest.approx(100.0 * OF_CLIENTS + AT_ONCE, abs=0.05)
     assert min(counts) > 0.8 * max(counts)
 
 
@@ -79,7 +79,7 @@ def test_whoever_used_little_is_next_however_many_others_wait():
     quiet, begun = Account(time.now, CPU), []
     turns.ask(quiet, lambda: begun.append(time.now))
     time.run(30.0)
-    assert begun[0] - 20.0 <= 0.01 / OF_ALL + 1e-9  # what the one before it used of all
+    assert begun[0] - 20.0 <= 0.01 / OF_CLIENTS + 1e-9  # what the one before it used of all
 
 
 def test_a_newcomer_does_not_wait_until_somebody_in_debt_may_go_on():
@@ -96,16 +96,45 @@ def test_a_newcomer_does_not_wait_until_somebody_in_debt_may_go_on():
     assert begun == ['newcomer', 'debtor']
 
 
-def test_clients_and_new_connections_alternate_whoever_used_more():
+def test_clients_do_not_wait_until_new_connections_are_paid_for_nor_these_for_clients():
+    time = Time()
+    turns, begun = Turns(lambda: time.now, time.later), []
+    client, address = Account(0.0, CPU), Account(0.0, CPU, is_client=False)
+    turns.pay(address, 10.0)
+    turns.ask(client, lambda: begun.append('client'))
+    turns.ask(address, lambda: begun.append('address'))
+    time.run(1e-3)
+    assert begun == ['client'] and turns.pause() > 10.0
+    turns.pay(Account(0.0, CPU), 1000.0)
+    turns.ask(client, lambda: begun.append('client'))
+    time.run(300.0)
+    assert begun == ['client', 'address']
+
+
+def test_whoever_used_more_while_waiting_goes_behind_others():
     time = Time()
     turns, order = Turns(lambda: time.now, time.later), []
-    client, address = Account(0.0, CPU, used=5.0), Account(0.0, CPU, is_client=False)
-    for _ in range(3):
-        turns.ask(address, lambda: order.append('address'))
-    for _ in range(2):
-        turns.ask(client, lambda: order.append('client'))
+    used, fresh = Account(0.0, CPU), Account(0.0, CPU, used=0.01)
+    turns.ask(used, lambda: order.append('used'))
+    turns.ask(fresh, lambda: order.append('fresh'))
+    turns.pay(used, 0.015)
     time.run(1.0)
-    assert order == ['client', 'address', 'client', 'address', 'address']
+    assert order == ['fresh', 'used']
+
+
+def test_what_looks_is_not_multiplied_by_waits_that_end_early():
+    time = Time()
+    turns = Turns(lambda: time.now, time.later)
+    looks = []
+    later, turns._later = turns._later, lambda *plan: (looks.append(plan), later(*plan))
+    debtor, quiet = Account(0.0, CPU), Account(0.0, CPU)
+    debtor.pay(0.0, 1.0)
+    turns.ask(debtor, lambda: None)
+    for number in range(100):
+        turns.ask(quiet, lambda: None)
+        time.run(0.01 * (number + 1))
+    time.run(30.0)
+    assert len(looks) <= 2 * 100 + 2
 
 
 def test_whoever_has_left_waits_no_longer():

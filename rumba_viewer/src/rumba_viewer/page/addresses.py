@@ -1,7 +1,7 @@
 """What the page remembers of each address that connects: what it used, which tokens it tried, what was refused."""
 
 import collections
-from typing import Any, Callable, Deque, Dict, Optional
+from typing import Any, Callable, Deque, Dict
 
 from rumba_sim.model.errors import one_line
 from rumba_viewer.page.turns import Account, Bucket, Limit
@@ -61,6 +61,7 @@ class Address:
         self.lines = Lines(now)
         self.newest = ''  # line that was not written
         self.streams: Dict[Any, None] = {}  # connections that may be closed, the oldest first
+        self.asking: Dict[Any, None] = {}  # those of them whose request waits for its turn
 
 
 class Addresses:
@@ -82,14 +83,11 @@ class Addresses:
                 del self._known[oldest.name]
         return found
 
-    def fullest(self) -> Optional[Address]:
-        """The address with most connections that may be closed."""
-        return max(self._known.values(), key=lambda one: len(one.streams)) if self._known else None
-
-    @property
-    def streams(self) -> int:
-        """How many connections may be closed."""
-        return sum(len(one.streams) for one in self._known.values())
+    def oldest(self, connections: Callable[[Address], Dict[Any, None]], most: int) -> Any:
+        """The oldest of so many connections, or more, of the address that has most of them; None if they are fewer."""
+        each = [connections(address) for address in self._known.values()]
+        fullest: Dict[Any, None] = max(each, key=len, default={})
+        return next(iter(fullest)) if sum(map(len, each)) >= most else None
 
     def note(self, address: Address, line: str) -> None:
         """Write a line about what was refused to an address, unless there were many."""

@@ -19,7 +19,7 @@ from rumba_viewer.page.turns import Bucket
 BROKEN, REFUSED, TOO_BIG = 1002, 1008, 1009  # codes of RFC 6455 for an end because of what the client did
 MASKED = 0x80  # bit of the second byte of a frame
 BURST = 2.0  # [s] of its rate that a client may send at once
-FRAME = 1e-4  # [s] of CPU time to read a frame
+FRAME, PIECE = 1e-4, 1e-4  # [s] of CPU time to read a frame, and a piece of a message that is thrown away
 NEW = 1.0  # [s] of CPU time that a new client counts as having used: those that are there go first
 SLOW, SLOW_SHARE = 0.5, 0.05  # [s] to wait, and share of its time, with which a client is told that it is slowed down
 SLOW_PERIOD = 10.0  # [s] until it is told again
@@ -94,7 +94,7 @@ class Patient(WebSocketProtocol13):
             while asyncio.get_event_loop().time() < end:
                 await asyncio.wait_for(self.stream.read_bytes(SEND_BUFFER, partial=True), LINGER)
                 client: Any = self.handler
-                await client.spend(FRAME)
+                await client.wind_up(PIECE)
         except (asyncio.TimeoutError, StreamClosedError):
             pass
         super()._abort()
@@ -196,6 +196,11 @@ class Client(WebSocketHandler):
             self._session.refuse(f'you are slowed down: a client may use {self._account.bound(now)}')
         if not self._has_left:
             await self._hub.turn(self._account)
+
+    async def wind_up(self, seconds: float) -> None:
+        """Pay CPU time [s] when it is the turn of the address: for a client that is no longer one."""
+        await self._hub.turn(self.address.account)
+        self._hub.turns.pay(self.address.account, seconds)
 
     def charge(self, seconds: float) -> None:
         """Pay for what was done elsewhere [s of CPU time]."""

@@ -2,27 +2,27 @@
 
 import asyncio
 import socket
-from typing import Any, Awaitable, Callable, Optional
+from typing import Any, Awaitable, Callable, Dict, Optional
 
 from tornado.ioloop import IOLoop
-from tornado.iostream import IOStream
+from tornado.iostream import IOStream, StreamClosedError
 
 from rumba_viewer.page.addresses import Address, Addresses
 from rumba_viewer.page.turns import Turns
 
 AT_ONCE = 4  # connections that are let in before others get their turn
 PAUSE = 0.1  # [s] without new connections after the system refused one
-MOST = 2000  # connections that are no websockets
+MOST, MOST_ASKING = 2000, 200  # connections that are no websockets, and those of them whose request waits for its turn
 CONNECTION, REQUEST, BYTE = 2e-4, 1e-3, 6e-7  # [s] of CPU time that each costs; a byte of the head of a request
-Turn = Callable[[Address, float], Awaitable[None]]  # waits for the turn of an address, and pays CPU time [s]
 
 
 class Stream(IOStream):
     """A connection, whose requests are parsed when it is its turn."""
 
-    def __init__(self, connection: socket.socket, address: Address, turn: Turn, most: int) -> None:
+    def __init__(self, connection: socket.socket, address: Address, turns: Turns, most: int) -> None:
         """Serve a connection; read up to so many bytes ahead."""
-        self._address, self._turn = address, turn
+        self._address, self._turns = address, turns
+        self._is_its_turn = asyncio.Event()
         super().__init__(connection, max_buffer_size=most)
         address.streams[self] = None
 
@@ -34,7 +34,14 @@ class Stream(IOStream):
 
     async def _in_turn(self, head: Awaitable[bytes]) -> bytes:
         data = await head
-        await self._turn(self._address, REQUEST + BYTE * len(data))
+        self._is_its_turn.clear()
+        self._address.asking[self] = None
+        self._turns.ask(self._address.account, self._is_its_turn.set)
+        await self._is_its_turn.wait()
+        self._address.asking.pop(self, None)
+        if self.closed():
+            raise StreamClosedError
+        self._turns.pay(self._address.account, REQUEST + BYTE * len(data))
         return data
 
     def keep(self) -> None:
@@ -42,18 +49,20 @@ class Stream(IOStream):
         self._address.streams.pop(self, None)
 
     def close_fd(self) -> None:
-        """Close the socket."""
+        """Close the socket; a request that waits for its turn is forgotten."""
         self.keep()
         super().close_fd()
+        self._address.asking.pop(self, None)
+        self._is_its_turn.set()
 
 
 class Door:
     """Accepts connections."""
 
-    def __init__(self, addresses: Addresses, turns: Turns, turn: Turn, most: int,
+    def __init__(self, addresses: Addresses, turns: Turns, most: int,
                  begin: Callable[[Stream, Any], None]) -> None:
         """Have each served by `begin`, and read up to so many bytes ahead of it."""
-        self._addresses, self._turns, self._turn, self._most, self._begin = addresses, turns, turn, most, begin
+        self._addresses, self._turns, self._most, self._begin = addresses, turns, most, begin
 
     def open(self, listening: socket.socket) -> None:
         """Accept the connections of a socket."""
@@ -71,7 +80,7 @@ class Door:
             address = self._addresses.find(where[0])
             self._turns.pay(address.account, CONNECTION)
             self._make_room()
-            self._begin(Stream(connection, address, self._turn, self._most), where)
+            self._begin(Stream(connection, address, self._turns, self._most), where)
         pause = self._turns.pause()
         if pause:
             self._rest(listening, pause)
@@ -82,7 +91,16 @@ class Door:
         IOLoop.current().call_later(seconds, self.open, listening)
 
     def _make_room(self) -> None:
-        """Close the oldest connection of the address that has most of them, if there are too many."""
-        fullest = self._addresses.fullest()
-        if fullest is not None and self._addresses.streams >= MOST:
-            next(iter(fullest.streams)).close()
+        """Close the oldest of too many connections of the address that has most of them."""
+        for connections, most in ((_streams, MOST), (_asking, MOST_ASKING)):
+            oldest = self._addresses.oldest(connections, most)
+            if oldest is not None:
+                oldest.close()
+
+
+def _streams(address: Address) -> Dict[Any, None]:
+    return address.streams
+
+
+def _asking(address: Address) -> Dict[Any, None]:
+    return address.asking

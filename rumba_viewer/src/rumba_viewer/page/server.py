@@ -93,11 +93,6 @@ class Hub:
         self.turns.ask(account, begun.set)
         await begun.wait()
 
-    async def request(self, address: Address, seconds: float) -> None:
-        """Wait for the turn of a request of an address, which takes some CPU time [s]."""
-        await self.turn(address.account)
-        self.turns.pay(address.account, seconds)
-
     @staticmethod
     def now() -> float:
         """A time [s] that no change of the system's clock moves."""
@@ -227,7 +222,7 @@ def serve(hub: Hub, tokens: Tokens, folder: pathlib.Path, where: List[socket.soc
         websocket_ping_interval=PING, websocket_ping_timeout=SILENT)
     application.is_local = all(is_loopback(one.getsockname()[0]) for one in where)
     server = HTTPServer(application, idle_connection_timeout=IDLE, body_timeout=IDLE, max_header_size=HEAD)
-    door = Door(hub.addresses, hub.turns, hub.request, AHEAD * hub.bounds.size, server.handle_stream)
+    door = Door(hub.addresses, hub.turns, AHEAD * hub.bounds.size, server.handle_stream)
     for one in where:
         door.open(one)
     PeriodicCallback(hub.tick, 1000.0 * TICK).start()

@@ -1,11 +1,16 @@
 """How much of the page each client may use, and whose turn it is. Whoever calls says what time it is, in seconds."""
 
+import collections
+import functools
+import heapq
+import itertools
 import math
-from typing import Any, Callable, Dict, List, NamedTuple, Tuple
+from typing import Any, Callable, Deque, Dict, Iterable, List, NamedTuple, Optional, Tuple
 
-OF_ALL = 0.5  # of a core that the work for all clients together may take
-AT_ONCE = 0.02  # [s] of CPU time that all together may take at once
+OF_CLIENTS, OF_CONNECTIONS = 0.35, 0.15  # of a core that all clients, and all new connections, may take
+AT_ONCE = 0.02  # [s] of CPU time that either may take at once
 LATELY = 10.0  # [s] in which what was used is forgotten: the time constant
+Begin = Callable[[], None]  # lets one that waited go on
 
 
 class Bucket:
@@ -57,6 +62,7 @@ class Account:
 
     Attributes:
         is_client: whether it is a client's.
+        rank: the lower, the less was used lately: all forget at the same rate, so that time changes no order.
     """
 
     def __init__(self, now: float, cpu: Limit, used: float = 0.0, is_client: bool = True, **others: Limit) -> None:
@@ -65,17 +71,15 @@ class Account:
         self._limits = {'cpu': cpu, **others}
         self._buckets = {name: Bucket(limit.rate, limit.most, now, limit.first)
                          for name, limit in self._limits.items()}
-        self._used, self._before = used, now
+        self.rank = _logarithm(used) + now / LATELY
 
     def used(self, now: float) -> float:
         """The CPU time that was used lately [s]."""
-        self._used *= math.exp((self._before - now) / LATELY)
-        self._before = now
-        return self._used
+        return math.exp(self.rank - now / LATELY)
 
     def pay(self, now: float, cpu: float, **others: float) -> None:
         """Use CPU time [s] and others, by name."""
-        self._used = self.used(now) + cpu
+        self.rank = _logarithm(self.used(now) + cpu) + now / LATELY
         for name, amount in {'cpu': cpu, **others}.items():
             self._buckets[name].pay(amount, now)
 
@@ -88,67 +92,117 @@ class Account:
         return self._limits[max(self._buckets, key=lambda name: self._buckets[name].wait(now))].words
 
 
-class Turns:
-    """Lets clients work one after the other: whoever used least lately is next.
+class Queue:
+    """Accounts that wait for their turn, and what all together may use: whoever used least lately is next."""
 
-    If both clients and new connections wait, they alternate.
+    def __init__(self, share: float, now: float) -> None:
+        """Let all together use a share of a core."""
+        self.together = Bucket(share, AT_ONCE, now, AT_ONCE)
+        self._waiting: Dict[Account, Deque[Begin]] = {}
+        self._resting: List[Tuple[float, int, Account]] = []  # a heap, by when they may go on
+        self._ready: List[Tuple[float, int, Account]] = []  # a heap, by rank
+        self._numbers = itertools.count()  # of equals, whoever came first goes first
+
+    def add(self, account: Account, begin: Begin, now: float) -> None:
+        """Have an account wait for one more turn."""
+        if account not in self._waiting:
+            self._waiting[account] = collections.deque()
+            self._line_up(account, now)
+        self._waiting[account].append(begin)
+
+    def remove(self, account: Account) -> Iterable[Begin]:
+        """Let an account wait no longer; returns what it waited for."""
+        return self._waiting.pop(account, ())
+
+    def wait(self, now: float) -> float:
+        """How long until one of them may go on [s]; infinite if none waits."""
+        if not self._waiting:
+            return math.inf
+        first = 0.0 if self._ready else self._resting[0][0] - now
+        return max(first, self.together.wait(now))
+
+    def take(self, now: float) -> Optional[Begin]:
+        """What the account that is next waited for; None if none may go on."""
+        while self._resting and self._resting[0][0] <= now:
+            _, number, account = heapq.heappop(self._resting)
+            heapq.heappush(self._ready, (account.rank, number, account))
+        while self._ready and not self.together.wait(now):
+            rank, _, account = heapq.heappop(self._ready)
+            if account.rank > rank:
+                self._line_up(account, now)  # it used more while it waited
+            elif account in self._waiting:
+                return self._first(account, now)
+        return None
+
+    def _first(self, account: Account, now: float) -> Begin:
+        queue = self._waiting[account]
+        begin = queue.popleft()
+        if queue:
+            self._line_up(account, now)
+        else:
+            del self._waiting[account]
+        return begin
+
+    def _line_up(self, account: Account, now: float) -> None:
+        wait = account.wait(now)
+        heap, key = (self._resting, now + wait) if wait else (self._ready, account.rank)
+        heapq.heappush(heap, (key, next(self._numbers), account))
+
+
+class Turns:
+    """Lets clients work one after the other, and new connections, which have a queue of their own.
+
+    So no client has to wait until many new connections are paid for.
     """
 
-    def __init__(self, clock: Callable[[], float], later: Callable[[float, Callable[[], None]], Any]) -> None:
+    def __init__(self, clock: Callable[[], float], later: Callable[[float, Begin], Any]) -> None:
         """Read the time from a clock; call functions `later`, after a time [s]."""
         self._clock, self._later = clock, later
-        self._all = Bucket(OF_ALL, AT_ONCE, clock(), AT_ONCE)
-        self._waiting: List[Tuple[Account, Callable[[], None]]] = []
-        self._was_client = False
+        self._clients, self._connections = Queue(OF_CLIENTS, clock()), Queue(OF_CONNECTIONS, clock())
         self._due = math.inf  # when the next look is due
 
-    def ask(self, account: Account, begin: Callable[[], None]) -> None:
+    def ask(self, account: Account, begin: Begin) -> None:
         """Call `begin` as soon as it is the turn of an account."""
-        self._waiting.append((account, begin))
+        self._queue(account).add(account, begin, self._clock())
         self._look(0.0)
 
     def release(self, account: Account) -> None:
         """Let all go on that wait for the turn of an account, whose client has left."""
-        released = [begin for other, begin in self._waiting if other is account]
-        self._waiting = [(other, begin) for other, begin in self._waiting if other is not account]
-        for begin in released:
+        for begin in self._queue(account).remove(account):
             begin()
 
     def pay(self, account: Account, seconds: float, **others: float) -> None:
         """Note what an account has used: CPU time [s] and others."""
         now = self._clock()
         account.pay(now, seconds, **others)
-        self._all.pay(seconds, now)
+        self._queue(account).together.pay(seconds, now)
 
     def pause(self) -> float:
-        """How long until anybody may go on [s]."""
-        return self._all.wait(self._clock())
+        """How long until new connections may be let in [s]."""
+        return self._connections.together.wait(self._clock())
+
+    def _queue(self, account: Account) -> Queue:
+        return self._clients if account.is_client else self._connections
 
     def _look(self, seconds: float) -> None:
         """Look in some seconds who is next, unless that is done earlier."""
         due = self._clock() + seconds
         if due < self._due:
             self._due = due
-            self._later(seconds, self._next)
+            self._later(seconds, functools.partial(self._next, due))
 
-    def _next(self) -> None:
-        """Give the turn to one who waits, if anybody may go on."""
+    def _next(self, due: float) -> None:
+        """Give the turn to one client and one new connection that may go on, unless an earlier look did."""
+        if due != self._due:
+            return
         self._due = math.inf
         now = self._clock()
-        pause = self._all.wait(now)
-        if not pause:
-            waits: Dict[int, float] = {number: account.wait(now) for number, (account, _) in enumerate(self._waiting)}
-            ready = [number for number, wait in waits.items() if not wait]
-            if ready:
-                first = min(ready, key=lambda number: self._rank(self._waiting[number][0], now))
-                account, begin = self._waiting.pop(first)
-                self._was_client = account.is_client
-                begin()
-            else:
-                pause = min(waits.values(), default=0.0)
-        if self._waiting:
-            self._look(pause)
+        for begin in filter(None, (self._clients.take(now), self._connections.take(now))):
+            begin()
+        wait = min(self._clients.wait(now), self._connections.wait(now))
+        if wait < math.inf:
+            self._look(wait)
 
-    def _rank(self, account: Account, now: float) -> Tuple[bool, float]:
-        """The lower, the sooner an account gets its turn."""
-        return account.is_client == self._was_client, account.used(now)
+
+def _logarithm(value: float) -> float:
+    return math.log(value) if value else -math.inf

@@ -39,6 +39,7 @@ from rumba_viewer.ros.page.wire import Encoder
 
 REMEMBERED = 5.0  # [s] for which a topic stays subscribed to without a client, as while a page is loaded again
 SWITCH = 0.001  # [s] for which the loop waits for a thread that is at work
+COLLECT = 700, 10, 2  # when garbage is collected: more often than usual, so that clients wait for less of it at once
 
 
 def main() -> None:
@@ -69,6 +70,7 @@ def run(settings: Settings, early: Early) -> None:
                   + (' (add #token=TOKEN to change anything)' if tokens.are_needed else ''))
     gc.collect()
     gc.freeze()  # otherwise each collection looks at all that was imported, while all clients wait
+    gc.set_threshold(*COLLECT)
     loop.start()
     link.close()
 
