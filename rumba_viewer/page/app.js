@@ -4,9 +4,8 @@ import {Driving} from './driving.js';
 import {Floor} from './floor.js';
 import {Link} from './link.js';
 import {onMap} from './own_map.js';
-import {Scene} from './scene.js';
+import {ACTIONS, Scene} from './scene.js';
 
-const ACTIONS = ['clean', 'dock', 'undock', 'go_to'];
 const NOTICE = 8000;  // [ms] for which a line is shown
 const SURE = 4000;  // [ms] within which Reset must be pressed again
 const DESCRIBED = 3000;  // [ms] between two descriptions of the picture for screen readers
@@ -22,12 +21,20 @@ let isDirty = true, noticeTimer = null, sureTimer = null, described = 0;
 const link = new Link(() => {
   const scheme = location.protocol === 'https:' ? 'wss' : 'ws';
   return `${scheme}://${location.host}/${token ? `?token=${encodeURIComponent(token)}` : ''}`;
-}, isOpen => { isOpen ? scene.look() : driving.stop(); news(); }, onStatus);
+}, onConnection, onStatus);
 const scene = new Scene(link, news, line => notice(line, true));
 const driving = new Driving(document.querySelectorAll('#drive button'), drive);
 
 function news() {
   isDirty = true;
+}
+
+function onConnection(isOpen) {
+  if (isOpen) {
+    scene.learnRights();
+    scene.look();
+  } else driving.stop();
+  news();
 }
 
 function notice(line, isGood = false) {
@@ -39,7 +46,6 @@ function notice(line, isGood = false) {
 
 function onStatus(line) {
   notice(line);
-  if (line.includes('token')) at('access').hidden = false;
   if (line.startsWith('wrong token')) {
     token = '';
     delete sessionStorage.token;
@@ -85,13 +91,21 @@ async function call(service, args) {
   }
 }
 
-at('clean').onclick = () => send('clean', 'Clean', {});
-at('dock').onclick = () => send('dock', 'Dock', {});
+function cancel(...actions) {
+  for (const action of actions) link.publish(`${scene.selected.name}/${action}/cancel`, 'actionlib_msgs/GoalID', {});
+}
+
+at('clean').onclick = () => {
+  if (scene.selected.isCleaning) cancel('clean');
+  else send('clean', 'Clean', {resume: scene.selected.canResume});
+};
+at('clean-anew').onclick = () => send('clean', 'Clean', {});
+at('home').onclick = () => send('dock', 'Dock', {});
 at('undock').onclick = () => send('undock', 'Undock', {});
 at('brushes').onclick = () => call(`${scene.selected.name}/set_brushes_up`, {data: !scene.selected.brushesUp});
 at('stop').onclick = () => {
   driving.stop();
-  for (const action of ACTIONS) link.publish(`${scene.selected.name}/${action}/cancel`, 'actionlib_msgs/GoalID', {});
+  cancel(...ACTIONS);
   scene.selected.target = null;
 };
 at('pause').onclick = () => call(scene.state.is_paused ? 'resume' : 'pause');
@@ -121,22 +135,44 @@ at('access').onsubmit = event => {
   at('access').hidden = true;
   link.restart();
 };
-at('robots').onchange = () => scene.select(scene.robots.find(robot => robot.name === at('robots').value));
+at('robots').onchange = () => {
+  scene.wanted = sessionStorage.robot = at('robots').value;
+  scene.select(scene.robots.find(robot => robot.name === scene.wanted));
+};
+at('laser').onchange = () => {
+  localStorage.laser = at('laser').checked ? 'on' : 'off';
+  scene.showLaser(at('laser').checked);
+};
+at('laser').checked = localStorage.laser === 'on';
+scene.showLaser(at('laser').checked);
 floor.canvas.onclick = choose;
-floor.canvas.ondblclick = event => { const point = choose(event); if (point && canGo()) goTo(point); };
+floor.canvas.ondblclick = event => { const point = choose(event); if (point && !whyNoGoing()) goTo(point); };
 addEventListener('keydown', event => {
-  if (event.key === 'Escape' && scene.selected) at('stop').click();
+  if (event.key === 'Escape' && !at('stop').disabled) at('stop').click();
 });
 matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => { floor.readColours(); news(); });
 
 // --- what it shows ----------------------------------------------------------------------------------------------------
 
-function canClean() {
-  return link.isOpen && Boolean(scene.selected?.mission);
+// Why a robot cannot be driven, cannot be sent to clean, or cannot go to a point; empty if it can.
+function whyNoDriving() {
+  if (!link.isOpen) return 'not connected';
+  if (!scene.selected) return 'there is no robot';
+  return scene.mayDrive(scene.selected) ? '' : `needs the token of ${scene.selected.label}`;
 }
 
-function canGo() {
-  return canClean() && scene.frame !== null;
+function whyNoCleaning() {
+  return whyNoDriving() || (scene.selected.mission ? '' : 'no cleaner is running');
+}
+
+function whyNoGoing() {
+  return whyNoCleaning() || (scene.frame ? '' : 'it is not known where the map of the robot lies');
+}
+
+function whyNoTime() {
+  if (!link.isOpen) return 'not connected';
+  if (!scene.hasSimulator) return 'there is no simulator';
+  return scene.mayChangeAll ? '' : 'needs the token of the whole page';
 }
 
 function text(id, value) {
@@ -158,9 +194,10 @@ function fixed(number, digits, unit) {
 }
 
 function showRobot(robot) {
-  const {cleaning, battery, pose, mission} = robot ?? {};
-  text('state', robot ? robot.state : '–');
-  text('detail', mission?.message ?? '');
+  const {cleaning, battery, pose} = robot ?? {};
+  text('state', !link.isOpen ? 'Not connected' : robot?.state ?? '–');
+  text('detail', link.isOpen && robot ? robot.detail : '');
+  at('status').classList.toggle('stale', !link.isOpen || !scene.hasSimulator);
   const swept = cleaning ? 100 * cleaning.coverage : null;
   meter('coverage', swept, swept === null ? '–' : `${swept.toFixed(1)} %`);
   const charge = battery && battery.percentage !== null ? 100 * battery.percentage : null;
@@ -173,16 +210,31 @@ function showRobot(robot) {
   text('time', Number.isFinite(robot?.stamp) && scene.state?.is_time_simulated ? duration(robot.stamp) : 'real time');
 }
 
+function enable(why, ...names) {
+  for (const name of names) Object.assign(at(name), {disabled: Boolean(why), title: why});
+}
+
 function showControls() {
-  const {state, hasSimulator, selected} = scene;
-  text('pause', state?.is_paused ? 'Resume' : 'Pause');
-  for (const id of ['pause', 'reset', 'speed']) at(id).disabled = !link.isOpen || !hasSimulator;
-  for (const id of ['clean', 'dock', 'undock', 'stop']) at(id).disabled = !canClean();
-  for (const id of ['go-to', 'x', 'y']) at(id).disabled = !canGo();
+  const {state, selected} = scene, isCleaning = Boolean(selected?.isCleaning), canResume = Boolean(selected?.canResume);
+  text('clean', isCleaning ? 'Pause' : canResume ? 'Resume' : 'Clean');
   text('brushes', selected?.brushesUp ? 'Brushes down' : 'Brushes up');
-  at('brushes').disabled = !link.isOpen || (selected?.brushesUp ?? null) === null;
-  for (const button of document.querySelectorAll('#drive button')) button.disabled = !link.isOpen || !selected;
+  text('pause', state?.is_paused ? 'Resume time' : 'Pause time');
+  enable(whyNoCleaning(), 'clean', 'stop');
+  enable(whyNoCleaning() || (selected.isDocked ? 'the robot is on its dock' : ''), 'home');
+  enable(whyNoCleaning() || (selected.isDocked ? '' : 'the robot is not on its dock'), 'undock');
+  enable(whyNoCleaning() || (canResume ? '' : 'there is nothing to resume: press Clean'), 'clean-anew');
+  enable(whyNoGoing(), 'go-to', 'x', 'y');
+  enable(whyNoDriving() || (selected.brushesUp === null ? 'the robot tells nothing of its brushes' : ''), 'brushes');
+  enable(whyNoDriving(), 'forward', 'left', 'back', 'right');
+  enable(whyNoTime(), 'pause', 'reset', 'speed');
   if (document.activeElement !== at('speed') && Number.isFinite(state?.speed)) showSpeed(state.speed);
+}
+
+function showRights() {
+  const robots = scene.rights?.robots ?? [], isWatching = Boolean(scene.rights) && !scene.mayChangeAll && !robots.length;
+  const names = robots.map(name => name.split('/').pop()).join(', ');
+  text('rights', isWatching ? 'You are watching. A token lets you drive.' : names && `You may drive ${names}.`);
+  at('access').hidden = !isWatching;
 }
 
 function showSpeed(speed) {
@@ -219,6 +271,8 @@ function frame(now) {
     showRobots();
     showRobot(scene.selected);
     showControls();
+    showRights();
+    at('dock-key').hidden = !scene.robots.some(robot => robot.dock);
     describe(now);
   }
   requestAnimationFrame(frame);

@@ -2,8 +2,8 @@
 
 const PERIOD = 100;  // [ms] between two commands
 const SPEED = 0.3, TURN = 1.5;  // [m/s], [rad/s]
-const KEYS = {ArrowUp: [1, 0], ArrowDown: [-1, 0], ArrowLeft: [0, 1], ArrowRight: [0, -1],
-  w: [1, 0], s: [-1, 0], a: [0, 1], d: [0, -1]};
+const KEYS = {ArrowUp: [1, 0], ArrowDown: [-1, 0], ArrowLeft: [0, 1], ArrowRight: [0, -1],  // and those of teleop_key
+  u: [1, 1], i: [1, 0], o: [1, -1], j: [0, 1], l: [0, -1], m: [-1, 1], ',': [-1, 0], '.': [-1, -1]};
 
 export class Driving {
   // `send` gets the velocity [m/s], [rad/s] of each command.

@@ -4,6 +4,7 @@ import {laidOver, onFloor} from './own_map.js';
 
 const MARGIN = 16;  // [pixels] around the map
 const BODY = 0.175;  // [m] radius of a robot
+const DOCK = 0.3;  // [m] width of a dock
 const SMALLEST = 7;  // [pixels] radius at which a robot is drawn, at least
 const STRIPE = 4;  // [cells] of the stripes of what is out of reach
 const WALL = 65;  // [%] from this probability on a cell is a wall
@@ -63,18 +64,18 @@ export class Floor {
     Object.assign(this.cells, {width, height});
     const context = this.cells.getContext('2d'), image = context.createImageData(width, height);
     const pixels = new Uint32Array(image.data.buffer);
-    const [background, dirty, swept, ...others] =
-      ['background', 'dirty', 'swept', 'unknown', 'wall', 'beyond', 'stripe'].map(name => packed(this.colour(name)));
-    const colours = [...Array.from({length: 101}, (_, share) => mixed(dirty, swept, share / 100)), ...others];
+    const [background, toSweep, swept, ...others] =
+      ['background', 'to-sweep', 'swept', 'unknown', 'wall', 'out-of-reach', 'stripe'].map(name => packed(this.colour(name)));
+    const colours = [...Array.from({length: 101}, (_, share) => mixed(toSweep, swept, share / 100)), ...others];
     const faint = colours.map(colour => mixed(colour, background, FAINT));
-    const [unknown, wall, beyond, stripe] = [101, 102, 103, 104];
+    const [unknown, wall, outOfReach, stripe] = [101, 102, 103, 104];
     for (let row = 0, at = 0; row < height; row++) {
       let to = (height - 1 - row) * width;
       for (let column = 0; column < width; column++, at++, to++) {
         let colour = 100;
         if (data[at] < 0) colour = unknown;
         else if (data[at] >= WALL) colour = wall;
-        else if (same && same[at] < 0) colour = (row + column) % (2 * STRIPE) < STRIPE ? beyond : stripe;
+        else if (same && same[at] < 0) colour = (row + column) % (2 * STRIPE) < STRIPE ? outOfReach : stripe;
         else if (same) colour = Math.min(same[at], 100);
         if (!known) pixels[to] = colours[colour];
         else if (known[at] >= WALL) pixels[to] = colours[wall];
@@ -107,12 +108,24 @@ export class Floor {
     const view = this.view(), {cells} = this;
     context.imageSmoothingEnabled = view.scale * this.map.info.resolution < 3;
     context.drawImage(cells, view.left, view.top, cells.width * this.map.info.resolution * view.scale, view.height);
+    for (const robot of scene.robots) if (robot.dock) this.paintDock(view, robot.dock);
     for (const marker of scene.obstacles) this.paintObstacle(view, marker);
     if (scene.selected && scene.frame) this.paintPlan(view, scene.selected, scene.frame);
     if (scene.selected) this.paintTrail(view, scene.selected);
     if (scene.selected) this.paintLaser(view, scene.selected);
     if (scene.target) this.paintTarget(view, scene.target);
     for (const robot of scene.robots) this.paintRobot(view, robot, robot === scene.selected, robot.shown(now));
+  }
+
+  // Before the robot that stands on it.
+  paintDock(view, {x, y, theta}) {
+    const {context} = this, [column, row] = this.toPixel(view, x, y), unit = Math.max(view.scale, SMALLEST * view.ratio / BODY);
+    context.save();
+    context.translate(column, row);
+    context.rotate(-theta);
+    context.fillStyle = this.colour('dock');
+    context.fillRect(BODY * unit, -DOCK / 2 * unit, BODY / 2 * unit, DOCK * unit);
+    context.restore();
   }
 
   paintObstacle(view, {type, pose, scale}) {
@@ -138,8 +151,8 @@ export class Floor {
       context.lineTo(...this.toPixel(view, x, y));
     }
     context.strokeStyle = this.colour('plan');
-    context.lineWidth = view.ratio;
-    context.setLineDash([view.ratio, 3 * view.ratio]);
+    context.lineWidth = 1.4 * view.ratio;
+    context.setLineDash([3 * view.ratio, 3 * view.ratio]);
     context.stroke();
     context.setLineDash([]);
   }

@@ -10,17 +10,15 @@ const STATES = ['Idle', 'Leaving the dock', 'Cleaning', 'Returning to the dock',
 const SMALL = {  // topic -> what it changes
   battery_status: (robot, msg) => { robot.brushesUp = msg.brushes_up; },
   battery_state: (robot, msg) => { robot.battery = msg; },
-  dock_status: (robot, msg) => { robot.isDocked = msg.is_docked; },
+  dock_status: (robot, msg) => robot.learnDock(msg),
   cleaning_status: (robot, msg) => robot.learnCleaning(msg),
-  mission_status: (robot, msg) => { robot.mission = msg; },
+  mission_status: (robot, msg) => robot.learnMission(msg),
   plan: (robot, msg) => { robot.plan = msg.poses.map(({pose}) => pose.position); },
 };
 const RATES = {battery_status: 500, battery_state: 1000, dock_status: 500, cleaning_status: 1000, mission_status: 0, plan: 500};
-const LARGE = {scan: {throttle_rate: 200}, coverage: {throttle_rate: 500, compression: 'png'}};
-const LEARN = {
-  coverage: (robot, msg) => { robot.coverage = msg; },
-  scan: (robot, msg) => { robot.arrived = msg; robot.placeScan(); },
-};
+const COVERAGE = {throttle_rate: 500, compression: 'png'}, SCAN = {throttle_rate: 200};
+const IDLE = 0;  // of rumba_msg/MissionStatus
+const SUCCEEDED = 1, REFUSED = 4, INTERRUPTED = [2, 3, 12];  // of rumba_msg/Outcome: cancelled, preempted, robot gone
 
 export class Robot {
   // `name` with its namespace, as in /rumba; `onNews` is called when there is something new to show.
@@ -33,7 +31,8 @@ export class Robot {
 
   forget() {
     Object.assign(this, {pose: null, before: null, came: 0, stamp: null, trail: [], plan: [], recent: [], scan: null,
-      arrived: null, coverage: null, battery: null, cleaning: null, mission: null, isDocked: false, brushesUp: null, target: null});
+      arrived: null, coverage: null, battery: null, cleaning: null, mission: null, isDocked: false, dock: null, ended: null,
+      brushesUp: null, target: null});
   }
 
   close() {
@@ -45,19 +44,29 @@ export class Robot {
   select(isSelected) {
     for (const [topic, learn] of Object.entries(SMALL)) {
       const name = `${this.name}/${topic}`;
-      if (isSelected) this.hear(name, {throttle_rate: RATES[topic], newest: true}, learn);
+      if (isSelected) this.hear(name, {throttle_rate: RATES[topic]}, learn);
       else this.link.unsubscribe(name);
     }
-    for (const [topic, options] of Object.entries(LARGE)) {
-      const name = `${this.name}/${topic}`;
-      if (isSelected) this.hear(name, {...options, newest: true}, LEARN[topic]);
-      else this.link.unsubscribe(name);
+    const coverage = `${this.name}/coverage`;
+    if (isSelected) this.hear(coverage, COVERAGE, (robot, msg) => { robot.coverage = msg; });
+    else {
+      this.link.unsubscribe(coverage);
+      this.showLaser(false);
+      Object.assign(this, {coverage: null, plan: []});
     }
-    if (!isSelected) Object.assign(this, {scan: null, arrived: null, coverage: null, plan: []});
+  }
+
+  showLaser(isShown) {
+    const scan = `${this.name}/scan`;
+    if (isShown) this.hear(scan, SCAN, (robot, msg) => { robot.arrived = msg; robot.placeScan(); });
+    else {
+      this.link.unsubscribe(scan);
+      Object.assign(this, {scan: null, arrived: null});
+    }
   }
 
   hear(topic, options, learn) {
-    this.link.subscribe(topic, options, msg => { learn(this, msg); this.onNews(this); });
+    this.link.subscribe(topic, {...options, newest: true}, msg => { learn(this, msg); this.onNews(this); });
   }
 
   learnPose(msg) {
@@ -94,6 +103,22 @@ export class Robot {
     this.cleaning = msg;
   }
 
+  learnDock(msg) {
+    this.isDocked = msg.is_docked;
+    if (this.isDocked && this.pose) this.dock = this.pose;
+  }
+
+  learnMission(msg) {
+    this.mission = msg;
+    if (this.isCleaning) this.ended = null;
+  }
+
+  // How a task ended; a cleaning that was refused never began, and leaves the last one as it is.
+  learnResult(action, {code, message}) {
+    if (action === 'go_to') this.target = null;
+    if (action === 'clean' && code !== REFUSED) this.ended = {code, message};
+  }
+
   // Where to draw it: it glides from one pose to the next.
   shown(now) {
     if (!this.before || !this.pose) return this.pose;
@@ -104,9 +129,27 @@ export class Robot {
     return Boolean(this.before) && now - this.came < 120;
   }
 
+  // Whether a cleaning is under way, with its charging.
+  get isCleaning() {
+    return this.mission !== null && this.mission.state !== IDLE && this.mission.strategy !== '';
+  }
+
+  get canResume() {
+    return !this.isCleaning && INTERRUPTED.includes(this.ended?.code);
+  }
+
+  // A word or two, for a person.
   get state() {
-    if (this.mission) return STATES[this.mission.state] ?? 'Unknown';
-    return this.isDocked ? 'On the dock' : 'No cleaner is running';
+    if (!this.mission) return this.isCharging ? 'Charging' : this.isDocked ? 'On the dock' : 'No cleaner is running';
+    if (this.mission.state !== IDLE) return STATES[this.mission.state] ?? 'Unknown';
+    if (this.canResume) return 'Paused';
+    if (this.ended) return this.ended.code === SUCCEEDED ? 'Done' : 'Not finished';
+    return this.isCharging ? 'Charging' : STATES[IDLE];
+  }
+
+  // A line about it.
+  get detail() {
+    return this.mission?.state === IDLE && this.ended ? this.ended.message : this.mission?.message ?? '';
   }
 
   get isCharging() {

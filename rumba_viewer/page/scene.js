@@ -7,6 +7,7 @@ import {Robot} from './robot.js';
 
 const LOOK = 2000;  // [ms] between two looks for robots
 const SILENCE = 4000;  // [ms] after which a silent simulator counts as gone
+export const ACTIONS = ['clean', 'dock', 'undock', 'go_to'];
 const TRUTH = '/ground_truth', TRUE_MAP = 'simulator/map';
 
 export class Scene {
@@ -14,7 +15,7 @@ export class Scene {
   constructor(link, onNews, onResult) {
     Object.assign(this, {link, onNews, onResult, ownMap: null, trueMap: null, ownFrame: null, isTrueMapTold: false,
       mountings: {}, state: null, heard: 0, robots: [], selected: null, markers: new Map(), trouble: '',
-      wanted: sessionStorage.robot});
+      wanted: sessionStorage.robot, rights: null, showsLaser: false});
     link.subscribe('/map', {compression: 'png', queue_length: 1}, msg => { this.ownMap = msg; onNews(); });
     link.subscribe(TRUE_MAP, {compression: 'png', queue_length: 1}, msg => { this.trueMap = msg; onNews(); });
     link.subscribe('/tf_static', {}, msg => {
@@ -73,6 +74,35 @@ export class Scene {
     this.onNews();
   }
 
+  // Ask what this client may change; whoever may drive one robot has it selected at first.
+  async learnRights() {
+    this.rights = null;
+    try {
+      this.rights = await this.link.call('/rosapi/rights');
+    } catch {
+      return;  // not connected any more
+    }
+    this.wanted ??= this.rights.robots[0];
+    const mine = this.robots.find(robot => robot.name === this.wanted);
+    if (mine) this.select(mine);
+    this.onNews();
+  }
+
+  // Whether this client may drive a robot and send it goals.
+  mayDrive(robot) {
+    return Boolean(this.rights) && (this.rights.everything || this.rights.robots.includes(robot?.name));
+  }
+
+  get mayChangeAll() {
+    return Boolean(this.rights?.everything);
+  }
+
+  showLaser(isShown) {
+    this.showsLaser = isShown;
+    this.selected?.showLaser(isShown);
+    this.onNews();
+  }
+
   // Ask which robots there are, and whether a simulator tells the true map.
   async look() {
     if (!this.link.isOpen) return;
@@ -104,16 +134,16 @@ export class Scene {
   select(robot) {
     if (robot === this.selected) return;
     if (this.selected) {
-      for (const action of ['clean', 'dock', 'undock', 'go_to']) this.link.unsubscribe(`${this.selected.name}/${action}/result`);
+      for (const action of ACTIONS) this.link.unsubscribe(`${this.selected.name}/${action}/result`);
       this.selected.select(false);
     }
     this.selected = robot;
     if (robot) {
-      sessionStorage.robot = this.wanted = robot.name;
       robot.select(true);
-      for (const action of ['clean', 'dock', 'undock', 'go_to'])
+      robot.showLaser(this.showsLaser);
+      for (const action of ACTIONS)
         this.link.subscribe(`${robot.name}/${action}/result`, {queue_length: 5}, msg => {
-          if (action === 'go_to') robot.target = null;
+          robot.learnResult(action, msg.result.outcome);
           this.onResult(`${robot.label}: ${msg.result.outcome.message}`);
         });
     }

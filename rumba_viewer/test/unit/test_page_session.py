@@ -69,6 +69,15 @@ def test_the_operations_of_a_subscription():
     assert client.says(op='unsubscribe', topic='/rumba/scan')[0] == [('unsubscribe', '/rumba/scan', None)]
 
 
+@pytest.mark.parametrize('rights, told', [
+    (Rights(everything=True), {'everything': True, 'robots': []}), (Rights(), {'everything': False, 'robots': []}),
+    (Rights(robots=frozenset(('/rumba2', '/rumba'))), {'everything': False, 'robots': ['/rumba', '/rumba2']})])
+def test_a_client_can_ask_what_it_may_change(rights, told):
+    asked, replies = Client(rights).says(op='call_service', service='/rosapi/rights', id='x')
+    assert not asked and replies == [{'op': 'service_response', 'service': '/rosapi/rights', 'id': 'x', 'values': told,
+                                      'result': True}]
+
+
 def test_the_operations_of_a_publisher():
     client, topic = Client(), '/rumba/cmd_vel'
     assert client.says(op='advertise', topic=topic, type='geometry_msgs/Twist', id='a')[0] == [

@@ -1,6 +1,8 @@
 """What is painted, checked pixel by pixel, without ROS and without a window."""
 
 import math
+import pathlib
+import re
 
 import numpy as np
 import pytest
@@ -14,6 +16,7 @@ from rumba_viewer.scene.snapshot import Dock, MapFeatures, Obstacle, Point, Snap
 from rumba_viewer.scene.theme import DARK, LIGHT, robot_colour
 from rumba_viewer.scene.view_transform import ViewTransform
 
+STYLE = pathlib.Path(__file__).resolve().parents[2] / 'page' / 'style.css'
 THEMES = pytest.mark.parametrize('theme', [LIGHT, DARK], ids=['light', 'dark'])
 VIEWS = pytest.mark.parametrize('view', [
     ViewTransform(WIDTH, HEIGHT, 1.0, 3.5, SCALE), ViewTransform(1200, 800, 1.0, 3.5, 270.0),
@@ -41,10 +44,20 @@ def contrast(one, other):
 def test_the_states_of_the_floor_can_be_told_apart(theme):
     assert contrast('#000000', '#ffffff') == pytest.approx(21.0)
     for one, other in (('swept', 'to_sweep'), ('to_sweep', 'out_of_reach'), ('swept', 'out_of_reach'),
-                       ('wall', 'swept')):
+                       ('wall', 'swept'), ('wall', 'to_sweep')):
         assert contrast(getattr(theme, one), getattr(theme, other)) >= 3.0, (one, other)
-    for colour in (theme.robots[0], theme.text):
+    for colour in (theme.robots[0], theme.body):
         assert contrast(colour, theme.swept) >= 2.0 and contrast(theme.text, theme.card) >= 7.0
+
+
+@THEMES
+def test_the_page_has_the_same_floor_and_its_path_can_be_seen_there(theme):
+    light, dark = re.findall(r':root \{(.*?)\}', STYLE.read_text(), re.DOTALL)[:2]
+    of_page = dict(re.findall(r'--([\w-]+): (#\w{6});', light + (dark if theme.is_dark else '')))
+    for name in ('background', 'unknown', 'wall', 'to_sweep', 'swept', 'out_of_reach'):
+        assert of_page[name.replace('_', '-')] == getattr(theme, name), name
+    for floor in ('to-sweep', 'swept'):
+        assert contrast(of_page['plan'], of_page[floor]) >= 3.0, floor
 
 
 @THEMES

@@ -17,6 +17,7 @@ from rumba_viewer.page.ros import Ros
 LEVELS = ('none', 'error', 'warning', 'info')
 COMPRESSIONS = ('none', 'png', 'cbor', 'cbor-raw')
 API = '/rosapi/'  # below it, services tell about the graph
+RIGHTS = API + 'rights'  # tells a client what it may change
 PARAMETERS = {'get_param': 'get', 'has_param': 'get', 'set_param': 'set', 'delete_param': 'set'}  # of the API: rights
 MOST_TOPICS = 128  # that a client listens to, and that it publishes to; and services that it serves
 LONGEST_THROTTLE = 3600.0  # [s]
@@ -186,6 +187,9 @@ class Session:
             self._reply({**answer, 'values': values, 'result': worked})
         try:
             service, values = self._name(operation, 'service'), operation.get('args', {})
+            if service == RIGHTS:
+                done(True, {'everything': self._rights.everything, 'robots': sorted(self._rights.robots)})
+                return
             if service.startswith(API):
                 values = self._with_full_name(service[len(API):], values)
             else:

@@ -83,7 +83,7 @@ def paint_ghost(painter: QPainter, robot: Robot, pose: Pose, theme: Theme) -> No
     radius = robot.size.radius
     painter.drawEllipse(QPointF(0.0, 0.0), radius, radius)
     painter.setOpacity(1.0)
-    painter.setPen(_pen(theme.text, 2.0))
+    painter.setPen(_pen(theme.body, 2.0))
     painter.drawLine(QPointF(0.0, 0.0), QPointF(radius, 0.0))
     painter.restore()
 

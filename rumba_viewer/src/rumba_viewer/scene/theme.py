@@ -41,18 +41,19 @@ class Theme:
     robots: Tuple[str, ...]
 
 
+ROBOTS = ('#1f6fd6', '#d9580d', '#7a43c4', '#00857c', '#b3266e', '#7a6a00')
 LIGHT = Theme(
     is_dark=False, background='#eceef1', wall='#101216', unknown='#d3d7dd', out_of_reach='#3f434c', to_sweep='#b8863c',
     swept='#fdfefe', carpet='#284f74b8', cliff='#e88f86', veil='#b8eceef1', text='#1d232b', faint_text='#5c6672',
     card='#ffffff', line='#d5d9df', trough='#e3e6ea', good='#2e9e5b', warning='#d98a00', bad='#d13b32', dock='#2e9e5b',
     halo='#302e9e5b', field='#162e9e5b', obstacle='#8a5a2b', laser='#18d13b32', laser_edge='#60d13b32', body='#343b45',
-    body_edge='#ffffff', lit='#43d17f', robots=('#1f6fd6', '#d9580d', '#7a43c4', '#00857c', '#b3266e', '#7a6a00'))
+    body_edge='#ffffff', lit='#43d17f', robots=ROBOTS)
 DARK = Theme(
-    is_dark=True, background='#1b1e23', wall='#e6eaf0', unknown='#26292f', out_of_reach='#0b0c0f', to_sweep='#e8bb6a',
-    swept='#336786', carpet='#28b48ce0', cliff='#8c3b38', veil='#b81b1e23', text='#e8ebef', faint_text='#9fa8b4',
-    card='#24282e', line='#3a3f47', trough='#3a3f47', good='#4cc47c', warning='#f0a830', bad='#ff6b60', dock='#4cc47c',
-    halo='#304cc47c', field='#164cc47c', obstacle='#c79056', laser='#1cff6b60', laser_edge='#70ff6b60', body='#e6e9ed',
-    body_edge='#101214', lit='#43d17f', robots=('#5aa2ff', '#ff9350', '#b48cf0', '#35c9bd', '#f06aae', '#d6c23e'))
+    is_dark=True, background='#1b1e23', wall='#05070a', unknown='#15181c', out_of_reach='#262a31', to_sweep='#94733a',
+    swept='#cfe0ea', carpet='#28b48ce0', cliff='#8c3b38', veil='#b81b1e23', text='#e8ebef', faint_text='#9fa8b4',
+    card='#24282e', line='#3a3f47', trough='#3a3f47', good='#4cc47c', warning='#f0a830', bad='#ff6b60', dock='#1d7a45',
+    halo='#301d7a45', field='#161d7a45', obstacle='#4d2f12', laser='#18d13b32', laser_edge='#60d13b32', body='#343b45',
+    body_edge='#ffffff', lit='#43d17f', robots=ROBOTS)
 
 
 def robot_colour(theme: Theme, name: str) -> str:
