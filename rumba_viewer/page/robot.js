@@ -113,10 +113,11 @@ export class Robot {
     if (this.isCleaning) this.ended = null;
   }
 
-  // How a task ended; a cleaning that was refused never began, and leaves the last one as it is.
+  // How a task ended, and a line that says so; a cleaning that was refused never began, and leaves the last one as it is.
   learnResult(action, {code, message}) {
     if (action === 'go_to') this.target = null;
     if (action === 'clean' && code !== REFUSED) this.ended = {code, message};
+    return action === 'clean' && INTERRUPTED.includes(code) ? 'cleaning is paused' : message;
   }
 
   // Where to draw it: it glides from one pose to the next.
@@ -149,6 +150,7 @@ export class Robot {
 
   // A line about it.
   get detail() {
+    if (this.canResume) return 'Resume continues the cleaning';
     return this.mission?.state === IDLE && this.ended ? this.ended.message : this.mission?.message ?? '';
   }
 

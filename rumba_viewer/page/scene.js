@@ -143,8 +143,7 @@ export class Scene {
       robot.showLaser(this.showsLaser);
       for (const action of ACTIONS)
         this.link.subscribe(`${robot.name}/${action}/result`, {queue_length: 5}, msg => {
-          robot.learnResult(action, msg.result.outcome);
-          this.onResult(`${robot.label}: ${msg.result.outcome.message}`);
+          this.onResult(`${robot.label}: ${robot.learnResult(action, msg.result.outcome)}`);
         });
     }
     this.onNews();

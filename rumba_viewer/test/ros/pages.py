@@ -119,7 +119,8 @@ class Client:
 class Browser:
     """Chromium without a window, at a page."""
 
-    def __init__(self, test, page, size):
+    def __init__(self, test, page, size, rest=''):
+        """Open a page in a window of some size; `rest` follows its address."""
         from selenium import webdriver
         from selenium.webdriver.chrome.options import Options
         from selenium.webdriver.chrome.service import Service
@@ -137,7 +138,7 @@ class Browser:
         self.driver.set_script_timeout(TIMEOUT)
         self.driver.execute_cdp_cmd('Emulation.setDeviceMetricsOverride', {
             'width': size[0], 'height': size[1], 'deviceScaleFactor': 1, 'mobile': False})
-        self.driver.get(page.url)
+        self.driver.get(page.url + '/' + rest)
 
     def text(self, name):
         """The text of an element, by its id."""

@@ -23,7 +23,7 @@ from rumba_msg.msg import CleanActionGoal
 HAS_BROWSER = all(map(shutil.which, ('chromium', 'chromedriver'))) and importlib.util.find_spec('selenium')
 TELEOP = '/rumba/teleop/cmd_vel'
 MIDDLE = 5.54  # [m] x and y of the middle of the map field
-DIRTY, UNMAPPED = (160, 127, 105), (211, 189, 183)  # floor that is to sweep, on the robot's map or not, below its laser
+DIRTY, UNMAPPED = (184, 134, 60), (221, 209, 190)  # floor that is to sweep, on the robot's map or not
 ALLOWED = ('_read:=/chatter', '_write:=/chatter', '_serve:=/half', '_call:=/half', '_get:=/lesson', '_set:=/lesson')
 PYTHON_CLIENT = '''
 import sys, threading, time, roslibpy, roslibpy.tf
@@ -295,10 +295,42 @@ class BrowserTest(unittest.TestCase):
         truth.find(lambda message: message.twist.twist.angular.z > 1.0)
         browser.touch('touchEnd', 'left')
         truth.fresh(lambda message: message.twist.twist.angular.z == 0.0)
+        browser.driver.find_element('css selector', 'summary').click()
         browser.element('pause').click()
-        browser.wait_for('pause', '^Resume$')
+        browser.wait_for('pause', '^Resume time$')
         self.assertEqual(browser.unlabelled(), [])
         self.assertEqual(browser.errors(), [])
+
+    def test_a_pupil_finds_the_own_robot_and_reads_what_cannot_be_done(self):
+        Simulator(self, '_map:=field', '_robots:=2')
+        page = Page(self, '_token:=teacher', '_robot_tokens:=rumba:blue,rumba2:green')
+        browser = Browser(self, page, DESK, '#token=green')
+        browser.wait_for('rights', '^You may drive rumba2.$')
+        browser.wait_for('waiting', '^$')
+        self.assertEqual(browser.element('robots').get_attribute('value'), '/rumba2')
+        self.assertTrue(browser.element('forward').is_enabled())
+        for name, why in (('clean', 'no cleaner is running'), ('pause', 'needs the token of the whole page')):
+            self.assertEqual((browser.element(name).is_enabled(), browser.element(name).get_attribute('title')),
+                             (False, why))
+        browser.driver.execute_script(
+            'const list = document.getElementById("robots"); list.value = "/rumba"; list.onchange()')
+        wait(self, lambda: browser.element('forward').get_attribute('title') == 'needs the token of rumba', 'the reason')
+        self.assertFalse(browser.element('forward').is_enabled())
+        self.assertEqual(browser.errors(), [])
+
+    def test_a_refusal_is_seen_and_read_out_wherever_the_page_is_scrolled_to(self):
+        Simulator(self, '_map:=field')
+        browser = Browser(self, Page(self), PHONE)
+        browser.wait_for('waiting', '^$')
+        for place in (0, 10_000):
+            browser.driver.execute_script(
+                f'scrollTo(0, {place});'
+                'document.getElementById("go").dispatchEvent(new Event("submit", {cancelable: true}))')
+            browser.wait_for('notice', '^Give x and y in metres')
+            self.assertEqual(browser.element('notice').get_attribute('role'), 'alert')
+            self.assertTrue(browser.driver.execute_script(
+                'const {top, bottom} = document.getElementById("notice").getBoundingClientRect();'
+                'return top >= 0 && bottom <= innerHeight && bottom > top'))
 
 
 if __name__ == '__main__':
