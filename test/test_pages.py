@@ -2,6 +2,8 @@
 
 import functools
 import re
+import runpy
+import types
 
 import pytest
 from workspaces import ROOT
@@ -56,3 +58,25 @@ def test_the_page_leads_to_every_lesson():
 def test_the_index_names_every_page():
     linked = {link for link in LINK.findall((ROOT / 'docs' / 'index.md').read_text()) if '/' not in link}
     assert linked == {path.name for path in ROOT.glob('docs/*.md')} - {'index.md'}
+
+
+def test_the_sidebar_of_the_site_lists_every_page_and_lesson(tmp_path):
+    site, application = runpy.run_path(str(ROOT / 'docs' / 'conf.py')), types.SimpleNamespace(srcdir=str(tmp_path))
+    api = tmp_path / 'docs' / 'api'
+    api.mkdir(parents=True)
+    for name in ('rumba_sim.rst', 'rumba_sim.model.rst'):
+        (api / name).touch()
+
+    def listed(page):
+        source = [(ROOT / f'{page}.md').read_text()]
+        site['_add_contents'](application, page, source)
+        return [line for block in re.findall(r'^```{toctree}\n(.*?)^```$', source[0], re.MULTILINE | re.DOTALL)
+                for line in block.splitlines() if line and not line.startswith(':')]
+    of_index = listed('docs/index')
+    assert {f'docs/{name}.md' for name in of_index if '/' not in name} == {
+        str(path.relative_to(ROOT)) for path in ROOT.glob('docs/*.md')} - {'docs/index.md'}
+    assert len(of_index) == len(set(of_index)) and 'api/rumba_sim.model' not in of_index
+    assert {'../README', '../rumba_tutorials/README', 'api/rumba_sim'} <= set(of_index)
+    assert listed('rumba_tutorials/README') == [
+        str(path.relative_to(ROOT / 'rumba_tutorials').with_suffix(''))
+        for path in sorted(ROOT.glob('rumba_tutorials/[0-9]*/README.md'))]

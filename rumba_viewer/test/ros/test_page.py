@@ -314,8 +314,9 @@ class BrowserTest(unittest.TestCase):
                              (False, why))
         browser.driver.execute_script(
             'const list = document.getElementById("robots"); list.value = "/rumba"; list.onchange()')
-        wait(self, lambda: browser.element('forward').get_attribute('title') == 'needs the token of rumba', 'the reason')
-        self.assertFalse(browser.element('forward').is_enabled())
+        forward = browser.element('forward')
+        wait(self, lambda: forward.get_attribute('title') == 'needs the token of rumba', 'the reason')
+        self.assertFalse(forward.is_enabled())
         self.assertEqual(browser.errors(), [])
 
     def test_a_refusal_is_seen_and_read_out_wherever_the_page_is_scrolled_to(self):
