@@ -213,9 +213,14 @@ class FloorPlan:
         """Into how many parts to divide the side of a cell, for parts of a size [m] and `most` parts in all."""
         return max(min(math.ceil(self.resolution / size - ROUNDING), math.isqrt(most // self.occupancy.size)), 1)
 
-    def most_open_pose(self) -> Pose:
-        """The node with the largest safe clearance, facing along x."""
-        row, column = np.unravel_index(int(np.argmax(self.safe_clearance)), self.safe_clearance.shape)
+    def most_open_pose(self, among: Optional[NDArray[np.bool_]] = None) -> Pose:
+        """The node with the largest safe clearance, facing along x.
+
+        Args:
+            among: bool (rows + 1, columns + 1), the nodes from which to choose; None, or none of them: from all.
+        """
+        space = self.safe_clearance if among is None or not among.any() else np.where(among, self.safe_clearance, -1.0)
+        row, column = np.unravel_index(int(np.argmax(space)), space.shape)
         return Pose(self.origin[0] + float(column) * self.resolution,
                     self.origin[1] + float(row) * self.resolution, 0.0)
 

@@ -63,17 +63,51 @@ def stands(plan: FloorPlan, needed: float, x: float, y: float) -> Array:
         bool (2 * rows + 1, 2 * columns + 1), at points half a cell apart: element (i, j) is the point
         `origin + 0.5 * resolution * (j, i)`.
     """
-    fits = _fits(plan, needed)
+    fits = fitting(plan, needed)
     start = _nearest(plan, fits, x, y)
     fits[start] = True
-    is_wide = _fits(plan, needed + SLACK)
+    is_wide = fitting(plan, needed + SLACK)
     is_wide[start] = True
     labels, _ = ndimage.label(is_wide)
     start = _nearest(plan, is_wide, x, y)
     return np.asarray(ndimage.binary_dilation(labels == labels[start], iterations=RIM, mask=fits))
 
 
-def _fits(plan: FloorPlan, needed: float) -> Array:
+class Parts:
+    """The parts of a floor between which no robot can drive, from the largest to the smallest.
+
+    Attributes:
+        labels: int (2 * rows + 1, 2 * columns + 1), at the points of `stands`: the number of the part to which a point
+            belongs, from 1 on; 0 where a robot has not enough room to drive.
+        areas: float64 (parts), of the positions of a robot in each [m^2].
+    """
+
+    def __init__(self, plan: FloorPlan, needed: float) -> None:
+        """Find the parts.
+
+        Args:
+            plan: the floor plan.
+            needed: the clearance that the robot needs [m].
+        """
+        self._plan = plan
+        labels, number = ndimage.label(fitting(plan, needed + SLACK))
+        sizes = np.bincount(labels.ravel(), minlength=number + 1)[1:]
+        by_size = np.argsort(-sizes, kind='stable')
+        ranks = np.zeros(number + 1, labels.dtype)
+        ranks[by_size + 1] = np.arange(1, number + 1)
+        self.labels: Array = ranks[labels]
+        self.areas: Array = sizes[by_size] * (0.5 * plan.resolution) ** 2
+
+    def at(self, x: float, y: float) -> int:
+        """The number of the part in which a robot at a point [m] is; 0 if it is in none."""
+        return int(self.labels[_nearest(self._plan, self.labels > 0, x, y)])
+
+    def open_pose(self, number: int) -> Pose:
+        """The node with the most space around it in a part, facing along x; of all nodes, if none is in that part."""
+        return self._plan.most_open_pose(self.labels[::2, ::2] == number)
+
+
+def fitting(plan: FloorPlan, needed: float) -> Array:
     """The points, as `stands` answers them, at which there is the needed clearance [m]."""
     clearance = plan.safe_clearance
     fits = np.zeros((2 * plan.rows + 1, 2 * plan.columns + 1), np.bool_)
