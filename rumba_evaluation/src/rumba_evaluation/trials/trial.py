@@ -47,7 +47,8 @@ class Trial:
         contexts: what each robot knows, in the order of the world's robots.
         missions: the mission of each robot, in the same order.
         sources: by what each robot knows where it is, by its name.
-        ideal_time: T [s], for one brush to sweep the reachable floor at the cleaning speed, without any overlap.
+        ideal_time: T [s], for one brush to sweep the reachable floor without any overlap, at the cleaning speed or, if
+            it cannot drive at that, at its highest.
         curve: working time [s] until 1 %, 2 %, ... of the reachable floor were swept.
         advance: lets a number of ticks pass; replaced by those who look at each tick.
     """
@@ -87,7 +88,8 @@ class Trial:
         shown = Context(plan, config, cleaning) if conditions.pose in OWN_FRAME else self.contexts[0]
         self._time_limit = longest(shown)
         self.missions = [_mission(context, strategy, conditions.target) for context in self.contexts]
-        self.ideal_time = self.world.floor.reachable_area / (config.brush.width * cleaning.speed)
+        speed = min(cleaning.speed, config.drive.max_speed)
+        self.ideal_time = self.world.floor.reachable_area / (config.brush.width * speed)
         self.curve: List[float] = []
         self.advance: Callable[[int], None] = self.world.step
         self._meters = [Meter(self.world, robot) for robot in self.world.robots.values()]
