@@ -4,8 +4,9 @@ import pytest
 from pytest import approx
 from rooms import quiet, room
 
+from rumba_cleaning.belief.context import Context
 from rumba_cleaning.cleaning_config import CleaningConfig
-from rumba_cleaning.mission.outlook import outlook, without_dock
+from rumba_cleaning.mission.outlook import outlook, remarks
 from rumba_sim.model.errors import MapError
 from rumba_sim.model.geometry import Pose
 
@@ -44,13 +45,22 @@ def test_a_large_floor_takes_charges_and_each_takes_its_time():
 
 
 def test_a_map_without_a_dock_on_which_the_battery_does_not_last_is_told():
-    plan, small = room(30.0, 20.0, 0.1), room(6.0, 5.0, 0.1)
-    found = outlook(plan, 5.0, 5.0, quiet(), CONFIG)
-    assert without_dock(plan, found) == (
+    remark, = remarks(room(30.0, 20.0, 0.1), 5.0, 5.0, quiet(), CONFIG)
+    assert remark == (
         'room: the map has no dock, and 591 m2 take about 2 charges: give the map a dock (rosrun rumba_sim place_dock '
         'offers a place), or the battery a drain of 0')
-    assert without_dock(room(30.0, 20.0, 0.1, dock=Pose(1.0, 0.2, 0.0)), found) == ''
-    assert without_dock(small, outlook(small, 1.0, 1.0, quiet(), CONFIG)) == ''
+    assert remarks(room(30.0, 20.0, 0.1, dock=Pose(1.0, 0.2, 0.0)), 5.0, 5.0, quiet(), CONFIG) == []
+    assert remarks(room(6.0, 5.0, 0.1), 1.0, 1.0, quiet(), CONFIG) == []
+
+
+def test_a_cleaning_speed_that_the_robot_cannot_drive_is_told_and_lowered():
+    slow = quiet(drive={'max_speed': 0.22})
+    plan = room(3.0, 2.0)
+    remark, = remarks(plan, 1.0, 1.0, slow, CONFIG)
+    assert remark == 'the cleaning speed is 0.3 m/s, and drive/max_speed 0.22: the robot cleans at 0.22 m/s'
+    context = Context(plan, slow, CONFIG)
+    assert (context.config.speed, context.config.transit_speed) == (0.22, approx(0.2202, abs=1e-4))
+    assert Context(plan, quiet(), CONFIG).config == CONFIG
 
 
 def test_a_start_in_a_wall_is_refused():

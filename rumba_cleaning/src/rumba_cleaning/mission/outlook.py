@@ -1,11 +1,11 @@
 """What a mission will take, before it begins: time and charges, by the floor that can be reached."""
 
 import math
-from typing import NamedTuple
+from typing import List, NamedTuple
 
 import numpy as np
 
-from rumba_cleaning.cleaning_config import CleaningConfig
+from rumba_cleaning.cleaning_config import CleaningConfig, attainable
 from rumba_cleaning.mission.duration import TAPER
 from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.model.robot_config import RobotConfig
@@ -52,7 +52,7 @@ def outlook(plan: FloorPlan, x: float, y: float, robot: RobotConfig, config: Cle
     area, inside = sweep.reachable_area, sweep.missing_share() >= INSIDE
     edges = terrain.resolution * (
         np.count_nonzero(inside[1:] != inside[:-1]) + np.count_nonzero(inside[:, 1:] != inside[:, :-1]))
-    working = (area / robot.brush.width + edges) / min(config.speed, robot.drive.max_speed)
+    working = (area / robot.brush.width + edges) / attainable(config, robot).speed
     battery = robot.battery
     used = working * battery.discharge_rate(battery.cleaning_current)  # in full batteries
     span = max(config.charge_to - config.reserve - HOME, HOME)
@@ -61,9 +61,23 @@ def outlook(plan: FloorPlan, x: float, y: float, robot: RobotConfig, config: Cle
     return Outlook(area, working, charges, charging)
 
 
-def without_dock(plan: FloorPlan, expected: Outlook) -> str:
-    """One line if the battery will be empty before the end because the map has no dock; empty otherwise."""
-    if plan.docks or not expected.charges:
-        return ''
-    return (f'{plan.name}: the map has no dock, and {expected.area:.0f} m2 take about {expected.charges} charges: give '
-            'the map a dock (rosrun rumba_sim place_dock offers a place), or the battery a drain of 0')
+def remarks(plan: FloorPlan, x: float, y: float, robot: RobotConfig, config: CleaningConfig) -> List[str]:
+    """What people should know before a mission begins: a line if the battery will not last, or speeds are too high.
+
+    Args:
+        plan, x, y, robot, config: as for `outlook`.
+
+    Raises:
+        MapError: the robot does not fit there.
+    """
+    found = []
+    expected = None if plan.docks else outlook(plan, x, y, robot, config)
+    if expected is not None and expected.charges:
+        found.append(f'{plan.name}: the map has no dock, and {expected.area:.0f} m2 take about {expected.charges} '
+                     f'charge{"s" if expected.charges > 1 else ""}: give the map a dock (rosrun rumba_sim place_dock '
+                     'offers a place), or the battery a drain of 0')
+    fastest = robot.drive.max_speed
+    if config.speed > fastest:
+        found.append(f'the cleaning speed is {config.speed:g} m/s, and drive/max_speed {fastest:g}: the robot cleans '
+                     f'at {fastest:g} m/s')
+    return found

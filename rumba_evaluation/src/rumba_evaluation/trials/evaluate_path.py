@@ -61,6 +61,8 @@ def evaluate_path(options: argparse.Namespace, conditions: Conditions, map_path:
     """
     robot = robot_file.load(conditions.robot)
     plan = batch.floor_plan(map_path(options.maps[0]), robot.drive.radius)
+    for remark in plan.remarks:
+        print(f'evaluate: {remark}', file=sys.stderr)
     path = path_file.read(options.path, options.topic, read_bag)
     config = updated(robot, {'battery': {'drain': conditions.drain}}, 'conditions')
     kind: Any = AsDrawn if options.as_drawn else Driven

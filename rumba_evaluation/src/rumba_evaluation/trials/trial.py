@@ -14,7 +14,7 @@ import numpy as np
 from rumba_cleaning.behaviour import Status
 from rumba_cleaning.belief.context import BeforeNextStep, Context, Seed, own_seed
 from rumba_cleaning.belief.mates import Mates
-from rumba_cleaning.cleaning_config import CleaningConfig
+from rumba_cleaning.cleaning_config import CleaningConfig, attainable
 from rumba_cleaning.control import CONTROL_DT, CONTROL_TICKS, STEP_RATE, act
 from rumba_cleaning.mission.duration import longest
 from rumba_cleaning.mission.mapless import MaplessMission
@@ -70,7 +70,7 @@ class Trial:
             RumbaError: the strategy is unknown, there is no space for so many robots, or an obstacle is wrong.
         """
         config = _config(robot, conditions)
-        cleaning = CleaningConfig(laser=conditions.laser)
+        cleaning = attainable(CleaningConfig(laser=conditions.laser), config)
         self._conditions = conditions
         self.world = World(plan, config, STEP_RATE, seed, obstacles)
         poses: Sequence[Optional[Pose]] = [None] * robots
@@ -88,8 +88,7 @@ class Trial:
         shown = Context(plan, config, cleaning) if conditions.pose in OWN_FRAME else self.contexts[0]
         self._time_limit = longest(shown)
         self.missions = [_mission(context, strategy, conditions.target) for context in self.contexts]
-        speed = min(cleaning.speed, config.drive.max_speed)
-        self.ideal_time = self.world.floor.reachable_area / (config.brush.width * speed)
+        self.ideal_time = self.world.floor.reachable_area / (config.brush.width * cleaning.speed)
         self.curve: List[float] = []
         self.advance: Callable[[int], None] = self.world.step
         self._meters = [Meter(self.world, robot) for robot in self.world.robots.values()]
