@@ -22,7 +22,7 @@ from rumba_evaluation.scoring.path_file import ReadBag
 from rumba_evaluation.trials import batch, evaluate_path, score, table
 from rumba_evaluation.trials.batch import Job
 from rumba_evaluation.trials.cases import ANYWHERE, DOCK, POSES, TRUTH, Case, Conditions, Result, grid
-from rumba_evaluation.trials.command_line import BAD_INPUT, ERROR, INTERRUPTED, Parser
+from rumba_sim.model.command_line import BAD_INPUT, ERROR, INTERRUPTED, Parser
 from rumba_evaluation.trials.foresight import remarks_on
 from rumba_evaluation.trials.results import Results
 from rumba_sim.model import named_maps
