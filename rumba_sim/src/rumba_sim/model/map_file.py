@@ -42,8 +42,8 @@ def load(path: Union[str, os.PathLike[str]], radius: float = DriveConfig().radiu
         MapError: the file, or a file that it names, cannot be used; the message begins with the path.
     """
     header = read_header(os.fspath(path))
-    picture = _read(header, 'image', header.image, Alpha.AVERAGE if header.mode == 'trinary' else Alpha.IGNORE)
-    occupancy = _occupancy(header, picture)
+    picture = read_image(header)
+    occupancy = whole_occupancy(header, picture)
     remarks = list(header.remarks)
     if header.fill_unknown:
         remarks += _filled(header, occupancy)
@@ -63,6 +63,15 @@ def load(path: Union[str, os.PathLike[str]], radius: float = DriveConfig().radiu
     return FloorPlan(header.path, occupancy, header.resolution, (origin.x, origin.y), cliff=cliff, carpet=carpet,
                      dock=header.docks[0] if header.docks else None, further_docks=header.docks[1:],
                      start=header.start, remarks=remarks)
+
+
+def read_image(header: Header) -> Picture:
+    """The image of a map.
+
+    Raises:
+        MapError: it cannot be used; the message begins with the path of the YAML file.
+    """
+    return _read(header, 'image', header.image, Alpha.AVERAGE if header.mode == 'trinary' else Alpha.IGNORE)
 
 
 def _read(header: Header, key: str, path: str, alpha: Alpha, like: Optional[Picture] = None) -> Picture:
@@ -103,8 +112,8 @@ def _cells(header: Header, area: float) -> int:
     return math.floor(area / header.resolution ** 2 + ROUNDING)
 
 
-def _occupancy(header: Header, picture: Picture) -> NDArray[np.int8]:
-    """int8 (rows, columns), row 0 at the bottom, by the rules of map_server in ROS Noetic.
+def whole_occupancy(header: Header, picture: Picture) -> NDArray[np.int8]:
+    """All cells of a map, as they are: int8 (rows, columns), row 0 at the bottom, by the rules of map_server in Noetic.
 
     Values between free and occupied in the modes scale and raw become unknown here. In mode raw a pixel is the
     probability in percent, and a pixel above 100 is unknown.

@@ -46,11 +46,13 @@ class Picture(NamedTuple):
         path: of the file.
         levels: unsigned integers (rows, columns), row 0 at the top; 0 is black.
         white: level of white.
+        format: of the file: PNG, PGM, PPM, BMP or JPEG.
     """
 
     path: str
     levels: NDArray[Any]
     white: int
+    format: str
 
 
 class Alpha(enum.Enum):
@@ -128,9 +130,9 @@ def _read_netpbm(path: str, file: IO[bytes], name: str, like: Optional[Picture])
                        'there')
     levels = np.clip(levels, 0, white).astype(np.uint16 if white > 255 else np.uint8)
     if bands == 1:
-        return Picture(path, levels.reshape(rows, columns), white)
+        return Picture(path, levels.reshape(rows, columns), white, name)
     wide = np.uint16 if white * bands <= DEEPEST else np.uint32
-    return Picture(path, levels.reshape(rows, columns, bands).sum(axis=2, dtype=wide), white * bands)
+    return Picture(path, levels.reshape(rows, columns, bands).sum(axis=2, dtype=wide), white * bands, name)
 
 
 def _numbers(data: bytes, begin: int) -> str:
@@ -168,7 +170,7 @@ def _decoded(path: str, image: Any, alpha: Alpha) -> Picture:
         else:
             strip = _colours(strip, transparent, alpha)[:, :, :bands].sum(axis=2, dtype=np.uint16)
         levels[top:top + STRIP] = strip
-    return Picture(path, levels, DEEPEST if deep else 255 * bands)
+    return Picture(path, levels, DEEPEST if deep else 255 * bands, image.format)
 
 
 def _colours(strip: Any, transparent: bool, alpha: Alpha) -> NDArray[np.uint8]:
