@@ -33,7 +33,8 @@ def test_robots_are_as_a_file_says(run, tmp_path):
     with open(tmp_path / 'out' / 'results.csv') as file:
         rows = list(csv.DictReader(file))
     for row in rows:  # T is for the floor that so small a robot reaches, at the speed that it can drive
-        assert row['robot'] == str(tmp_path / 'slow.yaml') and float(row['area']) == pytest.approx(1.39 * 0.89, rel=0.02)
+        assert row['robot'] == str(tmp_path / 'slow.yaml')
+        assert float(row['area']) == pytest.approx(1.39 * 0.89, rel=0.02)
         assert float(row['ideal_time']) == pytest.approx(float(row['area']) / (0.1 * 0.15))
 
 

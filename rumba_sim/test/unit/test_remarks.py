@@ -46,7 +46,8 @@ def test_people_are_told_of_floor_out_of_reach_and_where_to_start_instead():
         'start: [1.55, 1.55, 0.0]']
     remark, = remarks(World(flat(start=Pose(1.0, 1.0, 0.0)), quiet()))
     assert remark.startswith('room: 71 % of the floor') and 'start at (1.00, 1.00) m' in remark
-    assert World(flat(start=Pose(*yaml.safe_load(remark.split('the map ')[1])['start'])), quiet()).floor.reachable_area > 20.0
+    start = yaml.safe_load(remark.split('the map ')[1])['start']
+    assert World(flat(start=Pose(*start)), quiet()).floor.reachable_area > 20.0
 
 
 def test_a_map_without_much_to_say_has_only_the_remarks_of_its_file():

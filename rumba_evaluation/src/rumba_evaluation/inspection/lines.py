@@ -72,7 +72,8 @@ def _why(found: Findings, barrier: Barrier) -> str:
         return f'behind {barrier.kind.value}, {barrier.width:.2f} m across at {middle}'
     if barrier.width >= found.gap:
         return f'behind a bend at {middle}, where {barrier.width:.3f} m are free'
-    return f'behind a gap of {barrier.width:.3f} m at {middle}, {1000.0 * (found.gap - barrier.width):.0f} mm too narrow'
+    short = 1000.0 * (found.gap - barrier.width)
+    return f'behind a gap of {barrier.width:.3f} m at {middle}, {short:.0f} mm too narrow'
 
 
 def _specks(found: Findings) -> str:

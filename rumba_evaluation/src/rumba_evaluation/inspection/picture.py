@@ -48,8 +48,8 @@ def draw(found: Findings, path: str) -> None:
     axes.set_title(f'{os.path.basename(found.plan.name)}: {found.expected.area:.1f} m$^2$ reached', fontsize='medium')
     handles, labels = axes.get_legend_handles_labels()
     unique = dict(zip(labels, handles))
-    axes.legend(list(unique.values()), list(unique), loc='upper center', bbox_to_anchor=(0.5, -0.55 / max(scale * height, 1.0)), ncol=4,
-                fontsize='small', frameon=False)
+    axes.legend(list(unique.values()), list(unique), loc='upper center', ncol=4, fontsize='small', frameon=False,
+                bbox_to_anchor=(0.5, -0.55 / max(scale * height, 2.0)))
     figure.savefig(path, dpi=DOTS, bbox_inches='tight', format='png')
 
 

@@ -162,8 +162,6 @@ def _number(value: Any) -> Optional[float]:
     return number if math.isfinite(number) else None
 
 
-
-
 def _is_there(path: str) -> bool:
     """Whether there is a file at a path, which may hold characters that no path can have."""
     try:
