@@ -25,7 +25,7 @@ FOLDERS = {
         'strategies': {'', 'belief', 'behaviours', 'planning'}, 'mission': {'', 'belief', 'behaviours', 'strategies'},
         'ros/cleaner': {'', 'belief', 'behaviours', 'strategies', 'mission'}},
     'rumba_evaluation': {
-        'scoring': set(), 'trials': {'scoring'}, 'report': set(), 'verdicts': set(),
+        'inspection': set(), 'scoring': set(), 'trials': {'scoring'}, 'report': set(), 'verdicts': set(),
         'submissions': set(), 'marks': {'trials', 'verdicts', 'submissions'}, 'ros/mission_report': {'report'},
         'learning': {'trials'}, 'ros/judge': {'verdicts'},
         'ros': {'scoring', 'trials', 'verdicts', 'marks', 'submissions', 'ros/judge'}},

@@ -3,8 +3,10 @@
 import dataclasses
 
 from rumba_sim.model.config import section, setting
+from rumba_sim.model.robot_config import RobotConfig
 
 DAY = 86400.0  # [s]
+APART = 1.001  # times the cleaning speed is the transit speed of slow robots, at least: routes tell them apart by that
 
 
 @dataclasses.dataclass(frozen=True)
@@ -39,3 +41,13 @@ class CleaningConfig:
                                       'fewer plan faster, and lead to longer routes; large floors get fewer', '', 0,
                                    20)
     time_limit: TimeLimits = section(TimeLimits, 'when an action is given up; simulated time')
+
+
+def attainable(config: CleaningConfig, robot: RobotConfig) -> CleaningConfig:
+    """The same settings, with no speed above the highest one of a robot."""
+    fastest = robot.drive.max_speed
+    speed = min(config.speed, fastest)
+    transit = config.transit_speed
+    if transit > fastest:
+        transit = max(fastest, speed * APART)
+    return dataclasses.replace(config, speed=speed, transit_speed=transit)

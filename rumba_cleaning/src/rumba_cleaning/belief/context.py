@@ -13,7 +13,7 @@ from rumba_cleaning.belief.ground import Ground
 from rumba_cleaning.belief.mates import Mates, Report
 from rumba_cleaning.belief.surroundings import blank
 from rumba_cleaning.belief.swept import Swept
-from rumba_cleaning.cleaning_config import CleaningConfig
+from rumba_cleaning.cleaning_config import CleaningConfig, attainable
 from rumba_cleaning.survey import Survey
 from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.model.geometry import Pose, hypot
@@ -86,7 +86,7 @@ class Context:
     Attributes:
         survey: of a floor that is being mapped; None if the plan does not change.
         robot: what the robot is like.
-        config: speeds and thresholds for its work.
+        config: speeds and thresholds for its work; it can drive at the speeds.
         target_coverage: share of the reachable floor to sweep [0..1].
         generator: what random choices are drawn from.
         executor: what runs long computations, as `submit` does.
@@ -110,7 +110,7 @@ class Context:
         """
         plan = plan.refined()
         self.robot = robot
-        self.config = config
+        self.config = attainable(config, robot)
         self.target_coverage = config.target_coverage
         self.generator = np.random.default_rng(seed)
         self.executor = executor if executor is not None else InPlace()

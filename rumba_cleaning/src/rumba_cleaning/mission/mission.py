@@ -189,7 +189,7 @@ class Mission(StagedMission):
         """Forget what was swept; what can be reached is counted from the robot, or from the nearest free node."""
         ground = self._context.ground
         point = np.array([pose[:2]])
-        if not ground.are_free(point)[0]:
+        if not ground.are_free(point)[0] or ground.plan.safe_clearance_at(*pose[:2]) < ground.reach:
             point = ground.points(ground.standing(ground.nodes(point)))
         self._context.swept.begin(*point[0].tolist())
         self._has_memory = True

@@ -74,10 +74,10 @@ class CoverageEnv(gymnasium.Env):
 def task_of(floors: Floors, robots: int, settings: Optional[Settings], robot: Optional[Settings],
             threads: int = 1) -> CoverageTask:
     """The task that the arguments of an environment describe."""
+    config = from_mapping(RobotConfig, robot or {}, 'robot')
     plans = [rooms(floor, 1)[0] if isinstance(floor, (int, np.integer)) else
-             map_file.load(floor) if isinstance(floor, str) else floor for floor in floors]
-    return CoverageTask(plans, robots, from_mapping(TaskConfig, settings or {}, 'settings'),
-                        from_mapping(RobotConfig, robot or {}, 'robot'), threads)
+             map_file.load(floor, config.drive.radius) if isinstance(floor, str) else floor for floor in floors]
+    return CoverageTask(plans, robots, from_mapping(TaskConfig, settings or {}, 'settings'), config, threads)
 
 
 def checked(render_mode: Optional[str]) -> Optional[str]:

@@ -20,7 +20,7 @@ from rumba_evaluation.submissions import intake, sandbox, scratch
 from rumba_evaluation.submissions.quotations import printable
 from rumba_evaluation.submissions.sandbox import Bubblewrap, Plain
 from rumba_evaluation.submissions.supervised import Stopped
-from rumba_evaluation.trials.command_line import ERROR
+from rumba_sim.model.command_line import ERROR
 from rumba_sim.model.errors import ConfigError
 
 SHEET, BUILD_LOG, BAG = 'marks.csv', 'build.log', 'recording.bag'

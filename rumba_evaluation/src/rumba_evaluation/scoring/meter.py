@@ -1,6 +1,7 @@
 """Sums over the time in which a robot drives."""
 
 from rumba_cleaning.control import CONTROL_DT
+from rumba_sim.model.compiled import fast
 from rumba_sim.model.geometry import wrap_angle
 from rumba_sim.model.robot import Robot
 from rumba_sim.model.world import World
@@ -39,5 +40,11 @@ class Meter:
             charge = -battery.current * CONTROL_DT / HOUR
             self.charge += charge
             self.energy += battery.voltage * charge
-        self.penetrated |= self._world.terrain.clearance_at(pose.x, pose.y) < self._least_clearance or bool(
+        self.penetrated |= self._is_in_wall(pose.x, pose.y) or bool(
             self._world.obstacles.near(pose.x, pose.y, self._least_clearance))
+
+    def _is_in_wall(self, x: float, y: float) -> bool:
+        """Whether a robot at a point [m] overlaps a wall: by the exact distance, where the interpolated one is small."""
+        world = self._world
+        return world.terrain.clearance_at(x, y) < self._least_clearance and fast.wall_distance(
+            world.constants[0], world.terrain.clearance, world.floor.cells, x, y) < self._least_clearance

@@ -8,7 +8,7 @@ import numpy as np
 
 from rumba_cleaning.behaviour import Behaviour, Command, Observation, Status
 from rumba_cleaning.behaviours.follower import Follower
-from rumba_cleaning.cleaning_config import CleaningConfig
+from rumba_cleaning.cleaning_config import CleaningConfig, attainable
 from rumba_cleaning.control import CONTROL_DT, CONTROL_TICKS, STEP_RATE, act
 from rumba_cleaning.outcome import Outcome
 from rumba_cleaning.route import Route
@@ -68,7 +68,8 @@ class Ride(abc.ABC):
         self.speed = speed
         self.world = World(plan, config, STEP_RATE, SEED, obstacles)
         self.robot = self._spawned()
-        self.ideal_time = self.world.floor.reachable_area / (config.brush.width * CleaningConfig().speed)
+        self.ideal_time = self.world.floor.reachable_area / (
+            config.brush.width * attainable(CleaningConfig(), config).speed)
         self.curve: List[float] = []
         self.observer = Observer(self.world, self.robot)
         self.meter = Meter(self.world, self.robot)

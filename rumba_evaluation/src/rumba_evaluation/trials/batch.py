@@ -21,11 +21,12 @@ from rumba_cleaning import strategies
 from rumba_cleaning.outcome import Outcome
 from rumba_evaluation.trials.cases import Case, Conditions, Result
 from rumba_evaluation.trials.trial import Trial
-from rumba_sim.model import map_file, obstacle_file
+from rumba_sim.model import map_file, obstacle_file, robot_file
 from rumba_sim.model.errors import ConfigError, RumbaError, StrategyError
 from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.model.kernel import Array
 from rumba_sim.model.obstacle import Obstacle
+from rumba_sim.model.robot_config import DriveConfig
 
 SCHEDULER_TIMEOUT = 10.0  # [s]
 WORKERS_PERIOD = 5.0  # [s] between two looks whether a cluster has workers
@@ -56,13 +57,13 @@ class Trace(NamedTuple):
 
 
 @functools.lru_cache(maxsize=PLANS)
-def floor_plan(path: str) -> FloorPlan:
-    """The floor plan in a file; the last few are kept in memory.
+def floor_plan(path: str, radius: float = DriveConfig().radius) -> FloorPlan:
+    """The floor plan in a file, for robots of a radius [m]; the last few are kept in memory.
 
     Raises:
         MapError: it cannot be used.
     """
-    return map_file.load(path)
+    return map_file.load(path, radius)
 
 
 @functools.lru_cache(maxsize=1)
@@ -82,9 +83,10 @@ def prepare(job: Job) -> Trial:
         RumbaError: the map, the strategy, the obstacles or the number of robots cannot be used.
     """
     strategies.load(job.modules)
-    plan, obstacles = floor_plan(job.path), obstacles_in(job.conditions.obstacles)
+    robot = robot_file.load(job.conditions.robot)
+    plan, obstacles = floor_plan(job.path, robot.drive.radius), obstacles_in(job.conditions.obstacles)
     try:
-        return Trial(plan, job.case.strategy, job.conditions, job.case.seed, job.case.robots, obstacles)
+        return Trial(plan, job.case.strategy, job.conditions, job.case.seed, job.case.robots, obstacles, robot)
     except RumbaError:
         raise
     except (Exception, SystemExit) as error:  # in the code that makes a strategy

@@ -17,7 +17,7 @@ from rumba_evaluation.scoring.measures import Observer
 from rumba_evaluation.scoring.ride import AsDrawn, Driven
 from rumba_evaluation.trials import batch, score
 from rumba_evaluation.trials.cases import Case, Conditions
-from rumba_evaluation.trials.command_line import BAD_INPUT, INTERRUPTED, Parser
+from rumba_sim.model.command_line import BAD_INPUT, INTERRUPTED, Parser
 from rumba_evaluation.trials.evaluate_path import FORMATS, JSON, TEXT
 from rumba_evaluation.trials.floors import FLOORS
 from rumba_evaluation.trials.score import Score

@@ -42,6 +42,8 @@ class Conditions:
     target: float = setting(CleaningConfig().target_coverage, 'share of the reachable floor at which a mission ends',
                             '', 0.0, 1.0)
     obstacles: str = setting('', 'path of a YAML file of obstacles that the maps do not show; robots do not know them')
+    robot: str = setting('', 'path of a YAML file of what robots are like, with the settings of a robot in '
+                             'rumba_sim/config/rumba.yaml that are to be others')
     laser: bool = setting(False, 'whether robots drive around what their lasers see and the maps do not show')
     laser_model: str = setting(IDEAL, 'laser of the robots', choices=tuple(MODELS))
     bound: float = setting(12.0, 'working time, in multiples of T, after which a mission is stopped; '
@@ -68,7 +70,7 @@ class Result:
     outcome: Outcome  # of several robots the worst: a fall, no end, another failure, a target that was missed
     message: str  # how each mission ended
     area: float  # [m^2] of floor that a brush can reach from the map's start
-    ideal_time: float  # [s] T: for one brush to sweep that area at the cleaning speed, without any overlap
+    ideal_time: float  # [s] T: for one brush to sweep that area without any overlap, at the speed of cleaning
     coverage: float  # [0..1] at the end, true value
     dirt_left: float  # [0..1]
     time: float  # [s]

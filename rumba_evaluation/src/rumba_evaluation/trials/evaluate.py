@@ -22,7 +22,8 @@ from rumba_evaluation.scoring.path_file import ReadBag
 from rumba_evaluation.trials import batch, evaluate_path, score, table
 from rumba_evaluation.trials.batch import Job
 from rumba_evaluation.trials.cases import ANYWHERE, DOCK, POSES, TRUTH, Case, Conditions, Result, grid
-from rumba_evaluation.trials.command_line import BAD_INPUT, ERROR, INTERRUPTED, Parser
+from rumba_sim.model.command_line import BAD_INPUT, ERROR, INTERRUPTED, Parser
+from rumba_evaluation.trials.foresight import remarks_on
 from rumba_evaluation.trials.results import Results
 from rumba_sim.model import named_maps
 from rumba_sim.model.config import explain, updated
@@ -90,6 +91,8 @@ def _parser() -> argparse.ArgumentParser:
              'not at all, without map and laser; default %(default)s')
     add('--obstacles', type=_path, default='', metavar='FILE',
         help='YAML file of obstacles that the maps do not show, and that the robots do not know')
+    add('--robot', type=_path, default='', metavar='FILE',
+        help='YAML file with settings of a robot, as in config/rumba.yaml of rumba_sim, that are to be others')
     add('--laser', action='store_true', help='robots drive around what their lasers see and the maps do not show')
     add('--laser-model', choices=tuple(MODELS), default=IDEAL, help='laser of the robots; default %(default)s')
     for field in dataclasses.fields(Conditions):
@@ -187,7 +190,8 @@ def _jobs(cases: Sequence[Case], conditions: Conditions, paths: Dict[str, str], 
     jobs = [Job(case, conditions, os.path.abspath(paths[case.map]), modules) for case in cases]
     most = max(case.robots for case in cases)
     for job in {job.case.map: job for job in jobs if job.case.robots == most}.values():
-        batch.prepare(job)
+        for remark in remarks_on(batch.prepare(job)):
+            print(f'{NAME}: {remark}', file=sys.stderr)
     return jobs
 
 

@@ -12,9 +12,9 @@ from rumba_evaluation.scoring import path_file
 from rumba_evaluation.scoring.ride import AsDrawn, Driven
 from rumba_evaluation.trials import batch, score
 from rumba_evaluation.trials.cases import Case, Conditions
+from rumba_sim.model import robot_file
 from rumba_sim.model.config import updated
 from rumba_sim.model.errors import ConfigError
-from rumba_sim.model.robot_config import RobotConfig
 
 JSON, TEXT = FORMATS = 'json', 'text'
 OF_MISSIONS = ('strategies', 'seeds', 'robots', 'start', 'pose', 'laser', 'target', 'modules', 'jobs', 'scheduler')
@@ -23,7 +23,7 @@ OF_PATHS = ('as_drawn', 'speed', 'topic')
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Add the options of paths to a parser."""
-    group = parser.add_argument_group('paths of others (with --maps, --obstacles, --drain, --bound, --output)')
+    group = parser.add_argument_group('paths of others (with --maps, --robot, --obstacles, --drain, --bound, --output)')
     add = group.add_argument
     add('--path', default='', metavar='FILE',
         help='score a path instead of missions: CSV with x,y or t,x,y,theta in its first line, TUM trajectory, or '
@@ -47,9 +47,9 @@ def check_options(options: argparse.Namespace, defaults: argparse.Namespace) -> 
             raise ConfigError(f'{option} has no meaning {"with" if options.path else "without"} --path')
     if options.path and (len(options.maps) != 1 or options.maps == defaults.maps):
         raise ConfigError('--path needs --maps with the one map that the path is for')
-    if not 0.0 < options.speed <= RobotConfig().drive.max_speed:
-        raise ConfigError(f'--speed is {options.speed:g}: must be above 0, and {RobotConfig().drive.max_speed:g} m/s '
-                          'at most')
+    fastest = robot_file.load(options.robot).drive.max_speed
+    if options.path and not 0.0 < options.speed <= fastest:
+        raise ConfigError(f'--speed is {options.speed:g}: must be above 0, and {fastest:g} m/s at most')
 
 
 def evaluate_path(options: argparse.Namespace, conditions: Conditions, map_path: Callable[[str], str],
@@ -59,9 +59,12 @@ def evaluate_path(options: argparse.Namespace, conditions: Conditions, map_path:
     Raises:
         RumbaError: the path, the map or the obstacles cannot be used.
     """
-    plan = batch.floor_plan(map_path(options.maps[0]))
+    robot = robot_file.load(conditions.robot)
+    plan = batch.floor_plan(map_path(options.maps[0]), robot.drive.radius)
+    for remark in plan.remarks:
+        print(f'evaluate: {remark}', file=sys.stderr)
     path = path_file.read(options.path, options.topic, read_bag)
-    config = updated(RobotConfig(), {'battery': {'drain': conditions.drain}}, 'conditions')
+    config = updated(robot, {'battery': {'drain': conditions.drain}}, 'conditions')
     kind: Any = AsDrawn if options.as_drawn else Driven
     ride = kind(plan, path, config, options.speed, batch.obstacles_in(conditions.obstacles))
     ride.run(conditions.bound)

@@ -14,7 +14,7 @@ import numpy as np
 from rumba_cleaning.behaviour import Status
 from rumba_cleaning.belief.context import BeforeNextStep, Context, Seed, own_seed
 from rumba_cleaning.belief.mates import Mates
-from rumba_cleaning.cleaning_config import CleaningConfig
+from rumba_cleaning.cleaning_config import CleaningConfig, attainable
 from rumba_cleaning.control import CONTROL_DT, CONTROL_TICKS, STEP_RATE, act
 from rumba_cleaning.mission.duration import longest
 from rumba_cleaning.mission.mapless import MaplessMission
@@ -47,7 +47,8 @@ class Trial:
         contexts: what each robot knows, in the order of the world's robots.
         missions: the mission of each robot, in the same order.
         sources: by what each robot knows where it is, by its name.
-        ideal_time: T [s], for one brush to sweep the reachable floor at the cleaning speed, without any overlap.
+        ideal_time: T [s], for one brush to sweep the reachable floor without any overlap, at the cleaning speed or, if
+            it cannot drive at that, at its highest.
         curve: working time [s] until 1 %, 2 %, ... of the reachable floor were swept.
         advance: lets a number of ticks pass; replaced by those who look at each tick.
     """
@@ -69,7 +70,7 @@ class Trial:
             RumbaError: the strategy is unknown, there is no space for so many robots, or an obstacle is wrong.
         """
         config = _config(robot, conditions)
-        cleaning = CleaningConfig(laser=conditions.laser)
+        cleaning = attainable(CleaningConfig(laser=conditions.laser), config)
         self._conditions = conditions
         self.world = World(plan, config, STEP_RATE, seed, obstacles)
         poses: Sequence[Optional[Pose]] = [None] * robots

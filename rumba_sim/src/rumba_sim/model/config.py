@@ -136,8 +136,14 @@ def _preset(cls: type, chosen: Sequence[Field], values: Mapping[str, Any]) -> Di
 
 def nearest(name: Any, known: List[str]) -> str:
     """End of a message about an unknown name: the known name that is most similar, or all known names."""
+    close = closest(name, known)
+    return f'known are {", ".join(known)}' if close is None else f'did you mean {close!r}?'
+
+
+def closest(name: Any, known: List[str]) -> Optional[str]:
+    """The known name that an unknown name was probably meant to be; None if none is similar."""
     close = difflib.get_close_matches(name[:LONGEST_NAME].lower(), known, n=1) if isinstance(name, str) else []
-    return f'did you mean {close[0]!r}?' if close else f'known are {", ".join(known)}'
+    return close[0] if close else None
 
 
 def _checked(field: Field, value: Any, path: str) -> Any:

@@ -52,6 +52,7 @@ class FloorPlan:
             several, the first one.
         further_docks: the same of the others.
         start: pose in which a robot begins; None if the map does not say.
+        remarks: what is odd about the file of the map and no error, a line each, for people.
         clearance: float64 (rows + 1, columns + 1), exact distance from each node to the nearest obstacle [m],
             0 inside an obstacle and on its border. C-contiguous.
         skips: uint8 (rows, columns), how many cells a beam may skip from any point of a cell, in any direction,
@@ -62,7 +63,7 @@ class FloorPlan:
     def __init__(self, name: str, occupancy: NDArray[np.int8], resolution: float, origin: Tuple[float, float], *,
                  cliff: Optional[NDArray[np.bool_]] = None, carpet: Optional[NDArray[np.bool_]] = None,
                  dock: Optional[Pose] = None, further_docks: Sequence[Pose] = (),
-                 start: Optional[Pose] = None) -> None:
+                 start: Optional[Pose] = None, remarks: Sequence[str] = ()) -> None:
         """Copy the grid and its layers, and compute the distances.
 
         Raises:
@@ -78,6 +79,7 @@ class FloorPlan:
         self.dock = dock
         self.further_docks = tuple(further_docks)
         self.start = start
+        self.remarks = tuple(remarks)
         free = self.free
         if not free.any():
             raise MapError(f'{name}: no free floor: every cell is wall or unknown')
@@ -188,7 +190,7 @@ class FloorPlan:
             cliff, carpet = (None if layer is None else _enlarged(layer, parts) for layer in (self.cliff, self.carpet))
             self._refined = FloorPlan(self.name, _enlarged(self.occupancy, parts), self.resolution / parts, self.origin,
                                       cliff=cliff, carpet=carpet, dock=self.dock,
-                                      further_docks=self.further_docks, start=self.start)
+                                      further_docks=self.further_docks, start=self.start, remarks=self.remarks)
         return self._refined
 
     def with_safe_clearance(self, safe_clearance: NDArray[np.float64]) -> FloorPlan:
@@ -211,9 +213,14 @@ class FloorPlan:
         """Into how many parts to divide the side of a cell, for parts of a size [m] and `most` parts in all."""
         return max(min(math.ceil(self.resolution / size - ROUNDING), math.isqrt(most // self.occupancy.size)), 1)
 
-    def most_open_pose(self) -> Pose:
-        """The node with the largest safe clearance, facing along x."""
-        row, column = np.unravel_index(int(np.argmax(self.safe_clearance)), self.safe_clearance.shape)
+    def most_open_pose(self, among: Optional[NDArray[np.bool_]] = None) -> Pose:
+        """The node with the largest safe clearance, facing along x.
+
+        Args:
+            among: bool (rows + 1, columns + 1), the nodes from which to choose; None, or none of them: from all.
+        """
+        space = self.safe_clearance if among is None or not among.any() else np.where(among, self.safe_clearance, -1.0)
+        row, column = np.unravel_index(int(np.argmax(space)), space.shape)
         return Pose(self.origin[0] + float(column) * self.resolution,
                     self.origin[1] + float(row) * self.resolution, 0.0)
 

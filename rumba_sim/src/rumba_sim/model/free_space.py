@@ -10,7 +10,7 @@ from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.model.geometry import Pose, hypot, wrap_angle
 from rumba_sim.model.kernel import Array
 from rumba_sim.model.obstacles import Obstacles
-from rumba_sim.model.reachability import stands
+from rumba_sim.model.reachability import Parts, stands
 
 APART, TOUCHING = 0.5, 0.0  # radii between a robot that is added and the others, if there is room, and if not
 
@@ -22,7 +22,7 @@ class FreeSpace:
 
     Attributes:
         start: pose of the first robot if none is given: the start of the plan, else the dock, else the position with
-            the largest clearance.
+            the largest clearance in the largest part of the floor.
     """
 
     def __init__(self, terrain: FloorPlan, reachable: FloorPlan, obstacles: Obstacles, radius: float,
@@ -42,7 +42,7 @@ class FreeSpace:
         """
         self._terrain, self._reachable, self._obstacles = terrain, reachable, obstacles
         self._radius, self._reach = radius, reach
-        self.start = terrain.start or terrain.dock or reachable.most_open_pose()
+        self.start = terrain.start or terrain.dock or Parts(reachable, reach).open_pose(1)
         for what, pose in [*(('dock', dock) for dock in terrain.docks), ('start', self.start)]:
             self._check_plan(what, pose)
 

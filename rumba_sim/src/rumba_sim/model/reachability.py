@@ -13,6 +13,7 @@ from rumba_sim.model.geometry import Pose
 from rumba_sim.model.kernel import Array
 from rumba_sim.model.kernel.samples import SWEEPABLE
 from rumba_sim.model.robot_config import RobotConfig
+from rumba_sim.model.straits import Floor, joined
 
 SLACK = 0.003  # [m] on each side of a robot in a passage, at least: no robot drives through a narrower one; our choice
 RIM = 2  # [half cells] beyond where it has this slack, a robot can stand too: so near it comes to walls
@@ -52,7 +53,7 @@ def reach(plan: FloorPlan, config: RobotConfig, x: float, y: float) -> Reach:
 
 
 def stands(plan: FloorPlan, needed: float, x: float, y: float) -> Array:
-    """Where a robot can stand that starts at (x, y) [m] and drives along the axes of the map, with some slack.
+    """Where a robot can stand that starts at (x, y) [m] and drives with some slack, also through straits.
 
     Args:
         plan: the floor plan.
@@ -63,17 +64,61 @@ def stands(plan: FloorPlan, needed: float, x: float, y: float) -> Array:
         bool (2 * rows + 1, 2 * columns + 1), at points half a cell apart: element (i, j) is the point
         `origin + 0.5 * resolution * (j, i)`.
     """
-    fits = _fits(plan, needed)
+    fits = fitting(plan, needed)
     start = _nearest(plan, fits, x, y)
     fits[start] = True
-    is_wide = _fits(plan, needed + SLACK)
+    is_wide = fitting(plan, needed + SLACK)
     is_wide[start] = True
-    labels, _ = ndimage.label(is_wide)
+    labels = _parts(plan, needed, is_wide)
     start = _nearest(plan, is_wide, x, y)
     return np.asarray(ndimage.binary_dilation(labels == labels[start], iterations=RIM, mask=fits))
 
 
-def _fits(plan: FloorPlan, needed: float) -> Array:
+class Parts:
+    """The parts of a floor between which no robot can drive, from the largest to the smallest.
+
+    Attributes:
+        labels: int (2 * rows + 1, 2 * columns + 1), at the points of `stands`: the number of the part to which a point
+            belongs, from 1 on; 0 where a robot has not enough room to drive.
+        areas: float64 (parts), of the positions of a robot in each [m^2].
+    """
+
+    def __init__(self, plan: FloorPlan, needed: float) -> None:
+        """Find the parts.
+
+        Args:
+            plan: the floor plan.
+            needed: the clearance that the robot needs [m].
+        """
+        self._plan = plan
+        labels = _parts(plan, needed, fitting(plan, needed + SLACK))
+        sizes = np.bincount(labels.ravel())[1:]
+        by_size = np.argsort(-sizes, kind='stable')[:np.count_nonzero(sizes)]
+        ranks = np.zeros(len(sizes) + 1, labels.dtype)
+        ranks[by_size + 1] = np.arange(1, len(by_size) + 1)
+        self.labels: Array = ranks[labels]
+        self.areas: Array = sizes[by_size] * (0.5 * plan.resolution) ** 2
+
+    def at(self, x: float, y: float) -> int:
+        """The number of the part in which a robot at a point [m] is; 0 if it is in none."""
+        return int(self.labels[_nearest(self._plan, self.labels > 0, x, y)])
+
+    def open_pose(self, number: int) -> Pose:
+        """The node with the most space around it in a part, facing along x; of all nodes, if none is in that part."""
+        return self._plan.most_open_pose(self.labels[::2, ::2] == number)
+
+
+def _parts(plan: FloorPlan, needed: float, is_wide: Array) -> Array:
+    """The part of each point of `stands` at which it is wide enough, as a number from 1 on; 0 elsewhere."""
+    labels, number = ndimage.label(is_wide)
+    if number < 2:
+        return labels
+    cells = plan.free if plan.cliff is None else plan.free & ~plan.cliff
+    return joined(labels, number, Floor(cells, plan.safe_clearance / plan.resolution,
+                                        (needed + SLACK - ROUNDING) / plan.resolution))
+
+
+def fitting(plan: FloorPlan, needed: float) -> Array:
     """The points, as `stands` answers them, at which there is the needed clearance [m]."""
     clearance = plan.safe_clearance
     fits = np.zeros((2 * plan.rows + 1, 2 * plan.columns + 1), np.bool_)

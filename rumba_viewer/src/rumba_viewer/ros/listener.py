@@ -146,7 +146,7 @@ class Listener:
         config, features = self._files.config, MapFeatures()
         try:
             config = robot_config(state.node)
-            floor = map_file.load(state.map)
+            floor = map_file.load(state.map, config.drive.radius)
             features = MapFeatures(docks(floor, config), floor.carpet, floor.cliff, True)
         except RumbaError:  # the simulator runs on another machine
             pass

@@ -44,7 +44,7 @@ from rumba_cleaning import strategies
 from rumba_cleaning.belief.context import Context, own_seed
 from rumba_cleaning.belief.mates import Report, Task
 from rumba_cleaning.outcome import Outcome
-from rumba_cleaning.ros.cleaner import conversions
+from rumba_cleaning.ros.cleaner import conversions, foresight
 from rumba_cleaning.ros.cleaner.action_server import Server
 from rumba_cleaning.ros.cleaner.activities import ACTIONS, Activity, Cleaning
 from rumba_cleaning.ros.cleaner.executor import DaemonExecutor, Planners
@@ -273,7 +273,11 @@ class Cleaner:
         """
         if name == 'clean' and goal.resume:
             return self._interruption.rest(self._run, goal.time_limit)
-        return ACTIONS[name].activity(self._context(), goal)
+        context = self._context()
+        activity = ACTIONS[name].activity(context, goal)
+        if name == 'clean':
+            foresight.warn(context, self._settings.cleaning, self._robot.senses.pose())
+        return activity
 
     def _context(self) -> Context:
         """What the robot knows at first.

@@ -82,9 +82,10 @@ class Workplace:
         path = self._named or self._simulator.wait().map
         state = self._simulator.state
         wanted = path, state.run if state is not None else ''
+        robot = self._newest_robot()
         if self._loaded is None or self._loaded[:2] != wanted:
-            self._loaded = (*wanted, map_file.load(path))
-        return self._loaded[2], self._newest_robot()
+            self._loaded = (*wanted, map_file.load(path, robot.drive.radius))
+        return self._loaded[2], robot
 
     @property
     def lockstep(self) -> Optional[Tuple[str, int]]:

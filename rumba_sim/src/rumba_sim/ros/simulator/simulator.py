@@ -42,6 +42,7 @@ from rumba_sim.model import map_file, obstacle_file
 from rumba_sim.model.config import updated
 from rumba_sim.model.errors import ConfigError, RumbaError, WorldError
 from rumba_sim.model.geometry import Pose
+from rumba_sim.model.remarks import remarks
 from rumba_sim.model.world import World
 from rumba_sim.ros.common import master_watch, node, peers
 from rumba_sim.ros.common.examiner import ExaminerServer, socket_path
@@ -86,11 +87,13 @@ class Simulator:
         self._requests = Requests()
         self._is_paused = False
         path = map_path(settings.map)
-        plan = map_file.load(path)
+        plan = map_file.load(path, settings.robot.drive.radius)
         self._file = StateFile(settings)
         obstacles = obstacle_file.load(absolute(settings.obstacles)) if settings.obstacles else []
         saved, self._ticks = self._file.world(plan, settings, obstacles)
         self._world = saved or World(plan, settings.robot, settings.step_rate, settings.seed, obstacles)
+        for remark in remarks(self._world):
+            rospy.logwarn(remark)
         self._pace = Pace(settings.step_rate, settings.speed, is_time_simulated(settings), self._ticks)
         self._run = uuid.uuid4().hex
         self._examiner = ExaminerServer(socket_path()) if settings.exam else None

@@ -107,8 +107,9 @@ class TurtlesimBody:
         """
         refuse_second()
         path = map_path(settings.map)
-        plan = map_file.load(path)
-        self._guided = GuidedWorld(plan, part(settings, RobotConfig), FRAME_RATE, settings.seed, settings.robot,
+        config = part(settings, RobotConfig)
+        plan = map_file.load(path, config.drive.radius)
+        self._guided = GuidedWorld(plan, config, FRAME_RATE, settings.seed, settings.robot,
                                    settings.percentage / 100.0, settings.brushes_up)
         self._settings = settings
         self._requests = Requests()

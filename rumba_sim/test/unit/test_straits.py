@@ -1,0 +1,86 @@
+"""Passages between corners that are aslant: a robot can pass if it has 3 mm to spare on each side, at any resolution."""
+
+import math
+
+import numpy as np
+import pytest
+from pytest import approx
+from rooms import RADIUS, quiet
+
+from rumba_sim.model.constants import clearance_needed
+from rumba_sim.model.floor_plan import FREE, OCCUPIED, FloorPlan
+from rumba_sim.model.geometry import Pose
+from rumba_sim.model.obstacle import Obstacle
+from rumba_sim.model.reachability import SLACK, Parts, reach
+from rumba_sim.model.world import World
+
+LEFT, BOTTOM = 1.0, 2.0  # [m] the corner of the lower block
+
+
+def corners(across, up, resolution=0.05, turns=0, **kwargs):
+    """A floor of 3 x 4 m in two parts, with a passage between the corners of two blocks, so many cells apart.
+
+    One block fills the lower left, the other the upper right; quarter turns turn all of it.
+    """
+    rows, columns = round(4.0 / resolution), round(3.0 / resolution)
+    row, column = round(BOTTOM / resolution), round(LEFT / resolution)
+    cells = np.full((rows, columns), FREE, np.int8)
+    cells[:row, :column] = OCCUPIED
+    cells[row + up:, column + across:] = OCCUPIED
+    cells = np.pad(np.rot90(cells, turns), 1, mode='constant', constant_values=OCCUPIED)
+    return FloorPlan('corners', cells, resolution, (-resolution, -resolution), **kwargs)
+
+
+def reached(plan, x=2.0, y=1.0):
+    """Area that a brush reaches from a point [m^2]."""
+    terrain = plan.refined()
+    return reach(terrain, quiet(), x, y).reachable * terrain.sample_pitch ** 2
+
+
+@pytest.mark.parametrize('resolution, pairs', [
+    (0.05, [(6, 4), (4, 6), (7, 2), (2, 7), (5, 5), (7, 1), (1, 7), (6, 3), (3, 7)]),
+    (0.1, [(3, 2), (2, 3), (4, 1), (3, 1)]), (0.02, [(16, 8), (15, 9), (15, 10), (17, 6), (11, 13)])])
+def test_two_parts_are_one_if_the_robot_has_the_slack_on_each_side(resolution, pairs):
+    outcomes = set()
+    for across, up in pairs:
+        spare = 0.5 * resolution * math.hypot(across, up) - RADIUS
+        is_wide = spare > SLACK
+        assert abs(spare - SLACK) > 4e-4, 'the test needs other cells'
+        assert (reached(corners(across, up, resolution)) > 5.0) == is_wide, (across, up, spare)
+        outcomes.add(is_wide)
+    assert outcomes == {True, False}
+
+
+@pytest.mark.parametrize('turns', [0, 1, 2, 3])
+def test_it_is_the_same_in_each_direction(turns):
+    plan = corners(6, 4, turns=turns)
+    terrain = plan.refined()
+    parts = Parts(terrain, clearance_needed(RADIUS, terrain.resolution))
+    assert len(parts.areas) == 1 and reached(plan, *parts.open_pose(1)[:2]) == approx(5.72, abs=0.05)
+    x, y, _ = parts.open_pose(1)
+    assert World(plan, quiet()).start[:2] == (x, y)
+
+
+@pytest.mark.parametrize('across, up', [(6, 4), (7, 2)])
+def test_a_robot_drives_through(across, up):
+    world = World(corners(across, up), quiet())
+    middle_x, middle_y = LEFT + 0.5 * across * 0.05, BOTTOM + 0.5 * up * 0.05
+    heading = math.atan2(across, -up)
+    robot = world.spawn('rumba', Pose(middle_x - 0.5 * math.cos(heading), middle_y - 0.5 * math.sin(heading), heading))
+    for _ in range(400):
+        robot.command(0.15, 0.0, world.tick)
+        world.step()
+    assert robot.distance == approx(1.2, abs=0.02) and robot.pose.y > BOTTOM + 0.6
+
+
+def test_an_obstacle_in_a_strait_keeps_the_parts_apart():
+    box = Obstacle('box', Pose(LEFT + 0.15, BOTTOM + 0.1, 0.0), 0.3, radius=0.05)
+    assert World(corners(6, 4), quiet()).floor.reachable_area > 5.0
+    assert World(corners(6, 4), quiet(), obstacles=[box]).floor.reachable_area < 4.0
+
+
+def test_a_cliff_in_a_strait_keeps_the_parts_apart():
+    plan = corners(6, 4)
+    cliff = np.zeros(plan.occupancy.shape, np.bool_)
+    cliff[plan.cell(LEFT + 0.16, BOTTOM + 0.11)] = True
+    assert reached(FloorPlan('cliff', plan.occupancy, plan.resolution, plan.origin, cliff=cliff)) < 4.0
