@@ -23,7 +23,8 @@ def test_roscd_leads_into_a_package_and_the_tab_key_completes_a_message(tmp_path
     checkout = make_checkout(tmp_path / 'checkout')
     shown = typed(checkout, 'roscd sample && echo "in $PWD"\n'
                             'tab rostopic pub /cmd_vel geometry_msgs/Twi; echo "types ${COMPREPLY[*]}"\n'
-                            'tab rostopic pub /cmd_vel geometry_msgs/Twist ""; echo "message ${COMPREPLY[*]}"', tmp_path)
+                            'tab rostopic pub /cmd_vel geometry_msgs/Twist ""; echo "message ${COMPREPLY[*]}"',
+                  tmp_path)
     assert f'in {checkout}/.ws/src/sample\n' in shown
     assert 'types geometry_msgs/TwistStamped' in shown
     assert 'message "linear:\n  x: 0.0\n' in shown

@@ -9,7 +9,7 @@ import rospkg
 
 PACKAGE = pathlib.Path(__file__).resolve().parents[2]
 FILES = sorted((PACKAGE / 'msg').iterdir())
-# Of the definitions in https://github.com/AutonomyLab/create_robot, folder create_msgs/msg (once ca_msgs/msg), by genmsg.
+# By genmsg of the definitions in https://github.com/AutonomyLab/create_robot, folder create_msgs/msg (or ca_msgs/msg).
 MD5 = {
     'Bumper': '18fe5b1d31e6a8db180b924157ac665e',
     'ChargingState': 'e4da1ef814a2def80691224a5e5883ea',
