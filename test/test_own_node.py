@@ -31,5 +31,6 @@ def test_the_five_lines_give_a_verdict(workspace, tmp_path):
     shutil.copy(NODES / 'turtlebot3_bounce', tmp_path / 'my_node.py')
     (tmp_path / 'test.sh').write_text(f'cd "{tmp_path}"\n{lines}wait\n')
     shown = workspace.space('devel', clean_environment()).run(f'bash {tmp_path}/test.sh', 300.0)
-    pattern = '\n'.join(re.escape(line) for line in PAGE.split('prints after half a minute:\n\n```\n')[1].splitlines()[:3])
+    wanted = PAGE.split('prints after half a minute:\n\n```\n')[1].splitlines()[:3]
+    pattern = '\n'.join(map(re.escape, wanted))
     assert re.fullmatch(re.sub(r'(20\\\.1|182\\\.0)', r'[\\d.]+', pattern) + '\n', shown), shown
