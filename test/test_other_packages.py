@@ -24,3 +24,9 @@ def test_what_was_compiled_is_installed_and_not_compiled_again(workspace):
                 key=lambda path: path.stat().st_mtime)
     [installed] = workspace.path.glob(f'install/lib/python3*/dist-packages/{kernel}/{built.name}')
     assert int(installed.stat().st_mtime) == int(built.stat().st_mtime)
+
+
+def test_a_cpp_node_for_turtlesim_compiles_although_its_package_does_not_name_turtlesim(workspace, overlay):
+    here = overlay.space('devel')
+    with workspace.space('devel').running('$LIB/turtlesim/turtlesim_node _gui:=false __ns:=/watched'):
+        assert here.run('$LIB/turtle_watcher/watcher __ns:=/watched').endswith('5.54444\n')

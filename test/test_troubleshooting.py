@@ -32,6 +32,7 @@ ELSEWHERE = ['Compatibility with CMake < 3.5 has been removed from CMake.',
              "/usr/bin/env: 'python': No such file or directory",
              'another simulator starts at the same moment: only one of them can',
              "AttributeError: 'Thread' object has no attribute 'isAlive'",
+             "[rospack] Error: package 'topic_tools' not found",
              'Cannot load message class for [rumba_msg/...]. Are your messages built?',
              'to have datatype/md5sum [...], but our version has [...]. Dropping connection.',
              'Unable to communicate with master!',
@@ -74,6 +75,15 @@ BUILD = {
         'generate_messages(DEPENDENCIES geometry_msgs std_msgs)'),
     'rostest is not looked for': Break('Unknown CMake command "add_rostest"', USER, 'catkin_package()',
                                        'catkin_package()\nadd_rostest(test/nodes.test)'),
+    'services without their folder': Break(
+        'add_service_files() directory not found: ...', MSGS, 'add_message_files(FILES Parts.msg)',
+        'add_message_files(FILES Parts.msg)\nadd_service_files(FILES AddTwoInts.srv)'),
+    'a target of a package that is gone': Break(
+        'The dependency target "..." of target "..." does not exist.', USER,
+        'add_dependencies(parts_node ${catkin_EXPORTED_TARGETS})',
+        'add_dependencies(parts_node beginner_tutorials_generate_messages_cpp)'),
+    'a maintainer without an address': Break(
+        'Invalid email "..." for person "..."', 'parts_msgs/package.xml', 'maintainers@rumba.invalid', 'me@todo'),
 }
 
 
@@ -230,6 +240,7 @@ def test_a_saved_world_that_does_not_fit(workspace, tmp_path):
 
 def test_every_message_of_the_page_was_met_here_or_elsewhere():
     lesson = ROOT / 'rumba_tutorials' / '07_lists_and_bytes' / 'lists_and_bytes' / 'test' / 'test_arrays.py'
-    met = re.sub(r'([\'"])\n +\1', '', pathlib.Path(__file__).read_text() + lesson.read_text())  # texts in one line
+    tests = pathlib.Path(__file__), ROOT / 'test' / 'test_course_code.py', lesson
+    met = re.sub(r'([\'"])\n +\1', '', ''.join(path.read_text() for path in tests))  # texts in one line
     assert [message for message in MESSAGES if message not in met] == []
     assert set(ELSEWHERE) <= set(MESSAGES)

@@ -81,7 +81,8 @@ def test_all_settings_of_a_robot_make_the_same_robot_again(model):
 
 
 @pytest.mark.parametrize('mapping, message', [
-    ({'model': 'lds02'}, r"^here: model is 'lds02': must be ideal or rplidar_a1 or lds01 or urg04lx or tim561$"),
+    ({'model': 'lds02'},
+     r"^here: model is 'lds02': must be ideal or rplidar_a1 or lds01 or urg04lx or tim561 or camera$"),
     ({'per_turn': 359}, r'laser/per_turn is 359: must be 0, or not below beams, 360$'),
     ({'model': 'urg04lx', 'beams': 1025}, r'laser/per_turn is 1024: must be 0, or not below beams, 1025$')])
 def test_a_wrong_laser_is_refused(mapping, message):
@@ -189,7 +190,7 @@ def test_what_has_no_echo_or_is_too_near_is_told_as_the_driver_does(nothing, far
 @pytest.mark.parametrize('model', REAL)
 def test_a_range_is_within_its_limits_or_what_the_driver_tells_of_none(model):
     laser = model_of(model)
-    seen = scans(world_with(laser, hall(), Pose(2.0, 3.0, 0.3)), 30)
+    seen = scans(world_with(laser, hall(), Pose(2.0, 3.0, 1.85)), 30)
     is_range = (seen >= laser.range_min) & (seen < laser.range_max)
     assert 0.1 < is_range.mean() < 0.999
     np.testing.assert_array_equal(seen[~is_range], laser.too_far)

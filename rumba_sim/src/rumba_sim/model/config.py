@@ -24,8 +24,9 @@ def setting(default: Any, doc: str, unit: str = '', low: Optional[float] = None,
         low: smallest allowed number; None for any finite number.
         high: largest allowed number; None for any finite number.
         choices: the texts that are allowed; empty for any. The Booleans of YAML count as 'true' and 'false' here.
-        presets: the texts that are allowed, each with values of other settings of its section. Whoever gives one of
-            the texts gives all settings that have a value in any preset: those not in its own get their defaults.
+        presets: the texts that are allowed, each with values of other settings of its section, nested like those.
+            Whoever gives one of the texts gives all settings that have a value in any preset: those not in its own get
+            their defaults.
     """
     return dataclasses.field(default=default, metadata={'doc': doc, 'unit': unit, 'low': low, 'high': high,
                                                         'choices': choices or tuple(presets or ()),
@@ -105,33 +106,47 @@ def _updated(settings: Settings, mapping: Mapping[str, Any], path: str) -> Setti
     fields = {field.name: field for field in dataclasses.fields(settings)}
     if not isinstance(mapping, Mapping):
         raise ConfigError(f'{path[:-1]} is {quoted(mapping)}: must be a mapping of {", ".join(fields)}'.lstrip())
-    changes = {}
+    changes, parts = {}, {}
     for name, value in mapping.items():
         if name not in fields:
             raise ConfigError(f'{path}{name if isinstance(name, str) else quoted(name)} is unknown: '
                               f'{nearest(name, list(fields))}')
         if 'section' in fields[name].metadata:
-            changes[name] = _updated(getattr(settings, name), value, f'{path}{name}/')
+            parts[name] = value
         else:
             changes[name] = _checked(fields[name], value, path)
-    chosen = [field for field in fields.values() if field.name in changes]
-    return dataclasses.replace(settings, **{**_preset(type(settings), chosen, changes), **changes})
+    preset = _preset(type(settings), [fields[name] for name in changes], changes)
+    for name in [name for name in fields if 'section' in fields[name].metadata]:
+        part_settings = _updated(getattr(settings, name), preset.pop(name, {}), f'{path}{name}/')
+        changes[name] = _updated(part_settings, parts.get(name, {}), f'{path}{name}/')
+    return dataclasses.replace(settings, **{**preset, **changes})
 
 
 def values_by_presets(settings: Any) -> Dict[str, Any]:
-    """What settings of a section are by the presets that others of its settings name."""
+    """What settings of a section are by the presets that others of its settings name, nested like the settings."""
     return _preset(type(settings), dataclasses.fields(settings), vars(settings))
 
 
 def _preset(cls: type, chosen: Sequence[Field], values: Mapping[str, Any]) -> Dict[str, Any]:
     """What the values of some fields of a class, by their names, set other fields to."""
-    defaults = {field.name: field.default for field in dataclasses.fields(cls)}
-    preset = {}
+    preset: Dict[str, Any] = {}
     for field in chosen:
         presets = field.metadata.get('presets', {})
-        preset.update({name: presets[values[field.name]].get(name, defaults[name])
-                       for each in presets.values() for name in each})
+        if presets:
+            preset.update(_filled(cls, presets[values[field.name]], list(presets.values())))
     return preset
+
+
+def _filled(cls: type, own: Mapping[str, Any], presets: Sequence[Mapping[str, Any]]) -> Dict[str, Any]:
+    """A preset, with the defaults of a class for all that is in other presets alone."""
+    filled: Dict[str, Any] = {}
+    for field in dataclasses.fields(cls):
+        values = [preset[field.name] for preset in presets if field.name in preset]
+        if values and 'section' in field.metadata:
+            filled[field.name] = _filled(field.metadata['section'], own.get(field.name, {}), values)
+        elif values:
+            filled[field.name] = own.get(field.name, field.default)
+    return filled
 
 
 def nearest(name: Any, known: List[str]) -> str:

@@ -14,6 +14,9 @@ Sources, by model. Limits such as +-10 mm are taken for two standard deviations,
     tim561: SICK, TiM55x/TiM56x operating instructions 8015886 of 2014-08-27 (statistical error 20 mm, systematic
         +-60 mm, pulses of at most 5 ns) and data sheet of the TiM561 (0.05 to 10 m, 8 m at a remission of 10 %, 270
         degrees, 0.33 degrees, 15 Hz); the driver sick_tim (+inf for no echo, millimetres).
+    camera: a depth camera as a laser, by depthimage_to_laserscan (its defaults: 0.45 to 10 m; NaN for no depth):
+        Microsoft Kinect (640 columns in 57 degrees, 30 Hz, millimetres); its random error is 4 cm at 5 m (Khoshelham
+        and Elberink, Accuracy and resolution of Kinect depth data, 2012), taken to grow with the range.
 """
 
 import dataclasses
@@ -42,7 +45,10 @@ MODELS: Dict[str, Dict[str, Any]] = {
     'tim561': {
         'beams': 811, 'per_turn': 1080, 'first_angle': -0.75 * math.pi, 'rate': 15.0, 'range_min': 0.05,
         'range_max': 10.0, 'sure_range': 8.0, 'nothing': 'inf', 'noise': 0.02, 'bias': 0.03, 'resolution': 0.001,
-        'dropouts': 0.003, 'beam_width': TURN / 1080, 'mixing_depth': 0.75}}
+        'dropouts': 0.003, 'beam_width': TURN / 1080, 'mixing_depth': 0.75},
+    'camera': {
+        'beams': 640, 'per_turn': 4042, 'first_angle': -319.5 * TURN / 4042, 'rate': 30.0, 'range_min': 0.45,
+        'range_max': 10.0, 'nothing': 'nan', 'noise': 0.005, 'relative_noise': 0.008, 'resolution': 0.001}}
 # What is told if there is no echo, and for less than range_min [m].
 NOTHING = {'rep117': (math.inf, -math.inf), 'inf': (math.inf, math.inf), 'zero': (0.0, 0.0),
            'nan': (math.nan, math.nan)}

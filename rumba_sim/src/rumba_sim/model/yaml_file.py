@@ -2,7 +2,7 @@
 
 import inspect
 import textwrap
-from typing import Any, Dict, List, Type
+from typing import Any, Dict, List, Optional, Type
 
 import yaml
 
@@ -74,18 +74,18 @@ def document(settings: Any) -> str:
     return '\n'.join(f'# {line}'.rstrip() for line in head) + '\n\n' + as_yaml(settings) + '\n'
 
 
-def as_yaml(settings: Any, indent: str = '') -> str:
+def as_yaml(settings: Any, indent: str = '', by_preset_above: Optional[Dict[str, Any]] = None) -> str:
     """Settings as YAML, each after a comment with its meaning, range and unit.
 
     What is as a preset has it stays a comment: otherwise it would override another preset that a user chooses.
     """
     lines = []
-    by_preset = config.values_by_presets(settings)
+    by_preset = {**config.values_by_presets(settings), **(by_preset_above or {})}
     for field in config.sections_last(type(settings)):
         value = getattr(settings, field.name)
         if 'section' in field.metadata:
             lines += ['', *_comment(field.metadata['doc'], indent), f'{indent}{field.name}:',
-                      as_yaml(value, indent + '  ')]
+                      as_yaml(value, indent + '  ', by_preset.get(field.name))]
         else:
             is_preset = field.name in by_preset and by_preset[field.name] == value
             lines += [*_comment(config.explain(field), indent),

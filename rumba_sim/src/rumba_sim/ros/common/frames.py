@@ -17,7 +17,11 @@ class Frames(NamedTuple):
     laser: str
 
 
+def prefix(robot: str) -> str:
+    """What the names of the frames of a robot begin with, by its name: nothing for `rumba`."""
+    return '' if robot == FIRST else f'{robot}/'
+
+
 def frames(robot: str) -> Frames:
     """The frames of a robot by its name, which is a prefix of all names but those of `rumba`."""
-    prefix = '' if robot == FIRST else f'{robot}/'
-    return Frames(*(prefix + name for name in Frames._fields))
+    return Frames(*(prefix(robot) + name for name in Frames._fields))

@@ -6,7 +6,9 @@ from typing import List, Sequence
 import rospy
 
 from rumba_sim.model.geometry import Pose, half_angle
-from rumba_sim.model.robot import Twist
+from rumba_sim.model.robot import Robot, Twist
+from rumba_sim.model.world import World
+from rumba_sim.ros.common import conversions
 
 KNOWN = 1e-6  # variance of what is known: a robot on a floor does not rise, roll or pitch
 HEADER = struct.Struct('<3I')  # number of the message, and stamp [s], [ns]; then comes the frame
@@ -31,6 +33,16 @@ class OdometryPacker:
             pose.x, pose.y, 0.0, 0.0, 0.0, *half_angle(pose.theta), *_covariance(*pose_variance),
             twist.v, 0.0, 0.0, 0.0, 0.0, twist.w, *_covariance(*twist_variance))
         return _message(HEADER.pack(self._count, stamp.secs, stamp.nsecs) + self._names + numbers)
+
+
+def odometry_message(packer: OdometryPacker, world: World, robot: Robot, stamp: rospy.Time) -> rospy.AnyMsg:
+    """What the encoders of a robot tell of its pose and velocity, with their errors."""
+    config, tick, twist = robot.config, 1.0 / world.step_rate, robot.odometry_twist
+    wheel_base = config.drive.wheel_base
+    distance = abs(twist.v) * tick
+    return packer.message(
+        stamp, robot.odometry, twist, conversions.odometry_variance(robot.distance, config.odometry, wheel_base),
+        [variance / tick ** 2 for variance in conversions.odometry_variance(distance, config.odometry, wheel_base)])
 
 
 class TransformPacker:

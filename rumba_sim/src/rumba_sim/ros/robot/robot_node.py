@@ -17,14 +17,16 @@ from rumba_msg.msg import BatteryStatus, Bumper, CleaningStatus, Cliff, DockStat
 from rumba_msg.srv import Teleport, TeleportResponse
 from rumba_sim.model.errors import RumbaError, WorldError
 from rumba_sim.model.geometry import Pose, compose, inverse
+from rumba_sim.model.interfaces import RUMBA
 from rumba_sim.model.robot import Robot
 from rumba_sim.model.world import World
 from rumba_sim.ros.common import conversions, peers, teleop
 from rumba_sim.ros.common.examiner import ExaminerServer
 from rumba_sim.ros.common.frames import MAP, frames
 from rumba_sim.ros.common.requests import Requests
+from rumba_sim.ros.robot.interface_topics import InterfaceTopics
 from rumba_sim.ros.robot.latecomers import Latecomers
-from rumba_sim.ros.robot.packed import OdometryPacker, TransformPacker
+from rumba_sim.ros.robot.packed import OdometryPacker, TransformPacker, odometry_message
 from rumba_sim.ros.robot.rates import Due, Rates
 from rumba_sim.ros.robot.velocity_mux import Input, VelocityMux
 
@@ -32,8 +34,9 @@ COMPLAINT_PERIOD = 1.0  # [s]
 QUEUE = 100  # messages that a subscriber may be behind, at speed 0 too, before it misses one
 SECRET = ('ground_truth', 'cleaning_status', 'coverage')  # what the world knows, and the robot does not
 UNTOLD = ('coverage',)  # to the judge of an examination
+PROGRAMS = 'cmd_vel'  # the input of those who are no persons
 # Who may drive, below the robot's name; times are those of the wall clock.
-INPUTS = (Input(teleop.TOPIC, 100, teleop.TIMEOUT), Input('cmd_vel', 10, 0.5))
+INPUTS = (Input(teleop.TOPIC, 100, teleop.TIMEOUT), Input(PROGRAMS, 10, 0.5))
 
 
 class RobotNode:
@@ -42,7 +45,7 @@ class RobotNode:
     def __init__(self, world: World, name: str, requests: Requests, has_localisation: bool,
                  stamp: rospy.Time, has_laser: bool = True, is_held: Callable[[], bool] = lambda: False,
                  on_command: Callable[[str], None] = lambda _: None,
-                 examiner: Optional[ExaminerServer] = None, frame: str = MAP) -> None:
+                 examiner: Optional[ExaminerServer] = None, frame: str = MAP, interface: str = RUMBA) -> None:
         """Open the robot's topics and services below its name.
 
         Args:
@@ -57,9 +60,11 @@ class RobotNode:
             examiner: in an examination, gets everything, while others get only what the robot can know, and nobody can
                 teleport the robot.
             frame: that of the world.
+            interface: name of a robot whose topics and frames there are too.
 
         Raises:
             WorldError: another node has a robot of that name.
+            ConfigError: the interface needs messages that are not installed.
         """
         self._world = world
         self._name = name
@@ -97,6 +102,8 @@ class RobotNode:
         self._subscribers = [
             rospy.Subscriber(f'{name}/{each.name}', Twist, self._on_command, each.name, queue_size=1)
             for each in INPUTS]
+        self._interface = None if interface == RUMBA else InterfaceTopics(
+            interface, world, name, requests, is_held, self._on_interface_command, self._take)
         self._services = [
             rospy.Service(f'{name}/set_brushes_up', SetBool, self._on_brushes),
             *([] if examiner is not None else [rospy.Service(f'{name}/teleport', Teleport, self._on_teleport)])]
@@ -111,25 +118,40 @@ class RobotNode:
             service.shutdown('the robot is gone')
         for topic in (*self._subscribers, *self._publishers.values()):
             topic.unregister()
+        if self._interface is not None:
+            self._interface.close()
 
     # --- commands and services ------------------------------------------------------------------------------------
 
     def _on_command(self, twist: Twist, topic: str) -> None:
+        self._obey(twist, topic, self._inputs[topic])
+
+    def _on_interface_command(self, twist: Twist, full_name: str, is_obeyed: bool) -> None:
+        self._obey(twist, PROGRAMS, full_name, is_obeyed)
+
+    def _obey(self, twist: Twist, topic: str, full_name: str, is_obeyed: bool = True) -> None:
+        """Take a command that came on a topic, given by its full name, as one of an input."""
         if self._examiner is not None:
-            self._examiner.tell_command(self._inputs[topic], twist, self._stamp, peers.caller(twist))
+            self._examiner.tell_command(full_name, twist, self._stamp, peers.caller(twist))
         v, w = twist.linear.x, twist.angular.z
         if math.isfinite(v) and math.isfinite(w):
-            with self._mux_lock:  # each input has a thread of its own
-                if self._mux.passes(topic, time.monotonic()):
-                    self._command = v, w
+            if is_obeyed:
+                self._take(v, w, topic)
         else:
-            rospy.logerr_throttle(COMPLAINT_PERIOD, f'{self._name}/{topic}: linear.x {v} m/s, angular.z {w} rad/s: '
+            rospy.logerr_throttle(COMPLAINT_PERIOD, f'{full_name[1:]}: linear.x {v} m/s, angular.z {w} rad/s: '
                                                     'must be finite numbers; ignored')
-        self._report_command(self._inputs[topic])
+        self._report_command(full_name)
+
+    def _take(self, v: float, w: float, topic: str = PROGRAMS) -> None:
+        """Drive so from the next tick on, unless an input of higher priority overrides this one."""
+        with self._mux_lock:  # each input has a thread of its own
+            if self._mux.passes(topic, time.monotonic()):
+                self._command = v, w
 
     def is_commanded(self, topic: str) -> bool:
         """Whether a topic, given by its full name, is one of this robot's commands, and has a publisher."""
-        return any(each.resolved_name == topic and each.get_num_connections() > 0 for each in self._subscribers)
+        subscribers = [*self._subscribers, *([] if self._interface is None else [self._interface.commands])]
+        return any(each.resolved_name == topic and each.get_num_connections() > 0 for each in subscribers)
 
     def apply_command(self) -> None:
         """Give the robot the newest command that counts, if one came since the last tick."""
@@ -170,8 +192,10 @@ class RobotNode:
             ranges = self._world.scan(self._name)
             self._tell('scan', lambda: conversions.scan(
                 ranges, robot.config.laser, 1.0 / rates.scan, self._header(self._frames.laser)))
+            if self._interface is not None:
+                self._interface.note_scan(ranges, 1.0 / rates.scan)
         if due.odom:
-            self._tell('odom', self._odometry_message)
+            self._tell('odom', lambda: odometry_message(self._odometry, self._world, robot, stamp))
         if due.ground_truth:
             self._tell('ground_truth', lambda: self._truth.message(stamp, robot.pose, robot.twist))
         if due.sensors:
@@ -184,6 +208,8 @@ class RobotNode:
             self._tell('cleaning_status', lambda: conversions.cleaning_status(
                 robot, self._world.floor, self._header(self._frame)))
             self._tell('coverage', self._coverage_message)
+        if self._interface is not None:
+            self._interface.publish(stamp)
 
     def _publish_sensors(self) -> None:
         base = self._frames.base_link
@@ -213,17 +239,6 @@ class RobotNode:
     def _header(self, frame: str) -> Header:
         return Header(stamp=self._stamp, frame_id=frame)
 
-    def _odometry_message(self) -> rospy.AnyMsg:
-        robot, config = self._robot, self._robot.config
-        wheel_base = config.drive.wheel_base
-        tick = 1.0 / self._world.step_rate
-        twist = robot.odometry_twist
-        distance = abs(twist.v) * tick
-        return self._odometry.message(
-            self._stamp, robot.odometry, twist,
-            conversions.odometry_variance(robot.distance, config.odometry, wheel_base),
-            [variance / tick ** 2 for variance in conversions.odometry_variance(distance, config.odometry, wheel_base)])
-
     def transforms(self) -> List[bytes]:
         """The pose by odometry, and its correction, at the stamp of what was published last, as parts for tf."""
         odometry = self._robot.odometry
@@ -235,7 +250,8 @@ class RobotNode:
     def static_transforms(self) -> List[TransformStamped]:
         """The parts of the robot that do not move against each other."""
         config = self._robot.config
-        return conversions.static_transforms(self._frames, self._stamp, config.drive.wheel_diameter, config.laser)
+        parts = conversions.static_transforms(self._frames, self._stamp, config.drive.wheel_diameter, config.laser)
+        return parts + ([] if self._interface is None else self._interface.static_transforms(parts[-1]))
 
     def _coverage_message(self) -> OccupancyGrid:
         return conversions.grid(self._world.plan, self._world.swept(), self._stamp, self._frame)

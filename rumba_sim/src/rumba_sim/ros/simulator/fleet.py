@@ -157,7 +157,8 @@ class Fleet:
     def _open(self, name: str) -> None:
         self._robots[name] = RobotNode(self._world, name, self._requests, self.settings.localisation == TRUTH,
                                        self._stamp(), is_held=self._is_held, on_command=self._on_command,
-                                       examiner=self._examiner, frame=true_frame(self.settings.localisation))
+                                       examiner=self._examiner, frame=true_frame(self.settings.localisation),
+                                       interface=self.settings.interface)
         if self.settings.localisation == SLAM and not self.settings.exam:
             self._anchors[name] = MapAnchor(name, self._requests, self._place_map)
         self._diagnostics.add(name, lambda: self._world.robots[name])

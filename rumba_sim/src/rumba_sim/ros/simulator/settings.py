@@ -7,6 +7,7 @@ import rosgraph
 
 from rumba_sim.model.config import names, part, section, setting
 from rumba_sim.model.errors import ConfigError, quoted
+from rumba_sim.model.interfaces import PRESETS, RUMBA
 from rumba_sim.model.robot_config import RobotConfig
 from rumba_sim.ros.robot.localisation import TRUTH, localisation_setting
 from rumba_sim.ros.robot.rates import MAX_RATE, Rates
@@ -37,6 +38,8 @@ class Settings(RobotConfig):
     step_rate: int = setting(50, 'ticks per second of simulated time', 'Hz', 1, MAX_RATE)
     percentage: float = setting(100.0, 'charge at the start', '%', 0.0, 100.0)
     brushes_up: bool = setting(False, 'whether the brushes are lifted at the start')
+    interface: str = setting(RUMBA, 'topics and frames of another robot, beside those of Rumba, for nodes that were '
+                                    'written for it; sets the model of the laser too', presets=PRESETS)
     localisation: str = localisation_setting()
     obstacles: str = setting('', 'path of a YAML file of obstacles that the map does not show')
     config: str = setting('', 'path of a YAML file with any of these; parameters override it')
