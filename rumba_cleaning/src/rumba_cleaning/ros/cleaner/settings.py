@@ -8,6 +8,7 @@ from rumba_cleaning.cleaning_config import CleaningConfig
 from rumba_sim.model.config import part, section, setting
 from rumba_sim.model.errors import ConfigError
 from rumba_sim.ros.common.names import check_names
+from rumba_sim.ros.common.own_robots import own_robot_setting
 
 
 @dataclasses.dataclass(frozen=True)
@@ -26,6 +27,7 @@ class Settings(CleaningConfig):
     """The node's private parameters: which robot works, where and how."""
 
     robot: str = setting('rumba', 'name of the robot, below which its topics are')
+    own_robot: str = own_robot_setting()
     team: str = setting('', 'names of all robots that share the floor and its work, its own among them, with spaces '
                             'between them, in the order in which they give way: each to those before it; empty: it '
                             'works alone')
@@ -51,6 +53,9 @@ class Settings(CleaningConfig):
                               'among them')
         if self.mapless and (self.mapping or self.laser):
             raise ConfigError(f'{"mapping" if self.mapping else "laser"} is true: must be false with mapless')
+        if self.own_robot and (self.mapless or names[1:] or not (self.map or self.mapping)):
+            raise ConfigError('own_robot is given: must come with map, or with mapping, and with neither mapless nor '
+                              'team')
         if self.mapless and len(names) > 1:
             raise ConfigError(f'team is {self.team!r}: must be empty with mapless: a robot that does not know where it '
                               'is cannot tell its mates')

@@ -1,0 +1,177 @@
+"""A robot that knows nothing of Rumba: differential drive, a furnished room, a laser off its centre, odometry that errs.
+
+It takes `/base/velocity` and publishes `/base/odometry`, `/front/laser` and `/clock`, and judges by itself what its brush
+has swept: `/coverage` (std_msgs/Float32) of the floor that it can reach. It drives as fast as those keep up who drive it:
+with the parameter `~wait_for_correction` it waits for map -> wheels, and once it was commanded, for the next command.
+"""
+
+import math
+import time
+
+import numpy as np
+import rospy
+import tf2_msgs.msg
+from geometry_msgs.msg import Quaternion, TransformStamped, Twist
+from nav_msgs.msg import Odometry
+from rosgraph_msgs.msg import Clock
+from scipy import ndimage
+from sensor_msgs.msg import LaserScan
+from std_msgs.msg import Float32, Header
+
+RADIUS, BASE, BRUSH, LASER, DT, STEPS = 0.16, 0.2, 0.2, 0.05, 0.1, 10  # [m], [s]
+SIZE = 5.0, 4.0  # [m] of the room, from (0, 0)
+BOXES = [(1.6, 3.2, 2.6, 4.0), (0.0, 2.6, 0.5, 3.4), (3.2, 1.2, 3.9, 2.0), (4.4, 0.0, 5.0, 1.0), (1.2, 1.1, 1.25, 1.15),
+         (1.8, 1.1, 1.85, 1.15), (1.2, 1.7, 1.25, 1.75), (1.8, 1.7, 1.85, 1.75)]  # the last four: legs of a table
+START = 0.8, 0.5, 0.4  # [m], [rad]
+CELL = 0.01  # [m]
+
+
+def sides(x0, y0, x1, y1):
+    """The four sides of a rectangle: corners and the next ones, (4, 2) each."""
+    corners = np.array([(x0, y0), (x1, y0), (x1, y1), (x0, y1)], float)
+    return corners, np.roll(corners, -1, axis=0)
+
+
+FROM, TO = (np.concatenate(part) for part in zip(sides(0, 0, *SIZE), *(sides(*box) for box in BOXES)))
+
+
+def ranges(x, y, angles):
+    """How far walls and furniture are in some directions, (n) [m]."""
+    dx, dy = np.cos(angles)[:, None], np.sin(angles)[:, None]
+    ex, ey = (TO - FROM).T
+    fx, fy = FROM[:, 0] - x, FROM[:, 1] - y
+    with np.errstate(divide='ignore', invalid='ignore'):
+        crossing = dx * ey - dy * ex
+        along, share = (fx * ey - fy * ex) / crossing, (fx * dy - fy * dx) / crossing
+    return np.where((along > 0) & (share >= 0) & (share <= 1), along, np.inf).min(axis=1)
+
+
+def is_free(x, y):
+    """Whether the robot can stand somewhere."""
+    edge = TO - FROM
+    share = (((x, y) - FROM) * edge).sum(1) / (edge ** 2).sum(1)
+    nearest = FROM + np.clip(share, 0, 1)[:, None] * edge
+    return np.hypot(*(nearest - (x, y)).T).min() >= RADIUS
+
+
+class Judge:
+    """What the brush has swept of what it can reach."""
+
+    def __init__(self):
+        self.x, self.y = np.meshgrid(np.arange(CELL / 2, SIZE[0], CELL), np.arange(CELL / 2, SIZE[1], CELL))
+        wall = np.zeros(self.x.shape, bool)
+        for x0, y0, x1, y1 in BOXES:
+            wall |= (self.x > x0) & (self.x < x1) & (self.y > y0) & (self.y < y1)
+        clear = CELL * ndimage.distance_transform_edt(np.pad(~wall, 1))[1:-1, 1:-1] > RADIUS
+        rooms, _ = ndimage.label(clear)
+        there = rooms == rooms[int(START[1] / CELL), int(START[0] / CELL)]
+        self.reachable = CELL * ndimage.distance_transform_edt(~there) < BRUSH / 2
+        self.swept = np.zeros(self.x.shape, bool)
+
+    def sweep(self, x, y, theta):
+        """The brush, 2 cm long, is at a pose."""
+        rows, columns = (slice(max(int((at - BRUSH) / CELL), 0), int((at + BRUSH) / CELL)) for at in (y, x))
+        dx, dy = self.x[rows, columns] - x, self.y[rows, columns] - y
+        ahead, aside = dx * math.cos(theta) + dy * math.sin(theta), dy * math.cos(theta) - dx * math.sin(theta)
+        self.swept[rows, columns] |= (abs(ahead) < 0.01) & (abs(aside) < BRUSH / 2)
+
+    def coverage(self):
+        """Share [0..1]."""
+        return float((self.swept & self.reachable).sum() / self.reachable.sum())
+
+
+class FakeRobot:
+    """The robot, its driver and its world."""
+
+    def __init__(self):
+        self.random = np.random.default_rng(rospy.get_param('~seed', 1))
+        self.scale = self.random.normal(1.0, 0.01, 2)  # of each wheel
+        self.pose, self.guess, self.wheels = np.array(START), np.zeros(3), np.zeros(2)
+        self.command, self.commanded, self.corrected, self.judge = Twist(), None, rospy.Time(), Judge()
+        self.waits = rospy.get_param('~wait_for_correction', False)
+        self.now = rospy.Time(100)
+        self.clock = rospy.Publisher('/clock', Clock, queue_size=1)
+        self.odometry = rospy.Publisher('/base/odometry', Odometry, queue_size=10)
+        self.scan = rospy.Publisher('/front/laser', LaserScan, queue_size=10)
+        self.covered = rospy.Publisher('/coverage', Float32, queue_size=1, latch=True)
+        self.tf = rospy.Publisher('/tf', tf2_msgs.msg.TFMessage, queue_size=10)
+        self.static = rospy.Publisher('/tf_static', tf2_msgs.msg.TFMessage, queue_size=1, latch=True)
+        self.static.publish([self.transform('chassis', 'front_laser', (LASER, 0.0, 0.0))])
+        rospy.Subscriber('/base/velocity', Twist, self.take)
+        rospy.Subscriber('/tf', tf2_msgs.msg.TFMessage, self.hear)
+
+    def take(self, message):
+        """Take a command."""
+        self.command, self.commanded = message, self.now
+
+    def hear(self, message):
+        """Note that somebody knows where the robot was when it took a scan."""
+        for each in message.transforms:
+            if each.header.frame_id == 'map':
+                self.corrected = each.header.stamp
+
+    def transform(self, parent, child, pose):
+        """A transform in the plane."""
+        found = TransformStamped(header=Header(stamp=self.now, frame_id=parent), child_frame_id=child)
+        found.transform.translation.x, found.transform.translation.y = pose[:2]
+        found.transform.rotation = turned(pose[2])
+        return found
+
+    def step(self):
+        """Drive for DT, and tell of it."""
+        self.now += rospy.Duration(DT)
+        self.clock.publish(self.now)
+        is_old = self.commanded is None or (self.now - self.commanded).to_sec() > 0.6
+        v, w = (0.0, 0.0) if is_old else (self.command.linear.x, self.command.angular.z)
+        wanted = np.array([v - w * BASE / 2, v + w * BASE / 2])
+        for _ in range(STEPS):
+            self.wheels += np.clip(wanted - self.wheels, -1.0 * DT / STEPS, 1.0 * DT / STEPS)
+            went = self.wheels * DT / STEPS
+            x, y, theta = moved(self.pose, went)
+            self.pose = np.array([x, y, theta]) if is_free(x, y) else np.array([*self.pose[:2], theta])
+            self.guess = moved(self.guess, went * self.scale + self.random.normal(0.0, 0.002, 2) * np.sqrt(abs(went)))
+            self.judge.sweep(*self.pose)
+        self.tell()
+
+    def tell(self):
+        """Publish odometry and scan."""
+        x, y, theta = self.guess
+        message = Odometry(header=Header(stamp=self.now, frame_id='wheels'), child_frame_id='chassis')
+        message.pose.pose.position.x, message.pose.pose.position.y = x, y
+        message.pose.pose.orientation = turned(theta)
+        self.odometry.publish(message)
+        self.tf.publish([self.transform('wheels', 'chassis', self.guess)])
+        x, y, theta = self.pose
+        angles = np.arange(360) * math.pi / 180
+        found = ranges(x + LASER * math.cos(theta), y + LASER * math.sin(theta), theta + angles)
+        self.scan.publish(LaserScan(
+            Header(stamp=self.now, frame_id='front_laser'), 0.0, angles[-1], math.pi / 180, 0.0, DT, 0.1, 12.0,
+            np.float32(found + self.random.normal(0.0, 0.01, 360)).tolist(), []))
+        self.covered.publish(self.judge.coverage())
+
+    def run(self):
+        """Drive, as fast as the others keep up, but at most twenty times as fast as the real one would."""
+        while not rospy.is_shutdown():
+            begin = time.monotonic()
+            self.step()
+            while not rospy.is_shutdown() and time.monotonic() - begin < 1.0 and (
+                    self.waits and self.corrected < self.now or time.monotonic() - begin < DT / 20
+                    or self.commanded is not None and self.commanded < self.now):
+                time.sleep(0.001)
+
+
+def moved(pose, went):
+    """Where a pose is after both wheels went some way."""
+    x, y, theta = pose
+    way, turn = went.mean(), (went[1] - went[0]) / BASE
+    return np.array([x + way * math.cos(theta + turn / 2), y + way * math.sin(theta + turn / 2), theta + turn])
+
+
+def turned(theta):
+    """A heading as a quaternion."""
+    return Quaternion(0.0, 0.0, math.sin(theta / 2), math.cos(theta / 2))
+
+
+if __name__ == '__main__':
+    rospy.init_node('fake_robot', disable_rostime=True)
+    FakeRobot().run()
