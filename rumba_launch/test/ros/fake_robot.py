@@ -6,6 +6,8 @@ with the parameter `~wait_for_correction` it waits for map -> wheels, and once i
 """
 
 import math
+import os
+import sys
 import time
 
 import numpy as np
@@ -52,6 +54,20 @@ def is_free(x, y):
     share = (((x, y) - FROM) * edge).sum(1) / (edge ** 2).sum(1)
     nearest = FROM + np.clip(share, 0, 1)[:, None] * edge
     return np.hypot(*(nearest - (x, y)).T).min() >= RADIUS
+
+
+def draw(path):
+    """Write its map: path.yaml and path.pgm, with a wall of 10 cm around the room."""
+    xs, ys = (np.arange(-0.1 + CELL, size + 0.1, 2 * CELL) for size in SIZE)
+    x, y = np.meshgrid(xs, ys)
+    free = (x > 0) & (x < SIZE[0]) & (y > 0) & (y < SIZE[1])
+    for x0, y0, x1, y1 in BOXES:
+        free &= ~((x > x0) & (x < x1) & (y > y0) & (y < y1))
+    with open(f'{path}.pgm', 'wb') as image:
+        image.write(b'P5 %d %d 255\n' % (len(xs), len(ys)) + np.uint8(np.where(free[::-1], 254, 0)).tobytes())
+    with open(f'{path}.yaml', 'w', encoding='utf-8') as file:
+        file.write(f'{{image: {os.path.basename(path)}.pgm, resolution: {2 * CELL}, origin: [-0.1, -0.1, 0.0], negate: 0, '
+                   'occupied_thresh: 0.65, free_thresh: 0.196}\n')
 
 
 class Judge:
@@ -173,5 +189,7 @@ def turned(theta):
 
 
 if __name__ == '__main__':
+    if '--map' in sys.argv:
+        sys.exit(draw(sys.argv[-1]))
     rospy.init_node('fake_robot', disable_rostime=True)
     FakeRobot().run()

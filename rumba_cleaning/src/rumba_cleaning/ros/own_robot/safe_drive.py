@@ -71,7 +71,7 @@ class SafeDrive:
         own = own_robot(settings.own_robot)
         if own is None:
             raise ConfigError('own_robot is not given: must be the path of a YAML file with the limits of the robot')
-        name = settings.robot
+        name = self._name = settings.robot
         odom, scan = (rospy.resolve_name(f'{name}/{topic}') for topic in ('odom', 'scan'))
         self._gate = Gate(own.config.drive, settings.silence, [odom, scan])
         self._agreement = Agreement()
@@ -108,7 +108,7 @@ class SafeDrive:
                 rospy.logwarn_throttle(COMPLAINT_PERIOD, f'{source}: {fault}: is the robot held, or does it not take '
                                                          f'{self._publisher.resolved_name}?')
             elif fault:
-                self._gate.stop(f'{source}: {fault}; {rospy.resolve_name("~")[:-1]} drives again after its next start')
+                self._gate.stop(f'{source}: {fault}; call the service {self._name}/stop with false to drive again')
 
     def _drive(self) -> None:
         """Command what the gate says."""
