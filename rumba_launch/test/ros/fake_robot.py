@@ -3,6 +3,7 @@
 It takes `/base/velocity` and publishes `/base/odometry`, `/front/laser` and `/clock`, and judges by itself what its brush
 has swept: `/coverage` (std_msgs/Float32) of the floor that it can reach. It drives as fast as those keep up who drive it:
 with the parameter `~wait_for_correction` it waits for map -> wheels, and once it was commanded, for the next command.
+The parameter `~fault` plants one of the faults that owners of robots make.
 """
 
 import math
@@ -105,6 +106,7 @@ class FakeRobot:
         self.pose, self.guess, self.wheels = np.array(START), np.zeros(3), np.zeros(2)
         self.command, self.commanded, self.corrected, self.judge = Twist(), None, rospy.Time(), Judge()
         self.waits = rospy.get_param('~wait_for_correction', False)
+        self.fault = rospy.get_param('~fault', '')
         self.now = rospy.Time(100)
         self.clock = rospy.Publisher('/clock', Clock, queue_size=1)
         self.odometry = rospy.Publisher('/base/odometry', Odometry, queue_size=10)
@@ -112,7 +114,8 @@ class FakeRobot:
         self.covered = rospy.Publisher('/coverage', Float32, queue_size=1, latch=True)
         self.tf = rospy.Publisher('/tf', tf2_msgs.msg.TFMessage, queue_size=10)
         self.static = rospy.Publisher('/tf_static', tf2_msgs.msg.TFMessage, queue_size=1, latch=True)
-        self.static.publish([self.transform('chassis', 'front_laser', (LASER, 0.0, 0.0))])
+        if self.fault != 'no tf':
+            self.static.publish([self.transform('chassis', 'front_laser', (LASER, 0.0, 0.0))])
         rospy.Subscriber('/base/velocity', Twist, self.take)
         rospy.Subscriber('/tf', tf2_msgs.msg.TFMessage, self.hear)
 
@@ -151,18 +154,29 @@ class FakeRobot:
 
     def tell(self):
         """Publish odometry and scan."""
-        x, y, theta = self.guess
-        message = Odometry(header=Header(stamp=self.now, frame_id='wheels'), child_frame_id='chassis')
+        x, y, theta = self.guess * {'mirrored odometry': (1, -1, -1), 'odometry stands': (0, 0, 0)}.get(
+            self.fault, (1, 1, 1))
+        message = Odometry(header=Header(stamp=self.now - rospy.Duration(9 * (self.fault == 'old odometry')),
+                                         frame_id='odom' if self.fault == 'other odom frame' else 'wheels'),
+                           child_frame_id='chassis')
         message.pose.pose.position.x, message.pose.pose.position.y = x, y
         message.pose.pose.orientation = turned(theta)
-        self.odometry.publish(message)
+        message.pose.pose.orientation.w *= self.fault != 'no quaternion'
+        if self.fault != 'silent odometry':
+            self.odometry.publish(message)
         self.tf.publish([self.transform('wheels', 'chassis', self.guess)])
         x, y, theta = self.pose
         angles = np.arange(360) * math.pi / 180
-        found = ranges(x + LASER * math.cos(theta), y + LASER * math.sin(theta), theta + angles)
-        self.scan.publish(LaserScan(
-            Header(stamp=self.now, frame_id='front_laser'), 0.0, angles[-1], math.pi / 180, 0.0, DT, 0.1, 12.0,
-            np.float32(found + self.random.normal(0.0, 0.01, 360)).tolist(), []))
+        seen = {'turned laser': angles + math.pi / 2, 'laser upside down': -angles}.get(self.fault, angles)
+        found = ranges(x + LASER * math.cos(theta), y + LASER * math.sin(theta), theta + seen)
+        found = (found + self.random.normal(0.0, 0.01, 360)) * (1000 if self.fault == 'millimetres' else 1)
+        tick = round(self.now.to_sec() / DT)
+        if self.fault != 'silent scan' and (self.fault != 'slow scan' or tick % 10 == 0):
+            self.scan.publish(LaserScan(
+                Header(stamp=self.now - rospy.Duration(3 * (self.fault == 'old scan')),
+                       frame_id='lidar' if self.fault == 'wrong frame' else 'front_laser'),
+                0.0, angles[-1], math.pi / 180, 0.0, DT, 0.1, 12000.0 if self.fault == 'millimetres' else 12.0,
+                np.float32(found).tolist(), []))
         self.covered.publish(self.judge.coverage())
 
     def run(self):

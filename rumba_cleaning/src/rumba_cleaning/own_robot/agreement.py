@@ -50,6 +50,10 @@ class _Axis:
                 self._steps.popleft()
 
     @property
+    def tells(self) -> bool:
+        return abs(sum(step.asked for step in self._steps)) > self._least
+
+    @property
     def is_opposed(self) -> bool:
         return self._share() < -OPPOSED
 
@@ -59,18 +63,24 @@ class _Axis:
 
     def _share(self) -> float:
         """What was told / what was commanded; 1 if that was too little to tell anything."""
-        asked = sum(step.asked for step in self._steps)
-        return sum(step.told for step in self._steps) / asked if abs(asked) > self._least else 1.0
+        if not self.tells:
+            return 1.0
+        return sum(step.told for step in self._steps) / sum(step.asked for step in self._steps)
 
 
 class Agreement:
-    """Compares what was commanded with what the odometry tells."""
+    """Compares what was commanded with what the odometry tells.
+
+    Attributes:
+        is_tested: whether turns were commanded for long enough to tell anything of them.
+    """
 
     def __init__(self) -> None:
         """Nothing is known."""
         self._turn, self._way = _Axis(TURN), _Axis(WAY)
         self._last: Optional[Pose] = None
         self._when = 0.0
+        self.is_tested = False
 
     def command(self, v: float, w: float) -> None:
         """A velocity is commanded, [m/s] and [rad/s], until the next one."""
@@ -88,6 +98,7 @@ class Agreement:
         middle = last.theta + 0.5 * wrap_angle(pose.theta - last.theta)
         self._turn.add(dt, wrap_angle(pose.theta - last.theta), now)
         self._way.add(dt, (pose.x - last.x) * math.cos(middle) + (pose.y - last.y) * math.sin(middle), now)
+        self.is_tested |= self._turn.tells
         if self._turn.is_opposed:
             return TURNS_BACK
         if self._way.is_opposed:
