@@ -53,7 +53,9 @@ def _remarks(heard: Heard) -> List[str]:
     remarks = []
     if heard.map_odom:
         remarks.append(f'{" and ".join(heard.map_odom)} tells map -> odom: end it, or give localisation:=none')
-    if not can_tell(heard.views) and heard.odometry_heard is not None and not heard.odometry_heard.contradiction:
+    if heard.odometry_heard is None or heard.odometry_heard.contradiction or not heard.views:
+        return remarks
+    if not can_tell(heard.views):
         remarks.append('the robot stood still: whether scan and odometry agree was not tested: drive it by hand '
                        'meanwhile, or give _drive:=true, and it drives 40 cm ahead and back, and turns')
     elif not has_driven(heard.views):

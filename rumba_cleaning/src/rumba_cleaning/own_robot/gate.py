@@ -90,7 +90,7 @@ class Gate:
             return None
         silent = [name for name in self._heard if name not in (PERSON, CLEANER) and not self._is_heard(name, now)]
         if silent:
-            self.reason = f'nothing comes on {" and ".join(silent)}'
+            self.reason = f'nothing came on {" and ".join(silent)} for {self._silence:g} s'
             return STOP
         return self._commands[CLEANER]
 

@@ -112,7 +112,7 @@ class OwnSenses(Senses):
         """What is wrong if `is_alone` is true."""
         if not self._odometry.get_num_connections():
             return f'no odometry: no node publishes {self._odometry.resolved_name}'
-        return f'no odometry: nothing comes on {self._odometry.resolved_name}, although a node publishes it'
+        return f'no odometry: nothing came on {self._odometry.resolved_name}, although a node publishes it'
 
     @property
     def unread(self) -> int:

@@ -1,3 +1,4 @@
+#!/usr/bin/env python3
 """A robot that knows nothing of Rumba: differential drive, a furnished room, a laser off its centre, odometry that errs.
 
 It takes `/base/velocity` and publishes `/base/odometry`, `/front/laser` and `/clock`, and judges by itself what its brush
@@ -8,8 +9,8 @@ The parameter `~fault` plants one of the faults that owners of robots make.
 
 import math
 import os
-import sys
 import time
+from typing import List, NamedTuple, Tuple
 
 import numpy as np
 import rospy
@@ -22,11 +23,22 @@ from sensor_msgs.msg import LaserScan
 from std_msgs.msg import Float32, Header
 
 RADIUS, BASE, BRUSH, LASER, DT, STEPS = 0.16, 0.2, 0.2, 0.05, 0.1, 10  # [m], [s]
-SIZE = 5.0, 4.0  # [m] of the room, from (0, 0)
-BOXES = [(1.6, 3.2, 2.6, 4.0), (0.0, 2.6, 0.5, 3.4), (3.2, 1.2, 3.9, 2.0), (4.4, 0.0, 5.0, 1.0), (1.2, 1.1, 1.25, 1.15),
-         (1.8, 1.1, 1.85, 1.15), (1.2, 1.7, 1.25, 1.75), (1.8, 1.7, 1.85, 1.75)]  # the last four: legs of a table
-START = 0.8, 0.5, 0.4  # [m], [rad]
 CELL = 0.01  # [m]
+
+
+class Room(NamedTuple):
+    """Walls from (0, 0) to its size, and boxes (x0, y0, x1, y1) in it [m]."""
+
+    size: Tuple[float, float]
+    boxes: List[Tuple[float, float, float, float]]
+    start: Tuple[float, float, float] = (0.8, 0.5, 0.4)  # [m], [rad]
+
+
+ROOMS = {
+    'furnished': Room((5.0, 4.0), [
+        (1.6, 3.2, 2.6, 4.0), (0.0, 2.6, 0.5, 3.4), (3.2, 1.2, 3.9, 2.0), (4.4, 0.0, 5.0, 1.0),
+        *((x, y, x + 0.05, y + 0.05) for x in (1.2, 1.8) for y in (1.1, 1.7))]),  # the last four: legs of a table
+    'chamber': Room((2.4, 2.0), [(1.6, 0.0, 2.0, 0.6)])}
 
 
 def sides(x0, y0, x1, y1):
@@ -35,34 +47,12 @@ def sides(x0, y0, x1, y1):
     return corners, np.roll(corners, -1, axis=0)
 
 
-FROM, TO = (np.concatenate(part) for part in zip(sides(0, 0, *SIZE), *(sides(*box) for box in BOXES)))
-
-
-def ranges(x, y, angles):
-    """How far walls and furniture are in some directions, (n) [m]."""
-    dx, dy = np.cos(angles)[:, None], np.sin(angles)[:, None]
-    ex, ey = (TO - FROM).T
-    fx, fy = FROM[:, 0] - x, FROM[:, 1] - y
-    with np.errstate(divide='ignore', invalid='ignore'):
-        crossing = dx * ey - dy * ex
-        along, share = (fx * ey - fy * ex) / crossing, (fx * dy - fy * dx) / crossing
-    return np.where((along > 0) & (share >= 0) & (share <= 1), along, np.inf).min(axis=1)
-
-
-def is_free(x, y):
-    """Whether the robot can stand somewhere."""
-    edge = TO - FROM
-    share = (((x, y) - FROM) * edge).sum(1) / (edge ** 2).sum(1)
-    nearest = FROM + np.clip(share, 0, 1)[:, None] * edge
-    return np.hypot(*(nearest - (x, y)).T).min() >= RADIUS
-
-
-def draw(path):
-    """Write its map: path.yaml and path.pgm, with a wall of 10 cm around the room."""
-    xs, ys = (np.arange(-0.1 + CELL, size + 0.1, 2 * CELL) for size in SIZE)
+def draw(room, path):
+    """Write the map of a room: path.yaml and path.pgm, with a wall of 10 cm around it."""
+    xs, ys = (np.arange(-0.1 + CELL, size + 0.1, 2 * CELL) for size in room.size)
     x, y = np.meshgrid(xs, ys)
-    free = (x > 0) & (x < SIZE[0]) & (y > 0) & (y < SIZE[1])
-    for x0, y0, x1, y1 in BOXES:
+    free = (x > 0) & (x < room.size[0]) & (y > 0) & (y < room.size[1])
+    for x0, y0, x1, y1 in room.boxes:
         free &= ~((x > x0) & (x < x1) & (y > y0) & (y < y1))
     with open(f'{path}.pgm', 'wb') as image:
         image.write(b'P5 %d %d 255\n' % (len(xs), len(ys)) + np.uint8(np.where(free[::-1], 254, 0)).tobytes())
@@ -71,17 +61,42 @@ def draw(path):
                    'occupied_thresh: 0.65, free_thresh: 0.196}\n')
 
 
+class Walls:
+    """Those of a room, and of what stands in it."""
+
+    def __init__(self, room):
+        self.begin, self.end = (np.concatenate(part) for part in zip(sides(0, 0, *room.size),
+                                                                     *(sides(*box) for box in room.boxes)))
+
+    def ranges(self, x, y, angles):
+        """How far they are in some directions, (n) [m]."""
+        dx, dy = np.cos(angles)[:, None], np.sin(angles)[:, None]
+        ex, ey = (self.end - self.begin).T
+        fx, fy = self.begin[:, 0] - x, self.begin[:, 1] - y
+        with np.errstate(divide='ignore', invalid='ignore'):
+            crossing = dx * ey - dy * ex
+            along, share = (fx * ey - fy * ex) / crossing, (fx * dy - fy * dx) / crossing
+        return np.where((along > 0) & (share >= 0) & (share <= 1), along, np.inf).min(axis=1)
+
+    def leave_free(self, x, y):
+        """Whether the robot can stand somewhere."""
+        edge = self.end - self.begin
+        share = (((x, y) - self.begin) * edge).sum(1) / (edge ** 2).sum(1)
+        nearest = self.begin + np.clip(share, 0, 1)[:, None] * edge
+        return np.hypot(*(nearest - (x, y)).T).min() >= RADIUS
+
+
 class Judge:
     """What the brush has swept of what it can reach."""
 
-    def __init__(self):
-        self.x, self.y = np.meshgrid(np.arange(CELL / 2, SIZE[0], CELL), np.arange(CELL / 2, SIZE[1], CELL))
+    def __init__(self, room):
+        self.x, self.y = np.meshgrid(*(np.arange(CELL / 2, size, CELL) for size in room.size))
         wall = np.zeros(self.x.shape, bool)
-        for x0, y0, x1, y1 in BOXES:
+        for x0, y0, x1, y1 in room.boxes:
             wall |= (self.x > x0) & (self.x < x1) & (self.y > y0) & (self.y < y1)
         clear = CELL * ndimage.distance_transform_edt(np.pad(~wall, 1))[1:-1, 1:-1] > RADIUS
         rooms, _ = ndimage.label(clear)
-        there = rooms == rooms[int(START[1] / CELL), int(START[0] / CELL)]
+        there = rooms == rooms[int(room.start[1] / CELL), int(room.start[0] / CELL)]
         self.reachable = CELL * ndimage.distance_transform_edt(~there) < BRUSH / 2
         self.swept = np.zeros(self.x.shape, bool)
 
@@ -103,8 +118,10 @@ class FakeRobot:
     def __init__(self):
         self.random = np.random.default_rng(rospy.get_param('~seed', 1))
         self.scale = self.random.normal(1.0, 0.01, 2)  # of each wheel
-        self.pose, self.guess, self.wheels = np.array(START), np.zeros(3), np.zeros(2)
-        self.command, self.commanded, self.corrected, self.judge = Twist(), None, rospy.Time(), Judge()
+        room = ROOMS[rospy.get_param('~room', 'furnished')]
+        self.walls, self.judge = Walls(room), Judge(room)
+        self.pose, self.guess, self.wheels = np.array(room.start), np.zeros(3), np.zeros(2)
+        self.command, self.commanded, self.corrected = Twist(), None, rospy.Time()
         self.waits = rospy.get_param('~wait_for_correction', False)
         self.fault = rospy.get_param('~fault', '')
         self.now = rospy.Time(100)
@@ -147,7 +164,7 @@ class FakeRobot:
             self.wheels += np.clip(wanted - self.wheels, -1.0 * DT / STEPS, 1.0 * DT / STEPS)
             went = self.wheels * DT / STEPS
             x, y, theta = moved(self.pose, went)
-            self.pose = np.array([x, y, theta]) if is_free(x, y) else np.array([*self.pose[:2], theta])
+            self.pose = np.array([x, y, theta]) if self.walls.leave_free(x, y) else np.array([*self.pose[:2], theta])
             self.guess = moved(self.guess, went * self.scale + self.random.normal(0.0, 0.002, 2) * np.sqrt(abs(went)))
             self.judge.sweep(*self.pose)
         self.tell()
@@ -168,7 +185,7 @@ class FakeRobot:
         x, y, theta = self.pose
         angles = np.arange(360) * math.pi / 180
         seen = {'turned laser': angles + math.pi / 2, 'laser upside down': -angles}.get(self.fault, angles)
-        found = ranges(x + LASER * math.cos(theta), y + LASER * math.sin(theta), theta + seen)
+        found = self.walls.ranges(x + LASER * math.cos(theta), y + LASER * math.sin(theta), theta + seen)
         found = (found + self.random.normal(0.0, 0.01, 360)) * (1000 if self.fault == 'millimetres' else 1)
         tick = round(self.now.to_sec() / DT)
         if self.fault != 'silent scan' and (self.fault != 'slow scan' or tick % 10 == 0):
@@ -203,7 +220,5 @@ def turned(theta):
 
 
 if __name__ == '__main__':
-    if '--map' in sys.argv:
-        sys.exit(draw(sys.argv[-1]))
     rospy.init_node('fake_robot', disable_rostime=True)
     FakeRobot().run()
