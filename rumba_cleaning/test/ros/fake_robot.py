@@ -197,12 +197,12 @@ class FakeRobot:
         self.covered.publish(self.judge.coverage())
 
     def run(self):
-        """Drive, as fast as the others keep up, but at most twenty times as fast as the real one would."""
+        """Drive, as fast as the others keep up, but at most ten times as fast as the real one would."""
         while not rospy.is_shutdown():
             begin = time.monotonic()
             self.step()
             while not rospy.is_shutdown() and time.monotonic() - begin < 1.0 and (
-                    self.waits and self.corrected < self.now or time.monotonic() - begin < DT / 20
+                    self.waits and self.corrected < self.now or time.monotonic() - begin < DT / 10
                     or self.commanded is not None and self.commanded < self.now):
                 time.sleep(0.001)
 

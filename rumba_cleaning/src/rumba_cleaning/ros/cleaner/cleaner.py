@@ -288,6 +288,7 @@ class Cleaner:
         plan, robot = self._workplace.look()
         context = Context(plan, robot, self._settings.cleaning, seed, self._planners, self._workplace.survey,
                           self._robot.team.mates())
+        context.has_dock, context.end = not self._settings.own_robot, self._settings.home_pose
         pose = self._robot.senses.pose()
         if self._robot.team.is_alone and pose is not None:
             context.moor(pose)

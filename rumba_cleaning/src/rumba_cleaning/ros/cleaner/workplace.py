@@ -88,6 +88,8 @@ class Workplace:
         wanted = path, state.run if state is not None else ''
         if self._loaded is None or self._loaded[:2] != wanted:
             self._loaded = (*wanted, map_file.load(path))
+            if self._own is not None:  # it cannot dock on what a map for a Rumba shows
+                self._loaded[2].dock, self._loaded[2].further_docks = None, ()
         return self._loaded[2], self._newest_robot()
 
     @property
