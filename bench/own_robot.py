@@ -2,8 +2,8 @@
 
     ./rumba shell python3 bench/own_robot.py --runs 10
 
-Each run has a fake robot with errors of its own, of the tests of rumba_cleaning, and own_robot.launch, without a map and
-with one on which the robot looks for its place.
+Each run has a fake robot of the tests of rumba_cleaning, with errors of its own, and own_robot.launch, without a map
+and with one on which the robot looks for its place.
 """
 
 import argparse

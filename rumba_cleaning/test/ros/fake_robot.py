@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
-"""A robot that knows nothing of Rumba: differential drive, a furnished room, a laser off its centre, odometry that errs.
+"""A robot that knows nothing of Rumba: differential drive, a room, a laser off its centre, odometry that errs.
 
-It takes `/base/velocity` and publishes `/base/odometry`, `/front/laser` and `/clock`, and judges by itself what its brush
-has swept: `/coverage` (std_msgs/Float32) of the floor that it can reach. It drives as fast as those keep up who drive it:
-with the parameter `~wait_for_correction` it waits for map -> wheels, and once it was commanded, for the next command.
+It takes `/base/velocity` and publishes `/base/odometry`, `/front/laser` and `/clock`, and judges by itself what its
+brush has swept: `/coverage` (std_msgs/Float32) of the floor that it can reach. It drives as fast as those keep up who
+drive it: with the parameter `~wait_for_correction` it waits for map -> wheels, and once it was commanded, for the next
+command.
 The parameter `~fault` plants one of the faults that owners of robots make.
 """
 
@@ -57,8 +58,8 @@ def draw(room, path):
     with open(f'{path}.pgm', 'wb') as image:
         image.write(b'P5 %d %d 255\n' % (len(xs), len(ys)) + np.uint8(np.where(free[::-1], 254, 0)).tobytes())
     with open(f'{path}.yaml', 'w', encoding='utf-8') as file:
-        file.write(f'{{image: {os.path.basename(path)}.pgm, resolution: {2 * CELL}, origin: [-0.1, -0.1, 0.0], negate: 0, '
-                   'occupied_thresh: 0.65, free_thresh: 0.196}\n')
+        file.write(f'{{image: {os.path.basename(path)}.pgm, resolution: {2 * CELL}, origin: [-0.1, -0.1, 0.0], '
+                   'negate: 0, occupied_thresh: 0.65, free_thresh: 0.196}\n')
 
 
 class Walls:

@@ -15,7 +15,8 @@ from tiers import thorough
 from rumba_msg.msg import MissionStatus
 
 FAKE = pathlib.Path(roslib.packages.get_pkg_dir('rumba_cleaning')) / 'test' / 'ros'
-ARGUMENTS = f'robot:={FAKE / "fake_robot.yaml"}', 'scan:=/front/laser', 'odom:=/base/odometry', 'cmd_vel:=/base/velocity'
+ARGUMENTS = (f'robot:={FAKE / "fake_robot.yaml"}', 'scan:=/front/laser', 'odom:=/base/odometry',
+             'cmd_vel:=/base/velocity')
 LIMIT = 3600.0  # [s] of the robot's time for a mission
 WALL_LIMIT = 550.0  # [s] of the wall clock
 

@@ -101,8 +101,8 @@ def _scan_faults(heard: Heard) -> List[str]:
         return faults
     faults += _stamps(topic, scan.ages, heard) + _range_faults(topic, scan)
     if scan.mounting is None:
-        faults.append(f'{topic.name} is in the frame {scan.frame}: {scan.fault}: have your robot publish that, or write '
-                      'laser: {x: ..., y: ..., yaw: ...} into the file of the robot')
+        faults.append(f'{topic.name} is in the frame {scan.frame}: {scan.fault}: have your robot publish that, or '
+                      'write laser: {x: ..., y: ..., yaw: ...} into the file of the robot')
         return faults
     return faults + _mounting_faults(topic, scan) + _view_faults(heard, scan)
 
@@ -170,8 +170,8 @@ def _frame_faults(topic: Topic, odometry: OdometryHeard, own: OwnRobot) -> List[
         faults.append(f'{topic.name} is in the frame {odometry.frame or "of no name"}, and the file says '
                       f'{own.frames.odom}: write frames: {{odom: {odometry.frame or own.frames.odom}}} into it')
     if not odometry.is_linked:
-        faults.append(f'{topic.name} is of the frame {odometry.child}, and the file says {own.frames.base}, to which no '
-                      f'transforms lead: write frames: {{base: {odometry.child}}} into it')
+        faults.append(f'{topic.name} is of the frame {odometry.child}, and the file says {own.frames.base}, to which '
+                      f'no transforms lead: write frames: {{base: {odometry.child}}} into it')
     return faults
 
 
@@ -207,8 +207,8 @@ def table(found: Report) -> List[str]:
     widths = [max(len(line[column]) for line in cells) for column in range(len(HEADS))]
     lines = ['  '.join(text.ljust(width) for text, width in zip(line, widths)).rstrip() for line in cells]
     faults = [fault for row in found.rows for fault in row.faults]
-    return [*lines, *(f'wrong: {fault}' for fault in dict.fromkeys(faults)), *(f'note: {each}' for each in found.remarks),
-            'the robot can be used' if found.is_fit else 'the robot cannot be used yet']
+    lines += [f'wrong: {fault}' for fault in dict.fromkeys(faults)] + [f'note: {each}' for each in found.remarks]
+    return [*lines, 'the robot can be used' if found.is_fit else 'the robot cannot be used yet']
 
 
 def _cells(row: Row) -> Sequence[str]:

@@ -31,11 +31,11 @@ def contradiction(views: Sequence[View], mounting: Mounting) -> Optional[Finding
     """What would fit much better; None if nothing would, or the robot moved too little to tell."""
     if not can_tell(views):
         return None
-    steps = np.arange(-35, 37) * STEP
-    costs = {(float(turned), mirrored): _cost(views, mounting, float(turned), mirrored)
-             for turned, mirrored in itertools.product(steps if has_driven(views) else [0.0], (False, True))}
+    steps = range(-35, 37) if has_driven(views) else range(1)
+    costs = {(step * STEP, mirrored): _cost(views, mounting, step * STEP, mirrored)
+             for step, mirrored in itertools.product(steps, (False, True))}
     best = min(costs, key=lambda each: costs[each] + 1e-4 * abs(each[0]))
-    now = costs[min(costs, key=lambda each: (each[1], abs(each[0])))]
+    now = costs[0.0, False]
     return Finding(*best) if costs[best] < BETTER * now and now - costs[best] > CLEARLY else None
 
 

@@ -1,4 +1,4 @@
-"""What a robot that is not ours is like, by a file of its owner: with the names of a Rumba's settings, and its frames."""
+"""What a robot that is not ours is like, by a file of its owner: settings named as those of a Rumba, and its frames."""
 
 import dataclasses
 from typing import Any, Mapping, NamedTuple, Optional
@@ -30,7 +30,7 @@ class OwnRobot(NamedTuple):
 
     config: RobotConfig
     frames: FramesConfig
-    mounting: Optional[Mounting]  # of the laser, if the file has any of its x, y, yaw and upside_down; None: tf tells it
+    mounting: Optional[Mounting]  # of the laser, if the file has its x, y, yaw or upside_down; None: tf tells it
 
 
 def load(path: str) -> OwnRobot:

@@ -14,7 +14,6 @@ from rumba_cleaning.ros.cleaner.certainty import Certainty
 from rumba_cleaning.ros.cleaner.location import QUEUE, Location
 from rumba_cleaning.ros.cleaner.optional_inputs import OptionalInputs
 from rumba_cleaning.ros.cleaner.senses import PAUSE, SECOND, Senses
-from rumba_localisation.scan import told
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.own_robot import OwnRobot
 from rumba_sim.model.robot import Infrared
@@ -131,4 +130,4 @@ class OwnSenses(Senses):
 
     @property
     def _is_silent(self) -> bool:
-        return (rospy.Time.now() - self._heard_at).to_sec() > SILENT
+        return float((rospy.Time.now() - self._heard_at).to_sec()) > SILENT

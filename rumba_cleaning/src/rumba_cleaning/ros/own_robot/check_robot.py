@@ -22,12 +22,14 @@ from rumba_cleaning.own_robot.heard import Heard, Topic
 from rumba_cleaning.ros.own_robot.listeners import CommandListener, OdometryListener, ScanListener, TopicListener
 from rumba_sim.model.config import setting
 from rumba_sim.model.errors import ConfigError
+from rumba_sim.model.robot_config import DriveConfig
 from rumba_sim.ros.common import node
 from rumba_sim.ros.common.own_robots import own_robot, own_robot_setting
 
 PERIOD = 0.02  # [s] of the wall clock between two looks
 CLOCK_PATIENCE = 3.0  # [s] of the wall clock for which time may stand still
-DRIVE = ((2.5, Velocity(0.15, 0.0)), (2.5, Velocity(-0.15, 0.0)), (2.0, Velocity(0.0, 0.6)), (2.0, Velocity(0.0, -0.6)))
+DRIVE = (  # for so long [s] with such velocities
+    (2.5, Velocity(0.15, 0.0)), (2.5, Velocity(-0.15, 0.0)), (2.0, Velocity(0.0, 0.6)), (2.0, Velocity(0.0, -0.6)))
 
 
 @dataclasses.dataclass(frozen=True)
@@ -43,7 +45,7 @@ class Settings:
     cliff: str = setting('/cliff', 'topic of its cliff sensors')
     wheel_drop: str = setting('/wheel_drop', 'topic that tells whether a wheel hangs in the air')
     seconds: float = setting(10.0, 'how long it listens, by the clock of the robot', 's', 1.0, 600.0)
-    drive: bool = setting(False, 'whether to drive the robot meanwhile, so that scan, odometry and command are compared')
+    drive: bool = setting(False, 'whether to drive the robot, so that scan, odometry and command can be compared')
 
 
 def main() -> None:
@@ -104,7 +106,7 @@ def _listen(seconds: float, drive: 'Driver') -> str:
 class Driver:
     """Drives the robot, if it shall."""
 
-    def __init__(self, settings: Settings, limits: object) -> None:
+    def __init__(self, settings: Settings, limits: DriveConfig) -> None:
         self._limits = limits
         self._publisher = rospy.Publisher(settings.cmd_vel, Twist, queue_size=1) if settings.drive else None
 
