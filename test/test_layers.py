@@ -23,7 +23,8 @@ FOLDERS = {
     'rumba_cleaning': {
         '': set(), 'belief': {''}, 'behaviours': {'', 'belief'}, 'planning': {'', 'belief', 'behaviours'},
         'strategies': {'', 'belief', 'behaviours', 'planning'}, 'mission': {'', 'belief', 'behaviours', 'strategies'},
-        'ros/cleaner': {'', 'belief', 'behaviours', 'strategies', 'mission'}},
+        'own_robot': set(), 'ros/own_robot': {'own_robot'},
+        'ros/cleaner': {'', 'belief', 'behaviours', 'strategies', 'mission', 'own_robot'}},
     'rumba_evaluation': {
         'inspection': set(), 'scoring': set(), 'trials': {'scoring'}, 'report': set(), 'verdicts': set(),
         'submissions': set(), 'marks': {'trials', 'verdicts', 'submissions'}, 'ros/mission_report': {'report'},

@@ -68,7 +68,7 @@ class Senses:
 
     def __init__(self):
         self.passed, self.stamp, self.heard, self.unread = 0, rospy.Time(1), 0.0, 0
-        self.cleaning = None
+        self.cleaning, self.absence = None, 'the robot is gone'
         self.is_alone = self.has_fallen = False
         self.is_complete = True
         self.x = 0.0

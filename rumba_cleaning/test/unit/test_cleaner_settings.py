@@ -48,6 +48,24 @@ def test_a_cleaner_without_a_map_works_alone_and_by_its_bumper():
             Settings(mapless=True, **{other: True})
 
 
+def test_a_robot_that_is_not_ours_needs_a_map_or_makes_one_and_works_alone():
+    Settings(own_robot='robot.yaml', map='room.yaml')
+    Settings(own_robot='robot.yaml', mapping=True)
+    for others in ({}, {'mapless': True}, {'map': 'room.yaml', 'team': 'rumba rumba2'}):
+        with pytest.raises(ConfigError, match='^own_robot is given: must come with map, or with mapping, and with '):
+            Settings(own_robot='robot.yaml', **others)
+
+
+def test_where_a_robot_of_others_ends_is_a_pose():
+    assert Settings(own_robot='robot.yaml', mapping=True).home_pose is None
+    assert Settings(own_robot='robot.yaml', mapping=True, home='1 -2.5 3').home_pose == (1.0, -2.5, 3.0)
+    for home in ('1 2', '1 2 3 4', 'a b c', '1 2 nan'):
+        with pytest.raises(ConfigError, match=f"^home is '{home}': must be x y theta "):
+            Settings(own_robot='robot.yaml', mapping=True, home=home)
+    with pytest.raises(ConfigError, match='^home is given: must come with own_robot'):
+        Settings(home='1 2 3')
+
+
 def test_an_unknown_answer_of_go_to_position_is_refused():
     with pytest.raises(ConfigError, match="^it: go_to_position/answer is 'speed': must be velocity or heading$"):
         from_mapping(Settings, {'go_to_position': {'answer': 'speed'}}, 'it')

@@ -97,9 +97,12 @@ class Context:
         sight: what its laser sees; None if it does without.
         has_map: whether the plan, and the pose of the robot on it, can be relied on; without, the plan is blank, and
             poses are those of the odometry, which err more with every metre.
+        has_dock: whether the robot can charge on one, and ends there.
+        end: where a robot without a dock ends; None: where it began.
     """
 
-    has_map = True
+    has_map = has_dock = True
+    end: Optional[Pose] = None
 
     def __init__(self, plan: FloorPlan, robot: RobotConfig, config: CleaningConfig, seed: Seed = 0,
                  executor: Optional[Executor] = None, survey: Optional[Survey] = None,

@@ -8,7 +8,7 @@ and below the robot's name
                   way; map -> odom stays as old as the newest scan then
   particlecloud   geometry_msgs/PoseArray: after each scan that it used
 It subscribes to
-  /map            nav_msgs/OccupancyGrid
+  /map            nav_msgs/OccupancyGrid: which it publishes itself if its parameter map names a file
 and below the robot's name to
   scan            sensor_msgs/LaserScan: of a laser that is level, or upside down, where tf says on base_link
   odom            nav_msgs/Odometry
@@ -42,14 +42,17 @@ from rumba_localisation.ros import conversions
 from rumba_localisation.ros.laser_settings import LaserSettings
 from rumba_localisation.ros.scan_loop import COMPLAINT_PERIOD, QUEUE, ScanLoop
 from rumba_localisation.scan import Scan
+from rumba_sim.model import map_file
 from rumba_sim.model.config import part, setting
 from rumba_sim.model.errors import ConfigError, MapError
 from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.model.geometry import Pose, compose, inverse
 from rumba_sim.ros.common import node
-from rumba_sim.ros.common.conversions import plane_pose
+from rumba_sim.ros.common.conversions import grid, plane_pose
 from rumba_sim.ros.common.frames import MAP
+from rumba_sim.ros.common.maps import map_path
 from rumba_sim.ros.common.names import check_names
+from rumba_sim.ros.common.own_robots import own_robot, own_robot_setting
 
 HERE = Pose(0.0, 0.0, 0.0)
 
@@ -59,6 +62,8 @@ class Settings(LocaliserConfig, LaserSettings):
     """The node's private parameters."""
 
     robot: str = setting('rumba', 'name of the robot, below which its topics are')
+    own_robot: str = own_robot_setting()
+    map: str = setting('', 'path of a map_server YAML file, which it publishes as /map; empty: another node does')
     robot_radius: float = setting(0.17425, 'radius of the robot: it is not looked for nearer to a wall', 'm', 0.0, 5.0)
     initial_pose_x: float = setting(math.nan, 'where it begins; without x and y it looks all over the map', 'm')
     initial_pose_y: float = setting(math.nan, 'the same', 'm')
@@ -89,8 +94,14 @@ class LocaliserNode(ScanLoop):
     """The loop that owns the localiser."""
 
     def __init__(self, settings: Settings) -> None:
-        """Open all topics and services."""
-        self._settings = settings
+        """Open all topics and services.
+
+        Raises:
+            ConfigError: the file of a robot that is not ours is wrong.
+            MapError: the map cannot be read.
+        """
+        self._settings, own = settings, own_robot(settings.own_robot)
+        self._radius = settings.robot_radius if own is None else own.config.drive.radius
         self._plan: Optional[FloorPlan] = None  # turned so that its cells lie along its axes ...
         self._turned = HERE  # ... and the frame of that in the map frame
         self._localiser: Optional[Localiser] = None  # None until there are a map and a scan
@@ -99,11 +110,17 @@ class LocaliserNode(ScanLoop):
         name = settings.robot
         self._pose = rospy.Publisher(f'{name}/amcl_pose', PoseWithCovarianceStamped, queue_size=QUEUE, latch=True)
         self._cloud = rospy.Publisher(f'{name}/particlecloud', PoseArray, queue_size=2)
-        super().__init__(name, settings.reading)
+        super().__init__(name, settings.reading, own)
+        if settings.map:
+            self._publish_map(map_file.load(map_path(settings.map)))
         self._subscribe('/map', OccupancyGrid, self._take_map)
         self._subscribe(f'{name}/initialpose', PoseWithCovarianceStamped, self._take_start)
         rospy.Service(f'{name}/global_localization', Empty, lambda _: self._requests.call(self._search_anywhere))
         rospy.Service(f'{name}/request_nomotion_update', Empty, lambda _: self._requests.call(self._force))
+
+    def _publish_map(self, plan: FloorPlan) -> None:
+        self._map = rospy.Publisher('/map', OccupancyGrid, queue_size=1, latch=True)
+        self._map.publish(grid(plan, plan.occupancy, rospy.Time.now()))
 
     # --- what comes -------------------------------------------------------------------------------------------------
 
@@ -162,7 +179,7 @@ class LocaliserNode(ScanLoop):
         """The localiser, made with the first scan."""
         if self._localiser is None:
             settings = self._settings
-            self._localiser = Localiser(plan, settings.robot_radius, self._range_max, part(settings, LocaliserConfig),
+            self._localiser = Localiser(plan, self._radius, self._range_max, part(settings, LocaliserConfig),
                                         settings.seed)
             if settings.start is not None:
                 self._localiser.start_at(compose(inverse(self._turned), settings.start))

@@ -53,6 +53,7 @@ from rumba_sim.ros.common import node
 from rumba_sim.ros.common.conversions import grid
 from rumba_sim.ros.common.frames import MAP
 from rumba_sim.ros.common.names import check_names
+from rumba_sim.ros.common.own_robots import own_robot, own_robot_setting
 from rumba_sim.ros.common.paths import absolute
 
 CALM = (False, False), (False,) * 4  # bumper and cliff sensors
@@ -63,6 +64,7 @@ class Settings(MapperConfig, LaserSettings):
     """The node's private parameters."""
 
     robot: str = setting('rumba', 'name of the robot, below which its topics are')
+    own_robot: str = own_robot_setting()
     initial_pose_x: float = setting(0.0, 'where the robot is at the first scan; this defines the map frame', 'm')
     initial_pose_y: float = setting(0.0, 'the same', 'm')
     initial_pose_a: float = setting(0.0, 'the same', 'rad')
@@ -91,11 +93,15 @@ class MapperNode(ScanLoop):
     """The loop that owns the mapper."""
 
     def __init__(self, settings: Settings) -> None:
-        """Open all topics and the service."""
-        self._settings = settings
+        """Open all topics and the service.
+
+        Raises:
+            ConfigError: the file of a robot that is not ours is wrong.
+        """
+        self._settings, own = settings, own_robot(settings.own_robot)
         self._mapper = Mapper(Pose(settings.initial_pose_x, settings.initial_pose_y, settings.initial_pose_a),
                               part(settings, MapperConfig))
-        self._findings = Findings(RobotConfig())
+        self._findings = Findings(RobotConfig() if own is None else own.config)
         self._bumper, self._cliffs = CALM
         self._is_docked = False
         self._dock: Optional[Pose] = None
@@ -106,7 +112,7 @@ class MapperNode(ScanLoop):
         self._pose = rospy.Publisher(f'{name}/amcl_pose', PoseWithCovarianceStamped, queue_size=QUEUE, latch=True)
         self._docked = rospy.Publisher(f'{name}/dock_pose', PoseStamped, queue_size=1, latch=True)
         self._frames_told = rospy.Publisher(f'{name}/key_frames', PoseArray, queue_size=1, latch=True)
-        super().__init__(name, settings.reading)
+        super().__init__(name, settings.reading, own)
         self._subscribe(f'{name}/bumper', Bumper, self._take_bumper)
         self._subscribe(f'{name}/cliff', Cliff, self._take_cliff)
         self._subscribe(f'{name}/dock_status', DockStatus, self._take_dock)

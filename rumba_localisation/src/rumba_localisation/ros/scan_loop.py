@@ -15,11 +15,13 @@ from rumba_localisation.scan import FARTHEST as FARTHEST_ECHO
 from rumba_localisation.scan import SILENT, Reading, Scan, fault, told
 from rumba_msg.msg import Lockstep
 from rumba_sim.model.geometry import Pose
+from rumba_sim.model.own_robot import OwnRobot
 from rumba_sim.ros.common.conversions import plane_pose, transform
-from rumba_sim.ros.common.frames import MAP, frames
+from rumba_sim.ros.common.frames import MAP
 from rumba_sim.ros.common.lockstep import Participant, Resent, Work
 from rumba_sim.ros.common.maps import FARTHEST
 from rumba_sim.ros.common.mountings import HeardMountings
+from rumba_sim.ros.common.own_robots import frames_of
 from rumba_sim.ros.common.requests import Requests
 
 PERIOD = 0.1  # [s] of the wall clock between two looks whether ROS shuts down
@@ -31,10 +33,16 @@ SILENT_WALL = 0.2  # [s] of the wall clock, too, for which a silent laser tells 
 class ScanLoop(abc.ABC):
     """A loop that owns all state; callbacks only queue what it is to do."""
 
-    def __init__(self, robot: str, reading: Reading) -> None:
-        """Listen to scans and odometry of a robot, by its name; `reading` says how ranges are taken."""
+    def __init__(self, robot: str, reading: Reading, own: Optional[OwnRobot] = None) -> None:
+        """Listen to scans and odometry of a robot.
+
+        Args:
+            robot: its name.
+            reading: how ranges are taken.
+            own: what the robot is like if it is not ours.
+        """
         self._name, self._reading = robot, reading
-        self._frames = frames(robot)
+        self._frames = frames_of(robot, own)
         self._requests = Requests()
         self._work = Work()
         self._odometries = Odometries()
@@ -48,7 +56,8 @@ class ScanLoop(abc.ABC):
         self._newest = Resent()
         self._tf = rospy.Publisher('/tf', TFMessage, self._newest, queue_size=QUEUE)
         self._participant = Participant(lambda tick: self._post(tick, self._take_tick), lambda: self._work.goes_on)
-        self._mountings = HeardMountings(self._frames.base_link, lambda: self._post(None, lambda _: self._look()))
+        self._mountings = HeardMountings(self._frames.base_link, lambda: self._post(None, lambda _: self._look()),
+                                         None if own is None else own.mounting)
         self._subscribe(f'{robot}/odom', Odometry, self._take_odom)
         self._subscribe(f'{robot}/scan', LaserScan, self._take_scan)
 

@@ -14,6 +14,7 @@ from rumba_cleaning.belief.mates import Report, Task
 from rumba_cleaning.mission.duration import longest
 from rumba_cleaning.mission.mapless import MaplessMission
 from rumba_cleaning.mission.mission import Mission
+from rumba_cleaning.mission.returning import ReturningMission
 from rumba_cleaning.mission.seek import Seek
 from rumba_cleaning.mission.stages import StagedMission, State
 from rumba_cleaning.ros.cleaner import conversions
@@ -118,7 +119,8 @@ class Cleaning(Activity):
         config = context.config
         strategy, target = goal.strategy or config.strategy, goal.target_coverage or config.target_coverage
         if context.has_map:
-            return cls(Mission(context, strategy, target), goal.time_limit, longest(context))
+            mission = (Mission if context.has_dock else ReturningMission)(context, strategy, target)
+            return cls(mission, goal.time_limit, longest(context))
         if goal.target_coverage:
             raise ConfigError(f'target_coverage is {target:g}: must be 0, since a robot without a map does not know '
                               f'what share is swept; it cleans for {config.cleaning_time:g} s')

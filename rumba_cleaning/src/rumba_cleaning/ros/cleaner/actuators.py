@@ -4,6 +4,7 @@ import queue
 import threading
 from typing import Optional
 
+import rosgraph
 import rospy
 from geometry_msgs.msg import Twist
 from std_srvs.srv import SetBool
@@ -54,8 +55,9 @@ class Wheels:
 class Brushes:
     """Lifts and lowers the brushes in a thread of its own, because a call of the service may take long."""
 
-    def __init__(self, robot: str) -> None:
-        """Use the service of a robot, by its name."""
+    def __init__(self, robot: str, are_optional: bool = False) -> None:
+        """Use the service of a robot, by its name; if `are_optional` is true, only while a node serves it."""
+        self._are_optional = are_optional
         self._service = rospy.ServiceProxy(f'{robot}/set_brushes_up', SetBool)
         self._wanted: Optional[bool] = None  # what the robot was asked for last; None: where they are is unknown
         self._wishes: 'queue.Queue[bool]' = queue.Queue()
@@ -75,11 +77,20 @@ class Brushes:
         """Somebody else may have moved them: ask the robot at the next call of `want` in any case."""
         self._wanted = None
 
+    @property
+    def _is_served(self) -> bool:
+        try:
+            rosgraph.Master(rospy.get_name()).lookupService(self._service.resolved_name)
+        except rosgraph.MasterError:
+            return False
+        return True
+
     def _serve(self) -> None:
         while not rospy.is_shutdown():
             are_up = self._wishes.get()
             try:
-                self._service(are_up)
+                if not self._are_optional or self._is_served:
+                    self._service(are_up)
             except Exception as error:  # whatever it is, the next wish must be served
                 self.forget()
                 if not rospy.core.is_shutdown_requested():  # else the robot may end too

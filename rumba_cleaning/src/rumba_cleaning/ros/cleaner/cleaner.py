@@ -59,6 +59,7 @@ from rumba_msg.msg import CleanActionGoal
 from rumba_sim.model.errors import RumbaError
 from rumba_sim.ros.common import node
 from rumba_sim.ros.common.lockstep import Work
+from rumba_sim.ros.common.own_robots import own_robot
 
 LOOK_PERIOD = 0.2  # [s] of the wall clock from one look after a silent robot to the next
 PLANNERS = 4  # threads: a plan that is not needed any more may occupy one for seconds, and the next goal needs another
@@ -84,13 +85,13 @@ class Cleaner:
         """
         strategies.load(settings.strategies)
         (strategies.check_mapless if settings.mapless else strategies.check)(settings.strategy)
-        self._settings = settings
+        self._settings, own = settings, own_robot(settings.own_robot)
         self._work = Work()
         self._events: 'queue.Queue[Callable[[], None]]' = queue.Queue()
         self._has_ended = threading.Event()
         self._workplace = Workplace(settings.map, lambda: self._events.put(self._look_at_world),
                                     SurveyListener(settings.robot) if settings.mapping else None,
-                                    has_map=not settings.mapless)
+                                    has_map=not settings.mapless, own=own)
         self._world: Optional[World] = self._workplace.world  # that of the goal and of the cleaning below
         self._run: Optional[Run] = None
         self._interruption = Interruption()
@@ -103,7 +104,7 @@ class Cleaner:
         self._robot = Robot(settings.robot, self._on_reading, settings.team.split(),
                             lambda: self._events.put(self._read_postponed), lambda: self._workplace.lockstep,
                             lambda: self._work.goes_on or self._planners.are_at_work, settings.laser,
-                            settings.mapless)
+                            settings.mapless, own)
         if not settings.mapless:
             GoToPosition(settings, self._workplace, self._robot.senses)
         self._servers = {name: self._serve(name) for name in ACTIONS}
@@ -291,6 +292,7 @@ class Cleaner:
         plan, robot = self._workplace.look()
         context = Context(plan, robot, self._settings.cleaning, seed, self._planners, self._workplace.survey,
                           self._robot.team.mates())
+        context.has_dock, context.end = not self._settings.own_robot, self._settings.home_pose
         pose = self._robot.senses.pose()
         if self._robot.team.is_alone and pose is not None:
             context.moor(pose)

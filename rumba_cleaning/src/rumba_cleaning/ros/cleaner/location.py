@@ -8,7 +8,7 @@ from tf2_msgs.msg import TFMessage
 
 from rumba_sim.model.geometry import Pose, compose
 from rumba_sim.ros.common.conversions import transform_pose
-from rumba_sim.ros.common.frames import MAP, frames
+from rumba_sim.ros.common.frames import MAP, Frames, frames
 
 QUEUE = 100  # messages that may wait to be read
 FARTHEST = 1e6  # [m] of a coordinate, at most
@@ -32,17 +32,22 @@ class Location:
         corrected: the same of map -> odom.
     """
 
-    def __init__(self, robot: str, on_change: Callable[[], None], is_mapless: bool = False) -> None:
-        """Listen to the transforms of a robot, by its name; `on_change` is called in a thread of rospy.
+    def __init__(self, robot: str, on_change: Callable[[], None], is_mapless: bool = False,
+                 own_frames: Optional[Frames] = None) -> None:
+        """Listen to the transforms of a robot.
 
-        If `is_mapless` is true, the pose is that of the odometry: its frame is taken for that of the map.
+        Args:
+            robot: its name.
+            on_change: called in a thread of rospy.
+            is_mapless: whether the pose is that of the odometry: its frame is taken for that of the map.
+            own_frames: those of a robot that is not ours; its odometry is told by `take_odometry`.
         """
         self.stamp = self.corrected = rospy.Time()
         self._on_change = on_change
-        self._frames = frames(robot)
+        self._frames = frames(robot) if own_frames is None else own_frames
         self._links = (MAP, self._frames.odom), (self._frames.odom, self._frames.base_footprint)
         self._newest: Dict[Link, Known] = {self._links[0]: (Pose(0.0, 0.0, 0.0), True)} if is_mapless else {}
-        self._listens_to = self._links[1:] if is_mapless else self._links
+        self._listens_to = self._links[1:] if is_mapless else self._links if own_frames is None else self._links[:1]
         for topic in ('/tf', STATIC):
             rospy.Subscriber(topic, TFMessage, self._on_transforms, topic == STATIC, queue_size=QUEUE)
 
@@ -65,6 +70,11 @@ class Location:
                                                          'pose: ignored')
         if before != (self.stamp, self.corrected):
             self._on_change()
+
+    def take_odometry(self, pose: Pose, stamp: rospy.Time) -> None:
+        """Take a pose by odometry that no transform tells."""
+        self._newest[self._links[1]] = pose, False
+        self.stamp = stamp
 
     def forget(self) -> None:
         """Know nothing of what was told of a time that is over; what is static was told once and for all."""

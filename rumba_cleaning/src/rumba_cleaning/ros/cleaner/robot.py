@@ -4,10 +4,12 @@ from typing import Callable, Optional, Sequence, Tuple
 
 from rumba_cleaning.ros.cleaner.actuators import Brushes, Wheels
 from rumba_cleaning.ros.cleaner.announcer import Announcer
+from rumba_cleaning.ros.cleaner.own_senses import OwnSenses
 from rumba_cleaning.ros.cleaner.plan_topic import PlanTopic
 from rumba_cleaning.ros.cleaner.senses import Senses
 from rumba_cleaning.ros.cleaner.team import Team
 from rumba_cleaning.ros.cleaner.teleop import Teleop
+from rumba_sim.model.own_robot import OwnRobot
 from rumba_sim.ros.common.lockstep import Participant
 
 
@@ -29,7 +31,7 @@ class Robot:
                  on_news: Callable[[], None] = lambda: None,
                  lockstep: Callable[[], Optional[Tuple[str, int]]] = lambda: None,
                  is_busy: Callable[[], bool] = lambda: False, has_laser: bool = False,
-                 is_mapless: bool = False) -> None:
+                 is_mapless: bool = False, own: Optional[OwnRobot] = None) -> None:
         """Connect to a robot.
 
         Args:
@@ -38,14 +40,16 @@ class Robot:
             team, on_news: as for `Team`.
             lockstep, has_laser, is_mapless: as for `Senses`.
             is_busy: as for `Participant`.
+            own: what it is like if it is not ours.
         """
         self.announcer = Announcer(name)
         self.plan = PlanTopic(name)
         self.teleop = Teleop(name)
         self.wheels = Wheels(name)
-        self.brushes = Brushes(name)
+        self.brushes = Brushes(name, are_optional=own is not None)
         self.team = Team(name, team, on_news)
-        self.senses = Senses(name, on_reading, lockstep, has_laser, is_mapless)
+        self.senses = (Senses(name, on_reading, lockstep, has_laser, is_mapless) if own is None
+                       else OwnSenses(name, on_reading, own, has_laser))
         self.participant = Participant(self.senses.on_tick, is_busy)
         self._lockstep = lockstep
 

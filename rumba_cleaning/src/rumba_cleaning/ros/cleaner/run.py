@@ -118,7 +118,7 @@ class Run:
         now = time.monotonic()
         patience = GONE_AFTER if self._senses.stamp is not None else NEVER_CAME_AFTER
         if self._senses.is_alone and now - max(self._senses.heard, self._since_wall) > patience:
-            self.close(Outcome.NO_READINGS, 'the robot is gone')
+            self.close(Outcome.NO_READINGS, self._senses.absence)
         elif self._is_silent(now):
             self.close(Outcome.NO_READINGS, self._senses.missing())
         elif self.outcome is not Outcome.UNKNOWN and now - self._since_wall > REST_WITHIN_WALL:

@@ -249,6 +249,11 @@ class Senses:
         return cliff is not None and bool(cliff.is_wheel_dropped)
 
     @property
+    def absence(self) -> str:
+        """What is wrong if `is_alone` stays true, for a person."""
+        return 'the robot is gone'
+
+    @property
     def is_alone(self) -> bool:
         """Whether no node publishes what the robot senses."""
         return not any(subscriber.get_num_connections() for subscriber in self._subscribers.values())

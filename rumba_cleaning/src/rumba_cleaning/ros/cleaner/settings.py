@@ -1,13 +1,17 @@
 """The parameters of the cleaner."""
 
 import dataclasses
+import math
+from typing import Optional
 
 from rosgraph.names import is_legal_base_name
 
 from rumba_cleaning.cleaning_config import CleaningConfig
 from rumba_sim.model.config import part, section, setting
 from rumba_sim.model.errors import ConfigError
+from rumba_sim.model.geometry import Pose
 from rumba_sim.ros.common.names import check_names
+from rumba_sim.ros.common.own_robots import own_robot_setting
 
 
 @dataclasses.dataclass(frozen=True)
@@ -26,6 +30,8 @@ class Settings(CleaningConfig):
     """The node's private parameters: which robot works, where and how."""
 
     robot: str = setting('rumba', 'name of the robot, below which its topics are')
+    own_robot: str = own_robot_setting()
+    home: str = setting('', 'where a robot of your own ends: x y theta [m, rad] on the map; empty: where it began')
     team: str = setting('', 'names of all robots that share the floor and its work, its own among them, with spaces '
                             'between them, in the order in which they give way: each to those before it; empty: it '
                             'works alone')
@@ -51,12 +57,34 @@ class Settings(CleaningConfig):
                               'among them')
         if self.mapless and (self.mapping or self.laser):
             raise ConfigError(f'{"mapping" if self.mapping else "laser"} is true: must be false with mapless')
+        if self.own_robot and (self.mapless or names[1:] or not (self.map or self.mapping)):
+            raise ConfigError('own_robot is given: must come with map, or with mapping, and with neither mapless nor '
+                              'team')
+        if self.home_pose is not None and not self.own_robot:
+            raise ConfigError('home is given: must come with own_robot: a Rumba ends on its dock')
         if self.mapless and len(names) > 1:
             raise ConfigError(f'team is {self.team!r}: must be empty with mapless: a robot that does not know where it '
                               'is cannot tell its mates')
         if self.mapping and len(names) > 1:
             raise ConfigError(f'team is {self.team!r}: must be empty with mapping: each robot would make a map of its '
                               'own, in a frame of its own')
+
+    @property
+    def home_pose(self) -> Optional[Pose]:
+        """Where a robot without a dock ends; None: where it began.
+
+        Raises:
+            ConfigError: it is no pose.
+        """
+        if not self.home:
+            return None
+        try:
+            pose = Pose(*map(float, self.home.split()))
+        except (ValueError, TypeError):
+            pose = Pose(math.nan, math.nan, math.nan)
+        if not all(map(math.isfinite, pose)):
+            raise ConfigError(f'home is {self.home!r}: must be x y theta [m, rad], with spaces between them')
+        return pose
 
     @property
     def cleaning(self) -> CleaningConfig:

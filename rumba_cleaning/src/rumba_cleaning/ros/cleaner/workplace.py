@@ -10,6 +10,7 @@ from rumba_msg.msg import SimulatorState
 from rumba_sim.model import map_file
 from rumba_sim.model.errors import ConfigError
 from rumba_sim.model.floor_plan import FloorPlan
+from rumba_sim.model.own_robot import OwnRobot
 from rumba_sim.model.robot_config import RobotConfig
 from rumba_sim.ros.common.maps import map_path
 from rumba_sim.ros.common.peers import NO_ANSWER
@@ -33,7 +34,8 @@ class Workplace:
     """
 
     def __init__(self, name: str, on_new_world: Callable[[], None] = lambda: None,
-                 survey: Optional[SurveyListener] = None, has_map: bool = True) -> None:
+                 survey: Optional[SurveyListener] = None, has_map: bool = True,
+                 own: Optional[OwnRobot] = None) -> None:
         """Take the map of this name or path, or, if `name` is empty, that of the simulator, and wait for it.
 
         Args:
@@ -41,12 +43,14 @@ class Workplace:
             on_new_world: called after each change of `world`, in a thread of rospy.
             survey: tells the plan instead, of a floor that is being mapped.
             has_map: whether `look` will be called; it finds out now whether there is a plan.
+            own: what the robot is like if it is not ours; no simulator is needed then.
 
         Raises:
             MapError: the map cannot be read, or there is no simulator.
         """
         self.world: Optional[World] = None
         self.survey = survey
+        self._own = own
         self._on_new_world = on_new_world
         self._named = map_path(name) if name else ''
         self._loaded: Optional[Tuple[str, str, FloorPlan]] = None  # after its path, and the simulator's run
@@ -85,6 +89,8 @@ class Workplace:
         robot = self._newest_robot()
         if self._loaded is None or self._loaded[:2] != wanted:
             self._loaded = (*wanted, map_file.load(path, robot.drive.radius))
+            if self._own is not None:  # it cannot dock on what a map for a Rumba shows
+                self._loaded[2].dock, self._loaded[2].further_docks = None, ()
         return self._loaded[2], robot
 
     @property
@@ -95,6 +101,8 @@ class Workplace:
 
     def _newest_robot(self) -> RobotConfig:
         state, known = self._simulator.state, self._robot
+        if self._own is not None:
+            return self._own.config
         if state is None:
             return RobotConfig()
         return known[1] if known is not None and known[0] == state.run else robot_config(state.node)

@@ -79,9 +79,10 @@ class Mountings:
 class HeardMountings(Mountings):
     """Mountings by the messages of tf; listens to /tf only if /tf_static does not tell enough."""
 
-    def __init__(self, base: str, on_change: Callable[[], None]) -> None:
-        """Listen; `on_change` is called in a thread of rospy."""
+    def __init__(self, base: str, on_change: Callable[[], None], fixed: Optional[Mounting] = None) -> None:
+        """Listen; `on_change` is called in a thread of rospy; `fixed` is the mounting if tf need not tell it."""
         super().__init__(base)
+        self._fixed = fixed
         self._on_change = on_change
         self._moving: Optional[rospy.Subscriber] = None
         rospy.Subscriber('/tf_static', TFMessage, self.take, queue_size=QUEUE)
@@ -93,7 +94,7 @@ class HeardMountings(Mountings):
 
     def of(self, scan: LaserScan) -> Optional[Mounting]:
         """How the laser of a scan is mounted; None if tf does not tell, or it is not level."""
-        known = super().of(scan)
+        known = super().of(scan) if self._fixed is None else self._fixed
         if known is None and self._moving is None:
             self._moving = rospy.Subscriber('/tf', TFMessage, self.take, queue_size=QUEUE)
         return known

@@ -1,0 +1,141 @@
+"""safe_drive: stands between who commands a robot that is not ours and its wheels.
+
+It subscribes, below the robot's name, to
+  cmd_vel          geometry_msgs/Twist: of the cleaner
+  teleop/cmd_vel   geometry_msgs/Twist: of a person, which goes before it
+  odom             nav_msgs/Odometry
+  scan             sensor_msgs/LaserScan
+and publishes there
+  safe_cmd_vel     geometry_msgs/Twist: for the robot; remap it to the topic that the robot takes
+It serves, below the robot's name,
+  stop             std_srvs/SetBool: stands still, whoever commands, until it is called with false
+
+The robot stops if the cleaner, its odometry or its scan is silent for the time of the parameter silence, and if its
+odometry moves the other way than it is commanded. It never drives faster than its file allows. A second after a stop,
+the node is silent, until the next command.
+
+Parameters, as in `rosrun rumba_cleaning safe_drive _own_robot:=my_robot.yaml`:
+"""
+
+import dataclasses
+import threading
+import time
+
+import rospy
+from geometry_msgs.msg import Twist, Vector3
+from nav_msgs.msg import Odometry
+from sensor_msgs.msg import LaserScan
+from std_srvs.srv import SetBool, SetBoolResponse
+
+from rumba_cleaning.own_robot.agreement import STANDS, Agreement
+from rumba_cleaning.own_robot.gate import CLEANER, PERSON, STOP, Gate, Moment, Velocity
+from rumba_sim.model.config import setting
+from rumba_sim.model.errors import ConfigError
+from rumba_sim.ros.common import node, teleop
+from rumba_sim.ros.common.conversions import plane_pose
+from rumba_sim.ros.common.names import check_names
+from rumba_sim.ros.common.own_robots import own_robot, own_robot_setting
+
+PERIOD = 0.02  # [s] of the wall clock between two looks
+COMPLAINT_PERIOD = 5.0  # [s]
+
+
+@dataclasses.dataclass(frozen=True)
+class Settings:
+    """The node's private parameters."""
+
+    robot: str = setting('rumba', 'name of the robot, below which its topics are')
+    own_robot: str = own_robot_setting()
+    silence: float = setting(0.4, 'how long the cleaner, the odometry and the scan may be silent until the robot is '
+                                  'stopped', 's', 0.05, 5.0)
+
+    def __post_init__(self) -> None:
+        """Check the robot's name."""
+        check_names(self, 'robot')
+
+
+def main() -> None:
+    """Run the node."""
+    node.run('safe_drive', Settings, lambda settings: SafeDrive(settings).run(), is_single=True)
+
+
+class SafeDrive:
+    """Hands on commands as they come, and looks after silence in a loop."""
+
+    def __init__(self, settings: Settings) -> None:
+        """Open all topics and the service.
+
+        Raises:
+            ConfigError: no file is named, or it is wrong.
+        """
+        own = own_robot(settings.own_robot)
+        if own is None:
+            raise ConfigError('own_robot is not given: must be the path of a YAML file with the limits of the robot')
+        name = self._name = settings.robot
+        odom, scan = (rospy.resolve_name(f'{name}/{topic}') for topic in ('odom', 'scan'))
+        self._gate = Gate(own.config.drive, settings.silence, [odom, scan])
+        self._agreement = Agreement()
+        self._lock = threading.Lock()
+        self._publisher = rospy.Publisher(f'{name}/safe_cmd_vel', Twist, queue_size=1)
+        rospy.Subscriber(f'{name}/cmd_vel', Twist, self._take, CLEANER, queue_size=1)
+        rospy.Subscriber(f'{name}/{teleop.TOPIC}', Twist, self._take, PERSON, queue_size=1)
+        rospy.Subscriber(odom, Odometry, self._compare, odom, queue_size=10)
+        rospy.Subscriber(scan, LaserScan, self._hear, scan, queue_size=1)
+        rospy.Service(f'{name}/stop', SetBool, self._stop)
+        rospy.on_shutdown(self._end)
+
+    def run(self) -> None:
+        """Work until ROS shuts down."""
+        while not rospy.is_shutdown():
+            with self._lock:
+                self._drive()
+            time.sleep(PERIOD)
+
+    def _take(self, message: Twist, who: str) -> None:
+        with self._lock:
+            self._gate.command(who, Velocity(message.linear.x, message.angular.z), _now())
+            self._drive()
+
+    def _hear(self, _: LaserScan, source: str) -> None:
+        with self._lock:
+            self._gate.hear(source, _now())
+
+    def _compare(self, message: Odometry, source: str) -> None:
+        with self._lock:
+            self._gate.hear(source, _now())
+            fault = self._agreement.observe(plane_pose(message.pose.pose), message.header.stamp.to_sec())
+            if fault == STANDS:
+                rospy.logwarn_throttle(COMPLAINT_PERIOD, f'{source}: {fault}: is the robot held, or does it not take '
+                                                         f'{self._publisher.resolved_name}?')
+            elif fault:
+                self._gate.stop(f'{source}: {fault}; call the service {self._name}/stop with false to drive again')
+
+    def _drive(self) -> None:
+        """Command what the gate says."""
+        velocity = self._gate.output(_now())
+        if self._gate.reason:
+            rospy.logerr_throttle(COMPLAINT_PERIOD, f'stopped: {self._gate.reason}')
+        if velocity is not None:
+            self._agreement.command(*velocity)
+            self._publisher.publish(_twist(velocity))
+
+    def _stop(self, request: SetBool) -> SetBoolResponse:
+        with self._lock:
+            if request.data:
+                self._gate.stop('by the service stop')
+            else:
+                self._gate.release()
+            self._drive()
+        return SetBoolResponse(True, 'stopped' if request.data else 'drives again')
+
+    def _end(self) -> None:
+        with self._lock:
+            self._publisher.publish(_twist(STOP))
+
+
+def _now() -> Moment:
+    return Moment(rospy.get_time(), time.monotonic())
+
+
+def _twist(velocity: Velocity) -> Twist:
+    return Twist(Vector3(velocity.v, 0.0, 0.0), Vector3(0.0, 0.0, velocity.w))

@@ -1,0 +1,1 @@
+../../../rumba_sim/test/ros/tiers.py
