@@ -13,11 +13,13 @@ from rumba_cleaning.belief.ground import Ground
 from rumba_cleaning.belief.mates import Mates, Report
 from rumba_cleaning.belief.surroundings import blank
 from rumba_cleaning.belief.swept import Swept
+from rumba_cleaning.belief.track import Track
 from rumba_cleaning.cleaning_config import CleaningConfig, attainable
 from rumba_cleaning.survey import Survey
 from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.model.geometry import Pose, hypot
 from rumba_sim.model.kernel import Array
+from rumba_sim.model.reachability import SLACK
 from rumba_sim.model.robot_config import RobotConfig
 from rumba_sim.model.sweep import Part
 
@@ -119,6 +121,8 @@ class Context:
         self.executor = executor if executor is not None else InPlace()
         self.survey = survey
         self._frames: Array = np.empty((0, 3)) if survey is None else survey.frames()  # of the map that is known
+        self._surveyed = plan  # the plan as the survey told it
+        self._track = Track()  # on a floor that is being mapped
         self.mates = mates if mates is not None else Mates()
         self._berth = self.mates.rank  # number of the dock to which the robot returns; past the last, from the first on
         self.ground = Ground(plan, robot)
@@ -150,33 +154,44 @@ class Context:
         if self.survey is None:
             return False
         plan = self.survey.plan()
-        if plan is self.plan:
+        if plan is self._surveyed:
             return False
         self._take(plan, pose)
         return True
 
     def follow(self, pose: Pose) -> bool:
-        """If the map was redrawn, have what was swept move with it; returns whether it was.
+        """Remember the way of the robot; if the map was redrawn, have what was swept move with it.
 
-        Obstacles and edges are forgotten: the map shows those that the robot has met.
+        Obstacles and edges are forgotten then: the map shows those that the robot has met.
 
         Args:
             pose: of the robot, on the map as it is now.
+
+        Returns:
+            Whether the map was redrawn.
         """
-        if self.survey is None or self.survey.frames() is self._frames:
+        if self.survey is None:
             return False
+        is_redrawn = self.survey.frames() is not self._frames and self._take_redrawn(self.survey, pose)
+        self._track.follow(pose)
+        return is_redrawn
+
+    def _take_redrawn(self, survey: Survey, pose: Pose) -> bool:
+        """Take new key frames; returns whether old ones have moved, since the map was redrawn."""
         from rumba_cleaning.belief import redrawing  # here, where loops have closed: a cleaner starts sooner without it
-        before, after = self._frames, self.survey.frames()
+        before, after = self._frames, survey.frames()
         self._frames = after
         if not redrawing.is_redrawn(before, after):
             return False
+        self._track.move(redrawing.way_back(after, before))
         self.forget_obstacles()
-        self._take(self.survey.plan(), pose, redrawing.way_back(before, after))
+        self._take(survey.plan(), pose, redrawing.way_back(before, after))
         self.footing.forget()
         return True
 
     def _take(self, plan: FloorPlan, pose: Pose, way_back: Optional[Callable[[Array], Array]] = None) -> None:
-        """Go on with a newer plan; see `Swept.learn`."""
+        """Go on with a newer plan, on which the robot can go where it has been; see `Swept.learn`."""
+        self._surveyed, plan = plan, self._track.on(plan, self.ground.reach + SLACK)
         self.ground.learn(plan)
         self.footing.learn(plan)
         if self.sight is not None:

@@ -193,10 +193,10 @@ class FloorPlan:
                                       further_docks=self.further_docks, start=self.start, remarks=self.remarks)
         return self._refined
 
-    def with_safe_clearance(self, safe_clearance: NDArray[np.float64]) -> FloorPlan:
-        """The same floor with another `safe_clearance`, of the same shape."""
+    def with_clearance(self, clearance: NDArray[np.float64], safe_clearance: NDArray[np.float64]) -> FloorPlan:
+        """The same floor with other distances, of the same shape."""
         plan = copy.copy(self)
-        plan.safe_clearance = safe_clearance
+        plan.clearance, plan.safe_clearance = clearance, safe_clearance
         return plan
 
     @property

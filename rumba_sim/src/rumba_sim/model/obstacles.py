@@ -168,4 +168,4 @@ def kept_clear(plan: FloorPlan, constants: Record, obstacles: Obstacles) -> Floo
         return plan
     clearance = plan.safe_clearance.copy()
     fast.keep_clear(fixed, constants, clearance)
-    return plan.with_safe_clearance(clearance)
+    return plan.with_clearance(plan.clearance, clearance)

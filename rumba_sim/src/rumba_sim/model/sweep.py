@@ -144,7 +144,7 @@ class Sweep:
             clearance: as `FloorPlan.safe_clearance` [m].
             x, y: the start [m], map frame.
         """
-        plan = self._plan.with_safe_clearance(clearance)
+        plan = self._plan.with_clearance(self._plan.clearance, clearance)
         if not self.reachable or plan.safe_clearance_at(x, y) < self._config.drive.radius:
             return Part(1.0, self.coverage)
         found = reach(plan, self._config, x, y)
