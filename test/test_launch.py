@@ -17,9 +17,9 @@ LAUNCH_FILES = sorted(path for package in OURS for path in package.glob('launch/
 DEMO = 'roslaunch rumba_launch demo.launch speed:=10 map:=studio'
 BATTERY = re.compile(r'battery +(\d+) %   at \((-?[\d.]+), (-?[\d.]+)\) m')
 README = (ROOT / 'README.md').read_text()
-LIVE = re.search(r'^.* % swept .* left$', README, re.MULTILINE).group(0)
+LIVE = re.search(r'^.* % swept .* left .*$', README, re.MULTILINE).group(0)
 REPORT = re.search(r'^```\n(rumba: .*?)^```$', README, re.MULTILINE | re.DOTALL).group(1)
-LINE = r'^[ \d.]+ % swept   '
+LINE = r'^[ \d.]+ % swept  '
 BARE = 'env -u DISPLAY -u WAYLAND_DISPLAY -u QT_QPA_PLATFORM'
 NUMBER = re.compile(r'[\d.:]+')
 

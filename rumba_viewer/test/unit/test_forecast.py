@@ -109,11 +109,12 @@ def test_a_share_below_a_target_does_not_read_like_it():
 
 
 def test_the_live_line_begins_with_what_matters_most():
-    assert wording.live_line(mission(), cleaning(50.0, 5.0), battery(0.64), 50.0, 1290.0) == (
-        '25.0 % swept   cleaning by boustrophedon   battery 64 %   0:50, about 22 min left')
+    line = wording.live_line(mission(), cleaning(50.0, 5.0), battery(0.64), 50.0, 1290.0)
+    assert line == '25.0 % swept  battery 64 %  0:50, about 22 min left  cleaning by boustrophedon'
+    assert len(line) < 80 and 'battery 64 %  0:50' in line[:39]
     assert wording.live_line(mission('idle'), cleaning(50.0, 1.0), battery(0.64), None, None) == (
-        ' 5.0 % swept   idle   battery 64 %')
-    assert wording.live_line(None, None, battery(math.nan), None, None) == 'no floor   no cleaner   battery -'
+        ' 5.0 % swept  battery 64 %  idle')
+    assert wording.live_line(None, None, battery(math.nan), None, None) == 'no floor  battery -  no cleaner'
 
 
 def test_the_closing_report_names_what_was_done_in_this_mission():

@@ -48,11 +48,11 @@ def doing(mission: Optional[Mission]) -> str:
 def live_line(mission: Optional[Mission], cleaning: Optional[Cleaning], battery: Battery,
               elapsed: Optional[float], left: Optional[float]) -> str:
     """A mission in one line, the most important first, since a narrow terminal shows its beginning."""
-    parts = [f'{percent(cleaning.coverage, 1):>6} swept' if cleaning is not None else 'no floor', doing(mission),
+    parts = [f'{percent(cleaning.coverage, 1):>6} swept' if cleaning is not None else 'no floor',
              f'battery {percent(battery.share)}']
     if elapsed is not None:
         parts.append(taken(elapsed, left))
-    return '   '.join(parts)
+    return '  '.join((*parts, doing(mission)))
 
 
 def closing(robot: str, mission: Mission, cleaning: Cleaning, begin: Optional[Cleaning], battery: Battery,

@@ -35,7 +35,7 @@ PIPE_PERIOD = 2.0  # [s] of the wall clock from one line into a pipe to the next
 NEXT = ['next, in a second terminal of ./rumba shell:',
         '  rosrun rumba_viewer viewer    a window',
         '  rosrun rumba_viewer page      a page for browsers',
-        '  docs/mission_report.md        a report of what was recorded']
+        '  docs/mission_report.md        to record a mission, and make a report of it']
 
 
 @dataclasses.dataclass(frozen=True)
