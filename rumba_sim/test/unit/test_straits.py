@@ -1,4 +1,4 @@
-"""Passages between corners that are aslant: a robot can pass if it has 3 mm to spare on each side, at any resolution."""
+"""Passages between corners that are aslant: a robot passes if it has 3 mm to spare on each side, at any resolution."""
 
 import math
 
@@ -71,6 +71,13 @@ def test_a_robot_drives_through(across, up):
         robot.command(0.15, 0.0, world.tick)
         world.step()
     assert robot.distance == approx(1.2, abs=0.02) and robot.pose.y > BOTTOM + 0.6
+
+
+def test_on_a_map_that_errs_a_strait_is_no_passage():
+    terrain = corners(6, 4).refined()
+    by_plan, by_map = (reach(terrain, quiet(), 2.0, 1.0, is_exact).reachable for is_exact in (True, False))
+    assert by_map < 0.7 * by_plan
+    assert reach(terrain, quiet(), 2.0, 1.0).reachable == by_plan
 
 
 def test_an_obstacle_in_a_strait_keeps_the_parts_apart():

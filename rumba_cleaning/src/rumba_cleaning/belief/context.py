@@ -126,7 +126,7 @@ class Context:
         self.mates = mates if mates is not None else Mates()
         self._berth = self.mates.rank  # number of the dock to which the robot returns; past the last, from the first on
         self.ground = Ground(plan, robot)
-        self.swept = Swept(plan, robot)
+        self.swept = Swept(plan, robot, is_exact=survey is None)
         self.footing = Footing(plan, robot)
         self.sight = _sight(plan) if config.laser else None
 

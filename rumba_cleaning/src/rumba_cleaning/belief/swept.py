@@ -24,10 +24,11 @@ class Swept:
         start: from where it was counted what can be reached, x and y [m], map frame.
     """
 
-    def __init__(self, plan: FloorPlan, config: RobotConfig) -> None:
-        """Remember a floor by its refined plan."""
+    def __init__(self, plan: FloorPlan, config: RobotConfig, is_exact: bool = True) -> None:
+        """Remember a floor by its refined plan, which is exact or, if the robot makes it, not quite."""
         self._config = config
-        self._sweep = Sweep(plan, config)
+        self._is_exact = is_exact
+        self._sweep = Sweep(plan, config, is_exact)
         self._last: Dict[str, Pose] = {}  # by the name of the robot
         self.start = math.nan, math.nan
 
@@ -50,7 +51,7 @@ class Swept:
             x, y: where the robot fits, map frame [m].
             way_back: if the map was redrawn, where on it was before what is at points now: (any, 2) [m].
         """
-        before, self._sweep = self._sweep, Sweep(plan, self._config)
+        before, self._sweep = self._sweep, Sweep(plan, self._config, self._is_exact)
         self._sweep.begin(x, y)
         self._sweep.take_over(before, way_back)
         if way_back is not None:

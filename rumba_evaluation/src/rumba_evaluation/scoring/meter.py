@@ -44,7 +44,7 @@ class Meter:
             self._world.obstacles.near(pose.x, pose.y, self._least_clearance))
 
     def _is_in_wall(self, x: float, y: float) -> bool:
-        """Whether a robot at a point [m] overlaps a wall: by the exact distance, where the interpolated one is small."""
+        """Whether a robot at a point [m] overlaps a wall: by the exact distance, if the interpolated one is small."""
         world = self._world
         return world.terrain.clearance_at(x, y) < self._least_clearance and fast.wall_distance(
             world.constants[0], world.terrain.clearance, world.floor.cells, x, y) < self._least_clearance

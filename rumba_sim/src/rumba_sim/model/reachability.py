@@ -27,38 +27,46 @@ class Reach(NamedTuple):
     reachable: int  # number of reachable samples
 
 
-_last: 'weakref.WeakKeyDictionary[FloorPlan, Tuple[float, float, Reach]]' = weakref.WeakKeyDictionary()
+_last: 'weakref.WeakKeyDictionary[FloorPlan, Tuple[Tuple[float, float, bool], Reach]]' = weakref.WeakKeyDictionary()
 
 
-def reach(plan: FloorPlan, config: RobotConfig, x: float, y: float) -> Reach:
+def reach(plan: FloorPlan, config: RobotConfig, x: float, y: float, is_exact: bool = True) -> Reach:
     """What robots can reach from a start (x, y) [m], map frame.
 
     The answer to the last question about a plan is remembered, since each robot on a floor asks the same.
+
+    Args:
+        plan: the floor plan.
+        config: of the robots.
+        x, y: the start.
+        is_exact: whether the plan can be relied on to SLACK, so that straits are passages; the map of a robot cannot.
 
     Raises:
         MapError: a robot does not fit at the start.
     """
     plan.check_pose(Pose(x, y, 0.0), config.drive.radius, 'start')
     needed, half = clearance_needed(config.drive.radius, plan.resolution), 0.5 * config.brush.width
+    question = needed, half, is_exact
     if plan in _last:
-        known_needed, known_half, known = _last[plan]
-        if (known_needed, known_half) == (needed, half) and known.stands[_nearest(plan, known.stands, x, y)]:
+        asked, known = _last[plan]
+        if asked == question and known.stands[_nearest(plan, known.stands, x, y)]:
             return known
-    where = stands(plan, needed, x, y)
+    where = stands(plan, needed, x, y, is_exact)
     samples = _sweepable(plan)
     number = int(fast.mark_reachable(plan.safe_clearance, plan.resolution, where, needed, half, samples))
     found = Reach(where, samples, number)
-    _last[plan] = needed, half, found
+    _last[plan] = question, found
     return found
 
 
-def stands(plan: FloorPlan, needed: float, x: float, y: float) -> Array:
-    """Where a robot can stand that starts at (x, y) [m] and drives with some slack, also through straits.
+def stands(plan: FloorPlan, needed: float, x: float, y: float, is_exact: bool = True) -> Array:
+    """Where a robot can stand that starts at (x, y) [m] and drives with some slack.
 
     Args:
         plan: the floor plan.
         needed: the clearance that the robot needs [m]; it fits at the start.
         x, y: the start, map frame [m].
+        is_exact: as for `reach`.
 
     Returns:
         bool (2 * rows + 1, 2 * columns + 1), at points half a cell apart: element (i, j) is the point
@@ -69,7 +77,7 @@ def stands(plan: FloorPlan, needed: float, x: float, y: float) -> Array:
     fits[start] = True
     is_wide = fitting(plan, needed + SLACK)
     is_wide[start] = True
-    labels = _parts(plan, needed, is_wide)
+    labels = _parts(plan, needed, is_wide) if is_exact else ndimage.label(is_wide)[0]
     start = _nearest(plan, is_wide, x, y)
     return np.asarray(ndimage.binary_dilation(labels == labels[start], iterations=RIM, mask=fits))
 

@@ -16,6 +16,7 @@ from rumba_sim.model.kernel import Array
 
 ALL_AROUND = np.ones((3, 3), np.bool_)
 SHORT = 8  # steps of the lattice from one part to the other, at most twice: longer straits are not looked for
+LONGEST = 64  # points of the lattice from end to end of what may hold straits: a closer look at more takes seconds
 FINER = 16  # times smaller than a cell is the step of the closer look
 HIDDEN = 1.07  # [cells] by which the interpolated clearance at a point of the lattice can be less than that on a way
 #                nearby: half a diagonal of the lattice, and half one of a cell
@@ -73,6 +74,8 @@ def _neighbours(labels: Array, label: int, window: Window, floor: Floor) -> List
     straits, _ = ndimage.label(near, ALL_AROUND)
     found = []
     for box in ndimage.find_objects(straits):
+        if max(span.stop - span.start for span in box) > LONGEST:
+            continue
         top, left = window[0].start + box[0].start, window[1].start + box[1].start
         strait = slice(top, top + box[0].stop - box[0].start), slice(left, left + box[1].stop - box[1].start)
         groups = _through(labels, _grown(strait, 1, labels.shape), floor)

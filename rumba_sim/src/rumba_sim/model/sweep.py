@@ -44,13 +44,15 @@ class Sweep:
         reachable: number of reachable samples.
     """
 
-    def __init__(self, plan: FloorPlan, config: RobotConfig) -> None:
+    def __init__(self, plan: FloorPlan, config: RobotConfig, is_exact: bool = True) -> None:
         """Know no sample that can be reached: call `begin` next.
 
         Args:
             plan: the floor plan; the refined one of a world.
             config: of the robots.
+            is_exact: as for `reachability.reach`.
         """
+        self._is_exact = is_exact
         self._plan = plan
         self._config = config
         self._constants = constants(config, plan, ANY_RATE)
@@ -66,14 +68,14 @@ class Sweep:
         Raises:
             MapError: a robot does not fit there.
         """
-        found = reach(self._plan, self._config, x, y)
+        found = reach(self._plan, self._config, x, y, self._is_exact)
         self.samples = found.samples.copy()
         self.reachable = found.reachable
         self.tally.fill(0)
 
     def copy(self) -> 'Sweep':
         """The same state of the floor, which stays as it is if this one changes."""
-        other = Sweep(self._plan, self._config)
+        other = Sweep(self._plan, self._config, self._is_exact)
         other.samples, other.tally, other.reachable = self.samples.copy(), self.tally.copy(), self.reachable
         return other
 
@@ -147,7 +149,7 @@ class Sweep:
         plan = self._plan.with_clearance(self._plan.clearance, clearance)
         if not self.reachable or plan.safe_clearance_at(x, y) < self._config.drive.radius:
             return Part(1.0, self.coverage)
-        found = reach(plan, self._config, x, y)
+        found = reach(plan, self._config, x, y, self._is_exact)
         is_reachable = found.samples & REACHABLE > 0
         return Part(found.reachable / self.reachable, float((self.samples[is_reachable] >= PASS).mean()))
 
