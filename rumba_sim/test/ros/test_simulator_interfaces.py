@@ -7,10 +7,11 @@ import subprocess
 import sys
 import unittest
 
+import rosgraph
 import rospy
 import rostest
 from create_msgs.msg import ChargingState, Mode, MotorSetpoint
-from geometry_msgs.msg import Twist
+from geometry_msgs.msg import Pose2D, Twist
 from nav_msgs.msg import Odometry
 from rosgraph_msgs.msg import Log
 from sensor_msgs.msg import LaserScan
@@ -81,6 +82,12 @@ class SimulatorInterfacesTest(unittest.TestCase):
         self.assertEqual(mine.messages[-1].twist.twist.linear.x, 0.0)
         self.assertEqual((other.messages[-1].header.frame_id, other.messages[-1].child_frame_id),
                          ('rumba2/odom', 'rumba2/base_footprint'))
+        simulator.does('kill', 'rumba2')
+        wait(self, lambda: not any(name.startswith('/rumba2/') and '/simulator' in nodes
+                                   for kind in rosgraph.Master('/test').getSystemState() for name, nodes in kind),
+             'the end of its topics')
+        simulator.does('spawn', 'rumba2', Pose2D(1.5, 2.4, 0.0))
+        scan.fresh()
         simulator.end()
 
     def test_a_person_overrides_the_commands_of_an_interface(self):

@@ -5,6 +5,7 @@ import numpy as np
 from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.guided_world import GuidedWorld
+from rumba_sim.model.light_bumper import light_bumper
 from rumba_sim.model.obstacle import Obstacle, walk
 from rumba_sim.model.world import World
 from rumba_sim.model.worlds import Worlds
@@ -23,6 +24,7 @@ def main() -> None:
     world.scan('rumba')
     world.infrared('rumba')
     world.cliffs('rumba')
+    light_bumper(world, 'rumba')
     worlds = Worlds([world])
     worlds.step()
     worlds.scan()

@@ -17,11 +17,12 @@ own name, pause, resume, reset, digest (std_srvs/Trigger), step (rumba_msg/Step)
 (rumba_msg/Kill), add_obstacle (rumba_msg/AddObstacle) and remove_obstacle (rumba_msg/RemoveObstacle). It publishes
 simulator/obstacles (visualization_msgs/MarkerArray) for those who want to see them. With localisation:=slam, /map is
 that of the robot: those who look on get the true one on simulator/map (nav_msgs/OccupancyGrid, latched), in the frame
-world of all that only the simulator knows, and world -> map on /tf_static. In lockstep it publishes
-simulator/lockstep (rumba_msg/Lockstep), and waits for those who answer on simulator/lockstep_answers
-(rumba_msg/LockstepAnswer). rqt_reconfigure shows it as NAME/tuning; the parameters NAME/settings are the settings in
-force. In an examination it publishes and serves nothing that the robot could not know: the judge, mission_test, gets
-that over a private socket.
+world of all that only the simulator knows, and world -> map on /tf_static. In lockstep it publishes simulator/lockstep
+(rumba_msg/Lockstep), and waits for those who answer on simulator/lockstep_answers (rumba_msg/LockstepAnswer).
+rqt_reconfigure shows it as NAME/tuning; the parameters NAME/settings are the settings in force. The parameter
+interface adds the topics and frames of another robot, such as /scan, /odom and /cmd_vel of a TurtleBot3:
+docs/own_node.md. In an examination it publishes and serves nothing that the robot could not know: the judge,
+mission_test, gets that over a private socket.
 
 Parameters, as in `rosrun rumba_sim simulator _map:=studio _speed:=10 _battery/drain:=60`:
 """
