@@ -174,8 +174,8 @@ class FakeRobot:
         """Publish odometry and scan."""
         x, y, theta = self.guess * {'mirrored odometry': (1, -1, -1), 'odometry stands': (0, 0, 0)}.get(
             self.fault, (1, 1, 1))
-        message = Odometry(header=Header(stamp=self.now - rospy.Duration(9 * (self.fault == 'old odometry')),
-                                         frame_id='odom' if self.fault == 'other odom frame' else 'wheels'),
+        stamp = {'old odometry': self.now - rospy.Duration(9), 'no stamps': rospy.Time()}.get(self.fault, self.now)
+        message = Odometry(header=Header(stamp=stamp, frame_id='odom' if self.fault == 'other odom frame' else 'wheels'),
                            child_frame_id='chassis')
         message.pose.pose.position.x, message.pose.pose.position.y = x, y
         message.pose.pose.orientation = turned(theta)

@@ -6,13 +6,14 @@ import unittest
 import programs
 import rospy
 from fakes import FILE, REMAPPED
-from geometry_msgs.msg import Twist, Vector3
+from geometry_msgs.msg import TransformStamped, Twist, Vector3
 from nav_msgs.msg import Odometry
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import LaserScan
 from simulators import ENDS_WITHIN, wait, wait_for_service
 from std_msgs.msg import Header
 from std_srvs.srv import SetBool
+from tf2_msgs.msg import TFMessage
 
 DT = 0.05  # [s] from one message of the robot to the next
 WITHIN = 0.5  # [s] of the robot's time, in which it must be stopped
@@ -28,7 +29,10 @@ class SafeDriveTest(unittest.TestCase):
 
     def setUp(self):
         rospy.set_param('/use_sim_time', True)
-        self.process = programs.start('rumba_cleaning', 'safe_drive', f'_own_robot:={FILE}', *REMAPPED)
+        if rospy.has_param('/safe_drive'):
+            rospy.delete_param('/safe_drive')
+        self.process = programs.start('rumba_cleaning', 'safe_drive', f'_own_robot:={FILE}',
+                                      f'_odometry_from_tf:={"tf" in self._testMethodName}', *REMAPPED)
         self.addCleanup(self._end)
         self.now, self.taken = rospy.Time(100), []
         self.clock = self._publisher('/clock', Clock)
@@ -114,6 +118,22 @@ class SafeDriveTest(unittest.TestCase):
         for _ in range(40):
             self._tick(command=twist(0.0, 1.0), turn=-1.0)
         self.assertEqual({each.angular.z for each in self.taken}, {0.0})
+
+    def test_it_makes_odometry_of_tf(self):
+        came = []
+        subscriber = rospy.Subscriber('/base/odometry', Odometry, came.append)
+        self.addCleanup(subscriber.unregister)
+        tf = self._publisher('/tf', TFMessage)
+        wait(self, lambda: tf.get_num_connections() and subscriber.get_num_connections() > 1, 'safe_drive')
+        for frame in ('other', 'wheels'):
+            moved = TransformStamped(header=Header(stamp=rospy.Time(7), frame_id=frame), child_frame_id='chassis')
+            moved.transform.translation.y, moved.transform.rotation.z, moved.transform.rotation.w = 0.25, 0.6, 0.8
+            tf.publish([moved])
+        wait(self, lambda: came, 'an odometry')
+        told = came[0]
+        self.assertEqual((told.header.stamp, told.header.frame_id, told.child_frame_id),
+                         (rospy.Time(7), 'wheels', 'chassis'))
+        self.assertEqual((told.pose.pose.position.y, told.pose.pose.orientation.z), (0.25, 0.6))
 
     def test_it_says_what_it_needs(self):
         done = programs.run('rumba_cleaning', 'safe_drive', '__name:=another', timeout=ENDS_WITHIN,
