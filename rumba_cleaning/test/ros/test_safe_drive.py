@@ -119,6 +119,12 @@ class SafeDriveTest(unittest.TestCase):
             self._tick(command=twist(0.0, 1.0), turn=-1.0)
         self.assertEqual({each.angular.z for each in self.taken}, {0.0})
 
+    def test_at_its_end_it_commands_a_stop(self):
+        self._drive(0.2)
+        self.taken.clear()
+        self._end()
+        wait(self, lambda: self.taken and self.taken[-1].linear.x == 0.0, 'a stop')
+
     def test_it_makes_odometry_of_tf(self):
         came = []
         subscriber = rospy.Subscriber('/base/odometry', Odometry, came.append)
