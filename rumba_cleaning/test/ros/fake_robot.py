@@ -174,9 +174,9 @@ class FakeRobot:
         """Publish odometry and scan."""
         x, y, theta = self.guess * {'mirrored odometry': (1, -1, -1), 'odometry stands': (0, 0, 0)}.get(
             self.fault, (1, 1, 1))
-        message = Odometry(header=Header(stamp=self.now - rospy.Duration(9 * (self.fault == 'old odometry')),
-                                         frame_id='odom' if self.fault == 'other odom frame' else 'wheels'),
-                           child_frame_id='chassis')
+        stamp = {'old odometry': self.now - rospy.Duration(9), 'no stamps': rospy.Time()}.get(self.fault, self.now)
+        frame = 'odom' if self.fault == 'other odom frame' else 'wheels'
+        message = Odometry(header=Header(stamp=stamp, frame_id=frame), child_frame_id='chassis')
         message.pose.pose.position.x, message.pose.pose.position.y = x, y
         message.pose.pose.orientation = turned(theta)
         message.pose.pose.orientation.w *= self.fault != 'no quaternion'

@@ -36,3 +36,7 @@ class CleanerOwnRobotTest(unittest.TestCase):
         Fake(self, '_room:=chamber', '_fault:=silent odometry')
         self.assertEqual(self._end_of_mission().message,
                          'no odometry: nothing came on /base/odometry, although a node publishes it')
+
+    def test_an_odometry_without_stamps_is_named(self):
+        Fake(self, '_room:=chamber', '_fault:=no stamps')
+        self.assertEqual(self._end_of_mission().message, 'no odometry: the stamps of /base/odometry stay the same')

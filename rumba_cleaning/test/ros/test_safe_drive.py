@@ -6,13 +6,14 @@ import unittest
 import programs
 import rospy
 from fakes import FILE, REMAPPED
-from geometry_msgs.msg import Twist, Vector3
+from geometry_msgs.msg import TransformStamped, Twist, Vector3
 from nav_msgs.msg import Odometry
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import LaserScan
 from simulators import ENDS_WITHIN, wait, wait_for_service
 from std_msgs.msg import Header
 from std_srvs.srv import SetBool
+from tf2_msgs.msg import TFMessage
 
 DT = 0.05  # [s] from one message of the robot to the next
 WITHIN = 0.5  # [s] of the robot's time, in which it must be stopped
@@ -28,7 +29,10 @@ class SafeDriveTest(unittest.TestCase):
 
     def setUp(self):
         rospy.set_param('/use_sim_time', True)
-        self.process = programs.start('rumba_cleaning', 'safe_drive', f'_own_robot:={FILE}', *REMAPPED)
+        if rospy.has_param('/safe_drive'):
+            rospy.delete_param('/safe_drive')
+        self.process = programs.start('rumba_cleaning', 'safe_drive', f'_own_robot:={FILE}',
+                                      f'_odometry_from_tf:={"tf" in self._testMethodName}', *REMAPPED)
         self.addCleanup(self._end)
         self.now, self.taken = rospy.Time(100), []
         self.clock = self._publisher('/clock', Clock)
@@ -74,16 +78,24 @@ class SafeDriveTest(unittest.TestCase):
                 return
         self.fail(f'it never drives at {speed}: {self.taken}')
 
-    def test_it_stops_within_half_a_second_after_each_topic_has_fallen_silent(self):
-        for silent in ('scan', 'odometry', 'cleaner'):
-            with self.subTest(silent):
-                self._drive(0.2)
-                self._tick(silent=['nothing'])
-                begin = self.now
-                while not (self.taken and self.taken[-1].linear.x == 0.0):
-                    self._tick(silent=[silent])
-                    self.assertLessEqual((self.now - begin).to_sec(), WITHIN)
-                self.assertGreater((self.now - begin).to_sec(), 0.3)
+    def _stops_without(self, silent):
+        """Whether it stops in time, and no sooner, when one of those who talk falls silent."""
+        self._drive(0.2)
+        self._tick()
+        begin = self.now
+        while not (self.taken and self.taken[-1].linear.x == 0.0):
+            self._tick(silent=[silent])
+            self.assertLessEqual((self.now - begin).to_sec(), WITHIN)
+        self.assertGreater((self.now - begin).to_sec(), 0.3)
+
+    def test_it_stops_within_half_a_second_after_the_scan_has_fallen_silent(self):
+        self._stops_without('scan')
+
+    def test_it_stops_within_half_a_second_after_the_odometry_has_fallen_silent(self):
+        self._stops_without('odometry')
+
+    def test_it_stops_within_half_a_second_after_the_cleaner_has_fallen_silent(self):
+        self._stops_without('cleaner')
 
     def test_a_person_drives_also_without_scan_and_nobody_faster_than_the_robot_may(self):
         self._drive(0.35, command=twist(3.0))
@@ -106,6 +118,28 @@ class SafeDriveTest(unittest.TestCase):
         for _ in range(40):
             self._tick(command=twist(0.0, 1.0), turn=-1.0)
         self.assertEqual({each.angular.z for each in self.taken}, {0.0})
+
+    def test_at_its_end_it_commands_a_stop(self):
+        self._drive(0.2)
+        self.taken.clear()
+        self._end()
+        wait(self, lambda: self.taken and self.taken[-1].linear.x == 0.0, 'a stop')
+
+    def test_it_makes_odometry_of_tf(self):
+        came = []
+        subscriber = rospy.Subscriber('/base/odometry', Odometry, came.append)
+        self.addCleanup(subscriber.unregister)
+        tf = self._publisher('/tf', TFMessage)
+        wait(self, lambda: tf.get_num_connections() and subscriber.get_num_connections() > 1, 'safe_drive')
+        for frame in ('other', 'wheels'):
+            moved = TransformStamped(header=Header(stamp=rospy.Time(7), frame_id=frame), child_frame_id='chassis')
+            moved.transform.translation.y, moved.transform.rotation.z, moved.transform.rotation.w = 0.25, 0.6, 0.8
+            tf.publish([moved])
+        wait(self, lambda: came, 'an odometry')
+        told = came[0]
+        self.assertEqual((told.header.stamp, told.header.frame_id, told.child_frame_id),
+                         (rospy.Time(7), 'wheels', 'chassis'))
+        self.assertEqual((told.pose.pose.position.y, told.pose.pose.orientation.z), (0.25, 0.6))
 
     def test_it_says_what_it_needs(self):
         done = programs.run('rumba_cleaning', 'safe_drive', '__name:=another', timeout=ENDS_WITHIN,

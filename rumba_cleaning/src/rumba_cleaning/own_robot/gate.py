@@ -5,7 +5,7 @@ from typing import Dict, NamedTuple, Optional, Sequence
 
 from rumba_sim.model.robot_config import DriveConfig
 
-STANDING = 5.0  # [s] of the wall clock without a sign, after which the robot is stopped although its time stands still
+STANDING = 2.0  # [s] of the wall clock without a sign, after which the robot is stopped although its time stands still
 REPEATED = 1.0  # [s] for which a stop is commanded again and again; then others may drive, who do not go by the gate
 CLEANER, PERSON = 'cleaner', 'person'  # who commands
 

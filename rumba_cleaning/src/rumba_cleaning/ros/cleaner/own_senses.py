@@ -52,6 +52,7 @@ class OwnSenses(Senses):
         self.heard = -math.inf
         self.cleaning = None
         self._heard_at = rospy.Time()  # by the robot's time
+        self._is_stuck = False  # the newest odometry has the stamp of one before
         frames = frames_of(robot, own)
         self._location = Location(robot, lambda: None, own_frames=frames)
         self._certainty = Certainty(robot, lambda: None)
@@ -69,10 +70,13 @@ class OwnSenses(Senses):
         if not all(math.isfinite(number) and abs(number) <= FARTHEST for number in pose):
             return
         with self._lock:
+            gap = (stamp - self.stamp).to_nsec() if self.stamp is not None else LEAST_GAP
+            self._is_stuck = gap == 0
+            if self._is_stuck:
+                return
             self.heard, self._heard_at = time.monotonic(), rospy.Time.now()
             self._location.take_odometry(pose, stamp)
-            gap = (stamp - self.stamp).to_nsec() if self.stamp is not None else LEAST_GAP
-            if 0 <= gap < LEAST_GAP:
+            if 0 < gap < LEAST_GAP:
                 return
             if self.stamp is not None and 0 < gap <= PAUSE:
                 self.passed += gap
@@ -111,6 +115,8 @@ class OwnSenses(Senses):
         """What is wrong if `is_alone` is true."""
         if not self._odometry.get_num_connections():
             return f'no odometry: no node publishes {self._odometry.resolved_name}'
+        if self._is_stuck:
+            return f'no odometry: the stamps of {self._odometry.resolved_name} stay the same'
         return f'no odometry: nothing came on {self._odometry.resolved_name}, although a node publishes it'
 
     @property

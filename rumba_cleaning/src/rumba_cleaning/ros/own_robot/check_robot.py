@@ -52,7 +52,7 @@ def main() -> None:
     """Run the node."""
     found: List[bool] = []
     node.run('check_robot', Settings, lambda settings: found.append(_check(settings)))
-    sys.exit(0 if all(found) else 1)
+    sys.exit(int(False in found))
 
 
 def _check(settings: Settings) -> bool:

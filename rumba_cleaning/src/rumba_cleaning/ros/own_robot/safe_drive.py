@@ -7,6 +7,7 @@ It subscribes, below the robot's name, to
   scan             sensor_msgs/LaserScan
 and publishes there
   safe_cmd_vel     geometry_msgs/Twist: for the robot; remap it to the topic that the robot takes
+  odom             nav_msgs/Odometry: with the parameter odometry_from_tf, made of the transform in /tf
 It serves, below the robot's name,
   stop             std_srvs/SetBool: stands still, whoever commands, until it is called with false
 
@@ -22,10 +23,11 @@ import threading
 import time
 
 import rospy
-from geometry_msgs.msg import Twist, Vector3
+from geometry_msgs.msg import Point, Pose, PoseWithCovariance, Twist, TwistWithCovariance, Vector3
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import LaserScan
 from std_srvs.srv import SetBool, SetBoolResponse
+from tf2_msgs.msg import TFMessage
 
 from rumba_cleaning.own_robot.agreement import STANDS, Agreement
 from rumba_cleaning.own_robot.gate import CLEANER, PERSON, STOP, Gate, Moment, Velocity
@@ -48,6 +50,7 @@ class Settings:
     own_robot: str = own_robot_setting()
     silence: float = setting(0.4, 'how long the cleaner, the odometry and the scan may be silent until the robot is '
                                   'stopped', 's', 0.05, 5.0)
+    odometry_from_tf: bool = setting(False, 'whether to publish odom from /tf, for a robot that has no such topic')
 
     def __post_init__(self) -> None:
         """Check the robot's name."""
@@ -82,6 +85,10 @@ class SafeDrive:
         rospy.Subscriber(odom, Odometry, self._compare, odom, queue_size=10)
         rospy.Subscriber(scan, LaserScan, self._hear, scan, queue_size=1)
         rospy.Service(f'{name}/stop', SetBool, self._stop)
+        if settings.odometry_from_tf:
+            self._link = own.frames.odom.lstrip('/'), own.frames.base.lstrip('/')
+            self._odometry = rospy.Publisher(odom, Odometry, queue_size=10)
+            rospy.Subscriber('/tf', TFMessage, self._convert, queue_size=100)
         rospy.on_shutdown(self._end)
 
     def run(self) -> None:
@@ -109,6 +116,14 @@ class SafeDrive:
                                                          f'{self._publisher.resolved_name}?')
             elif fault:
                 self._gate.stop(f'{source}: {fault}; call the service {self._name}/stop with false to drive again')
+
+    def _convert(self, message: TFMessage) -> None:
+        for each in message.transforms:
+            if (each.header.frame_id.lstrip('/'), each.child_frame_id.lstrip('/')) == self._link:
+                moved = each.transform
+                self._odometry.publish(Odometry(each.header, each.child_frame_id, PoseWithCovariance(Pose(
+                    Point(moved.translation.x, moved.translation.y, moved.translation.z), moved.rotation), [0.0] * 36),
+                    TwistWithCovariance()))
 
     def _drive(self) -> None:
         """Command what the gate says."""
