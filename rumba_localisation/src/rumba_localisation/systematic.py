@@ -38,7 +38,7 @@ class Systematic:
         if (self._seen - 1) % EACH or not len(scan.points):
             return False
         by = scan.points - np.array(scan.laser)
-        found = np.empty((len(by), 2))
+        found = np.empty((len(by) // compiled_bends.FEWEST + 1, 2))
         count = compiled_bends.bends(np.hypot(by[:, 0], by[:, 1]), np.unwrap(np.arctan2(by[:, 1], by[:, 0])), found)
         self._walls.extend(found[:count][found[:count, 1] < EXACT ** 2])
         error = self._agreed()
