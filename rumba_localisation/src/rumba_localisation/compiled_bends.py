@@ -12,7 +12,7 @@ import numpy as np
 from rumba_localisation.compiled_matrices import inverse, product
 from rumba_sim.model.jit import compiled
 
-JUMP = 0.15  # [m] from one echo to the next on a wall, at most, beyond what a wall that is nearly grazed has between them
+JUMP = 0.15  # [m] from one echo to the next on a wall, at most, beyond what a wall has that is nearly grazed
 GRAZED = 5.0  # times the way across between beams, which lies on a wall between two echoes, at most
 DEEP = 0.1  # [m] from the line between the ends of a wall, at most: more than noise and bends, less than most niches
 FEWEST = 20  # echoes of a wall

@@ -32,7 +32,7 @@ def to_walls(x, y, angles):
                           np.where(sin > 0.0, (HEIGHT - y) / sin, -y / sin))
 
 
-def learnt(bias=0.0, relative=0.0, noise=0.02, clockwise=False, mounting=Mounting(0.1, -0.05, 2.0, False), seen=to_walls):
+def learnt(bias=0.0, relative=0.0, noise=0.02, clockwise=False, mounting=Mounting(0.1, -0.05, 2.0), seen=to_walls):
     """What is known of a laser after scans from places all over the room."""
     systematic, random = Systematic(), np.random.default_rng(3)
     angles = (-STEP if clockwise else STEP) * np.arange(720)
