@@ -10,6 +10,7 @@ from rumba_localisation.localiser_config import LocaliserConfig
 from rumba_localisation.matcher import DOUBT, FITS, Matcher
 from rumba_localisation.scan import Scan, is_blind, thinned
 from rumba_localisation.search import NEAR, WRONG, Search
+from rumba_localisation.systematic import Systematic
 from rumba_localisation.walls import Walls
 from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.model.geometry import Pose, compose, inverse, wrap_angle
@@ -43,6 +44,7 @@ class Localiser:
         correction: pose of the frame of the odometry in the map frame.
         estimate: where the robot was at the newest scan that was used; None before the first.
         particles: float64 (any, 3), poses of the particles [m, m, rad].
+        systematic: what all ranges of the laser have in common; scans are matched without it.
     """
 
     def __init__(self, plan: FloorPlan, radius: float, range_max: float, config: LocaliserConfig = LocaliserConfig(),
@@ -63,6 +65,7 @@ class Localiser:
         self._search = Search(plan, self._walls, radius, range_max)
         self._matcher = Matcher(self._walls, self._search, config)
         self._generator = np.random.default_rng(seed)
+        self.systematic = Systematic()
         self.correction = Pose(0.0, 0.0, 0.0)
         self.estimate: Optional[Estimate] = None
         self.search_anywhere()
@@ -118,8 +121,10 @@ class Localiser:
         if scan is None or is_blind(scan.points):
             return self._reckon(odometry)
         self._unused += 1
+        told, scan = scan, self.systematic.corrected(scan)
         if not (is_forced or self._errors is not None or self._is_due(odometry, scan.points)):
             return False
+        self.systematic.follow(told)
         self._unused, self._errors = 0, None
         if self._last is not None:
             self._move(odometry, motion.noise(len(self.particles), self._generator))

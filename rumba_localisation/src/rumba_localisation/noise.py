@@ -24,8 +24,12 @@ class Noise:
 
     def __init__(self, sigma: float = 0.0) -> None:
         """Be told the standard deviation [m]; 0 to estimate it for each class of ranges."""
-        self._is_told = sigma > 0.0
-        self._sigmas = np.full(len(RANGES) + 1, sigma or FIRST)  # [m] by class
+        self._told = sigma
+        self.begin()
+
+    def begin(self) -> None:
+        """Know no more than was told."""
+        self._sigmas = np.full(len(RANGES) + 1, self._told or FIRST)  # [m] by class
         self._scans = np.zeros(len(RANGES) + 1, np.int64)  # from which each was learnt
 
     @property
@@ -47,7 +51,7 @@ class Noise:
     @property
     def is_settled(self) -> bool:
         """Whether enough scans were seen."""
-        return self._is_told or int(self._scans.max()) >= SETTLED
+        return self._told > 0.0 or int(self._scans.max()) >= SETTLED
 
     def kernels(self, points: Array, laser: Tuple[float, float] = (0.0, 0.0)) -> Array:
         """Sigmas of the narrowest step of a match for beams: float64 (beams) [m].
@@ -67,7 +71,7 @@ class Noise:
             points, laser: as for `kernels`.
             distance, left, bottom, resolution: of the map, as for `compiled_matching`.
         """
-        if self._is_told:
+        if self._told > 0.0:
             return
         away = np.abs(compiled_matching.distances(pose, points, distance, left, bottom, resolution))
         classes = _classes(points, laser)

@@ -12,6 +12,7 @@ from rumba_cleaning.belief.met import NOTHING_SEEN, Seen
 from rumba_localisation.mapping import compiled_grid
 from rumba_localisation.mapping.grid import placed
 from rumba_localisation.scan import Scan
+from rumba_localisation.systematic import Systematic
 from rumba_sim.model.compiled import fast
 from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.model.geometry import Pose
@@ -29,6 +30,7 @@ GONE = -1.5  # odds below which nothing is there any more: beams that graze an e
 EDGE = 2  # [cells] around what stays, what is seen stays too: it is the edge of the same thing
 STAYS = 60.0  # [s] for which something was seen that stays: people and pets move on before
 BODY = 0.7  # [m] around the robot, in which something can be in the way of what is ahead
+MOVED = 0.1  # [m] after which a scan tells more of the systematic error of the laser
 SPARE = 0.02  # [m] by which something is in the way, at least; paths keep farther away from what was seen before
 
 
@@ -41,6 +43,8 @@ class Sight:
 
     def __init__(self, plan: FloorPlan) -> None:
         """Know a floor plan."""
+        self._systematic = Systematic()
+        self._from: Optional[Pose] = None  # where the robot was when it learnt from a scan
         self.learn(plan)
 
     def learn(self, plan: FloorPlan) -> None:
@@ -65,6 +69,7 @@ class Sight:
         if self._waited < EACH - 0.5 * dt:
             return
         self._waited = 0.0
+        scan = self._corrected(pose, scan)
         away = np.hypot(*scan.points.T)
         near = away <= FARTHEST
         ends = placed(pose, scan.points[near])
@@ -80,6 +85,14 @@ class Sight:
             scan.beyond * (FARTHEST / np.maximum(np.hypot(*scan.beyond.T), FARTHEST))[:, None]])
         self._add(pose, placed(pose, free), False)
         self._add(pose, ends[is_news], True)
+
+    def _corrected(self, pose: Pose, scan: Scan) -> Scan:
+        """A scan without the systematic error of the laser."""
+        last = self._from
+        if last is None or math.hypot(pose.x - last.x, pose.y - last.y) >= MOVED:
+            self._from = pose
+            self._systematic.follow(scan)
+        return self._systematic.corrected(scan)
 
     def _begin(self) -> None:
         self._odds = np.zeros(self._shape, np.float32)

@@ -12,6 +12,7 @@ from rumba_localisation.mapping.grid import Grid, ends_of, placed
 from rumba_localisation.mapping.pose_graph import Link, optimised
 from rumba_localisation.noise import Noise
 from rumba_localisation.scan import Scan
+from rumba_localisation.systematic import lengthened
 from rumba_sim.model.geometry import Pose, compose, inverse, wrap_angle
 from rumba_sim.model.kernel import Array
 
@@ -111,6 +112,12 @@ class KeyFrames:
     def _scan(self, number: int) -> Scan:
         scan = self._scans[number]
         return scan._replace(points=scan.points.astype(np.float64), beyond=scan.beyond.astype(np.float64))
+
+    def lengthen(self, by: float) -> None:
+        """Make all beams longer by a length [m]."""
+        for number in range(len(self._scans)):
+            points, beyond, laser = lengthened(self._scan(number), by)
+            self._scans[number] = Scan(points.astype(np.float32), beyond.astype(np.float32), laser)
 
     def drawn(self, numbers: Array, resolution: float, noise: Noise) -> Grid:
         """A map of some of the scans alone, with cells of a side [m], by the noise of their laser."""

@@ -16,6 +16,7 @@ from rumba_localisation.mapping.relocation import Relocation
 from rumba_localisation.mapping.tracker import INDEPENDENT, LEAST, MATCHED, TWIST, Tracker
 from rumba_localisation.noise import Noise
 from rumba_localisation.scan import Scan, is_blind, thinned
+from rumba_localisation.systematic import Systematic
 from rumba_sim.model.geometry import Pose, compose, inverse, wrap_angle
 from rumba_sim.model.kernel import Array
 
@@ -43,6 +44,7 @@ class Mapper:
         version: rises with each change of it.
         redrawn: how many times the map was redrawn; what was found on it must then move, as `moved` says.
         noise: of the laser, with that of the map.
+        systematic: what all ranges of the laser have in common; the map is drawn without it.
         is_full: whether a scan was left out, since the map would have been too large with it.
     """
 
@@ -57,6 +59,7 @@ class Mapper:
         self._start = start
         self.grid = Grid(config.delta or FINE)
         self.noise = Noise(config.sigma)
+        self.systematic = Systematic()
         self.correction = Pose(0.0, 0.0, 0.0)
         self.estimate: Optional[Estimate] = None
         self.version = self.redrawn = 0
@@ -95,10 +98,11 @@ class Mapper:
             Whether it was used: there is a new estimate and a new correction.
         """
         last = self._last
+        if last is not None and not self._has_moved(last, odometry):
+            return False
+        scan = self._corrected(scan)
         if last is None:
             estimate = Estimate(self._start, CERTAIN, 1.0, True)
-        elif not self._has_moved(last, odometry):
-            return False
         elif self._search is not None:
             return self._find(self._search, odometry, scan)
         else:
@@ -119,6 +123,17 @@ class Mapper:
     def moved(self, pose: Pose) -> Pose:
         """Where on the redrawn map is what was at a pose before [m, rad]."""
         return self._frames.moved(pose)
+
+    def _corrected(self, scan: Scan) -> Scan:
+        """A scan without the systematic error; if more is known of that, the map is drawn again, and noise learnt."""
+        known = self.systematic.error
+        if self._search is None and self.systematic.follow(scan):
+            self._frames.lengthen(known - self.systematic.error)
+            self.noise.begin()
+            fine = self.config.delta or FINE
+            is_small = self.grid.odds.size * (self.grid.resolution / fine) ** 2 <= MOST
+            self._draw(fine if is_small else self.grid.resolution)
+        return self.systematic.corrected(scan)
 
     def _add(self, estimate: Estimate, scan: Scan) -> None:
         """Add a scan to the map, and redraw the map if that closes a loop."""
