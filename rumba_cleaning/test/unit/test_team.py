@@ -205,5 +205,6 @@ def test_a_mate_that_only_passes_a_dock_does_not_occupy_it():
     crew.step()
     assert 'waiting for the dock' not in crew.missions['rumba'].message
     crew.contexts['rumba'].hear('rumba2', passing._replace(task=Task.DOCKED))
+    crew.contexts['rumba'].hear('rumba3', passing._replace(pose=LEFT, task=Task.DOCKED))
     crew.step()
     assert crew.missions['rumba'].message == 'waiting for the dock, where rumba2 is'

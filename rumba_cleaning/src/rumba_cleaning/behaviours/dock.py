@@ -15,7 +15,9 @@ from rumba_cleaning.belief.places import places_apart
 from rumba_cleaning.outcome import Outcome
 from rumba_cleaning.route import Ahead, Route
 from rumba_sim.model.errors import MapError
-from rumba_sim.model.geometry import Pose, hypot
+from rumba_sim.model.geometry import Pose, hypot, wrap_angle
+from rumba_sim.model.kernel.dock import NO_BEAM
+from rumba_sim.model.robot import Infrared
 
 STEP = 0.05  # [m]
 BEFORE = (16, 14, 12, 10, 8, 6)  # steps from the dock to the point on its axis at which homing begins: the most that
@@ -25,6 +27,7 @@ CLOSE = 1.0  # [m] from the dock, within which a robot with mates follows the be
 STANDING = (Task.DOCKED, Task.OFF, Task.SEEKING)  # at a dock; others pass by
 POLITE = 0.6  # [m] from the line on which robots drive up to the dock and leave it: our choice, they pass there
 FARTHEST = 4.0  # [m] to a place to wait for the dock; our choice
+ELSEWHERE = 0.6  # [rad] off the dock, where its beams do not come from ahead: our choice, twice what receivers overlap
 TRIES = 3  # our choice: a robot that stands in the way has left after that, or stays
 
 
@@ -41,9 +44,13 @@ class Dock(Behaviour):
             MapError: the plan has no dock, or the robot fits nowhere before it.
         """
         self._context = context
-        self._home, self._approach = home(context), approach(context)
-        self._last_line = Route(np.array([self._approach[:2], self._home[:2]]), np.array([FAR_SPEED]))
+        self._head_for_home()
         self._away = 0.0  # [m] from the dock
+
+    def _head_for_home(self) -> None:
+        """Find the way to the dock that is the robot's home now."""
+        self._home, self._approach = home(self._context), approach(self._context)
+        self._last_line = Route(np.array([self._approach[:2], self._home[:2]]), np.array([FAR_SPEED]))
 
     def initialise(self) -> None:
         """Begin with what is received."""
@@ -66,9 +73,12 @@ class Dock(Behaviour):
         pose = observation.pose
         self._away = hypot(pose.x - self._home.x, pose.y - self._home.y)
         is_at_home = self._context.nearest_dock(pose) == self._home
-        if observation.is_docked and is_at_home:
+        if observation.is_docked:
+            self._context.moor(pose)  # beams of another dock may have led it there: that charges as well
             return self.succeed('docked')
-        occupants = {} if self.is_homing else self._occupants()
+        occupants = {} if self.is_homing else self._occupants(self._home)
+        if occupants and self._finds_another(pose):
+            occupants = {}
         if occupants:
             return self._wait(observation, occupants)
         if self._is_waiting:
@@ -79,7 +89,7 @@ class Dock(Behaviour):
             self._part = Homing(self._context) if homes else self._way_home()
         elif isinstance(self._part, GoTo) and self._is_covered():
             self._part = self._way_home()
-        command = self._part.step(observation)
+        command = self._part.step(self._without_others(observation) if self.is_homing else observation)
         self.message = self._part.message
         if self.is_homing and not any(observation.contact):
             self._context.ground.leave_out(*pose[:2], self._context.robot.drive.radius)
@@ -97,6 +107,19 @@ class Dock(Behaviour):
                 return self.fail(f'{TRIES} attempts to dock failed: {self.message}', outcome)
         return Command(0.0, 0.0, brushes_up=True)
 
+    def _without_others(self, observation: Observation) -> Observation:
+        """Without beams from ahead while the robot looks elsewhere than to its dock, if others may send them."""
+        dock, pose, infrared = self._home, observation.pose, observation.infrared
+        reach = self._context.robot.dock.buoy_range
+        others = [other for other in self._context.plan.docks
+                  if other != dock and hypot(other.x - pose.x, other.y - pose.y) < reach]
+        radius = self._context.robot.drive.radius
+        ahead = math.atan2(dock.y + radius * math.sin(dock.theta) - pose.y,
+                           dock.x + radius * math.cos(dock.theta) - pose.x)
+        if not others or abs(wrap_angle(ahead - pose.theta)) < ELSEWHERE:
+            return observation
+        return observation._replace(infrared=Infrared(infrared.omni, NO_BEAM, NO_BEAM))
+
     def _way_home(self) -> GoTo:
         """To the point before the dock, by the obstacles that are known now."""
         with contextlib.suppress(MapError):  # a map that grows may show less space there: the point stays
@@ -110,9 +133,23 @@ class Dock(Behaviour):
 
     # --- the queue ------------------------------------------------------------------------------------------------
 
-    def _occupants(self) -> Dict[str, Task]:
-        """What the mates at the dock do, by their names."""
-        home = self._home
+    def _finds_another(self, pose: Pose) -> bool:
+        """Whether another dock is free: the nearest of them is the home of the robot from now on."""
+        free = [dock for dock in self._context.plan.docks if not self._occupants(dock)]
+        for dock in sorted(free, key=lambda dock: hypot(dock.x - pose.x, dock.y - pose.y)):
+            before = self._home
+            self._context.moor(dock)
+            try:
+                self._head_for_home()
+            except MapError:  # no robot fits before it
+                self._context.moor(before)
+                continue
+            self._part = None
+            return True
+        return False
+
+    def _occupants(self, home: Pose) -> Dict[str, Task]:
+        """What the mates at a dock do, by their names."""
         return {name: report.task for name, report in self._context.mates.reports.items()
                 if report.task in STANDING and hypot(report.pose.x - home.x, report.pose.y - home.y) < BERTH
                 or report.task is Task.DOCKING and self._context.nearest_dock(report.pose) == home}

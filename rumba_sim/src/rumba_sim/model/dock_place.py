@@ -20,6 +20,7 @@ BEHIND = (0.2, 0.4, 0.6, 0.8, 1.0, 1.2)  # [m] from the dock on its axis, where 
 SPACE = 0.4  # [m] of clearance that is enough there
 SIDE = (-0.5, -0.25, 0.25, 0.5)  # [m] beside the axis, where the floor is free
 OPEN = 1.5  # [m] of clearance on the axis, beyond which more is no better
+STRAIGHT = 20.0  # times as much as space on its axis counts how even the wall beside it is
 MOST = 4000  # nodes that are looked at
 
 
@@ -44,7 +45,7 @@ class _Places(NamedTuple):
 def place_dock(plan: FloorPlan, radius: float, start: Pose) -> Optional[Pose]:
     """The pose of a robot at a dock that robots from a start can reach; None if there is no room for one.
 
-    Of all places, it is one with the most space before it, and among those the first in the order of the nodes.
+    Of all places, it is one with much space before it and a straight wall.
 
     Args:
         plan: the floor plan.
@@ -58,15 +59,16 @@ def place_dock(plan: FloorPlan, radius: float, start: Pose) -> Optional[Pose]:
         return None
     away = radius + PLATE
     places = _straightened(terrain, _beside_walls(terrain, parts.labels[::2, ::2] == here, away))
-    good = np.ones(len(places.x), np.bool_)
+    uneven = np.zeros(len(places.x))
     for left in ALONG:
-        good &= abs(_clearance(terrain, *places.points(0.0, left)) - away) < EVEN + 0.5 * plan.resolution
+        uneven = np.maximum(uneven, abs(_clearance(terrain, *places.points(0.0, left)) - away))
+    good = uneven < EVEN + 0.5 * plan.resolution
     for behind in BEHIND:
         good &= _clearance(terrain, *places.points(-behind, 0.0)) >= min(away + 0.5 * behind, SPACE)
     for behind, left in itertools.product((0.0, *BEHIND), SIDE):
         good &= _clearance(terrain, *places.points(-behind, left)) > 0.0
     good &= _is_wall(terrain, *places.points(away + 0.5 * terrain.resolution, 0.0))
-    return _best(terrain, places.those(good))
+    return _best(terrain, places.those(good), uneven[good])
 
 
 def _beside_walls(plan: FloorPlan, among: Array, away: float) -> _Places:
@@ -108,10 +110,10 @@ def _is_wall(plan: FloorPlan, x: Array, y: Array) -> Array:
     return np.asarray(inside & (plan.occupancy[np.where(inside, row, 0), np.where(inside, column, 0)] == OCCUPIED))
 
 
-def _best(plan: FloorPlan, places: _Places) -> Optional[Pose]:
+def _best(plan: FloorPlan, places: _Places, uneven: Array) -> Optional[Pose]:
     if not len(places.x):
         return None
     space = sum(np.minimum(_clearance(plan, *places.points(-behind, 0.0)), OPEN) for behind in BEHIND)
-    best = int(np.argmax(np.round(space, 2)))
+    best = int(np.argmax(np.round(space - STRAIGHT * uneven, 2)))
     heading = float(np.arctan2(places.ahead_y[best], places.ahead_x[best]))
     return Pose(round(float(places.x[best]), 3), round(float(places.y[best]), 3), round(wrap_angle(heading), 4))

@@ -1,0 +1,66 @@
+"""Docks in sight of each other, at right angles: robots come home to theirs, or to another one that is free."""
+
+import itertools
+import math
+
+import pytest
+from drivers import context_of, run
+from rooms import RADIUS, quiet, room
+
+from rumba_cleaning.behaviours.dock import Dock
+from rumba_cleaning.belief.mates import Report, Task
+from rumba_sim.model.geometry import Pose
+from rumba_sim.model.world import World
+
+AWAY = RADIUS + 0.03
+TOP, RIGHT = Pose(1.4, 3.0 - AWAY, 0.5 * math.pi), Pose(3.0 - AWAY, 1.8, 0.0)
+STARTS = [Pose(1.0, 1.0, 0.3), Pose(2.2, 2.2, 2.0), Pose(0.6, 2.0, -2.0)]
+
+
+def floor(docks):
+    """A room of 3 x 3 m with docks."""
+    return room(3.0, 3.0, dock=docks[0], further_docks=tuple(docks[1:]))
+
+
+@pytest.mark.parametrize('docks, start', itertools.product([(TOP, RIGHT), (RIGHT, TOP)], STARTS))
+def test_a_robot_docks_although_it_sees_the_beams_of_two_docks(docks, start):
+    world = World(floor(docks), quiet())
+    world.spawn('rumba', start)
+    world.step()
+    behaviour = Dock(context_of(world.plan, world))
+    assert run(behaviour, world) < 200.0
+    assert (behaviour.message, world.robots['rumba'].is_docked) == ('docked', True)
+
+
+def test_a_robot_that_stands_at_another_dock_is_docked_and_at_home_there():
+    world = World(floor((TOP, RIGHT)), quiet())
+    world.spawn('rumba', RIGHT)
+    world.step()
+    context = context_of(world.plan, world)
+    behaviour = Dock(context)
+    run(behaviour, world, seconds=1.0)
+    assert behaviour.message == 'docked' and context.home == RIGHT
+
+
+@pytest.mark.parametrize('task', [Task.DOCKED, Task.OFF])
+def test_a_robot_goes_to_a_free_dock_if_a_mate_stands_at_its_own(task):
+    world = World(floor((TOP, RIGHT)), quiet())
+    world.spawn('rumba', Pose(1.0, 1.0, 0.3))
+    world.spawn('rumba2', TOP)
+    world.step()
+    context = context_of(world.plan, world)
+    context.hear('rumba2', Report(TOP, True, task, None))
+    behaviour = Dock(context)
+    run(behaviour, world)
+    assert (behaviour.message, context.home, world.robots['rumba'].is_docked) == ('docked', RIGHT, True)
+
+
+def test_a_robot_waits_if_mates_stand_at_all_docks():
+    world = World(floor((TOP, RIGHT)), quiet())
+    world.spawn('rumba', Pose(1.0, 1.0, 0.3))
+    context = context_of(world.plan, world)
+    for name, dock in (('rumba2', TOP), ('rumba3', RIGHT)):
+        context.hear(name, Report(dock, True, Task.DOCKED, None))
+    behaviour = Dock(context)
+    run(behaviour, world, seconds=60.0)
+    assert behaviour.message == 'waiting for the dock, where rumba2 is' and not world.robots['rumba'].is_docked
