@@ -2,7 +2,8 @@
 
 It subscribes to the topics that its parameters name, to /tf and /tf_static, and asks the master for their nodes. With
 the parameter drive, it publishes velocities on the topic of cmd_vel: 35 cm ahead and back, a turn of 70 degrees and
-back, after which it does not command the robot to stop, to see whether the driver does so; put the robot where it has half a metre of room. It ends with exit code 0 if the robot can be used, else with 1.
+back. After that it does not command a stop at once, to see whether the driver stops the robot. Put the robot where it
+has half a metre of room. It ends with exit code 0 if the robot can be used, else with 1.
 
 Parameters, as in `rosrun rumba_cleaning check_robot _own_robot:=my_robot.yaml _scan:=/front/laser _drive:=true`:
 """
@@ -91,8 +92,8 @@ def _runs_on(drive: 'Driver', odometry: OdometryListener) -> bool:
     """Whether the robot turned on when it was commanded nothing any more."""
     if drive.fell_silent is None:
         return False
-    poses = [odometry.at(drive.fell_silent + after) for after in (STILL, SILENT - 0.1)]
-    return None not in poses and abs(wrap_angle(poses[1].theta - poses[0].theta)) > TURNED
+    begin, end = (odometry.at(drive.fell_silent + after) for after in (STILL, SILENT - 0.1))
+    return begin is not None and end is not None and abs(wrap_angle(end.theta - begin.theta)) > TURNED
 
 
 def _listen(seconds: float, drive: 'Driver') -> str:
