@@ -29,8 +29,9 @@ FAULTS = {  # by what is planted in the fake robot: what is said of it
     'other odom frame': '/base/odometry is in the frame odom, and the file says wheels',
     'millimetres': r'/front/laser has ranges of \d+ m: must be metres, not millimetres',
     'slow scan': '/front/laser comes at 1.0 Hz: must be 3 Hz or more',
+    'no watchdog': 'the robot drove on for a second after the last /base/velocity: its driver must stop the motors',
     'no quaternion': '/base/odometry has numbers that make no pose'}
-EVERYDAY = 'turned laser', 'wrong frame'
+EVERYDAY = 'turned laser', 'wrong frame', 'no watchdog'
 
 
 class CheckRobotTest(unittest.TestCase):

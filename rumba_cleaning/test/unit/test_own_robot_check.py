@@ -18,7 +18,7 @@ POINTS = np.array([(1.0, 0.0), (1.0, 0.5), (0.0, 2.0)])
 SOUND = Heard(
     10.0, Topic('/scan', (SCAN,), ('/lidar',), (), 10.0), Topic('/odom', (ODOMETRY,), ('/base',), (), 50.0),
     Topic('/cmd_vel', (TWIST,), (), ('/base',)), {'bumper': Topic('/bumper')}, SEEN, DRIVEN,
-    [View(Pose(0.0, 0.0, 0.0), POINTS)] * 2, {}, (), '')
+    [View(Pose(0.0, 0.0, 0.0), POINTS)] * 2, {}, (), '', False)
 
 
 def wrong(**changes):
@@ -57,6 +57,7 @@ def test_a_sound_robot_can_be_used():
     ({'odometry_heard': DRIVEN._replace(contradiction=STANDS)}, f'/odom: {STANDS}'),
     ({'views': [SOUND.views[0], View(SOUND.views[0].pose, POINTS + 0.3)]},
      '/odom: odometry does not move although the scan does'),
+    ({'runs_on': True}, 'the robot drove on for a second after the last /cmd_vel'),
     ({'cmd_vel': Topic('/cmd_vel')}, 'no node takes /cmd_vel'),
     ({'cmd_vel': SOUND.cmd_vel._replace(kinds=('geometry_msgs/TwistStamped',))},
      f'/cmd_vel has type geometry_msgs/TwistStamped: must be {TWIST}'),

@@ -57,7 +57,7 @@ def _remarks(heard: Heard) -> List[str]:
         return remarks
     if not can_tell(heard.views):
         remarks.append('the robot stood still: whether scan and odometry agree was not tested: drive it by hand '
-                       'meanwhile, or give _drive:=true, and it drives 40 cm ahead and back, and turns')
+                       'meanwhile, or give _drive:=true, and it drives 35 cm ahead and back, and turns')
     elif not has_driven(heard.views):
         remarks.append('the robot only turned: whether the laser looks ahead was not tested')
     return remarks
@@ -183,6 +183,9 @@ def _command_faults(heard: Heard) -> List[str]:
         faults.append(f'no node takes {topic.name}' + (f': give cmd_vel:={others[0]}' if others else ''))
     elif topic.kinds and topic.kinds != (TWIST,):
         faults.append(f'{topic.name} has type {" and ".join(topic.kinds)}: must be {TWIST}')
+    if heard.runs_on:
+        faults.append(f'the robot drove on for a second after the last {topic.name}: its driver must stop the motors '
+                      'if commands stay away, since nothing else can if the connection is lost')
     if topic.publishers:
         faults.append(f'{" and ".join(topic.publishers)} publish{"es" if len(topic.publishers) == 1 else ""} '
                       f'{topic.name} too: the robot would obey both: end it, or have it publish rumba/teleop/cmd_vel, '

@@ -63,3 +63,4 @@ class Heard(NamedTuple):
     others: Dict[str, NAMES]  # topics that could be meant, by type
     map_odom: NAMES  # nodes that tell map -> odom
     clock_fault: str  # what is wrong with the clock, or empty
+    runs_on: bool  # whether it drove on a second after the last command

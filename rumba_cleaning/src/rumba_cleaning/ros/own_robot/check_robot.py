@@ -1,8 +1,9 @@
 """check_robot: listens to a robot that is not ours, and prints what it lacks for the cleaner, and what would be right.
 
 It subscribes to the topics that its parameters name, to /tf and /tf_static, and asks the master for their nodes. With
-the parameter drive, it publishes velocities on the topic of cmd_vel: 40 cm ahead and back, a turn of 70 degrees and
-back; put the robot where it has half a metre of room. It ends with exit code 0 if the robot can be used, else with 1.
+the parameter drive, it publishes velocities on the topic of cmd_vel: 35 cm ahead and back, a turn of 70 degrees and
+back. After that it does not command a stop at once, to see whether the driver stops the robot. Put the robot where it
+has half a metre of room. It ends with exit code 0 if the robot can be used, else with 1.
 
 Parameters, as in `rosrun rumba_cleaning check_robot _own_robot:=my_robot.yaml _scan:=/front/laser _drive:=true`:
 """
@@ -10,7 +11,7 @@ Parameters, as in `rosrun rumba_cleaning check_robot _own_robot:=my_robot.yaml _
 import dataclasses
 import sys
 import time
-from typing import Dict, List, Tuple
+from typing import Dict, List, Optional, Tuple
 
 import rosgraph
 import rospy
@@ -22,6 +23,7 @@ from rumba_cleaning.own_robot.heard import Heard, Topic
 from rumba_cleaning.ros.own_robot.listeners import CommandListener, OdometryListener, ScanListener, TopicListener
 from rumba_sim.model.config import setting
 from rumba_sim.model.errors import ConfigError
+from rumba_sim.model.geometry import wrap_angle
 from rumba_sim.model.robot_config import DriveConfig
 from rumba_sim.ros.common import node
 from rumba_sim.ros.common.own_robots import own_robot, own_robot_setting
@@ -29,7 +31,10 @@ from rumba_sim.ros.common.own_robots import own_robot, own_robot_setting
 PERIOD = 0.02  # [s] of the wall clock between two looks
 CLOCK_PATIENCE = 3.0  # [s] of the wall clock for which time may stand still
 DRIVE = (  # for so long [s] with such velocities
-    (2.5, Velocity(0.15, 0.0)), (2.5, Velocity(-0.15, 0.0)), (2.0, Velocity(0.0, 0.6)), (2.0, Velocity(0.0, -0.6)))
+    (2.3, Velocity(0.15, 0.0)), (2.3, Velocity(-0.15, 0.0)), (1.8, Velocity(0.0, 0.7)), (1.8, Velocity(0.0, -0.7)))
+TURNED = 0.03  # [rad] in the rest of that time, from which on it has not
+BEFORE = 0.5  # [s] of that, for the topics to connect
+SILENT, STILL = 1.2, 0.9  # [s] after it without a command, and of that until the driver must have stopped the robot
 
 
 @dataclasses.dataclass(frozen=True)
@@ -77,10 +82,18 @@ def _check(settings: Settings) -> bool:
     found = report(Heard(
         settings.seconds, scan.topic(seen), odometry.topic(seen), command.topic(seen),
         {name: listener.topic(seen) for name, listener in optional.items()}, scan.heard(), odometry.heard(),
-        scan.views(), seen.others(), odometry.map_odom(), clock_fault), own)
+        scan.views(), seen.others(), odometry.map_odom(), clock_fault, _runs_on(drive, odometry)), own)
     print('\n'.join(table(found)), flush=True)
     rospy.signal_shutdown('done')
     return found.is_fit
+
+
+def _runs_on(drive: 'Driver', odometry: OdometryListener) -> bool:
+    """Whether the robot turned on when it was commanded nothing any more."""
+    if drive.fell_silent is None:
+        return False
+    begin, end = (odometry.at(drive.fell_silent + after) for after in (STILL, SILENT - 0.1))
+    return begin is not None and end is not None and abs(wrap_angle(end.theta - begin.theta)) > TURNED
 
 
 def _listen(seconds: float, drive: 'Driver') -> str:
@@ -109,16 +122,20 @@ class Driver:
     def __init__(self, settings: Settings, limits: DriveConfig) -> None:
         self._limits = limits
         self._publisher = rospy.Publisher(settings.cmd_vel, Twist, queue_size=1) if settings.drive else None
+        self.fell_silent: Optional[float] = None  # [s]
 
     def step(self, passed: float) -> None:
         """Command what is due so long after the beginning [s]."""
-        end = 0.5  # [s] first for the topics to connect
+        end = BEFORE
         for duration, velocity in DRIVE:
             if end <= passed < end + duration:
                 self.command(limited(velocity, self._limits))
                 return
             end += duration
-        self.command(STOP)
+        if not end <= passed < end + SILENT:
+            self.command(STOP)
+        elif self._publisher is not None and self.fell_silent is None:
+            self.fell_silent = rospy.get_time()
 
     def command(self, velocity: Velocity) -> None:
         """Command a velocity."""

@@ -21,6 +21,7 @@ Parameters, as in `rosrun rumba_cleaning safe_drive _own_robot:=my_robot.yaml`:
 import dataclasses
 import threading
 import time
+from typing import Any
 
 import rospy
 from geometry_msgs.msg import Point, Pose, PoseWithCovariance, Twist, TwistWithCovariance, Vector3
@@ -121,9 +122,9 @@ class SafeDrive:
         for each in message.transforms:
             if (each.header.frame_id.lstrip('/'), each.child_frame_id.lstrip('/')) == self._link:
                 moved = each.transform
-                self._odometry.publish(Odometry(each.header, each.child_frame_id, PoseWithCovariance(Pose(
-                    Point(moved.translation.x, moved.translation.y, moved.translation.z), moved.rotation), [0.0] * 36),
-                    TwistWithCovariance()))
+                pose = Pose(Point(moved.translation.x, moved.translation.y, moved.translation.z), moved.rotation)
+                _publish(self._odometry, Odometry(each.header, each.child_frame_id,
+                                                  PoseWithCovariance(pose, [0.0] * 36), TwistWithCovariance()))
 
     def _drive(self) -> None:
         """Command what the gate says."""
@@ -132,7 +133,7 @@ class SafeDrive:
             rospy.logerr_throttle(COMPLAINT_PERIOD, f'stopped: {self._gate.reason}')
         if velocity is not None:
             self._agreement.command(*velocity)
-            self._publisher.publish(_twist(velocity))
+            _publish(self._publisher, _twist(velocity))
 
     def _stop(self, request: SetBool) -> SetBoolResponse:
         with self._lock:
@@ -146,6 +147,15 @@ class SafeDrive:
     def _end(self) -> None:
         with self._lock:
             self._publisher.publish(_twist(STOP))
+
+
+def _publish(publisher: rospy.Publisher, message: Any) -> None:
+    """Publish, unless the node ends, which closes its topics while callbacks still run."""
+    try:
+        publisher.publish(message)
+    except rospy.ROSException:
+        if not rospy.is_shutdown():
+            raise
 
 
 def _now() -> Moment:
