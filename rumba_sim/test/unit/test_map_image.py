@@ -196,5 +196,5 @@ def test_any_error_of_a_decoder_becomes_one_line(tmp_path, monkeypatch):
 def test_a_layer_of_another_size_is_refused(tmp_path):
     Image.new('L', (4, 9)).save(str(tmp_path / 'cliff.png'))
     with pytest.raises(MapError, match=f'^{tmp_path}/flat.yaml: cliff: {tmp_path}/cliff.png: has 4 x 9 pixels, '
-                                       f'{tmp_path}/flat.png has 6 x 7'):
+                                       '.*flat.png has 6 x 7'):
         map_file.load(write(tmp_path, cliff='cliff.png'))

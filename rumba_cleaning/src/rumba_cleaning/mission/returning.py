@@ -14,12 +14,10 @@ class ReturningMission(Mission):
     """Goes there once it has cleaned, or given up; how the cleaning ended counts, whether it gets there or not."""
 
     _home: Optional[Pose] = None
-    _has_gone = False  # back
 
-    def initialise(self) -> None:
-        """Begin."""
-        super().initialise()
-        self._has_gone = False
+    def _rest(self) -> None:
+        super()._rest()
+        self._has_gone = False  # back
 
     def _begin_floor(self, pose: Pose) -> None:
         super()._begin_floor(pose)
