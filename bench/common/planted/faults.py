@@ -271,9 +271,9 @@ def raises_for_a_bad_map():
     from rumba_sim.model.errors import MapError
     usual = map_file.load
 
-    def load(path):
+    def load(path, *radius):
         try:
-            return usual(path)
+            return usual(path, *radius)
         except MapError as error:
             raise KeyError(BODY) from error
     map_file.load = load
