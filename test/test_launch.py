@@ -80,7 +80,7 @@ class TestWithoutADisplayAndAnAddress:
         demo.fresh(LINE)
 
     def test_it_shows_live_status_and_publishes_at_the_name_of_the_lesson(self, workspace, demo):
-        demo.find('   battery 50 %')
+        demo.find('  battery 50 %')
         status = workspace.space('devel').run('rostopic echo -n1 /rumba/battery_status')
         assert status.startswith('percentage_battery: 50\n')
 

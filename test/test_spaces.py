@@ -50,7 +50,7 @@ def test_publisher_and_listener_meet(workspace, space):
 def test_the_demo_runs_from_the_install_space_too(workspace):
     here = workspace.space('install')
     with here.running('roslaunch rumba_launch demo.launch percentage:=50 drain:=0') as demo:
-        assert any('   battery 50 %' in line for line in demo.stdout)
+        assert any('  battery 50 %' in line for line in demo.stdout)
         assert here.run('rostopic echo -n1 /rumba/battery_status').startswith('percentage_battery: 50\n')
 
 
