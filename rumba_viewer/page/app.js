@@ -99,7 +99,7 @@ at('clean').onclick = () => {
   if (scene.selected.isCleaning) cancel('clean');
   else send('clean', 'Clean', {resume: scene.selected.canResume});
 };
-at('clean-anew').onclick = () => send('clean', 'Clean', {});
+at('clean-from-start').onclick = () => send('clean', 'Clean', {});
 at('home').onclick = () => send('dock', 'Dock', {});
 at('undock').onclick = () => send('undock', 'Undock', {});
 at('brushes').onclick = () => call(`${scene.selected.name}/set_brushes_up`, {data: !scene.selected.brushesUp});
@@ -222,7 +222,7 @@ function showControls() {
   enable(whyNoCleaning(), 'clean', 'stop');
   enable(whyNoCleaning() || (selected.isDocked ? 'the robot is on its dock' : ''), 'home');
   enable(whyNoCleaning() || (selected.isDocked ? '' : 'the robot is not on its dock'), 'undock');
-  enable(whyNoCleaning() || (canResume ? '' : 'there is nothing to resume: press Clean'), 'clean-anew');
+  enable(whyNoCleaning() || (canResume ? '' : 'there is nothing to resume: press Clean'), 'clean-from-start');
   enable(whyNoGoing(), 'go-to', 'x', 'y');
   enable(whyNoDriving() || (selected.brushesUp === null ? 'the robot tells nothing of its brushes' : ''), 'brushes');
   enable(whyNoDriving(), 'forward', 'left', 'back', 'right');

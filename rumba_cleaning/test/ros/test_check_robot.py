@@ -15,7 +15,7 @@ from tiers import thorough
 
 ARGUMENTS = '_scan:=/front/laser', '_odom:=/base/odometry', '_cmd_vel:=/base/velocity', '_drive:=true'
 MISSING = 'neither /tf_static nor /tf leads from chassis to'
-FAULTS = {  # by what is planted in the fake robot: what is said of it
+FAULTS = {  # name of the fault of the fake robot -> the line about it
     'silent scan': 'nothing came on /front/laser, although /fake_robot publishes it',
     'silent odometry': 'nothing came on /base/odometry, although /fake_robot publishes it',
     'wrong frame': f'/front/laser is in the frame lidar: {MISSING} lidar: ',

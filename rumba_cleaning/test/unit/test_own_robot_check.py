@@ -1,4 +1,4 @@
-"""What is said of a robot by what was heard of it."""
+"""`check_robot` names what is missing or wrong in the messages that it heard."""
 
 import numpy as np
 import pytest

@@ -11,7 +11,7 @@ SETTLED = 0.8  # [s] after a command changed its sign, from which on it is compa
 TURN, WAY = 0.6, 0.2  # [rad], [m] that must be commanded in that time to tell anything
 OPPOSED = 0.3  # share of it that the odometry must tell in the opposite direction
 STILL = 0.05  # share of it that an odometry tells at most that does not move
-LONGEST = 1.0  # [s] between two messages; after more, the comparison begins anew
+LONGEST = 1.0  # [s] between two messages; after more, the comparison starts again
 
 TURNS_BACK = 'odometry turns the other way than commanded'
 GOES_BACK = 'odometry goes the other way than commanded'

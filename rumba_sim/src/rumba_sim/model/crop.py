@@ -1,4 +1,4 @@
-"""Which part of a map is worth keeping: that with floor on which a robot can stand, and some more around it.
+"""Crops maps to the floor on which a robot can stand, and some more around it.
 
 Most cells of a map from SLAM are unknown, and beams that left through a window draw rays of free cells far beyond the
 walls. Time and memory grow with the whole rectangle.

@@ -38,7 +38,7 @@ def laser_scan(world: World, name: str) -> LaserScan:
 
 
 def intensities(ranges: Array, laser: LaserConfig) -> Array:
-    """How strong the echoes are, float64 (beams), by what the laser tells of their ranges: weaker from farther away.
+    """How strong the echoes of measured ranges are, float64 (beams): weaker from farther away.
 
     It is 0 where there is no echo.
     """

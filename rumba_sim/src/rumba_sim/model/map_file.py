@@ -29,7 +29,7 @@ Cell = TypeVar('Cell', bound=np.generic)
 
 
 def load(path: Union[str, os.PathLike[str]], radius: float = DriveConfig().radius) -> FloorPlan:
-    """Read a map, and crop it to what is worth keeping.
+    """Read a map, and crop it to the part that robots can use.
 
     The origin changes with the crop, so that all coordinates stay the same. If the origin has a yaw, the map is
     resampled parallel to the axes.

@@ -8,7 +8,7 @@ from typing import Sequence
 
 from rumba_sim.model import map_file, named_maps, robot_file
 from rumba_sim.model.command_line import BAD_INPUT, ERROR, Parser
-from rumba_sim.model.dock_place import place_dock
+from rumba_sim.model.dock_place import ALONG, BEHIND, place_dock
 from rumba_sim.model.errors import RumbaError
 from rumba_sim.model.world import World
 
@@ -36,7 +36,8 @@ def main(arguments: Sequence[str]) -> int:
         print(f'{NAME}: {error}', file=sys.stderr)
         return BAD_INPUT
     if found is None:
-        print(f'{NAME}: {plan.name}: no straight wall of 0.6 m with 1.2 m of free floor before it', file=sys.stderr)
+        print(f'{NAME}: {plan.name}: no straight wall of {ALONG[-1] - ALONG[0]:g} m with {BEHIND[-1]:g} m of free floor '
+              'before it', file=sys.stderr)
         return ERROR
     print(f'dock: [{found.x}, {found.y}, {found.theta}]')
     return 0

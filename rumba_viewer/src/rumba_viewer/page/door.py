@@ -1,8 +1,9 @@
 """Lets connections in: few at a time, each of its requests in turn, and of those that ask for nothing not too many."""
 
 import asyncio
+import operator
 import socket
-from typing import Any, Awaitable, Callable, Dict, Optional
+from typing import Any, Awaitable, Callable, Optional
 
 from tornado.ioloop import IOLoop
 from tornado.iostream import IOStream, StreamClosedError
@@ -92,15 +93,7 @@ class Door:
 
     def _make_room(self) -> None:
         """Close the oldest of too many connections of the address that has most of them."""
-        for connections, most in ((_streams, MOST), (_asking, MOST_ASKING)):
-            oldest = self._addresses.oldest(connections, most)
+        for name, most in (('streams', MOST), ('asking', MOST_ASKING)):
+            oldest = self._addresses.oldest(operator.attrgetter(name), most)
             if oldest is not None:
                 oldest.close()
-
-
-def _streams(address: Address) -> Dict[Any, None]:
-    return address.streams
-
-
-def _asking(address: Address) -> Dict[Any, None]:
-    return address.asking

@@ -87,7 +87,7 @@ class OwnSenses(Senses):
         """A reading is complete when it comes."""
 
     def forget(self, since: rospy.Time, is_new_run: bool) -> None:
-        """Nothing: no simulator begins anew."""
+        """Do nothing: there is no simulator that could start again."""
 
     def look(self) -> Optional[Observation]:
         """What the robot knows now, with dt 0; None if something is missing."""
