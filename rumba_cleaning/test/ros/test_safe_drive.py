@@ -131,11 +131,11 @@ class SafeDriveTest(unittest.TestCase):
         self.addCleanup(subscriber.unregister)
         tf = self._publisher('/tf', TFMessage)
         wait(self, lambda: tf.get_num_connections() and subscriber.get_num_connections() > 1, 'safe_drive')
-        for frame in ('other', 'wheels'):
-            moved = TransformStamped(header=Header(stamp=rospy.Time(7), frame_id=frame), child_frame_id='chassis')
-            moved.transform.translation.y, moved.transform.rotation.z, moved.transform.rotation.w = 0.25, 0.6, 0.8
-            tf.publish([moved])
-        wait(self, lambda: came, 'an odometry')
+        moved = [TransformStamped(header=Header(stamp=rospy.Time(7), frame_id=frame), child_frame_id='chassis')
+                 for frame in ('other', 'wheels')]
+        for each in moved:
+            each.transform.translation.y, each.transform.rotation.z, each.transform.rotation.w = 0.25, 0.6, 0.8
+        wait(self, lambda: tf.publish(moved) or came, 'an odometry')
         told = came[0]
         self.assertEqual((told.header.stamp, told.header.frame_id, told.child_frame_id),
                          (rospy.Time(7), 'wheels', 'chassis'))

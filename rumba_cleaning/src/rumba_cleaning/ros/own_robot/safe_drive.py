@@ -40,6 +40,7 @@ from rumba_sim.ros.common.names import check_names
 from rumba_sim.ros.common.own_robots import own_robot, own_robot_setting
 
 PERIOD = 0.02  # [s] of the wall clock between two looks
+LAST = 3  # stops that are sent at the end
 COMPLAINT_PERIOD = 5.0  # [s]
 
 
@@ -79,7 +80,7 @@ class SafeDrive:
         odom, scan = (rospy.resolve_name(f'{name}/{topic}') for topic in ('odom', 'scan'))
         self._gate = Gate(own.config.drive, settings.silence, [odom, scan])
         self._agreement = Agreement()
-        self._lock = threading.Lock()
+        self._lock, self._has_ended = threading.Lock(), False
         self._publisher = rospy.Publisher(f'{name}/safe_cmd_vel', Twist, queue_size=1)
         rospy.Subscriber(f'{name}/cmd_vel', Twist, self._take, CLEANER, queue_size=1)
         rospy.Subscriber(f'{name}/{teleop.TOPIC}', Twist, self._take, PERSON, queue_size=1)
@@ -127,7 +128,9 @@ class SafeDrive:
                                                   PoseWithCovariance(pose, [0.0] * 36), TwistWithCovariance()))
 
     def _drive(self) -> None:
-        """Command what the gate says."""
+        """Command what the gate says, until the node ends."""
+        if self._has_ended:
+            return
         velocity = self._gate.output(_now())
         if self._gate.reason:
             rospy.logerr_throttle(COMPLAINT_PERIOD, f'stopped: {self._gate.reason}')
@@ -145,8 +148,12 @@ class SafeDrive:
         return SetBoolResponse(True, 'stopped' if request.data else 'drives again')
 
     def _end(self) -> None:
+        """Command a stop, more than once: the threads that send messages end with the node."""
         with self._lock:
+            self._has_ended = True
+        for _ in range(LAST):
             self._publisher.publish(_twist(STOP))
+            time.sleep(PERIOD)
 
 
 def _publish(publisher: rospy.Publisher, message: Any) -> None:
