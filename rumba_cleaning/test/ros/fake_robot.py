@@ -4,7 +4,7 @@
 It takes `/base/velocity` and publishes `/base/odometry`, `/front/laser` and `/clock`, and judges by itself what its
 brush has swept: `/coverage` (std_msgs/Float32) of the floor that it can reach. It drives as fast as those keep up who
 drive it: with the parameter `~wait_for_correction` it waits for map -> wheels, and once it was commanded, for the next
-command.
+command. Nobody else is waited for, and `~haste` is how many times as fast as the real one it is then.
 The parameter `~fault` plants one of the faults that owners of robots make.
 """
 
@@ -124,6 +124,7 @@ class FakeRobot:
         self.pose, self.guess, self.wheels = np.array(room.start), np.zeros(3), np.zeros(2)
         self.command, self.commanded, self.corrected = Twist(), None, rospy.Time()
         self.waits = rospy.get_param('~wait_for_correction', False)
+        self.haste = rospy.get_param('~haste', 10)
         self.fault = rospy.get_param('~fault', '')
         self.now = rospy.Time(100)
         self.clock = rospy.Publisher('/clock', Clock, queue_size=1)
@@ -199,12 +200,12 @@ class FakeRobot:
         self.covered.publish(self.judge.coverage())
 
     def run(self):
-        """Drive, as fast as the others keep up, but at most ten times as fast as the real one would."""
+        """Drive, as fast as the others keep up, but at most `haste` times as fast as the real one would."""
         while not rospy.is_shutdown():
             begin = time.monotonic()
             self.step()
             while not rospy.is_shutdown() and time.monotonic() - begin < 1.0 and (
-                    self.waits and self.corrected < self.now or time.monotonic() - begin < DT / 10
+                    self.waits and self.corrected < self.now or time.monotonic() - begin < DT / self.haste
                     or self.commanded is not None and self.commanded < self.now):
                 time.sleep(0.001)
 

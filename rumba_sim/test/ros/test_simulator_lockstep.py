@@ -20,6 +20,7 @@ from rumba_sim.ros.common.maps import map_path
 CONTROL_TICKS = 5
 COUNT = 40  # control ticks of a test
 PATIENCE = 1  # [s] of the wall clock
+LONG_PATIENCE = 4  # [s] of the wall clock, for signs of life from a busy machine
 SLOW = 0.3  # [s] of the wall clock
 NOWHERE = 'http://localhost:1/'
 
@@ -44,9 +45,17 @@ def digest_of(commands, ticks):
 class SimulatorLockstepTest(unittest.TestCase):
     """Each test has a simulator of its own, as fast as possible."""
 
-    def start(self, *arguments):
+    def start(self, *arguments, patience=PATIENCE):
         """A simulator with little patience."""
-        return Simulator(self, '_map:=field', '_speed:=0', f'_lockstep_patience:={PATIENCE}', *arguments)
+        return Simulator(self, '_map:=field', '_speed:=0', f'_lockstep_patience:={patience}', *arguments)
+
+    def participant(self, on_tick, *arguments):
+        """This node's part in the lockstep, which ends with the test: no later simulator may wait for it."""
+        is_over = threading.Event()
+        participant = Participant(lambda tick: None if is_over.is_set() else on_tick(tick), *arguments)
+        self.addCleanup(participant.leave)
+        self.addCleanup(is_over.set)
+        return participant
 
     def test_a_node_that_knows_nothing_of_lockstep_repeats_if_its_commands_are_waited_for(self):
         simulator = self.start('_wait_for:=rumba/cmd_vel')
@@ -71,9 +80,8 @@ class SimulatorLockstepTest(unittest.TestCase):
             ticks.append(tick.header.stamp)
             answers.acquire()
             participant.answer(tick.header.stamp)
-        participant = Participant(take, lambda: True)
+        participant = self.participant(take, lambda: True)
         self.addCleanup(lambda: [answers.release() for _ in range(1000)])
-        self.addCleanup(participant.leave)
         simulator = self.start(f'_wait_for:={rospy.get_name()}')
         for number in range(5):
             wait(self, lambda number=number: len(ticks) > number, 'a control tick')
@@ -84,21 +92,18 @@ class SimulatorLockstepTest(unittest.TestCase):
             answers.release()
 
     def test_a_participant_that_takes_long_for_a_tick_is_waited_for_without_a_word(self):
-        log, ticks, may_go_on, is_over = Heard(self, '/rosout'), [], threading.Event(), threading.Event()
+        log, ticks, may_go_on = Heard(self, '/rosout'), [], threading.Event()
 
         def take(tick):
             ticks.append(tick)
             if len(ticks) == 2:
                 may_go_on.wait()
-            if not is_over.is_set():
-                participant.answer(tick.header.stamp)
-        participant = Participant(take)
-        self.addCleanup(is_over.set)
-        self.addCleanup(participant.leave)
+            participant.answer(tick.header.stamp)
+        participant = self.participant(take)
         self.addCleanup(may_go_on.set)
-        simulator = self.start(f'_wait_for:={rospy.get_name()}')
+        simulator = self.start(f'_wait_for:={rospy.get_name()}', patience=LONG_PATIENCE)
         wait(self, lambda: len(ticks) == 2, 'the second control tick')
-        rospy.rostime.wallsleep(3.0 * PATIENCE)
+        rospy.rostime.wallsleep(1.5 * LONG_PATIENCE)
         self.assertEqual(simulator.digest()[1], 1 + CONTROL_TICKS)
         may_go_on.set()
         wait(self, lambda: len(ticks) > COUNT, 'the world to go on')

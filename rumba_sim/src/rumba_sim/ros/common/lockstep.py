@@ -14,7 +14,7 @@ from rumba_msg.msg import Lockstep, LockstepAnswer
 TOPIC = 'simulator/lockstep'  # in the namespace of the simulator, as `simulator/state`
 ANSWERS = 'simulator/lockstep_answers'
 QUEUE = 10  # answers that may be on their way
-SIGN_PERIOD = 1.0  # [s] of the wall clock between two signs of life of a node that is busy
+SIGN_PERIOD = 0.25  # [s] of the wall clock between two signs of life of a node that is busy
 LONGEST = 600.0  # [s] of the wall clock for which the world waits for one piece of work; what takes longer has hung
 
 
