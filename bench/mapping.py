@@ -103,8 +103,11 @@ def around_the_office(seed):
             math.hypot(reckoned.x - robot.pose.x, reckoned.y - robot.pose.y), *compared(source.plan(), plan))
 
 
-def compared(plan, truth):
-    """Shares of wall cells that agree, after the best rigid alignment: `near`, `close` and `found` of `Mission`."""
+def compared(plan, truth, near=0.05):
+    """Shares of wall cells that agree, after the best rigid alignment: `near`, `close` and `found` of `Mission`.
+
+    `near` is how far a cell of the map may be from a wall to count as such [m].
+    """
     walls = Walls(truth)
     cells, pose = centres(plan), np.empty(3)
     compiled_matching.match(np.zeros(3), np.diag([0.5, 0.5, 0.1]) ** 2, cells, np.zeros(len(cells)), walls.distance,
@@ -112,7 +115,7 @@ def compared(plan, truth):
     cos, sin = math.cos(pose[2]), math.sin(pose[2])
     aligned = cells @ np.array([[cos, sin], [-sin, cos]]) + pose[:2]
     away = distances(aligned, edges(truth))
-    return np.mean(away <= 0.05), np.mean(away <= 0.10), np.mean(distances(edges(truth), aligned) <= 0.05)
+    return np.mean(away <= near), np.mean(away <= 0.10), np.mean(distances(edges(truth), aligned) <= 0.05)
 
 
 def centres(plan):

@@ -7,7 +7,6 @@ import numpy as np
 from rumba_cleaning.behaviour import CERTAIN, UNKNOWN, Covariance
 from rumba_cleaning.survey import Survey
 from rumba_localisation.localiser import Localiser, Seed
-from rumba_localisation.mapping.believed_plan import believed_plan
 from rumba_localisation.mapping.findings import Findings
 from rumba_localisation.mapping.mapper import Mapper
 from rumba_localisation.scan import Reading, Scan, scan_of
@@ -124,7 +123,7 @@ class Mapped(Survey):
         """The map so far, with the dock."""
         version = self.mapper.version + self.findings.version
         if self._known is None or self._known[0] != version:
-            self._known = version, believed_plan(self.mapper.grid, 'the map so far', self._dock, self.findings)
+            self._known = version, self.mapper.plan('the map so far', self._dock, self.findings)
         return self._known[1]
 
     def frames(self) -> Array:

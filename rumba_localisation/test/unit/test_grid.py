@@ -115,6 +115,22 @@ def test_the_plan_of_a_grid_shows_floor_walls_and_what_is_unknown():
     assert plan.bounds.right == pytest.approx(1.06, abs=0.03)
 
 
+@pytest.mark.parametrize('distance', [0.96, 0.98, 1.0, 1.02, 1.04])
+def test_coarse_cells_show_a_wall_where_it_is_and_no_thicker_than_fine_ones(distance):
+    grid, random = Grid(0.05), np.random.default_rng(1)
+    for _ in range(20):
+        points = np.stack([distance + 0.02 * random.standard_normal(400), np.linspace(-1.0, 1.0, 400)], axis=1)
+        grid.add(Pose(0.0, 0.0, 0.0), Scan(points, NONE), Noise(0.02))
+    grid.measure()
+    plan = believed_plan(grid, 'a wall', finest=0.025)
+    assert plan.resolution == 0.025
+    rows, columns = np.nonzero(plan.occupancy == OCCUPIED)
+    x, y = (plan.origin[axis] + (cells + 0.5) * plan.resolution for axis, cells in ((0, columns), (1, rows)))
+    middle = abs(y) < 0.4
+    assert len(set(rows[middle])) == 32  # it has no gap
+    assert max(abs(x[middle] - distance)) < 0.03
+
+
 def test_what_lies_between_two_beams_is_free():
     grid = Grid()
     grid.add(Pose(0.0, 0.0, 0.0), Scan(NONE, beams(90, 2.0)), NOISE)  # 0.13 m apart at 1.9 m

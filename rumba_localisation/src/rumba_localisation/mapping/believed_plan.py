@@ -13,6 +13,7 @@ from rumba_sim.model.floor_plan import FREE, OCCUPIED, UNKNOWN, FloorPlan
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.kernel import Array
 
+MOST = 4_000_000  # cells of a plan, if those of its grid are divided
 GAPS = 0.08  # [m] half the width of what lies unseen between two beams, and is free if all around it is
 BEFORE = 0.002  # [m] before a wall, and more, a cell does not belong to it
 SLACK = 0.03  # [m] of its body, at the rim of which the robot may have touched a wall
@@ -23,7 +24,7 @@ RIM = 2  # [cells] around all that is known
 
 
 def believed_plan(grid: Grid, name: str, dock: Optional[Pose] = None,
-                  findings: Optional[Findings] = None) -> FloorPlan:
+                  findings: Optional[Findings] = None, finest: float = math.inf) -> FloorPlan:
     """The plan of a grid, without the cells around it of which nothing is known.
 
     Args:
@@ -31,6 +32,7 @@ def believed_plan(grid: Grid, name: str, dock: Optional[Pose] = None,
         name: of the plan.
         dock: where the dock is, map frame; None if that is not known.
         findings: what the laser did not see; None if there is nothing.
+        finest: side of a cell of the plan, at most [m]: larger ones are divided, unless that makes too many.
 
     Raises:
         MapError: no cell is free.
@@ -40,9 +42,11 @@ def believed_plan(grid: Grid, name: str, dock: Optional[Pose] = None,
     top, left = max(int(rows[0]) - RIM, 0), max(int(columns[0]) - RIM, 0)
     bottom, right = (min(int(used[-1]) + 1 + RIM, size) for used, size in zip((rows, columns), grid.odds.shape))
     odds = np.where(grid.hidden(), np.float32(0.0), grid.odds)[top:bottom, left:right]
-    cells = occupancy(odds, grid.field[top:bottom + 1, left:right + 1],
-                      math.ceil(GAPS / side))
     origin = grid.origin[0] + left * side, grid.origin[1] + top * side
+    parts = math.ceil(side / finest) if finest < side else 1
+    parts = parts if odds.size * parts ** 2 <= MOST else 1
+    side /= parts
+    cells = occupancy(odds, grid.field[top:bottom + 1, left:right + 1], parts, side)
     cliff = None
     if findings is not None:
         _clear_body(cells, findings, origin, side)
@@ -62,28 +66,40 @@ def _clear_body(cells: Array, findings: Findings, origin: Point, side: float) ->
     cells[rows[is_body], columns[is_body]] = FREE
 
 
-def occupancy(odds: Array, field: Array, gaps: int) -> Array:
-    """OCCUPIED, FREE or UNKNOWN: int8 (rows, columns).
+def occupancy(odds: Array, field: Array, parts: int, side: float) -> Array:
+    """OCCUPIED, FREE or UNKNOWN: int8 (parts * rows, parts * columns).
 
-    A beam that errs ends in the cell before a wall. If the centre of that is clearly before the wall, and another cell
-    shows the wall, it is free: or robots would stay away from walls by half a cell.
+    A beam that errs ends in the cell before a wall. If the centre of a part of that is clearly before the wall, and
+    another part shows the wall, it is free: or robots would stay away from walls by half a cell. Of parts behind each
+    other the first one shows the wall.
 
     Args:
         odds: logarithms (rows, columns); 0 tells nothing.
         field: of the grid (rows + 1, columns + 1).
-        gaps: half the width of gaps that are closed [cells].
+        parts: into which each side of a cell is divided.
+        side: of a part [m].
     """
+    odds = np.kron(odds, np.ones((parts, parts), np.float32))
     free, occupied = odds < 0.0, odds > 0.0
-    centre = 0.25 * (field[:-1, :-1] + field[1:, :-1] + field[:-1, 1:] + field[1:, 1:])
-    before = occupied & (centre > BEFORE)
-    before &= ndimage.binary_dilation(occupied & ~before, np.ones((3, 3), np.bool_))
-    free, occupied = free | before, occupied & ~before
+    off = centres(field, parts)
+    before = occupied & (off > BEFORE)
+    before &= ndimage.binary_dilation(occupied & ~before, np.ones((3, 3), np.bool_), iterations=parts)
+    free, occupied = free | before, occupied & ~before & ((parts == 1) | (off > -side))
+    gaps = math.ceil(GAPS / side)
     closed = ndimage.binary_closing(np.pad(free, gaps), np.ones((3, 3), np.bool_), iterations=gaps)[
         gaps:-gaps, gaps:-gaps]
     cells = np.full(odds.shape, UNKNOWN, np.int8)
-    cells[free | closed & ~ndimage.binary_dilation(occupied, iterations=2)] = FREE
+    cells[free | closed & ~ndimage.binary_dilation(occupied, iterations=2 * parts)] = FREE
     cells[occupied] = OCCUPIED
     return cells
+
+
+def centres(field: Array, parts: int) -> Array:
+    """The field (rows + 1, columns + 1) at the centres of the parts of its cells: (parts * rows, parts * columns)."""
+    up = (np.arange(parts, dtype=np.float32) + 0.5) / parts
+    rows = (field[:-1, np.newaxis] * (1 - up)[:, np.newaxis] + field[1:, np.newaxis] * up[:, np.newaxis]).reshape(
+        -1, field.shape[1])
+    return (rows[:, :-1, np.newaxis] * (1 - up) + rows[:, 1:, np.newaxis] * up).reshape(len(rows), -1)
 
 
 def around(points: List[Point], radius: float, shape: Tuple[int, ...], origin: Tuple[float, float],

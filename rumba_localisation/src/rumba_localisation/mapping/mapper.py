@@ -7,7 +7,9 @@ from typing import Dict, Optional, Sequence, Tuple
 import numpy as np
 
 from rumba_localisation.localiser import START, Estimate
+from rumba_localisation.mapping.believed_plan import believed_plan
 from rumba_localisation.mapping.clear_match import Sought, clear_match
+from rumba_localisation.mapping.findings import Findings
 from rumba_localisation.mapping.grid import Grid
 from rumba_localisation.mapping.key_frames import KeyFrames
 from rumba_localisation.mapping.loop_closure import LoopClosure
@@ -17,10 +19,12 @@ from rumba_localisation.mapping.tracker import INDEPENDENT, LEAST, MATCHED, TWIS
 from rumba_localisation.noise import Noise
 from rumba_localisation.scan import Scan, is_blind, thinned
 from rumba_localisation.systematic import Systematic
+from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.model.geometry import Pose, compose, inverse, wrap_angle
 from rumba_sim.model.kernel import Array
 
 FINE, COARSE, LARGEST = 0.02, 0.05, 0.2  # [m] side of a cell at first, by noise at most, and of a large map at most
+SHOWN = 0.025  # [m] side of a cell of the plan, at most: robots drive along walls
 COARSER = 2.5  # narrowest sigmas of a match in the side of a cell, from which on cells get larger
 MOST = 6_000_000  # cells, at most, with 28 bytes each
 SPACING, VISITS = 0.25, 4  # [m] side of a square of the floor, and scans from there that the map shows
@@ -114,6 +118,13 @@ class Mapper:
             self._add(estimate, scan)
             self.correction = compose(self.estimate.pose, inverse(odometry))
         return True
+
+    def plan(self, name: str, dock: Optional[Pose] = None, findings: Optional[Findings] = None) -> FloorPlan:
+        """The plan that the map shows, as from `believed_plan`.
+
+        A laser that errs is matched with coarse cells. Unless their side was told, those of the plan are parts of them.
+        """
+        return believed_plan(self.grid, name, dock, findings, self.config.delta or SHOWN)
 
     @property
     def frames(self) -> Sequence[Pose]:

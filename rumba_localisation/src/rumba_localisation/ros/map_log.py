@@ -22,7 +22,6 @@ from tqdm import tqdm
 from rumba_localisation.logs import carmen, trajectory
 from rumba_localisation.logs.entry import Entry, LogError
 from rumba_localisation.mapping import saving
-from rumba_localisation.mapping.believed_plan import believed_plan
 from rumba_localisation.mapping.mapper import Mapper
 from rumba_localisation.mapping.mapper_config import MapperConfig
 from rumba_localisation.scan import Reading
@@ -91,7 +90,7 @@ def _run(arguments: argparse.Namespace) -> None:
     spent = time.process_time() - begun
     if arguments.reference:
         true = trajectory.load(arguments.reference)
-    plan = believed_plan(mapper.grid, os.path.basename(name))
+    plan = mapper.plan(os.path.basename(name))
     saving.save(f'{name}.yaml', plan)
     trajectory.save(f'{name}.tum', found)
     _draw(f'{name}_path.png', plan, [pose for _, pose in found], [pose for _, pose in true])

@@ -35,7 +35,6 @@ from std_msgs.msg import Header
 from std_srvs.srv import Trigger, TriggerResponse
 
 from rumba_localisation.mapping import saving
-from rumba_localisation.mapping.believed_plan import believed_plan
 from rumba_localisation.mapping.findings import Findings
 from rumba_localisation.mapping.mapper import Mapper
 from rumba_localisation.mapping.mapper_config import MapperConfig
@@ -186,7 +185,7 @@ class MapperNode(ScanLoop):
         return self._mapper.version + self._findings.version
 
     def _plan(self) -> FloorPlan:
-        return believed_plan(self._mapper.grid, 'the map so far', self._dock, self._findings)
+        return self._mapper.plan('the map so far', self._dock, self._findings)
 
     def _save(self) -> TriggerResponse:
         path = absolute(self._settings.map_file)
