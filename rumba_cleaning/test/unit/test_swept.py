@@ -168,3 +168,16 @@ def test_what_can_be_reached_with_less_clearance_is_as_on_a_map_that_shows_why()
     clearance = two_rooms().refined().safe_clearance
     assert swept.within(clearance) == (1.0, approx(swept.coverage))
     assert swept.within(0.0 * clearance) == (1.0, swept.coverage)  # not even the start is left
+
+
+@pytest.mark.parametrize('resolution', [0.02, 0.025, 0.03, 0.05])
+def test_a_memory_that_goes_on_with_a_plan_of_other_cells_keeps_what_was_swept_where_it_was(resolution):
+    swept = followed(memory(room(4.0, 3.0, 0.02)), *((x, 1.0) for x in np.arange(1.0, 3.01, 0.1)))
+    before = area(swept)
+    plan = room(4.0, 3.0, resolution)
+    swept.learn(plan.refined(), 1.0, 1.0)
+    assert area(swept) == approx(before, rel=0.04)
+    y, x = ((cells + 0.5) * plan.refined().resolution + plan.origin[axis]
+            for axis, cells in zip((1, 0), np.nonzero(swept.missing_share() < memory(plan).missing_share())))
+    assert 0.96 < x.min() < 1.04 and 2.96 < x.max() < 3.04
+    assert abs(y - 1.0).max() < 0.5 * WIDTH + 0.03

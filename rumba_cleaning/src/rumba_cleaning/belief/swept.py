@@ -47,7 +47,7 @@ class Swept:
         """Go on with a newer plan of the same floor, and find out what can be reached from (x, y) [m] on that.
 
         Args:
-            plan: its cells are those of the plan before, or lie beside them, unless the map was redrawn.
+            plan: of any cells.
             x, y: where the robot fits, map frame [m].
             way_back: if the map was redrawn, where on it was before what is at points now: (any, 2) [m].
         """

@@ -1,5 +1,6 @@
 """Which part of a floor a brush has passed over: the one rule by which coverage is counted everywhere."""
 
+import math
 from typing import Callable, NamedTuple, Optional, Tuple
 
 import numpy as np
@@ -84,13 +85,13 @@ class Sweep:
 
         Args:
             other: the floor by that plan.
-            way_back: where on that plan is what is at points of this one: float64 (any, 2) [m]; None if its cells are
-                those of this one, or lie beside them.
+            way_back: where on that plan is what is at points of this one: float64 (any, 2) [m]; None if that is there
+                too.
         """
-        if way_back is None:
+        if way_back is None and math.isclose(self._plan.sample_pitch, other._plan.sample_pitch):
             self._take_window(other)
         else:
-            self._take_moved(other, way_back)
+            self._take_moved(other, way_back or (lambda points: points))
         self.tally[0]['swept'] = np.count_nonzero(
             (self.samples & REACHABLE > 0) & (self.samples >= PASS))
 
@@ -106,7 +107,7 @@ class Sweep:
         """To half a square, since the points of samples lie anywhere in theirs."""
         pitch, ours = self._plan.sample_pitch, np.argwhere(self.samples & SWEEPABLE)
         there = way_back((ours[:, ::-1] + 0.5) * pitch + self._plan.origin)
-        theirs = np.floor((there - other._plan.origin) / pitch).astype(np.intp)[:, ::-1]
+        theirs = np.floor((there - other._plan.origin) / other._plan.sample_pitch).astype(np.intp)[:, ::-1]
         is_inside = ((theirs >= 0) & (theirs < other.samples.shape)).all(axis=1)
         passes = other.samples[tuple(theirs[is_inside].T)] & ~np.uint8(PASS - 1)
         self.samples[tuple(ours[is_inside].T)] += passes
