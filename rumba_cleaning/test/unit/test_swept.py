@@ -175,9 +175,17 @@ def test_a_memory_that_goes_on_with_a_plan_of_other_cells_keeps_what_was_swept_w
     swept = followed(memory(room(4.0, 3.0, 0.02)), *((x, 1.0) for x in np.arange(1.0, 3.01, 0.1)))
     before = area(swept)
     plan = room(4.0, 3.0, resolution)
-    swept.learn(plan.refined(), 1.0, 1.0)
+    swept.learn(plan.refined(), [(1.0, 1.0)])
     assert area(swept) == approx(before, rel=0.04)
     y, x = ((cells + 0.5) * plan.refined().resolution + plan.origin[axis]
             for axis, cells in zip((1, 0), np.nonzero(swept.missing_share() < memory(plan).missing_share())))
     assert 0.96 < x.min() < 1.04 and 2.96 < x.max() < 3.04
     assert abs(y - 1.0).max() < 0.5 * WIDTH + 0.03
+
+
+def test_what_can_be_reached_counts_from_the_place_from_which_that_is_most():
+    plan = room(5.0, 2.4, boxes=[(4.0, 0.0, 4.1, 2.4)]).refined()  # 4 m x 2.4 m, and a closed room of 0.9 m
+    swept = memory(plan)
+    wanted = swept.reachable_area
+    swept.learn(plan, [(4.5, 1.0), (1.0, 1.0)])
+    assert swept.start == (1.0, 1.0) and swept.reachable_area == wanted

@@ -196,7 +196,7 @@ class Context:
         self.footing.learn(plan)
         if self.sight is not None:
             self.sight.learn(plan)
-        self.swept.learn(plan, *self.ground.in_largest_part([pose[:2], self.swept.start]), way_back)
+        self.swept.learn(plan, self.ground.places([pose[:2], self.swept.start]), way_back)
 
     def begin_anew(self, pose: Pose) -> None:
         """Without a map, know nothing of the floor around a pose: nothing was met there, or seen."""

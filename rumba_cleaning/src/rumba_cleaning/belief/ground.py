@@ -257,18 +257,11 @@ class Ground:
         away = ndimage.distance_transform_edt(parts != parts[self.standing_at(x, y)])[:-1, :-1] * self.plan.resolution
         return np.asarray(away <= distance + self.plan.resolution)
 
-    def in_largest_part(self, points: Sequence[Tuple[float, float]]) -> Tuple[float, float]:
-        """Of the nodes nearest to points at which the robot can stand, that in the largest part of the floor [m].
-
-        It can stand there without squeezing past anything.
-        """
+    def places(self, points: Sequence[Tuple[float, float]]) -> List[Tuple[float, float]]:
+        """The nodes nearest to points at which the robot can stand without squeezing past anything [m]."""
         usual = self.copy()
         usual.squeeze(False)
-        parts = usual.parts()
-        sizes = np.bincount(parts.ravel())
-        node = max((usual.standing_at(x, y) for x, y in points), key=lambda node: int(sizes[parts[node]]))
-        (x, y), = self.points(np.array([node])).tolist()
-        return x, y
+        return [(x, y) for x, y in self.points(np.array([usual.standing_at(x, y) for x, y in points])).tolist()]
 
     def parts(self) -> Array:
         """To which part of the floor each node belongs: int (rows + 1, columns + 1), 0 where a robot cannot stand."""

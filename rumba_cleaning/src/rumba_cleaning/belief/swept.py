@@ -2,7 +2,7 @@
 
 import copy
 import math
-from typing import Callable, Dict, Optional
+from typing import Callable, Dict, Optional, Sequence, Tuple
 
 import numpy as np
 
@@ -42,21 +42,27 @@ class Swept:
         self._last = {}
         self.start = x, y
 
-    def learn(self, plan: FloorPlan, x: float, y: float,
+    def learn(self, plan: FloorPlan, points: Sequence[Tuple[float, float]],
               way_back: Optional[Callable[[Array], Array]] = None) -> None:
-        """Go on with a newer plan of the same floor, and find out what can be reached from (x, y) [m] on that.
+        """Go on with a newer plan of the same floor: what counts is what can be reached on that.
 
         Args:
             plan: of any cells.
-            x, y: where the robot fits, map frame [m].
+            points: where the robot fits, map frame [m]: that counts from which most can be reached, since the others may
+                lie in nooks that the plan shows too narrow.
             way_back: if the map was redrawn, where on it was before what is at points now: (any, 2) [m].
         """
         before, self._sweep = self._sweep, Sweep(plan, self._config, self._is_exact)
-        self._sweep.begin(x, y)
+        self.start = max(points, key=self._count_from)
+        self._sweep.begin(*self.start)
         self._sweep.take_over(before, way_back)
         if way_back is not None:
             self._last = {}
-        self.start = x, y
+
+    def _count_from(self, point: Tuple[float, float]) -> int:
+        """How many samples can be reached from a point."""
+        self._sweep.begin(*point)
+        return self._sweep.reachable
 
     def copy(self) -> 'Swept':
         """A memory of the same floor, which stays as it is if this one changes, and has no last pose."""
