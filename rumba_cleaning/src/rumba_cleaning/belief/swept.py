@@ -48,7 +48,7 @@ class Swept:
 
         Args:
             plan: of any cells.
-            points: where the robot fits, map frame [m]: that counts from which most can be reached, since the others may
+            points: where the robot fits, map frame [m]: that counts from which most can be reached, since others may
                 lie in nooks that the plan shows too narrow.
             way_back: if the map was redrawn, where on it was before what is at points now: (any, 2) [m].
         """
