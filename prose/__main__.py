@@ -52,7 +52,7 @@ def to_do(listed: str) -> Dict[str, int]:
 
 
 def judged(name: str, found: List[rules.Fault], allowed: int) -> Iterator[str]:
-    """What to print of the faults of a file that may still have some, but no more, and no fewer unless the list says so."""
+    """What to print of the faults of a file that may still have some: the number that is listed."""
     if len(found) > allowed:
         yield from (f'{name}:{fault.line}: {fault.text}' for fault in found)
     elif len(found) < allowed:

@@ -39,8 +39,9 @@ def sentences(path: pathlib.Path) -> List[Sentence]:
 
 
 def plain(text: str) -> str:
-    """A text without markup: a piece of code is one word, and a link is what it shows."""
+    """A text without markup: a piece of code, or a list of them, is one word, and a link is what it shows."""
     text = re.sub(r'``.+?``|`[^`]+`(?:_+)?', CODE, text)
+    text = re.sub(rf'\b{CODE}(?:, {CODE}\b)+', CODE, text)
     text = re.sub(r'!\[[^\]]*\]\([^)]*\)', '', text)
     text = re.sub(r'\[([^\]]*)\]\([^)]*\)', r'\1', text)
     return re.sub(r'\*\*|(?<!\w)\*(?=\w)|(?<=\w)\*(?!\w)|<[^>]+>', '', ' '.join(text.split()))

@@ -31,6 +31,7 @@ def test_sentences_of_a_page_are_without_code_links_and_markup(tmp_path):
 
 def test_cells_of_a_table_are_sentences_of_their_own(tmp_path):
     assert read(tmp_path, 'page.md', '| one cell | `code` and words |\n') == [(1, 'one cell'), (1, 'x and words')]
+    assert read(tmp_path, 'page.md', 'Names: `a`, `b`, `c`; then more.\n') == [(1, 'Names: x; then more.')]
 
 
 def test_numbers_and_abbreviations_do_not_end_a_sentence(tmp_path):
