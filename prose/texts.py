@@ -43,6 +43,7 @@ def plain(text: str) -> str:
     text = re.sub(r'``.+?``|`[^`]+`(?:_+)?', CODE, text)
     text = re.sub(rf'\b{CODE}(?:, {CODE}\b)+', CODE, text)
     text = re.sub(r'!\[[^\]]*\]\([^)]*\)', '', text)
+    text = re.sub(r'\[[^\] ]*[/.]\w[^\] ]*\]\([^)]*\)', CODE, text)  # the name of a file
     text = re.sub(r'\[([^\]]*)\]\([^)]*\)', r'\1', text)
     return re.sub(r'\*\*|(?<!\w)\*(?=\w)|(?<=\w)\*(?!\w)|<[^>]+>', '', ' '.join(text.split()))
 
