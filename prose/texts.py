@@ -12,7 +12,7 @@ Block = Tuple[int, str]  # the number of its first line, and its text
 
 CODE = 'x'  # stands for a piece of code in a sentence: one word
 LEAST_WORDS = 4  # a shorter string of a program is a name or a format rather than a sentence
-ITEM = re.compile(r'\s*(?:[-*+]|\d+\.)\s+')
+ITEM = re.compile(r'^\s*(?:[-*+]|\d+\.)\s+')
 END = re.compile(r'(?<=[.!?])(?<!e\.g\.)(?<!i\.e\.)["\')\]]*\s+(?=["\'(\[]*[A-Z0-9]|x\b)')
 
 
@@ -43,7 +43,7 @@ def plain(text: str) -> str:
     text = re.sub(r'``.+?``|`[^`]+`(?:_+)?', CODE, text)
     text = re.sub(rf'\b{CODE}(?:, {CODE}\b)+', CODE, text)
     text = re.sub(r'!\[[^\]]*\]\([^)]*\)', '', text)
-    text = re.sub(r'\[[^\] ]*[/.]\w[^\] ]*\]\([^)]*\)', CODE, text)  # the name of a file
+    text = re.sub(r'\[[^\]]*\w[/.]\w[^\]]*\]\([^)]*\)', CODE, text)  # the name of a file
     text = re.sub(r'\[([^\]]*)\]\([^)]*\)', r'\1', text)
     return re.sub(r'\*\*|(?<!\w)\*(?=\w)|(?<=\w)\*(?!\w)|<[^>]+>', '', ' '.join(text.split()))
 

@@ -23,10 +23,11 @@ def faults(text):
 
 
 def test_sentences_of_a_page_are_without_code_links_and_markup(tmp_path):
-    page = ('# A title\n\nSee [the page](other.md) first. Then **run**\n`./rumba run` now.\n\n'
+    page = ('# A title\n\n**See** [the page](other.md) first. **Goal.** Then **run**\n`./rumba run` now.\n\n'
             '```sh\nno prose\n```\n- an item\n- two')
     assert read(tmp_path, 'page.md', page) == [
-        (1, 'A title'), (3, 'See the page first.'), (3, 'Then run x now.'), (9, 'an item'), (10, 'two')]
+        (1, 'A title'), (3, 'See the page first.'), (3, 'Goal.'),
+        (3, 'Then run x now.'), (9, 'an item'), (10, 'two')]
 
 
 def test_cells_of_a_table_are_sentences_of_their_own(tmp_path):
