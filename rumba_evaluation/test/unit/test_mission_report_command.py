@@ -93,4 +93,4 @@ def test_topics_with_several_publishers_are_named(tmp_path):
                 'message_definition': message._full_text, 'callerid': node})
             bag._topic_connections.clear()  # else it writes a connection for each topic, not for each publisher
     assert mission_bag.read(path).remarks == [
-        '/rumba/cleaning_status was published by /simulator and /student: the figures mix what they told.']
+        '/rumba/cleaning_status was published by /simulator and /student: the figures mix their messages.']
