@@ -273,7 +273,9 @@ function frame(now) {
     showRobot(scene.selected);
     showControls();
     showRights();
-    at('dock-key').hidden = !scene.robots.some(robot => robot.dock);
+    at('dock-key').hidden = !scene.docks.length;
+    at('carpet-key').hidden = !scene.layers.carpet;
+    at('cliff-key').hidden = !scene.layers.cliff;
     describe(now);
   }
   requestAnimationFrame(frame);

@@ -30,10 +30,11 @@ console.log(JSON.stringify(told));
 """
 # Time [s], swept [m^2], charge and state at some moments: a mission that charges, ends, and begins again.
 MOMENTS = [(0.0, 0.0, 1.0, 'idle'), (1.0, 0.0, 1.0, 'undocking'), (10.0, 1.0, 0.98, 'cleaning'),
-           (60.0, 6.0, 0.7, 'cleaning'), (120.0, 10.0, 0.3, 'cleaning'), (130.0, 10.0, 0.25, 'returning'), (140.0, 10.0, 0.24, 'docking'),
-           (150.0, 10.0, 0.25, 'charging'), (180.0, 10.0, 0.6, 'charging'), (200.0, 10.0, 0.9, 'charging'),
-           (300.0, 17.0, 0.5, 'cleaning'), (350.0, 19.5, 0.4, 'cleaning'), (355.0, 19.7, 0.4, 'idle'),
-           (360.0, 0.0, 1.0, 'cleaning'), (400.0, 3.0, math.nan, 'cleaning'), (410.0, 3.0, 0.8, 'stranded')]
+           (60.0, 6.0, 0.7, 'cleaning'), (120.0, 10.0, 0.3, 'cleaning'), (130.0, 10.0, 0.25, 'returning'),
+           (140.0, 10.0, 0.24, 'docking'), (150.0, 10.0, 0.25, 'charging'), (180.0, 10.0, 0.6, 'charging'),
+           (200.0, 10.0, 0.9, 'charging'), (300.0, 17.0, 0.5, 'cleaning'), (350.0, 19.5, 0.4, 'cleaning'),
+           (355.0, 19.7, 0.4, 'idle'), (360.0, 0.0, 1.0, 'cleaning'), (400.0, 3.0, math.nan, 'cleaning'),
+           (410.0, 3.0, 0.8, 'stranded')]
 
 
 def on_the_page(strategy):

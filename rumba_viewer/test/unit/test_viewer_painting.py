@@ -54,8 +54,9 @@ def test_the_states_of_the_floor_can_be_told_apart(theme):
 def test_the_page_has_the_same_floor_and_its_path_can_be_seen_there(theme):
     light, dark = re.findall(r':root \{(.*?)\}', STYLE.read_text(), re.DOTALL)[:2]
     of_page = dict(re.findall(r'--([\w-]+): (#\w{6});', light + (dark if theme.is_dark else '')))
-    for name in ('background', 'unknown', 'wall', 'to_sweep', 'swept', 'out_of_reach'):
+    for name in ('background', 'unknown', 'wall', 'to_sweep', 'swept', 'out_of_reach', 'cliff'):
         assert of_page[name.replace('_', '-')] == getattr(theme, name), name
+    assert of_page['carpet'] == f'#{theme.carpet[3:]}'  # without its alpha
     for floor in ('to-sweep', 'swept'):
         assert contrast(of_page['plan'], of_page[floor]) >= 3.0, floor
 
