@@ -71,6 +71,20 @@ def test_a_key_names_the_states_of_the_floor_where_there_is_room(theme, width, i
 
 
 @THEMES
+@pytest.mark.parametrize('width, is_shown', [(900, True), (600, False)])
+def test_the_key_names_cliff_and_dock_if_the_map_has_them_and_there_is_room(theme, width, is_shown):
+    view = ViewTransform(width, HEIGHT, 1.0, 8.0, SCALE)
+    cells = np.ones(plan().cells.shape, bool)
+    features = MapFeatures((Dock(Pose(0.0, 0.0, 0.0), np.zeros((0, 2)), np.zeros((0, 2))),), cells, cells, True)
+    for known in (features, MapFeatures()):
+        image = picture(snapshot(features=known), view, theme)
+        assert count(image, theme.to_sweep, top=HEIGHT - 40, tolerance=3) >= 60
+        for name in ('cliff', 'dock'):
+            shown = count(image, getattr(theme, name), top=HEIGHT - 40, tolerance=3) >= 60
+            assert shown is (is_shown and known is features), name
+
+
+@THEMES
 def test_where_a_robot_is_sent_is_painted_with_the_way_to_it(theme):
     sent = robot(pose=Pose(0.0, 4.0, 0.0), going_to=Point(1.5, 4.0))
     image = picture(snapshot(sent), WHOLE, theme)
