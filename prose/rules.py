@@ -21,6 +21,9 @@ TURNS: List[Tuple[str, str]] = [
     (r'\bof that of\b|\bthat of (?:those|that)\b', 'repeat the noun'),
     (r'\bmates?\b', 'teammates, or the other robots'),
     (r'\b(?:robots?|localiser|mapper|it|they) believes?\b', 'estimates, the estimated pose'),
+    (r'^What [^?:]*\.$', 'begin with the thing that acts'),
+    (r'\bof yours\b|\bwhoever\b', 'your own; anybody who'),
+    (r'\bup to the machine\b', 'depends on the machine'),
     (r'\bas it comes\b|\bis well\b|\blies? read-only\b', 'say what happens'),
 ]
 _TURNS = [(re.compile(turn, re.IGNORECASE), instead) for turn, instead in TURNS]

@@ -59,7 +59,7 @@ def test_the_meaning_of_arguments_and_what_a_script_says(tmp_path):
 @pytest.mark.parametrize('text', [
     'What a plan beside obstacles visits is what the brush can reach.', 'It knows its pose, as no real robot knows it.',
     'The node has them told by x.', 'The end of the plan of a mate.', 'This is by what robots know where they are.',
-    'A robot believes to be elsewhere.', 'What the nodes bear.'])
+    'A robot believes to be elsewhere.', 'What the nodes bear.', 'What is swept stays.', 'A node of yours.'])
 def test_turns_of_the_past_are_found(text):
     assert faults(text)
 
