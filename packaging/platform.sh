@@ -46,7 +46,7 @@ enter_platform() {
         "$interpreter" -m venv "$venv"
         # Some of these packages are too old for today's Cython, and for pip's own way to build them.
         echo 'cython<3' >"$ws/constraint.txt"
-        PIP_CONSTRAINT=$ws/constraint.txt with_progress "fetching the libraries of $platform" \
+        PIP_CONSTRAINT=$ws/constraint.txt with_progress "fetching the libraries of $platform" '' \
             "$python" -m pip install --progress-bar off -r "$requirements" ||
             fail 1 "they cannot be fetched: $(tail -n 1 "$log")"
         link_ros "$("$python" -c 'import sysconfig; print(sysconfig.get_path("purelib"))')"

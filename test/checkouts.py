@@ -53,8 +53,8 @@ def make_checkout(folder):
     """A checkout that holds one small package of one passing and one failing test."""
     (folder / 'sample').mkdir(parents=True)
     (folder / 'packaging').mkdir()
-    for name in ('rumba', 'packaging/platform.sh', 'packaging/which_ros.sh', 'packages.txt', 'conftest.py',
-                 'pyproject.toml'):
+    for name in ('rumba', 'packaging/platform.sh', 'packaging/progress.sh', 'packaging/which_ros.sh', 'packages.txt',
+                 'conftest.py', 'pyproject.toml'):
         shutil.copy(ROOT / name, folder / name)
     for name, text in SAMPLE.items():
         (folder / 'sample' / name).write_text(text)

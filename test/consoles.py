@@ -1,5 +1,7 @@
 """The consoles of a lesson: what its README says that a reader types, and what the terminals then show.
 
+A fence with `file=PATH` after its language is for the reader's editor: test/edits.py says what it means.
+
 Each ```console fence is a terminal of its own; they are played in order, and all stay open until the last is done.
   $ COMMAND   is typed into a shell; what follows is all that the command prints
   > ANSWER    a prompt of the command, and what is typed there
@@ -18,11 +20,12 @@ import re
 import shlex
 import signal
 import threading
-from typing import Callable, List, NamedTuple
+from typing import Callable, List, NamedTuple, Union
 
+from edits import edited
 from workspaces import BUILD_TIMEOUT, ROOT, TIMEOUT, Space
 
-FENCE = re.compile(r'^```console\n(.*?)^```$', re.MULTILINE | re.DOTALL)
+FENCE = re.compile(r'^```(?:console|\w+ file=(\S+))\n(.*?)^```$', re.MULTILINE | re.DOTALL)
 MARK = '\x1d'  # no program prints it: on both sides of the last exit code, it is the shell's prompt
 PROMPT = re.compile(f'{MARK}(\\d+){MARK}')
 OF_TERMINALS = re.compile('\x1b\\][^\x07]*\x07|\x1b\\[[0-9;?]*[A-Za-z]')  # titles and colours
@@ -38,9 +41,21 @@ class Command(NamedTuple):
     lines: List[str]
 
 
+class Edit(NamedTuple):
+    """A part of a file as a reader writes it, and the path of the file, which may begin with ~."""
+
+    path: str
+    box: str
+
+
 def sessions(readme: pathlib.Path) -> List[List[Command]]:
     """The commands of each console fence of a README."""
-    return [_commands(fence) for fence in FENCE.findall(readme.read_text())]
+    return [step for step in steps(readme) if not isinstance(step, Edit)]
+
+
+def steps(readme: pathlib.Path) -> List[Union[List[Command], Edit]]:
+    """The console fences and the edits of a README, in order."""
+    return [Edit(path, text) if path else _commands(text) for path, text in FENCE.findall(readme.read_text())]
 
 
 def _commands(fence: str) -> List[Command]:
@@ -57,9 +72,12 @@ def play(readme: pathlib.Path, space: Space) -> None:
     """Do what a README says, as its reader does; raises AssertionError if a terminal shows something else."""
     with contextlib.ExitStack() as stack:
         terminals = []
-        for commands in sessions(readme):
+        for step in steps(readme):
+            if isinstance(step, Edit):
+                _edit(step, space)
+                continue
             terminals.append(stack.enter_context(contextlib.closing(Terminal(space))))
-            for command in commands:
+            for command in step:
                 terminals[-1].run(command)
         # The first ends last: as a rule the master runs there.
         for some in (terminals[1:], terminals[:1]):
@@ -67,6 +85,12 @@ def play(readme: pathlib.Path, space: Space) -> None:
                 terminal.interrupt()
             for terminal in some:
                 terminal.wait_for_end()
+
+
+def _edit(edit: Edit, space: Space) -> None:
+    """Write a file of the reader as a box shows it."""
+    path = pathlib.Path(space.run(f'echo {edit.path}').strip())
+    path.write_text(edited(path.read_text() if path.exists() else '', edit.box))
 
 
 class Terminal:

@@ -31,11 +31,22 @@ def test_every_argument_says_what_it_is_for(path):
 
 
 @pytest.mark.parametrize('path', LAUNCH_FILES, ids=lambda path: path.name)
-def test_the_page_of_interfaces_names_its_arguments(path):
-    row = re.search(rf'^\| `{path.name}` \|.*$', (ROOT / 'docs' / 'interfaces.md').read_text(), re.MULTILINE).group(0)
+def test_the_page_of_parameters_names_its_arguments(path):
+    row = re.search(rf'^\| `{path.name}` \|.*$', (ROOT / 'docs' / 'parameters.md').read_text(), re.MULTILINE).group(0)
     arguments = xml.etree.ElementTree.parse(str(path)).getroot().findall('arg')
     assert re.findall(r'`([\w.]+)`', row.split(';')[0])[1:] == [
         argument.attrib['name'] for argument in arguments if 'value' not in argument.attrib]
+
+
+def test_the_page_of_the_demo_has_each_argument_with_its_default():
+    page = (ROOT / 'docs' / 'demo.md').read_text()
+    rows = re.findall(r'^\| `(\w+)` \| (?:`([^`]*)`)?[^|]*\|.*\|$', page, re.MULTILINE)
+    arguments = xml.etree.ElementTree.parse(str(ROOT / 'rumba_launch' / 'launch' / 'demo.launch')).getroot()
+    declared = [(each.attrib['name'], each.attrib['default']) for each in arguments.findall('arg')
+                if 'default' in each.attrib]
+    assert [name for name, _ in rows] == [name for name, _ in declared]
+    assert [(row, default) for (_, row), (_, default) in zip(rows, declared)
+            if '$(' not in default and row != default] == []
 
 
 @pytest.mark.parametrize('arguments, wanted', [

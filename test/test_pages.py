@@ -43,6 +43,12 @@ def test_links_lead_to_files_and_headings(page):
     assert list(broken(page)) == []
 
 
+@pytest.mark.parametrize('page', sorted(ROOT.glob('docs/results_*.md')), ids=lambda path: path.name)
+def test_each_table_of_results_has_its_commit(page):
+    tables = re.findall(r'^```\n.*?^```\n(.*?\n.*\n)', page.read_text(), re.MULTILINE | re.DOTALL)
+    assert [after for after in tables if not re.match(r'\nRecorded at [0-9a-f]{7,}\.\n', after)] == []
+
+
 def test_every_question_has_an_answer():
     rows = [row for row in QUESTIONS.read_text().splitlines() if row.startswith('| ')]
     questions = [row for row in rows if row != '| question | answer |']

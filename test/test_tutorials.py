@@ -15,12 +15,12 @@ METAPACKAGE = FOLDER / 'rumba_tutorials'
 PACKAGES = [path for path in TUTORIALS if path != METAPACKAGE]
 LESSONS = sorted(path.parent for path in FOLDER.glob('[0-9]*/README.md'))
 HEADINGS = ['Files', 'Run', 'What you see', 'What goes wrong', 'Why it works']
-FROM_NOTHING = FOLDER / '13_from_nothing'  # its page makes a workspace, with which docs/building.md goes on
+FROM_NOTHING = FOLDER / '01_own_message'  # its page makes a workspace, with which docs/building.md goes on
 OF_LESSON = pytest.mark.parametrize('lesson', LESSONS, ids=lambda path: path.name)
 OF_PACKAGE = pytest.mark.parametrize('package', PACKAGES, ids=lambda path: path.name)
 
 
-@pytest.mark.thorough(except_for=['01_own_message'])
+@pytest.mark.thorough(except_for=['13_talker_and_listener'])
 @pytest.mark.parametrize('lesson', [path for path in LESSONS if path != FROM_NOTHING], ids=lambda path: path.name)
 def test_the_terminals_show_what_the_page_shows(workspace, lesson):
     if 'pip install' in (lesson / 'README.md').read_text() and not can_pip_install():
@@ -52,7 +52,8 @@ def test_a_library_and_its_header_serve_from_the_install_space(overlay):
 @OF_LESSON
 def test_the_page_has_its_parts_and_its_links_lead_somewhere(lesson):
     page = (lesson / 'README.md').read_text()
-    assert re.findall('^## (.*)$', page, re.MULTILINE) == HEADINGS
+    text = re.sub('^```.*?^```$', '', page, flags=re.MULTILINE | re.DOTALL)
+    assert re.findall('^## (.*)$', text, re.MULTILINE) == HEADINGS
     assert '**Goal.**' in page
     assert consoles.sessions(lesson / 'README.md')[-1][-1].lines != ['...'], 'nobody would wait for the last command'
     assert [link for link in re.findall(r'\]\(([^)#]+)', page) if not (lesson / link).exists()] == []

@@ -207,6 +207,7 @@ function showRobot(robot) {
   text('position', pose ? `${pose.x.toFixed(2)}, ${pose.y.toFixed(2)} m` : '–');
   text('distance', fixed(cleaning?.distance, 1, 'm'));
   text('area', cleaning ? `${cleaning.cleaned_area.toFixed(1)} of ${cleaning.reachable_area.toFixed(1)} m²` : '–');
+  text('left-over', robot?.timeLeft || '–');
   text('time', Number.isFinite(robot?.stamp) && scene.state?.is_time_simulated ? duration(robot.stamp) : 'real time');
 }
 
@@ -272,7 +273,9 @@ function frame(now) {
     showRobot(scene.selected);
     showControls();
     showRights();
-    at('dock-key').hidden = !scene.robots.some(robot => robot.dock);
+    at('dock-key').hidden = !scene.docks.length;
+    at('carpet-key').hidden = !scene.layers.carpet;
+    at('cliff-key').hidden = !scene.layers.cliff;
     describe(now);
   }
   requestAnimationFrame(frame);

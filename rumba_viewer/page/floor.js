@@ -8,6 +8,7 @@ const DOCK = 0.3;  // [m] width of a dock
 const SMALLEST = 7;  // [pixels] radius at which a robot is drawn, at least
 const STRIPE = 4;  // [cells] of the stripes of what is out of reach
 const WALL = 65;  // [%] from this probability on a cell is a wall
+const CARPET = 0.16;  // share of its tint in the colour of the floor
 const FAINT = 0.72;  // share of the background in the colour of what the robot's own map does not show
 export const ROBOT_COLOURS = ['#1f6fd6', '#d9580d', '#7a43c4', '#00857c', '#b3266e', '#7a6a00'];
 
@@ -58,7 +59,7 @@ export class Floor {
   }
 
   // One pixel for each cell.
-  paintCells(coverage, known) {
+  paintCells(coverage, known, layers) {
     const {info, data} = this.map, {width, height} = info;
     const same = coverage && coverage.data.length === data.length ? coverage.data : null;
     Object.assign(this.cells, {width, height});
@@ -68,6 +69,9 @@ export class Floor {
       ['background', 'to-sweep', 'swept', 'unknown', 'wall', 'out-of-reach', 'stripe'].map(name => packed(this.colour(name)));
     const colours = [...Array.from({length: 101}, (_, share) => mixed(toSweep, swept, share / 100)), ...others];
     const faint = colours.map(colour => mixed(colour, background, FAINT));
+    const tint = packed(this.colour('carpet')), cliffs = packed(this.colour('cliff'));
+    const onCarpet = colours.map(colour => mixed(colour, tint, CARPET));
+    const [carpet, cliff] = layers.width === width && layers.height === height ? [layers.carpet, layers.cliff] : [];
     const [unknown, wall, outOfReach, stripe] = [101, 102, 103, 104];
     for (let row = 0, at = 0; row < height; row++) {
       let to = (height - 1 - row) * width;
@@ -77,7 +81,9 @@ export class Floor {
         else if (data[at] >= WALL) colour = wall;
         else if (same && same[at] < 0) colour = (row + column) % (2 * STRIPE) < STRIPE ? outOfReach : stripe;
         else if (same) colour = Math.min(same[at], 100);
-        if (!known) pixels[to] = colours[colour];
+        const isFree = colour !== unknown && colour !== wall;
+        if (isFree && cliff?.[at] && (row + column) % (2 * STRIPE) < STRIPE) pixels[to] = cliffs;
+        else if (!known) pixels[to] = (isFree && carpet?.[at] ? onCarpet : colours)[colour];
         else if (known[at] >= WALL) pixels[to] = colours[wall];
         else pixels[to] = (known[at] < 0 || colour === wall ? faint : colours)[colour];
       }
@@ -101,14 +107,15 @@ export class Floor {
     context.fillRect(0, 0, canvas.width, canvas.height);
     if (!this.map) return;
     const coverage = scene.selected?.coverage ?? null, known = this.knownCells(scene);
-    if (this.painted?.map !== this.map || this.painted.coverage !== coverage || this.painted.known !== known) {
-      this.paintCells(coverage, known);
-      this.painted = {map: this.map, coverage, known};
+    if (this.painted?.map !== this.map || this.painted.coverage !== coverage || this.painted.known !== known
+        || this.painted.layers !== scene.layers) {
+      this.paintCells(coverage, known, scene.layers);
+      this.painted = {map: this.map, coverage, known, layers: scene.layers};
     }
     const view = this.view(), {cells} = this;
     context.imageSmoothingEnabled = view.scale * this.map.info.resolution < 3;
     context.drawImage(cells, view.left, view.top, cells.width * this.map.info.resolution * view.scale, view.height);
-    for (const robot of scene.robots) if (robot.dock) this.paintDock(view, robot.dock);
+    for (const dock of scene.docks) this.paintDock(view, dock);
     for (const marker of scene.obstacles) this.paintObstacle(view, marker);
     if (scene.selected && scene.frame) this.paintPlan(view, scene.selected, scene.frame);
     if (scene.selected) this.paintTrail(view, scene.selected);

@@ -1,5 +1,6 @@
 // What is known of one robot, from its topics.
 
+import {Forecast, about} from './forecast.js';
 import {outline} from './mounting.js';
 
 const TRAIL = 20000;  // points
@@ -17,6 +18,7 @@ const SMALL = {  // topic -> what it changes
 };
 const RATES = {battery_status: 500, battery_state: 1000, dock_status: 500, cleaning_status: 1000, mission_status: 0, plan: 500};
 const COVERAGE = {throttle_rate: 500, compression: 'png'}, SCAN = {throttle_rate: 200};
+const OWN_ACCOUNT = /^[\d.]+ % swept(; |$)/;  // what the page measures stands beside it: one figure is enough
 const IDLE = 0;  // of rumba_msg/MissionStatus
 const SUCCEEDED = 1, REFUSED = 4, INTERRUPTED = [2, 3, 12];  // of rumba_msg/Outcome: cancelled, preempted, robot gone
 
@@ -32,7 +34,7 @@ export class Robot {
   forget() {
     Object.assign(this, {pose: null, before: null, came: 0, stamp: null, trail: [], plan: [], recent: [], scan: null,
       arrived: null, coverage: null, battery: null, cleaning: null, mission: null, isDocked: false, dock: null, ended: null,
-      brushesUp: null, target: null});
+      brushesUp: null, target: null, forecast: new Forecast()});
   }
 
   close() {
@@ -101,6 +103,8 @@ export class Robot {
   learnCleaning(msg) {
     if (this.cleaning && msg.distance < this.cleaning.distance) this.trail = [];  // a reset
     this.cleaning = msg;
+    if (this.mission)
+      this.forecast.add({...msg, time: seconds(msg.header.stamp)}, this.battery?.percentage ?? NaN, this.mission);
   }
 
   learnDock(msg) {
@@ -151,7 +155,14 @@ export class Robot {
   // A line about it.
   get detail() {
     if (this.canResume) return 'Resume continues the cleaning';
-    return this.mission?.state === IDLE && this.ended ? this.ended.message : this.mission?.message ?? '';
+    if (this.mission?.state === IDLE && this.ended) return this.ended.message;
+    return (this.mission?.message ?? '').replace(OWN_ACCOUNT, '');
+  }
+
+  // How long its cleaning still takes, in words; empty if that is not known.
+  get timeLeft() {
+    const left = this.isCleaning ? this.forecast.left : null;
+    return left === null ? '' : about(left);
   }
 
   get isCharging() {

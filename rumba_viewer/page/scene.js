@@ -1,6 +1,7 @@
 // What there is to show: the map, the simulator and the robots that the master knows.
 
 import {ROBOT_COLOURS} from './floor.js';
+import {NO_LAYERS, layersOf} from './layers.js';
 import {mountingsIn} from './mounting.js';
 import {SAME, frameIn} from './own_map.js';
 import {Robot} from './robot.js';
@@ -15,7 +16,7 @@ export class Scene {
   constructor(link, onNews, onResult) {
     Object.assign(this, {link, onNews, onResult, ownMap: null, trueMap: null, ownFrame: null, isTrueMapTold: false,
       mountings: {}, state: null, heard: 0, robots: [], selected: null, markers: new Map(), trouble: '',
-      wanted: sessionStorage.robot, rights: null, showsLaser: false});
+      wanted: sessionStorage.robot, rights: null, showsLaser: false, layers: NO_LAYERS, layersFor: ''});
     link.subscribe('/map', {compression: 'png', queue_length: 1}, msg => { this.ownMap = msg; onNews(); });
     link.subscribe(TRUE_MAP, {compression: 'png', queue_length: 1}, msg => { this.trueMap = msg; onNews(); });
     link.subscribe('/tf_static', {}, msg => {
@@ -62,7 +63,24 @@ export class Scene {
     const isNew = !this.hasSimulator;
     Object.assign(this, {state: msg, heard: performance.now()});
     if (isNew) this.look();
+    if (msg.run !== this.layersFor) this.learnLayers(msg.run);
     this.onNews();
+  }
+
+  // What the files of the simulator's map contain; nothing if they cannot be read where the page's server runs.
+  async learnLayers(run) {
+    Object.assign(this, {layersFor: run, layers: NO_LAYERS});
+    try {
+      this.layers = layersOf(await this.link.call('/rosapi/floor'));
+    } catch {
+      return;
+    }
+    this.onNews();
+  }
+
+  // Docks of the map, or else where robots have stood on one.
+  get docks() {
+    return this.layers.docks.length ? this.layers.docks : this.robots.filter(robot => robot.dock).map(robot => robot.dock);
   }
 
   learnObstacles(msg) {

@@ -147,7 +147,7 @@ class CleanerLockstepTest(unittest.TestCase):
         cleaner.send('go_to', go_to(2.0, 2.0)).is_active()
         self.assertEqual([message.msg for message in log.messages if 'lockstep: nothing' in message.msg], [])
         cleaner.process.send_signal(signal.SIGSTOP)
-        log.find(lambda message: message.msg.startswith('lockstep: nothing was heard of /cleaner'))
+        log.find(lambda message: message.msg.startswith('lockstep: no answer of /cleaner'))
 
     def test_the_world_goes_on_at_once_without_a_cleaner_that_was_killed_and_takes_in_the_next_one(self):
         simulator = Simulator(self, *SIMULATOR, '_lockstep_patience:=600')

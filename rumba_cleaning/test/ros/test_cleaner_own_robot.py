@@ -27,7 +27,7 @@ class CleanerOwnRobotTest(unittest.TestCase):
     def test_without_a_localisation_it_says_so(self):
         Fake(self, '_room:=chamber')
         self.assertEqual(self._end_of_mission().message,
-                         'no pose: tf has no map -> wheels -> chassis: no localiser or mapper tells it')
+                         'no pose: tf has no map -> wheels -> chassis: no localiser or mapper publishes it')
 
     def test_without_odometry_it_names_the_topic(self):
         self.assertEqual(self._end_of_mission().message, 'no odometry: no node publishes /base/odometry')

@@ -62,7 +62,7 @@ class CleanerTeamTest(unittest.TestCase):
         reports.find(lambda report: report.task == TeamReport.SWEEPING)
         second.process.send_signal(signal.SIGKILL)
         second.process.wait()
-        log.find(lambda message: message.msg.startswith('rumba: nothing is heard of rumba2 any more: it is taken to '))
+        log.find(lambda message: message.msg.startswith('rumba: rumba2 has fallen silent: it counts '))
         # What stands on the floor without moving may keep a robot from its dock, or from the last of the floor.
         self.assertRegex(self.has_ended(first).message, r'^[89]\d\.\d % swept')
 

@@ -114,9 +114,9 @@ def test_the_transform_that_came_last_counts_whatever_its_stamp(robot, stamp):
 
 def test_what_is_missing_is_named(monkeypatch):
     robot = Robot(monkeypatch, 'rumba2')
-    assert robot.senses.missing() == 'no charge: rumba2/battery_state tells no percentage'
+    assert robot.senses.missing() == 'no charge: rumba2/battery_state has no percentage'
     robot.tells('battery_state', BatteryState(percentage=math.nan))
-    assert robot.senses.missing() == 'no charge: rumba2/battery_state tells no percentage'
+    assert robot.senses.missing() == 'no charge: rumba2/battery_state has no percentage'
     robot.tells('battery_state', BatteryState(percentage=0.0))
     assert robot.senses.missing() == 'no pose: tf has no map -> rumba2/odom -> rumba2/base_footprint'
     robot.stands()

@@ -162,7 +162,7 @@ def test_a_mate_that_falls_silent_is_taken_to_have_stopped(wire, pair):
     assert context.mates.are_busy and not wire.warnings
     first.listen([context.hear], at(1.1 + SILENT))
     assert not context.mates.are_busy and context.mates.reports['rumba2'].pose == HERE
-    assert wire.warnings == ['rumba: nothing is heard of rumba2 any more: it is taken to have stopped']
+    assert wire.warnings == ['rumba: rumba2 has fallen silent: it counts as stopped']
 
 
 def test_a_new_goal_begins_with_what_mates_told_last(wire, pair):

@@ -81,7 +81,7 @@ def test_topics_that_may_be_meant_are_proposed():
 
 def test_what_was_not_tested_and_who_tells_the_pose_already_is_noted():
     notes = report(SOUND._replace(map_odom=('/amcl',)), OWN).remarks
-    assert notes[0] == '/amcl tells map -> odom: end it, or give localisation:=none'
+    assert notes[0] == '/amcl publishes map -> odom: end it, or give localisation:=none'
     assert notes[1].startswith('the robot stood still: ')
     turned = [View(Pose(0.0, 0.0, angle), POINTS) for angle in (0.0, 0.5)]
     assert 'whether the laser looks ahead was not tested' in report(SOUND._replace(views=turned), OWN).remarks[0]

@@ -58,5 +58,5 @@ def test_what_is_odd_about_a_map_is_told_before_the_missions(run, tmp_path):
     code, _, errors = run('--drain', '1000')
     first, second, third = errors.splitlines()
     assert code == 0 and first.endswith("flat.yaml: unknown keys are ignored: 'map_type'")
-    assert 'cannot be reached from the start at (' in second
+    assert 'is out of reach of the start at (' in second
     assert 'the map has no dock, and 3 m2 take about ' in third and 'place_dock' in third

@@ -29,7 +29,7 @@ def test_the_command_writes_beside_the_bag_and_needs_no_master(bag):
                           stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True)
     assert (done.returncode, done.stderr) == (0, '')
     assert done.stdout.splitlines() == [
-        output, 'The robot cleaned 90.0 % of the floor in 0:00:34 and is back on its dock, less than the target of '
+        output, 'The robot swept 90.0 % of the floor in 0:00:34 and is back on its dock, less than the target of '
                 '99 %: 90.0 % swept <&>.',
         'rumba: 90.0 % swept, 25.0 % of the dirt left, 12.0 m driven at 0.50 m/s, bumps: 3',
         'battery: 100 % to 58 %, lowest 8 %, charges during the mission: 1, on the charger for 0:00:10 in all']
@@ -93,4 +93,4 @@ def test_topics_with_several_publishers_are_named(tmp_path):
                 'message_definition': message._full_text, 'callerid': node})
             bag._topic_connections.clear()  # else it writes a connection for each topic, not for each publisher
     assert mission_bag.read(path).remarks == [
-        '/rumba/cleaning_status was published by /simulator and /student: the figures mix what they told.']
+        '/rumba/cleaning_status was published by /simulator and /student: the figures mix their messages.']

@@ -64,7 +64,7 @@ def test_a_submission_without_mistakes_has_no_reasons(submitted):
 
 
 @pytest.mark.parametrize('script, begin, advice', [
-    (SCRIPT.replace('\n', '\r\n'), " has Windows line ends (CR LF), so that its first line names the program "
+    (SCRIPT.replace('\n', '\r\n'), " has Windows line ends (CR LF), so its first line names "
      "'python3\\r', which does not exist: ", "`sed -i 's/\\r$//' sweeper/scripts/cleaner`"),
     (b'\xef\xbb\xbf' + SCRIPT.encode(), ' begins with a byte order mark', '"UTF-8" without BOM'),
     ('import rospy\n', ' does not begin with #!', '#!/usr/bin/env python3'),

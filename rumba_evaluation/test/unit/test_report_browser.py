@@ -54,3 +54,13 @@ def test_the_slider_shows_the_mission_until_a_time(browser, place, points, bumps
 def test_bumps_can_be_hidden(browser):
     browser.find_element('css selector', 'label[for=bumps]').click()
     assert not browser.find_element('css selector', '#map-bumps').is_displayed()
+
+
+def test_a_press_of_the_time_of_an_event_shows_it_on_the_map(browser):
+    buttons = browser.find_elements('css selector', '.events button')
+    times = [button.text for button in buttons]
+    assert len(times) > 2 and times == sorted(times)
+    for button in buttons[:-1]:
+        browser.execute_script('arguments[0].click()', button)
+        assert browser.find_element('css selector', 'output').text.startswith(f'{button.text} · ')
+    assert browser.get_log('browser') == []

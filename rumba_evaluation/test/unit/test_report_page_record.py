@@ -83,7 +83,7 @@ def test_a_stay_on_the_dock_is_one_event_at_each_end():
     ([(State.CLEANING, 'working')], 'The recording ends before the mission, after 0:01:40: '
                                     '90.0 % of the floor is swept, the robot is cleaning.'),
     ([(State.CLEANING, 'working'), (State.IDLE, '90.0 % swept')],
-     'The robot cleaned 90.0 % of the floor in 0:00:01, less than the target of 99 %: 90.0 % swept.'),
+     'The robot swept 90.0 % of the floor in 0:00:01, less than the target of 99 %: 90.0 % swept.'),
     ([(State.CLEANING, 'working'), (State.STRANDED, 'stuck')], 'The robot is stranded after 0:01:40: stuck.'),
     ([(State.STRANDED, '')], 'The robot is stranded after 0:01:40: it does not say why.'),
     ([(len(State), '')], 'The recording ends before the mission, after 0:01:40: 90.0 % of the floor is swept, '
@@ -94,8 +94,8 @@ def test_outcomes(states, told):
 
 
 @pytest.mark.parametrize('target, docked, told', [
-    (0.9, [0, 1, 1], 'The robot cleaned 90.0 % of the floor in 0:00:01 and is back on its dock: the target was 90 %.'),
-    (0.9004, [0, 1, 0], 'The robot cleaned 90.0 % of the floor in 0:00:01: the target was 90.04 %.')])
+    (0.9, [0, 1, 1], 'The robot swept 90.0 % of the floor in 0:00:01 and is back on its dock: the target was 90 %.'),
+    (0.9004, [0, 1, 0], 'The robot swept 90.0 % of the floor in 0:00:01: the target was 90.04 %.')])
 def test_a_mission_that_met_its_target(target, docked, told):
     said = [MissionState(0.0, State.CLEANING, '', ''), MissionState(1.0, State.IDLE, '', 'done')]
     assert summary(record(states=said, target=target, docked=series([0, 10, 100], docked))).outcome == told

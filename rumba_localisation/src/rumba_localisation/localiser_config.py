@@ -29,7 +29,7 @@ class LocaliserConfig:
     laser_z_rand: float = setting(0.1, 'share of beams that end anywhere', '0..1', 0.001, 1.0)
     laser_sigma_hit: float = setting(0.1, 'standard deviation of the distance from the end of a beam to the wall that '
                                           'it hits', 'm', 0.005, 5.0)
-    laser_independence: float = setting(0.15, 'by how much less the beams of a scan tell than if they erred '
+    laser_independence: float = setting(0.15, 'by how much less the beams of a scan count than if they erred '
                                               'independently; our choice', '0..1', 0.001, 1.0)
     recovery_alpha_slow: float = setting(0.02, 'rate at which the long-term average of the likelihood follows; with '
                                                'the next, decides how many particles are drawn from the scan', '',

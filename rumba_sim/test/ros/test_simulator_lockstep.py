@@ -113,7 +113,7 @@ class SimulatorLockstepTest(unittest.TestCase):
         log = Heard(self, '/rosout')
         simulator = self.start('_wait_for:=rumba/cmd_vel')
         commands, ticks = Commands(self), Heard(self, '/simulator/lockstep', Lockstep)
-        line = (f'lockstep: nothing was heard of /rumba/cmd_vel for {PATIENCE} s: the world goes on without it until '
+        line = (f'lockstep: no answer of /rumba/cmd_vel for {PATIENCE} s: the world goes on without it until '
                 'it answers again')
         self.assertEqual(log.find(lambda message: message.msg.startswith('lockstep')).msg, line)
         commands.send(0.1, 0.0)

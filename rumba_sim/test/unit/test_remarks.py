@@ -41,8 +41,8 @@ def test_obstacles_that_stand_there_from_the_start_divide_the_floor_too():
 def test_people_are_told_of_floor_out_of_reach_and_where_to_start_instead():
     world = World(flat(), quiet())
     assert remarks(world) == [
-        'room: 29 % of the floor on which a robot can stand cannot be reached from the start at '
-        f'({world.start.x:.2f}, {world.start.y:.2f}) m; to start in the largest part of that, give the map '
+        'room: 29 % of the floor on which a robot can stand is out of reach of the start at '
+        f'({world.start.x:.2f}, {world.start.y:.2f}) m. To reach the largest part of it, give the map '
         'start: [1.55, 1.55, 0.0]']
     remark, = remarks(World(flat(start=Pose(1.0, 1.0, 0.0)), quiet()))
     assert remark.startswith('room: 71 % of the floor') and 'start at (1.00, 1.00) m' in remark

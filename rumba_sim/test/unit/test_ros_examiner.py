@@ -188,7 +188,7 @@ def test_the_folder_is_for_its_user_alone(temporary):
     folder = os.path.dirname(socket_path())
     assert stat.S_IMODE(os.stat(folder).st_mode) == 0o700 and socket_path().endswith('/11999')
     os.chmod(folder, 0o755)
-    with pytest.raises(WorldError, match='must be a folder of yours that nobody else may open'):
+    with pytest.raises(WorldError, match='must be your own folder, closed to others'):
         socket_path()
 
 

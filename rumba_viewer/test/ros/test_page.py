@@ -319,6 +319,14 @@ class BrowserTest(unittest.TestCase):
         self.assertFalse(forward.is_enabled())
         self.assertEqual(browser.errors(), [])
 
+    def test_carpet_cliffs_and_dock_of_the_map_are_drawn_and_in_the_key(self):
+        Simulator(self, '_map:=apartment')
+        browser = Browser(self, Page(self), DESK)
+        browser.wait_for('waiting', '^$')
+        for name in ('carpet-key', 'cliff-key', 'dock-key'):
+            wait(self, browser.element(name).is_displayed, name)
+        self.assertEqual(browser.errors(), [])
+
     def test_a_refusal_is_seen_and_read_out_wherever_the_page_is_scrolled_to(self):
         Simulator(self, '_map:=field')
         browser = Browser(self, Page(self), PHONE)

@@ -8,7 +8,7 @@ import rostest
 from geometry_msgs.msg import PointStamped, TransformStamped
 from pages import HALF, Client, Page
 from rosgraph_msgs.msg import Clock
-from simulators import Heard, wait
+from simulators import Heard, Simulator, wait
 from std_msgs.msg import String
 from tf2_msgs.msg import TFMessage
 
@@ -92,6 +92,17 @@ class GraphTest(unittest.TestCase):
         self.assertEqual((topics().get('/mine'), topics().get('/brief')), ('std_msgs/String', 'std_msgs/Bool'))
         client.send(op='unadvertise', topic='/mine')
         wait(self, lambda: '/mine' not in topics(), 'the end of the topic')
+
+    def test_the_floor_of_the_simulator_has_carpet_cliffs_and_docks_that_no_topic_shows(self):
+        page = Page(self)
+        client = Client(self, page)
+        self.assertEqual(client.call('/rosapi/floor'), (False, '/rosapi/floor: no simulator says which map it has'))
+        Simulator(self, '_map:=apartment')
+        floor = client.call('/rosapi/floor')[1]
+        self.assertEqual((floor['width'], floor['height'], len(floor['docks'])), (432, 332, 1))
+        for layer in ('carpet', 'cliff'):
+            self.assertEqual(sum(floor[layer]), 432 * 332)
+            self.assertGreater(sum(floor[layer][1::2]), 100)
 
     def test_types_are_explained_and_nodes_told_of_topics_that_can_be_reached(self):
         client = Client(self, Page(self, '_read:=/words'))

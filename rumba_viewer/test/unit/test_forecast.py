@@ -114,12 +114,15 @@ def test_the_live_line_begins_with_what_matters_most():
     assert len(line) < 80 and 'battery 64 %  0:50' in line[:39]
     assert wording.live_line(mission('idle'), cleaning(50.0, 1.0), battery(0.64), None, None) == (
         ' 5.0 % swept  battery 64 %  idle')
+    assert wording.live_line(mission(), cleaning(50.0, 5.0), battery(0.64), None, 1290.0) == (
+        '25.0 % swept  battery 64 %  about 22 min left  cleaning by boustrophedon')
     assert wording.live_line(None, None, battery(math.nan), None, None) == 'no floor  battery -  no cleaner'
 
 
 def test_the_closing_report_names_what_was_done_in_this_mission():
-    forecast = after((100.0, 1.0, 1.0, 'cleaning'), (140.0, 18.0, 0.9, 'charging'), (150.0, 18.0, 0.9, 'idle'))
+    forecast = after((90.0, 1.0, 1.0, 'idle'), (100.0, 1.0, 1.0, 'cleaning'), (140.0, 18.0, 0.9, 'charging'),
+                     (150.0, 18.0, 0.9, 'idle'))
     told = wording.closing('rumba', mission('idle'), cleaning(150.0, 18.0), cleaning(100.0, 1.0), battery(0.9),
                            forecast)
-    assert told == ['rumba: 90.0 % of the floor is swept: 18.0 of 20.0 m2, 50.0 % of the dirt is left',
+    assert told == ['rumba: 90.0 % of the floor is swept: 18.0 of 20.0 m², 50.0 % of the dirt is left',
                     '0:50, 50.0 m driven, 1 charge, battery 90 %']

@@ -30,7 +30,7 @@ def test_the_report_comes_with_the_first_figures_after_the_end_and_stays():
     watch = watched(IDLE, floor(10.0), CLEANING, floor(11.0), floor(61.0, 5.0), DOCKING, IDLE, floor(61.0, 5.0))
     assert watch.report == ()
     watch.take_cleaning(floor(62.0, 5.0))
-    assert watch.report == ('rumba: 25.0 % of the floor is swept: 5.0 of 20.0 m2, 50.0 % of the dirt is left',
+    assert watch.report == ('rumba: 25.0 % of the floor is swept: 5.0 of 20.0 m², 50.0 % of the dirt is left',
                             '0:50, 52.0 m driven, 0 charges, battery 80 %')
     report = watch.report
     watch.take_mission(IDLE)
@@ -47,3 +47,12 @@ def test_what_is_no_cleaning_has_a_time_but_neither_a_rest_nor_a_report():
     watch = watched(IDLE, floor(10.0), GOING, floor(11.0), floor(31.0))
     assert (watch.elapsed, watch.left) == (20.0, None)
     assert watched(IDLE, floor(10.0), GOING, floor(11.0), floor(31.0), IDLE, floor(32.0)).report == ()
+
+
+def test_a_mission_whose_beginning_was_not_seen_has_no_time_but_a_rest():
+    late = watched(floor(1000.0, 2.0), CLEANING, floor(1001.0, 2.1), floor(1051.0, 7.0))
+    assert late.elapsed is None and late.left > 100.0
+    late.take_mission(IDLE)
+    late.take_cleaning(floor(1052.0, 7.0))
+    assert late.report[1].endswith(' m driven, 0 charges, battery 80 %') and ':' not in late.report[1]
+    assert watched(CLEANING, floor(10.0), floor(40.0, 3.0)).elapsed == 30.0  # which has just begun

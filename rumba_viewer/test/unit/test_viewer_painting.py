@@ -54,8 +54,9 @@ def test_the_states_of_the_floor_can_be_told_apart(theme):
 def test_the_page_has_the_same_floor_and_its_path_can_be_seen_there(theme):
     light, dark = re.findall(r':root \{(.*?)\}', STYLE.read_text(), re.DOTALL)[:2]
     of_page = dict(re.findall(r'--([\w-]+): (#\w{6});', light + (dark if theme.is_dark else '')))
-    for name in ('background', 'unknown', 'wall', 'to_sweep', 'swept', 'out_of_reach'):
+    for name in ('background', 'unknown', 'wall', 'to_sweep', 'swept', 'out_of_reach', 'cliff'):
         assert of_page[name.replace('_', '-')] == getattr(theme, name), name
+    assert of_page['carpet'] == f'#{theme.carpet[3:]}'  # without its alpha
     for floor in ('to-sweep', 'swept'):
         assert contrast(of_page['plan'], of_page[floor]) >= 3.0, floor
 
@@ -67,6 +68,20 @@ def test_a_key_names_the_states_of_the_floor_where_there_is_room(theme, width, i
     image = picture(snapshot(), view, theme)
     for name in ('swept', 'to_sweep', 'out_of_reach', 'wall') if is_shown else ('to_sweep',):
         assert (count(image, getattr(theme, name), top=HEIGHT - 40, tolerance=3) >= 60) is is_shown, name
+
+
+@THEMES
+@pytest.mark.parametrize('width, is_shown', [(900, True), (600, False)])
+def test_the_key_names_cliff_and_dock_if_the_map_has_them_and_there_is_room(theme, width, is_shown):
+    view = ViewTransform(width, HEIGHT, 1.0, 8.0, SCALE)
+    cells = np.ones(plan().cells.shape, bool)
+    features = MapFeatures((Dock(Pose(0.0, 0.0, 0.0), np.zeros((0, 2)), np.zeros((0, 2))),), cells, cells, True)
+    for known in (features, MapFeatures()):
+        image = picture(snapshot(features=known), view, theme)
+        assert count(image, theme.to_sweep, top=HEIGHT - 40, tolerance=3) >= 60
+        for name in ('cliff', 'dock'):
+            shown = count(image, getattr(theme, name), top=HEIGHT - 40, tolerance=3) >= 60
+            assert shown is (is_shown and known is features), name
 
 
 @THEMES

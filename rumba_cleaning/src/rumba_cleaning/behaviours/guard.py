@@ -63,8 +63,7 @@ def why_it_creeps(robot: RobotConfig) -> str:
     cure = f'cliff/distance of {math.ceil(100.0 * (half + BESIDE) / aside) / 100.0:.2f} m' if aside > FLAT else (
         'a larger cliff/outer_angle')
     return (f'drive/wheel_base is {robot.drive.wheel_base:g} m and cliff/distance {cliff.distance:g} m: no cliff '
-            'sensor looks at the floor before the wheels, so that the robot creeps where it has not been; '
-            f'{cure} would do')
+            f'sensor sees the floor before the wheels, so the robot creeps on new floor; {cure} would do')
 
 
 class Guard:

@@ -39,8 +39,8 @@ class Duty(enum.Enum):
     """What a robot owes to a mate."""
 
     NONE = 'it may go on'
-    WAIT = 'it lets the mate pass'
-    MOVE_ASIDE = 'it stands on the way of the mate, or the mate cannot get off its own'
+    WAIT = 'it lets the other robot pass'
+    MOVE_ASIDE = 'it stands on the way of the other robot, or that cannot get off its own'
 
 
 class RightOfWay:

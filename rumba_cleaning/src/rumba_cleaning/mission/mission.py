@@ -29,7 +29,7 @@ INEXACT = 0.0008  # the same by a pose that is not certain: twice what an error 
 GAIN = 0.002  # of coverage: a charge that brings less brings nothing; as boustrophedon judges its rounds
 VAIN = 3  # charges, one after the other, that brought nothing: the mission is given up; our choice
 HOMES = 2  # attempts to return to the dock, each with the tries of `Dock`; our choice
-WAITING = 'waiting for mates, which clean what is left'
+WAITING = 'waiting for other robots, which clean the rest'
 
 
 class Mission(StagedMission):
@@ -118,7 +118,7 @@ class Mission(StagedMission):
         if self._context.mates.reports and self.state in (State.CLEANING, State.RETURNING):
             command = self._right_of_way.command(observation, self.plan_ahead())
             if command is not None:
-                self.message = 'giving way to a mate'
+                self.message = 'giving way to another robot'
                 return command
         is_returning = self.state in (State.RETURNING, State.DOCKING)
         if self.state is State.CLEANING or is_returning and self._confinement.is_known:

@@ -74,8 +74,8 @@ def remarks(plan: FloorPlan, x: float, y: float, robot: RobotConfig, config: Cle
     expected = None if plan.docks else outlook(plan, x, y, robot, config)
     if expected is not None and expected.charges:
         found.append(f'{plan.name}: the map has no dock, and {expected.area:.0f} m2 take about {expected.charges} '
-                     f'charge{"s" if expected.charges > 1 else ""}: give the map a dock (rosrun rumba_sim place_dock '
-                     'offers a place), or the battery a drain of 0')
+                     f'charge{"s" if expected.charges > 1 else ""}: add a dock (rosrun rumba_sim place_dock finds a '
+                     'place), or set drain to 0')
     fastest = robot.drive.max_speed
     if config.speed > fastest:
         found.append(f'the cleaning speed is {config.speed:g} m/s, and drive/max_speed {fastest:g}: the robot cleans '

@@ -52,7 +52,7 @@ def report(heard: Heard, own: OwnRobot) -> Report:
 def _remarks(heard: Heard) -> List[str]:
     remarks = []
     if heard.map_odom:
-        remarks.append(f'{" and ".join(heard.map_odom)} tells map -> odom: end it, or give localisation:=none')
+        remarks.append(f'{" and ".join(heard.map_odom)} publishes map -> odom: end it, or give localisation:=none')
     if heard.odometry_heard is None or heard.odometry_heard.contradiction or not heard.views:
         return remarks
     if not can_tell(heard.views):

@@ -135,7 +135,7 @@ class Boustrophedon(Behaviour):
     def _is_turn_of_mate(self, dt: float) -> bool:
         """Whether a mate that comes before plans, and it is worth waiting for its plan."""
         self._waited = self._waited + dt if self._context.mates.plan_before else 0.0
-        self.message = 'waiting for the plan of a mate'
+        self.message = 'waiting for the plan of another robot'
         return 0.0 < self._waited < TURN
 
     def _plan_round(self, pose: Pose) -> None:

@@ -102,6 +102,6 @@ def _outcome(record: MissionRecord) -> str:
     if not len(record.coverage.times):
         return f'The mission ended after {clock(busy)}{f": {said}" if said else ""}.'
     if record.coverage.values[-1] + CLOSE >= record.target:
-        return f'The robot cleaned {swept} in {clock(busy)}{where}: the target was {100.0 * record.target:g} %.'
-    return (f'The robot cleaned {swept} in {clock(busy)}{where}, less than the target of {100.0 * record.target:g} %'
+        return f'The robot swept {swept} in {clock(busy)}{where}: the target was {100.0 * record.target:g} %.'
+    return (f'The robot swept {swept} in {clock(busy)}{where}, less than the target of {100.0 * record.target:g} %'
             f'{f": {said}" if said else ""}.')

@@ -190,7 +190,8 @@ def _details(record: MissionRecord) -> str:
 
 
 def _event_table(found: Sequence[Event]) -> str:
-    rows = [f'<tr class="{event.kind}"><td>{clock(event.time)}</td><td>{html.escape(event.text)}</td></tr>'
+    rows = [f'<tr class="{event.kind}" data-at="{event.time:.1f}"><td>{clock(event.time)}</td>'
+            f'<td>{html.escape(event.text)}</td></tr>'
             for event in found[:MOST_EVENTS]]
     if len(found) > MOST_EVENTS:
         rows.append(f'<tr><td></td><td>... and {len(found) - MOST_EVENTS} more</td></tr>')

@@ -110,6 +110,17 @@ SCRIPT = '''
     if (begins) requestAnimationFrame(play);
   };
   input.oninput = show;
+  document.querySelectorAll('tr[data-at]').forEach(row => {  // a press of the time of an event shows it on the map
+    const press = document.createElement('button'), cell = row.cells[0];
+    Object.assign(press, {type: 'button', className: 'at', textContent: cell.textContent, onclick: () => {
+      button.textContent = 'Play';
+      input.value = Math.min(Math.round(1000 * row.dataset.at / Math.max(track.duration, 1)), 999);
+      show();
+      map.scrollIntoView({block: 'nearest'});
+    }});
+    press.setAttribute('aria-label', `Show ${press.textContent} on the map`);
+    cell.replaceChildren(press);
+  });
   box.hidden = false;
   show();
 })();

@@ -27,6 +27,8 @@ margin-bottom:.75rem}
 #slider button{font:inherit;color:inherit;background:var(--page);border:1px solid var(--faint);border-radius:.35rem;
 min-width:4.5rem;padding:.15rem .6rem;cursor:pointer}
 #slider output{flex:1 1 100%;color:var(--soft);font-size:.9rem;font-variant-numeric:tabular-nums}
+.at{font:inherit;color:var(--path);background:none;border:0;padding:.35rem 0;min-height:2rem;cursor:pointer;
+text-decoration:underline}
 section{min-width:0}
 figure{margin:0}
 svg,img{display:block;width:100%;height:auto;max-height:90vh}

@@ -79,9 +79,8 @@ class Settings(Requirements):
                                  'simulator/state names')
     wait_for: str = setting('', 'topics of the node that is judged, with spaces between, of those that the conditions '
                                 'name: in lockstep, the world waits for a message on each after each control tick')
-    exam: bool = setting(False, 'an examination, as of the simulator: takes what that tells from its private channel; '
-                                'the run is void if another process connects to it, or sets a parameter of the '
-                                'simulator')
+    exam: bool = setting(False, 'an examination: the simulator reports over its private channel; the run is void if '
+                                'another process connects to it, or sets a parameter of the simulator')
     recording: str = setting('', 'path of a bag that is written in an examination: ground_truth, who commanded, and '
                                  'what mission_report needs; empty: none')
     results: str = setting('', 'path of results.json for Gradescope; empty: beside the file that rostest asks for, '

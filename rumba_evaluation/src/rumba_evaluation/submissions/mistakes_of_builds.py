@@ -140,8 +140,8 @@ _NAMED: Sequence[Tuple[str, Callable[[Match[str]], str]]] = (
      _text('a message uses {1}/{0}: write {1} into find_package(catkin REQUIRED COMPONENTS ...) and into '
            'generate_messages(DEPENDENCIES ...), and <depend>{1}</depend> into package.xml')),
     (r'Cannot locate message \[([^\]]*)\]',
-     _text('a message uses the type {0}, which does not exist: numbers are float64 or int32, texts are string, and '
-           'messages of other packages have the name of their package before them, such as std_msgs/Header')),
+     _text('a message uses the type {0}, which does not exist: numbers are float64 or int32, texts are string. '
+           'Messages of other packages begin with the name of the package, such as std_msgs/Header')),
     (r"DEPENDS on the catkin package '([^']*)' which must therefore be listed as a run dependency",
      _text('package.xml lacks <exec_depend>{0}</exec_depend>')),
     (r"the catkin package '([^']*)' has been find_package\(\)-ed but is not listed as a build dependency",

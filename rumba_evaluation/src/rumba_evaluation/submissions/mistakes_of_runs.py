@@ -14,8 +14,8 @@ ENV, NOT_FOUND = '/usr/bin/env: ', 'No such file or directory'
 LONGEST_PATH = 1000  # characters
 BUILT = '/devel/lib/'  # in the path of what catkin_make has built
 SIGNALS = {
-    -11: 'was stopped by a segmentation fault: it uses memory that is not its own, often by an index behind the end of '
-         'a vector, or a pointer that points to nothing',
+    -11: 'was stopped by a segmentation fault: it uses memory of others, often by an index behind the end of a '
+         'vector, or a pointer that points to nothing',
     -9: 'was killed from outside, often because it took too much memory: does a list grow without end?',
     -8: 'divided an integer by 0', -7: 'used memory that does not exist'}
 

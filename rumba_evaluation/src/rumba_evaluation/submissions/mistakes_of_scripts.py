@@ -57,15 +57,15 @@ def of_script(data: bytes, where: str) -> List[str]:
         return []
     first = data.split(b'\n', 1)[0]
     if data.startswith(MARK):
-        return [f'{where} begins with a byte order mark, three bytes that you cannot see before the #!, so that it '
-                'cannot be started: save it as "UTF-8" without BOM, '
+        return [f'{where} begins with a byte order mark, three invisible bytes before the #!, so it cannot be '
+                'started: save it as "UTF-8" without BOM, '
                 f"for example by `sed -i '1s/^\\xEF\\xBB\\xBF//' {shlex.quote(where)}`"]
     if not first.startswith(b'#!'):
         return [_without_shebang(data, where)]
     if first.endswith(b'\r'):
         program = printable(_program(first.decode('utf-8', 'surrogateescape')))
-        return [f"{where} has Windows line ends (CR LF), so that its first line names the program '{program}', which "
-                "does not exist: save it with Unix line ends (LF), for example by "
+        return [f"{where} has Windows line ends (CR LF), so its first line names '{program}', which does not exist: "
+                "save it with Unix line ends (LF), for example by "
                 f"`sed -i 's/\\r$//' {shlex.quote(where)}`"]
     return _interpreter(first.decode('utf-8', 'surrogateescape'), where)
 

@@ -33,10 +33,8 @@ class Conditions:
     """The conditions that all cases of an evaluation share."""
 
     start: str = setting(DOCK, f'where robots start: {DOCK} (the start of the map) or {ANYWHERE} (drawn from the seed)')
-    pose: str = setting(TRUTH, f'by what robots know where they are: {TRUTH}, {LOCALISED} (by laser and odometry, from '
-                               f'a start that is told roughly), {ODOMETRY} (alone, from a start that is told), '
-                               f'{SLAM} (by a map that they make themselves, from the dock on) or {MAPLESS} (they do '
-                               'not know it: without map and laser, they clean for a time)')
+    pose: str = setting(TRUTH, f'where robots get their pose: {TRUTH}, {LOCALISED} (laser and odometry), {ODOMETRY} '
+                               f'alone, {SLAM} (their own map, from the dock on) or {MAPLESS} (nowhere)')
     drain: float = setting(1.0, 'how many times faster than a real one the battery discharges and charges', '', 0.0,
                            1e4)
     target: float = setting(CleaningConfig().target_coverage, 'share of the reachable floor at which a mission ends',

@@ -87,8 +87,8 @@ def _parser() -> argparse.ArgumentParser:
     add('--start', choices=(DOCK, ANYWHERE), default=DOCK,
         help='where robots start: at the start of the map, or anywhere, drawn from the seed; default %(default)s')
     add('--pose', choices=POSES, default=TRUTH,
-        help='by what robots know where they are: the truth, laser and odometry, odometry, a map of their own, or '
-             'not at all, without map and laser; default %(default)s')
+        help='where robots get their pose: the truth, laser and odometry, odometry, their own map, or nowhere, without '
+             'map and laser; default %(default)s')
     add('--obstacles', type=_path, default='', metavar='FILE',
         help='YAML file of obstacles that the maps do not show, and that the robots do not know')
     add('--robot', type=_path, default='', metavar='FILE',

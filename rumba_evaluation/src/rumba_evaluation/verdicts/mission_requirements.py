@@ -31,9 +31,8 @@ class Requirements:
                              'much they may differ, as in "student/status/level rumba/battery_state/charge 0.1"')
     rates: str = setting('', 'how often messages come, on average over the run, as in "student/status 9 11" [Hz]')
     points: str = setting('', 'points for each condition, as in "coverage 8; collisions 2"; empty: one for each')
-    partial: str = setting('', 'partial credit: the figure that is worth nothing, from which points grow to the '
-                               'required one, and the exponent of the curve if it is not 1, as in "coverage 0.1; '
-                               'collisions 20 2"')
+    partial: str = setting('', 'partial credit, as in "coverage 0.1; collisions 20 2": the figure that earns '
+                               'nothing, from which points grow to the required one, and the exponent of the curve')
     time_limit: float = setting(60.0, 'for the whole run, in the time of the robots', 's', 0.01, 1e7)
 
     def conditions(self) -> List[Condition]:

@@ -10,7 +10,7 @@ from rumba_sim.model.config import setting
 class LaserSettings:
     """Which ranges count."""
 
-    laser_min_range: float = setting(0.0, 'shorter ranges tell nothing; 0: range_min of the scan counts', 'm', 0.0,
+    laser_min_range: float = setting(0.0, 'shorter ranges are ignored; 0: range_min of the scan counts', 'm', 0.0,
                                      1000.0)
     laser_max_range: float = setting(0.0, 'ranges as long as that have no echo; 0: range_max of the scan counts', 'm',
                                      0.0, 1000.0)

@@ -54,7 +54,7 @@ def _parsed() -> argparse.Namespace:
     add('--scan', default='/scan', help='topic of the scans of a bag; default %(default)s')
     add('--odom', default='/odom', help='topic of the odometry of a bag; default %(default)s')
     add('--base-frame', default='base_link', help='frame of the robot in a bag; default %(default)s')
-    for name, text in (('laser-min-range', 'shorter ranges tell nothing'), ('laser-max-range', 'longer ranges have no '
+    for name, text in (('laser-min-range', 'shorter ranges are ignored'), ('laser-max-range', 'longer ranges have no '
                        'echo'), ('max-urange', 'a beam without an echo is free up to here'),
                        ('sigma', 'standard deviation of the laser; by default it is estimated'),
                        ('delta', 'side of a cell of the map')):

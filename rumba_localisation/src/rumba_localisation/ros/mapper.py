@@ -68,8 +68,7 @@ class Settings(MapperConfig, LaserSettings):
     initial_pose_y: float = setting(0.0, 'the same', 'm')
     initial_pose_a: float = setting(0.0, 'the same', 'rad')
     maxUrange: float = setting(0.0, 'a beam without an echo is free up to here, as for gmapping; 0: only as far as '
-                                    'the echoes beside it show, since lasers miss echoes of near things, too', 'm',
-                               0.0, 100.0)
+                                    'the echoes beside it, because lasers miss near things too', 'm', 0.0, 100.0)
     map_update_interval: float = setting(2.0, 'time between two publications of the map, at least', 's', 0.0, 3600.0)
     map_file: str = setting('rumba_map.yaml', 'path of the file to which ~save_map writes; its images go beside it')
 
@@ -151,7 +150,7 @@ class MapperNode(ScanLoop):
         if mapper.is_lost:
             rospy.logwarn_throttle(COMPLAINT_PERIOD, f'{name}: was carried away, and looks for its place on its map')
         if mapper.is_contradicted:
-            rospy.logwarn_throttle(COMPLAINT_PERIOD, f'{name}: scans and odometry tell of different movements: is '
+            rospy.logwarn_throttle(COMPLAINT_PERIOD, f'{name}: scans and odometry show different movements: is '
                                                      'the laser where tf says, and does odom turn the right way?')
         if mapper.is_full:
             rospy.logwarn_throttle(COMPLAINT_PERIOD, f'{name}: the map is as large as it can be: what lies farther '

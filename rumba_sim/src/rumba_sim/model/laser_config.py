@@ -85,8 +85,8 @@ class LaserConfig:
     resolution: float = setting(0.0, 'ranges are multiples of it; 0: they are any numbers', 'm', 0.0, 1.0)
     dropouts: float = setting(0.0, 'share of the echoes that are missing (2 % of triangulating lasers: our choice)', '',
                               0.0, 1.0)
-    beam_width: float = setting(0.0, 'angle that a beam covers; 0: as thin as a line, no mixed pixels (where no source '
-                                     'tells it: a half or the whole of the angle from beam to beam)', 'rad', 0.0, 0.2)
+    beam_width: float = setting(0.0, 'angle that a beam covers; 0: as thin as a line, no mixed pixels (without a '
+                                     'source: a half or the whole of the angle from beam to beam)', 'rad', 0.0, 0.2)
     mixing_depth: float = setting(ANY, 'surfaces in one beam that are farther apart than this do not mix', 'm', 0.0,
                                   ANY)
     x: float = setting(0.0, 'where it is mounted: so far ahead of the centre of the robot', 'm', -5.0, 5.0)

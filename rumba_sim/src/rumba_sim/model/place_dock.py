@@ -36,8 +36,8 @@ def main(arguments: Sequence[str]) -> int:
         print(f'{NAME}: {error}', file=sys.stderr)
         return BAD_INPUT
     if found is None:
-        print(f'{NAME}: {plan.name}: no straight wall of {ALONG[-1] - ALONG[0]:g} m with {BEHIND[-1]:g} m of free floor '
-              'before it', file=sys.stderr)
+        print(f'{NAME}: {plan.name}: no straight wall of {ALONG[-1] - ALONG[0]:g} m with {BEHIND[-1]:g} m of free '
+              'floor before it', file=sys.stderr)
         return ERROR
     print(f'dock: [{found.x}, {found.y}, {found.theta}]')
     return 0

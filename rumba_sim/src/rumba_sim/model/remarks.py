@@ -22,6 +22,6 @@ def _out_of_reach(world: World) -> List[str]:
     if share < MUCH:
         return []
     x, y, _ = parts.open_pose(others[0][0])
-    return [f'{world.plan.name}: {100.0 * share:.0f} % of the floor on which a robot can stand cannot be reached from '
-            f'the start at ({start.x:.2f}, {start.y:.2f}) m; to start in the largest part of that, give the map '
+    return [f'{world.plan.name}: {100.0 * share:.0f} % of the floor on which a robot can stand is out of reach of '
+            f'the start at ({start.x:.2f}, {start.y:.2f}) m. To reach the largest part of it, give the map '
             f'start: [{x:.2f}, {y:.2f}, 0.0]']

@@ -68,8 +68,8 @@ class CliffConfig:
                               0.0, 5.0)
     inner_angle: float = setting(0.32, 'angle from straight ahead to front left and front right', 'rad', 0.0, math.pi)
     outer_angle: float = setting(0.95, 'angle from straight ahead to left and right', 'rad', 0.0, math.pi)
-    hold: float = setting(0.1, 'a sensor that saw a cliff tells of it for so long, so that who reads it ten times a '
-                               'second misses none (our choice)', 's', 0.0, 10.0)
+    hold: float = setting(0.1, 'a sensor that saw a cliff reports it for so long, so that a reader at 10 Hz misses '
+                               'none (our choice)', 's', 0.0, 10.0)
 
     @property
     def angles(self) -> Tuple[float, float, float, float]:

@@ -3,17 +3,19 @@
 from PyQt5.QtCore import QRectF, Qt
 from PyQt5.QtGui import QColor, QFont, QFontMetricsF, QPainter, QPen
 
+from rumba_viewer.scene.snapshot import MapFeatures
 from rumba_viewer.scene.theme import Theme
 
 STATES = ((('swept',), 'swept'), (('to_sweep',), 'still to sweep'), (('out_of_reach',), 'out of reach'),
           (('wall',), 'wall'))  # colours over one another, and what they mean
 UNMAPPED = (('wall', 'veil'), 'not on its map')
+FEATURES = ((('swept', 'carpet'), 'carpet'), (('cliff',), 'cliff'), (('dock',), 'dock'))
 PATCH, GAP, EDGE = 11.0, 12.0, 8.0  # [pixels] side of a patch; between two entries; around them
 
 
 def paint_key(painter: QPainter, left: float, width: float, height: float, theme: Theme,
-              has_own_map: bool = False) -> None:
-    """Paint a row of patches with words, if the picture is wide enough for it.
+              has_own_map: bool = False, features: MapFeatures = MapFeatures()) -> None:
+    """Paint a row of patches with words, if the picture is wide enough for it; else without features.
 
     Args:
         painter: what to paint with.
@@ -21,15 +23,22 @@ def paint_key(painter: QPainter, left: float, width: float, height: float, theme
         width, height: of the picture [pixels].
         theme: colours.
         has_own_map: whether the floor shows what a robot's own map does not.
+        features: of the map, which are named too.
     """
-    states = (*STATES, UNMAPPED) if has_own_map else STATES
+    states = [*STATES, UNMAPPED] if has_own_map else [*STATES]
     painter.save()
     font = QFont(painter.font())
     font.setPointSizeF(0.9 * font.pointSizeF())
     painter.setFont(font)
     metrics = QFontMetricsF(font)
-    widths = [PATCH + 5.0 + metrics.horizontalAdvance(words) for _, words in states]
-    wide, high = sum(widths) + GAP * (len(states) - 1) + 2.0 * EDGE, metrics.height() + 8.0
+    more = [*states, *(entry for entry, is_there in zip(FEATURES, (
+        features.carpet is not None, features.cliff is not None, features.docks)) if is_there)]
+    high = metrics.height() + 8.0
+    for states in (more, states):
+        widths = [PATCH + 5.0 + metrics.horizontalAdvance(words) for _, words in states]
+        wide = sum(widths) + GAP * (len(states) - 1) + 2.0 * EDGE
+        if left + wide <= width - 8.0:
+            break
     if left + wide <= width - 8.0:
         box = QRectF(left, height - high - 8.0, wide, high)
         card = QColor(theme.card)

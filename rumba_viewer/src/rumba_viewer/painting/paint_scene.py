@@ -54,7 +54,8 @@ class ScenePainter:
             _paint_target(painter, snapshot, view, theme)
             right = _paint_scale_bar(painter, view, theme)
             if snapshot.coverage is not None:
-                paint_key(painter, right + 8.0, view.width, view.height, theme, snapshot.known is not None)
+                paint_key(painter, right + 8.0, view.width, view.height, theme, snapshot.known is not None,
+                          snapshot.features)
         if snapshot.missing:
             _paint_missing(painter, snapshot, view, theme)
 

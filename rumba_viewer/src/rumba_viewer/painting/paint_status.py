@@ -172,9 +172,8 @@ def _mission_text(robot: Optional[Robot]) -> str:
 
 
 def _mission_time(robot: Optional[Robot]) -> str:
-    if robot is None or robot.elapsed is None:
-        return UNKNOWN
-    return taken(robot.elapsed, robot.left).replace('about ', '~')
+    time = taken(robot.elapsed, robot.left) if robot is not None else ''
+    return time.replace('about ', '~') or UNKNOWN
 
 
 def _trouble_text(robot: Optional[Robot]) -> str:

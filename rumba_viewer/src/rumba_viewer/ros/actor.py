@@ -130,7 +130,7 @@ class Actor:
             service = rospy.ServiceProxy(f'{simulator}/tuning/set_parameters', Reconfigure)
             answer = service(Config(doubles=[DoubleParameter('speed', speed)])).config
             in_force = {parameter.name: parameter.value for parameter in answer.doubles}['speed']
-            return '' if in_force == speed else f'stays {in_force:g}: the log of {simulator} tells why'
+            return '' if in_force == speed else f'stays {in_force:g}: the log of {simulator} says why'
         self._call('speed', call)
 
     def _trigger(self, what: str, service: str) -> None:

@@ -129,7 +129,7 @@ ACTS = (
     Act('faster', 'Faster', '+', 'make time pass faster', simulated),
     Act('laser', 'Laser', 'L', 'show or hide what the laser measures', nothing),
     Act('path', 'Path', 'P', 'show or hide the path driven', nothing),
-    Act('field', 'Beams', 'I', 'show or hide where the dock is received', nothing),
+    Act('field', 'Dock beams', 'I', 'show or hide where the beams of the dock are received', nothing),
     Act('fit', 'Fit', 'Home', 'show the whole map', nothing),
     Act('next_robot', 'Next robot', 'Tab', 'select the next robot', another_robot),
     Act('save', 'Save PNG', 'Ctrl+S', 'save a picture of the window', nothing),

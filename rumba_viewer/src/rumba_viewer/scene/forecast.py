@@ -13,6 +13,7 @@ ENOUGH = 20.0  # [s] of cleaning, or of charging, until its rate is known
 GAP = 60.0  # [s] without news, after which what happened meanwhile is not counted
 REST, SLOW = 0.05, 3.0  # the last share of the floor takes so many times as long: leftovers far apart (the apartment)
 AIMLESS = ('wander', 'bounce', 'spiral', 'wall_follow')  # strategies by which less and less of what is swept is new
+FRESH = 0.005  # share of the floor up to which a mission that is seen for the first time has just begun
 LEAST = 0.12  # charge at which a robot is back on its dock, with the default reserve; measured in the apartment
 
 
@@ -21,13 +22,18 @@ class Forecast:
 
     The rates are those of this mission alone. Until the robot has charged once, the rate of charging follows from the
     currents of the default battery.
+
+    Attributes:
+        is_whole: whether the mission was seen from its beginning.
+        elapsed: how long it was seen [s].
+        charges: how often it charged meanwhile.
     """
 
     def __init__(self, target: float = CleaningConfig().target_coverage) -> None:
         """Expect missions with a target [0..1]."""
         self._target = target
         self._last: Optional[Cleaning] = None
-        self._is_active = False
+        self._is_active = self.is_whole = False
         self._begin()
 
     def _begin(self) -> None:
@@ -43,8 +49,10 @@ class Forecast:
         last, self._last = self._last, cleaning
         if last is None or cleaning.time < last.time or cleaning.distance < last.distance:  # another world
             self._begin()
+            self.is_whole = last is not None
         if mission.is_active and not self._is_active:
             self._begin()
+            self.is_whole = last is not None or cleaning.coverage < FRESH
         elif last is not None and self._is_active and 0.0 < cleaning.time - last.time <= GAP:
             self._count(cleaning.time - last.time, cleaning.cleaned_area - last.cleaned_area,
                         battery.share - self._share)

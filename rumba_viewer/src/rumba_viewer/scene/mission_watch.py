@@ -60,8 +60,9 @@ class MissionWatch:
 
     @property
     def elapsed(self) -> Optional[float]:
-        """How long the mission takes already [s]; None without one."""
-        return self._forecast.elapsed if self.mission is not None and self.mission.is_active else None
+        """How long the mission takes already [s]; None without one, or if its beginning was not seen."""
+        is_known = self.mission is not None and self.mission.is_active and self._forecast.is_whole
+        return self._forecast.elapsed if is_known else None
 
     @property
     def left(self) -> Optional[float]:

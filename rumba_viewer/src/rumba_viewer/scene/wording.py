@@ -32,9 +32,10 @@ def about(seconds: float) -> str:
     return f'about {minutes} min' if minutes < 120 else f'about {minutes / 60.0:.1f} h'
 
 
-def taken(elapsed: float, left: Optional[float]) -> str:
-    """How long a mission takes already, and still [s]."""
-    return span(elapsed) + (f', {about(left)} left' if left is not None else '')
+def taken(elapsed: Optional[float], left: Optional[float]) -> str:
+    """How long a mission takes already, and still [s]; empty if both are unknown."""
+    known = [] if elapsed is None else [span(elapsed)]
+    return ', '.join(known if left is None else [*known, f'{about(left)} left'])
 
 
 def doing(mission: Optional[Mission]) -> str:
@@ -50,8 +51,9 @@ def live_line(mission: Optional[Mission], cleaning: Optional[Cleaning], battery:
     """A mission in one line, the most important first, since a narrow terminal shows its beginning."""
     parts = [f'{percent(cleaning.coverage, 1):>6} swept' if cleaning is not None else 'no floor',
              f'battery {percent(battery.share)}']
-    if elapsed is not None:
-        parts.append(taken(elapsed, left))
+    time = taken(elapsed, left)
+    if time:
+        parts.append(time)
     return '  '.join((*parts, doing(mission)))
 
 
@@ -59,9 +61,10 @@ def closing(robot: str, mission: Mission, cleaning: Cleaning, begin: Optional[Cl
             forecast: Forecast) -> List[str]:
     """A small report at the end of a mission."""
     charges = forecast.charges
+    time = f'{span(forecast.elapsed)}, ' if forecast.is_whole else ''
     driven = cleaning.distance - (begin.distance if begin is not None else 0.0)
     return [
         f'{robot}: {percent(cleaning.coverage, 1)} of the floor is swept: {cleaning.cleaned_area:.1f} of '
-        f'{cleaning.reachable_area:.1f} m2, {percent(cleaning.dirt, 1)} of the dirt is left',
-        f'{span(forecast.elapsed)}, {max(driven, 0.0):.1f} m driven, {charges} charge{"" if charges == 1 else "s"}, '
+        f'{cleaning.reachable_area:.1f} m², {percent(cleaning.dirt, 1)} of the dirt is left',
+        f'{time}{max(driven, 0.0):.1f} m driven, {charges} charge{"" if charges == 1 else "s"}, '
         f'battery {percent(battery.share)}' + (f'; {mission.message}' if mission.state == 'stranded' else '')]

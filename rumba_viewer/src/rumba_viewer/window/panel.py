@@ -23,7 +23,7 @@ STRATEGIES, SPEED = 'strategies', 'speeds'  # lists among the buttons
 GROUPS = (  # of buttons, by name, with their headings
     ('Mission', (('clean', STRATEGIES), ('resume_cleaning', 'go_there'), ('dock', 'undock', 'cancel'))),
     ('Time and robot', (('pause', 'step', SPEED), ('brushes', 'next_robot', 'reset'))),
-    ('View and save', (('laser', 'path', 'field', 'fit', 'legend'), ('save', 'record', 'report'))))
+    ('View and save', (('laser', 'path', 'fit', 'legend'), ('field', 'save'), ('record', 'report'))))
 MAIN = 'clean'  # the most prominent button
 RECORDS = ('record', 'report')  # buttons that show how long they are pressed
 SWITCHES = ('laser', 'path', 'field', *RECORDS, 'legend')  # buttons that stay pressed

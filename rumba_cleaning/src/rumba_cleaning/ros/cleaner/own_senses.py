@@ -108,7 +108,7 @@ class OwnSenses(Senses):
         """What is missing for an observation, for a person."""
         if self.stamp is None or self._is_silent:
             return self.absence
-        return f'no pose: tf has no {self._location}: no localiser or mapper tells it'
+        return f'no pose: tf has no {self._location}: no localiser or mapper publishes it'
 
     @property
     def absence(self) -> str:

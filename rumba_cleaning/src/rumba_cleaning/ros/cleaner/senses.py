@@ -232,7 +232,7 @@ class Senses:
     def missing(self) -> str:
         """What is missing for an observation, for a person."""
         if self._battery is None:
-            return f'no charge: {self._robot}/battery_state tells no percentage'
+            return f'no charge: {self._robot}/battery_state has no percentage'
         if self.pose() is None:
             return f'no pose: tf has no {self._location}'
         return f'no reading: nothing new on {" and ".join(f"{self._robot}/{topic}" for topic in self._late())}'

@@ -19,9 +19,9 @@ class GoToPositionSettings:
     """What the service go_to_position answers."""
 
     answer: str = setting('velocity', 'velocity: a speed in linear_x [m/s] and a turn rate in angular_z [rad/s], to be '
-                                      'commanded as they are; heading, as servers of the lesson answer: a heading in '
-                                      'angular_z [rad], to turn to first, and a speed in linear_x [m/s], to drive with '
-                                      'then: -1, backward, or 0 at the target',
+                                      'commanded as they are. Heading, as servers of the lesson answer: a heading in '
+                                      'angular_z [rad], to turn to first, and then a speed in linear_x [m/s]: -1, '
+                                      'backward, or 0 at the target',
                           choices=('velocity', 'heading'))
 
 
@@ -32,16 +32,14 @@ class Settings(CleaningConfig):
     robot: str = setting('rumba', 'name of the robot, below which its topics are')
     own_robot: str = own_robot_setting()
     home: str = setting('', 'where a robot of your own ends: x y theta [m, rad] on the map; empty: where it began')
-    team: str = setting('', 'names of all robots that share the floor and its work, its own among them, with spaces '
-                            'between them, in the order in which they give way: each to those before it; empty: it '
-                            'works alone')
+    team: str = setting('', 'names of all robots that share the floor, its own among them, with spaces between: '
+                            'each gives way to those before it; empty: it works alone')
     map: str = setting('', 'name of a map of rumba_sim, or path of a map_server YAML file; empty: that of the '
                            'simulator')
     mapping: bool = setting(False, 'whether the floor is being mapped: its plan is that of the topic map, as it grows, '
                                    'and not that of a file')
-    mapless: bool = setting(False, 'whether the robot works without a map, without a localisation and without a laser, '
-                                   'by bumper, cliff sensors, odometry and the beams of the dock: by the strategies '
-                                   'wander, bounce, spiral or wall_follow, for cleaning_time')
+    mapless: bool = setting(False, 'whether the robot works without map, localisation and laser, for cleaning_time: '
+                                   'with the strategies wander, bounce, spiral or wall_follow')
     seed: int = setting(1, 'of all that is random', '', 0, 2 ** 31 - 1)
     strategies: str = setting('', 'Python modules to import for further strategies, with commas between them')
     autostart: bool = setting(False, 'whether to begin with a goal of clean, without waiting for one')
@@ -63,8 +61,8 @@ class Settings(CleaningConfig):
         if self.home_pose is not None and not self.own_robot:
             raise ConfigError('home is given: must come with own_robot: a Rumba ends on its dock')
         if self.mapless and len(names) > 1:
-            raise ConfigError(f'team is {self.team!r}: must be empty with mapless: a robot that does not know where it '
-                              'is cannot tell its mates')
+            raise ConfigError(f'team is {self.team!r}: must be empty with mapless: without a pose, a robot has nothing '
+                              'to report')
         if self.mapping and len(names) > 1:
             raise ConfigError(f'team is {self.team!r}: must be empty with mapping: each robot would make a map of its '
                               'own, in a frame of its own')

@@ -134,7 +134,7 @@ class Team:
             self._take(listeners, name, self._read(name, message), stamp)
         for name, heard in list(self._heard.items()):
             if heard.report.task is not Task.OFF and (stamp - heard.stamp).to_sec() > SILENT:
-                rospy.logwarn(f'{self._robot}: nothing is heard of {name} any more: it is taken to have stopped')
+                rospy.logwarn(f'{self._robot}: {name} has fallen silent: it counts as stopped')
                 self._take(listeners, name, heard.report._replace(task=Task.OFF, ahead=None), stamp)
 
     def _take(self, listeners: Sequence[Listener], name: str, report: Report, stamp: rospy.Time) -> None:

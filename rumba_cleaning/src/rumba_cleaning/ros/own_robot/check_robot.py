@@ -48,7 +48,7 @@ class Settings:
     battery_state: str = setting('/battery_state', 'topic of its charge')
     bumper: str = setting('/bumper', 'topic of its bumper')
     cliff: str = setting('/cliff', 'topic of its cliff sensors')
-    wheel_drop: str = setting('/wheel_drop', 'topic that tells whether a wheel hangs in the air')
+    wheel_drop: str = setting('/wheel_drop', 'topic that says whether a wheel hangs in the air')
     seconds: float = setting(10.0, 'how long it listens, by the clock of the robot', 's', 1.0, 600.0)
     drive: bool = setting(False, 'whether to drive the robot, so that scan, odometry and command can be compared')
 

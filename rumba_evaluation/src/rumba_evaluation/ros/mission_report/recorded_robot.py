@@ -166,7 +166,7 @@ class RecordedRobot:
         A target of 0 is that of the last goal that names one, or else the cleaner's default.
         """
         remarks = list(remarks)
-        remarks += [f'{topic} was published by {" and ".join(sorted(nodes))}: the figures mix what they told.'
+        remarks += [f'{topic} was published by {" and ".join(sorted(nodes))}: the figures mix their messages.'
                     for topic, nodes in self._publishers.items() if len(nodes) > 1]
         if self._was_set_back:
             remarks.append('The clock was set back during the recording: times are those of the recorder.')

@@ -40,7 +40,7 @@ def socket_path() -> str:
         os.mkdir(folder, 0o700)
     status = os.lstat(folder)
     if not stat.S_ISDIR(status.st_mode) or status.st_uid != os.getuid() or status.st_mode & 0o077:
-        raise WorldError(f'{folder}: must be a folder of yours that nobody else may open: remove it')
+        raise WorldError(f'{folder}: must be your own folder, closed to others: remove it')
     return os.path.join(folder, str(urllib.parse.urlsplit(rosgraph.get_master_uri()).port))
 
 

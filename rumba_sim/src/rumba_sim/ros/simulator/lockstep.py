@@ -105,7 +105,7 @@ class Lockstep:
             self._requests.serve(time.monotonic() + LOOK_PERIOD, lambda: not self._participants.missing(but))
             self._look_for_the_ended()
             for name, patience in self._participants.give_up(self._has_publisher):
-                rospy.logwarn(f'lockstep: nothing was heard of {name} for {patience:g} s: the world goes on without it '
+                rospy.logwarn(f'lockstep: no answer of {name} for {patience:g} s: the world goes on without it '
                               'until it answers again')
             if self._participants.missing(but):
                 meanwhile()

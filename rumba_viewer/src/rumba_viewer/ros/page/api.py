@@ -12,6 +12,7 @@ from rumba_viewer.page.definitions import details
 from rumba_viewer.page.errors import Refusal
 from rumba_viewer.ros.page import parameters, types
 from rumba_viewer.ros.page.clock import Clock
+from rumba_viewer.ros.page.floor import Floor
 from rumba_viewer.ros.page.graph import Graph, Known
 
 ACTION = ('goal', 'cancel', 'status', 'feedback', 'result')  # the topics of an action
@@ -81,6 +82,7 @@ class Api:
     def _on_the_rest(self) -> Answers:
         return {
             'message_details': lambda values: _typedefs(_message(values)),
+            'floor': Floor().answer,
             'get_time': lambda _: {'time': dict(zip(('secs', 'nsecs'), self._clock.now()))},
             'get_param': parameters.get, 'set_param': parameters.put, 'has_param': parameters.has,
             'delete_param': parameters.delete,

@@ -19,7 +19,7 @@ class Settings:
     """The node's private parameters."""
 
     address: str = setting('127.0.0.1', 'address at which to serve; 0.0.0.0: all of this machine, needs a token')
-    port: int = setting(8080, 'port; 0: any free one, which a line tells', '', 0, 65535)
+    port: int = setting(8080, 'port; 0: any free one, which a line names', '', 0, 65535)
     token: str = setting('', 'text that permits changes; empty: everybody may change everything')
     robot_tokens: str = setting('', 'texts that permit to drive one robot, as in rumba:blue,rumba2:green')
     read: str = setting('', 'further topics that can be subscribed to, separated by commas; * stands for a robot')
