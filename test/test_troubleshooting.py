@@ -36,7 +36,7 @@ ELSEWHERE = ['Compatibility with CMake < 3.5 has been removed from CMake.',
              'Cannot load message class for [rumba_msg/...]. Are your messages built?',
              'to have datatype/md5sum [...], but our version has [...]. Dropping connection.',
              'Unable to communicate with master!',
-             'drive/wheel_base is ... m and cliff/distance ... m: no cliff sensor looks at the floor before the '
+             'drive/wheel_base is ... m and cliff/distance ... m: no cliff sensor sees the floor before the '
              'wheels, ...']
 
 
