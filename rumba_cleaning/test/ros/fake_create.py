@@ -5,7 +5,8 @@ It publishes and subscribes to what create_driver does, below `/`, with messages
 laser that somebody mounted on it, and `/clock`. Once told to dock, it is passive, and follows the beams of its dock by
 itself: it knows neither map nor position, only what its receivers get. In full mode it obeys, and does not charge.
 It judges by itself what its brush has swept: `/coverage` (std_msgs/Float32). As fake_robot, it waits for those who
-drive it; `~fault` plants a fault: `no beams` of a dock that is not plugged in, `lifted` wheels from a time on.
+drive it; while they let it dock, for what they publish on the topic `~answer` (std_msgs/Empty). `~fault` plants a
+fault: `no beams` of a dock that is not plugged in, `lifted` wheels after half a minute.
 """
 
 import math
@@ -29,7 +30,7 @@ CAPACITY = 2.7  # [Ah]
 IDLE, WHEELS, BRUSHES = 0.1, 0.5, 0.4  # shares of the load of a robot that cleans at 0.3 m/s
 TRICKLE_AT = 0.999
 ROOMS = {
-    'room': (Room((3.0, 2.4), [(2.3, 0.0, 3.0, 0.5)], (0.8, 2.4 - 0.05 - RADIUS, math.pi / 2)), Dock(0.8, 2.4)),
+    'room': (Room((2.6, 2.2), [(2.0, 0.0, 2.6, 0.5)], (0.8, 2.2 - 0.05 - RADIUS, math.pi / 2)), Dock(0.8, 2.2)),
     'furnished': (Room((5.0, 4.0), [
         (1.6, 3.2, 2.6, 4.0), (0.0, 2.6, 0.5, 3.4), (3.2, 1.2, 3.9, 2.0), (4.4, 0.0, 5.0, 1.0),
         *((x, y, x + 0.05, y + 0.05) for x in (1.2, 1.8) for y in (1.1, 1.7))],
@@ -54,7 +55,7 @@ class FakeCreate:
         self.mode, self.duties, self.firmware = Mode.MODE_FULL, {}, None  # the driver begins in full mode
         self.charge = rospy.get_param('~charge', 1.0)
         self.lasts, self.fills = rospy.get_param('~lasts', 3600.0), rospy.get_param('~fills', 3600.0)  # [s]
-        self.command, self.commanded, self.corrected = Twist(), None, rospy.Time()
+        self.command, self.commanded, self.answered, self.corrected = Twist(), None, None, rospy.Time()
         self.waits = rospy.get_param('~wait_for_correction', False)
         self.now = rospy.Time(100)
         self.publishers = {}
@@ -64,6 +65,7 @@ class FakeCreate:
         for topic, kind, take in (('cmd_vel', Twist, self.take), ('dock', Empty, self.seek_dock),
                                   ('undock', Empty, self.obey), ('tf', tf2_msgs.msg.TFMessage, self.hear)):
             rospy.Subscriber(f'/{topic}', kind, take)
+        rospy.Subscriber(rospy.get_param('~answer', '/answer'), Empty, self.take_answer)
         for motor in ('main_brush_motor', 'side_brush_motor', 'vacuum_motor'):
             rospy.Subscriber(f'/{motor}', MotorSetpoint, self.take_duty, motor)
 
@@ -72,6 +74,11 @@ class FakeCreate:
     def take(self, message):
         """Take a velocity, which a passive robot ignores."""
         self.command, self.commanded = message, self.now
+        self.take_answer(None)
+
+    def take_answer(self, _):
+        """Note that those who drive have heard everything so far."""
+        self.answered = self.now
 
     def take_duty(self, message, motor):
         """Have a brush turn, unless the robot is passive."""
@@ -197,7 +204,7 @@ class FakeCreate:
             self.step()
             while not rospy.is_shutdown() and time.monotonic() - begin < 1.0 and (
                     self.waits and self.corrected < self.now or time.monotonic() - begin < DT / 10
-                    or self.mode == Mode.MODE_FULL and self.commanded is not None and self.commanded < self.now):
+                    or self.answered is not None and self.answered < self.now):
                 time.sleep(0.001)
 
 
