@@ -26,7 +26,7 @@ PATIENCE = 1200.0  # [s] of the wall clock for a mission
 ROOM = 'furnished'
 OWN = ('own_robot.launch', f'robot:={FAKE / "fake_robot.yaml"}', 'scan:=/front/laser', 'odom:=/base/odometry',
        'cmd_vel:=/base/velocity')
-BATTERY = '_lasts:=800', '_fills:=100'  # [s]
+BATTERY = '_lasts:=400', '_fills:=100'  # [s]
 
 
 class Kind(NamedTuple):
