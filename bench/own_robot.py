@@ -93,7 +93,8 @@ def run(name, kind, seed, more):
     share, message = (shares[-1].data if shares else 0.0), statuses[-1].message if statuses else 'no mission'
     is_create = kind.fake == 'fake_create'
     dockings = sum(after and not before for before, after in zip(chargers, chargers[1:]))
-    how = f', {dockings} times onto its dock, {"where" if chargers[-1] else "and not there"} it ends' if is_create else ''
+    end = 'where' if chargers[-1] else 'and not there'
+    how = f', {dockings} times onto its dock, {end} it ends' if is_create else ''
     print(f'{name}, seed {seed}: {share:.1%} swept after {passed:.0f} s{how}, the cleaner says: {message}; '
           f'{time.monotonic() - begin:.0f} s', flush=True)
     return share, bool(chargers[-1]) or not is_create

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """A Create and its driver that know nothing of Rumba: the topics of create_driver, a laser, and a dock with beams.
 
-It publishes and subscribes to what create_driver does, below `/`, with messages of create_msgs; beside that `/scan`, of a
-laser that somebody mounted on it, and `/clock`. Once told to dock, it is passive, and follows the beams of its dock by
+It publishes and subscribes to what create_driver does, below `/`, with messages of create_msgs; beside that `/scan`, of
+a laser that somebody mounted on it, and `/clock`. Once told to dock, it is passive, and follows the beams of its dock by
 itself: it knows neither map nor position, only what its receivers get. In full mode it obeys, and does not charge.
 It judges by itself what its brush has swept: `/coverage` (std_msgs/Float32). As fake_robot, it waits for those who
 drive it; while they let it dock, for what they publish on the topic `~answer` (std_msgs/Empty). `~fault` plants a

@@ -30,8 +30,9 @@ class SafeDriveCreateTest(unittest.TestCase):
         rospy.set_param('/use_sim_time', True)
         if rospy.has_param('/safe_drive'):
             rospy.delete_param('/safe_drive')
-        self.process = programs.start('rumba_cleaning', 'safe_drive', f'_own_robot:={FILE}', '_create:=/create',
-                                      '_docked:=false', 'rumba/odom:=/create/odom', 'rumba/safe_cmd_vel:=/create/cmd_vel')
+        self.process = programs.start(
+            'rumba_cleaning', 'safe_drive', f'_own_robot:={FILE}', '_create:=/create', '_docked:=false',
+            'rumba/odom:=/create/odom', 'rumba/safe_cmd_vel:=/create/cmd_vel')
         self.addCleanup(self._end)
         self.now, self.told, self.statuses, self.mode, self.state = rospy.Time(100), [], [], Mode.MODE_FULL, 0
         self.clock = self._publisher('/clock', Clock)
@@ -77,7 +78,8 @@ class SafeDriveCreateTest(unittest.TestCase):
             self.talkers[name].publish(message)
         if talker is not None:
             self.talkers[talker].publish(AHEAD if talker == 'drive' else Empty())
-        wait(self, lambda: self.talkers['odometry'].publish(odometry) or len(self.statuses) > count, 'dock_status', 0.02)
+        wait(self, lambda: self.talkers['odometry'].publish(odometry) or len(self.statuses) > count, 'dock_status',
+             0.02)
         rospy.rostime.wallsleep(0.05)  # more than a look of safe_drive
 
     def _until(self, told, talker=None, most=WITHIN):

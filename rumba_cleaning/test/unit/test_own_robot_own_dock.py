@@ -93,11 +93,12 @@ def test_characters_of_a_dock_and_of_others(character, beams):
     assert dock.infrared == beams
 
 
-# --- what the driver is told --------------------------------------------------------------------------------------------
+# --- what the driver is told ------------------------------------------------------------------------------------------
 
 def test_it_is_told_to_dock_once_and_again_if_it_does_not_become_passive():
     dock = dock_of(is_docked=False)
-    assert [dock.due(SEEK_DOCK, now) for now in (0.0, 0.1, 0.9 * AGAIN[DOCK], 1.1 * AGAIN[DOCK])] == [DOCK, '', '', DOCK]
+    times = 0.0, 0.1, 0.9 * AGAIN[DOCK], 1.1 * AGAIN[DOCK]
+    assert [dock.due(SEEK_DOCK, now) for now in times] == [DOCK, '', '', DOCK]
     dock.take_mode(PASSIVE, 6.0)
     assert dock.due(SEEK_DOCK, 100.0) == ''
 

@@ -91,7 +91,8 @@ class Cleaner:
         self._has_ended = threading.Event()
         self._workplace = Workplace(settings.map, lambda: self._events.put(self._look_at_world),
                                     SurveyListener(settings.robot) if settings.mapping else None,
-                                    has_map=not settings.mapless, own=own, docks=settings.docks, home=settings.home_pose)
+                                    has_map=not settings.mapless, own=own, docks=settings.docks,
+                                    home=settings.home_pose)
         self._world: Optional[World] = self._workplace.world  # that of the goal and of the cleaning below
         self._run: Optional[Run] = None
         self._interruption = Interruption()

@@ -97,7 +97,8 @@ class OwnSenses(Senses):
         inputs = self._inputs
         return Observation(
             dt=0.0, pose=pose, bumper=inputs.bumper, cliffs=inputs.cliffs, state_of_charge=inputs.charge,
-            is_docked=inputs.is_docked, infrared=Infrared(*inputs.infrared), covariance=self._certainty.covariance(stamp),
+            is_docked=inputs.is_docked, infrared=Infrared(*inputs.infrared),
+            covariance=self._certainty.covariance(stamp),
             silence=self._location.silence(self._certainty.stamp))
 
     def pose(self) -> Optional[Pose]:

@@ -20,8 +20,8 @@ from geometry_msgs.msg import Twist, Vector3
 from rumba_cleaning.own_robot.check import report, table
 from rumba_cleaning.own_robot.gate import STOP, Velocity, limited
 from rumba_cleaning.own_robot.heard import Heard, Topic
-from rumba_cleaning.ros.own_robot.listeners import (CommandListener, ModeListener, OdometryListener, ScanListener,
-                                                   TopicListener)
+from rumba_cleaning.ros.own_robot.listeners import (
+    CommandListener, ModeListener, OdometryListener, ScanListener, TopicListener)
 from rumba_sim.model.config import setting
 from rumba_sim.model.errors import ConfigError
 from rumba_sim.model.geometry import wrap_angle

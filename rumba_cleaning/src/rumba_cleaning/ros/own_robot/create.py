@@ -109,7 +109,6 @@ def _class(name: str) -> Any:
     """
     found = roslib.message.get_message_class(f'{PACKAGE}/{name}')
     if found is None:
-        raise ConfigError(f'create is given, and the package {PACKAGE} is not installed: install create_robot, or source '
-                          'the workspace that has it')
+        raise ConfigError(f'create is given, and the package {PACKAGE} is not installed: install create_robot, or '
+                          'source the workspace that has it')
     return found
-
