@@ -76,7 +76,8 @@ def run(name, kind, seed, more):
     statuses, shares, chargers, begin = [], [], [0], time.monotonic()
     with ros_session.process([
             sys.executable, str(FAKE / f'{kind.fake}.py'), f'_seed:={seed}', f'_room:={ROOM}',
-            '_wait_for_correction:=true', '_answer:=/rumba/seek_dock', *BATTERY]), ros_session.process(
+            '_wait_for_correction:=true', '_answer:=/rumba/seek_dock', '_witness:=/rumba/dock_status',
+            *BATTERY]), ros_session.process(
                 ['roslaunch', 'rumba_launch', *kind.launch, *more]):
         subscribers = [rospy.Subscriber('/rumba/mission_status', MissionStatus, statuses.append),
                        rospy.Subscriber('/coverage', Float32, shares.append),

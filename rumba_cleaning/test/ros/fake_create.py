@@ -5,8 +5,8 @@ It publishes and subscribes to what create_driver does, below `/`, with messages
 a laser that somebody mounted on it, and `/clock`. Once told to dock, it is passive, and follows the beams of its dock by
 itself: it knows neither map nor position, only what its receivers get. In full mode it obeys, and does not charge.
 It judges by itself what its brush has swept: `/coverage` (std_msgs/Float32). As fake_robot, it waits for those who
-drive it; while they let it dock, for what they publish on the topic `~answer` (std_msgs/Empty). `~fault` plants a
-fault: `no beams` of a dock that is not plugged in, `lifted` wheels after half a minute.
+drive it: for a velocity or what comes on the topic `~answer` while they let it dock, and for what comes on the topic
+`~witness`. `~fault` plants a fault: `no beams` of a dock that is not plugged in, `lifted` wheels after half a minute.
 """
 
 import math
@@ -55,7 +55,8 @@ class FakeCreate:
         self.mode, self.duties, self.firmware = Mode.MODE_FULL, {}, None  # the driver begins in full mode
         self.charge = rospy.get_param('~charge', 1.0)
         self.lasts, self.fills = rospy.get_param('~lasts', 3600.0), rospy.get_param('~fills', 3600.0)  # [s]
-        self.command, self.commanded, self.answered, self.corrected = Twist(), None, None, rospy.Time()
+        self.command, self.commanded, self.corrected = Twist(), None, rospy.Time()
+        self.answered = {}  # when each of those came on whom it waits
         self.waits = rospy.get_param('~wait_for_correction', False)
         self.now = rospy.Time(100)
         self.publishers = {}
@@ -65,7 +66,8 @@ class FakeCreate:
         for topic, kind, take in (('cmd_vel', Twist, self.take), ('dock', Empty, self.seek_dock),
                                   ('undock', Empty, self.obey), ('tf', tf2_msgs.msg.TFMessage, self.hear)):
             rospy.Subscriber(f'/{topic}', kind, take)
-        rospy.Subscriber(rospy.get_param('~answer', '/answer'), Empty, self.take_answer)
+        for whose in ('answer', 'witness'):
+            rospy.Subscriber(rospy.get_param(f'~{whose}', f'/{whose}'), rospy.AnyMsg, self.take_answer, whose)
         for motor in ('main_brush_motor', 'side_brush_motor', 'vacuum_motor'):
             rospy.Subscriber(f'/{motor}', MotorSetpoint, self.take_duty, motor)
 
@@ -74,11 +76,11 @@ class FakeCreate:
     def take(self, message):
         """Take a velocity, which a passive robot ignores."""
         self.command, self.commanded = message, self.now
-        self.take_answer(None)
+        self.take_answer(message, 'answer')
 
-    def take_answer(self, _):
-        """Note that those who drive have heard everything so far."""
-        self.answered = self.now
+    def take_answer(self, _, whose):
+        """Note that one of those who drive has heard everything so far."""
+        self.answered[whose] = self.now
 
     def take_duty(self, message, motor):
         """Have a brush turn, unless the robot is passive."""
@@ -204,7 +206,7 @@ class FakeCreate:
             self.step()
             while not rospy.is_shutdown() and time.monotonic() - begin < 1.0 and (
                     self.waits and self.corrected < self.now or time.monotonic() - begin < DT / 10
-                    or self.answered is not None and self.answered < self.now):
+                    or any(when < self.now for when in list(self.answered.values()))):
                 time.sleep(0.001)
 
 

@@ -47,7 +47,8 @@ class CreateTest(ForeignRobotTest):
         return [event for event in self.events if (event.topic, event.value) == (topic, value)]
 
     def _cleans(self, room, *arguments, **parameters):
-        self.start('fake_create', 'create.launch', *arguments, room=room, answer='/rumba/seek_dock', **parameters)
+        self.start('fake_create', 'create.launch', *arguments, room=room, answer='/rumba/seek_dock',
+                   witness='/rumba/dock_status', **parameters)
         return self.wait_for_end()
 
     def _check_stays(self, least):
@@ -85,7 +86,7 @@ class CreateTest(ForeignRobotTest):
 
     @thorough
     def test_if_no_beam_comes_it_tries_again_and_then_says_so(self):
-        _, message = self._cleans('room', fault='no beams', **SMALL_BATTERY)
+        _, message = self._cleans('room', fault='no beams')
         self.assertRegex(message, r'% swept: 3 attempts to dock failed: the robot .*; it received no beam of a dock$')
         self.assertEqual(self._all('charging', CHARGING), [])
 

@@ -32,8 +32,6 @@ Parameters, as in `rosrun rumba_cleaning safe_drive _own_robot:=my_robot.yaml`:
 import dataclasses
 import threading
 import time
-from typing import Optional
-
 import rospy
 from geometry_msgs.msg import Point, Pose, PoseWithCovariance, Twist, TwistWithCovariance, Vector3
 from nav_msgs.msg import Odometry
@@ -87,7 +85,7 @@ class SafeDrive:
         """Open all topics and the service.
 
         Raises:
-            ConfigError: no file is named, or it is wrong.
+            ConfigError: no file is named, or it is wrong; or the messages of a Create are not installed.
         """
         own = own_robot(settings.own_robot)
         if own is None:
@@ -98,15 +96,15 @@ class SafeDrive:
         self._agreement = Agreement()
         self._lock, self._has_ended = threading.Lock(), False
         self._publisher = rospy.Publisher(f'{name}/safe_cmd_vel', Twist, queue_size=1)
+        self._create = Create(name, settings.create, own.frames.base.lstrip('/'), settings.docked,
+                              self._lock) if settings.create else None
+        if settings.create:
+            rospy.Subscriber(f'{name}/seek_dock', Empty, self._seek_dock, queue_size=1)
         rospy.Subscriber(f'{name}/cmd_vel', Twist, self._take, CLEANER, queue_size=1)
         rospy.Subscriber(f'{name}/{teleop.TOPIC}', Twist, self._take, PERSON, queue_size=1)
         rospy.Subscriber(odom, Odometry, self._compare, odom, queue_size=10)
         rospy.Subscriber(scan, LaserScan, self._hear, scan, queue_size=1)
         rospy.Service(f'{name}/stop', SetBool, self._stop)
-        self._create: Optional[Create] = None
-        if settings.create:
-            self._create = Create(name, settings.create, own.frames.base.lstrip('/'), settings.docked, self._lock)
-            rospy.Subscriber(f'{name}/seek_dock', Empty, self._seek_dock, queue_size=1)
         if settings.odometry_from_tf:
             self._link = own.frames.odom.lstrip('/'), own.frames.base.lstrip('/')
             self._odometry = rospy.Publisher(odom, Odometry, queue_size=10)
