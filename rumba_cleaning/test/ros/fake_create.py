@@ -17,7 +17,7 @@ import rospy
 import tf2_msgs.msg
 from create_msgs.msg import Bumper, ChargingState, Cliff, Mode, MotorSetpoint
 from fake_create_dock import Dock, Firmware
-from fake_robot import DT, Judge, Room, Walls, moved, turned
+from fake_robot import DT, Judge, Room, Walls, has_ended, live, moved, turned
 from geometry_msgs.msg import TransformStamped, Twist
 from nav_msgs.msg import Odometry
 from rosgraph_msgs.msg import Clock
@@ -201,15 +201,14 @@ class FakeCreate:
 
     def run(self):
         """Live, as fast as the others keep up, but at most ten times as fast as the real one would."""
-        while not rospy.is_shutdown():
+        while not has_ended():
             begin = time.monotonic()
             self.step()
-            while not rospy.is_shutdown() and time.monotonic() - begin < 1.0 and (
+            while not has_ended() and time.monotonic() - begin < 1.0 and (
                     self.waits and self.corrected < self.now or time.monotonic() - begin < DT / 10
                     or any(when < self.now for when in list(self.answered.values()))):
                 time.sleep(0.001)
 
 
 if __name__ == '__main__':
-    rospy.init_node('fake_create', disable_rostime=True)
-    FakeCreate().run()
+    live('fake_create', FakeCreate)

@@ -10,6 +10,7 @@ The parameter `~fault` plants one of the faults that owners of robots make.
 
 import math
 import os
+import signal
 import time
 from typing import List, NamedTuple, Tuple
 
@@ -206,10 +207,10 @@ class FakeRobot:
 
     def run(self):
         """Drive, as fast as the others keep up, but at most ten times as fast as the real one would."""
-        while not rospy.is_shutdown():
+        while not has_ended():
             begin = time.monotonic()
             self.step()
-            while not rospy.is_shutdown() and time.monotonic() - begin < 1.0 and (
+            while not has_ended() and time.monotonic() - begin < 1.0 and (
                     self.waits and self.corrected < self.now or time.monotonic() - begin < DT / 10
                     or self.commanded is not None and self.commanded < self.now):
                 time.sleep(0.001)
@@ -227,6 +228,25 @@ def turned(theta):
     return Quaternion(0.0, 0.0, math.sin(theta / 2), math.cos(theta / 2))
 
 
+SIGNALS = []  # that told it to end
+
+
+def has_ended():
+    """Whether it was told to."""
+    return bool(SIGNALS) or rospy.is_shutdown()
+
+
+def live(name, kind):
+    """Have a robot of a kind live as a node of a name.
+
+    What rospy does at a signal may wait for ever, for what the publishing that it interrupts holds.
+    """
+    rospy.init_node(name, disable_rostime=True, disable_signals=True)
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, lambda received, _: SIGNALS.append(received))
+    kind().run()
+    rospy.signal_shutdown('told to end')
+
+
 if __name__ == '__main__':
-    rospy.init_node('fake_robot', disable_rostime=True)
-    FakeRobot().run()
+    live('fake_robot', FakeRobot)
