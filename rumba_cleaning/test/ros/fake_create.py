@@ -2,8 +2,8 @@
 """A Create and its driver that know nothing of Rumba: the topics of create_driver, a laser, and a dock with beams.
 
 It publishes and subscribes to what create_driver does, below `/`, with messages of create_msgs; beside that `/scan`, of
-a laser that somebody mounted on it, and `/clock`. Once told to dock, it is passive, and follows the beams of its dock by
-itself: it knows neither map nor position, only what its receivers get. In full mode it obeys, and does not charge.
+a laser that somebody mounted on it, and `/clock`. Once told to dock, it is passive, and follows the beams of its dock
+by itself: it knows neither map nor position, only what its receivers get. In full mode it obeys, and does not charge.
 It judges by itself what its brush has swept: `/coverage` (std_msgs/Float32). As fake_robot, it waits for those who
 drive it: for a velocity or what comes on the topic `~answer` while they let it dock, and for what comes on the topic
 `~witness`. `~fault` plants a fault: `no beams` of a dock that is not plugged in, `lifted` wheels after half a minute.
