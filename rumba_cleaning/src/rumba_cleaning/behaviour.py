@@ -68,6 +68,7 @@ class Command(NamedTuple):
     v: float  # [m/s] forward
     w: float  # [rad/s] counter-clockwise
     brushes_up: bool = False
+    seeks_dock: bool = False  # instead, it finds its dock by itself, or stays on it; only for robots that can
 
 
 STOP = Command(0.0, 0.0, brushes_up=True)
@@ -206,6 +207,6 @@ def _is_command(value: Any) -> bool:
     """Whether a robot can follow what a behaviour returned: anybody may write one."""
     try:
         return (isinstance(value, Command) and math.isfinite(value.v) and math.isfinite(value.w)
-                and value.brushes_up in (True, False))
+                and value.brushes_up in (True, False) and value.seeks_dock in (True, False))
     except (TypeError, OverflowError, ValueError):
         return False

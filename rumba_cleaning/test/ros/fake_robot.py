@@ -10,6 +10,7 @@ The parameter `~fault` plants one of the faults that owners of robots make.
 
 import math
 import os
+import signal
 import time
 from typing import List, NamedTuple, Tuple
 
@@ -63,9 +64,10 @@ def draw(room, path):
 
 
 class Walls:
-    """Those of a room, and of what stands in it."""
+    """Those of a room, and of what stands in it, for a robot of a radius [m]."""
 
-    def __init__(self, room):
+    def __init__(self, room, radius=RADIUS):
+        self.radius = radius
         self.begin, self.end = (np.concatenate(part) for part in zip(sides(0, 0, *room.size),
                                                                      *(sides(*box) for box in room.boxes)))
 
@@ -79,34 +81,39 @@ class Walls:
             along, share = (fx * ey - fy * ex) / crossing, (fx * dy - fy * dx) / crossing
         return np.where((along > 0) & (share >= 0) & (share <= 1), along, np.inf).min(axis=1)
 
-    def leave_free(self, x, y):
-        """Whether the robot can stand somewhere."""
+    def nearest(self, x, y):
+        """The nearest point of them, (2) [m]."""
         edge = self.end - self.begin
         share = (((x, y) - self.begin) * edge).sum(1) / (edge ** 2).sum(1)
-        nearest = self.begin + np.clip(share, 0, 1)[:, None] * edge
-        return np.hypot(*(nearest - (x, y)).T).min() >= RADIUS
+        points = self.begin + np.clip(share, 0, 1)[:, None] * edge
+        return points[np.hypot(*(points - (x, y)).T).argmin()]
+
+    def leave_free(self, x, y):
+        """Whether the robot can stand somewhere."""
+        return math.hypot(*(self.nearest(x, y) - (x, y))) >= self.radius
 
 
 class Judge:
-    """What the brush has swept of what it can reach."""
+    """What a brush of a width has swept of what it can reach on a robot of a radius [m]."""
 
-    def __init__(self, room):
+    def __init__(self, room, radius=RADIUS, brush=BRUSH):
+        self.brush = brush
         self.x, self.y = np.meshgrid(*(np.arange(CELL / 2, size, CELL) for size in room.size))
         wall = np.zeros(self.x.shape, bool)
         for x0, y0, x1, y1 in room.boxes:
             wall |= (self.x > x0) & (self.x < x1) & (self.y > y0) & (self.y < y1)
-        clear = CELL * ndimage.distance_transform_edt(np.pad(~wall, 1))[1:-1, 1:-1] > RADIUS
+        clear = CELL * ndimage.distance_transform_edt(np.pad(~wall, 1))[1:-1, 1:-1] > radius
         rooms, _ = ndimage.label(clear)
         there = rooms == rooms[int(room.start[1] / CELL), int(room.start[0] / CELL)]
-        self.reachable = CELL * ndimage.distance_transform_edt(~there) < BRUSH / 2
+        self.reachable = CELL * ndimage.distance_transform_edt(~there) < brush / 2
         self.swept = np.zeros(self.x.shape, bool)
 
     def sweep(self, x, y, theta):
         """The brush, 2 cm long, is at a pose."""
-        rows, columns = (slice(max(int((at - BRUSH) / CELL), 0), int((at + BRUSH) / CELL)) for at in (y, x))
+        rows, columns = (slice(max(int((at - self.brush) / CELL), 0), int((at + self.brush) / CELL)) for at in (y, x))
         dx, dy = self.x[rows, columns] - x, self.y[rows, columns] - y
         ahead, aside = dx * math.cos(theta) + dy * math.sin(theta), dy * math.cos(theta) - dx * math.sin(theta)
-        self.swept[rows, columns] |= (abs(ahead) < 0.01) & (abs(aside) < BRUSH / 2)
+        self.swept[rows, columns] |= (abs(ahead) < 0.01) & (abs(aside) < self.brush / 2)
 
     def coverage(self):
         """Share [0..1]."""
@@ -201,19 +208,19 @@ class FakeRobot:
 
     def run(self):
         """Drive, as fast as the others keep up, but at most `haste` times as fast as the real one would."""
-        while not rospy.is_shutdown():
+        while not has_ended():
             begin = time.monotonic()
             self.step()
-            while not rospy.is_shutdown() and time.monotonic() - begin < 1.0 and (
+            while not has_ended() and time.monotonic() - begin < 1.0 and (
                     self.waits and self.corrected < self.now or time.monotonic() - begin < DT / self.haste
                     or self.commanded is not None and self.commanded < self.now):
                 time.sleep(0.001)
 
 
-def moved(pose, went):
-    """Where a pose is after both wheels went some way."""
+def moved(pose, went, base=BASE):
+    """Where a pose is after both wheels, which are apart by a base, went some way."""
     x, y, theta = pose
-    way, turn = went.mean(), (went[1] - went[0]) / BASE
+    way, turn = went.mean(), (went[1] - went[0]) / base
     return np.array([x + way * math.cos(theta + turn / 2), y + way * math.sin(theta + turn / 2), theta + turn])
 
 
@@ -222,6 +229,25 @@ def turned(theta):
     return Quaternion(0.0, 0.0, math.sin(theta / 2), math.cos(theta / 2))
 
 
+SIGNALS = []  # that told it to end
+
+
+def has_ended():
+    """Whether it was told to."""
+    return bool(SIGNALS) or rospy.is_shutdown()
+
+
+def live(name, kind):
+    """Have a robot of a kind live as a node of a name.
+
+    What rospy does at a signal may wait for ever, for what the publishing that it interrupts holds.
+    """
+    rospy.init_node(name, disable_rostime=True, disable_signals=True)
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, lambda received, _: SIGNALS.append(received))
+    kind().run()
+    rospy.signal_shutdown('told to end')
+
+
 if __name__ == '__main__':
-    rospy.init_node('fake_robot', disable_rostime=True)
-    FakeRobot().run()
+    live('fake_robot', FakeRobot)

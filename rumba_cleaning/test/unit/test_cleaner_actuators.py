@@ -40,6 +40,20 @@ def test_wheels_that_are_closed_have_stopped_and_get_no_command(monkeypatch):
     assert told == [(0.2, -1.0), (0.0, 0.0), (0.1, 0.5), (0.0, 0.0)]
 
 
+def test_a_robot_that_docks_by_itself_is_told_to_in_place_of_a_velocity(monkeypatch):
+    told = []
+    monkeypatch.setattr(actuators.rospy, 'Publisher', lambda topic, *_, **__: types.SimpleNamespace(
+        publish=lambda *_: told.append(topic)))
+    wheels = actuators.Wheels('rumba', docks=True)
+    seek = Command(0.0, 0.0, seeks_dock=True)
+    for command in (Command(0.2, 0.0), seek, seek):
+        wheels.drive(command)
+    assert told == ['rumba/cmd_vel', 'rumba/seek_dock', 'rumba/seek_dock']
+    wheels.close()
+    wheels.drive(seek)
+    assert told[3:] == ['rumba/cmd_vel']
+
+
 def test_brushes_are_asked_for_what_is_new_and_again_if_that_failed(monkeypatch):
     asked, failures = queue.Queue(), [rospy.ServiceException('no'), TypeError('no'), OSError('no')]
 

@@ -117,12 +117,15 @@ def test_an_exception_ends_the_goal_with_a_line_that_says_which(monkeypatch):
 
 
 @pytest.mark.parametrize('command, shown', [
-    (Command('0.1', 0), "Command(v='0.1', w=0, brushes_up=False)"), (None, 'None'), ((0.1, 0.0), '(0.1, 0.0)'),
-    (Command(math.nan, 0.0), 'Command(v=nan, w=0.0, brushes_up=False)'), (math.pi, '3.141592653589793'),
-    (Command(0.1, -math.inf), 'Command(v=0.1, w=-inf, brushes_up=False)'),
-    (Command(0.1, None), 'Command(v=0.1, w=None, brushes_up=False)'),
-    (Command(0.1, 10 ** 400), 'Command(v=0.1, w=1000'), (Command(1j, 0.0), 'Command(v=1j, w=0.0, brushes_up=False)'),
-    (Command(0.1, 0.0, 'up'), "Command(v=0.1, w=0.0, brushes_up='up')")])
+    (Command('0.1', 0), "Command(v='0.1', w=0, brushes_up=False, seeks_dock=False)"),
+    (None, 'None'), ((0.1, 0.0), '(0.1, 0.0)'),
+    (Command(math.nan, 0.0), 'Command(v=nan, w=0.0, brushes_up=False, seeks_dock=False)'),
+    (math.pi, '3.141592653589793'),
+    (Command(0.1, -math.inf), 'Command(v=0.1, w=-inf, brushes_up=False, seeks_dock=False)'),
+    (Command(0.1, None), 'Command(v=0.1, w=None, brushes_up=False, seeks_dock=False)'),
+    (Command(0.1, 10 ** 400), 'Command(v=0.1, w=1000'),
+    (Command(1j, 0.0), 'Command(v=1j, w=0.0, brushes_up=False, seeks_dock=False)'),
+    (Command(0.1, 0.0, 'up'), "Command(v=0.1, w=0.0, brushes_up='up', seeks_dock=False)")])
 def test_a_strategy_that_answers_nonsense_ends_the_goal_with_its_name_and_the_value(monkeypatch, command, shown):
     robot = Robot(monkeypatch, ahead, lambda _: command)
     robot.reads()

@@ -1,7 +1,10 @@
 """The settings of the cleaner, and its map and robot: its own, or those of the simulator."""
 
+import pathlib
+
 import pytest
 import rospy
+import yaml
 from rooms import quiet
 from std_msgs.msg import Header
 
@@ -9,8 +12,11 @@ from rumba_cleaning.cleaning_config import CleaningConfig
 from rumba_cleaning.ros.cleaner import workplace
 from rumba_cleaning.ros.cleaner.settings import Settings
 from rumba_msg.msg import SimulatorState
+from rumba_sim.model import map_file
 from rumba_sim.model.config import from_mapping
 from rumba_sim.model.errors import ConfigError, MapError
+from rumba_sim.model.geometry import Pose
+from rumba_sim.model.own_robot import FramesConfig, OwnRobot
 from rumba_sim.model.robot_config import RobotConfig
 from rumba_sim.ros.common.maps import map_path
 
@@ -64,6 +70,33 @@ def test_where_a_robot_of_others_ends_is_a_pose():
             Settings(own_robot='robot.yaml', mapping=True, home=home)
     with pytest.raises(ConfigError, match='^home is given: must come with own_robot'):
         Settings(home='1 2 3')
+
+
+def test_a_robot_that_docks_by_itself_is_not_ours_and_its_dock_is_where_it_begins_if_it_makes_a_map():
+    Settings(own_robot='robot.yaml', map='room.yaml', docks=True, home='1 2 3')
+    Settings(own_robot='robot.yaml', mapping=True, docks=True)
+    with pytest.raises(ConfigError, match='^docks is true: must come with own_robot'):
+        Settings(docks=True)
+    with pytest.raises(ConfigError, match='^home is given: must be empty with docks and mapping'):
+        Settings(own_robot='robot.yaml', mapping=True, docks=True, home='1 2 3')
+
+
+def test_the_dock_of_a_robot_that_is_not_ours_is_where_its_owner_says_or_the_map(monkeypatch, tmp_path):
+    Simulator(monkeypatch)
+    own, home = OwnRobot(quiet(), FramesConfig(), None), Pose(1.0, 2.0, 3.0)
+    studio = map_file.load(map_path('studio'), quiet().drive.radius).dock
+
+    def docks(name='studio', **arguments):
+        return workplace.Workplace(name, own=own, **arguments).look()[0].docks
+    assert docks() == docks(home=home) == ()
+    assert docks(docks=True) == (studio,)
+    assert docks(docks=True, home=home) == (home,)
+    bare = yaml.safe_load(pathlib.Path(map_path('field')).read_text(encoding='utf-8'))
+    bare.pop('dock')
+    bare['image'] = str(pathlib.Path(map_path('field')).with_name(bare['image']))
+    (tmp_path / 'bare.yaml').write_text(yaml.safe_dump(bare), encoding='utf-8')
+    with pytest.raises(MapError, match='no dock on the map: its YAML file may name one, .* or the parameter home$'):
+        docks(str(tmp_path / 'bare.yaml'), docks=True)
 
 
 def test_an_unknown_answer_of_go_to_position_is_refused():

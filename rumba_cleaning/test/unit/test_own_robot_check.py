@@ -57,6 +57,11 @@ def test_a_sound_robot_can_be_used():
     ({'odometry_heard': DRIVEN._replace(contradiction=STANDS)}, f'/odom: {STANDS}'),
     ({'views': [SOUND.views[0], View(SOUND.views[0].pose, POINTS + 0.3)]},
      '/odom: odometry does not move although the scan does'),
+    ({'mode': 1, 'optional': {'mode': Topic('/create/mode')}},
+     'the robot is in passive mode and obeys nobody: it docks, charges or sleeps: have it obey with rostopic pub -1 '
+     '/create/undock std_msgs/Empty'),
+    ({'optional': {'mode': Topic('/mode', ('std_msgs/String',))}},
+     '/mode has type std_msgs/String: ignored, since it must be one of create_msgs/Mode, ca_msgs/Mode'),
     ({'runs_on': True}, 'the robot drove on for a second after the last /cmd_vel'),
     ({'cmd_vel': Topic('/cmd_vel')}, 'no node takes /cmd_vel'),
     ({'cmd_vel': SOUND.cmd_vel._replace(kinds=('geometry_msgs/TwistStamped',))},

@@ -5,7 +5,7 @@ from types import SimpleNamespace as Message
 
 import pytest
 
-from rumba_cleaning.own_robot.inputs import READERS, State
+from rumba_cleaning.own_robot.inputs import PULSE, READERS, State
 
 
 def told(*messages):
@@ -61,6 +61,28 @@ def test_a_wheel_that_hangs_in_the_air():
     event = 'wheel_drop', 'kobuki_msgs/WheelDropEvent'
     assert told((*event, {'wheel': 0, 'state': 1}), (*event, {'wheel': 1, 'state': 0})).has_fallen
     assert not told((*event, {'wheel': 0, 'state': 1}), (*event, {'wheel': 0, 'state': 0})).has_fallen
+
+
+def test_a_create_tells_of_a_wheel_again_and_again_while_it_hangs_in_the_air():
+    state = told()
+    state.now = 7.0
+    READERS['wheel_drop']['std_msgs/Empty'](state, Message())
+    state.now = 7.0 + 0.9 * PULSE
+    assert state.has_fallen
+    state.now = 7.0 + 1.1 * PULSE
+    assert not state.has_fallen
+
+
+def test_a_dock_and_its_beams():
+    fields = {'is_docked': True, 'infrared_omni': 13, 'infrared_left': 4, 'infrared_right': 8}
+    state = told(('dock_status', 'rumba_msg/DockStatus', fields))
+    assert (state.is_docked, state.infrared) == (True, (13, 4, 8))
+
+
+@pytest.mark.parametrize('charger, charge', [(0, 0.7), (2, 0.7), (3, 1.0), (4, 0.7)])
+def test_a_battery_is_full_if_the_charger_says_so(charger, charge):
+    assert told(('battery_state', 'std_msgs/Float32', {'data': 0.7}),
+                ('charging_state', 'create_msgs/ChargingState', {'state': charger})).charge == charge
 
 
 @pytest.mark.parametrize('share, charge', [(0.4, 0.4), (1.7, 1.0), (-0.1, 0.0), (math.nan, 1.0)])

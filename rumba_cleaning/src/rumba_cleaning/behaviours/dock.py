@@ -2,13 +2,14 @@
 
 import contextlib
 import math
-from typing import Dict, Optional
+from typing import Dict, Optional, Union
 
 import numpy as np
 
 from rumba_cleaning.behaviour import STOP, Behaviour, Command, Observation, Status
 from rumba_cleaning.behaviours.go_to import GoTo
 from rumba_cleaning.behaviours.homing import BUOYS, FAR_SPEED, Homing
+from rumba_cleaning.behaviours.self_docking import SelfDocking
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.belief.mates import Task
 from rumba_cleaning.belief.places import places_apart
@@ -61,7 +62,7 @@ class Dock(Behaviour):
     @property
     def is_homing(self) -> bool:
         """Whether the beams guide it now."""
-        return isinstance(self._part, Homing)
+        return isinstance(self._part, (Homing, SelfDocking))
 
     @property
     def remaining(self) -> float:
@@ -84,7 +85,7 @@ class Dock(Behaviour):
         if self._is_waiting:
             self._part, self._is_waiting = None, False
         if self._part is None:
-            homes = is_at_home and observation.infrared.omni & BUOYS and (
+            homes = is_at_home and observation.infrared.omni & BUOYS and not self._context.docks_itself and (
                 not self._context.mates.reports or self._away < CLOSE)
             self._part = Homing(self._context) if homes else self._way_home()
         elif isinstance(self._part, GoTo) and self._is_covered():
@@ -99,7 +100,7 @@ class Dock(Behaviour):
         if isinstance(self._part, GoTo):
             if self._part.status is Status.FAILED:
                 return self.fail(f'cannot get to the dock: {self._part.message}', outcome)
-            self._part = Homing(self._context)
+            self._part = self._homing()
         else:
             self._part = self._way_home()
             self._tries += 1
@@ -119,6 +120,10 @@ class Dock(Behaviour):
         if not others or abs(wrap_angle(ahead - pose.theta)) < ELSEWHERE:
             return observation
         return observation._replace(infrared=Infrared(infrared.omni, NO_BEAM, NO_BEAM))
+
+    def _homing(self) -> Union[Homing, SelfDocking]:
+        """From the point before the dock onto its contacts."""
+        return SelfDocking(self._context, self._home) if self._context.docks_itself else Homing(self._context)
 
     def _way_home(self) -> GoTo:
         """To the point before the dock, by the obstacles that are known now."""

@@ -100,10 +100,12 @@ class Context:
         has_map: whether the plan, and the pose of the robot on it, can be relied on; without, the plan is blank, and
             poses are those of the odometry, which err more with every metre.
         has_dock: whether the robot can charge on one, and ends there.
+        docks_itself: whether it finds the contacts by itself, if it is told to before its dock.
         end: where a robot without a dock ends; None: where it began.
     """
 
     has_map = has_dock = True
+    docks_itself = False
     end: Optional[Pose] = None
 
     def __init__(self, plan: FloorPlan, robot: RobotConfig, config: CleaningConfig, seed: Seed = 0,

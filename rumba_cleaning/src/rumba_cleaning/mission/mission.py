@@ -305,7 +305,7 @@ class Mission(StagedMission):
                 observation.state_of_charge >= self._context.config.charge_to):
             self._is_undisturbed, self._waits = True, False
             return self._enter(State.UNDOCKING, Undock(self._context, turns=False))
-        return STOP
+        return STOP._replace(seeks_dock=self._context.docks_itself)
 
     # --- the end --------------------------------------------------------------------------------------------------
 

@@ -9,9 +9,11 @@ import numpy as np
 from rumba_cleaning.own_robot.agreement import TURNS_BACK
 from rumba_cleaning.own_robot.heard import Heard, OdometryHeard, ScanHeard, Topic
 from rumba_cleaning.own_robot.inputs import READERS
+from rumba_cleaning.own_robot.own_dock import PASSIVE
 from rumba_cleaning.own_robot.views import can_tell, contradiction, has_driven, has_moved_by_scans
 from rumba_sim.model.own_robot import OwnRobot
 
+MODE = ('create_msgs/Mode', 'ca_msgs/Mode')
 SCAN, ODOMETRY, TWIST = 'sensor_msgs/LaserScan', 'nav_msgs/Odometry', 'geometry_msgs/Twist'
 SLOWEST = 3.0  # [Hz] of scan and odometry: safe_drive stops the robot after 0.4 s without
 LATE = 0.5  # [s] by which stamps may differ from the clock
@@ -183,6 +185,9 @@ def _command_faults(heard: Heard) -> List[str]:
         faults.append(f'no node takes {topic.name}' + (f': give cmd_vel:={others[0]}' if others else ''))
     elif topic.kinds and topic.kinds != (TWIST,):
         faults.append(f'{topic.name} has type {" and ".join(topic.kinds)}: must be {TWIST}')
+    if heard.mode is not None and heard.mode <= PASSIVE:
+        faults.append(f'the robot is in passive mode and obeys nobody: it docks, charges or sleeps: have it obey with '
+                      f'rostopic pub -1 {_undock(heard)} std_msgs/Empty; create.launch does so by itself')
     if heard.runs_on:
         faults.append(f'the robot drove on for a second after the last {topic.name}: its driver must stop the motors '
                       'if commands stay away, since nothing else can if the connection is lost')
@@ -193,8 +198,13 @@ def _command_faults(heard: Heard) -> List[str]:
     return faults
 
 
+def _undock(heard: Heard) -> str:
+    """The topic of create_driver beside that of its mode that has a Create obey."""
+    return f'{heard.optional["mode"].name.rsplit("/", 1)[0]}/undock'
+
+
 def _optional_faults(name: str, topic: Topic) -> List[str]:
-    known = READERS[name]
+    known = READERS.get(name, MODE)
     wrong = [kind for kind in topic.kinds if kind not in known]
     return [f'{topic.name} has type {wrong[0]}: ignored, since it must be one of {", ".join(known)}'] if wrong else []
 

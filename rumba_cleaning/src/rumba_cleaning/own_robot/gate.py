@@ -15,6 +15,7 @@ class Velocity(NamedTuple):
 
     v: float  # [m/s]
     w: float  # [rad/s]
+    seeks_dock: bool = False  # instead, the robot is to find its dock by itself, or to stay on it
 
 
 class Moment(NamedTuple):
@@ -25,6 +26,7 @@ class Moment(NamedTuple):
 
 
 STOP = Velocity(0.0, 0.0)
+SEEK_DOCK = Velocity(0.0, 0.0, seeks_dock=True)
 
 
 class Gate:
@@ -101,7 +103,7 @@ class Gate:
 
 def limited(velocity: Velocity, drive: DriveConfig) -> Velocity:
     """A velocity within the limits of a robot, along the same curve."""
-    v, w = velocity
+    v, w, _ = velocity
     wheel = abs(v) + 0.5 * drive.wheel_base * abs(w)  # the faster one
     share = min(1.0, drive.max_speed / wheel if wheel > 0.0 else 1.0, drive.max_turn_rate / abs(w) if w else 1.0)
-    return Velocity(v * share, w * share)
+    return velocity._replace(v=v * share, w=w * share)

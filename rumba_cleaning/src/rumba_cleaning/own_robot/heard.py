@@ -64,3 +64,4 @@ class Heard(NamedTuple):
     map_odom: NAMES  # nodes that tell map -> odom
     clock_fault: str  # what is wrong with the clock, or empty
     runs_on: bool  # whether it drove on a second after the last command
+    mode: Optional[int] = None  # of a Create

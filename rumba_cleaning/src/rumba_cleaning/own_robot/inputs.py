@@ -1,25 +1,35 @@
 """What a robot may sense beside odometry and scan, in the messages of its driver: by the names of types, without them.
 
 Sources: kobuki_msgs of Yujin Robot (BumperEvent, CliffEvent and WheelDropEvent tell of changes of one sensor each);
-ca_msgs and create_msgs of create_robot (Bumper and Cliff tell of all sensors); sensor_msgs/BatteryState.
+ca_msgs and create_msgs of create_robot (Bumper and Cliff tell of all sensors; its wheeldrop comes again and again while
+a wheel hangs in the air; ChargingState is packet 21 of the iRobot Open Interface); sensor_msgs/BatteryState.
 """
 
 import math
 from typing import Any, Callable, Dict, List
 
 LEFT, CENTRE, RIGHT = 0, 1, 2  # of kobuki_msgs
+TRICKLE = 3  # state of create_msgs/ChargingState: the battery is full
+PULSE = 0.5  # [s] for which a wheeldrop of a Create counts: it comes ten times a second
 
 
 class State:
     """The newest of each; what the robot does not have is calm, and fully charged.
 
     Attributes:
-        charge: of the battery [0..1].
+        now: the time, which the owner sets [s].
+        is_docked: whether the robot is on the contacts of its dock.
+        infrared: beams of the dock that it receives: from all around, from the front left, from the front right.
     """
 
     def __init__(self) -> None:
         """Nothing has been told."""
-        self.charge = 1.0
+        self.now = 0.0
+        self.is_docked = False
+        self.infrared = (0, 0, 0)
+        self._charge = 1.0
+        self._is_full = False  # by the charger
+        self._pulse = -math.inf  # [s] when a Create told of a wheel that hangs in the air
         self._bumpers: Dict[int, bool] = {}  # by place
         self._cliffs: List[bool] = [False] * 4
         self._drops: Dict[int, bool] = {}  # by wheel
@@ -38,7 +48,12 @@ class State:
     @property
     def has_fallen(self) -> bool:
         """Whether a wheel hangs in the air."""
-        return any(self._drops.values())
+        return any(self._drops.values()) or 0.0 <= self.now - self._pulse < PULSE
+
+    @property
+    def charge(self) -> float:
+        """Of the battery [0..1]; an old one is full for its charger at less than its capacity."""
+        return 1.0 if self._is_full else self._charge
 
     def press(self, message: Any) -> None:
         """Bumper of rumba_msg, create_msgs and ca_msgs."""
@@ -67,6 +82,19 @@ class State:
         """WheelDropEvent of kobuki_msgs."""
         self._drops[message.wheel] = bool(message.state)
 
+    def drop_now(self, message: Any) -> None:
+        """Empty of std_msgs, again and again while a wheel hangs in the air."""
+        self._pulse = self.now
+
+    def dock(self, message: Any) -> None:
+        """DockStatus of rumba_msg."""
+        self.is_docked = bool(message.is_docked)
+        self.infrared = message.infrared_omni, message.infrared_left, message.infrared_right
+
+    def fill(self, message: Any) -> None:
+        """ChargingState of create_msgs."""
+        self._is_full = message.state == TRICKLE
+
     def charge_to(self, message: Any) -> None:
         """BatteryState of sensor_msgs; NaN tells nothing."""
         self._take_charge(message.percentage)
@@ -77,7 +105,7 @@ class State:
 
     def _take_charge(self, share: float) -> None:
         if math.isfinite(share):
-            self.charge = min(max(share, 0.0), 1.0)
+            self._charge = min(max(share, 0.0), 1.0)
 
 
 Reader = Callable[[State, Any], None]
@@ -86,5 +114,7 @@ READERS: Dict[str, Dict[str, Reader]] = {  # by topic below the robot's name, an
                'kobuki_msgs/BumperEvent': State.press_one},
     'cliff': {'rumba_msg/Cliff': State.see_cliffs_and_drops, 'create_msgs/Cliff': State.see_cliffs,
               'ca_msgs/Cliff': State.see_cliffs, 'kobuki_msgs/CliffEvent': State.see_one_cliff},
-    'wheel_drop': {'kobuki_msgs/WheelDropEvent': State.drop_one},
+    'wheel_drop': {'kobuki_msgs/WheelDropEvent': State.drop_one, 'std_msgs/Empty': State.drop_now},
+    'dock_status': {'rumba_msg/DockStatus': State.dock},
+    'charging_state': {'create_msgs/ChargingState': State.fill},
     'battery_state': {'sensor_msgs/BatteryState': State.charge_to, 'std_msgs/Float32': State.charge_to_ratio}}

@@ -1,4 +1,4 @@
-"""What the cleaner moves of one robot: its wheels through a topic, and its brushes through a service."""
+"""What the cleaner moves of one robot: its wheels through topics, and its brushes through a service."""
 
 import queue
 import threading
@@ -7,6 +7,7 @@ from typing import Optional
 import rosgraph
 import rospy
 from geometry_msgs.msg import Twist
+from std_msgs.msg import Empty
 from std_srvs.srv import SetBool
 
 from rumba_cleaning.behaviour import STOP, Command
@@ -17,19 +18,24 @@ COMPLAINT_PERIOD = 10.0  # [s]
 
 
 class Wheels:
-    """Publishes commands of velocity."""
+    """Publishes commands of velocity; for a robot that docks by itself, also that it is to do so."""
 
-    def __init__(self, robot: str) -> None:
-        """Drive a robot, by its name."""
+    def __init__(self, robot: str, docks: bool = False) -> None:
+        """Drive a robot, by its name; `docks`: it docks by itself."""
         self._last = Resent()
+        self._seek_dock = rospy.Publisher(f'{robot}/seek_dock', Empty, queue_size=1) if docks else None
         self._publisher = rospy.Publisher(f'{robot}/cmd_vel', Twist, self._last, queue_size=1)
         self._lock = threading.Lock()
         self._is_closed = False
 
     def drive(self, command: Command) -> None:
-        """Command a velocity."""
+        """Command a velocity, or in its place to seek the dock."""
         with self._lock:
-            if not self._is_closed:
+            if self._is_closed:
+                return
+            if command.seeks_dock and self._seek_dock is not None:
+                self._seek_dock.publish()
+            else:
                 self._last.message = conversions.velocity(command)
                 self._publisher.publish(self._last.message)
 

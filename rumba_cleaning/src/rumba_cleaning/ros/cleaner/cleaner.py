@@ -91,7 +91,8 @@ class Cleaner:
         self._has_ended = threading.Event()
         self._workplace = Workplace(settings.map, lambda: self._events.put(self._look_at_world),
                                     SurveyListener(settings.robot) if settings.mapping else None,
-                                    has_map=not settings.mapless, own=own)
+                                    has_map=not settings.mapless, own=own, docks=settings.docks,
+                                    home=settings.home_pose)
         self._world: Optional[World] = self._workplace.world  # that of the goal and of the cleaning below
         self._run: Optional[Run] = None
         self._interruption = Interruption()
@@ -104,7 +105,7 @@ class Cleaner:
         self._robot = Robot(settings.robot, self._on_reading, settings.team.split(),
                             lambda: self._events.put(self._read_postponed), lambda: self._workplace.lockstep,
                             lambda: self._work.goes_on or self._planners.are_at_work, settings.laser,
-                            settings.mapless, own)
+                            settings.mapless, own, settings.docks)
         if not settings.mapless:
             GoToPosition(settings, self._workplace, self._robot.senses)
         self._servers = {name: self._serve(name) for name in ACTIONS}
@@ -292,7 +293,9 @@ class Cleaner:
         plan, robot = self._workplace.look()
         context = Context(plan, robot, self._settings.cleaning, seed, self._planners, self._workplace.survey,
                           self._robot.team.mates())
-        context.has_dock, context.end = not self._settings.own_robot, self._settings.home_pose
+        settings = self._settings
+        context.has_dock, context.docks_itself = settings.docks or not settings.own_robot, settings.docks
+        context.end = settings.home_pose
         pose = self._robot.senses.pose()
         if self._robot.team.is_alone and pose is not None:
             context.moor(pose)

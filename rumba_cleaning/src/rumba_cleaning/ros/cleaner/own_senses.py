@@ -24,7 +24,6 @@ from rumba_sim.ros.common.own_robots import frames_of
 
 LEAST_GAP = SECOND // 20  # [ns] between two readings: behaviours need no more, and some odometries come at 1 kHz
 SILENT = 1.0  # [s] of the robot's time without odometry
-BLIND = Infrared(*[0] * len(Infrared._fields))  # what a robot receives that has no dock
 
 
 class OwnSenses(Senses):
@@ -81,6 +80,7 @@ class OwnSenses(Senses):
             if self.stamp is not None and 0 < gap <= PAUSE:
                 self.passed += gap
             self.stamp = stamp
+            self._inputs.now = stamp.to_sec()
         self._on_reading()
 
     def check(self) -> None:
@@ -97,7 +97,8 @@ class OwnSenses(Senses):
         inputs = self._inputs
         return Observation(
             dt=0.0, pose=pose, bumper=inputs.bumper, cliffs=inputs.cliffs, state_of_charge=inputs.charge,
-            is_docked=False, infrared=BLIND, covariance=self._certainty.covariance(stamp),
+            is_docked=inputs.is_docked, infrared=Infrared(*inputs.infrared),
+            covariance=self._certainty.covariance(stamp),
             silence=self._location.silence(self._certainty.stamp))
 
     def pose(self) -> Optional[Pose]:

@@ -31,7 +31,7 @@ class Robot:
                  on_news: Callable[[], None] = lambda: None,
                  lockstep: Callable[[], Optional[Tuple[str, int]]] = lambda: None,
                  is_busy: Callable[[], bool] = lambda: False, has_laser: bool = False,
-                 is_mapless: bool = False, own: Optional[OwnRobot] = None) -> None:
+                 is_mapless: bool = False, own: Optional[OwnRobot] = None, docks: bool = False) -> None:
         """Connect to a robot.
 
         Args:
@@ -41,11 +41,12 @@ class Robot:
             lockstep, has_laser, is_mapless: as for `Senses`.
             is_busy: as for `Participant`.
             own: what it is like if it is not ours.
+            docks: whether it docks by itself.
         """
         self.announcer = Announcer(name)
         self.plan = PlanTopic(name)
         self.teleop = Teleop(name)
-        self.wheels = Wheels(name)
+        self.wheels = Wheels(name, docks)
         self.brushes = Brushes(name, are_optional=own is not None)
         self.team = Team(name, team, on_news)
         self.senses = (Senses(name, on_reading, lockstep, has_laser, is_mapless) if own is None

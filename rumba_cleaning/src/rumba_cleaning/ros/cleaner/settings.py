@@ -31,7 +31,9 @@ class Settings(CleaningConfig):
 
     robot: str = setting('rumba', 'name of the robot, below which its topics are')
     own_robot: str = own_robot_setting()
-    home: str = setting('', 'where a robot of your own ends: x y theta [m, rad] on the map; empty: where it began')
+    home: str = setting('', 'where a robot of your own ends, or its dock if it docks: x y theta [m, rad] on the map; '
+                            'empty: where it began')
+    docks: bool = setting(False, 'whether a robot of your own docks by itself when seek_dock tells it to')
     team: str = setting('', 'names of all robots that share the floor, its own among them, with spaces between: '
                             'each gives way to those before it; empty: it works alone')
     map: str = setting('', 'name of a map of rumba_sim, or path of a map_server YAML file; empty: that of the '
@@ -60,6 +62,10 @@ class Settings(CleaningConfig):
                               'team')
         if self.home_pose is not None and not self.own_robot:
             raise ConfigError('home is given: must come with own_robot: a Rumba ends on its dock')
+        if self.docks and not self.own_robot:
+            raise ConfigError('docks is true: must come with own_robot: a Rumba is led to its dock')
+        if self.docks and self.mapping and self.home:
+            raise ConfigError('home is given: must be empty with docks and mapping: the dock is where the robot begins')
         if self.mapless and len(names) > 1:
             raise ConfigError(f'team is {self.team!r}: must be empty with mapless: without a pose, a robot has nothing '
                               'to report')

@@ -8,8 +8,9 @@ from rumba_cleaning.behaviours.guard import why_it_creeps
 from rumba_cleaning.ros.cleaner.survey import SurveyListener
 from rumba_msg.msg import SimulatorState
 from rumba_sim.model import map_file
-from rumba_sim.model.errors import ConfigError
+from rumba_sim.model.errors import ConfigError, MapError
 from rumba_sim.model.floor_plan import FloorPlan
+from rumba_sim.model.geometry import Pose
 from rumba_sim.model.own_robot import OwnRobot
 from rumba_sim.model.robot_config import RobotConfig
 from rumba_sim.ros.common.maps import map_path
@@ -35,7 +36,7 @@ class Workplace:
 
     def __init__(self, name: str, on_new_world: Callable[[], None] = lambda: None,
                  survey: Optional[SurveyListener] = None, has_map: bool = True,
-                 own: Optional[OwnRobot] = None) -> None:
+                 own: Optional[OwnRobot] = None, docks: bool = False, home: Optional[Pose] = None) -> None:
         """Take the map of this name or path, or, if `name` is empty, that of the simulator, and wait for it.
 
         Args:
@@ -44,13 +45,15 @@ class Workplace:
             survey: tells the plan instead, of a floor that is being mapped.
             has_map: whether `look` will be called; it finds out now whether there is a plan.
             own: what the robot is like if it is not ours; no simulator is needed then.
+            docks: whether that robot docks by itself.
+            home: where its dock is; None: where the map says.
 
         Raises:
-            MapError: the map cannot be read, or there is no simulator.
+            MapError: the map cannot be read, or there is no simulator, or the robot docks and nothing says where.
         """
         self.world: Optional[World] = None
         self.survey = survey
-        self._own = own
+        self._own, self._docks, self._home = own, docks, home
         self._on_new_world = on_new_world
         self._named = map_path(name) if name else ''
         self._loaded: Optional[Tuple[str, str, FloorPlan]] = None  # after its path, and the simulator's run
@@ -78,7 +81,7 @@ class Workplace:
         Without a simulator, the robot is as the defaults say.
 
         Raises:
-            MapError: the map cannot be read, or no simulator tells one.
+            MapError: the map cannot be read, or no simulator tells one, or the robot docks and nothing says where.
             ConfigError: the settings of the simulator were changed to invalid ones.
         """
         if self.survey is not None:
@@ -88,10 +91,23 @@ class Workplace:
         wanted = path, state.run if state is not None else ''
         robot = self._newest_robot()
         if self._loaded is None or self._loaded[:2] != wanted:
-            self._loaded = (*wanted, map_file.load(path, robot.drive.radius))
-            if self._own is not None:  # it cannot dock on what a map for a Rumba shows
-                self._loaded[2].dock, self._loaded[2].further_docks = None, ()
+            plan = map_file.load(path, robot.drive.radius)
+            if self._own is not None:
+                self._place_dock(plan)
+            self._loaded = (*wanted, plan)
         return self._loaded[2], robot
+
+    def _place_dock(self, plan: FloorPlan) -> None:
+        """Have a plan show the dock of a robot that is not ours, or none: it cannot use that of a Rumba.
+
+        Raises:
+            MapError: the robot docks, and nothing says where.
+        """
+        if self._home is not None or not self._docks:
+            plan.dock, plan.further_docks = (self._home if self._docks else None), ()
+        elif plan.dock is None:
+            raise MapError(f'{plan.name}: no dock on the map: its YAML file may name one, dock: [x, y, theta], or the '
+                           'parameter home')
 
     @property
     def lockstep(self) -> Optional[Tuple[str, int]]:

@@ -20,7 +20,8 @@ from geometry_msgs.msg import Twist, Vector3
 from rumba_cleaning.own_robot.check import report, table
 from rumba_cleaning.own_robot.gate import STOP, Velocity, limited
 from rumba_cleaning.own_robot.heard import Heard, Topic
-from rumba_cleaning.ros.own_robot.listeners import CommandListener, OdometryListener, ScanListener, TopicListener
+from rumba_cleaning.ros.own_robot.listeners import (
+    CommandListener, ModeListener, OdometryListener, ScanListener, TopicListener)
 from rumba_sim.model.config import setting
 from rumba_sim.model.errors import ConfigError
 from rumba_sim.model.geometry import wrap_angle
@@ -49,6 +50,8 @@ class Settings:
     bumper: str = setting('/bumper', 'topic of its bumper')
     cliff: str = setting('/cliff', 'topic of its cliff sensors')
     wheel_drop: str = setting('/wheel_drop', 'topic that says whether a wheel hangs in the air')
+    charging_state: str = setting('', 'topic of the charger of a Create; empty: it is another robot')
+    mode: str = setting('', 'topic of the mode of a Create; empty: it is another robot')
     seconds: float = setting(10.0, 'how long it listens, by the clock of the robot', 's', 1.0, 600.0)
     drive: bool = setting(False, 'whether to drive the robot, so that scan, odometry and command can be compared')
 
@@ -74,15 +77,20 @@ def _check(settings: Settings) -> bool:
     odometry = OdometryListener(settings.odom, own)
     scan = ScanListener(settings.scan, own, odometry)
     command = CommandListener(settings.cmd_vel, odometry)
-    optional = {name: TopicListener(getattr(settings, name))
-                for name in ('battery_state', 'bumper', 'cliff', 'wheel_drop')}
+    optional: Dict[str, TopicListener] = {
+        name: TopicListener(getattr(settings, name))
+        for name in ('battery_state', 'bumper', 'cliff', 'wheel_drop', 'charging_state') if getattr(settings, name)}
+    mode = ModeListener(settings.mode) if settings.mode else None
+    if mode is not None:
+        optional['mode'] = mode
     drive = Driver(settings, own.config.drive)
     clock_fault = _listen(settings.seconds, drive)
     seen = master.look()
     found = report(Heard(
         settings.seconds, scan.topic(seen), odometry.topic(seen), command.topic(seen),
         {name: listener.topic(seen) for name, listener in optional.items()}, scan.heard(), odometry.heard(),
-        scan.views(), seen.others(), odometry.map_odom(), clock_fault, _runs_on(drive, odometry)), own)
+        scan.views(), seen.others(), odometry.map_odom(), clock_fault, _runs_on(drive, odometry),
+        None if mode is None else mode.mode), own)
     print('\n'.join(table(found)), flush=True)
     rospy.signal_shutdown('done')
     return found.is_fit

@@ -4,6 +4,7 @@ import math
 from typing import TYPE_CHECKING, Any, List, Optional, Set, Tuple
 
 import numpy as np
+import roslib.message
 import rospy
 from geometry_msgs.msg import Twist
 from nav_msgs.msg import Odometry
@@ -58,6 +59,20 @@ class TopicListener:
         found = kind()
         found.deserialize(message._buff)
         return found
+
+
+class ModeListener(TopicListener):
+    """The mode of a Create."""
+
+    def __init__(self, name: str) -> None:
+        """Listen."""
+        self.mode: Optional[int] = None  # the newest
+        super().__init__(name)
+
+    def _read(self, message: Any) -> None:
+        kind = roslib.message.get_message_class(message._connection_header['type'])
+        told = None if kind is None else self._as(kind, message)
+        self.mode = getattr(told, 'mode', None)
 
 
 class OdometryListener(TopicListener):

@@ -5,15 +5,26 @@ It subscribes, below the robot's name, to
   teleop/cmd_vel   geometry_msgs/Twist: of a person, which goes before it
   odom             nav_msgs/Odometry
   scan             sensor_msgs/LaserScan
+  seek_dock        std_msgs/Empty: of the cleaner, in place of cmd_vel, to a robot that finds its dock by itself
 and publishes there
   safe_cmd_vel     geometry_msgs/Twist: for the robot; remap it to the topic that the robot takes
   odom             nav_msgs/Odometry: with the parameter odometry_from_tf, made of the transform in /tf
+  dock_status      rumba_msg/DockStatus: with the parameter create
 It serves, below the robot's name,
   stop             std_srvs/SetBool: stands still, whoever commands, until it is called with false
+  set_brushes_up   std_srvs/SetBool: with the parameter create
+
+With the parameter create, the namespace of the node create_driver of create_robot, it subscribes there to
+  mode, battery/charging_state   create_msgs/Mode, ChargingState
+  ir_omni                        std_msgs/UInt16
+and publishes there
+  dock, undock                   std_msgs/Empty
+  main_brush_motor, side_brush_motor, vacuum_motor   create_msgs/MotorSetpoint
 
 The robot stops if the cleaner, its odometry or its scan is silent for the time of the parameter silence, and if its
 odometry moves the other way than it is commanded. It never drives faster than its file allows. A second after a stop,
-the node is silent, until the next command.
+the node is silent, until the next command. A robot that seeks its dock by itself is stopped by undock, unless it
+charges.
 
 Parameters, as in `rosrun rumba_cleaning safe_drive _own_robot:=my_robot.yaml`:
 """
@@ -21,17 +32,18 @@ Parameters, as in `rosrun rumba_cleaning safe_drive _own_robot:=my_robot.yaml`:
 import dataclasses
 import threading
 import time
-from typing import Any
-
 import rospy
 from geometry_msgs.msg import Point, Pose, PoseWithCovariance, Twist, TwistWithCovariance, Vector3
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import LaserScan
+from std_msgs.msg import Empty
 from std_srvs.srv import SetBool, SetBoolResponse
 from tf2_msgs.msg import TFMessage
 
 from rumba_cleaning.own_robot.agreement import STANDS, Agreement
-from rumba_cleaning.own_robot.gate import CLEANER, PERSON, STOP, Gate, Moment, Velocity
+from rumba_cleaning.own_robot.gate import CLEANER, PERSON, SEEK_DOCK, STOP, Gate, Moment, Velocity
+from rumba_cleaning.ros.own_robot.create import Create
+from rumba_cleaning.ros.own_robot.publishing import publish
 from rumba_sim.model.config import setting
 from rumba_sim.model.errors import ConfigError
 from rumba_sim.ros.common import node, teleop
@@ -53,6 +65,8 @@ class Settings:
     silence: float = setting(0.4, 'how long the cleaner, the odometry and the scan may be silent until the robot is '
                                   'stopped', 's', 0.05, 5.0)
     odometry_from_tf: bool = setting(False, 'whether to publish odom from /tf, for a robot that has no such topic')
+    create: str = setting('', 'namespace of create_driver, as /, for a Create or a Roomba; empty: another robot')
+    docked: bool = setting(True, 'whether a Create stands on its dock at first')
 
     def __post_init__(self) -> None:
         """Check the robot's name."""
@@ -71,7 +85,7 @@ class SafeDrive:
         """Open all topics and the service.
 
         Raises:
-            ConfigError: no file is named, or it is wrong.
+            ConfigError: no file is named, or it is wrong; or the messages of a Create are not installed.
         """
         own = own_robot(settings.own_robot)
         if own is None:
@@ -82,6 +96,10 @@ class SafeDrive:
         self._agreement = Agreement()
         self._lock, self._has_ended = threading.Lock(), False
         self._publisher = rospy.Publisher(f'{name}/safe_cmd_vel', Twist, queue_size=1)
+        self._create = Create(name, settings.create, own.frames.base.lstrip('/'), settings.docked,
+                              self._lock) if settings.create else None
+        if settings.create:
+            rospy.Subscriber(f'{name}/seek_dock', Empty, self._seek_dock, queue_size=1)
         rospy.Subscriber(f'{name}/cmd_vel', Twist, self._take, CLEANER, queue_size=1)
         rospy.Subscriber(f'{name}/{teleop.TOPIC}', Twist, self._take, PERSON, queue_size=1)
         rospy.Subscriber(odom, Odometry, self._compare, odom, queue_size=10)
@@ -105,6 +123,11 @@ class SafeDrive:
             self._gate.command(who, Velocity(message.linear.x, message.angular.z), _now())
             self._drive()
 
+    def _seek_dock(self, _: Empty) -> None:
+        with self._lock:
+            self._gate.command(CLEANER, SEEK_DOCK, _now())
+            self._drive()
+
     def _hear(self, _: LaserScan, source: str) -> None:
         with self._lock:
             self._gate.hear(source, _now())
@@ -112,7 +135,10 @@ class SafeDrive:
     def _compare(self, message: Odometry, source: str) -> None:
         with self._lock:
             self._gate.hear(source, _now())
-            fault = self._agreement.observe(plane_pose(message.pose.pose), message.header.stamp.to_sec())
+            pose, stamp = plane_pose(message.pose.pose), message.header.stamp
+            if self._create is not None:
+                self._create.take_odometry(pose, stamp)
+            fault = self._agreement.observe(pose, stamp.to_sec())
             if fault == STANDS:
                 rospy.logwarn_throttle(COMPLAINT_PERIOD, f'{source}: {fault}: is the robot held, or does it not take '
                                                          f'{self._publisher.resolved_name}?')
@@ -124,8 +150,8 @@ class SafeDrive:
             if (each.header.frame_id.lstrip('/'), each.child_frame_id.lstrip('/')) == self._link:
                 moved = each.transform
                 pose = Pose(Point(moved.translation.x, moved.translation.y, moved.translation.z), moved.rotation)
-                _publish(self._odometry, Odometry(each.header, each.child_frame_id,
-                                                  PoseWithCovariance(pose, [0.0] * 36), TwistWithCovariance()))
+                publish(self._odometry, Odometry(each.header, each.child_frame_id,
+                                                 PoseWithCovariance(pose, [0.0] * 36), TwistWithCovariance()))
 
     def _drive(self) -> None:
         """Command what the gate says, until the node ends."""
@@ -134,9 +160,12 @@ class SafeDrive:
         velocity = self._gate.output(_now())
         if self._gate.reason:
             rospy.logerr_throttle(COMPLAINT_PERIOD, f'stopped: {self._gate.reason}')
+        if self._create is not None:
+            self._create.follow(velocity)
         if velocity is not None:
-            self._agreement.command(*velocity)
-            _publish(self._publisher, _twist(velocity))
+            self._agreement.command(velocity.v, velocity.w)
+        if velocity is not None and not velocity.seeks_dock:
+            publish(self._publisher, _twist(velocity))
 
     def _stop(self, request: SetBool) -> SetBoolResponse:
         with self._lock:
@@ -151,18 +180,11 @@ class SafeDrive:
         """Command a stop, more than once: the threads that send messages end with the node."""
         with self._lock:
             self._has_ended = True
+            if self._create is not None:
+                self._create.follow(None)
         for _ in range(LAST):
             self._publisher.publish(_twist(STOP))
             time.sleep(PERIOD)
-
-
-def _publish(publisher: rospy.Publisher, message: Any) -> None:
-    """Publish, unless the node ends, which closes its topics while callbacks still run."""
-    try:
-        publisher.publish(message)
-    except rospy.ROSException:
-        if not rospy.is_shutdown():
-            raise
 
 
 def _now() -> Moment:
