@@ -53,7 +53,7 @@ class Judge:
 
     def sweep(self, poses):
         """Have the brush pass along poses, float64 (any, 3) [m, m, rad], near to each other."""
-        poses = np.asarray(poses, float)
+        poses = np.array(poses, float)
         poses[:, 2] = np.unwrap(poses[:, 2])
         moved = np.concatenate([[True], np.any(poses[1:] != poses[:-1], axis=1)])
         poses = _refined(poses[moved])

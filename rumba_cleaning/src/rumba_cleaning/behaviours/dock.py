@@ -64,6 +64,11 @@ class Dock(Behaviour):
         return isinstance(self._part, Homing)
 
     @property
+    def _passes_by(self) -> bool:
+        """Whether a dock that it touches may be that of a mate, since it is on its way to another one."""
+        return isinstance(self._part, GoTo) and not self._is_waiting and bool(self._context.mates.reports)
+
+    @property
     def remaining(self) -> float:
         """Distance left to the point before the dock [m]; NaN if it is not known."""
         return self._part.remaining if isinstance(self._part, GoTo) else math.nan
@@ -73,10 +78,10 @@ class Dock(Behaviour):
         pose = observation.pose
         self._away = hypot(pose.x - self._home.x, pose.y - self._home.y)
         is_at_home = self._context.nearest_dock(pose) == self._home
-        if observation.is_docked:
+        if observation.is_docked and not (self._passes_by and not is_at_home):
             self._context.moor(pose)  # beams of another dock may have led it there: that charges as well
             return self.succeed('docked')
-        occupants = {} if self.is_homing else self._occupants(self._home)
+        occupants = self._standing(self._home) if self.is_homing else self._occupants(self._home)
         if occupants and self._finds_another(pose):
             occupants = {}
         if occupants:
@@ -148,11 +153,16 @@ class Dock(Behaviour):
             return True
         return False
 
-    def _occupants(self, home: Pose) -> Dict[str, Task]:
-        """What the mates at a dock do, by their names."""
+    def _standing(self, home: Pose) -> Dict[str, Task]:
+        """What the mates that stand at a dock do, by their names."""
         return {name: report.task for name, report in self._context.mates.reports.items()
-                if report.task in STANDING and hypot(report.pose.x - home.x, report.pose.y - home.y) < BERTH
-                or report.task is Task.DOCKING and self._context.nearest_dock(report.pose) == home}
+                if report.task in STANDING and hypot(report.pose.x - home.x, report.pose.y - home.y) < BERTH}
+
+    def _occupants(self, home: Pose) -> Dict[str, Task]:
+        """The same with those that are about to dock there."""
+        docking = {name: report.task for name, report in self._context.mates.reports.items()
+                   if report.task is Task.DOCKING and self._context.nearest_dock(report.pose) == home}
+        return {**self._standing(home), **docking}
 
     def _wait(self, observation: Observation, occupants: Dict[str, Task]) -> Command:
         """Stand where the robot is not in the way of those that drive up to the dock or leave it."""
