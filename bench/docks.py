@@ -70,8 +70,21 @@ def floor(kind):
     return bare, [Pose(*(round(value, 4) for value in pose.tolist())) for pose in found]
 
 
-def places(plan):
-    """Poses against walls that are even, with space before them in the largest part: float64 (any, 3)."""
+def largest_part(plan):
+    """The nodes of the largest part of a floor: bool (rows + 1, columns + 1)."""
+    return Parts(plan, clearance_needed(RADIUS, plan.resolution)).labels[::2, ::2] == 1
+
+
+def closes(plan, largest, pose):
+    """Whether a robot at a dock closes a door to others."""
+    y, x = (low + plan.resolution * index for low, index in zip(plan.origin[::-1], np.indices(largest.shape)))
+    left = largest & (np.hypot(x - pose[0], y - pose[1]) > 2.0 * RADIUS + PLATE)
+    sizes = np.bincount(ndimage.label(left)[0].ravel())[1:]
+    return sizes.max() < OPEN * np.count_nonzero(left)
+
+
+def places(plan, largest):
+    """Poses against walls that are even, with space before them, near nodes of the largest part: float64 (any, 3)."""
     clearance = plan.safe_clearance
     away = RADIUS + PLATE
     near = largest & (clearance >= away) & (clearance < away + plan.resolution)
