@@ -81,3 +81,9 @@ def test_the_command_says_that_a_path_was_guarded(tmp_path, capsys):
         assert (found['guarded'], found['outcome']) == (bool(more), outcome)
     assert evaluate.main([*arguments, '--guarded', '--as-drawn']) == 2
     assert capsys.readouterr().err == 'evaluate: --as-drawn and --guarded exclude each other: give one of them\n'
+
+
+def test_a_path_that_ends_beside_a_wall_is_driven_as_far_as_a_robot_can_stand():
+    ride = rode(Guarded, [(0.5, 0.5), (2.5, 0.5), (2.95, 0.5)], plan=room(3.0, 3.0))
+    assert ride.outcome is Outcome.SUCCEEDED
+    assert ride.message.startswith('a robot can stand nowhere on the rest of the path at (2.8')

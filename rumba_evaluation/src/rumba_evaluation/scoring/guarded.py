@@ -1,6 +1,7 @@
 """A robot drives along a path of others as a mission drives along its own: around what blocks it, and back onto it."""
 
 import dataclasses
+import math
 from typing import Optional
 
 import numpy as np
@@ -49,6 +50,8 @@ class FollowAround(Behaviour):
         """Begin at the beginning."""
         self._guard, self._impasse = Guard(self._context), Impasse()
         self._travel = Travel(self._context, self._route)
+        self._left = math.inf  # [m] of the path at most, when it had to leave that
+        self._vain = 0  # detours, one after the other, that did not lead further
         self.detours = 0
 
     def update(self, observation: Observation) -> Command:
@@ -64,26 +67,45 @@ class FollowAround(Behaviour):
             return command
         rest = None if self._travel.going is Going.ARRIVED else self._travel.rest()
         if rest is None:
-            return self.succeed(AT_END + (f', after {self.detours} detour{"s" * (self.detours > 1)}'
-                                          if self.detours else ''))
+            return self._arrive(AT_END)
         if self._travel.going is Going.BLOCKED:
             self._impasse.stop(self._context, observation.pose)
-        self.detours += 1
+        rest = self._further(rest)
+        if rest is None:
+            return self._arrive('a robot can stand nowhere on the rest of the path')
         around = self._around(observation.pose, rest)
         if around is None:
             return self.fail('no way leads around what keeps the robot from the rest of the path', Outcome.BLOCKED)
+        self.detours += 1
         self._travel = Travel(self._context, around)
         return STOP
 
+    def _arrive(self, what: str) -> Command:
+        """End, and tell how often the robot had to leave the path."""
+        many = f', after {self.detours} detour{"s" * (self.detours > 1)}' if self.detours else ''
+        return self.succeed(what + many)
+
+    def _further(self, rest: Route) -> Optional[Route]:
+        """The rest of the path from where a robot can stand, and the further on, the more detours were in vain.
+
+        None if it can stand nowhere.
+        """
+        left = rest.length - lengths_along(rest.waypoints)
+        self._vain = self._vain + 1 if left[0] > self._left - APART else 0
+        self._left = min(self._left, float(left[0]))
+        good = self._context.ground.are_free(rest.waypoints) & (left <= self._left - APART * (2 ** self._vain - 1))
+        good[-1] = False  # it has no way on
+        if not good.any():
+            return None
+        first = int(np.argmax(good))
+        return Route(rest.waypoints[first:], rest.speeds[first:])
+
     def _around(self, pose: Pose, rest: Route) -> Optional[Route]:
-        """A way onto the rest of the path, from its first point at which the robot can stand on.
+        """A way onto the rest of the path.
 
         If what it met seems to leave none, that is taken to be as small as it can be, and then to have gone.
         """
         ground = self._context.ground
-        fits = ground.are_free(rest.waypoints)
-        first = int(np.argmax(fits)) if fits.any() else 0
-        rest = Route(rest.waypoints[first:], rest.speeds[first:])
         for relent in (lambda: None, lambda: ground.squeeze(True), ground.forget):
             relent()
             found = detour(self._context, pose, rest)
