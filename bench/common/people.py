@@ -15,7 +15,8 @@ ROBOTS = {
     'turtlebot3': {'drive': {'radius': 0.105, 'wheel_base': 0.16, 'wheel_diameter': 0.066, 'max_speed': 0.22,
                              'max_turn_rate': 2.84}, 'brush': {'width': 0.12}},
     'scrubber': {'drive': {'radius': 0.28, 'wheel_base': 0.45, 'wheel_diameter': 0.15, 'max_speed': 0.7,
-                           'acceleration': 0.6}, 'brush': {'width': 0.45}},
+                           'acceleration': 0.6}, 'brush': {'width': 0.45},
+                 'cliff': {'distance': 0.265, 'outer_angle': 1.2}},
 }
 CANVASES = (0, 1000, 4000)  # [pixels] of a side
 RESOLUTIONS = (0.05, 0.05, 0.025)  # [m]
