@@ -16,6 +16,7 @@ from rumba_cleaning.belief.swept import Swept
 from rumba_cleaning.belief.track import Track
 from rumba_cleaning.cleaning_config import CleaningConfig, attainable
 from rumba_cleaning.survey import Survey
+from rumba_sim.model.config import updated
 from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.model.geometry import Pose, hypot
 from rumba_sim.model.kernel import Array
@@ -94,7 +95,7 @@ class Context:
         executor: what runs long computations, as `submit` does.
         ground: where the robot can go, with the obstacles that it met.
         mates: the robots with which it shares the floor.
-        swept: what its brush passed over, and those of its mates.
+        swept: what its brush passed over, and those of its mates, of the floor that it reaches with the margin.
         footing: where the floor ends.
         sight: what its laser sees; None if it does without.
         has_map: whether the plan, and the pose of the robot on it, can be relied on; without, the plan is blank, and
@@ -126,7 +127,8 @@ class Context:
         self.mates = mates if mates is not None else Mates()
         self._berth = self.mates.rank  # number of the dock to which the robot returns; past the last, from the first on
         self.ground = Ground(plan, robot)
-        self.swept = Swept(plan, robot, is_exact=survey is None)
+        self.swept = Swept(plan, updated(robot, {'drive': {'radius': robot.drive.radius + config.margin}}, 'margin'),
+                           is_exact=survey is None)
         self.footing = Footing(plan, robot)
         self.sight = _sight(plan) if config.laser else None
 
@@ -196,7 +198,13 @@ class Context:
         self.footing.learn(plan)
         if self.sight is not None:
             self.sight.learn(plan)
-        self.swept.learn(plan, *self.ground.in_largest_part([pose[:2], self.swept.start]), way_back)
+        self.swept.learn(plan, *self.cleaned_ground().in_largest_part([pose[:2], self.swept.start]), way_back)
+
+    def cleaned_ground(self) -> Ground:
+        """The ground on which plans clean: a copy, with the margin to walls that the settings ask for."""
+        ground = self.ground.copy()
+        ground.keep_off(self.config.margin)
+        return ground
 
     def begin_anew(self, pose: Pose) -> None:
         """Without a map, know nothing of the floor around a pose: nothing was met there, or seen."""

@@ -227,6 +227,7 @@ def plan(context: Context, pose: Pose, end: Optional[Pose] = None) -> Optional[R
 def _round(context: Context, pose: Pose, is_worth: bool, may_retry: bool) -> Planned:
     """A route that cleans what was missed; if there is none, one without the obstacles that may have gone."""
     from rumba_cleaning.planning import helping, sharing  # here for the same reason
+    context.ground.keep_off(context.config.margin)
     is_cut_off = context.is_cut_off(pose)
     is_met = context.beside_obstacles().coverage >= context.target_coverage and not is_cut_off
     sharing.leave_to_mates(context)

@@ -70,7 +70,7 @@ class Trial:
             RumbaError: the strategy is unknown, there is no space for so many robots, or an obstacle is wrong.
         """
         config = _config(robot, conditions)
-        cleaning = attainable(CleaningConfig(laser=conditions.laser), config)
+        cleaning = attainable(CleaningConfig(laser=conditions.laser, margin=conditions.margin), config)
         self._conditions = conditions
         self.world = World(plan, config, STEP_RATE, seed, obstacles)
         poses: Sequence[Optional[Pose]] = [None] * robots
