@@ -67,7 +67,12 @@ def floor(kind):
         if len(found) < PLACES and all(math.hypot(*(pose[:2] - other[:2])) >= APART for other in found) and (
                 not closes(bare, largest, pose)):
             found.append(pose)
-    return bare, [Pose(*(round(value, 4) for value in pose.tolist())) for pose in found]
+    return bare, as_poses(found)
+
+
+def as_poses(places):
+    """Poses of docks from arrays."""
+    return [Pose(*(round(value, 4) for value in place.tolist())) for place in places]
 
 
 def largest_part(plan):
