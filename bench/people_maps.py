@@ -118,13 +118,12 @@ def cleaned(home, path):
     trial = Trial(plan, 'boustrophedon', seed=home.seed, robot=home.config)
     expected = outlook(plan, *trial.world.start[:2], home.config, CleaningConfig())
     lines = remarks_on(trial)
-    runs = driven(trial)
+    way = driven(trial)
     result, keeps = trial.result(), float(trial.world.constants[0]['reach'])
-    judge, ours = (Judge(home.floor, home.resolution, (0.0, 0.0), keeps, home.config.brush.width, start)
+    judge, ours = (Judge(home.floor, home.resolution, (0.0, 0.0), start, keeps, home.config.brush.width)
                    for start in (None, trial.world.start[:2]))
-    for poses in runs:
-        judge.sweep(poses)
-        ours.sweep(poses)
+    judge.follow(*way)
+    ours.follow(*way)
     return {'seconds': watch.seconds, 'megabytes': watch.megabytes, 'lines': lines, 'area': result.area,
             'largest': judge.area, 'ours': ours.area, 'outcome': result.outcome.name.lower(), 'message': result.message,
             'coverage': result.coverage, 'judged': ours.coverage, 'of_largest': judge.coverage,
@@ -134,17 +133,13 @@ def cleaned(home, path):
 
 
 def driven(trial):
-    """Run a trial; returns where its robot was from each lowering of the brush to the next lifting, as `Judge` asks."""
+    """Run a trial; returns the way of its robot, and whether its brush was down, as `Judge.follow` asks."""
     robot, = trial.world.robots.values()
-    runs, before, is_down = [], tuple(robot.pose), False
+    way = [(*robot.pose, False)]
     while not trial.is_over:
         trial.step()
-        if not robot.brushes_up:
-            if not is_down:
-                runs.append([before])
-            runs[-1].append(tuple(robot.pose))
-        before, is_down = tuple(robot.pose), not robot.brushes_up
-    return [np.array(run) for run in runs]
+        way.append((*robot.pose, not robot.brushes_up))  # which it decides at the beginning of a step
+    return np.array(way)[:, :3], np.array(way)[:, 3] > 0.0
 
 
 # --- what is printed --------------------------------------------------------------------------------------------------

@@ -49,16 +49,15 @@ def show(trial, robots, plan):
     start, config = trial.world.start, trial.world.config
     expected = outlook(plan, *start[:2], config, CleaningConfig(target_coverage=TARGET))
     begin = time.process_time()
-    runs = driven(trial) if robots == 1 else to_end(trial)
+    way = driven(trial) if robots == 1 else to_end(trial)
     result = trial.result()
     figures.heading(f'Shops of {result.area:.0f} m2 with {DOCKS} docks, {robots} robot{"s" * (robots > 1)}: '
                     f'{result.outcome.name.lower()}: {result.message}')
     figures.row('swept at the end [%]', 100.0 * result.coverage, at_least=100.0 * TARGET)
     if robots == 1:
-        judge = Judge(plan.free, plan.resolution, plan.origin, float(trial.world.constants[0]['reach']),
-                      config.brush.width, start[:2])
-        for run in runs:
-            judge.sweep(run)
+        judge = Judge(plan.free, plan.resolution, plan.origin, start[:2], float(trial.world.constants[0]['reach']),
+                      config.brush.width)
+        judge.follow(*way)
         figures.row('    by the judge [%]', 100.0 * judge.coverage)
     figures.row('robots home', result.docked, at_least=robots)
     figures.row('time, with charging [h]', result.time / HOUR)

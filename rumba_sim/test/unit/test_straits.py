@@ -1,6 +1,7 @@
 """Passages between corners that are aslant: a robot passes if it has 3 mm to spare on each side, at any resolution."""
 
 import math
+import re
 
 import numpy as np
 import pytest
@@ -12,6 +13,7 @@ from rumba_sim.model.floor_plan import FREE, OCCUPIED, FloorPlan
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.obstacle import Obstacle
 from rumba_sim.model.reachability import SLACK, Parts, reach
+from rumba_sim.model.remarks import remarks
 from rumba_sim.model.world import World
 
 LEFT, BOTTOM = 1.0, 2.0  # [m] the corner of the lower block
@@ -91,3 +93,11 @@ def test_a_cliff_in_a_strait_keeps_the_parts_apart():
     cliff = np.zeros(plan.occupancy.shape, np.bool_)
     cliff[plan.cell(LEFT + 0.16, BOTTOM + 0.11)] = True
     assert reached(FloorPlan('cliff', plan.occupancy, plan.resolution, plan.origin, cliff=cliff)) < 4.0
+
+
+def test_people_are_told_of_floor_behind_a_strait():
+    remark, = remarks(World(corners(6, 4, start=Pose(2.0, 1.0, 0.0)), quiet()))
+    share, x, y = map(float, re.match(r'corners: (.*) % of what a robot can reach, about \((.*), (.*)\) m, lies behind '
+                                      'gaps', remark).groups())
+    assert 30.0 < share < 40.0 and x < 2.0 and y > BOTTOM + 0.2
+    assert remarks(World(corners(12, 8), quiet())) == []
