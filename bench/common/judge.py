@@ -22,6 +22,7 @@ FINEST = 0.02  # [rad] of a turn in one triangle
 CHUNK = 20_000  # triangles at a time
 ALL_AROUND = np.ones((3, 3))
 ROUNDING = 1e-9  # [m]
+RIM = 0.4  # [steps]
 
 
 class Judge:
@@ -84,15 +85,19 @@ class Judge:
     def _distances(self, free, obstacles):
         """Distance of each point of the lattice to the nearest obstacle [m]; beyond the map, all is one.
 
-        It is exact beside cells, since the nearest point of a square is a point of the lattice.
+        It is exact beside cells, since the nearest point of a square is a point of the lattice; obstacles end about RIM
+        beyond their outermost points.
         """
         free = np.pad(free, 1, mode='constant')
         inside = free[:-1, :-1] & free[:-1, 1:] & free[1:, :-1] & free[1:, 1:]
         rows, columns = inside.shape
         x, y = self._origin[0] + self._step * np.arange(columns), self._origin[1] + self._step * np.arange(rows)
+        away = self._step * ndimage.distance_transform_edt(inside)
         for is_there in obstacles:
-            inside &= ~is_there(x[np.newaxis], y[:, np.newaxis])
-        return self._step * ndimage.distance_transform_edt(inside)
+            free = ~is_there(x[np.newaxis], y[:, np.newaxis])
+            if not free.all():
+                away = np.minimum(away, self._step * (ndimage.distance_transform_edt(free) - RIM))
+        return np.maximum(away, 0.0)
 
     def _part_at(self, labels, start):
         """The label nearest to a start."""
@@ -194,7 +199,8 @@ class Tracks:
             obstacles: that stand there from the start, and count.
         """
         free = (plan.occupancy == 0) & (True if plan.cliff is None else ~plan.cliff)
-        found = Judge(free, plan.resolution, plan.origin, self._world.start[:2], robot.drive.radius, robot.brush.width,
+        keeps = float(self._world.constants[0]['reach'])  # [m] from walls
+        found = Judge(free, plan.resolution, plan.origin, self._world.start[:2], keeps, robot.brush.width,
                       [_shape(obstacle) for obstacle in obstacles])
         for way in self._ways.values():
             found.follow(np.array(way)[:, :3], np.array(way)[:, 3] > 0.0)
