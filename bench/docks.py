@@ -1,8 +1,8 @@
 """Whether robots come home if docks stand at random walls, several of them in sight of each other.
 
-`docks.py [--pairs N] [--fleets N] [--jobs N] [--each]` draws ten floors with places for docks. A robot looks for the
-first dock of a pair from a random place between both; 200 ordered pairs by default. 40 fleets of 2, 3, 5 and 8 robots
-clean the floors to 98 %, each robot from a dock of its own.
+`docks.py [--pairs N] [--sizes N ...] [--kinds KIND ...]` draws ten floors with places for docks. A robot looks for the first
+dock of a pair from a random place between both; 200 ordered pairs by default. Fleets of 2, 3, 5 and 8 robots clean each
+floor to 98 %, each robot from a dock of its own.
 """
 
 import argparse
@@ -130,10 +130,10 @@ def is_in_sight(plan, one, other):
 
 # --- pairs ------------------------------------------------------------------------------------------------------------
 
-def pairs(count):
+def pairs(kinds, count):
     """Kinds of floors with the numbers of two docks in sight of each other, as many of each floor as possible."""
     of_floors = []
-    for kind in KINDS:
+    for kind in kinds:
         plan, docks = floor(kind)
         found = [(kind, i, j) for i, j in itertools.permutations(range(len(docks)), 2)
                  if is_in_sight(plan, docks[i], docks[j])]
@@ -173,12 +173,6 @@ def between(world, one, other, generator):
 
 # --- fleets -----------------------------------------------------------------------------------------------------------
 
-def fleets(count):
-    """Kinds of floors with the sizes of fleets."""
-    return list(itertools.product(KINDS, SIZES))[:count] if count == len(KINDS) * len(SIZES) else [
-        (KINDS[number % len(KINDS)], SIZES[(number // 2) % len(SIZES)]) for number in range(count)]
-
-
 def clean(case):
     """A fleet cleans a floor, each robot from a dock of its own."""
     kind, size = case
@@ -198,25 +192,29 @@ def main():
     """Print."""
     parser = argparse.ArgumentParser(description=__doc__.split('\n\n')[0])
     parser.add_argument('--pairs', type=int, default=200)
-    parser.add_argument('--fleets', type=int, default=len(KINDS) * len(SIZES))
+    parser.add_argument('--sizes', nargs='*', type=int, default=SIZES, help='of fleets; one of each on each floor')
+    parser.add_argument('--kinds', nargs='+', choices=KINDS, default=KINDS, help='of floors')
     parser.add_argument('--jobs', type=int, default=os.cpu_count())
-    parser.add_argument('--each', action='store_true', help='print a line for each that failed or was late')
     arguments = parser.parse_args()
     with concurrent.futures.ProcessPoolExecutor(arguments.jobs) as executor:
-        found = list(executor.map(come_home, pairs(arguments.pairs)))
-        figures.heading(f'{len(found)} ordered pairs of docks in sight of each other on {len(KINDS)} floors')
-        show(found, LIMIT, arguments.each)
-        found = list(executor.map(clean, fleets(arguments.fleets)))
-        figures.heading(f'{len(found)} fleets of {", ".join(map(str, SIZES))} robots, docks at random walls, to 98 %')
-        show(found, LATE, arguments.each)
+        cases = pairs(arguments.kinds, arguments.pairs)
+        if cases:
+            figures.heading(f'{len(cases)} ordered pairs of docks in sight of each other on {len(arguments.kinds)} floors')
+            show(executor.map(come_home, cases), LIMIT)
+        cases = list(itertools.product(arguments.kinds, arguments.sizes))
+        if cases:
+            figures.heading(f'{len(cases)} fleets of {", ".join(map(str, arguments.sizes))} robots, docks at random walls, '
+                            'to 98 %')
+            show(executor.map(clean, cases), LATE)
 
 
-def show(found, late, is_each):
-    """Print how robots came home."""
-    bad = [each for each in found if not each.is_home or each.seconds > late]
-    if is_each:
-        for each in bad:
-            print(f'  {each.name}: home {each.is_home}, {each.seconds:.0f} s, {each.message}')
+def show(returns, late):
+    """Print how robots came home, and a line for each that did not, or late [s]."""
+    found = []
+    for each in returns:
+        found.append(each)
+        if not each.is_home or each.seconds > late:
+            print(f'  {each.name}: home {each.is_home}, {each.seconds:.0f} s, {each.message}', flush=True)
     figures.row('home', sum(each.is_home for each in found), at_least=len(found))
     figures.row('    median time [s]', statistics.median(each.seconds for each in found))
     figures.row('    longest time [s]', max(each.seconds for each in found), below=late)
