@@ -1,8 +1,8 @@
 """Whether robots come home if docks stand at random walls, several of them in sight of each other.
 
-`docks.py [--pairs N] [--sizes N ...] [--kinds KIND ...]` draws ten floors with places for docks. A robot looks for the first
-dock of a pair from a random place between both; 200 ordered pairs by default. Fleets of 2, 3, 5 and 8 robots clean each
-floor to 98 %, each robot from a dock of its own.
+`docks.py [--pairs N] [--sizes N ...] [--kinds KIND ...]` draws ten floors with places for docks. A robot looks for the
+first dock of a pair from a random place between both; 200 ordered pairs by default. Fleets of 2, 3, 5 and 8 robots
+clean each floor to 98 %, each robot from a dock of its own.
 """
 
 import argparse
@@ -199,12 +199,13 @@ def main():
     with concurrent.futures.ProcessPoolExecutor(arguments.jobs) as executor:
         cases = pairs(arguments.kinds, arguments.pairs)
         if cases:
-            figures.heading(f'{len(cases)} ordered pairs of docks in sight of each other on {len(arguments.kinds)} floors')
+            figures.heading(f'{len(cases)} ordered pairs of docks in sight of each other, '
+                            f'{len(arguments.kinds)} floors')
             show(executor.map(come_home, cases), LIMIT)
         cases = list(itertools.product(arguments.kinds, arguments.sizes))
         if cases:
-            figures.heading(f'{len(cases)} fleets of {", ".join(map(str, arguments.sizes))} robots, docks at random walls, '
-                            'to 98 %')
+            figures.heading(f'{len(cases)} fleets of {", ".join(map(str, arguments.sizes))} robots, docks at random '
+                            'walls, to 98 %')
             show(executor.map(clean, cases), LATE)
 
 

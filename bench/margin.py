@@ -1,4 +1,4 @@
-"""What a margin to walls costs in coverage and time, and how many collisions it saves, on ragged walls and drawn ones."""
+"""What a margin to walls costs in coverage and time, and how many collisions it saves, by how ragged walls are."""
 
 import argparse
 import concurrent.futures

@@ -1,4 +1,4 @@
-"""A floor of shops and offices of 2,000 m2 with three docks, cleaned by one robot and by three; and the estimate before.
+"""Shops and offices of 2,000 m2 with three docks, cleaned by one robot and by three; and how long that was to take.
 
 `shops.py [--robots N ...]` takes some minutes for each mission.
 """

@@ -36,6 +36,6 @@ def write(folder, cells, size, resolution, rays=RAYS, keys=''):
         canvas[up[inside], across[inside]] = BRIGHTNESS[FREE]
     Image.fromarray(canvas[::-1]).save(str(folder / 'map.png'))
     origin = -left * resolution, -bottom * resolution
-    (folder / 'map.yaml').write_text(f'image: map.png\nresolution: {resolution}\norigin: [{origin[0]}, {origin[1]}, 0]\n'
-                                     f'negate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n{keys}')
+    (folder / 'map.yaml').write_text(f'image: map.png\nresolution: {resolution}\norigin: [{origin[0]}, {origin[1]}, '
+                                     f'0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n{keys}')
     return folder / 'map.yaml'

@@ -1,4 +1,4 @@
-"""Maps as people have them, drawn from seeds: homes with rays, specks, niches, closed rooms, narrow gaps, ragged walls."""
+"""Maps as people have them, drawn from seeds: rays, specks, niches, closed rooms, narrow gaps, ragged walls."""
 
 from typing import NamedTuple
 

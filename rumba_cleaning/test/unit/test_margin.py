@@ -64,4 +64,3 @@ def test_the_ground_keeps_off_by_the_margin_and_no_margin_changes_nothing():
     assert (ground.fits == before).all()
     ground.keep_off(0.05)
     assert (ground.fits == (ground.clearance >= Ground(ground.plan, quiet()).reach + 0.05 + 0.003 - 1e-9)).all()
-

@@ -111,7 +111,7 @@ class Ride(abc.ABC):
 
 
 class Driven(Ride):
-    """Drives as a real robot would: with its limits, along walls and into them, by a pose that is known; gives up there."""
+    """Drives as a real robot would: with its limits, along walls, and into them, where it gives up; by a known pose."""
 
     def _spawned(self) -> Robot:
         try:

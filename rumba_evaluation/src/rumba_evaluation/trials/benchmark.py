@@ -1,8 +1,8 @@
 """rumba-benchmark: scores cleaning strategies, and the paths of other planners, on five floors, with one table.
 
 Writes the floors into FOLDER/floors, as maps of map_server on which other planners can plan. With --paths, each folder
-DIR/PLANNER with files named like the floors, as lounge.csv, is a planner of its own in the table. The robot drives around
-what blocks such a path and back onto it, as missions do.
+DIR/PLANNER with files named like the floors, as lounge.csv, is a planner of its own in the table. The robot drives
+around what blocks such a path and back onto it, as missions do.
 """
 
 import argparse

@@ -18,7 +18,8 @@ from rumba_sim.model.config import updated
 from rumba_sim.model.errors import ConfigError
 
 JSON, TEXT = FORMATS = 'json', 'text'
-OF_MISSIONS = ('strategies', 'seeds', 'robots', 'start', 'pose', 'laser', 'margin', 'target', 'modules', 'jobs', 'scheduler')
+OF_MISSIONS = (
+    'strategies', 'seeds', 'robots', 'start', 'pose', 'laser', 'margin', 'target', 'modules', 'jobs', 'scheduler')
 OF_PATHS = ('as_drawn', 'guarded', 'speed', 'topic')
 
 
