@@ -10,6 +10,7 @@ from rooms import RADIUS, quiet, room
 from rumba_cleaning.behaviours.dock import Dock
 from rumba_cleaning.belief.mates import Report, Task
 from rumba_sim.model.geometry import Pose
+from rumba_sim.model.obstacle import Obstacle
 from rumba_sim.model.robot import put
 from rumba_sim.model.world import World
 
@@ -91,4 +92,15 @@ def test_a_robot_before_its_dock_goes_to_another_one_as_soon_as_a_mate_stands_th
     world.spawn('rumba2', TOP)
     context.hear('rumba2', Report(TOP, True, Task.OFF, None))
     assert run(behaviour, world) < 60.0
+    assert (behaviour.message, context.home, world.robots['rumba'].is_docked) == ('docked', RIGHT, True)
+
+
+def test_a_robot_that_cannot_dock_at_its_own_dock_goes_to_another_one():
+    box = Obstacle('box', Pose(TOP.x, TOP.y - 0.4, 0.0), 0.3, 0.1)
+    world = World(floor((TOP, RIGHT)), quiet(), obstacles=[box])
+    world.spawn('rumba', Pose(1.0, 1.0, 0.3))
+    world.step()
+    context = context_of(world.plan, world)
+    behaviour = Dock(context)
+    run(behaviour, world, seconds=900.0)
     assert (behaviour.message, context.home, world.robots['rumba'].is_docked) == ('docked', RIGHT, True)

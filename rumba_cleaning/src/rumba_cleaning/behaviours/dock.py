@@ -2,7 +2,7 @@
 
 import contextlib
 import math
-from typing import Dict, Optional
+from typing import Dict, List, Optional
 
 import numpy as np
 
@@ -57,6 +57,7 @@ class Dock(Behaviour):
         self._part = None
         self._is_waiting = self.is_taken = False
         self._tries = 0
+        self._failed: List[Pose] = []  # docks at which all tries failed
 
     @property
     def is_homing(self) -> bool:
@@ -109,6 +110,10 @@ class Dock(Behaviour):
             self._part = self._way_home()
             self._tries += 1
             if self._tries >= TRIES:
+                self._failed.append(self._home)
+                if self._finds_another(pose):
+                    self._tries = 0
+                    return STOP
                 return self.fail(f'{TRIES} attempts to dock failed: {self.message}', outcome)
         return Command(0.0, 0.0, brushes_up=True)
 
@@ -140,7 +145,7 @@ class Dock(Behaviour):
 
     def _finds_another(self, pose: Pose) -> bool:
         """Whether another dock is free: the nearest of them is the home of the robot from now on."""
-        free = [dock for dock in self._context.plan.docks if not self._occupants(dock)]
+        free = [dock for dock in self._context.plan.docks if dock not in self._failed and not self._occupants(dock)]
         for dock in sorted(free, key=lambda dock: hypot(dock.x - pose.x, dock.y - pose.y)):
             before = self._home
             self._context.moor(dock)
