@@ -9,8 +9,7 @@ import tempfile
 import time
 
 import numpy as np
-from common import drawings, figures, wings
-from PIL import Image
+from common import canvases, drawings, figures, wings
 
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.cleaning_config import CleaningConfig
@@ -24,13 +23,11 @@ from rumba_sim.model.world import World
 CANVASES = (0, 2000, 4000)  # [pixels] of a side; 0: no larger than the floor
 SECONDS, MEGABYTES = 5.0, 700.0  # for floors of up to 200 m2: our choice
 RESOLUTION = 0.05  # [m]
-BRIGHTNESS = {FREE: 254, OCCUPIED: 0}
-UNKNOWN, RAYS = 205, 9
 
 
 def main():
     """Measure and print."""
-    figures.heading(f'From a map with {RAYS} rays of one cell to a plan; cells of 5 cm')
+    figures.heading(f'From a map with {canvases.RAYS} rays of one cell to a plan; cells of 5 cm')
     for floor in ('room', 'furnished'):
         for size in CANVASES:  # each in a process of its own, whose memory is that of one floor
             subprocess.run([sys.executable, os.path.abspath(__file__), floor, str(size)], check=True)
@@ -39,7 +36,7 @@ def main():
 def measure(floor, size):
     """Print what one plan takes."""
     with tempfile.TemporaryDirectory() as folder:
-        path = write(pathlib.Path(folder), cells_of(floor), size)
+        path = canvases.write(pathlib.Path(folder), cells_of(floor), size, RESOLUTION)
         warm_up.main()
         begin = time.process_time()
         floor_plan = map_file.load(path)
@@ -61,28 +58,6 @@ def cells_of(floor):
     cells = np.full((152, 202), OCCUPIED, np.int8)
     cells[1:-1, 1:-1] = FREE
     return cells
-
-
-def write(folder, cells, size):
-    """Write a map with some cells on a canvas, and rays to the right, up and aslant; returns its path."""
-    rows, columns = cells.shape
-    size = max(size, rows + 2, columns + 2)
-    canvas = np.full((size, size), UNKNOWN, np.uint8)
-    bottom, left = (size - rows) // 2, (size - columns) // 3
-    window = canvas[bottom:bottom + rows, left:left + columns]
-    for kind, level in BRIGHTNESS.items():
-        window[cells == kind] = level
-    for ray in range(RAYS // 3):
-        canvas[bottom + 20 + 15 * ray, left + columns - 1:size - 5] = BRIGHTNESS[FREE]
-        canvas[bottom + rows - 1:size - 5, left + 30 + 20 * ray] = BRIGHTNESS[FREE]
-        steps = np.arange(size)
-        across, up = left - steps // 2, bottom + 30 + (steps * (3 + ray)) // 10
-        inside = (across >= 0) & (up < size)
-        canvas[up[inside], across[inside]] = BRIGHTNESS[FREE]
-    Image.fromarray(canvas[::-1]).save(str(folder / 'map.png'))
-    (folder / 'map.yaml').write_text(f'image: map.png\nresolution: {RESOLUTION}\norigin: [0, 0, 0]\nnegate: 0\n'
-                                     'occupied_thresh: 0.65\nfree_thresh: 0.196\n')
-    return folder / 'map.yaml'
 
 
 if __name__ == '__main__':

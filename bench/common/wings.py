@@ -20,6 +20,11 @@ def office(generator):
     return _wings(generator, 3600.0, 0.15)
 
 
+def shops(generator, area=2400.0):
+    """Shops and offices of an area in all [m2]."""
+    return _wings(generator, area, 0.15)
+
+
 def _wings(generator, area, pieces):
     """Wings, one above the other, joined by a corridor at their left; `pieces` of furniture for each m2."""
     side, corridor, depth = math.sqrt(area), 1.6, 4.4

@@ -19,8 +19,9 @@ from tiers import thorough
 
 from rumba_cleaning.behaviour import Status
 from rumba_cleaning.behaviours import relocation
-from rumba_cleaning.belief.context import BeforeNextStep, Context, own_seed
+from rumba_cleaning.belief.context import Context, own_seed
 from rumba_cleaning.control import CONTROL_DT, CONTROL_TICKS, STEP_RATE, act
+from rumba_cleaning.executors import BeforeNextStep
 from rumba_cleaning.mission.mission import Mission
 from rumba_cleaning.pose_source import Localised
 from rumba_msg.msg import CleanGoal, DockStatus, MissionStatus, Outcome

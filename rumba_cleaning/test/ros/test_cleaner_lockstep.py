@@ -19,9 +19,10 @@ from teams import QUICKLY
 from tiers import thorough
 
 from rumba_cleaning.behaviour import Status
-from rumba_cleaning.belief.context import BeforeNextStep, Context, own_seed
+from rumba_cleaning.belief.context import Context, own_seed
 from rumba_cleaning.cleaning_config import CleaningConfig
 from rumba_cleaning.control import CONTROL_TICKS, STEP_RATE, steps
+from rumba_cleaning.executors import BeforeNextStep
 from rumba_cleaning.mission.mapless import MaplessMission
 from rumba_cleaning.mission.mission import Mission
 from rumba_cleaning.pose_source import reckoned, truth

@@ -1,10 +1,11 @@
 """Robots that share a floor, in process: each hears after a step what the others did in it, as through ROS."""
 
 from rumba_cleaning.behaviour import Status
-from rumba_cleaning.belief.context import BeforeNextStep, Context, own_seed
+from rumba_cleaning.belief.context import Context, own_seed
 from rumba_cleaning.belief.mates import Mates
 from rumba_cleaning.cleaning_config import CleaningConfig
 from rumba_cleaning.control import CONTROL_DT, CONTROL_TICKS, STEP_RATE, act
+from rumba_cleaning.executors import BeforeNextStep
 from rumba_cleaning.mission.mission import Mission
 from rumba_cleaning.mission.team import tell_mates
 from rumba_sim.model.robot import nth_name

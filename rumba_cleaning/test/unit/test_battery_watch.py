@@ -10,7 +10,7 @@ from rooms import room
 
 from rumba_cleaning.behaviour import Observation
 from rumba_cleaning.behaviours.dock import approach
-from rumba_cleaning.belief.context import BeforeNextStep
+from rumba_cleaning.executors import BeforeNextStep
 from rumba_cleaning.mission.battery_watch import BatteryWatch
 from rumba_sim.model.geometry import Pose
 

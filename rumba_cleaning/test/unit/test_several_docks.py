@@ -10,6 +10,8 @@ from rooms import RADIUS, quiet, room
 from rumba_cleaning.behaviours.dock import Dock
 from rumba_cleaning.belief.mates import Report, Task
 from rumba_sim.model.geometry import Pose
+from rumba_sim.model.obstacle import Obstacle
+from rumba_sim.model.robot import put
 from rumba_sim.model.world import World
 
 AWAY = RADIUS + 0.03
@@ -64,3 +66,41 @@ def test_a_robot_waits_if_mates_stand_at_all_docks():
     behaviour = Dock(context)
     run(behaviour, world, seconds=60.0)
     assert behaviour.message == 'waiting for the dock, where rumba2 is' and not world.robots['rumba'].is_docked
+
+
+def test_a_robot_leaves_the_dock_of_a_mate_that_it_touches_on_its_way_home():
+    world = World(floor((TOP, RIGHT)), quiet())
+    world.spawn('rumba', Pose(1.0, 1.0, 0.3))
+    context = context_of(world.plan, world)
+    context.hear('rumba2', Report(Pose(2.4, 0.6, 0.0), False, Task.SWEEPING, None))
+    behaviour = Dock(context)
+    run(behaviour, world, seconds=1.0)
+    put(world.robots['rumba'].state, RIGHT)
+    world.step()
+    assert world.robots['rumba'].is_docked
+    run(behaviour, world)
+    assert (behaviour.message, context.home, world.robots['rumba'].is_docked) == ('docked', TOP, True)
+
+
+def test_a_robot_before_its_dock_goes_to_another_one_as_soon_as_a_mate_stands_there():
+    world = World(floor((TOP, RIGHT)), quiet())
+    world.spawn('rumba', Pose(TOP.x, 2.0, 0.5 * math.pi))
+    context = context_of(world.plan, world)
+    behaviour = Dock(context)
+    run(behaviour, world, seconds=2.0)
+    assert behaviour.is_homing
+    world.spawn('rumba2', TOP)
+    context.hear('rumba2', Report(TOP, True, Task.OFF, None))
+    assert run(behaviour, world) < 60.0
+    assert (behaviour.message, context.home, world.robots['rumba'].is_docked) == ('docked', RIGHT, True)
+
+
+def test_a_robot_that_cannot_dock_at_its_own_dock_goes_to_another_one():
+    box = Obstacle('box', Pose(TOP.x, TOP.y - 0.4, 0.0), 0.3, 0.1)
+    world = World(floor((TOP, RIGHT)), quiet(), obstacles=[box])
+    world.spawn('rumba', Pose(1.0, 1.0, 0.3))
+    world.step()
+    context = context_of(world.plan, world)
+    behaviour = Dock(context)
+    run(behaviour, world, seconds=900.0)
+    assert (behaviour.message, context.home, world.robots['rumba'].is_docked) == ('docked', RIGHT, True)

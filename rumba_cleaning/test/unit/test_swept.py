@@ -162,12 +162,12 @@ def test_what_can_be_reached_with_less_clearance_is_as_on_a_map_that_shows_why()
     apart = room(5.0, 2.4, 0.05, [(2.8, 0.0, 2.9, 2.4)])
     path = (1.0, 1.0), (1.3, 1.0), (1.6, 1.0)
     swept, alone = followed(memory(two_rooms()), *path), followed(memory(apart), *path)
-    part = swept.within(apart.refined().safe_clearance)
+    part = swept.within(apart.refined().safe_clearance, *swept.start)
     assert part.share == approx(alone.reachable_area / swept.reachable_area) and 0.5 < part.share < 0.7
     assert part.coverage == approx(alone.coverage) and alone.coverage > 1.4 * swept.coverage > 0.0
     clearance = two_rooms().refined().safe_clearance
-    assert swept.within(clearance) == (1.0, approx(swept.coverage))
-    assert swept.within(0.0 * clearance) == (1.0, swept.coverage)  # not even the start is left
+    assert swept.within(clearance, *swept.start) == (1.0, approx(swept.coverage))
+    assert swept.within(0.0 * clearance, *swept.start) == (1.0, swept.coverage)  # not even the start is left
 
 
 @pytest.mark.parametrize('resolution', [0.02, 0.025, 0.03, 0.05])

@@ -38,6 +38,13 @@ def test_robots_are_as_a_file_says(run, tmp_path):
         assert float(row['ideal_time']) == pytest.approx(float(row['area']) / (0.1 * 0.15))
 
 
+def test_a_robot_that_has_to_creep_is_told(run, tmp_path):
+    (tmp_path / 'wide.yaml').write_text('drive: {wheel_base: 0.32}\n')
+    code, _, errors = run('--robot', str(tmp_path / 'wide.yaml'))
+    assert code == 0 and errors.count('\n') == 1
+    assert errors.startswith('evaluate: drive/wheel_base is 0.32 m and cliff/distance 0.165 m: no cliff sensor looks')
+
+
 @pytest.mark.parametrize('content, message', [
     ('drive: {radios: 0.1}', ': drive/radios is unknown: did you mean .radius.'),
     ('drive: {max_speed: 0}', ': drive/max_speed is 0.0: must be 0.01 to 10'),

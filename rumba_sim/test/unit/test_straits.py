@@ -1,6 +1,7 @@
 """Passages between corners that are aslant: a robot passes if it has 3 mm to spare on each side, at any resolution."""
 
 import math
+import re
 
 import numpy as np
 import pytest
@@ -12,6 +13,7 @@ from rumba_sim.model.floor_plan import FREE, OCCUPIED, FloorPlan
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.obstacle import Obstacle
 from rumba_sim.model.reachability import SLACK, Parts, reach
+from rumba_sim.model.remarks import remarks
 from rumba_sim.model.world import World
 
 LEFT, BOTTOM = 1.0, 2.0  # [m] the corner of the lower block
@@ -91,3 +93,29 @@ def test_a_cliff_in_a_strait_keeps_the_parts_apart():
     cliff = np.zeros(plan.occupancy.shape, np.bool_)
     cliff[plan.cell(LEFT + 0.16, BOTTOM + 0.11)] = True
     assert reached(FloorPlan('cliff', plan.occupancy, plan.resolution, plan.origin, cliff=cliff)) < 4.0
+
+
+def test_people_are_told_of_floor_behind_a_strait():
+    remark, = remarks(World(corners(6, 4, start=Pose(2.0, 1.0, 0.0)), quiet()))
+    share, x, y = map(float, re.match(r'corners: (.*) % of what a robot can reach, about \((.*), (.*)\) m, lies behind '
+                                      'gaps', remark).groups())
+    assert 30.0 < share < 40.0 and x < 2.0 and y > BOTTOM + 0.2
+    assert remarks(World(corners(12, 8), quiet())) == []
+
+
+def doorway(wide, long, resolution=0.025):
+    """Two rooms of 2 x 2 m with a straight doorway, so many cells wide and long, between them."""
+    side = round(2.0 / resolution)
+    cells = np.full((side + 2, 2 * side + long + 2), OCCUPIED, np.int8)
+    cells[1:-1, 1:side + 1] = cells[1:-1, side + long + 1:-1] = FREE
+    cells[side // 2:side // 2 + wide, side + 1:side + long + 1] = FREE
+    return FloorPlan('doorway', cells, resolution, (-resolution, -resolution))
+
+
+@pytest.mark.parametrize('long', [1, 4, 8, 10])
+def test_a_doorway_of_an_odd_number_of_cells_through_a_wall_is_a_passage(long):
+    """Its middle lies between the nodes, beside which there is half a cell less: 0.375 m are 2 cm more than needed."""
+    needed = clearance_needed(RADIUS, 0.025)
+    assert 0.5 * 15 * 0.025 > needed + SLACK > 0.5 * 14 * 0.025
+    assert len(Parts(doorway(15, long), needed).areas) == 1
+    assert len(Parts(doorway(14, long), needed).areas) == 2

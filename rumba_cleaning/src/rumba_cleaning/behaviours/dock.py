@@ -2,7 +2,7 @@
 
 import contextlib
 import math
-from typing import Dict, Optional, Union
+from typing import Dict, List, Optional, Union
 
 import numpy as np
 
@@ -58,11 +58,17 @@ class Dock(Behaviour):
         self._part = None
         self._is_waiting = self.is_taken = False
         self._tries = 0
+        self._failed: List[Pose] = []  # docks at which all tries failed
 
     @property
     def is_homing(self) -> bool:
         """Whether the beams guide it now."""
         return isinstance(self._part, (Homing, SelfDocking))
+
+    @property
+    def _passes_by(self) -> bool:
+        """Whether a dock that it touches may be that of a mate, since it is on its way to another one."""
+        return isinstance(self._part, GoTo) and not self._is_waiting and bool(self._context.mates.reports)
 
     @property
     def remaining(self) -> float:
@@ -74,10 +80,10 @@ class Dock(Behaviour):
         pose = observation.pose
         self._away = hypot(pose.x - self._home.x, pose.y - self._home.y)
         is_at_home = self._context.nearest_dock(pose) == self._home
-        if observation.is_docked:
+        if observation.is_docked and not (self._passes_by and not is_at_home):
             self._context.moor(pose)  # beams of another dock may have led it there: that charges as well
             return self.succeed('docked')
-        occupants = {} if self.is_homing else self._occupants(self._home)
+        occupants = self._standing(self._home) if self.is_homing else self._occupants(self._home)
         if occupants and self._finds_another(pose):
             occupants = {}
         if occupants:
@@ -105,6 +111,10 @@ class Dock(Behaviour):
             self._part = self._way_home()
             self._tries += 1
             if self._tries >= TRIES:
+                self._failed.append(self._home)
+                if self._finds_another(pose):
+                    self._tries = 0
+                    return STOP
                 return self.fail(f'{TRIES} attempts to dock failed: {self.message}', outcome)
         return Command(0.0, 0.0, brushes_up=True)
 
@@ -140,7 +150,7 @@ class Dock(Behaviour):
 
     def _finds_another(self, pose: Pose) -> bool:
         """Whether another dock is free: the nearest of them is the home of the robot from now on."""
-        free = [dock for dock in self._context.plan.docks if not self._occupants(dock)]
+        free = [dock for dock in self._context.plan.docks if dock not in self._failed and not self._occupants(dock)]
         for dock in sorted(free, key=lambda dock: hypot(dock.x - pose.x, dock.y - pose.y)):
             before = self._home
             self._context.moor(dock)
@@ -153,11 +163,16 @@ class Dock(Behaviour):
             return True
         return False
 
-    def _occupants(self, home: Pose) -> Dict[str, Task]:
-        """What the mates at a dock do, by their names."""
+    def _standing(self, home: Pose) -> Dict[str, Task]:
+        """What the mates that stand at a dock do, by their names."""
         return {name: report.task for name, report in self._context.mates.reports.items()
-                if report.task in STANDING and hypot(report.pose.x - home.x, report.pose.y - home.y) < BERTH
-                or report.task is Task.DOCKING and self._context.nearest_dock(report.pose) == home}
+                if report.task in STANDING and hypot(report.pose.x - home.x, report.pose.y - home.y) < BERTH}
+
+    def _occupants(self, home: Pose) -> Dict[str, Task]:
+        """The same with those that are about to dock there."""
+        docking = {name: report.task for name, report in self._context.mates.reports.items()
+                   if report.task is Task.DOCKING and self._context.nearest_dock(report.pose) == home}
+        return {**self._standing(home), **docking}
 
     def _wait(self, observation: Observation, occupants: Dict[str, Task]) -> Command:
         """Stand where the robot is not in the way of those that drive up to the dock or leave it."""

@@ -15,7 +15,9 @@ from rumba_cleaning.belief.surroundings import blank
 from rumba_cleaning.belief.swept import Swept
 from rumba_cleaning.belief.track import Track
 from rumba_cleaning.cleaning_config import CleaningConfig, attainable
+from rumba_cleaning.executors import InPlace
 from rumba_cleaning.survey import Survey
+from rumba_sim.model.config import updated
 from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.model.geometry import Pose, hypot
 from rumba_sim.model.kernel import Array
@@ -29,46 +31,9 @@ if TYPE_CHECKING:
 Result = TypeVar('Result')
 Seed = Union[int, Sequence[int]]
 CUT_OFF = 0.02  # of the reachable floor: less than a room, more than corners beside things; our choice
+SHUT_IN = 0.2  # of the reachable floor: a room, for which it is worth waiting minutes; our choice
 NOT_COPIED = ('sight', 'footing', 'generator')  # attributes that what is submitted does without
 OPENED = 0.05  # [m^2] half of what a robot covers: a gap that opens less is not worth squeezing through; our choice
-
-
-class InPlace(Executor):
-    """Runs what is submitted at once, in the thread of the caller: its futures are done when they are returned."""
-
-    def submit(self, fn: Callable[..., Result], /, *args: Any, **kwargs: Any) -> 'Future[Result]':
-        """Run a function; if it raises an exception, the future holds that."""
-        future: 'Future[Result]' = Future()
-        _fulfil(future, lambda: fn(*args, **kwargs))
-        return future
-
-
-class BeforeNextStep(Executor):
-    """Runs what is submitted when it is told to: before the next step, as the node `cleaner` does in lockstep."""
-
-    def __init__(self) -> None:
-        """Nothing is submitted."""
-        self._tasks: 'List[Tuple[Future[Any], Callable[[], Any]]]' = []
-
-    def submit(self, fn: Callable[..., Result], /, *args: Any, **kwargs: Any) -> 'Future[Result]':
-        """Keep a function; returns its future, which can be cancelled until it runs."""
-        future: 'Future[Result]' = Future()
-        self._tasks.append((future, lambda: fn(*args, **kwargs)))
-        return future
-
-    def work(self) -> None:
-        """Run what is kept."""
-        tasks, self._tasks = self._tasks, []
-        for future, call in tasks:
-            if future.set_running_or_notify_cancel():
-                _fulfil(future, call)
-
-
-def _fulfil(future: 'Future[Result]', call: Callable[[], Result]) -> None:
-    try:
-        future.set_result(call())
-    except Exception as error:
-        future.set_exception(error)
 
 
 def _sight(plan: FloorPlan) -> 'Sight':
@@ -94,7 +59,7 @@ class Context:
         executor: what runs long computations, as `submit` does.
         ground: where the robot can go, with the obstacles that it met.
         mates: the robots with which it shares the floor.
-        swept: what its brush passed over, and those of its mates.
+        swept: what its brush passed over, and those of its mates, of the floor that it reaches with the margin.
         footing: where the floor ends.
         sight: what its laser sees; None if it does without.
         has_map: whether the plan, and the pose of the robot on it, can be relied on; without, the plan is blank, and
@@ -128,7 +93,8 @@ class Context:
         self.mates = mates if mates is not None else Mates()
         self._berth = self.mates.rank  # number of the dock to which the robot returns; past the last, from the first on
         self.ground = Ground(plan, robot)
-        self.swept = Swept(plan, robot, is_exact=survey is None)
+        self.swept = Swept(plan, updated(robot, {'drive': {'radius': robot.drive.radius + config.margin}}, 'margin'),
+                           is_exact=survey is None)
         self.footing = Footing(plan, robot)
         self.sight = _sight(plan) if config.laser else None
 
@@ -198,7 +164,13 @@ class Context:
         self.footing.learn(plan)
         if self.sight is not None:
             self.sight.learn(plan)
-        self.swept.learn(plan, self.ground.places([pose[:2], self.swept.start]), way_back)
+        self.swept.learn(plan, self.cleaned_ground().places([pose[:2], self.swept.start]), way_back)
+
+    def cleaned_ground(self) -> Ground:
+        """The ground on which plans clean: a copy, with the margin to walls that the settings ask for."""
+        ground = self.ground.copy()
+        ground.keep_off(self.config.margin)
+        return ground
 
     def begin_anew(self, pose: Pose) -> None:
         """Without a map, know nothing of the floor around a pose: nothing was met there, or seen."""
@@ -238,9 +210,16 @@ class Context:
             self.ground.show(self.sight.seen())
 
     def is_cut_off(self, pose: Pose) -> bool:
-        """Whether obstacles that stay, as a closed door, keep a robot at a pose from much of the floor."""
+        """Whether obstacles that stay, as a closed door, keep a robot at a pose from a part of the floor."""
+        return self._is_cut_off(pose, CUT_OFF)
+
+    def is_shut_in(self, pose: Pose) -> bool:
+        """Whether they keep it from much of the floor, as from a room."""
+        return self._is_cut_off(pose, SHUT_IN)
+
+    def _is_cut_off(self, pose: Pose, share: float) -> bool:
         return (self.ground.has_lasting
-                and self.ground.cut_off(pose.x, pose.y) > CUT_OFF * self.swept.reachable_area)
+                and self.ground.cut_off(pose.x, pose.y) > share * self.swept.reachable_area)
 
     def may_squeeze(self, pose: Pose) -> bool:
         """Whether squeezing past obstacles opens floor to a robot at a pose."""
@@ -277,11 +256,32 @@ class Context:
         other.target_coverage = target_coverage
         return other
 
-    def beside_obstacles(self) -> Part:
-        """What can be reached of the floor beside the obstacles that were met and stay."""
-        if not self.ground.has_lasting:
+    def beside_obstacles(self, pose: Optional[Pose] = None) -> Part:
+        """What can be reached of the floor, without straits, beside the obstacles that were met and stay.
+
+        Args:
+            pose: of the robot that is to reach it; None: from where it began.
+        """
+        if not self.ground.has_lasting and not self.swept.has_straits:
             return Part(1.0, self.swept.coverage)
-        return self.swept.within(self.ground.lasting_clearance())
+        return self.swept.within(self.ground.lasting_clearance(), *self._standing(pose))
+
+    def beside_marks(self, pose: Pose) -> Part:
+        """The same beside all obstacles that are known, for a robot at a pose."""
+        if not self.ground.has_marks and not self.swept.has_straits:
+            return Part(1.0, self.swept.coverage)
+        return self.swept.within(self.ground.clearance, *self._standing(pose))
+
+    def _standing(self, pose: Optional[Pose]) -> Tuple[float, float]:
+        """The node at which a robot stands, or where it began [m]."""
+        if pose is None:
+            return self.swept.start
+        (x, y), = self.ground.points(np.array([self.ground.standing_at(pose.x, pose.y)])).tolist()
+        return x, y
+
+    def is_all_swept(self, pose: Pose) -> bool:
+        """Whether the target is met of what a robot at a pose can plan to reach; obstacles take no more than corners."""
+        return not self.is_cut_off(pose) and self.beside_obstacles(pose).coverage >= self.target_coverage
 
     def submit(self, function: Callable[..., Result], *args: Any) -> 'Future[Result]':
         """Have the executor compute `function(context, *args)` with a copy of this context as it is now.

@@ -68,6 +68,12 @@ class Ground:
         if self._met.show(seen):
             self._measure()
 
+    def keep_off(self, margin: float) -> None:
+        """Have the robot stand only where it is farther from all that it would touch, by a margin [m]."""
+        if margin > 0.0:
+            self.reach += margin
+            self._update()
+
     def squeeze(self, on: bool) -> None:
         """Take obstacles to be as small as they can be, so that gaps as narrow as the robot are open, or as usual.
 

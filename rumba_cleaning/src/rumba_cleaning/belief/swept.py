@@ -22,6 +22,7 @@ class Swept:
 
     Attributes:
         start: from where it was counted what can be reached, x and y [m], map frame.
+        has_straits: whether part of that lies behind straits, through which robots do not plan their way.
     """
 
     def __init__(self, plan: FloorPlan, config: RobotConfig, is_exact: bool = True) -> None:
@@ -31,6 +32,7 @@ class Swept:
         self._sweep = Sweep(plan, config, is_exact)
         self._last: Dict[str, Pose] = {}  # by the name of the robot
         self.start = math.nan, math.nan
+        self.has_straits = False
 
     def begin(self, x: float, y: float) -> None:
         """Forget what was swept, and find out what can be reached from (x, y) [m], map frame.
@@ -41,6 +43,7 @@ class Swept:
         self._sweep.begin(x, y)
         self._last = {}
         self.start = x, y
+        self.has_straits = self._sweep.has_straits(x, y)
 
     def learn(self, plan: FloorPlan, points: Sequence[Tuple[float, float]],
               way_back: Optional[Callable[[Array], Array]] = None) -> None:
@@ -110,13 +113,14 @@ class Swept:
         """Number of samples that the brush can reach."""
         return self._sweep.reachable
 
-    def within(self, clearance: Array) -> Part:
-        """What can be reached on the same floor with less clearance.
+    def within(self, clearance: Array, x: float, y: float) -> Part:
+        """What a robot plans to reach on the same floor with less clearance.
 
         Args:
             clearance: as `FloorPlan.safe_clearance` [m].
+            x, y: from where, map frame [m].
         """
-        return self._sweep.within(clearance, *self.start)
+        return self._sweep.within(clearance, x, y)
 
     @property
     def reachable_area(self) -> float:

@@ -187,7 +187,7 @@ class Mission(StagedMission):
 
     def _begin_floor(self, pose: Pose) -> None:
         """Forget what was swept; what can be reached is counted from the robot, or from the nearest free node."""
-        ground = self._context.ground
+        ground = self._context.cleaned_ground()
         point = np.array([pose[:2]])
         if not ground.are_free(point)[0] or ground.plan.safe_clearance_at(*pose[:2]) < ground.reach:
             point = ground.points(ground.standing(ground.nodes(point)))
@@ -233,6 +233,8 @@ class Mission(StagedMission):
             return self._enter(State.CLEANING, self._cleaning)
         if self._context.swept.coverage >= target:
             return self._succeed()
+        if self._context.is_all_swept(observation.pose):
+            return self._close(Status.SUCCEEDED, swept(self._context), Outcome.SUCCEEDED)
         self._second_try.give_up(observation.pose)
         return self._close(Status.FAILED, f'{swept(self._context)}, the target is {percent(target)}: '
                                           f'{self._cleaning.message}', Outcome.INCOMPLETE)

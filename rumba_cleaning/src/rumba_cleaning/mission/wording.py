@@ -13,8 +13,9 @@ def percent(share: float) -> str:
 
 
 def swept(context: Context) -> str:
-    """How much was swept, and how much of what lies beside obstacles that stay, if the robot has met any."""
+    """How much was swept, and how much of what lies beside obstacles that stay, or before straits, if there are any."""
     told = f'{percent(context.swept.coverage)} swept'
-    if not context.ground.has_lasting:
+    if not context.ground.has_lasting and not context.swept.has_straits:
         return told
-    return f'{told}, {percent(context.beside_obstacles().coverage)} of what lies beside obstacles'
+    part = 'lies beside obstacles' if context.ground.has_lasting else 'is planned'
+    return f'{told}, {percent(context.beside_obstacles().coverage)} of what {part}'

@@ -20,10 +20,11 @@ WORTH = 0.0005  # of coverage: a round that gains less, and less than half of wh
 DEAR = 150.0  # [m/m^2] that a round beside obstacles drives for what it gains, beyond which it is the last: five times
 #               what the planner drives for a crumb, so most of what it planned for cannot be reached
 HELPED = 0.01  # of coverage: a retry that gained less was in vain: to touch all obstacles again takes long
-# Rounds that gain too little, since something unknown in the way ends them, or retries in vain, one after the other,
-# after which it ends ...
-VAIN = 1
-PATIENT, MUCH = 5, 0.9  # ... and so many while less than this share is swept of what lies beside obstacles
+# Rounds that gain too little, since something unknown in the way ends them, one after the other, after which no other
+# is planned, and so many while less than this share is swept of what lies beside all obstacles that are known. As many
+# retries may be in vain while obstacles keep the robot from much of the floor; else one is.
+VAIN, PATIENT, MUCH = 1, 5, 0.9
+CHECK = 5.0  # [s]: more often takes more computing, less often drives on in vain
 PAUSE = 20.0  # [s] after the first of these times, twice that after the second ...: who stands there may walk on
 MORE = 1.15  # times an equal share for a robot that several mates plan after: they drive farther for what others leave;
 #              our choice, by the apartment with three docks, where 1.1 gains nothing, and 1.2 less
@@ -83,6 +84,7 @@ class Boustrophedon(Behaviour):
         self._reason = ''  # why this round is the last, if there is nothing to drive
         self._driven = 0.0  # [m] since then
         self._last: Optional[Pose] = None  # where the robot was
+        self._unchecked = 0.0  # [s] since it was last checked whether all beside obstacles is swept
         self._impasse, self._standstill = Impasse(), standstill.Standstill()
         self._brushes_up = True
 
@@ -109,6 +111,11 @@ class Boustrophedon(Behaviour):
         self._standstill.watch(pose, min(observation.dt, LONGEST))
         if self._standstill.is_hopeless:
             return self.fail(f'stuck: has not got away from one place for {standstill.LONGEST:g} s', Outcome.BLOCKED)
+        self._unchecked += observation.dt
+        if self._unchecked > CHECK and (self._context.ground.has_lasting or self._context.swept.has_straits):
+            self._unchecked = 0.0
+            if self._context.is_all_swept(pose):
+                return self.succeed('nothing more can be reached')
         self._brushes_up = False
         command = self._travel.command(observation, self._brushes_up)
         self.message = f'{self._travel.remaining:.0f} m of the plan to go'
@@ -148,15 +155,13 @@ class Boustrophedon(Behaviour):
         is_gain = gain > min(WORTH, 0.5 * self._missing) and not is_dear
         self._idle = 0 if is_gain else self._idle + 1
         self._missing = context.target_coverage - coverage
-        is_cut_off = context.is_cut_off(pose)
-        if not is_cut_off:
-            self._most = max(self._most, context.beside_obstacles().coverage)
-        patience = PATIENT if self._most <= MUCH else VAIN
+        self._most = max(self._most, context.beside_obstacles(pose).coverage)
+        patience = VAIN if context.beside_marks(pose).coverage > MUCH else PATIENT
         is_worth = self._rounds < ROUNDS and self._idle < patience
-        is_swept = is_cut_off or self._most >= context.target_coverage  # but for what lies behind obstacles
+        is_swept = self._most >= context.target_coverage  # but for what lies behind obstacles
         self._reason = 'nothing more can be reached' if is_worth or is_swept else 'another round would gain too little'
-        tries = PATIENT if is_cut_off else patience
-        may_retry = context.ground.has_marks and (self._has_helped(coverage) or self._vain < tries)
+        waits = self._vain < PATIENT and (self._most <= MUCH or context.is_shut_in(pose))
+        may_retry = context.ground.has_marks and (self._has_helped(coverage) or waits)
         self._before, self._driven = coverage, 0.0
         self._rounds += 1
         self._rest = None
@@ -227,8 +232,8 @@ def plan(context: Context, pose: Pose, end: Optional[Pose] = None) -> Optional[R
 def _round(context: Context, pose: Pose, is_worth: bool, may_retry: bool) -> Planned:
     """A route that cleans what was missed; if there is none, one without the obstacles that may have gone."""
     from rumba_cleaning.planning import helping, sharing  # here for the same reason
-    is_cut_off = context.is_cut_off(pose)
-    is_met = context.beside_obstacles().coverage >= context.target_coverage and not is_cut_off
+    context.ground.keep_off(context.config.margin)
+    is_met = context.beside_marks(pose).coverage >= context.target_coverage
     sharing.leave_to_mates(context)
     route = _own_part(context, pose) if is_worth and not is_met else None
     if route is not None:
@@ -236,14 +241,14 @@ def _round(context: Context, pose: Pose, is_worth: bool, may_retry: bool) -> Pla
     help_for_mate = helping.help_mate(context, pose)
     if help_for_mate is not None:
         return Planned(help_for_mate[0], relief=help_for_mate[1])
-    if is_met:
+    if context.is_all_swept(pose):
         return Planned(None)
     if context.may_squeeze(pose):
         context.ground.squeeze(True)
         route = _own_part(context, pose)
         if route is not None:
             return Planned(route, squeezes=True)
-    retry = _retry(context, is_cut_off) if may_retry else Retry.NONE
+    retry = _retry(context, context.is_cut_off(pose)) if may_retry else Retry.NONE
     if retry is Retry.NONE:
         return Planned(None)
     if retry is Retry.FORGOT_BARRING:
@@ -264,6 +269,9 @@ def _own_part(context: Context, pose: Pose) -> Optional[Route]:
     """A route that cleans the robot's share of what was missed; what is near mates that need work is left to them."""
     others = context.mates.seeking
     farthest = max(others, key=lambda other: hypot(other.x - pose.x, other.y - pose.y), default=None)
+    part, coverage = context.beside_marks(pose), context.swept.coverage
+    if part.share < 1.0:  # aim at the target in that part
+        context = context.with_target(coverage + (context.target_coverage - part.coverage) * part.share)
     route = plan(context, pose, farthest)
     if route is None or not others:
         return route

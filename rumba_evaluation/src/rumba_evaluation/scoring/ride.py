@@ -111,7 +111,7 @@ class Ride(abc.ABC):
 
 
 class Driven(Ride):
-    """Drives as a real robot would: with its limits, along walls and into them, by a pose that is known."""
+    """Drives as a real robot would: with its limits, along walls, and into them, where it gives up; by a known pose."""
 
     def _spawned(self) -> Robot:
         try:
@@ -119,9 +119,13 @@ class Driven(Ride):
         except WorldError as error:
             raise PathError(f'{self.path.at(0)}: no robot can begin there: {error}; --as-drawn asks for no room'
                             ) from None
-        self._behaviour = FollowPath(self.path, robot, self.speed)
+        self._behaviour = self._follow(robot)
         self._dt = 0.0  # [s] since the last observation
         return robot
+
+    def _follow(self, robot: Robot) -> Behaviour:
+        """What leads the robot along the path."""
+        return FollowPath(self.path, robot, self.speed)
 
     def _advance(self) -> None:
         act(self._behaviour, self.world, FIRST, self._dt)

@@ -1,7 +1,8 @@
 """rumba-benchmark: scores cleaning strategies, and the paths of other planners, on five floors, with one table.
 
 Writes the floors into FOLDER/floors, as maps of map_server on which other planners can plan. With --paths, each folder
-DIR/PLANNER with files named like the floors, as lounge.csv, is a planner of its own in the table.
+DIR/PLANNER with files named like the floors, as lounge.csv, is a planner of its own in the table. The robot drives
+around what blocks such a path and back onto it, as missions do.
 """
 
 import argparse
@@ -14,7 +15,8 @@ from rumba_cleaning import strategies
 from rumba_evaluation.scoring import path_file
 from rumba_evaluation.scoring.drawn_path import PathError
 from rumba_evaluation.scoring.measures import Observer
-from rumba_evaluation.scoring.ride import AsDrawn, Driven
+from rumba_evaluation.scoring.guarded import Guarded
+from rumba_evaluation.scoring.ride import AsDrawn
 from rumba_evaluation.trials import batch, score
 from rumba_evaluation.trials.cases import Case, Conditions
 from rumba_sim.model.command_line import BAD_INPUT, INTERRUPTED, Parser
@@ -120,7 +122,7 @@ def _paths(options: argparse.Namespace, maps: Dict[str, str]) -> List[Task]:
 
 
 def _ride(task: Task) -> Any:
-    kind: Any = AsDrawn if task.as_drawn else Driven
+    kind: Any = AsDrawn if task.as_drawn else Guarded
     return kind(batch.floor_plan(task.map), path_file.read(task.path))
 
 

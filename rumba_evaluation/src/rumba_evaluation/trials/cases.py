@@ -44,6 +44,8 @@ class Conditions:
                              'rumba_sim/config/rumba.yaml that are to be others')
     laser: bool = setting(False, 'whether robots drive around what their lasers see and the maps do not show')
     laser_model: str = setting(IDEAL, 'laser of the robots', choices=tuple(MODELS))
+    margin: float = setting(CleaningConfig().margin, 'that plans keep between robot and walls, as the setting of '
+                                                     'cleaner', 'm', 0.0, 0.5)
     bound: float = setting(12.0, 'working time, in multiples of T, after which a mission is stopped; '
                                  f'with pose {MAPLESS} they end by themselves', '', 0.01, 1e6)
 

@@ -9,6 +9,7 @@ import numpy as np
 
 from rumba_cleaning.cleaning_config import CleaningConfig
 from rumba_evaluation.scoring import path_file
+from rumba_evaluation.scoring.guarded import Guarded
 from rumba_evaluation.scoring.ride import AsDrawn, Driven
 from rumba_evaluation.trials import batch, score
 from rumba_evaluation.trials.cases import Case, Conditions
@@ -17,8 +18,9 @@ from rumba_sim.model.config import updated
 from rumba_sim.model.errors import ConfigError
 
 JSON, TEXT = FORMATS = 'json', 'text'
-OF_MISSIONS = ('strategies', 'seeds', 'robots', 'start', 'pose', 'laser', 'target', 'modules', 'jobs', 'scheduler')
-OF_PATHS = ('as_drawn', 'speed', 'topic')
+OF_MISSIONS = (
+    'strategies', 'seeds', 'robots', 'start', 'pose', 'laser', 'margin', 'target', 'modules', 'jobs', 'scheduler')
+OF_PATHS = ('as_drawn', 'guarded', 'speed', 'topic')
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
@@ -29,6 +31,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         help='score a path instead of missions: CSV with x,y or t,x,y,theta in its first line, TUM trajectory, or '
              'nav_msgs/Path in a bag')
     add('--as-drawn', action='store_true', help='follow the path exactly, even if no real robot could')
+    add('--guarded', action='store_true',
+        help='drive around what blocks the path and back onto it, as missions do; by default, the drive ends there')
     add('--speed', type=float, default=CleaningConfig().speed, metavar='M/S',
         help='speed along the path; default %(default)s')
     add('--topic', default='', metavar='NAME', help='of the path in the bag; default: the only one')
@@ -47,6 +51,8 @@ def check_options(options: argparse.Namespace, defaults: argparse.Namespace) -> 
             raise ConfigError(f'{option} has no meaning {"with" if options.path else "without"} --path')
     if options.path and (len(options.maps) != 1 or options.maps == defaults.maps):
         raise ConfigError('--path needs --maps with the one map that the path is for')
+    if options.as_drawn and options.guarded:
+        raise ConfigError('--as-drawn and --guarded exclude each other: give one of them')
     fastest = robot_file.load(options.robot).drive.max_speed
     if options.path and not 0.0 < options.speed <= fastest:
         raise ConfigError(f'--speed is {options.speed:g}: must be above 0, and {fastest:g} m/s at most')
@@ -65,12 +71,12 @@ def evaluate_path(options: argparse.Namespace, conditions: Conditions, map_path:
         print(f'evaluate: {remark}', file=sys.stderr)
     path = path_file.read(options.path, options.topic, read_bag)
     config = updated(robot, {'battery': {'drain': conditions.drain}}, 'conditions')
-    kind: Any = AsDrawn if options.as_drawn else Driven
+    kind: Any = AsDrawn if options.as_drawn else Guarded if options.guarded else Driven
     ride = kind(plan, path, config, options.speed, batch.obstacles_in(conditions.obstacles))
     ride.run(conditions.bound)
     case = Case(options.maps[0], os.path.basename(options.path), 0, 1)
     found = score.of_ride(case, ride)
-    document = {'path': options.path, 'as_drawn': options.as_drawn,
+    document = {'path': options.path, 'as_drawn': options.as_drawn, 'guarded': options.guarded,
                 **score.document(case, found.result, found.measures)}
     for name in ('strategy', 'seed', 'robots'):
         del document[name]

@@ -2,6 +2,7 @@
 
 from typing import List
 
+from rumba_cleaning.behaviours.guard import why_it_creeps
 from rumba_cleaning.cleaning_config import CleaningConfig
 from rumba_cleaning.mission import outlook
 from rumba_evaluation.trials.trial import Trial
@@ -12,4 +13,5 @@ def remarks_on(trial: Trial) -> List[str]:
     """A line for each matter, about a trial that has not begun."""
     world = trial.world
     return [*remarks.remarks(world),
-            *outlook.remarks(world.plan, *world.start[:2], world.config, CleaningConfig())]
+            *outlook.remarks(world.plan, *world.start[:2], world.config, CleaningConfig()),
+            *filter(None, [why_it_creeps(world.config)])]

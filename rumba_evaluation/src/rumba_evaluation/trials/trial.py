@@ -12,10 +12,11 @@ from typing import Callable, Dict, List, Optional, Sequence
 import numpy as np
 
 from rumba_cleaning.behaviour import Status
-from rumba_cleaning.belief.context import BeforeNextStep, Context, Seed, own_seed
+from rumba_cleaning.belief.context import Context, Seed, own_seed
 from rumba_cleaning.belief.mates import Mates
 from rumba_cleaning.cleaning_config import CleaningConfig, attainable
 from rumba_cleaning.control import CONTROL_DT, CONTROL_TICKS, STEP_RATE, act
+from rumba_cleaning.executors import BeforeNextStep
 from rumba_cleaning.mission.duration import longest
 from rumba_cleaning.mission.mapless import MaplessMission
 from rumba_cleaning.mission.mission import Mission
@@ -70,7 +71,7 @@ class Trial:
             RumbaError: the strategy is unknown, there is no space for so many robots, or an obstacle is wrong.
         """
         config = _config(robot, conditions)
-        cleaning = attainable(CleaningConfig(laser=conditions.laser), config)
+        cleaning = attainable(CleaningConfig(laser=conditions.laser, margin=conditions.margin), config)
         self._conditions = conditions
         self.world = World(plan, config, STEP_RATE, seed, obstacles)
         poses: Sequence[Optional[Pose]] = [None] * robots

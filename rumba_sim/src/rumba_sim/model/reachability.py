@@ -1,7 +1,7 @@
 """Where a robot can stand, and which part of a floor its brush can reach."""
 
 import weakref
-from typing import NamedTuple, Tuple
+from typing import Dict, NamedTuple, Tuple
 
 import numpy as np
 from scipy import ndimage
@@ -27,35 +27,37 @@ class Reach(NamedTuple):
     reachable: int  # number of reachable samples
 
 
-_last: 'weakref.WeakKeyDictionary[FloorPlan, Tuple[Tuple[float, float, bool], Reach]]' = weakref.WeakKeyDictionary()
+_Answers = Dict[bool, Tuple[Tuple[float, float], Reach]]  # to the last questions, by whether they were exact
+_last: 'weakref.WeakKeyDictionary[FloorPlan, _Answers]' = weakref.WeakKeyDictionary()
 
 
 def reach(plan: FloorPlan, config: RobotConfig, x: float, y: float, is_exact: bool = True) -> Reach:
     """What robots can reach from a start (x, y) [m], map frame.
 
-    The answer to the last question about a plan is remembered, since each robot on a floor asks the same.
+    The last answers about a plan are remembered, since each robot on a floor asks the same.
 
     Args:
         plan: the floor plan.
         config: of the robots.
         x, y: the start.
-        is_exact: whether the plan can be relied on to SLACK, so that straits are passages; the map of a robot cannot.
+        is_exact: whether straits are passages: if the plan can be relied on to SLACK. Robots do not plan through them.
 
     Raises:
         MapError: a robot does not fit at the start.
     """
     plan.check_pose(Pose(x, y, 0.0), config.drive.radius, 'start')
     needed, half = clearance_needed(config.drive.radius, plan.resolution), 0.5 * config.brush.width
-    question = needed, half, is_exact
-    if plan in _last:
-        asked, known = _last[plan]
+    question = needed, half
+    answers = _last.setdefault(plan, {})
+    if is_exact in answers:
+        asked, known = answers[is_exact]
         if asked == question and known.stands[_nearest(plan, known.stands, x, y)]:
             return known
     where = stands(plan, needed, x, y, is_exact)
     samples = _sweepable(plan)
     number = int(fast.mark_reachable(plan.safe_clearance, plan.resolution, where, needed, half, samples))
     found = Reach(where, samples, number)
-    _last[plan] = question, found
+    answers[is_exact] = question, found
     return found
 
 

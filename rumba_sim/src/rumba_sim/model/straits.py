@@ -15,7 +15,7 @@ from scipy.sparse import coo_matrix, csgraph
 from rumba_sim.model.kernel import Array
 
 ALL_AROUND = np.ones((3, 3), np.bool_)
-SHORT = 8  # steps of the lattice from one part to the other, at most twice: longer straits are not looked for
+SHORT = 16  # steps of the lattice from one part to the other, at most twice: longer straits are not looked for
 LONGEST = 64  # points of the lattice from end to end of what may hold straits: a closer look at more takes seconds
 FINER = 16  # times smaller than a cell is the step of the closer look
 HIDDEN = 1.07  # [cells] by which the interpolated clearance at a point of the lattice can be less than that on a way
@@ -78,7 +78,7 @@ def _neighbours(labels: Array, label: int, window: Window, floor: Floor) -> List
             continue
         top, left = window[0].start + box[0].start, window[1].start + box[1].start
         strait = slice(top, top + box[0].stop - box[0].start), slice(left, left + box[1].stop - box[1].start)
-        groups = _through(labels, _grown(strait, 1, labels.shape), floor)
+        groups = _through(labels, _grown(strait, SHORT + 1, labels.shape), floor)
         found += [(label, other) for group in groups if label in group for other in group if other != label]
     return found
 

@@ -140,8 +140,12 @@ class Sweep:
         """cleaned_area / reachable_area [0..1]; 1 if nothing is reachable."""
         return int(self.tally['swept'][0]) / self.reachable if self.reachable else 1.0
 
+    def has_straits(self, x: float, y: float) -> bool:
+        """Whether part of what can be reached lies behind straits for a robot that starts at (x, y) [m]."""
+        return reach(self._plan, self._config, x, y, is_exact=False).reachable < self.reachable
+
     def within(self, clearance: Array, x: float, y: float) -> Part:
-        """What can be reached on the same floor with less clearance; all, if a robot does not fit at the start then.
+        """What a robot plans to reach on the same floor with less clearance; all, if it does not fit at the start then.
 
         Args:
             clearance: as `FloorPlan.safe_clearance` [m].
@@ -150,7 +154,7 @@ class Sweep:
         plan = self._plan.with_clearance(self._plan.clearance, clearance)
         if not self.reachable or plan.safe_clearance_at(x, y) < self._config.drive.radius:
             return Part(1.0, self.coverage)
-        found = reach(plan, self._config, x, y, self._is_exact)
+        found = reach(plan, self._config, x, y, is_exact=False)
         is_reachable = found.samples & REACHABLE > 0
         return Part(found.reachable / self.reachable, float((self.samples[is_reachable] >= PASS).mean()))
 
