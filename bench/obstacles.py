@@ -1,8 +1,8 @@
 """How missions end among obstacles that the map does not show, one or two of which move.
 
-`obstacles.py [--seeds N] [--poses POSE ...] [--bumper] [--crowded]` runs seeds 1 to N, 20 by default, on all cores;
-times are simulated. A mission has reached what it can when it lacks 0.1 % of the floor, or less, of what it has swept in
-the end; from then on it has 15 % of its time to find that out, and to get home.
+`obstacles.py [--seeds N] [--poses POSE ...] [--bumper] [--crowded]` runs seeds 1 to N, 20 by default, on all
+cores; times are simulated. A mission has reached what it can when it lacks 0.1 % of the floor, or less, of what it has
+swept in the end; from then on it has 15 % of its time to find that out, and to get home.
 """
 
 import argparse

@@ -81,7 +81,7 @@ class Judge:
             self._draw(places[begin:begin + CHUNK])
 
     def _draw(self, poses):
-        """Draw a brush at poses (any, 3): half a square shorter, since the squares that it touches are wider by that."""
+        """Draw a brush at poses (any, 3): half a square shorter, since squares that it touches are wider by that."""
         reach = self._half - 0.5 * self._pitch
         along = np.linspace(-reach, reach, int(4.0 * reach / self._pitch) + 2)
         x = poses[:, :1] - along * np.sin(poses[:, 2:])

@@ -3,7 +3,7 @@
 import copy
 import dataclasses
 from concurrent.futures import Executor, Future
-from typing import TYPE_CHECKING, Any, Callable, List, Optional, Sequence, Tuple, TypeVar, Union
+from typing import TYPE_CHECKING, Any, Callable, List, Optional, Sequence, TypeVar, Union
 
 import numpy as np
 
@@ -269,7 +269,7 @@ class Context:
         return self.swept.within(self.ground.clearance, x, y)
 
     def is_met_beside_obstacles(self, pose: Pose) -> bool:
-        """Whether the target is met of what can be reached; obstacles may keep a robot at a pose from less than a room."""
+        """Whether the target is met of what can be reached; obstacles may keep a robot from less than a room."""
         return not self.is_shut_in(pose) and self.beside_obstacles(pose).coverage >= self.target_coverage
 
     def is_all_swept(self, pose: Pose) -> bool:
