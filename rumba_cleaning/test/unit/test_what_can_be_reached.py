@@ -56,6 +56,6 @@ def test_a_mission_that_cannot_get_into_a_niche_ends_soon_after_it_has_swept_the
     reached = next(step for step, share in enumerate(swept) if share >= swept[-1] - LEAST)
     assert len(swept) < 1.15 * reached, (CONTROL_DT * reached, CONTROL_DT * len(swept))
     assert swept[-1] > 0.98 and world.robots['rumba'].is_docked
-    assert (behaviour.outcome, behaviour.message) == (Outcome.INCOMPLETE, behaviour.message)
-    assert re.match(SHARES + 'lies beside obstacles, the target is 98.0 %: nothing more can be reached',
-                    behaviour.message)
+    assert behaviour.outcome is Outcome.SUCCEEDED
+    of_map, beside = map(float, re.fullmatch(SHARES + 'lies beside obstacles', behaviour.message).groups())
+    assert of_map < 97.0 and beside >= 98.0

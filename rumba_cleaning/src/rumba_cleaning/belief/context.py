@@ -3,7 +3,7 @@
 import copy
 import dataclasses
 from concurrent.futures import Executor, Future
-from typing import TYPE_CHECKING, Any, Callable, List, Optional, Sequence, Tuple, TypeVar, Union
+from typing import TYPE_CHECKING, Any, Callable, List, Optional, Sequence, TypeVar, Union
 
 import numpy as np
 
@@ -259,29 +259,32 @@ class Context:
     def beside_obstacles(self, pose: Optional[Pose] = None) -> Part:
         """What can be reached of the floor, without straits, beside the obstacles that were met and stay.
 
+        Nothing is squeezed past: where the robot did that, it may have seen that little lies behind.
+
         Args:
-            pose: of the robot that is to reach it; None: from where it began.
+            pose: of the robot; if it can reach more from there than from where it began, that counts.
         """
         if not self.ground.has_lasting and not self.swept.has_straits:
             return Part(1.0, self.swept.coverage)
-        return self.swept.within(self.ground.lasting_clearance(), *self._standing(pose))
+        usual = self.ground.copy()
+        usual.squeeze(False)
+        points = [self.swept.start] if pose is None else [self.swept.start, pose[:2]]
+        return self.swept.within(usual.lasting_clearance(), *usual.in_largest_part(points))
 
     def beside_marks(self, pose: Pose) -> Part:
-        """The same beside all obstacles that are known, for a robot at a pose."""
+        """What a robot at a pose can reach beside all obstacles that are known, as it takes them to be now."""
         if not self.ground.has_marks and not self.swept.has_straits:
             return Part(1.0, self.swept.coverage)
-        return self.swept.within(self.ground.clearance, *self._standing(pose))
-
-    def _standing(self, pose: Optional[Pose]) -> Tuple[float, float]:
-        """The node at which a robot stands, or where it began [m]."""
-        if pose is None:
-            return self.swept.start
         (x, y), = self.ground.points(np.array([self.ground.standing_at(pose.x, pose.y)])).tolist()
-        return x, y
+        return self.swept.within(self.ground.clearance, x, y)
+
+    def is_met_beside_obstacles(self, pose: Pose) -> bool:
+        """Whether the target is met of what can be reached; obstacles may keep a robot from less than a room."""
+        return not self.is_shut_in(pose) and self.beside_obstacles(pose).coverage >= self.target_coverage
 
     def is_all_swept(self, pose: Pose) -> bool:
-        """Whether the target is met of what a robot at a pose can plan to reach; obstacles take no more than corners."""
-        return not self.is_cut_off(pose) and self.beside_obstacles(pose).coverage >= self.target_coverage
+        """The same if they keep it from no more than corners: then there is nothing to wait for."""
+        return not self.is_cut_off(pose) and self.is_met_beside_obstacles(pose)
 
     def submit(self, function: Callable[..., Result], *args: Any) -> 'Future[Result]':
         """Have the executor compute `function(context, *args)` with a copy of this context as it is now.

@@ -95,6 +95,11 @@ class Ground:
         nodes = self.nodes(points)
         return bool((self.clearance[nodes[:, 0], nodes[:, 1]] <= self._met.most_clearance).all())
 
+    def settle(self) -> None:
+        """Take all obstacles to stay: nobody tries again whether they have gone."""
+        self._met.settle()
+        self._measure()
+
     def forget_doubtful(self) -> Array:
         """Forget the obstacles that may have gone since they were met: those that were met once.
 

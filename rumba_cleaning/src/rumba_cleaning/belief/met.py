@@ -113,6 +113,11 @@ class Met:
                                         if mark.radius > LEAST] for marks in (self._unsure, self._lasting))
         return True
 
+    def settle(self) -> None:
+        """As `Ground.settle`."""
+        self._lasting, self._unsure = self._lasting + self._unsure, []
+        self._seen = Seen(NOTHING_SEEN.passing, np.concatenate([self._seen.staying, self._seen.passing]))
+
     def forget_doubtful(self) -> Array:
         """As `Ground.forget_doubtful`."""
         seen, self._seen = self._seen, self._seen._replace(passing=NOTHING_SEEN.passing)

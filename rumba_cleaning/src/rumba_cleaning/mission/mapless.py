@@ -17,6 +17,8 @@ from rumba_cleaning.outcome import Outcome
 
 SEEKING = 1200.0  # [s] that the way home may take, for which charge is kept: few of bench/mapless.py take longer
 MOST = 0.5  # of the charge, at most, is kept for that
+LAST = 0.1  # of the cleaning time: a robot that receives the beams then returns at once, instead of a search later; as
+#             much charge beyond what it needs: it charges then; our choice
 MINUTE = 60.0  # [s]
 
 
@@ -82,9 +84,10 @@ class MaplessMission(StagedMission):
 
     def _clean(self, observation: Observation) -> Command:
         self._cleaned += observation.dt
-        if self._cleaned >= self._context.config.cleaning_time:
+        is_near = bool(observation.infrared.omni & BUOYS)
+        if self._cleaned >= (1.0 - LAST * is_near) * self._context.config.cleaning_time:
             return self._close(Status.SUCCEEDED, self._done(), Outcome.SUCCEEDED)
-        if observation.state_of_charge < self._needed and self._knows_dock:
+        if observation.state_of_charge < self._needed + LAST * is_near and self._knows_dock:
             return self._enter(State.RETURNING, Seek(self._context))
         command = self._cleaning.step(observation)
         self.message = '; '.join(filter(None, [self._done(), self._cleaning.message]))

@@ -233,7 +233,9 @@ class Mission(StagedMission):
             return self._enter(State.CLEANING, self._cleaning)
         if self._context.swept.coverage >= target:
             return self._succeed()
-        if self._context.is_all_swept(observation.pose):
+        if self._context.ground.has_doubtful:
+            self._context.ground.settle()
+        if self._context.is_met_beside_obstacles(observation.pose):
             return self._close(Status.SUCCEEDED, swept(self._context), Outcome.SUCCEEDED)
         self._second_try.give_up(observation.pose)
         return self._close(Status.FAILED, f'{swept(self._context)}, the target is {percent(target)}: '

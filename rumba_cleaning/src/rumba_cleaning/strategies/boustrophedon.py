@@ -233,7 +233,8 @@ def _round(context: Context, pose: Pose, is_worth: bool, may_retry: bool) -> Pla
     """A route that cleans what was missed; if there is none, one without the obstacles that may have gone."""
     from rumba_cleaning.planning import helping, sharing  # here for the same reason
     context.ground.keep_off(context.config.margin)
-    is_met = context.beside_marks(pose).coverage >= context.target_coverage
+    missing = context.target_coverage - context.beside_marks(pose).coverage
+    is_met = missing <= (HELPED if context.ground.has_doubtful and may_retry else 0.0)  # a retry sweeps the rest too
     sharing.leave_to_mates(context)
     route = _own_part(context, pose) if is_worth and not is_met else None
     if route is not None:
@@ -269,9 +270,10 @@ def _own_part(context: Context, pose: Pose) -> Optional[Route]:
     """A route that cleans the robot's share of what was missed; what is near mates that need work is left to them."""
     others = context.mates.seeking
     farthest = max(others, key=lambda other: hypot(other.x - pose.x, other.y - pose.y), default=None)
-    part, coverage = context.beside_marks(pose), context.swept.coverage
-    if part.share < 1.0:  # aim at the target in that part
-        context = context.with_target(coverage + (context.target_coverage - part.coverage) * part.share)
+    if context.swept.has_straits and not context.ground.has_marks:
+        part = context.beside_marks(pose)
+        context = context.with_target(
+            context.swept.coverage + (context.target_coverage - part.coverage) * part.share)
     route = plan(context, pose, farthest)
     if route is None or not others:
         return route

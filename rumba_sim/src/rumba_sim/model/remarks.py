@@ -13,7 +13,7 @@ LEAST = 0.002  # share of what can be reached: what a mission tells of its cover
 
 
 def remarks(world: World) -> List[str]:
-    """What is odd about the file of the map of a world, and how much of its floor robots cannot reach, or do not plan."""
+    """What is odd about the file of the map of a world, and how much of its floor robots cannot or will not reach."""
     return [*world.plan.remarks, *_out_of_reach(world), *_behind_straits(world)]
 
 
