@@ -81,12 +81,13 @@ def test_a_long_page_is_found():
     assert len(list(rules.fault_of_length(page, 5))) == 1
 
 
-def test_a_file_may_have_as_many_faults_as_are_listed_and_the_list_only_shrinks():
-    found = [rules.Fault(3, 'a fault')] * 2
-    assert list(command.judged('a.md', found, 2)) == []
-    assert list(command.judged('a.md', found, 1)) == ['a.md:3: a fault'] * 2
-    assert list(command.judged('a.md', found, 3)) == ['prose/to_do.txt: a.md has 2 faults now, not 3: write that']
-    assert command.to_do('# head\n2 a.md\n') == {'a.md': 2}
+def test_faults_are_printed_with_their_file_and_line_and_fail(tmp_path, monkeypatch, capsys):
+    (tmp_path / 'README.md').write_text('One line.\n\nSentences are short, are they not, until ' + 25 * 'word ' + '.\n')
+    monkeypatch.setattr(command, 'ROOT', tmp_path)
+    assert command.main() == 1
+    assert capsys.readouterr().out.startswith('README.md:3: ')
+    (tmp_path / 'README.md').write_text('One line.\n')
+    assert command.main() == 0 and capsys.readouterr().out == ''
 
 
 def test_it_reads_pages_changelogs_programs_and_launch_files():

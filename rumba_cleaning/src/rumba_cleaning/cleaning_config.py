@@ -33,9 +33,9 @@ class CleaningConfig:
     reserve: float = setting(0.05, 'charge that is kept for the unexpected (our choice)', '0..1', 0.0, 0.5)
     charge_to: float = setting(0.95, 'charge at which cleaning is resumed; the charger tapers above 0.85', '0..1',
                                0.1, 1.0)
-    margin: float = setting(0.0, 'that plans keep between robot and walls, so that it touches them less often; what '
-                                 'the brush reaches only from closer to a wall is not cleaned, nor what is behind '
-                                 'passages narrower than the robot and two margins', 'm', 0.0, 0.5)
+    margin: float = setting(0.0, 'that plans keep between robot and walls, so that it touches them less often. Floor '
+                                 'that the brush reaches only from closer to a wall, or through passages narrower than '
+                                 'the robot and two margins, is not cleaned', 'm', 0.0, 0.5)
     laser: bool = setting(False, 'whether to drive around what the laser sees and the map does not show; without, the '
                                  'robot finds it by its bumper')
     cleaning_time: float = setting(2700.0, 'for which a robot without a map cleans, without the time to charge and '

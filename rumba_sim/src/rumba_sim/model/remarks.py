@@ -41,5 +41,5 @@ def _behind_straits(world: World) -> List[str]:
     left, bottom = plan.origin
     row, column = ((behind[len(behind) // 2] + 0.5) * plan.sample_pitch).tolist()
     return [f'{world.plan.name}: {100.0 * len(behind) / every.reachable:.1f} % of what a robot can reach, about '
-            f'({left + column:.2f}, {bottom + row:.2f}) m, lies behind gaps with a few millimetres to spare: it is not '
+            f'({left + column:.2f}, {bottom + row:.2f}) m, lies behind gaps with a few millimetres to spare. It is not '
             'planned, and a mission succeeds with its target of the rest']

@@ -33,7 +33,7 @@ class Settings(CleaningConfig):
     own_robot: str = own_robot_setting()
     home: str = setting('', 'where a robot of your own ends, or its dock if it docks: x y theta [m, rad] on the map; '
                             'empty: where it began')
-    docks: bool = setting(False, 'whether a robot of your own docks by itself when seek_dock tells it to')
+    docks: bool = setting(False, 'whether a robot of your own docks by itself on seek_dock')
     team: str = setting('', 'names of all robots that share the floor, its own among them, with spaces between: '
                             'each gives way to those before it; empty: it works alone')
     map: str = setting('', 'name of a map of rumba_sim, or path of a map_server YAML file; empty: that of the '
