@@ -164,7 +164,9 @@ class Context:
         self.footing.learn(plan)
         if self.sight is not None:
             self.sight.learn(plan)
-        self.swept.learn(plan, self.cleaned_ground().places([pose[:2], self.swept.start]), way_back)
+        usual = self.cleaned_ground()
+        usual.squeeze(False)
+        self.swept.learn(plan, usual.places([pose[:2], self.swept.start]), way_back)
 
     def cleaned_ground(self) -> Ground:
         """The ground on which plans clean: a copy, with the margin to walls that the settings ask for."""
@@ -269,7 +271,7 @@ class Context:
         usual = self.ground.copy()
         usual.squeeze(False)
         points = [self.swept.start] if pose is None else [self.swept.start, pose[:2]]
-        return self.swept.within(usual.lasting_clearance(), *usual.in_largest_part(points))
+        return self.swept.within(usual.lasting_clearance(), *usual.places(points)[0])
 
     def beside_marks(self, pose: Pose) -> Part:
         """What a robot at a pose can reach beside all obstacles that are known, as it takes them to be now."""

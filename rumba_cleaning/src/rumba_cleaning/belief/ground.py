@@ -269,10 +269,11 @@ class Ground:
         return np.asarray(away <= distance + self.plan.resolution)
 
     def places(self, points: Sequence[Tuple[float, float]]) -> List[Tuple[float, float]]:
-        """The nodes nearest to points at which the robot can stand without squeezing past anything [m]."""
-        usual = self.copy()
-        usual.squeeze(False)
-        return [(x, y) for x, y in self.points(np.array([usual.standing_at(x, y) for x, y in points])).tolist()]
+        """The nodes nearest to points at which the robot can stand [m], that in the largest part of the floor first."""
+        parts = self.parts()
+        sizes = np.bincount(parts.ravel())
+        nodes = sorted((self.standing_at(x, y) for x, y in points), key=lambda node: -int(sizes[parts[node]]))
+        return [(x, y) for x, y in self.points(np.array(nodes)).tolist()]
 
     def parts(self) -> Array:
         """To which part of the floor each node belongs: int (rows + 1, columns + 1), 0 where a robot cannot stand."""
