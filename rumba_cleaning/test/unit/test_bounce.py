@@ -7,7 +7,7 @@ import pytest
 from drivers import run
 from rooms import quiet, room
 
-from rumba_cleaning.behaviour import Observation
+from rumba_cleaning.behaviour import Command, Observation
 from rumba_cleaning.belief.ground import Ground
 from rumba_cleaning.behaviours.bounce import Bounce
 from rumba_sim.model.geometry import Pose
@@ -36,7 +36,7 @@ def turn_after(bumper=(False, False), cliffs=(False,) * 4, seed=1):
 
 
 def test_it_goes_straight_ahead_with_brushes_down_while_nothing_is_in_the_way():
-    assert answers(Bounce(np.random.default_rng(1)), 50) == [(0.3, 0.0, False)] * 50
+    assert answers(Bounce(np.random.default_rng(1)), 50) == [Command(0.3, 0.0, False)] * 50
 
 
 @pytest.mark.parametrize('contact, sign', [

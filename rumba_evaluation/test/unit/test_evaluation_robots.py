@@ -42,7 +42,7 @@ def test_a_robot_that_has_to_creep_is_told(run, tmp_path):
     (tmp_path / 'wide.yaml').write_text('drive: {wheel_base: 0.32}\n')
     code, _, errors = run('--robot', str(tmp_path / 'wide.yaml'))
     assert code == 0 and errors.count('\n') == 1
-    assert errors.startswith('evaluate: drive/wheel_base is 0.32 m and cliff/distance 0.165 m: no cliff sensor looks')
+    assert errors.startswith('evaluate: drive/wheel_base is 0.32 m and cliff/distance 0.165 m: no cliff sensor sees')
 
 
 @pytest.mark.parametrize('content, message', [
