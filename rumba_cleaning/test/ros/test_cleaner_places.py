@@ -64,7 +64,8 @@ def never_begins(context):
 NO_COMMAND = 'Nonsense.update returned {}: must be a Command of finite numbers'
 NONSENSE = (('text', NO_COMMAND.format("Command(v='0.1', w=0, brushes_up=False, seeks_dock=False)")),
             ('nothing', NO_COMMAND.format('None')),
-            ('nan', NO_COMMAND.format('Command(v=nan, w=0, brushes_up=False, seeks_dock=False)')), ('leaves', 'SystemExit: 3'))
+            ('nan', NO_COMMAND.format('Command(v=nan, w=0, brushes_up=False, seeks_dock=False)')),
+            ('leaves', 'SystemExit: 3'))
 
 
 class CleanerPlacesTest(unittest.TestCase):
