@@ -1,4 +1,4 @@
-"""Pages of results are written anew by their own commands."""
+"""Pages of results are updated by their own commands."""
 
 import re
 import sys

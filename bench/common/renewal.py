@@ -1,4 +1,4 @@
-"""Writes pages of results anew: ./rumba bench PAGE ...
+"""Updates pages of results: ./rumba bench PAGE ...
 
 A command at the beginning of a paragraph, `./rumba shell ...`, is run, and what it prints replaces the block of output
 below it, with the commit that ran. Commands with several blocks below them, or with a FOLDER to fill in, are named and
@@ -27,7 +27,7 @@ class Part(NamedTuple):
 
 
 def parts(page: str) -> Tuple[Tuple[Part, ...], Tuple[str, ...]]:
-    """The parts of a page that can be written anew, the last first, and the commands that must be run by hand."""
+    """The parts of a page that can be updated, the last first, and the commands that must be run by hand."""
     found, by_hand = [], []
     commands = list(COMMAND.finditer(page))
     ends = [command.start() for command in commands[1:]] + [len(page)]

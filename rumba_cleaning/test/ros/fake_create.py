@@ -17,8 +17,8 @@ import rospy
 import tf2_msgs.msg
 from create_msgs.msg import Bumper, ChargingState, Cliff, Mode, MotorSetpoint
 from fake_create_dock import Dock, Firmware
-from fake_robot import DT, Judge, Room, Walls, has_ended, live, moved, turned
-from geometry_msgs.msg import TransformStamped, Twist
+from fake_robot import DT, Judge, Room, Walls, has_ended, live, moved, transform, turned
+from geometry_msgs.msg import Twist
 from nav_msgs.msg import Odometry
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import LaserScan
@@ -62,7 +62,7 @@ class FakeCreate:
         self.publishers = {}
         if self.fault != 'no tf':
             self.publish('/tf_static', tf2_msgs.msg.TFMessage(
-                [self.transform('base_footprint', 'laser', (LASER, 0.0, 0.0))]), latch=True)
+                [transform(self.now, 'base_footprint', 'laser', (LASER, 0.0, 0.0))]), latch=True)
         for topic, kind, take in (('cmd_vel', Twist, self.take), ('dock', Empty, self.seek_dock),
                                   ('undock', Empty, self.obey), ('tf', tf2_msgs.msg.TFMessage, self.hear)):
             rospy.Subscriber(f'/{topic}', kind, take)
@@ -162,19 +162,12 @@ class FakeCreate:
             self.publishers[topic] = rospy.Publisher(topic, type(message), queue_size=10, latch=latch)
         self.publishers[topic].publish(message)
 
-    def transform(self, parent, child, pose):
-        """A transform in the plane."""
-        found = TransformStamped(header=Header(stamp=self.now, frame_id=parent), child_frame_id=child)
-        found.transform.translation.x, found.transform.translation.y = pose[:2]
-        found.transform.rotation = turned(pose[2])
-        return found
-
     def tell(self):
         """Publish what the driver and the laser do, in the order of `CreateDriver::update`."""
         odometry = Odometry(header=Header(stamp=self.now, frame_id='odom'), child_frame_id='base_footprint')
         odometry.pose.pose.position.x, odometry.pose.pose.position.y = self.guess[:2]
         odometry.pose.pose.orientation = turned(self.guess[2])
-        self.publish('/tf', tf2_msgs.msg.TFMessage([self.transform('odom', 'base_footprint', self.guess)]))
+        self.publish('/tf', tf2_msgs.msg.TFMessage([transform(self.now, 'odom', 'base_footprint', self.guess)]))
         self.publish('/odom', odometry)
         header = Header(stamp=self.now, frame_id='base_footprint')
         self.publish('/battery/charge', Float32(self.charge * CAPACITY))

@@ -141,7 +141,7 @@ class FakeRobot:
         self.tf = rospy.Publisher('/tf', tf2_msgs.msg.TFMessage, queue_size=10)
         self.static = rospy.Publisher('/tf_static', tf2_msgs.msg.TFMessage, queue_size=1, latch=True)
         if self.fault != 'no tf':
-            self.static.publish([self.transform('chassis', 'front_laser', (LASER, 0.0, 0.0))])
+            self.static.publish([transform(self.now, 'chassis', 'front_laser', (LASER, 0.0, 0.0))])
         rospy.Subscriber('/base/velocity', Twist, self.take)
         rospy.Subscriber('/tf', tf2_msgs.msg.TFMessage, self.hear)
 
@@ -154,13 +154,6 @@ class FakeRobot:
         for each in message.transforms:
             if each.header.frame_id == 'map':
                 self.corrected = each.header.stamp
-
-    def transform(self, parent, child, pose):
-        """A transform in the plane."""
-        found = TransformStamped(header=Header(stamp=self.now, frame_id=parent), child_frame_id=child)
-        found.transform.translation.x, found.transform.translation.y = pose[:2]
-        found.transform.rotation = turned(pose[2])
-        return found
 
     def step(self):
         """Drive for DT, and tell of it."""
@@ -191,7 +184,7 @@ class FakeRobot:
         message.pose.pose.orientation.w *= self.fault != 'no quaternion'
         if self.fault != 'silent odometry':
             self.odometry.publish(message)
-        self.tf.publish([self.transform('wheels', 'chassis', self.guess)])
+        self.tf.publish([transform(self.now, 'wheels', 'chassis', self.guess)])
         x, y, theta = self.pose
         angles = np.arange(360) * math.pi / 180
         seen = {'turned laser': angles + math.pi / 2, 'laser upside down': -angles}.get(self.fault, angles)
@@ -227,6 +220,14 @@ def moved(pose, went, base=BASE):
 def turned(theta):
     """A heading as a quaternion."""
     return Quaternion(0.0, 0.0, math.sin(theta / 2), math.cos(theta / 2))
+
+
+def transform(stamp, parent, child, pose):
+    """A transform in the plane."""
+    found = TransformStamped(header=Header(stamp=stamp, frame_id=parent), child_frame_id=child)
+    found.transform.translation.x, found.transform.translation.y = pose[:2]
+    found.transform.rotation = turned(pose[2])
+    return found
 
 
 SIGNALS = []  # that told it to end

@@ -1,6 +1,7 @@
-"""What the tests of robots that are not ours share: the fake robot, and the master's parameters that it needs."""
+"""What the tests of robots that are not ours share: the fake robot, safe_drive, and the parameters that they need."""
 
 import pathlib
+import unittest
 
 import programs
 import rospy
@@ -27,3 +28,26 @@ class Fake:
         if self.process.poll() is None:
             self.process.terminate()
             self.process.wait(ENDS_WITHIN)
+
+
+class SafeDriveRun(unittest.TestCase):
+    """A test that runs safe_drive, and is the robot itself."""
+
+    def start(self, *arguments):
+        """Start safe_drive."""
+        rospy.set_param('/use_sim_time', True)
+        if rospy.has_param('/safe_drive'):
+            rospy.delete_param('/safe_drive')
+        self.process = programs.start('rumba_cleaning', 'safe_drive', f'_own_robot:={FILE}', *arguments)
+        self.addCleanup(self.end)
+
+    def publisher(self, topic, kind):
+        """A publisher until the end of the test."""
+        publisher = rospy.Publisher(topic, kind, queue_size=10)
+        self.addCleanup(publisher.unregister)
+        return publisher
+
+    def end(self):
+        """End safe_drive."""
+        self.process.terminate()
+        self.process.wait(ENDS_WITHIN)

@@ -1,11 +1,10 @@
 """safe_drive stops a robot whose topics fall silent, keeps to its limits, and lets a person drive."""
 
 import subprocess
-import unittest
 
 import programs
 import rospy
-from fakes import FILE, REMAPPED
+from fakes import REMAPPED, SafeDriveRun
 from geometry_msgs.msg import TransformStamped, Twist, Vector3
 from nav_msgs.msg import Odometry
 from rosgraph_msgs.msg import Clock
@@ -24,36 +23,22 @@ def twist(v, w=0.0):
     return Twist(Vector3(v, 0.0, 0.0), Vector3(0.0, 0.0, w))
 
 
-class SafeDriveTest(unittest.TestCase):
+class SafeDriveTest(SafeDriveRun):
     """The robot is this test, and so is its time."""
 
     def setUp(self):
-        rospy.set_param('/use_sim_time', True)
-        if rospy.has_param('/safe_drive'):
-            rospy.delete_param('/safe_drive')
-        self.process = programs.start('rumba_cleaning', 'safe_drive', f'_own_robot:={FILE}',
-                                      f'_odometry_from_tf:={"tf" in self._testMethodName}', *REMAPPED)
-        self.addCleanup(self._end)
+        self.start(f'_odometry_from_tf:={"tf" in self._testMethodName}', *REMAPPED)
         self.now, self.taken = rospy.Time(100), []
-        self.clock = self._publisher('/clock', Clock)
-        self.talkers = {'scan': self._publisher('/front/laser', LaserScan),
-                        'odometry': self._publisher('/base/odometry', Odometry),
-                        'cleaner': self._publisher('rumba/cmd_vel', Twist),
-                        'person': self._publisher('rumba/teleop/cmd_vel', Twist)}
+        self.clock = self.publisher('/clock', Clock)
+        self.talkers = {'scan': self.publisher('/front/laser', LaserScan),
+                        'odometry': self.publisher('/base/odometry', Odometry),
+                        'cleaner': self.publisher('rumba/cmd_vel', Twist),
+                        'person': self.publisher('rumba/teleop/cmd_vel', Twist)}
         subscriber = rospy.Subscriber('/base/velocity', Twist, self.taken.append)
         self.addCleanup(subscriber.unregister)
         self.turned = 0.0  # [rad] by odometry
         wait(self, lambda: all(each.get_num_connections() for each in self.talkers.values())
              and self.clock.get_num_connections() > 1 and subscriber.get_num_connections(), 'safe_drive')
-
-    def _publisher(self, topic, kind):
-        publisher = rospy.Publisher(topic, kind, queue_size=10)
-        self.addCleanup(publisher.unregister)
-        return publisher
-
-    def _end(self):
-        self.process.terminate()
-        self.process.wait(ENDS_WITHIN)
 
     def _tick(self, silent=(), command=None, person=None, turn=0.0):
         """Pass DT, in which all but some talk, until safe_drive has heard it."""
@@ -122,14 +107,14 @@ class SafeDriveTest(unittest.TestCase):
     def test_at_its_end_it_commands_a_stop(self):
         self._drive(0.2)
         self.taken.clear()
-        self._end()
+        self.end()
         wait(self, lambda: self.taken and self.taken[-1].linear.x == 0.0, 'a stop')
 
     def test_it_makes_odometry_of_tf(self):
         came = []
         subscriber = rospy.Subscriber('/base/odometry', Odometry, came.append)
         self.addCleanup(subscriber.unregister)
-        tf = self._publisher('/tf', TFMessage)
+        tf = self.publisher('/tf', TFMessage)
         wait(self, lambda: tf.get_num_connections() and subscriber.get_num_connections() > 1, 'safe_drive')
         moved = [TransformStamped(header=Header(stamp=rospy.Time(7), frame_id=frame), child_frame_id='chassis')
                  for frame in ('other', 'wheels')]

@@ -1,16 +1,13 @@
 """safe_drive lets a Create dock by itself, stops it meanwhile, and moves its brushes."""
 
-import unittest
-
-import programs
 import rospy
 from create_msgs.msg import ChargingState, Mode, MotorSetpoint
-from fakes import FILE
+from fakes import SafeDriveRun
 from geometry_msgs.msg import Twist, Vector3
 from nav_msgs.msg import Odometry
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import LaserScan
-from simulators import ENDS_WITHIN, wait, wait_for_service
+from simulators import wait, wait_for_service
 from std_msgs.msg import Empty, Header, UInt16
 from std_srvs.srv import SetBool
 
@@ -23,20 +20,15 @@ AHEAD = Twist(Vector3(0.2, 0.0, 0.0), Vector3())
 MOTORS = 'main_brush_motor', 'side_brush_motor', 'vacuum_motor'
 
 
-class SafeDriveCreateTest(unittest.TestCase):
+class SafeDriveCreateTest(SafeDriveRun):
     """The driver is this test, and so is its time."""
 
     def setUp(self):
-        rospy.set_param('/use_sim_time', True)
-        if rospy.has_param('/safe_drive'):
-            rospy.delete_param('/safe_drive')
-        self.process = programs.start(
-            'rumba_cleaning', 'safe_drive', f'_own_robot:={FILE}', '_create:=/create', '_docked:=false',
-            'rumba/odom:=/create/odom', 'rumba/safe_cmd_vel:=/create/cmd_vel')
-        self.addCleanup(self._end)
+        self.start('_create:=/create', '_docked:=false', 'rumba/odom:=/create/odom',
+                   'rumba/safe_cmd_vel:=/create/cmd_vel')
         self.now, self.told, self.statuses, self.mode, self.state = rospy.Time(100), [], [], Mode.MODE_FULL, 0
-        self.clock = self._publisher('/clock', Clock)
-        self.talkers = {name: self._publisher(topic, kind) for name, topic, kind in (
+        self.clock = self.publisher('/clock', Clock)
+        self.talkers = {name: self.publisher(topic, kind) for name, topic, kind in (
             ('scan', 'rumba/scan', LaserScan), ('odometry', '/create/odom', Odometry),
             ('drive', 'rumba/cmd_vel', Twist), ('seek', 'rumba/seek_dock', Empty), ('mode', '/create/mode', Mode),
             ('charger', '/create/battery/charging_state', ChargingState), ('beams', '/create/ir_omni', UInt16))}
@@ -48,15 +40,6 @@ class SafeDriveCreateTest(unittest.TestCase):
         wait(self, lambda: all(each.get_num_connections() for each in [*self.talkers.values(), *listeners])
              and self.clock.get_num_connections() > 1, 'safe_drive')
         wait_for_service(self, 'rumba/stop')
-
-    def _publisher(self, topic, kind):
-        publisher = rospy.Publisher(topic, kind, queue_size=10)
-        self.addCleanup(publisher.unregister)
-        return publisher
-
-    def _end(self):
-        self.process.terminate()
-        self.process.wait(ENDS_WITHIN)
 
     def _note(self, message, topic):
         """Do what the driver is told, as a Create does."""
@@ -118,7 +101,7 @@ class SafeDriveCreateTest(unittest.TestCase):
     def test_it_is_stopped_when_safe_drive_ends(self):
         self._seek()
         self._tick('seek')
-        self._end()
+        self.end()
         wait(self, lambda: ('undock', None) in self.told, 'a stop')
 
     def test_a_robot_that_charges_is_left_alone_until_it_is_to_drive(self):

@@ -32,6 +32,7 @@ Parameters, as in `rosrun rumba_cleaning safe_drive _own_robot:=my_robot.yaml`:
 import dataclasses
 import threading
 import time
+
 import rospy
 from geometry_msgs.msg import Point, Pose, PoseWithCovariance, Twist, TwistWithCovariance, Vector3
 from nav_msgs.msg import Odometry
