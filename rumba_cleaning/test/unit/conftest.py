@@ -5,7 +5,7 @@ import signal
 import hypothesis
 import pytest
 
-from rumba_cleaning.planning import improvement
+from rumba_cleaning.planning.search import improvement
 
 hypothesis.settings.register_profile('rumba', derandomize=True, database=None, deadline=None)
 hypothesis.settings.load_profile('rumba')

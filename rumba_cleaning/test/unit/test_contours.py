@@ -8,7 +8,7 @@ from rooms import crooked
 from scipy import ndimage
 from skimage import measure
 
-from rumba_cleaning.planning.contours import contours
+from rumba_cleaning.planning.common.contours import contours
 
 
 def assert_same(values, level):

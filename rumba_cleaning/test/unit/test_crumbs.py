@@ -8,10 +8,10 @@ from floors import ground, knowing, length, off, wiped_but
 from pytest import approx
 from rooms import crooked, room
 
-from rumba_cleaning.planning.crumbs import HEADINGS, LEAST, crumbs, middle_lines
-from rumba_cleaning.planning.paper import drive
-from rumba_cleaning.planning.regions import regions
-from rumba_cleaning.planning.walls import Walls
+from rumba_cleaning.planning.decompose.regions import regions
+from rumba_cleaning.planning.simulate.paper import drive
+from rumba_cleaning.planning.swaths.crumbs import HEADINGS, LEAST, crumbs, middle_lines
+from rumba_cleaning.planning.swaths.walls import Walls
 from rumba_sim.model.geometry import Pose
 
 START = Pose(0.5, 0.5, 0.0)

@@ -5,13 +5,14 @@ import pytest
 from floors import knowing, length, wiped_but
 from rooms import room
 
-from rumba_cleaning.planning.detours import FARTHEST
-from rumba_cleaning.planning.edits import APART
-from rumba_cleaning.planning.improvement import DEAREST_ON_PAPER, LEAST_ON_PAPER, SURPLUS, with_detours
-from rumba_cleaning.planning.paper import drive
-from rumba_cleaning.planning.regions import regions
-from rumba_cleaning.planning.surroundings import Surroundings
-from rumba_cleaning.planning.walls import Walls
+from rumba_cleaning.planning.common.effort import effort
+from rumba_cleaning.planning.decompose.regions import regions
+from rumba_cleaning.planning.search.detours import FARTHEST
+from rumba_cleaning.planning.search.edits import APART
+from rumba_cleaning.planning.search.improvement import DEAREST_ON_PAPER, LEAST_ON_PAPER, SURPLUS, with_detours
+from rumba_cleaning.planning.simulate.paper import drive
+from rumba_cleaning.planning.swaths.problem import Problem
+from rumba_cleaning.planning.swaths.walls import Walls
 from rumba_cleaning.route import Route
 from rumba_sim.model.geometry import Pose
 
@@ -25,8 +26,8 @@ def detoured(*boxes, target=1.0, route=ACROSS, plan=None):
     context = wiped_but(knowing(plan or room(4.0, 3.0, 0.02), START, target_coverage=target), *boxes)
     floor = context.swept.copy()
     everywhere = np.ones(context.plan.free.shape, bool)
-    surroundings = Surroundings(context, START, None, everywhere, regions(context.ground), Walls(context.ground))
-    found = with_detours(surroundings, route, floor)
+    problem = Problem(context, START, None, everywhere, regions(context.ground), Walls(context.ground), effort(context))
+    found = with_detours(problem, route, floor)
     drive(floor, found.waypoints)
     return found, floor
 

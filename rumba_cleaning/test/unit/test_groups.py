@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from rumba_cleaning.planning.groups import MANY, MOST, groups
-from rumba_cleaning.planning.stretches import Stretch, pair
+from rumba_cleaning.planning.common.stretches import Stretch, pair
+from rumba_cleaning.planning.order.groups import MANY, MOST, groups
 
 PAIRS = 5  # of variants of each stretch
 

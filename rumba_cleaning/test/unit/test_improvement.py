@@ -8,16 +8,22 @@ import pytest
 from floors import knowing, wiped_but
 from rooms import crooked, room
 
-from rumba_cleaning.planning import compiled_changes, improvement, planner
-from rumba_cleaning.planning.edits import dense
-from rumba_cleaning.planning.improvement import improved, rounds
-from rumba_cleaning.planning.lanes import Layout
-from rumba_cleaning.planning.layouts import DRAFTS, IN_RINGS, OTHER_SHAPES, Draft
-from rumba_cleaning.planning.regions import regions, shapes
-from rumba_cleaning.planning.rehearsal import Rehearsal
-from rumba_cleaning.planning.shifts import shifts
-from rumba_cleaning.planning.surroundings import Surroundings
-from rumba_cleaning.planning.walls import Walls
+from rumba_cleaning.planning import planner
+from rumba_cleaning.planning.common import effort as efforts
+from rumba_cleaning.planning.common.effort import Effort, effort
+from rumba_cleaning.planning.decompose.regions import regions, shapes
+from rumba_cleaning.planning.order.route import through
+from rumba_cleaning.planning.search import improvement
+from rumba_cleaning.planning.search.edits import dense
+from rumba_cleaning.planning.search.improvement import improved
+from rumba_cleaning.planning.search.shifts import shifts
+from rumba_cleaning.planning.simulate import compiled_changes
+from rumba_cleaning.planning.simulate.rehearsal import Rehearsal
+from rumba_cleaning.planning.swaths.drafting import choices, drafted
+from rumba_cleaning.planning.swaths.lanes import Layout
+from rumba_cleaning.planning.swaths.layouts import DRAFTS, IN_RINGS, OTHER_SHAPES, Draft
+from rumba_cleaning.planning.swaths.problem import Problem
+from rumba_cleaning.planning.swaths.walls import Walls
 from rumba_cleaning.route import Route
 from rumba_sim.model.geometry import Pose
 
@@ -26,25 +32,23 @@ START = Pose(0.5, 0.5, 0.3)
 DISPATCHER = next(kind for kind in type(compiled_changes.changes).__mro__ if 'typeof_pyval' in vars(kind))
 
 
-def surroundings_of(floor, pose=START, **config):
+def problem_of(floor, pose=START, **config):
     context = knowing(floor, pose, **config)
     around = np.ones(context.plan.free.shape, bool)
-    return Surroundings(context, pose, None, around, regions(context.ground), Walls(context.ground))
+    return Problem(context, pose, None, around, regions(context.ground), Walls(context.ground), effort(context))
 
 
-def first_draft(surroundings, overlap=0.05):
+def first_draft(problem, overlap=0.05):
     """The route of a planner that improves nothing."""
-    paper, shape = surroundings.context.swept.copy(), shapes(surroundings.context.ground, surroundings.labels)
-    draft = Draft([Layout(overlap)], 0.3)
-    found = planner._rings(surroundings, paper, shape, draft)
-    found += planner._lanes(surroundings, paper, shape, draft)
-    return planner._through(surroundings, found)
+    shape = shapes(problem.context.ground, problem.labels)
+    draft, = drafted(problem, [(Draft([Layout(overlap)], 0.3, strip=np.inf), shape)])
+    return through(problem, draft.stretches)
 
 
 @pytest.mark.parametrize('width, height, usual, rings, other', [(5.0, 3.0, 3, 0, 0), (8.0, 1.0, 3, 0, 2),
                                                                 (8.0, 0.7, 3, 2, 1)])
 def test_there_are_drafts_for_rings_and_other_shapes_only_where_a_region_has_such(width, height, usual, rings, other):
-    found = [draft for draft, _ in planner._shaped(surroundings_of(room(width, height)))]
+    found = [draft for draft, _ in choices(problem_of(room(width, height)))]
     for of_kind, count in ((DRAFTS, usual), (IN_RINGS, rings), (OTHER_SHAPES, other)):
         assert sum(draft in of_kind for draft in found) == count
     assert len(found) == usual + rings + other
@@ -52,36 +56,36 @@ def test_there_are_drafts_for_rings_and_other_shapes_only_where_a_region_has_suc
 
 def test_no_two_of_the_routes_that_are_rehearsed_are_the_same():
     """In a corridor without lanes, drafts that differ in these alone are one."""
-    routes = [drafted.route.waypoints for drafted in planner._drafts(surroundings_of(room(8.0, 0.8)))]
+    routes = [route.waypoints for _, route in planner.drafts(problem_of(room(8.0, 0.8)))]
     assert len(routes) == 3
     assert not any(np.array_equal(one, other) for one, other in itertools.combinations(routes, 2))
 
 
 def test_an_improved_route_meets_the_target_sooner_than_one_with_all_lanes():
-    surroundings = surroundings_of(crooked(0.02), target_coverage=0.95)
-    draft = first_draft(surroundings)
-    before = Rehearsal(surroundings.context, START, dense(draft))
-    after = Rehearsal(surroundings.context, START, improved(surroundings, [draft], []))
+    problem = problem_of(crooked(0.02), target_coverage=0.95)
+    draft = first_draft(problem)
+    before = Rehearsal(problem.context, START, dense(draft))
+    after = Rehearsal(problem.context, START, improved(problem, [draft], []))
     assert before.swept.coverage > 0.96 and after.is_complete
     assert after.swept.coverage >= 0.95 and after.seconds < 0.97 * before.seconds
 
 
 def test_an_improved_route_sweeps_what_lanes_without_overlap_and_corners_would_leave():
-    surroundings = surroundings_of(crooked(0.02), target_coverage=0.993)
-    draft = first_draft(surroundings, 0.0)
-    before = Rehearsal(surroundings.context, START, dense(draft))
-    after = Rehearsal(surroundings.context, START, improved(surroundings, [draft], []))
+    problem = problem_of(crooked(0.02), target_coverage=0.993)
+    draft = first_draft(problem, 0.0)
+    before = Rehearsal(problem.context, START, dense(draft))
+    after = Rehearsal(problem.context, START, improved(problem, [draft], []))
     assert before.swept.coverage < 0.992 and after.swept.coverage >= 0.993
     assert after.seconds < 1.15 * before.seconds
 
 
 def test_a_route_that_edits_leave_short_of_the_target_is_mended_by_detours(monkeypatch):
     monkeypatch.setattr(improvement, 'EDITED', -0.008)  # so that they do
-    surroundings = surroundings_of(crooked(0.02), target_coverage=0.92, planning_rounds=1)
-    draft = first_draft(surroundings, 0.0)
-    mended = Rehearsal(surroundings.context, START, improved(surroundings, [draft], []))
+    problem = problem_of(crooked(0.02), target_coverage=0.92, planning_rounds=1)
+    draft = first_draft(problem, 0.0)
+    mended = Rehearsal(problem.context, START, improved(problem, [draft], []))
     monkeypatch.setattr(improvement, 'MENDS', 0)
-    short = Rehearsal(surroundings.context, START, improved(surroundings, [draft], []))
+    short = Rehearsal(problem.context, START, improved(problem, [draft], []))
     assert mended.swept.coverage >= 0.92 and mended.seconds < 0.95 * short.seconds
 
 
@@ -89,16 +93,17 @@ def test_a_route_that_edits_leave_short_of_the_target_is_mended_by_detours(monke
                                                  ((10.0, 5.0), 5, 3), ((16.0, 12.0), 5, 1), ((16.0, 12.0), 0, 0),
                                                  ((16.0, 16.0), 5, 0)])
 def test_there_are_as_many_rounds_as_are_wanted_and_as_the_floor_is_worth(size, wanted, count):
-    assert rounds(knowing(room(*size), START, planning_rounds=wanted)) == count
+    assert effort(knowing(room(*size), START, planning_rounds=wanted)).rounds == count
 
 
 def test_on_a_large_floor_one_draft_is_rehearsed_rebuilt_and_edited_but_nothing_is_shifted(monkeypatch):
-    surroundings = surroundings_of(crooked(0.02), target_coverage=0.95)
-    monkeypatch.setattr(improvement, 'WORK', 0.9 * surroundings.context.swept.reachable_area)
+    problem = problem_of(crooked(0.02), target_coverage=0.95)
+    monkeypatch.setattr(efforts, 'WORK', 0.9 * problem.context.swept.reachable_area)
+    problem = problem._replace(effort=effort(problem.context))
     monkeypatch.setattr(improvement, 'shifts', None)  # so that to call it would be an error
-    drafted, = planner._drafts(surroundings)
-    before = Rehearsal(surroundings.context, START, improvement.with_detours(surroundings, *drafted[::2]))
-    after = Rehearsal(surroundings.context, START, planner.plan(surroundings.context, START))
+    (draft, route), = planner.drafts(problem)
+    before = Rehearsal(problem.context, START, improvement.with_detours(problem, route, draft.paper))
+    after = Rehearsal(problem.context, START, planner.plan(problem.context, START))
     assert after.swept.coverage >= 0.95 and after.seconds < 0.95 * before.seconds
 
 
@@ -109,22 +114,22 @@ def test_edits_that_were_far_from_worth_it_are_not_judged_again(monkeypatch):
         counts.append(len(found))
         return judged(rehearsal, found)
     monkeypatch.setattr(Rehearsal, 'judged', counted)
-    surroundings, poor = surroundings_of(crooked(0.02), target_coverage=0.95), set()
-    rehearsal = Rehearsal(surroundings.context, START, dense(first_draft(surroundings)))
-    found = list(shifts(surroundings.context, rehearsal.route))
-    first, second = (improvement._edited(surroundings, rehearsal, found, poor)[0] for _ in range(2))
+    problem, poor = problem_of(crooked(0.02), target_coverage=0.95), set()
+    rehearsal = Rehearsal(problem.context, START, dense(first_draft(problem)))
+    found = list(shifts(problem.context, rehearsal.route))
+    first, second = (improvement._edited(problem, rehearsal, found, poor)[0] for _ in range(2))
     assert counts[0] == len(found) > 100 and 0 < counts[1] < 0.6 * counts[0]
     assert first.seconds == second.seconds and first.swept.coverage == second.swept.coverage
 
 
 @pytest.mark.thorough
 def test_the_better_of_two_routes_is_improved():
-    surroundings = surroundings_of(crooked(0.02), target_coverage=0.95)
-    good = first_draft(surroundings)
+    problem = problem_of(crooked(0.02), target_coverage=0.95)
+    good = first_draft(problem)
     bad = Route(np.concatenate([good.waypoints, good.waypoints[-2::-1]]),
                 np.concatenate([good.speeds, good.speeds[::-1]]))
-    chosen = Rehearsal(surroundings.context, START, improved(surroundings, [bad, good], []))
-    alone = Rehearsal(surroundings.context, START, improved(surroundings, [good], []))
+    chosen = Rehearsal(problem.context, START, improved(problem, [bad, good], []))
+    alone = Rehearsal(problem.context, START, improved(problem, [good], []))
     assert chosen.seconds == alone.seconds and chosen.swept.coverage == alone.swept.coverage
 
 
@@ -133,45 +138,45 @@ def test_a_route_is_rebuilt_before_it_is_edited_and_the_best_so_far_after_three_
                                                                                        count):
     given, rebuilt = [], improvement.rebuilt
 
-    def noted(surroundings, rehearsal, paths):
-        given.append((improvement._cost(surroundings, rehearsal), paths))
-        return rebuilt(surroundings, rehearsal, paths)
+    def noted(problem, rehearsal, paths):
+        given.append((improvement._cost(problem, rehearsal), paths))
+        return rebuilt(problem, rehearsal, paths)
     monkeypatch.setattr(improvement, 'rebuilt', noted)
-    surroundings = surroundings_of(crooked(0.02), target_coverage=0.95, planning_rounds=planning_rounds)
+    problem = problem_of(crooked(0.02), target_coverage=0.95, planning_rounds=planning_rounds)
     paths = [np.array([[0.5, 0.5], [2.5, 0.5]])]
-    improved(surroundings, [first_draft(surroundings)], paths)
+    improved(problem, [first_draft(problem)], paths)
     costs = [cost for cost, _ in given]
     assert len(given) == count and all(found is paths for _, found in given)
     assert all(later < earlier for earlier, later in zip(costs, costs[1:]))
 
 
 def test_a_rebuilt_route_that_nobody_can_follow_is_not_taken(monkeypatch):
-    surroundings = surroundings_of(room(4.0, 3.0, 0.02, [(1.9, 0.0, 2.1, 2.2)]))
-    before = Rehearsal(surroundings.context, START, dense(Route(np.array([[0.5, 0.5], [0.5, 2.5]]), np.array([0.3]))))
+    problem = problem_of(room(4.0, 3.0, 0.02, [(1.9, 0.0, 2.1, 2.2)]))
+    before = Rehearsal(problem.context, START, dense(Route(np.array([[0.5, 0.5], [0.5, 2.5]]), np.array([0.3]))))
     for end, is_taken in ((3.5, False), (1.5, True)):
         route = Route(np.array([[0.5, 0.5], [end, 0.5]]), np.array([0.3]))
         monkeypatch.setattr(improvement, 'rebuilt', lambda *_, found=route: found)
-        assert (improvement._rebuilt(surroundings, before, []) is not before) == is_taken
+        assert (improvement._rebuilt(problem, before, []) is not before) == is_taken
 
 
 def test_a_route_is_rebuilt_of_the_stretches_of_all_drafts(monkeypatch):
     given = []
     monkeypatch.setattr(planner, 'improved', lambda _, routes, paths: given.append((routes, paths)) or routes[0])
-    surroundings = surroundings_of(room(4.0, 3.0))
-    planner.plan(surroundings.context, START)
-    drafts = planner._drafts(surroundings)
+    problem = problem_of(room(4.0, 3.0))
+    planner.plan(problem.context, START)
+    drafts = planner.drafts(problem)
     (routes, paths), = given
     assert len(routes) == len(drafts) > 1
-    found = [part.variants[0].path() for drafted in drafts for part in drafted.stretches]
+    found = [path for draft, _ in drafts for path in draft.paths]
     assert len(paths) == len(found) and all(np.array_equal(*each) for each in zip(paths, found))
 
 
 def test_a_route_with_more_turns_is_to_sweep_more_since_each_is_driven_otherwise_than_rehearsed():
-    surroundings, points = surroundings_of(room(4.0, 3.0)), np.linspace((0.5, 0.5), (3.5, 0.5), 16)
+    problem, points = problem_of(room(4.0, 3.0)), np.linspace((0.5, 0.5), (3.5, 0.5), 16)
     zigzag = points + np.array([[0.0, 0.1 * (index % 2)] for index in range(16)])
-    few, many = (Rehearsal(surroundings.context, START, Route(route, np.full(15, 0.3))) for route in (points, zigzag))
+    few, many = (Rehearsal(problem.context, START, Route(route, np.full(15, 0.3))) for route in (points, zigzag))
     for rehearsal in (few, many):
-        beyond = improvement._need(surroundings, rehearsal) - surroundings.need(rehearsal.swept, 0.0)
+        beyond = improvement._need(problem, rehearsal) - problem.need(rehearsal.swept, 0.0)
         assert beyond == pytest.approx(improvement.MARGIN * rehearsal.turned)
     assert many.turned > 4.0 * few.turned > 0.0
 
@@ -180,15 +185,15 @@ def test_a_route_over_crumbs_is_improved_too(monkeypatch):
     context = wiped_but(knowing(room(4.0, 3.0, 0.02), START, target_coverage=0.99), (0.4, 0.5, 0.5, 0.7),
                         (2.0, 0.5, 2.1, 0.7), (3.3, 1.2, 3.5, 1.3), (1.0, 1.6, 1.2, 1.8), (2.6, 2.2, 2.8, 2.5))
     found = Rehearsal(context, START, dense(planner.plan(context, START)))
-    monkeypatch.setattr(improvement, 'rounds', lambda _: 0)
+    monkeypatch.setattr(planner, 'effort', lambda _: Effort(0, False))
     plain = Rehearsal(context, START, dense(planner.plan(context, START)))
     assert found.seconds < plain.seconds and found.swept.coverage >= 0.99
 
 
 def test_a_route_that_nobody_can_follow_stays_as_it_is():
-    surroundings = surroundings_of(room(4.0, 3.0, 0.02, [(1.9, 0.0, 2.1, 3.0)]))
+    problem = problem_of(room(4.0, 3.0, 0.02, [(1.9, 0.0, 2.1, 3.0)]))
     through = Route(np.array([[0.5, 0.5], [3.5, 0.5]]), np.array([0.3]))
-    assert improved(surroundings, [through], []).waypoints.tolist() == dense(through).waypoints.tolist()
+    assert improved(problem, [through], []).waypoints.tolist() == dense(through).waypoints.tolist()
 
 
 @pytest.mark.parametrize('has_marks', [False, True])
@@ -198,8 +203,8 @@ def test_of_a_route_over_crumbs_the_beginning_is_improved_that_a_robot_can_follo
     if has_marks:
         context.ground.mark(3.0, 2.0, 0.05)
     through = Route(np.array([START[:2], (0.6, 1.5), (3.5, 1.5)]), np.full(2, 0.3))
-    monkeypatch.setattr(planner, '_drafts', lambda _: [])
-    monkeypatch.setattr(planner, '_through', lambda *_: through)
+    monkeypatch.setattr(planner, 'drafts', lambda _: [])
+    monkeypatch.setattr(planner, 'through', lambda *_: through)
     monkeypatch.setattr(planner, 'improved', lambda _, routes, paths: given.extend(routes) or routes[0])
     found = planner.plan(context, START)
     assert (found is through) == has_marks and len(given) == 1 - has_marks
@@ -207,9 +212,9 @@ def test_of_a_route_over_crumbs_the_beginning_is_improved_that_a_robot_can_follo
 
 
 def test_plans_repeat():
-    surroundings = surroundings_of(crooked(0.05))
-    draft = first_draft(surroundings)
-    one, other = improved(surroundings, [draft], []), improved(surroundings, [draft], [])
+    problem = problem_of(crooked(0.05))
+    draft = first_draft(problem)
+    one, other = improved(problem, [draft], []), improved(problem, [draft], [])
     assert np.array_equal(one.waypoints, other.waypoints) and np.array_equal(one.speeds, other.speeds)
 
 

@@ -11,10 +11,10 @@ from pytest import approx
 from rooms import crooked, distances, quiet, room
 
 from rumba_cleaning.belief.swept import Swept
-from rumba_cleaning.planning.lanes import BLOCK, TURN, Layout, blocks
-from rumba_cleaning.planning.paper import drive
-from rumba_cleaning.planning.rings import outlines
-from rumba_cleaning.planning.turned_floor import main_direction
+from rumba_cleaning.planning.decompose.turned_floor import main_direction
+from rumba_cleaning.planning.simulate.paper import drive
+from rumba_cleaning.planning.swaths.lanes import BLOCK, TURN, Layout, blocks
+from rumba_cleaning.planning.swaths.rings import outlines
 from rumba_sim.model.floor_plan import FREE, OCCUPIED, FloorPlan
 
 SPEED = 0.3

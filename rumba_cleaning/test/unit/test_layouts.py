@@ -6,9 +6,11 @@ from floors import BRUSH, knowing
 from pytest import approx
 from rooms import crooked
 
-from rumba_cleaning.planning import layouts
-from rumba_cleaning.planning.lanes import Layout, blocks
-from rumba_cleaning.planning.layouts import AREA, DRAFTS, IN_RINGS, OTHER_SHAPES, drafts, laid_out, tries
+from rumba_cleaning.planning.common import effort
+from rumba_cleaning.planning.common.effort import AREA
+from rumba_cleaning.planning.swaths import layouts
+from rumba_cleaning.planning.swaths.lanes import Layout, blocks
+from rumba_cleaning.planning.swaths.layouts import DRAFTS, IN_RINGS, OTHER_SHAPES, drafts, laid_out
 from rumba_sim.model.geometry import Pose
 
 PLAN = crooked(0.02)
@@ -63,7 +65,7 @@ def test_a_single_layout_is_taken_as_it_is():
 
 @pytest.mark.parametrize('area, count', [(0.0, 1), (0.9, 1), (1.0, 3), (AREA / 2.5, 2), (2.0 * AREA, 1)])
 def test_several_layouts_are_tried_if_there_is_much_to_clean_but_fewer_on_a_large_floor(area, count):
-    assert len(LAYOUTS[:tries(area)]) == count
+    assert len(LAYOUTS[:effort.layouts(area)]) == count
 
 
 @pytest.mark.parametrize('rounds, count, rings, others', [(0, 1, 0, 0), (1, 1, 1, 0), (2, 2, 1, 1), (5, 3, 2, 3)])

@@ -8,8 +8,8 @@ from floors import along, ground, length
 from pytest import approx
 from rooms import distances, room
 
-from rumba_cleaning.planning.compiled_links import BENDS, CORNERS, EARLY, OFFSET
-from rumba_cleaning.planning.links import block_variants, through
+from rumba_cleaning.planning.swaths.compiled_links import BENDS, CORNERS, EARLY, OFFSET
+from rumba_cleaning.planning.swaths.links import block_variants, through
 
 PLAN = room(4.0, 3.0)
 FLOOR = ground(PLAN)

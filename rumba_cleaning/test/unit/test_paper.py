@@ -9,7 +9,8 @@ from hypothesis import strategies as st
 from pytest import approx
 from rooms import room
 
-from rumba_cleaning.planning.paper import drive, resampled, simplified, strides
+from rumba_cleaning.planning.common.polyline import resampled, simplified, strides
+from rumba_cleaning.planning.simulate.paper import drive
 from rumba_sim.model.geometry import Pose
 
 PATHS = st.lists(st.tuples(st.floats(0.0, 3.0), st.floats(0.0, 3.0)), min_size=2, max_size=12).map(

@@ -5,9 +5,9 @@ import pytest
 from floors import knowing, wiped
 from rooms import room
 
-from rumba_cleaning.planning.compiled_passes import BEFORE, NEVER, alone, blank, gain, passed
-from rumba_cleaning.planning.compiled_rehearsal import SPEED
-from rumba_cleaning.planning.rehearsal import Rehearsal
+from rumba_cleaning.planning.simulate.compiled_passes import BEFORE, NEVER, alone, blank, gain, passed
+from rumba_cleaning.planning.simulate.compiled_rehearsal import SPEED
+from rumba_cleaning.planning.simulate.rehearsal import Rehearsal
 from rumba_cleaning.route import Route
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.kernel.samples import PASS, REACHABLE

@@ -9,11 +9,12 @@ from pytest import approx
 from rooms import room
 
 from rumba_cleaning.behaviours.follower import drive_of
-from rumba_cleaning.planning import pieces
-from rumba_cleaning.planning.compiled_pieces import BEYOND, FAR, NONE, Pace, cells, durations, links
-from rumba_cleaning.planning.edits import dense
-from rumba_cleaning.planning.lines import needed
-from rumba_cleaning.planning.rehearsal import Rehearsal
+from rumba_cleaning.planning.common.lines import needed
+from rumba_cleaning.planning.common.nearest import NONE
+from rumba_cleaning.planning.search import pieces
+from rumba_cleaning.planning.search.compiled_pieces import BEYOND, FAR, Pace, cells, durations, links
+from rumba_cleaning.planning.search.edits import dense
+from rumba_cleaning.planning.simulate.rehearsal import Rehearsal
 from rumba_cleaning.route import Route, lengths_along
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.robot_config import DriveConfig

@@ -11,10 +11,10 @@ from pytest import approx
 from rooms import crooked, distances, quiet, room
 
 from rumba_cleaning.behaviours.follower import Follower
-from rumba_cleaning.planning import paper
-from rumba_cleaning.planning.edits import dense
 from rumba_cleaning.planning.planner import plan
-from rumba_cleaning.planning.rehearsal import Rehearsal
+from rumba_cleaning.planning.search.edits import dense
+from rumba_cleaning.planning.simulate import paper
+from rumba_cleaning.planning.simulate.rehearsal import Rehearsal
 from rumba_sim.model import map_file
 from rumba_sim.model.floor_plan import FREE, OCCUPIED, FloorPlan
 from rumba_sim.model.geometry import Pose

@@ -10,14 +10,15 @@ from hypothesis import strategies as st
 from pytest import approx
 from rooms import room
 
-from rumba_cleaning.planning.compiled_pieces import FAR
-from rumba_cleaning.planning.compiled_rebuilding import GOAL, NONE, START, Net, State, number, rebuilt, turned
-from rumba_cleaning.planning.edits import dense
-from rumba_cleaning.planning.rebuilding import rebuilt as rebuilt_route
-from rumba_cleaning.planning.regions import regions
-from rumba_cleaning.planning.rehearsal import Rehearsal
-from rumba_cleaning.planning.surroundings import Surroundings
-from rumba_cleaning.planning.walls import Walls
+from rumba_cleaning.planning.common.effort import effort
+from rumba_cleaning.planning.decompose.regions import regions
+from rumba_cleaning.planning.search.compiled_pieces import FAR
+from rumba_cleaning.planning.search.compiled_rebuilding import GOAL, NONE, START, Net, State, number, rebuilt, turned
+from rumba_cleaning.planning.search.edits import dense
+from rumba_cleaning.planning.search.rebuilding import rebuilt as rebuilt_route
+from rumba_cleaning.planning.simulate.rehearsal import Rehearsal
+from rumba_cleaning.planning.swaths.problem import Problem
+from rumba_cleaning.planning.swaths.walls import Walls
 from rumba_cleaning.route import Route
 from rumba_sim.model.geometry import Pose
 
@@ -82,10 +83,10 @@ def test_a_part_is_turned_round_only_if_that_saves_time_although_links_that_are_
         assert (tour[state.place] >> 1 == np.arange(14)).all()
 
 
-def surroundings_of(floor=FLOOR, end=None, **config):
+def problem_of(floor=FLOOR, end=None, **config):
     context = knowing(floor, BEGIN, **config)
     around = np.ones(context.plan.free.shape, bool)
-    return Surroundings(context, BEGIN, end, around, regions(context.ground), Walls(context.ground))
+    return Problem(context, BEGIN, end, around, regions(context.ground), Walls(context.ground), effort(context))
 
 
 def lanes(order):
@@ -99,51 +100,51 @@ def route_over(paths):
     return dense(Route(waypoints, np.full(len(waypoints) - 1, 0.3)))
 
 
-def rebuilt_rehearsal(surroundings, before, paths=()):
-    route = rebuilt_route(surroundings, before, paths)
-    return Rehearsal(surroundings.context, BEGIN, dense(route))
+def rebuilt_rehearsal(problem, before, paths=()):
+    route = rebuilt_route(problem, before, paths)
+    return Rehearsal(problem.context, BEGIN, dense(route))
 
 
 def test_lanes_in_a_bad_order_are_driven_in_a_good_one():
-    surroundings = surroundings_of()
-    before = Rehearsal(surroundings.context, BEGIN, route_over(lanes([0, 7, 3, 10, 1, 12, 5, 8, 2, 11, 4, 9, 6])))
-    good = Rehearsal(surroundings.context, BEGIN, route_over(
+    problem = problem_of()
+    before = Rehearsal(problem.context, BEGIN, route_over(lanes([0, 7, 3, 10, 1, 12, 5, 8, 2, 11, 4, 9, 6])))
+    good = Rehearsal(problem.context, BEGIN, route_over(
         [lane[::1 - 2 * (number % 2)] for number, lane in enumerate(lanes(range(13)))]))
-    after = rebuilt_rehearsal(surroundings, before)
+    after = rebuilt_rehearsal(problem, before)
     assert after.is_complete and after.seconds < min(1.02 * good.seconds, 0.75 * before.seconds)
     assert after.swept.coverage > good.swept.coverage - 0.01
 
 
 def test_pieces_of_other_drafts_sweep_what_a_route_leaves():
-    surroundings = surroundings_of()
-    half = Rehearsal(surroundings.context, BEGIN, route_over(lanes(range(6))))
-    after = rebuilt_rehearsal(surroundings, half, lanes(range(6, 13)))
+    problem = problem_of()
+    half = Rehearsal(problem.context, BEGIN, route_over(lanes(range(6))))
+    after = rebuilt_rehearsal(problem, half, lanes(range(6, 13)))
     assert after.swept.coverage > half.swept.coverage + 0.35
 
 
 def test_floor_that_an_obstacle_bars_is_not_driven_to():
-    surroundings = surroundings_of()
-    surroundings.around[surroundings.context.plan.free.shape[0] // 2:] = False
-    half = Rehearsal(surroundings.context, BEGIN, route_over(lanes(range(6))))
-    route = rebuilt_route(surroundings, half, lanes(range(6, 13)))
+    problem = problem_of()
+    problem.around[problem.context.plan.free.shape[0] // 2:] = False
+    half = Rehearsal(problem.context, BEGIN, route_over(lanes(range(6))))
+    route = rebuilt_route(problem, half, lanes(range(6, 13)))
     assert 1.3 < route.waypoints[:, 1].max() < 1.7
 
 
 def test_what_takes_long_for_its_area_is_swept_for_a_high_target_alone():
     swept = []
     for target in (0.5, 0.95, 0.999):
-        surroundings = surroundings_of(target_coverage=target)
-        lane = Rehearsal(surroundings.context, BEGIN, route_over(lanes([0])))
+        problem = problem_of(target_coverage=target)
+        lane = Rehearsal(problem.context, BEGIN, route_over(lanes([0])))
         spots = [np.array([[x, 0.72], [x, 0.8]]) for x in np.arange(0.5, 3.7, 0.4)]  # 0.0136 m^2 each, in 3 s or more
-        swept.append(rebuilt_rehearsal(surroundings, lane, spots).swept.coverage)
+        swept.append(rebuilt_rehearsal(problem, lane, spots).swept.coverage)
     assert swept[0] == swept[1] < swept[2] - 0.005
 
 
 def test_pieces_of_other_drafts_replace_what_takes_longer():
-    surroundings = surroundings_of()
+    problem = problem_of()
     zigzag = [np.stack([np.linspace(0.3, 3.7, 30), 0.3 + BRUSH * np.arange(30) % 1.0], axis=1)]
-    slow = Rehearsal(surroundings.context, BEGIN, route_over(zigzag))
-    quick = rebuilt_rehearsal(surroundings, slow, lanes(range(13)))
+    slow = Rehearsal(problem.context, BEGIN, route_over(zigzag))
+    quick = rebuilt_rehearsal(problem, slow, lanes(range(13)))
     assert quick.swept.coverage > slow.swept.coverage + 0.3
     assert quick.seconds / quick.swept.coverage < 0.75 * slow.seconds / slow.swept.coverage
 
@@ -151,19 +152,19 @@ def test_pieces_of_other_drafts_replace_what_takes_longer():
 @pytest.mark.parametrize('end, last', [(None, 1), (Pose(1.7, 1.2, 0.0), 1), (Pose(0.3, 2.5, 0.0), 0)])
 def test_a_rebuilt_route_ends_near_where_it_should(end, last):
     """Of two parts the nearer one is cleaned first, except if the robot is to end there."""
-    surroundings = surroundings_of(end=end)
+    problem = problem_of(end=end)
     parts = [np.array([[0.3, 1.6], [0.3, 2.5]]), np.array([[1.7, 0.6], [1.7, 1.4]])]
-    before = Rehearsal(surroundings.context, BEGIN, route_over(parts))
-    route = rebuilt_route(surroundings, before, [])
+    before = Rehearsal(problem.context, BEGIN, route_over(parts))
+    route = rebuilt_route(problem, before, [])
     assert np.hypot(*(parts[last] - route.waypoints[-1]).T).min() < 1e-6
 
 
 def test_a_rebuilt_route_leads_around_walls():
-    surroundings = surroundings_of(room(4.0, 3.0, 0.02, [(1.9, 0.0, 2.1, 2.2)]))
+    problem = problem_of(room(4.0, 3.0, 0.02, [(1.9, 0.0, 2.1, 2.2)]))
     columns = [np.array([[x, 0.3], [x, 1.9]]) for x in (0.3, 0.47, 0.64, 2.4, 2.57, 2.74)]
     way = [columns[0], columns[1], columns[2][::-1], np.array([[0.64, 2.6], [2.4, 2.6]]), *columns[3:]]
-    before = Rehearsal(surroundings.context, BEGIN, route_over(way))
-    after = rebuilt_rehearsal(surroundings, before)
+    before = Rehearsal(problem.context, BEGIN, route_over(way))
+    after = rebuilt_rehearsal(problem, before)
     assert before.is_complete and after.is_complete and after.seconds < 0.9 * before.seconds
     assert after.swept.coverage > before.swept.coverage - 0.02
-    assert (surroundings.context.ground.are_free(after.route.waypoints)).mean() > 0.97
+    assert (problem.context.ground.are_free(after.route.waypoints)).mean() > 0.97

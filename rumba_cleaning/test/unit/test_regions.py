@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from rooms import NAMES, PLANS, room
 from scipy import ndimage
 
-from rumba_cleaning.planning.regions import regions, shapes
+from rumba_cleaning.planning.decompose.regions import regions, shapes
 
 RESOLUTIONS = pytest.mark.parametrize('resolution', [0.02, 0.05, 0.1])
 

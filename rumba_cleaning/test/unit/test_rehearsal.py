@@ -9,10 +9,11 @@ from pytest import approx
 from rooms import alone, crooked, room
 
 from rumba_cleaning.behaviours.follower import Follower
-from rumba_cleaning.planning import rehearsal as rehearsals
-from rumba_cleaning.planning.edits import Edit, applied, dense
 from rumba_cleaning.planning.planner import plan
-from rumba_cleaning.planning.rehearsal import NO_PATH, Rehearsal
+from rumba_cleaning.planning.search.edits import applied, dense
+from rumba_cleaning.planning.simulate import rehearsal as rehearsals
+from rumba_cleaning.planning.simulate.edit import Edit
+from rumba_cleaning.planning.simulate.rehearsal import NO_PATH, Rehearsal
 from rumba_cleaning.route import Route
 from rumba_sim.model.geometry import Pose
 

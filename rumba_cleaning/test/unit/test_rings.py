@@ -9,9 +9,10 @@ from hypothesis import given, settings
 from pytest import approx
 from rooms import NAMES, PLANS, crooked, room
 
-from rumba_cleaning.planning import compiled_rings
-from rumba_cleaning.planning.regions import Shapes, regions
-from rumba_cleaning.planning.rings import FORWARD, PASS, SPACING, WALL_MARGIN, chains, rings, stretch
+from rumba_cleaning.planning.common.polyline import SPACING
+from rumba_cleaning.planning.decompose.regions import Shapes, regions
+from rumba_cleaning.planning.swaths import compiled_rings
+from rumba_cleaning.planning.swaths.rings import FORWARD, PASS, WALL_MARGIN, chains, rings, stretch
 from rumba_sim.model.geometry import Pose
 
 START = Pose(0.5, 0.5, 0.0)

@@ -7,11 +7,10 @@ import pytest
 from scipy import ndimage, spatial
 
 from rumba_cleaning.compiled_bearings import bearings
-from rumba_cleaning.planning import gaussian
-from rumba_cleaning.planning.compiled_pieces import NONE
-from rumba_cleaning.planning.nearest import nearest
-from rumba_cleaning.planning.rows import distinct
-from rumba_cleaning.planning.turned_floor import _on_axes
+from rumba_cleaning.planning.common import gaussian
+from rumba_cleaning.planning.common.nearest import NONE, nearest
+from rumba_cleaning.planning.common.rows import distinct
+from rumba_cleaning.planning.decompose.turned_floor import _on_axes
 
 CROSS = np.array([[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0], [0.0, 0.0], [3.0, 0.0], [0.0, 0.0]])
 

@@ -6,10 +6,10 @@ from floors import knowing
 from rooms import room
 
 from rumba_cleaning.belief.mates import Mates, Report, Task
-from rumba_cleaning.planning import improvement
-from rumba_cleaning.planning.edits import dense
-from rumba_cleaning.planning.rehearsal import Rehearsal
-from rumba_cleaning.planning.sharing import leave_to_mates
+from rumba_cleaning.planning.common import effort
+from rumba_cleaning.planning.search.edits import dense
+from rumba_cleaning.planning.simulate.rehearsal import Rehearsal
+from rumba_cleaning.planning.team.sharing import leave_to_mates
 from rumba_cleaning.route import Ahead, Route
 from rumba_sim.model.geometry import Pose
 
@@ -47,7 +47,7 @@ def test_what_the_mate_has_driven_counts_once_it_was_seen_and_a_mate_that_does_n
 def test_on_a_floor_that_is_too_large_for_rehearsals_it_is_what_a_robot_that_follows_exactly_would(monkeypatch):
     rehearsed = shared_with(zigzag()).swept.coverage
     for area in ('WORK', 'HASTY'):
-        monkeypatch.setattr(improvement, area, 1.0)
+        monkeypatch.setattr(effort, area, 1.0)
     assert shared_with(zigzag()).swept.coverage == pytest.approx(rehearsed, rel=0.03)
     assert shared_with(zigzag()).swept.coverage != rehearsed
 

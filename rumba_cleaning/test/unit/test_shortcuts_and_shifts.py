@@ -5,10 +5,10 @@ from floors import knowing
 from pytest import approx
 from rooms import room
 
-from rumba_cleaning.planning.edits import dense
-from rumba_cleaning.planning.rehearsal import Rehearsal
-from rumba_cleaning.planning.shifts import ASIDE, OUTWARD, shifts
-from rumba_cleaning.planning.shortcuts import shortcuts
+from rumba_cleaning.planning.search.edits import dense
+from rumba_cleaning.planning.search.shifts import ASIDE, OUTWARD, shifts
+from rumba_cleaning.planning.search.shortcuts import shortcuts
+from rumba_cleaning.planning.simulate.rehearsal import Rehearsal
 from rumba_cleaning.route import Route
 from rumba_sim.model.geometry import Pose
 

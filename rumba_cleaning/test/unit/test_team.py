@@ -14,7 +14,9 @@ from rumba_cleaning.belief.mates import Task
 from rumba_cleaning.mission import mission as missions
 from rumba_cleaning.mission.stages import State
 from rumba_cleaning.outcome import Outcome
-from rumba_cleaning.planning import helping, improvement
+from rumba_cleaning.planning.common import effort
+from rumba_cleaning.planning.search import improvement
+from rumba_cleaning.planning.team import helping
 from rumba_cleaning.strategies.boustrophedon import MORE
 from rumba_sim.model.geometry import Pose
 
@@ -111,7 +113,7 @@ def test_who_waits_on_its_dock_for_mates_that_find_nothing_more_ends_there(monke
     monkeypatch.setattr(missions, 'EXACT', 0.5)  # nobody is ever sure to have met the target
     monkeypatch.setattr(helping, 'LEAST', math.inf)  # and who comes late finds no work, ...
     for area in ('WORK', 'HASTY'):  # ... nor corners that a mate will leave
-        monkeypatch.setattr(improvement, area, 0.0)
+        monkeypatch.setattr(effort, area, 0.0)
     crew = Crew(TWO_ROOMS, quiet())
     crew.silent.add('rumba2')
     crew.plan('rumba')

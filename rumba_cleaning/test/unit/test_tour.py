@@ -13,11 +13,12 @@ from hypothesis import strategies as st
 from pytest import approx
 from rooms import room
 
-from rumba_cleaning.planning import compiled_tours, compiled_ways
-from rumba_cleaning.planning.compiled_ways import Needed
-from rumba_cleaning.planning.lines import ASIDE
-from rumba_cleaning.planning.stretches import Stretch, pair
-from rumba_cleaning.planning.tour import BESIDE, Tour, order
+from rumba_cleaning.planning.common import compiled_ways
+from rumba_cleaning.planning.common.compiled_ways import Needed
+from rumba_cleaning.planning.common.lines import ASIDE
+from rumba_cleaning.planning.common.stretches import Stretch, pair
+from rumba_cleaning.planning.order import compiled_tours
+from rumba_cleaning.planning.order.tour import BESIDE, Tour, order
 
 HALL = ground(room(8.0, 6.0, 0.1))
 SPEED = 0.45

@@ -8,8 +8,8 @@ from floors import ground, tilted
 from pytest import approx
 from rooms import crooked, room
 
-from rumba_cleaning.planning.rings import outlines
-from rumba_cleaning.planning.turned_floor import TurnedFloor, main_direction
+from rumba_cleaning.planning.decompose.turned_floor import TurnedFloor, main_direction
+from rumba_cleaning.planning.swaths.rings import outlines
 
 FINE = pytest.mark.parametrize('resolution', [0.02, 0.05])
 

@@ -6,7 +6,7 @@ from floors import along, ground, length
 from pytest import approx
 from rooms import distances, room
 
-from rumba_cleaning.planning.walls import LEAD, LONGEST, Walls
+from rumba_cleaning.planning.swaths.walls import LEAD, LONGEST, Walls
 
 PLAN = room(4.0, 3.0, 0.02)
 FLOOR = ground(PLAN)

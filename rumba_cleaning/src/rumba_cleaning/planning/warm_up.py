@@ -6,8 +6,8 @@ from rumba_cleaning.behaviours.follower import Follower, turn_rate
 from rumba_cleaning.belief import paths
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.cleaning_config import CleaningConfig
-from rumba_cleaning.planning.paper import drive
 from rumba_cleaning.planning.planner import plan
+from rumba_cleaning.planning.simulate.paper import drive
 from rumba_sim.model.floor_plan import FREE, OCCUPIED, FloorPlan
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.robot_config import RobotConfig

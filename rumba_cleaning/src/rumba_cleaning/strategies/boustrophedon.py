@@ -231,7 +231,7 @@ def plan(context: Context, pose: Pose, end: Optional[Pose] = None) -> Optional[R
 
 def _round(context: Context, pose: Pose, is_worth: bool, may_retry: bool) -> Planned:
     """A route that cleans what was missed; if there is none, one without the obstacles that may have gone."""
-    from rumba_cleaning.planning import helping, sharing  # here for the same reason
+    from rumba_cleaning.planning.team import helping, sharing  # here for the same reason
     context.ground.keep_off(context.config.margin)
     missing = context.target_coverage - context.beside_marks(pose).coverage
     is_met = missing <= (HELPED if context.ground.has_doubtful and may_retry else 0.0)  # a retry sweeps the rest too

@@ -1,0 +1,1 @@
+"""Finds in which order to drive stretches, and the ways between them."""

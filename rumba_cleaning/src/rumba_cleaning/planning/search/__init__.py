@@ -1,0 +1,1 @@
+"""Changes a route so that it meets the target in less time."""

@@ -1,0 +1,94 @@
+"""A rehearsal of a route: how the robot would drive along it, what it would sweep, and what edits would change.
+
+A drive on paper goes exactly along the route. A robot cuts corners and swings out of them: what it leaves there is half
+of all that a plan leaves, and rehearsals foresee it to about 0.1 % of the floor.
+"""
+
+from functools import cached_property
+from typing import List, Sequence
+
+import numpy as np
+
+from rumba_cleaning.behaviours.follower import drive_of
+from rumba_cleaning.behaviours.guard import SWIFT_SPEED
+from rumba_cleaning.belief.context import Context
+from rumba_cleaning.planning.simulate import compiled_changes, compiled_passes, compiled_rehearsal
+from rumba_cleaning.planning.simulate.compiled_passes import Passes
+from rumba_cleaning.planning.simulate.compiled_rehearsal import ALONG, COLUMNS, DT, LEFT, RIGHT, Walls
+from rumba_cleaning.planning.simulate.edit import Edit
+from rumba_cleaning.route import Route, lengths_along
+from rumba_sim.model.geometry import Pose
+from rumba_sim.model.jit import plain
+from rumba_sim.model.kernel import Array
+
+NO_PATH = np.zeros((0, 2))  # as that of an edit
+
+
+class Rehearsal:
+    """A drive along a route from a pose, on a floor without obstacles that the ground does not show.
+
+    The wheels are no faster than the guard lets them be in bends over floor that the robot has not seen. What was swept
+    before must stay as it is in the context as long as the rehearsal is asked.
+
+    Attributes:
+        route: what is followed.
+        drive: limits of the wheels.
+        swept: the floor afterwards.
+        is_complete: whether the robot would get to the end.
+        seconds: that it takes.
+        turned: by how much the robot turns, to and fro [rad].
+        reached: when each waypoint is reached: float64 (waypoints) [s].
+    """
+
+    def __init__(self, context: Context, pose: Pose, route: Route) -> None:
+        """Drive along the route."""
+        ground = context.ground
+        self.route = route
+        self._speed = context.config.speed
+        drive = drive_of(context.robot.drive)
+        self.drive = drive._replace(max_speed=min(drive.max_speed, SWIFT_SPEED))
+        self._walls = Walls(ground.plan.clearance, ground.plan.origin, ground.plan.resolution, ground.reach)
+        begin = np.zeros(COLUMNS)
+        begin[:3] = pose
+        self.is_complete, self._trace = compiled_rehearsal.rehearse(
+            route.waypoints, route.speeds, plain(self.drive), plain(self._walls), begin, True, np.inf)
+        self._trace[:, ALONG] = np.maximum.accumulate(self._trace[:, ALONG])
+        self._before, self.swept = context.swept, context.swept.copy()
+        brush = self.swept.brush
+        compiled_passes.sweep_trace(brush, brush.samples, self._trace, self._speed)
+        self._square = self.swept.reachable_area / max(self.swept.reachable, 1)  # [m^2] of a sample
+        self.turned = float(np.abs(self._trace[:, RIGHT] - self._trace[:, LEFT]).sum()) * DT / drive.wheel_base
+        self.seconds = (len(self._trace) - 1) * DT
+        self._rows = np.minimum(np.searchsorted(self._trace[:, ALONG], lengths_along(route.waypoints)),
+                                len(self._trace) - 1)
+        self.reached = self._rows * DT
+
+    @property
+    def alone(self) -> Array:
+        """What is swept until each waypoint is reached, and at no other time: float64 (waypoints) [m^2]."""
+        return np.asarray(compiled_passes.alone(plain(self._passes), len(self._trace))[self._rows] * self._square)
+
+    @property
+    def begun(self) -> Route:
+        """The route up to the last waypoint that is reached; all of it if the robot would not get to the second."""
+        count = int((self._rows < len(self._trace) - 1).sum())
+        if self.is_complete or count < 2:
+            return self.route
+        return Route(self.route.waypoints[:count], self.route.speeds[:count - 1])
+
+    @cached_property
+    def _passes(self) -> Passes:
+        """When each sample is passed."""
+        return compiled_passes.passed(self._before.brush, self._trace, self._speed)
+
+    def judged(self, edits: Sequence[Edit]) -> List[Edit]:
+        """Edits with what each costs and brings, if it were the only one; without those that lead astray."""
+        if not edits:
+            return []
+        seconds, samples = compiled_changes.changes(
+            *self.route, plain(self.drive), plain(self._walls), self._speed, self._trace, self.swept.brush,
+            plain(self._passes), np.array([edit[:2] for edit in edits]),
+            np.concatenate([NO_PATH, *(edit.path for edit in edits)]),
+            np.cumsum([0, *(len(edit.path) for edit in edits)]))
+        return [edit._replace(seconds=time, area=count * self._square)
+                for edit, time, count in zip(edits, seconds.tolist(), samples.tolist()) if np.isfinite(time)]

@@ -1,0 +1,219 @@
+"""Rings: paths along the walls, and parallel to them farther inside: contours of the clearance, a pass apart.
+
+Machining knows them as contour-parallel paths (M. Held, On the Computational Geometry of Pocket Machining, 1991).
+A robot follows them at full speed, whatever the direction of the walls, and the outermost ones sweep along the walls.
+"""
+
+import math
+from typing import Dict, Iterator, List, NamedTuple
+
+import numpy as np
+from scipy import ndimage, spatial
+
+from rumba_cleaning.belief.ground import Ground
+from rumba_cleaning.belief.swept import Swept
+from rumba_cleaning.planning.common import gaussian
+from rumba_cleaning.planning.common.contours import contours
+from rumba_cleaning.planning.common.polyline import SPACING, resampled
+from rumba_cleaning.planning.common.stretches import Stretch, Variant, pair
+from rumba_cleaning.planning.decompose.regions import Shapes
+from rumba_cleaning.planning.simulate.paper import drive
+from rumba_cleaning.planning.swaths import compiled_rings
+from rumba_sim.model.jit import plain
+from rumba_sim.model.kernel import Array
+
+# All figures are our choice; each comment says what speaks for a larger and for a smaller value.
+WALL_MARGIN = 0.0003  # [m] between robot and wall: small sweeps more of the rim, large touches the wall less often
+# Of the brush's width from ring to ring: small leaves less where corners are cut, large drives less.
+PASS, OPEN_PASS = 0.93, 0.995  # usually, and in open regions, where few rings have corners
+SMOOTH = 0.02  # [m] standard deviation of the filter along a ring: takes out the steps of the grid, and cuts corners
+# The corners of a ring reach farther out by what such a filter [m] would cut off, as a robot does that goes round them.
+BLUR = 0.06
+SHORTEST = 0.25  # [m] of a ring, and of its parts; a shorter one is left to the crumbs
+GAP = 0.3  # [m] of a ring that are not needed, but are driven: large saves turns, small saves distance
+WHOLE = 0.85  # share of a ring's waypoints that are needed, for all of it to be driven: saves turns, as GAP does
+# [m] from a ring to the next one in its chain, anywhere, at most: large makes fewer stretches, but beyond two radii of
+# the robot there may be a wall in between.
+BESIDE = 0.32
+LOOK = 5  # waypoints from one to the next at which that is looked at
+FORWARD = 0.3  # [m] along the next ring at which it is entered: large bends gently, small drives less twice
+ROTATIONS = 12  # points at which a ring is entered, at most: more give shorter tours, and take more time to compare
+APART = 0.3  # [m] between those points, at least
+
+
+class Ring(NamedTuple):
+    """A closed path, or a part of one."""
+
+    waypoints: Array  # float64 (any, 2) [m], SPACING apart; a closed one ends where it begins
+    region: int  # in which it lies
+    level: int  # 0 beside the walls, 1 next to that, ...
+    is_closed: bool
+
+
+def rings(ground: Ground, swept: Swept, labels: Array, shape: Shapes, brush: float, ring_pass: float) -> List[Ring]:
+    """Rings on which something was missed, from the walls inward; only along the walls, where lanes suit a region.
+
+    Args:
+        ground: where the robot can stand.
+        swept: what was swept; the rings are driven on it, on paper.
+        labels: the region of each node, int (rows + 1, columns + 1).
+        shape: of the regions.
+        brush: width of the brush [m].
+        ring_pass: from ring to ring in regions that are not open, as a share of that.
+    """
+    found: List[Ring] = []
+    depth = _depth(ground)
+    passes = _passes(depth, labels, shape.is_open, brush, ring_pass)
+    floor = compiled_rings.Floor(swept.brush.samples, ground.plan.sample_squares, depth, ground.plan.origin,
+                                 ground.plan.resolution)
+    level = 0
+    while True:
+        lines = contours(passes, level)
+        if not lines:
+            return found
+        pieces = [_shaped(piece, shape.is_open[piece.region]) for line in lines
+                  for piece in _by_region(line, ground, labels, level)]
+        needed = [ring for piece in sorted(pieces, key=lambda ring: -len(ring.waypoints))
+                  for ring in _needed(piece, floor, brush)]
+        for ring in needed:
+            drive(swept, ring.waypoints)
+        found += needed
+        if level == 0:
+            passes = np.where(shape.has_lanes[labels], -1.0, passes)
+        level += 1
+
+
+def outlines(ground: Ground) -> List[Array]:
+    """The paths beside the walls, whole: float64 (any, 2) [m] each; closed ones end where they begin."""
+    return [resampled(ground.points(line), SPACING) for line in contours(_depth(ground) - WALL_MARGIN, 0.0)]
+
+
+def _depth(ground: Ground) -> Array:
+    """How much farther each node is from the obstacles than the robot needs [m]; negative where it cannot stand."""
+    near = ndimage.binary_dilation(ground.fits, np.ones((3, 3)), iterations=2)
+    return np.where(near, ground.clearance - ground.reach, -ground.reach)
+
+
+def _passes(depth: Array, labels: Array, is_open: Array, brush: float, ring_pass: float) -> Array:
+    """Of which level the ring through each node is, with fractions: 0 beside the walls."""
+    return np.asarray((depth - WALL_MARGIN) / (np.where(is_open, OPEN_PASS, ring_pass) * brush)[labels])
+
+
+def _shaped(ring: Ring, is_open: bool) -> Ring:
+    """A ring with round corners in an open region; elsewhere with sharp ones, except along the walls."""
+    if not ring.is_closed or not (is_open or ring.level):
+        return ring
+    path = ring.waypoints[:-1]
+    smooth = ndimage.correlate1d(path, gaussian.weights((SMOOTH if is_open else BLUR) / SPACING), axis=0, mode='wrap')
+    path = smooth if is_open else 2.0 * path - smooth
+    return ring._replace(waypoints=np.concatenate([path, path[:1]]))
+
+
+def _by_region(contour: Array, ground: Ground, labels: Array, level: int) -> Iterator[Ring]:
+    """The parts of a contour (any, 2) [nodes], region by region."""
+    is_closed = bool(np.allclose(contour[0], contour[-1]))
+    path = resampled(ground.points(contour), SPACING)
+    if len(path) * SPACING < SHORTEST:
+        return
+    nodes = ground.standing(ground.nodes(path))
+    of_path = labels[nodes[:, 0], nodes[:, 1]]
+    cuts = np.flatnonzero(np.diff(of_path)) + 1
+    if len(cuts) == 0:
+        yield Ring(path, int(of_path[0]), level, is_closed)
+        return
+    if is_closed:
+        path, of_path = rotated(path, cuts[0]), rotated(of_path, cuts[0])
+        cuts = np.flatnonzero(np.diff(of_path)) + 1
+    for part in np.split(np.arange(len(of_path)), cuts):
+        if len(part) * SPACING >= SHORTEST:
+            yield Ring(path[part], int(of_path[part[0]]), level, False)
+
+
+def rotated(ring: Array, index: int) -> Array:
+    """A ring, whose last element equals its first, that begins at another element."""
+    return np.concatenate([ring[index:-1], ring[:index + 1]])
+
+
+def _needed(ring: Ring, floor: compiled_rings.Floor, brush: float) -> Iterator[Ring]:
+    """The parts of a ring on which the brush sweeps what was missed."""
+    path = ring.waypoints
+    needed = compiled_rings.needed(plain(floor), path, brush)
+    if needed.mean() > WHOLE:
+        yield ring
+        return
+    size = int(GAP / SPACING)
+    if ring.is_closed and needed.any():
+        index = int(np.argmin(needed))
+        path, needed = rotated(path, index), rotated(needed, index)
+    needed = ndimage.binary_closing(np.pad(needed, size), np.ones(size))[size:-size] | needed
+    parts, _ = ndimage.label(needed)
+    for (part,) in ndimage.find_objects(parts):
+        if (part.stop - part.start) * SPACING >= SHORTEST:
+            yield Ring(path[part], ring.region, ring.level, False)
+
+
+# --- chains ---------------------------------------------------------------------------------------------------------
+
+def chains(found: List[Ring]) -> List[List[Ring]]:
+    """Closed rings one inside the other, each list from the walls inward; every other ring is a list of its own."""
+    by_level: Dict[int, List[int]] = {}
+    for index, ring in enumerate(found):
+        if ring.is_closed:
+            by_level.setdefault(ring.level, []).append(index)
+    following: Dict[int, int] = {}
+    for level, here in by_level.items():
+        if level + 1 in by_level:
+            following.update(_followers(found, here, by_level[level + 1]))
+    inner = set(following.values())
+    lists = []
+    for index in range(len(found)):
+        if index not in inner:
+            chain = [index]
+            while chain[-1] in following:
+                chain.append(following[chain[-1]])
+            lists.append([found[number] for number in chain])
+    return lists
+
+
+def _followers(found: List[Ring], outer: List[int], inner: List[int]) -> Dict[int, int]:
+    """The ring of `inner` that lies beside each of `outer` all the way around; many have none, none has two."""
+    trees = {index: spatial.cKDTree(found[index].waypoints) for index in inner}
+    of_inner = np.repeat(inner, [len(found[index].waypoints) for index in inner])
+    tree = spatial.cKDTree(np.concatenate([found[index].waypoints for index in inner]))
+    followers: Dict[int, int] = {}
+    for index in outer:
+        points = found[index].waypoints[::LOOK]
+        near = np.unique(of_inner[tree.query_ball_point(points[0], BESIDE)]).tolist()
+        beside = [number for number in near if found[number].region == found[index].region
+                  and number not in followers.values() and trees[number].query(points)[0].max() < BESIDE]
+        if beside:
+            followers[index] = beside[0]
+    return followers
+
+
+def stretch(chain: List[Ring], brush: float) -> Stretch:
+    """The paths along a chain: in both directions, from outside and from inside, from several points."""
+    area = brush * SPACING * sum(len(ring.waypoints) for ring in chain)
+    if not chain[0].is_closed:
+        return Stretch(pair([chain[0].waypoints]), chain[0].region, area, False)
+    first = chain[0].waypoints
+    step = max(int(APART / SPACING), math.ceil((len(first) - 1) / ROTATIONS))
+    found: List[Variant] = []
+    for is_turned in (False, True)[:len(chain)]:
+        paths = [ring.waypoints[::-1] if is_turned else ring.waypoints for ring in chain]
+        twice = [np.concatenate([path[:-1], path]) for path in paths]
+        for index in range(0, len(first) - 1, step):
+            found += pair(_spiral(twice, index))
+    return Stretch(found, chain[0].region, area, False)
+
+
+def _spiral(twice: List[Array], index: int) -> List[Array]:
+    """The path along rings, the first of which is entered at a waypoint; each is given twice round, and not copied."""
+    parts: List[Array] = []
+    for path in twice:
+        size = len(path) // 2
+        if parts:
+            index = int(np.argmin(np.hypot(*(path[:size] - parts[-1][-1]).T)))
+            index = (index + int(FORWARD / SPACING)) % size
+        parts.append(path[index:index + size + 1])
+    return parts

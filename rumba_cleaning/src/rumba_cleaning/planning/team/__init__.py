@@ -1,0 +1,1 @@
+"""What robots that clean a floor together leave to each other."""
