@@ -69,7 +69,8 @@ def test_a_robot_that_comes_back_to_floor_that_the_map_shows_is_found():
     search = Relocation(mapper.grid, mapper.noise)
     found, _ = looked_for(other, mapper, Pose(1.0, 1.5, 0.0), [(5.0, 2.5), (5.0, 5.5)], search)
     assert found is None
-    found, true = looked_for(world, mapper, Pose(1.0, 2.5, 2.0), [(2.2, 2.4), (1.0, 2.5), (2.2, 2.4), (1.0, 2.5)], search)
+    corners = [(2.2, 2.4), (1.0, 2.5), (2.2, 2.4), (1.0, 2.5)]
+    found, true = looked_for(world, mapper, Pose(1.0, 2.5, 2.0), corners, search)
     assert max(error(found.pose, true)) < 0.05
 
 

@@ -27,7 +27,8 @@ from rumba_sim.ros.common.requests import Requests
 PERIOD = 0.1  # [s] of the wall clock between two looks whether ROS shuts down
 QUEUE = 100  # messages that may wait to be read
 COMPLAINT_PERIOD = 10.0  # [s]
-SKEWED, LONGEST = 0.05, 1.0  # [rad] turned while a scan was taken, from which on walls are bent; [s] a scan takes at most
+SKEWED = 0.05  # [rad] that a robot turns while a scan is taken, from which on walls are bent ...
+LONGEST = 1.0  # [s] ... that a scan takes at most
 SILENT_WALL = 0.2  # [s] of the wall clock, too, for which a silent laser tells nothing: scans may wait in a queue
 
 
@@ -143,8 +144,8 @@ class ScanLoop(abc.ABC):
         before = self._odometries.at(rospy.Time.from_sec(now - duration))
         turn = 0.0 if before is None else abs(wrap_angle(odometry.theta - before.theta))
         if turn > SKEWED:
-            rospy.logwarn_once(f'{self._name}/scan: the robot turns by {turn:.2f} rad in the {duration:.2f} s that a scan '
-                               'takes, which bends walls: turn slower, or correct the scans before')
+            rospy.logwarn_once(f'{self._name}/scan: the robot turns by {turn:.2f} rad in the {duration:.2f} s that a '
+                               'scan takes, which bends walls: turn slower, or correct the scans before')
 
     def _complain(self) -> None:
         """Say what is missing, if no scan could be used for some time since the node began."""
