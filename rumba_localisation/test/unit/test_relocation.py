@@ -22,9 +22,9 @@ def map_of(plan, start, corners, seed=1):
     return world, mapper
 
 
-def looked_for(world, mapper, there, corners):
-    """Carry the robot away, and have it drive while it is looked for; what is found, and after how many scans."""
-    search, robot = Relocation(mapper.grid, mapper.noise), world.robots['rumba']
+def looked_for(world, mapper, there, corners, search=None):
+    """Carry the robot away, and have it drive while it is looked for; what is found, and where the robot then is."""
+    search, robot = search or Relocation(mapper.grid, mapper.noise), world.robots['rumba']
     world.teleport('rumba', there)
     scans = []
 
@@ -61,6 +61,17 @@ def test_nothing_is_found_where_the_map_has_nothing():
     other = world_of(room(9.0, 7.0, 0.05, [(3.0, 3.0, 4.0, 3.5), (6.0, 1.0, 6.5, 2.0)]), Pose(1.0, 1.0, 0.0))
     found, _ = looked_for(other, mapper, Pose(1.0, 1.5, 0.0), [(5.0, 2.5), (5.0, 5.5), (1.0, 5.5)])
     assert found is None and world is not other
+
+
+def test_a_robot_that_comes_back_to_floor_that_the_map_shows_is_found():
+    world, mapper = map_of(crooked(0.02), Pose(0.6, 1.2, 0.0), [(2.0, 1.3), (2.2, 2.6), (1.0, 2.6), (0.6, 1.2)])
+    other = world_of(room(9.0, 7.0, 0.05, [(3.0, 3.0, 4.0, 3.5), (6.0, 1.0, 6.5, 2.0)]), Pose(1.0, 1.0, 0.0))
+    search = Relocation(mapper.grid, mapper.noise)
+    found, _ = looked_for(other, mapper, Pose(1.0, 1.5, 0.0), [(5.0, 2.5), (5.0, 5.5)], search)
+    assert found is None
+    corners = [(2.2, 2.4), (1.0, 2.5), (2.2, 2.4), (1.0, 2.5)]
+    found, true = looked_for(world, mapper, Pose(1.0, 2.5, 2.0), corners, search)
+    assert max(error(found.pose, true)) < 0.05
 
 
 def test_on_a_map_too_small_for_a_place_to_be_tried_nothing_is_found():

@@ -5,8 +5,10 @@ import types
 import numpy as np
 import pytest
 import rospy
+from nav_msgs.msg import Odometry
 from rooms import quiet
 from scans import error
+from sensor_msgs.msg import LaserScan
 from test_loop_closure import START, drive_around
 
 from rumba_localisation.ros import mapper as node
@@ -14,7 +16,7 @@ from rumba_localisation.ros import scan_loop
 from rumba_msg.msg import DockStatus
 from rumba_sim.model.floor_plan import OCCUPIED
 from rumba_sim.model.geometry import Pose, compose
-from rumba_sim.ros.common.conversions import heading, plane_pose
+from rumba_sim.ros.common.conversions import heading, plane_pose, quaternion
 from rumba_sim.ros.common.maps import floor_plan
 
 ALONG = 24.8  # [m] x from which on the robot is at the far end of the corridor that shows nothing
@@ -81,3 +83,20 @@ def test_a_loop_that_closes_corrects_map_dock_and_frame_at_once(monkeypatch):
     plan = floor_plan(after['/map'])
     wall = max(np.nonzero(plan.occupancy == OCCUPIED)[1]) * plan.resolution + plan.origin[0]
     assert abs(wall - 26.0) < 0.5 * old + 0.05
+
+
+@pytest.mark.parametrize('turn, duration, is_named', [(0.2, 0.2, True), (0.02, 0.2, False), (0.2, 0.0, False),
+                                                      (0.2, float('nan'), False), (0.2, 1e300, False)])
+def test_a_scan_that_takes_time_while_the_robot_turns_is_named(monkeypatch, turn, duration, is_named):
+    heard, warnings = Node(monkeypatch), []
+    monkeypatch.setattr(scan_loop.rospy, 'logwarn_once', warnings.append)
+    for time, theta in (0.9, 0.0), (1.0, 0.0), (1.2, turn):
+        odometry = Odometry()
+        odometry.header.stamp = rospy.Time.from_sec(time)
+        odometry.pose.pose.orientation = quaternion(theta)
+        heard.node._take_odom(odometry)
+    scan = LaserScan(angle_min=-3.0, angle_max=3.0, angle_increment=0.06, time_increment=duration / 100.0,
+                     range_min=0.1, range_max=5.0, ranges=[2.0] * 100)
+    scan.header.stamp = rospy.Time.from_sec(1.2)
+    heard.node._take_scan(scan)
+    assert [f'{turn:.2f} rad in the {duration:.2f} s' in warning for warning in warnings] == [True] * is_named

@@ -42,17 +42,25 @@ class Place(NamedTuple):
 
 
 class Relocation:
-    """Tries places with one scan after the other, follows the best, and tells which fits far better than all others."""
+    """Tries places with one scan after the other, follows the best, and tells which fits far better than all others.
+
+    If none of them fits after some way, it tries all again: the map may be wrong where they were tried first.
+    """
 
     def __init__(self, grid: Grid, noise: Noise) -> None:
         """Look on a map."""
         self._grid, self._noise = grid, noise
         step = max(round(SPACING / grid.resolution), 1)
         free = np.argwhere(grid.odds[step // 2::step, step // 2::step] < 0.0)[:, ::-1] * step + step // 2 + 0.5
-        self._untried = free * grid.resolution + np.array(grid.origin)
+        self._free = free * grid.resolution + np.array(grid.origin)
+        self._begin()
+        self._last: Optional[Pose] = None
+
+    def _begin(self) -> None:
+        """Try all places, from the next scan on."""
+        self._untried = self._free
         self._places: List[Place] = []
         self._way = 0.0
-        self._last: Optional[Pose] = None
 
     def observe(self, odometry: Pose, scan: Scan) -> Optional[Estimate]:
         """Use a scan; returns where the robot is, if that is clear.
@@ -95,10 +103,13 @@ class Relocation:
 
     def _clear(self) -> Optional[Estimate]:
         """The best place, if all were tried, enough was seen, and it is far better than the others."""
-        if not self._places:
+        if not self._places or len(self._untried):
             return None
         best, *others = self._places
-        if len(self._untried) or best.scans < SCANS or self._way < WAY or best.mean < FITS:
+        if best.scans < SCANS or self._way < WAY:
+            return None
+        if best.mean < FITS:
+            self._begin()
             return None
         if others and others[0].mean > best.mean - MARGIN:
             return None

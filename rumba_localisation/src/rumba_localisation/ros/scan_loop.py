@@ -14,7 +14,7 @@ from rumba_localisation.ros.odometries import Odometries
 from rumba_localisation.scan import FARTHEST as FARTHEST_ECHO
 from rumba_localisation.scan import SILENT, Reading, Scan, fault, told
 from rumba_msg.msg import Lockstep
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.geometry import Pose, wrap_angle
 from rumba_sim.model.own_robot import OwnRobot
 from rumba_sim.ros.common.conversions import plane_pose, transform
 from rumba_sim.ros.common.frames import MAP
@@ -27,6 +27,8 @@ from rumba_sim.ros.common.requests import Requests
 PERIOD = 0.1  # [s] of the wall clock between two looks whether ROS shuts down
 QUEUE = 100  # messages that may wait to be read
 COMPLAINT_PERIOD = 10.0  # [s]
+SKEWED = 0.05  # [rad] that a robot turns while a scan is taken, from which on walls are bent ...
+LONGEST = 1.0  # [s] ... that a scan takes at most
 SILENT_WALL = 0.2  # [s] of the wall clock, too, for which a silent laser tells nothing: scans may wait in a queue
 
 
@@ -130,8 +132,20 @@ class ScanLoop(abc.ABC):
         elif odometry is not None:
             self._range_max = min(scan.range_max, FARTHEST_ECHO)
             self._use(seen, odometry, stamp)
+            self._name_skew(scan, odometry)
         self._scanned, self._begun = stamp, time.monotonic()
         self._answer()
+
+    def _name_skew(self, scan: LaserScan, odometry: Pose) -> None:
+        """Say once that walls are bent, if a robot turned as much as it did just now while a scan was taken."""
+        duration, now = abs(scan.time_increment) * len(scan.ranges), scan.header.stamp.to_sec()
+        if not 0.0 < duration <= min(LONGEST, now):
+            return
+        before = self._odometries.at(rospy.Time.from_sec(now - duration))
+        turn = 0.0 if before is None else abs(wrap_angle(odometry.theta - before.theta))
+        if turn > SKEWED:
+            rospy.logwarn_once(f'{self._name}/scan: the robot turns by {turn:.2f} rad in the {duration:.2f} s that a '
+                               'scan takes, which bends walls: turn slower, or correct the scans before')
 
     def _complain(self) -> None:
         """Say what is missing, if no scan could be used for some time since the node began."""
