@@ -178,7 +178,7 @@ def test_what_the_window_waits_for_is_shown_until_it_is_there():
     empty = opened.window.floor.grab().toImage()
     assert count(empty, LIGHT.text, tolerance=40) > 100
     opened.show(snapshot(robot()))
-    assert count(opened.window.floor.grab().toImage(), LIGHT.swept) > 10_000
+    assert count(opened.window.floor.grab().toImage(), LIGHT.floor.swept) > 10_000
 
 
 # --- pictures ------------------------------------------------------------------------------------------------------
