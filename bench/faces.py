@@ -204,7 +204,19 @@ def recorded(path):
 
 
 def missions(album):
-    """Two missions, and pictures of each of their states."""
+    """Pictures of two missions in each of their states, and of their reports."""
+    with tempfile.TemporaryDirectory() as bags:
+        lines = missions_recorded(album, pathlib.Path(bags))
+        for name, shown in lines:
+            album.text(name, shown)
+        for name in ('done', 'stuck'):
+            subprocess.run(['rosrun', 'rumba_evaluation', 'mission_report', f'{bags}/{name}.bag'], check=True)
+            album.driver.get(f'file://{bags}/{name}.html')
+            album.page(f'report_{name}')
+
+
+def missions_recorded(album, bags):
+    """Record two missions in a folder, and take pictures meanwhile; returns what the terminals showed."""
     with contextlib.ExitStack() as stack:
         stack.enter_context(ros_session.simulator(**SIMULATOR))
         stack.enter_context(ros_session.process(['rosrun', 'rumba_cleaning', 'cleaner']))
@@ -212,20 +224,14 @@ def missions(album):
         faces = Faces(album, stack)
         cleaner = actionlib.SimpleActionClient('/rumba/clean', CleanAction)
         cleaner.wait_for_server()
-        bags, lines = pathlib.Path(stack.enter_context(tempfile.TemporaryDirectory())), []
         with recorded(bags / 'done.bag'):
-            lines += first_mission(faces, cleaner)
+            lines = first_mission(faces, cleaner)
         with recorded(bags / 'stuck.bag'):
             lines += second_mission(faces, cleaner)
         faces.server.close()
         faces.wait_for('state', lambda text: text == 'Not connected')
         album.page('page_disconnected')
-    for name, shown in lines:
-        album.text(name, shown)
-    for name in ('done', 'stuck'):
-        subprocess.run(['rosrun', 'rumba_evaluation', 'mission_report', str(bags / f'{name}.bag')], check=True)
-        album.driver.get((bags / f'{name}.html').as_uri())
-        album.page(f'report_{name}')
+        return lines
 
 
 def first_mission(faces, cleaner):

@@ -33,7 +33,10 @@ function onConnection(isOpen) {
   if (isOpen) {
     scene.learnRights();
     scene.look();
-  } else driving.stop();
+  } else {
+    driving.stop();
+    at('notice').textContent = '';  // what it waits for stands there
+  }
   news();
 }
 
