@@ -237,6 +237,7 @@ def missions_recorded(album, bags):
 def first_mission(faces, cleaner):
     """One that is refused before it begins, and then succeeds; returns what the terminals showed."""
     mission, floor = Latest('/rumba/mission_status', MissionStatus), Latest('/rumba/cleaning_status', CleaningStatus)
+    faces.wait_for('state', lambda text: text == 'Idle')
     faces.album.driver.execute_script('for (const name of ["x", "y"]) document.getElementById(name).value = 0;'
                                       'document.getElementById("go").requestSubmit()')
     faces.wait_for('notice', bool)
