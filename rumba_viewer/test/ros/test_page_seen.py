@@ -96,16 +96,23 @@ class SeenTest(unittest.TestCase):
 
     @unittest.skipUnless(AXE.exists(), 'axe-core is not installed: npm install axe-core, and its node_modules in NODE_PATH')
     def test_axe_core_finds_nothing(self):
-        Simulator(self, '_map:=apartment', '_robots:=2')
+        Simulator(self, '_map:=apartment')
         page = Page(self, '_token:=teacher', '_robot_tokens:=rumba:blue,rumba2:green')
         for rest in ('', '#token=teacher'):
             browser = Browser(self, page, DESK, rest)
             browser.wait_for('waiting', '^$')
             browser.driver.execute_script(AXE.read_text())
             browser.driver.execute_script('document.getElementById("more").open = true')
-            for scheme, size in itertools.product(SCHEMES, (PHONE, DESK)):
-                browser.look(size, scheme)
-                self.assertEqual(browser.driver.execute_async_script(VIOLATIONS), [], (rest, scheme, size))
+            self.check_rules(browser)
+        page.end()
+        browser.wait_for('state', '^Not connected$')
+        self.check_rules(browser)
+
+    def check_rules(self, browser):
+        """Check a page by axe-core on a phone and on a desk, light and dark."""
+        for scheme, size in itertools.product(SCHEMES, (PHONE, DESK)):
+            browser.look(size, scheme)
+            self.assertEqual(browser.driver.execute_async_script(VIOLATIONS), [], (scheme, size))
 
     def test_all_can_be_done_by_the_keyboard_alone(self):
         simulator = Simulator(self, '_map:=apartment', '_robots:=2', '_speed:=5')
