@@ -125,8 +125,8 @@ class Faces:
         stack.enter_context(self._pictures)
         self.server = stack.enter_context(contextlib.ExitStack())
         self.server.enter_context(ros_session.process(
-            ['rosrun', 'rumba_viewer', 'page', f'_port:={self._port}', *(f'_{key}:={value}' for key, value in
-                                                                        TOKENS.items())]))
+            ['rosrun', 'rumba_viewer', 'page', f'_port:={self._port}',
+             *(f'_{key}:={value}' for key, value in TOKENS.items())]))
         os.environ['QT_QPA_PLATFORM'] = 'offscreen'
         for size, scheme in itertools.product(SIZES, SCHEMES):
             stack.enter_context(ros_session.process(

@@ -32,7 +32,8 @@ const done = arguments[0], side = 12;  // [pixels] of a cell
   const layers = {width: info.width, height: info.height, carpet: of(part => part.endsWith('carpet') ? 1 : 0),
     cliff: of(part => part === 'cliff' ? 1 : 0)};
   const canvas = document.createElement('canvas');
-  canvas.style.cssText = `position: fixed; left: 0; top: 0; width: ${side * info.width + 32}px; height: ${side * high + 16}px`;
+  canvas.style.cssText = `position: fixed; left: 0; top: 0; width: ${side * info.width + 32}px;
+    height: ${side * high + 16}px`;
   document.body.append(canvas);
   const painted = (number, line, obstacles) => {
     const floor = new Floor(canvas);
@@ -41,7 +42,8 @@ const done = arguments[0], side = 12;  // [pixels] of a cell
     floor.paint({selected: {coverage: {data: of(part => swept[part] ?? -1)}, number, trail: [], plan: line, scan: null},
       frame: SAME, layers, docks: [], obstacles, robots: [], hasTrueMap: false, target: null}, 0);
     const colours = parts.map((part, at) => {
-      const data = canvas.getContext('2d').getImageData(16 + side * wide * at + 2, 18, side * wide - 4, side * high - 8).data;
+      const {data} = canvas.getContext('2d').getImageData(16 + side * wide * at + 2, 18, side * wide - 4,
+        side * high - 8);
       const counts = {};
       for (let i = 0; i < data.length; i += 4) {
         const colour = '#' + [...data.slice(i, i + 3)].map(value => value.toString(16).padStart(2, '0')).join('');
@@ -52,7 +54,8 @@ const done = arguments[0], side = 12;  // [pixels] of a cell
     return Object.fromEntries(colours);
   };
   const line = [{x: 0, y: 0.3}, {x: 0.05 * info.width, y: 0.3}];
-  const box = {type: 1, pose: {position: {x: 0.4, y: 0.1}, orientation: {w: 1, x: 0, y: 0, z: 0}}, scale: {x: 0.6, y: 0.1}};
+  const box = {type: 1, pose: {position: {x: 0.4, y: 0.1}, orientation: {w: 1, x: 0, y: 0, z: 0}},
+    scale: {x: 0.6, y: 0.1}};
   const result = {bare: painted(0, [], []), things: painted(0, [], [box]),
     lines: ROBOT_COLOURS.map((_, number) => painted(number, line, []))};
   canvas.remove();
@@ -94,7 +97,7 @@ class SeenTest(unittest.TestCase):
                     self.assertTrue(added, (scheme, part))
                     self.assertGreaterEqual(best(added, bare[part]), LEAST, (scheme, part))
 
-    @unittest.skipUnless(AXE.exists(), 'axe-core is not installed: npm install axe-core, and its node_modules in NODE_PATH')
+    @unittest.skipUnless(AXE.exists(), 'no axe-core: npm install axe-core, and its node_modules in NODE_PATH')
     def test_axe_core_finds_nothing(self):
         Simulator(self, '_map:=apartment')
         page = Page(self, '_token:=teacher', '_robot_tokens:=rumba:blue,rumba2:green')

@@ -10,7 +10,7 @@ from pytest import approx
 from windows import Opened, count, plan, robot, snapshot
 
 from rumba_sim.model.geometry import Pose
-from rumba_viewer.scene.theme import LIGHT, robot_colour
+from rumba_viewer.scene.theme import robot_colour
 
 
 def pixel(opened, x, y):

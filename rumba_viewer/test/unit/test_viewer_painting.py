@@ -6,7 +6,7 @@ import re
 
 import numpy as np
 import pytest
-from PyQt5.QtGui import QColor, QImage, QPainter
+from PyQt5.QtGui import QImage, QPainter
 from windows import BOTTOM, HEIGHT, LEFT, SCALE, WIDTH, count, near, path, pixels, plan, robot, snapshot
 
 from rumba_sim.model.floor_colours import ROBOTS, contrast
@@ -147,7 +147,8 @@ def test_obstacles_are_true_to_scale_and_turned_and_low_ones_are_lighter(view, t
     for x, y in ((0.62, 4.12), (1.65, 3.85), (1.35, 4.15)):
         assert at(image, view, x, y, theme.floor.out_of_reach), (x, y)
     image = picture(snapshot(obstacles=(low,)), view, theme)
-    assert not at(image, view, 1.65, 4.15, theme.floor.obstacle) and not at(image, view, 1.65, 4.15, theme.floor.out_of_reach)
+    for colour in (theme.floor.obstacle, theme.floor.out_of_reach):
+        assert not at(image, view, 1.65, 4.15, colour)
 
 
 def test_the_side_of_the_bumper_that_is_pressed_is_red():
@@ -328,7 +329,8 @@ def test_the_plan_of_another_map_replaces_the_old_one():
     painter_of_many = ScenePainter()
     other = plan(number=9)
     other.cells[:] = 100
-    for shown, colour in ((snapshot(), LIGHT.floor.out_of_reach), (snapshot(plan=other, coverage=None), LIGHT.floor.wall)):
+    for shown, colour in ((snapshot(), LIGHT.floor.out_of_reach),
+                          (snapshot(plan=other, coverage=None), LIGHT.floor.wall)):
         image = QImage(WIDTH, HEIGHT, QImage.Format_RGB32)
         painter = QPainter(image)
         painter_of_many.paint(painter, shown, WHOLE, LIGHT)

@@ -7,7 +7,7 @@ import html
 import io
 import math
 import re
-from typing import Any, Dict, List, NamedTuple, Sequence, Tuple
+from typing import Any, Dict, NamedTuple, Tuple
 
 import matplotlib
 import numpy as np

@@ -39,7 +39,7 @@ SCRIPT = '''
     for (const name in attributes) made.setAttribute(name, attributes[name]);
     return made;
   };
-  const brushed = make('path', {fill: 'none', stroke: 'var(--swept)', 
+  const brushed = make('path', {fill: 'none', stroke: 'var(--swept)',
     'stroke-width': track.brush, style: 'stroke-linecap:round;stroke-linejoin:round'});
   const layer = make('g', {'clip-path': whole.getAttribute('clip-path') || ''});
   layer.append(brushed);
@@ -84,7 +84,8 @@ SCRIPT = '''
     swept.forEach(image => { image.style.visibility = isEnd ? '' : 'hidden'; });
     bumps.forEach((bump, i) => { bump.style.visibility = isEnd || track.bumps[i] <= time ? '' : 'hidden'; });
     robot.setAttribute('visibility', isEnd ? 'hidden' : 'visible');
-    const from = Math.max(last - 1, 0), heading = Math.atan2(track.y[last] - track.y[from], track.x[last] - track.x[from]);
+    const from = Math.max(last - 1, 0);
+    const heading = Math.atan2(track.y[last] - track.y[from], track.x[last] - track.x[from]);
     robot.setAttribute('transform', `translate(${track.x[last] / 10} ${track.y[last] / 10}) rotate(${
       heading * 180 / Math.PI}) scale(${track.radius})`);
     cursors.forEach(line => {

@@ -4,6 +4,7 @@ Whatever lies side by side has a contrast of 3 to 1 at least, as WCAG 2.1 asks o
 four states and lines over them one colour each is not enough: what is out of reach, and cliffs, have two in stripes.
 """
 
+import math
 from typing import NamedTuple, Tuple
 
 STRIPES = 0.12  # [m] from one stripe to the next of a colour, along an axis
@@ -57,5 +58,5 @@ def contrast(one: str, other: str) -> float:
 def _luminance(colour: str) -> float:
     """Relative luminance of a colour, 0 to 1."""
     parts = [value / 255.0 for value in bytes.fromhex(colour[1:])]
-    red, green, blue = (part / 12.92 if part <= 0.04045 else ((part + 0.055) / 1.055) ** 2.4 for part in parts)
+    red, green, blue = (part / 12.92 if part <= 0.04045 else math.pow((part + 0.055) / 1.055, 2.4) for part in parts)
     return 0.2126 * red + 0.7152 * green + 0.0722 * blue
