@@ -22,7 +22,7 @@ const link = new Link(() => {
   const scheme = location.protocol === 'https:' ? 'wss' : 'ws';
   return `${scheme}://${location.host}/${token ? `?token=${encodeURIComponent(token)}` : ''}`;
 }, onConnection, onStatus);
-const scene = new Scene(link, news, line => notice(line, true));
+const scene = new Scene(link, news, notice);
 const driving = new Driving(document.querySelectorAll('#drive button'), drive);
 
 function news() {
@@ -33,7 +33,10 @@ function onConnection(isOpen) {
   if (isOpen) {
     scene.learnRights();
     scene.look();
-  } else driving.stop();
+  } else {
+    driving.stop();
+    at('notice').textContent = '';  // what it waits for stands there
+  }
   news();
 }
 
@@ -265,6 +268,7 @@ function frame(now) {
   if (isDirty || hasNewSize || scene.robots.some(robot => robot.isGliding(now))) {
     isDirty = false;
     floor.map = scene.map;
+    floor.foot = at('legend').offsetHeight;
     floor.paint(scene, now);
     at('stage').classList.toggle('has-map', Boolean(scene.map));
     at('unmapped').hidden = !scene.hasTrueMap;

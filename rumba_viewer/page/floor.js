@@ -2,13 +2,15 @@
 
 import {laidOver, onFloor} from './own_map.js';
 
-const MARGIN = 16;  // [pixels] around the map
+const MARGIN = 16;  // [CSS pixels] around the map
 const BODY = 0.175;  // [m] radius of a robot
+const BUMPER = 65 * Math.PI / 180;  // [rad] to each side of the front that the bumper covers
 const DOCK = 0.3;  // [m] width of a dock
+const LINE = 2;  // [CSS pixels] width of paths: thinner ones are nowhere as dark as their colour
 const SMALLEST = 7;  // [pixels] radius at which a robot is drawn, at least
-const STRIPE = 4;  // [cells] of the stripes of what is out of reach
+const STRIPES = 0.12;  // [m] from one stripe of a colour to the next, along an axis
 const WALL = 65;  // [%] from this probability on a cell is a wall
-const CARPET = 0.16;  // share of its tint in the colour of the floor
+const DOTS = 0.15;  // [m] from one dot of a carpet to the next
 const FAINT = 0.72;  // share of the background in the colour of what the robot's own map does not show
 export const ROBOT_COLOURS = ['#1f6fd6', '#d9580d', '#7a43c4', '#00857c', '#b3266e', '#7a6a00'];
 
@@ -19,6 +21,7 @@ export class Floor {
     this.cells = document.createElement('canvas');
     this.map = null;
     this.painted = this.known = null;
+    this.foot = 0;  // [CSS pixels] at the lower edge that the map leaves free
     this.readColours();
   }
 
@@ -39,7 +42,7 @@ export class Floor {
 
   // Where the map lies on the canvas.
   view() {
-    const {info} = this.map, ratio = window.devicePixelRatio || 1, margin = MARGIN * ratio, foot = 28 * ratio;
+    const {info} = this.map, ratio = window.devicePixelRatio || 1, margin = MARGIN * ratio, foot = this.foot * ratio;
     const width = info.width * info.resolution, height = info.height * info.resolution;
     const scale = Math.min((this.canvas.width - 2 * margin) / width, (this.canvas.height - margin - foot) / height);
     return {scale, left: (this.canvas.width - scale * width) / 2, ratio, height: scale * height,
@@ -66,24 +69,25 @@ export class Floor {
     const context = this.cells.getContext('2d'), image = context.createImageData(width, height);
     const pixels = new Uint32Array(image.data.buffer);
     const [background, toSweep, swept, ...others] =
-      ['background', 'to-sweep', 'swept', 'unknown', 'wall', 'out-of-reach', 'stripe'].map(name => packed(this.colour(name)));
+      ['background', 'to-sweep', 'swept', 'unknown', 'wall', 'out-of-reach', 'stripe', 'cliff', 'drop', 'carpet'].map(
+        name => packed(this.colour(name)));
     const colours = [...Array.from({length: 101}, (_, share) => mixed(toSweep, swept, share / 100)), ...others];
     const faint = colours.map(colour => mixed(colour, background, FAINT));
-    const tint = packed(this.colour('carpet')), cliffs = packed(this.colour('cliff'));
-    const onCarpet = colours.map(colour => mixed(colour, tint, CARPET));
     const [carpet, cliff] = layers.width === width && layers.height === height ? [layers.carpet, layers.cliff] : [];
-    const [unknown, wall, outOfReach, stripe] = [101, 102, 103, 104];
+    const [unknown, wall, outOfReach, stripe, bright, drop, dot] = [101, 102, 103, 104, 105, 106, 107];
+    const apart = Math.max(Math.round(DOTS / info.resolution), 2);
     for (let row = 0, at = 0; row < height; row++) {
       let to = (height - 1 - row) * width;
       for (let column = 0; column < width; column++, at++, to++) {
+        const isFirst = (row + column) * info.resolution % STRIPES < STRIPES / 2;
         let colour = 100;
         if (data[at] < 0) colour = unknown;
         else if (data[at] >= WALL) colour = wall;
-        else if (same && same[at] < 0) colour = (row + column) % (2 * STRIPE) < STRIPE ? outOfReach : stripe;
+        else if (cliff?.[at]) colour = isFirst ? bright : drop;
+        else if (carpet?.[at] && row % apart === 0 && column % apart === 0) colour = dot;
+        else if (same && same[at] < 0) colour = isFirst ? outOfReach : stripe;
         else if (same) colour = Math.min(same[at], 100);
-        const isFree = colour !== unknown && colour !== wall;
-        if (isFree && cliff?.[at] && (row + column) % (2 * STRIPE) < STRIPE) pixels[to] = cliffs;
-        else if (!known) pixels[to] = (isFree && carpet?.[at] ? onCarpet : colours)[colour];
+        if (!known) pixels[to] = colours[colour];
         else if (known[at] >= WALL) pixels[to] = colours[wall];
         else pixels[to] = (known[at] < 0 || colour === wall ? faint : colours)[colour];
       }
@@ -131,7 +135,12 @@ export class Floor {
     context.translate(column, row);
     context.rotate(-theta);
     context.fillStyle = this.colour('dock');
-    context.fillRect(BODY * unit, -DOCK / 2 * unit, BODY / 2 * unit, DOCK * unit);
+    context.strokeStyle = this.colour('body-edge');
+    context.lineWidth = view.ratio;
+    context.beginPath();
+    context.rect(BODY * unit, -DOCK / 2 * unit, BODY / 2 * unit, DOCK * unit);
+    context.fill();
+    context.stroke();
     context.restore();
   }
 
@@ -157,8 +166,8 @@ export class Floor {
       const {x, y} = onFloor(frame, point);
       context.lineTo(...this.toPixel(view, x, y));
     }
-    context.strokeStyle = this.colour('plan');
-    context.lineWidth = 1.4 * view.ratio;
+    context.strokeStyle = this.colour(`line-${robot.number}`);
+    context.lineWidth = LINE * view.ratio;
     context.setLineDash([3 * view.ratio, 3 * view.ratio]);
     context.stroke();
     context.setLineDash([]);
@@ -172,8 +181,8 @@ export class Floor {
       if (point.jumped) context.moveTo(x, y);
       else context.lineTo(x, y);
     }
-    context.strokeStyle = this.colour('trail');
-    context.lineWidth = 1.4 * view.ratio;
+    context.strokeStyle = this.colour(`line-${robot.number}`);
+    context.lineWidth = LINE * view.ratio;
     context.stroke();
   }
 
@@ -207,24 +216,19 @@ export class Floor {
     if (!pose) return;
     const [x, y] = this.toPixel(view, pose.x, pose.y), {context} = this;
     const radius = Math.max(BODY * view.scale, SMALLEST * view.ratio);
-    context.beginPath();
-    context.arc(x, y, radius, 0, 2 * Math.PI);
-    context.fillStyle = robot.colour;
-    context.fill();
-    context.lineWidth = 2 * view.ratio;
-    context.strokeStyle = '#ffffff';
-    context.stroke();
-    context.beginPath();
-    context.moveTo(x, y);
-    context.lineTo(x + radius * Math.cos(pose.theta), y - radius * Math.sin(pose.theta));
-    context.lineWidth = Math.max(radius * 0.22, 2);
-    context.stroke();
     if (isSelected) {
       context.beginPath();
       context.arc(x, y, radius + 4 * view.ratio, 0, 2 * Math.PI);
+      context.lineWidth = 2 * view.ratio;
       context.strokeStyle = robot.colour;
       context.stroke();
     }
+    context.save();
+    context.translate(x, y);
+    context.rotate(-pose.theta);
+    context.scale(radius, radius);
+    this.paintBody(robot, view.ratio / radius);
+    context.restore();
     context.font = `${12 * view.ratio}px system-ui, sans-serif`;
     context.textAlign = 'center';
     context.lineWidth = 3 * view.ratio;
@@ -233,6 +237,33 @@ export class Floor {
     const below = y + radius + 16 * view.ratio;
     context.strokeText(robot.label, x, below);
     context.fillText(robot.label, x, below);
+  }
+
+  // Body, bumper, brush and heading of a robot of radius 1 that faces right; `pixel` is the size of one.
+  paintBody(robot, pixel) {
+    const {context} = this;
+    context.beginPath();
+    context.arc(0, 0, 1, 0, 2 * Math.PI);
+    context.fillStyle = this.colour('body');
+    context.fill();
+    context.lineWidth = pixel;
+    context.strokeStyle = this.colour('body-edge');
+    context.stroke();
+    context.beginPath();
+    context.arc(0, 0, 0.9, -BUMPER, BUMPER);
+    context.lineWidth = 0.16;
+    context.strokeStyle = robot.colour;
+    context.stroke();
+    context.beginPath();
+    context.rect(-0.2, -0.5, 0.2, 1);
+    context.lineWidth = pixel;
+    context.strokeStyle = context.fillStyle = this.colour(robot.brushesUp === false ? 'lit' : 'body-edge');
+    if (robot.brushesUp === false) context.fill();
+    if (robot.brushesUp !== null) context.stroke();
+    context.beginPath();
+    for (const [ahead, aside] of [[0.7, 0], [0.2, 0.4], [0.2, -0.4]]) context.lineTo(ahead, aside);
+    context.fillStyle = robot.colour;
+    context.fill();
   }
 }
 

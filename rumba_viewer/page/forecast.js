@@ -2,7 +2,7 @@
 
 const IDLE = 0, STRANDED = 7, CLEANING = 2, TO_DOCK = [3, 4], CHARGING = 5;  // of rumba_msg/MissionStatus
 const TARGET = 0.99;  // share of the floor
-const ENOUGH = 20, GAP = 60;  // [s]
+const BEGINNING = 50, ENOUGH = 20, GAP = 60;  // [s]
 const REST = 0.05, SLOW = 3;
 const AIMLESS = ['wander', 'bounce', 'spiral', 'wall_follow'];
 const FULL = 0.95, LEAST = 0.12;  // charge
@@ -47,7 +47,7 @@ export class Forecast {
   // How long the mission still takes [s], with all charging; null: unknown, or there is no cleaning.
   get left() {
     const {last, cleaned, cleaningTime} = this;
-    if (AIMLESS.includes(this.strategy) || !this.isActive || !last || cleaningTime < ENOUGH || cleaned <= 0) return null;
+    if (AIMLESS.includes(this.strategy) || !this.isActive || !last || cleaningTime < BEGINNING || cleaned <= 0) return null;
     const still = Math.max(TARGET * last.reachable_area - last.cleaned_area, 0);
     const weighted = still + (SLOW - 1) * Math.min(still, REST * last.reachable_area);
     const work = weighted / cleaned * cleaningTime;

@@ -170,6 +170,11 @@ export class Robot {
   }
 }
 
+// Whether a task ended otherwise than somebody wanted.
+export function isFailure(code) {
+  return code !== SUCCEEDED && !INTERRUPTED.includes(code);
+}
+
 function seconds({secs, nsecs}) {
   return secs + nsecs * 1e-9;
 }

@@ -4,7 +4,7 @@ import {ROBOT_COLOURS} from './floor.js';
 import {NO_LAYERS, layersOf} from './layers.js';
 import {mountingsIn} from './mounting.js';
 import {SAME, frameIn} from './own_map.js';
-import {Robot} from './robot.js';
+import {Robot, isFailure} from './robot.js';
 
 const LOOK = 2000;  // [ms] between two looks for robots
 const SILENCE = 4000;  // [ms] after which a silent simulator counts as gone
@@ -12,7 +12,8 @@ export const ACTIONS = ['clean', 'dock', 'undock', 'go_to'];
 const TRUTH = '/ground_truth', TRUE_MAP = 'simulator/map';
 
 export class Scene {
-  // `onNews` is called when there is something new to show, `onResult` with the line at the end of a task.
+  // `onNews` is called when there is something new to show, `onResult` with the line at the end of a task and whether it is
+  // as somebody wanted.
   constructor(link, onNews, onResult) {
     Object.assign(this, {link, onNews, onResult, ownMap: null, trueMap: null, ownFrame: null, isTrueMapTold: false,
       mountings: {}, state: null, heard: 0, robots: [], selected: null, markers: new Map(), trouble: '',
@@ -142,7 +143,8 @@ export class Scene {
     this.robots = names.map(name => before.get(name) ?? new Robot(this.link, name, this.onNews, this.mountings));
     this.robots.forEach((robot, number) => {
       robot.label = robot.name.split('/').pop();
-      robot.colour = ROBOT_COLOURS[number % ROBOT_COLOURS.length];
+      robot.number = number % ROBOT_COLOURS.length;
+      robot.colour = ROBOT_COLOURS[robot.number];
     });
     for (const [name, robot] of before) if (!names.includes(name)) robot.close();
     if (!this.robots.includes(this.selected))
@@ -161,7 +163,8 @@ export class Scene {
       robot.showLaser(this.showsLaser);
       for (const action of ACTIONS)
         this.link.subscribe(`${robot.name}/${action}/result`, {queue_length: 5}, msg => {
-          this.onResult(`${robot.label}: ${robot.learnResult(action, msg.result.outcome)}`);
+          const {outcome} = msg.result;
+          this.onResult(`${robot.label}: ${robot.learnResult(action, outcome)}`, !isFailure(outcome.code));
         });
     }
     this.onNews();

@@ -38,3 +38,8 @@ class Outcome(enum.IntEnum):
     """An exception was raised."""
     LOST = 15
     """The robot does not know where it is."""
+
+    @property
+    def words(self) -> str:
+        """Its name for people."""
+        return self.name.lower().replace('_', ' ')

@@ -167,9 +167,9 @@ class CleanerActionsTest(unittest.TestCase):
                 (r'^time_limit is -1\.0: must be a finite number, 0 or more \[s\]$', 'dock', DockGoal(-1.0)),
                 (r'^time_limit is nan: must be ', 'undock', UndockGoal(NAN)),
                 (r'^time_limit is inf: must be ', 'clean', CleanGoal(time_limit=math.inf)),
-                (r'target at \(3\.90, 2\.50\) m is 0\.\d+ m from the nearest wall: a robot of radius 0\.174 m does ',
+                (r'^target at \(3\.90, 2\.50\) m is 0\.\d+ m from the nearest wall: a robot of radius 0\.174 m does ',
                  'go_to', go_to(3.9, 2.5)),
-                (r'target at \(-5\.00, 2\.00\) m lies outside the map', 'go_to', go_to(-5.0, 2.0)),
+                (r'^target at \(-5\.00, 2\.00\) m lies outside the map', 'go_to', go_to(-5.0, 2.0)),
                 (r'^target \(nan, 2\.0, 0\.0\): must be finite numbers$', 'go_to', go_to(NAN, 2.0, 0.0)),
                 (r'^target \(1\.0, 2\.0, inf\): must be finite numbers$', 'go_to', go_to(1.0, 2.0, math.inf))):
             self.cleaner.refuses(pattern, action, goal)

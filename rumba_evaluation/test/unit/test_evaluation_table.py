@@ -13,7 +13,7 @@ Working time to coverage in multiples of T, median and worst of the runs; T: roo
 map   strategy  robots  runs         80 %         90 %         95 %         98 %         99 %  failed  outcomes
 room  bounce         1     3   1.60  2.40   1.80  2.70   1.90  2.85   1.96  2.94   1.98     -       1  2 succeeded, \
 1 fallen
-room  bounce         2     1      -     -      -     -      -     -      -     -      -     -       1  1 incomplete
+room  bounce         2     1      -     -      -     -      -     -      -     -      -     -       1  1 timed out
 
 Least coverage, medians of the runs, and runs in which a robot was in a wall
 map   strategy  robots  least %  dirt %  distance m  turns  collisions  charges  Wh/m2  total s  in walls
@@ -25,7 +25,7 @@ FOUND = {
     CASES[0]: steady(1.0, distance=50.0, time=200.0, charges=2),
     CASES[1]: steady(2.0, distance=60.0, time=300.0, charges=3),
     CASES[2]: steady(3.0, until=98, coverage=0.985, outcome=Outcome.FALLEN, penetrated=True),
-    CASES[3]: result(energy_per_area=math.nan, outcome=Outcome.INCOMPLETE)}
+    CASES[3]: result(energy_per_area=math.nan, outcome=Outcome.TIMED_OUT)}
 
 
 def test_the_tables():

@@ -15,6 +15,7 @@ from rumba_evaluation.report.mission_record import Grid, MissionRecord, MissionS
 from rumba_evaluation.report.report_figures import figures
 from rumba_evaluation.report.report_page import page
 from rumba_evaluation.report.report_slider import track
+from rumba_sim.model.floor_colours import DARK
 
 VOID = ('meta', 'br', 'img', 'input')
 
@@ -90,21 +91,19 @@ def test_a_page_is_complete_and_needs_no_other_file(changes):
 
 def test_what_is_not_on_the_robots_own_map_is_faint(monkeypatch):
     drawn = []
-    monkeypatch.setattr(report_figures, '_show', lambda _, grid, layers: drawn.append((grid.cells.tolist(), layers)))
+    monkeypatch.setattr(report_figures, '_show', lambda _, grid, layer: drawn.append((grid.cells.tolist(), layer)))
     floor = Grid(np.array([[0, 0, 100], [0, 0, 100]], np.int8), 1.0, 0.0, 0.0)
     known = floor._replace(cells=np.array([[0, 100, 100], [-1, -1, -1]], np.int8))
     swept = floor._replace(cells=np.array([[100, 0, -1], [0, 100, -1]], np.int8))
     own = record(floor=floor, known=known, swept=swept)
     text = page(own)
-    assert drawn == [
-        ([[100, 0, -1], [-1, -1, -1]], (('missed', 170, 0), ('swept', 90, 50))),
-        ([[-1, -1, -1], [0, 100, -1]], (('missed', 51, 0), ('swept', 27, 50))),
-        (floor.cells.tolist(), (('wall', 76, 65),)), (known.cells.tolist(), (('wall', 255, 65),))]
-    assert "not on the robot's map" in check(text).text and track(own)['grids'] == 2
+    plain = [(floor.cells.tolist(), ('out_of_reach', 255, 0)), (swept.cells.tolist(), ('to_sweep', 255, 0)),
+             (swept.cells.tolist(), ('swept', 255, 50)), (floor.cells.tolist(), ('wall', 255, 65))]
+    assert drawn == [*plain, ([[-1, -1, -1], [0, 0, 0]], ('veil', 178, 0)), (known.cells.tolist(), ('wall', 255, 65))]
+    assert "not on the robot's map" in check(text).text
     drawn.clear()
     assert "not on the robot's map" not in check(page(record(floor=floor, swept=swept))).text
-    assert drawn == [(swept.cells.tolist(), (('missed', 170, 0), ('swept', 90, 50))),
-                     (floor.cells.tolist(), (('wall', 255, 65),))]
+    assert drawn == plain
 
 
 def test_all_references_have_a_target():
@@ -217,18 +216,20 @@ def test_the_path_has_a_gap_at_a_jump():
 
 def test_the_map_and_the_swept_floor_are_drawn_as_pictures():
     report = figures(record()).path
-    assert report.count('<image') == 2
-    assert figures(record(floor=None)).path.count('<image') == 1
+    layers = ['out_of_reach', 'to_sweep', 'swept', 'wall']  # each for light and for dark screens
+    assert re.findall('<image class="(.*?)"', report) == [
+        f'{scheme} {layer}' for layer in layers for scheme in ('light', 'dark')]
+    assert figures(record(floor=None)).path.count('<image') == 4
     assert figures(record(floor=None, swept=None)).path.count('<image') == 0
 
 
 def test_each_value_of_a_cell_has_its_colour():
     axes = Axes()
     report_figures._show(axes, Grid(np.array([[100, 0, -1], [64, 65, 0]], np.int8), 0.5, -1.0, 2.0),
-                         (('missed', 170, 0), ('swept', 90, 65)))
+                         ('swept', 90, 65))
     picture = axes.picture[::axes.picture.shape[0] // 2, ::axes.picture.shape[1] // 3]
-    assert picture[:, :, 3].tolist()[0][:3] == [90, 170, 0] and picture[:, :, 3].tolist()[1][:3] == [170, 90, 170]
-    assert picture[0, 0].tolist() == [0x2f, 0x9e, 0x6e, 90]
+    assert picture[:, :, 3].tolist()[0][:3] == [90, 0, 0] and picture[:, :, 3].tolist()[1][:3] == [0, 90, 0]
+    assert bytes(picture[0, 0]) == bytes.fromhex(f'{DARK.swept[1:]}5a')  # the last of both
     assert axes.origin == 'lower' and axes.extent == (-1.0, 0.5, 2.0, 3.0)
 
 
@@ -238,7 +239,7 @@ def test_a_fine_grid_is_drawn_with_larger_cells_at_the_same_position(monkeypatch
     axes = Axes()
     cells = np.full((2, 5), -1, np.int8)
     cells[1, 4] = 100
-    report_figures._show(axes, Grid(cells, 1.0, 0.0, 0.0), (('wall', 255, 65),))
+    report_figures._show(axes, Grid(cells, 1.0, 0.0, 0.0), ('wall', 255, 65))
     assert axes.picture[:, :, 3].tolist() == [[0, 255]] and axes.extent == (0.0, 6.0, 0.0, 3.0)
 
 

@@ -209,10 +209,10 @@ def test_a_huge_plan_is_not_refined_beyond_the_limit_of_cells():
 
 
 @pytest.mark.parametrize('x, y, message', [
-    (0.5, 0.13, r'^flat: dock at \(0\.50, 0\.13\) m is 0\.030 m from the nearest wall: '
+    (0.5, 0.13, r'^dock at \(0\.50, 0\.13\) m is 0\.030 m from the nearest wall: '
                 r'a robot of radius 0\.170 m does not fit$'),
-    (1.05, 0.2, r'^flat: dock at \(1\.05, 0\.20\) m is 0\.000 m from the nearest wall'),
-    (2.41, 0.2, r'^flat: dock at \(2\.41, 0\.20\) m lies outside the map \(x 0\.00 to 2\.40 m, y 0\.00 to 1\.00 m\)$'),
+    (1.05, 0.2, r'^dock at \(1\.05, 0\.20\) m is 0\.000 m from the nearest wall'),
+    (2.41, 0.2, r'^dock at \(2\.41, 0\.20\) m lies outside the map \(x 0\.00 to 2\.40 m, y 0\.00 to 1\.00 m\)$'),
     (-0.01, 0.2, r'lies outside the map'),
     (math.nan, 0.2, r'lies outside the map'),
 ])

@@ -1,10 +1,12 @@
 """What the tests of the page share: a page as a user starts it, a client of its protocol, and a browser."""
 
+import importlib.util
 import io
 import itertools
 import json
 import os
 import re
+import shutil
 import tempfile
 
 import numpy as np
@@ -15,6 +17,7 @@ from simulators import TIMEOUT, Master, Simulator, wait
 from tornado.ioloop import IOLoop
 from tornado.websocket import websocket_connect
 
+HAS_BROWSER = all(map(shutil.which, ('chromium', 'chromedriver'))) and importlib.util.find_spec('selenium')
 PHONE, DESK = (360, 740), (1280, 800)  # [pixels]
 HALF = '\ud83d'  # of a character, as JavaScript cuts texts
 ROBOT = (31, 111, 214)  # colour of the first robot
@@ -136,9 +139,15 @@ class Browser:
         self.driver = webdriver.Chrome(service=service, options=options)
         test.addCleanup(self.driver.quit)
         self.driver.set_script_timeout(TIMEOUT)
+        self.look(size)
+        self.driver.get(page.url + '/' + rest)
+
+    def look(self, size, scheme='light'):
+        """Have a screen of a size [pixels] that is light or dark."""
         self.driver.execute_cdp_cmd('Emulation.setDeviceMetricsOverride', {
             'width': size[0], 'height': size[1], 'deviceScaleFactor': 1, 'mobile': False})
-        self.driver.get(page.url + '/' + rest)
+        self.driver.execute_cdp_cmd('Emulation.setEmulatedMedia', {'features': [
+            {'name': 'prefers-color-scheme', 'value': scheme}]})
 
     def text(self, name):
         """The text of an element, by its id."""
@@ -162,7 +171,9 @@ class Browser:
         picture = np.asarray(Image.open(io.BytesIO(self.driver.get_screenshot_as_png())).convert('RGB')).astype(int)
         width, height = self.floor_size()
         rows, columns = np.nonzero(abs(picture[:height, :width] - ROBOT).max(axis=2) <= 12)
-        return (columns.mean(), rows.mean()) if len(rows) > 50 else None
+        if len(rows) <= 50:
+            return None
+        return 0.5 * (columns.min() + columns.max()), 0.5 * (rows.min() + rows.max())  # of the ring around it
 
     def robot_at_rest(self):
         """The same, if two pictures show it at the same place."""

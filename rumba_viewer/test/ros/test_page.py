@@ -15,12 +15,11 @@ import rospy
 import rostest
 from geometry_msgs.msg import PoseWithCovarianceStamped
 from nav_msgs.msg import MapMetaData, OccupancyGrid
-from pages import DESK, PHONE, Browser, Client, OwnMaster, Page
+from pages import DESK, HAS_BROWSER, PHONE, Browser, Client, OwnMaster, Page
 from simulators import TIMEOUT, Heard, Simulator, wait
 
 from rumba_msg.msg import CleanActionGoal
 
-HAS_BROWSER = all(map(shutil.which, ('chromium', 'chromedriver'))) and importlib.util.find_spec('selenium')
 TELEOP = '/rumba/teleop/cmd_vel'
 MIDDLE = 5.54  # [m] x and y of the middle of the map field
 DIRTY, UNMAPPED = (184, 134, 60), (221, 209, 190)  # floor that is to sweep, on the robot's map or not

@@ -10,7 +10,7 @@ from pytest import approx
 from windows import Opened, count, plan, robot, snapshot
 
 from rumba_sim.model.geometry import Pose
-from rumba_viewer.scene.theme import LIGHT, robot_colour
+from rumba_viewer.scene.theme import robot_colour
 
 
 def pixel(opened, x, y):
@@ -26,7 +26,7 @@ def test_a_click_shows_a_target_and_how_to_go_there_and_sends_nothing(opened):
                         opened.window.floor.notice)
     across, down = (round(coordinate) for coordinate in pixel(opened, 1.5, 2.5))
     area = across - 20, down - 20, across + 20, down + 20
-    colour = robot_colour(LIGHT, 'rumba')
+    colour = robot_colour('rumba')
     assert count(opened.window.floor.grab().toImage(), colour, *area) > count(before, colour, *area) + 60
     assert opened.actor.done == []
 

@@ -152,8 +152,9 @@ def test_what_the_robot_does_not_know_is_faint_and_its_own_walls_are_painted(the
         before, now, below = (np.array(colour.getRgb()[:3], float) for colour in (
             plain.pixelColor(*place), image.pixelColor(*place), QColor(theme.background)))
         return np.abs(now - below).max() < 0.4 * np.abs(before - below).max()
-    assert has(-0.9, 3.0, theme.wall) and has(0.2, 3.5, theme.wall), 'the walls of its map'
-    assert has(0.5, 2.4, theme.swept) and has(0.5, 3.1, theme.to_sweep) and has(0.5, 4.0, theme.out_of_reach)
+    assert has(-0.9, 3.0, theme.floor.wall) and has(0.2, 3.5, theme.floor.wall), 'the walls of its map'
+    assert has(0.5, 2.4, theme.floor.swept) and has(0.5, 3.1, theme.floor.to_sweep)
+    assert has(0.5, 4.0, theme.floor.out_of_reach)
     assert faint(-0.9, 4.5), 'a wall that its map does not show'
     assert faint(1.5, 3.1) and faint(1.5, 4.0) and faint(2.45, 4.55), 'what it has not seen'
 

@@ -9,7 +9,7 @@ from PIL import Image
 from PyQt5.QtCore import Qt
 from PyQt5.QtGui import QFontMetrics, QFontMetricsF
 from pytest import approx
-from windows import MISSING, Opened, count, robot, simulation, snapshot
+from windows import BOTTOM, LEFT, MISSING, Opened, count, robot, simulation, snapshot
 
 from rumba_sim.model.geometry import Pose
 from rumba_viewer.painting import paint_status
@@ -121,6 +121,7 @@ def test_the_list_of_speeds_shows_a_present_speed_that_it_does_not_offer():
     assert (speeds.currentText(), speeds.count()) == ('20 \u00d7', 8)
 
 
+HIGHEST = LEFT, BOTTOM + 3.0  # [m] a corner of the map
 REPORT = ('rumba: 99.0 % of the floor is swept', '42:48, 294.1 m driven')
 
 
@@ -128,6 +129,8 @@ def test_the_report_of_a_mission_is_a_card_until_it_is_dismissed():
     opened = Opened(snapshot(robot(report=REPORT)))
     shown = opened.window.floor.grab().toImage()
     assert count(shown, LIGHT.card, 60, 12, None, 120) > 20_000
+    top = opened.window.floor.view.to_pixel(*HIGHEST)[1]
+    assert count(shown, LIGHT.card, 60, math.ceil(top), None, math.ceil(top) + 60) < 100, 'it covers the map'
     opened.click(300, 40)
     assert opened.window.snapshot.target is None, 'the click went to the floor'
     hidden = opened.window.floor.grab().toImage()
@@ -178,7 +181,7 @@ def test_what_the_window_waits_for_is_shown_until_it_is_there():
     empty = opened.window.floor.grab().toImage()
     assert count(empty, LIGHT.text, tolerance=40) > 100
     opened.show(snapshot(robot()))
-    assert count(opened.window.floor.grab().toImage(), LIGHT.swept) > 10_000
+    assert count(opened.window.floor.grab().toImage(), LIGHT.floor.swept) > 10_000
 
 
 # --- pictures ------------------------------------------------------------------------------------------------------

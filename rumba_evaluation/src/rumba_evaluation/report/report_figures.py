@@ -7,7 +7,7 @@ import html
 import io
 import math
 import re
-from typing import Any, Dict, List, NamedTuple, Sequence, Tuple
+from typing import Any, Dict, NamedTuple, Tuple
 
 import matplotlib
 import numpy as np
@@ -18,20 +18,23 @@ from rumba_cleaning.mission.stages import State
 from rumba_evaluation.report.mission_events import LOW, bump_positions, contacts
 from rumba_evaluation.report.mission_record import Grid, MissionRecord, charging_spans, jumps, state_spans
 from rumba_evaluation.report.mission_summary import ideal_time
+from rumba_sim.model.floor_colours import DARK, LIGHT, STRIPES
 
 # Colours of the page by name, on a light and on a dark screen. matplotlib draws with the light ones; _inline replaces
-# them by their names, so that no two may be equal.
+# them by their names, so that no two may be equal. Cells are pictures, which the page has for both screens.
 COLOURS = {
-    'ink': ('#1f2933', '#e4e7eb'), 'faint': ('#7b8794', '#9aa5b1'), 'rule': ('#d9dee4', '#3a444f'),
-    'path': ('#1d5f9e', '#7cb8f0'), 'bump': ('#c2323c', '#ff7b82'), 'dock': ('#7a3fb0', '#c79bf2'),
-    'battery': ('#33691e', '#9ccc65'), 'charging': ('#d4a40c', '#d9b23c'),
-    # Cells are drawn as pictures, which are the same on both screens.
-    'swept': ('#2f9e6e', '#2f9e6e'), 'missed': ('#e08a1e', '#e08a1e'), 'wall': ('#6b7783', '#6b7783')}
+    'ink': ('#1f2933', '#e8ebef'), 'faint': ('#75818e', '#9aa5b1'), 'rule': ('#d9dee4', '#414853'),
+    'main': ('#1a5fb8', '#6fb0ff'), 'good': ('#237a48', '#4cc47c'), 'bad': ('#b3261e', '#ff8a80'),
+    'charging': ('#d4a40c', '#d9b23c'), 'veil': ('#eceef1', '#1b1e23'),
+    'path': (LIGHT.lines[0], DARK.lines[0]), 'mark': ('#1d232b', '#10141a'), 'bump': ('#a8201a', '#a8201b'),
+    **{name: (getattr(LIGHT, name), getattr(DARK, name)) for name in (
+        'swept', 'to_sweep', 'out_of_reach', 'stripe', 'wall', 'dock')}}
 STATE_COLOURS: Dict[int, str] = {
     State.IDLE: '#9aa5b1', State.UNDOCKING: '#cf9fdb', State.CLEANING: '#2b9c6c', State.RETURNING: '#e0762b',
     State.DOCKING: '#8e5bbf', State.CHARGING: '#e3c01f', State.GOING_TO: '#3b82c4', State.STRANDED: '#c9353f',
     State.YIELDING: '#6d4c41'}
 UNKNOWN_STATE = '#000000'
+SCHEMES = ('light', 'dark')
 STYLE = {'svg.fonttype': 'none', 'svg.hashsalt': 'report', 'image.composite_image': False, 'font.size': 8.5,
          'axes.linewidth': 0.6, 'path.simplify': True, 'path.simplify_threshold': 0.25, 'agg.path.chunksize': 10000}
 MARGINS = (36.0, 31.0, 8.0, 6.0)  # left, bottom, right, top of the axes [1/72 inch]
@@ -71,34 +74,28 @@ def _path_over_map(record: MissionRecord) -> str:
     step = MultipleLocator(_round_step(max(right - left, top - bottom)))
     axes.xaxis.set_major_locator(step)
     axes.yaxis.set_major_locator(step)
-    for part, strength in swept_parts(record):
-        _show(axes, part, (('missed', round(170 * strength), 0), ('swept', round(90 * strength), HALF)))
     if record.floor is not None:
-        _show(axes, record.floor, (('wall', 255 if record.known is None else round(255 * FAINT), OCCUPIED_PERCENT),))
+        _show(axes, record.floor, ('swept' if record.swept is None else 'out_of_reach', 255, 0))
+    if record.swept is not None:
+        _show(axes, record.swept, ('to_sweep', 255, 0))
+        _show(axes, record.swept, ('swept', 255, HALF))
+    if record.floor is not None:
+        _show(axes, record.floor, ('wall', 255, OCCUPIED_PERCENT))
     if record.known is not None:
-        _show(axes, record.known, (('wall', 255, OCCUPIED_PERCENT),))
+        _show(axes, record.known._replace(cells=np.where(record.known.cells < 0, np.int8(0), np.int8(-1))),
+              ('veil', round(255 * (1.0 - FAINT)), 0))
+        _show(axes, record.known, ('wall', 255, OCCUPIED_PERCENT))
     points = np.insert(record.path.values, jumps(record.path), math.nan, axis=0)  # NaN makes a gap in the line
-    axes.plot(*points.T, color=_colour('path'), linewidth=0.8, gid='path')
-    axes.plot(*bump_positions(record).values.reshape(-1, 2).T, 'o', color=_colour('bump'), markersize=2.6,
-              markeredgewidth=0.0, gid='bumps')
+    axes.plot(*points.T, color=_colour('path'), linewidth=1.1, gid='path')
+    axes.plot(*bump_positions(record).values.reshape(-1, 2).T, 'o', color=_colour('bump'), markersize=3.6,
+              markeredgewidth=0.5, markeredgecolor='white', gid='bumps')
     for x, y in contacts(record):
         axes.plot(x, y, 'D', color=_colour('dock'), markersize=8.0, fillstyle='none', markeredgewidth=1.3)
     for (x, y), marker, size, fill in ((record.path.values[0], '^', 6.5, 'none'),
                                        (record.path.values[-1], 's', 3.2, 'full')):
-        axes.plot(x, y, marker, color=_colour('ink'), markersize=size, fillstyle=fill, markeredgewidth=1.0)
+        axes.plot(x, y, marker, color=_colour('mark'), markersize=size, fillstyle=fill, markeredgewidth=1.0)
     return _markup(figure, 'map', f'Map of {right - left:.1f} m by {top - bottom:.1f} m with the path of '
                                   f'{record.robot}, the swept and the missed floor, start, end, dock and bumps')
-
-
-def swept_parts(record: MissionRecord) -> List[Tuple[Grid, float]]:
-    """The swept floor in parts, each with its share of the full opacity: what the robot's own map lacks is faint."""
-    swept, known = record.swept, record.known
-    if swept is None:
-        return []
-    if known is None or known.cells.shape != swept.cells.shape:
-        return [(swept, 1.0)]
-    return [(swept._replace(cells=np.where((known.cells >= 0) == is_known, swept.cells, np.int8(-1))), strength)
-            for is_known, strength in ((True, 1.0), (False, FAINT))]
 
 
 def _coverage_over_time(record: MissionRecord) -> str:
@@ -110,7 +107,7 @@ def _coverage_over_time(record: MissionRecord) -> str:
     ideal = ideal_time(record)
     if ideal is not None:
         axes.plot([0.0, ideal / unit], [0.0, 100.0], color=_colour('faint'), linewidth=0.8, linestyle=':', gid='ideal')
-    axes.plot(record.coverage.times / unit, 100.0 * record.coverage.values, color=_colour('swept'), linewidth=1.3,
+    axes.plot(record.coverage.times / unit, 100.0 * record.coverage.values, color=_colour('main'), linewidth=1.3,
               gid='coverage')
     axes.set(ylim=(-9.0 if states else 0.0, 102.0), ylabel='swept [%]')
     axes.yaxis.set_major_locator(MultipleLocator(20.0))
@@ -128,8 +125,8 @@ def _battery_over_time(record: MissionRecord) -> str:
     charging = charging_spans(record)
     for begin, end in charging:
         axes.axvspan(begin / unit, end / unit, color=_colour('charging'), alpha=0.3, linewidth=0.0)
-    axes.axhline(LOW, color=_colour('bump'), linewidth=0.8, linestyle='--')
-    axes.plot(record.charge.times / unit, record.charge.values, color=_colour('battery'), linewidth=1.3, gid='battery')
+    axes.axhline(LOW, color=_colour('bad'), linewidth=0.8, linestyle='--')
+    axes.plot(record.charge.times / unit, record.charge.values, color=_colour('good'), linewidth=1.3, gid='battery')
     axes.set(ylim=(0.0, 102.0), ylabel='battery [%]')
     axes.yaxis.set_major_locator(MultipleLocator(20.0))
     return _markup(figure, 'battery', f'Charge of the battery over time, from {record.charge.values[0]:.0f} % to '
@@ -206,20 +203,25 @@ def _round_step(length: float) -> float:
     return max(step * power for step in (1.0, 2.0, 5.0) if step * power <= length / 4.0)
 
 
-def _show(axes: Any, grid: Grid, layers: Sequence[Tuple[str, int, int]]) -> None:
-    """Draw cells: a layer is a colour, its opacity [0..255] and the least value of its cells; later layers win."""
+def _show(axes: Any, grid: Grid, layer: Tuple[str, int, int]) -> None:
+    """Draw cells for light and for dark screens: a colour, its opacity [0..255] and the least value of its cells."""
+    name, opacity, least = layer
     longest = max(grid.cells.shape)
     block, finer = -(-longest // MOST_CELLS), max(FEWEST_DOTS // longest, 1)
     rows, columns = (-(-size // block) * block for size in grid.cells.shape)
     cells = np.full((rows, columns), -1, np.int8)
     cells[:grid.cells.shape[0], :grid.cells.shape[1]] = grid.cells
-    cells = cells.reshape(rows // block, block, columns // block, block).max(axis=(1, 3))
-    picture = np.zeros(cells.shape + (4,), np.uint8)
-    for name, opacity, least in layers:
-        picture[cells >= least] = (*bytes.fromhex(_colour(name)[1:]), opacity)
-    picture = picture.repeat(finer, axis=0).repeat(finer, axis=1)
-    axes.imshow(picture, origin='lower', interpolation='none', zorder=0.6, aspect='auto', extent=(
-        grid.left, grid.left + columns * grid.resolution, grid.bottom, grid.bottom + rows * grid.resolution))
+    is_shown = cells.reshape(rows // block, block, columns // block, block).max(axis=(1, 3)) >= least
+    striped = np.add(*np.indices(is_shown.shape)) * block * grid.resolution % STRIPES < 0.5 * STRIPES
+    for scheme, label in enumerate(SCHEMES):
+        picture = np.zeros(is_shown.shape + (4,), np.uint8)
+        picture[is_shown] = (*bytes.fromhex(COLOURS[name][scheme][1:]), opacity)
+        if name == 'out_of_reach':
+            picture[is_shown & striped] = (*bytes.fromhex(COLOURS['stripe'][scheme][1:]), opacity)
+        picture = picture.repeat(finer, axis=0).repeat(finer, axis=1)
+        axes.imshow(picture, origin='lower', interpolation='none', zorder=0.6, aspect='auto', label=f'{label} {name}',
+                    extent=(grid.left, grid.left + columns * grid.resolution,
+                            grid.bottom, grid.bottom + rows * grid.resolution))
 
 
 # --- markup ---------------------------------------------------------------------------------------------------------
@@ -231,10 +233,14 @@ def _markup(figure: Figure, name: str, label: str) -> str:
     figure.savefig(buffer, format='svg')
     svg = buffer.getvalue().decode()
     if len(svg) > LARGE:
+        for image in figure.axes[0].images:
+            image.set_visible(image.get_label().startswith(SCHEMES[0]))
         buffer = io.BytesIO()
         figure.savefig(buffer, format='png', dpi=DOTS, facecolor='white')
         data = base64.b64encode(buffer.getvalue()).decode()
         return f'<img class="{name}" alt="{label}" src="data:image/png;base64,{data}">'
+    labels = iter([image.get_label() for image in figure.axes[0].images])
+    svg = re.sub('<image ', lambda _: f'<image class="{next(labels)}" ', svg)
     return _inline(svg, name, label)
 
 

@@ -99,7 +99,7 @@ def _percent(share: Optional[float]) -> str:
 
 def _outcome(record: MissionRecord, totals: Summary) -> str:
     is_stranded = bool(record.states) and record.states[-1].state == State.STRANDED
-    colour = 'bump' if is_stranded else 'swept' if totals.outcome else 'rule'
+    colour = 'bad' if is_stranded else 'good' if totals.outcome else 'rule'
     told = totals.outcome or 'How the mission ended was not recorded.'
     return f'<p class="outcome" style="border-color:var(--{colour})">{html.escape(told)}</p>'
 
@@ -134,22 +134,26 @@ def _patch(colour: str, kind: str = '', opacity: float = 1.0) -> str:
     return f'<i class="{kind}" style="background:{colour};opacity:{opacity:g}"></i>'
 
 
-def _sign(sign: str, colour: str) -> str:
-    return f'<b style="color:var(--{colour})">{sign}</b>'
+def _sign(sign: str, colour: str, kind: str = '') -> str:
+    return f'<b class="{kind}" style="color:var(--{colour})">{sign}</b>'
 
 
 def _map_legend(record: MissionRecord) -> str:
-    entries = [(_patch('var(--path)', 'line'), 'path'), (_sign('△', 'ink'), 'start'), (_sign('■', 'ink'), 'end')]
+    entries = [(_sign('—', 'path', 'floor'), 'path'), (_sign('△', 'mark', 'floor'), 'start'),
+               (_sign('■', 'mark', 'floor'), 'end')]
+    if record.swept is not None:
+        entries += [(_patch('var(--swept)', 'cell'), 'swept'), (_patch('var(--to_sweep)', 'cell'), 'missed')]
     if record.floor is not None:
-        entries.append((_patch('var(--wall)'), 'wall'))
+        if record.swept is not None:
+            entries.append((_patch('repeating-linear-gradient(135deg,var(--out_of_reach) 0 3px,var(--stripe) 3px 6px)',
+                                   'cell'), 'out of reach'))
+        entries.append((_patch('var(--wall)', 'cell'), 'wall'))
     if record.known is not None:
         entries.append((_patch('var(--wall)', opacity=FAINT), "not on the robot's map"))
-    if record.swept is not None:
-        entries += [(_patch('var(--swept)', opacity=0.4), 'swept'), (_patch('var(--missed)', opacity=0.7), 'missed')]
     if contacts(record):
-        entries.append((_sign('◇', 'dock'), 'dock'))
+        entries.append((_sign('◇', 'dock', 'floor'), 'dock'))
     if len(bump_positions(record).times):
-        entries.append((_sign('•', 'bump'), 'bump'))
+        entries.append((_sign('•', 'bump', 'floor'), 'bump'))
     return _legend(entries)
 
 
@@ -160,7 +164,7 @@ def _coverage_legend(record: MissionRecord) -> str:
     for begin, end, state in state_spans(record):
         spent[state.state] = spent.get(state.state, 0.0) + end - begin
         names[state.state] = state.name
-    entries = [(_patch('var(--swept)', 'line'), 'swept'), (_sign('╌', 'ink'), f'target {100.0 * record.target:g} %')]
+    entries = [(_patch('var(--main)', 'line'), 'swept'), (_sign('╌', 'ink'), f'target {100.0 * record.target:g} %')]
     if record.areas is not None:
         entries.append((_sign('┈', 'faint'), 'ideal: without overlap and charging'))
     return _legend(entries + [(_patch(state_colour(state)), f'{names[state]} {clock(time)}')
@@ -168,7 +172,7 @@ def _coverage_legend(record: MissionRecord) -> str:
 
 
 def _battery_legend(record: MissionRecord) -> str:
-    entries = [(_patch('var(--battery)', 'line'), 'charge'), (_patch('var(--bump)', 'line'), f'{LOW:.0f} %')]
+    entries = [(_patch('var(--good)', 'line'), 'charge'), (_patch('var(--bad)', 'line'), f'{LOW:.0f} %')]
     if charging_spans(record):
         entries.append((_patch('var(--charging)', opacity=0.4), 'charging'))
     return _legend(entries)

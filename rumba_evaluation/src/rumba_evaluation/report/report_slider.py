@@ -13,7 +13,7 @@ import numpy as np
 from rumba_cleaning.mission.stages import State
 from rumba_evaluation.report.mission_events import bump_positions
 from rumba_evaluation.report.mission_record import MissionRecord, jumps, state_spans
-from rumba_evaluation.report.report_figures import HEIGHT, MARGINS, WIDTH, map_scale, on_map, swept_parts
+from rumba_evaluation.report.report_figures import HEIGHT, MARGINS, WIDTH, map_scale, on_map
 from rumba_sim.model.robot_config import BrushConfig, DriveConfig
 
 STEP = 0.04  # [m] from one point of the path to the next
@@ -39,13 +39,15 @@ SCRIPT = '''
     for (const name in attributes) made.setAttribute(name, attributes[name]);
     return made;
   };
-  const brushed = make('path', {fill: 'none', stroke: 'var(--swept)', 'stroke-opacity': 0.45,
+  const brushed = make('path', {fill: 'none', stroke: 'var(--swept)',
     'stroke-width': track.brush, style: 'stroke-linecap:round;stroke-linejoin:round'});
   const layer = make('g', {'clip-path': whole.getAttribute('clip-path') || ''});
   layer.append(brushed);
   whole.parentNode.before(layer);
   const robot = make('g', {visibility: 'hidden'});
-  robot.append(make('circle', {r: track.radius, fill: 'var(--ink)', 'fill-opacity': 0.75}));
+  robot.append(make('circle', {r: 1, fill: 'var(--body)', stroke: '#fff', 'stroke-width': 1 / track.radius}),
+    make('path', {d: 'M.38-.82A.9.9 0 0 1 .38.82', fill: 'none', stroke: 'var(--robot)', 'stroke-width': 0.16}),
+    make('path', {d: 'M.7 0L.2-.4V.4Z', fill: 'var(--robot)'}));
   map.querySelector('g').append(robot);
   const cursors = [...document.querySelectorAll('svg.coverage, svg.battery')].map(svg => {
     const line = make('line', {y1: track.chart[1], y2: track.chart[1] + track.chart[3], stroke: 'var(--ink)'});
@@ -53,7 +55,7 @@ SCRIPT = '''
     svg.append(line);
     return line;
   });
-  const swept = [...map.querySelectorAll('image')].slice(0, track.grids);  // the walls come after it
+  const swept = [...map.querySelectorAll('image.swept')];
   const bumps = [...map.querySelectorAll('#map-bumps use')];
   const two = number => String(number).padStart(2, '0');
   const clock = s => `${Math.floor(s / 3600)}:${two(Math.floor(s / 60) % 60)}:${two(Math.floor(s % 60))}`;
@@ -82,7 +84,10 @@ SCRIPT = '''
     swept.forEach(image => { image.style.visibility = isEnd ? '' : 'hidden'; });
     bumps.forEach((bump, i) => { bump.style.visibility = isEnd || track.bumps[i] <= time ? '' : 'hidden'; });
     robot.setAttribute('visibility', isEnd ? 'hidden' : 'visible');
-    robot.setAttribute('transform', `translate(${track.x[last] / 10} ${track.y[last] / 10})`);
+    const from = Math.max(last - 1, 0);
+    const heading = Math.atan2(track.y[last] - track.y[from], track.x[last] - track.x[from]);
+    robot.setAttribute('transform', `translate(${track.x[last] / 10} ${track.y[last] / 10}) rotate(${
+      heading * 180 / Math.PI}) scale(${track.radius})`);
     cursors.forEach(line => {
       const x = track.chart[0] + track.chart[2] * time / Math.max(track.duration, 1);
       line.setAttribute('x1', x); line.setAttribute('x2', x);
@@ -145,7 +150,7 @@ def track(record: MissionRecord) -> Dict[str, Any]:
         'radius': round(scale * DriveConfig().radius, 2), 'chart': [left, top, WIDTH, HEIGHT],
         't': np.round(times, 1).tolist(), 'x': points[:, 0].tolist(), 'y': points[:, 1].tolist(),
         'breaks': np.searchsorted(kept, jumps(record.path)).tolist(),
-        'grids': len(swept_parts(record)), 'clean': _is_cleaning(record, times),
+        'clean': _is_cleaning(record, times),
         'bumps': np.round(bump_positions(record).times, 1).tolist(),
         'charge': np.rint(record.charge.at(moments)).tolist(),
         'swept': np.round(100.0 * record.coverage.at(moments), 1).tolist() if len(record.coverage.times) else [],

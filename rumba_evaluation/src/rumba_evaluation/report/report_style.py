@@ -1,5 +1,7 @@
 """The style sheet of a mission's report, and its colours beside those of the figures."""
 
+from rumba_sim.model.floor_colours import ROBOTS
+
 STYLE = '''
 *{box-sizing:border-box}
 body{margin:0 auto;padding:1rem;max-width:66rem;font:1rem/1.5 system-ui,-apple-system,"Segoe UI",sans-serif;
@@ -23,11 +25,11 @@ margin-bottom:.75rem}
 #bumps:not(:checked)~figure #map-bumps{display:none}
 #slider{display:flex;flex-wrap:wrap;align-items:center;gap:.25rem .75rem;margin:.25rem 0}
 #slider[hidden]{display:none}
-#slider input{flex:1 1 14rem;min-width:0;accent-color:var(--path)}
+#slider input{flex:1 1 14rem;min-width:0;accent-color:var(--main)}
 #slider button{font:inherit;color:inherit;background:var(--page);border:1px solid var(--faint);border-radius:.35rem;
 min-width:4.5rem;padding:.15rem .6rem;cursor:pointer}
 #slider output{flex:1 1 100%;color:var(--soft);font-size:.9rem;font-variant-numeric:tabular-nums}
-.at{font:inherit;color:var(--path);background:none;border:0;padding:.35rem 0;min-height:2rem;cursor:pointer;
+.at{font:inherit;color:var(--main);background:none;border:0;padding:.35rem 0;min-height:2rem;cursor:pointer;
 text-decoration:underline}
 section{min-width:0}
 figure{margin:0}
@@ -41,6 +43,10 @@ img{background:#fff}
 .legend b{font-weight:400}
 .legend i{display:inline-block;width:.8em;height:.8em;border-radius:.15em;margin-right:.35em}
 .legend .line{height:.2em;vertical-align:.25em;width:1.2em}
+.legend .floor{background:var(--swept);border-radius:.15em;padding:0 .25em;margin-right:.35em}
+.legend .cell{border:1px solid var(--faint)}
+image.dark{display:none}
+@media screen and (prefers-color-scheme:dark){image.dark{display:inline}image.light{display:none}}
 table{border-collapse:collapse;width:100%;font-size:.9rem}
 th,td{text-align:left;vertical-align:top;padding:.25rem .5rem .25rem 0;border-bottom:1px solid var(--rule)}
 td:first-child,th[scope=row]{white-space:nowrap}
@@ -54,4 +60,5 @@ td{overflow-wrap:anywhere}
 #slider,.path label,#bumps{display:none}.events{break-inside:auto}svg{max-height:16cm}
 *{-webkit-print-color-adjust:exact;print-color-adjust:exact}}
 '''
-PAGE = {'page': ('#f5f7fa', '#14181c'), 'card': ('#ffffff', '#1d2329'), 'soft': ('#5b6773', '#a3afbb')}
+PAGE = {'page': ('#eceef1', '#1b1e23'), 'card': ('#ffffff', '#20252c'), 'soft': ('#545e6a', '#a6afbb'),
+        'body': ('#343b45', '#343b45'), 'robot': (ROBOTS[0], ROBOTS[0])}

@@ -162,7 +162,7 @@ def _path(plan: FloorPlan, trace: Trace) -> Any:
     if plan.cliff is not None:
         axes.plot([], [], 's', color=AMBER, label='cliff')
     axes.set(title=f'{_label(case.strategy, case.robots)} on {case.map}, seed {case.seed}: '
-                   f'{100.0 * result.coverage:.1f} % swept, {result.outcome.name.lower()} after {_end(result):.2f} T',
+                   f'{100.0 * result.coverage:.1f} % swept, {result.outcome.words} after {_end(result):.2f} T',
              xlabel='x [m]', ylabel='y [m]')
     handles, labels = axes.get_legend_handles_labels()
     unique = dict(zip(labels, handles))

@@ -88,7 +88,7 @@ def text(scores: Sequence[Score]) -> str:
 def places(score: Score) -> str:
     """How a drive ended, and where it collided, nearly did, and missed floor: a line for each place."""
     measures = score.measures
-    lines = ['', f'{score.result.outcome.name.lower()}: {score.result.message}']
+    lines = ['', f'{score.result.outcome.words}: {score.result.message}']
     for what, found in (('collision', measures.collisions), ('near miss', measures.near_misses)):
         lines += [f'{what} at ({event.x:.2f}, {event.y:.2f}) m after {event.time:.1f} s: {_gap(event)}, for '
                   f'{event.duration:.1f} s' for event in found[:PLACES]]

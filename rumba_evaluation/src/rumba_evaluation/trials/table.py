@@ -79,7 +79,7 @@ def least(results: Iterable[Result]) -> str:
 def _outcomes(results: Sequence[Result]) -> str:
     """How often each outcome occurred, in the order of their codes."""
     found = [result.outcome for result in results]
-    return ', '.join(f'{found.count(outcome)} {outcome.name.lower()}' for outcome in sorted(set(found)))
+    return ', '.join(f'{found.count(outcome)} {outcome.words}' for outcome in sorted(set(found)))
 
 
 def _median_and_worst(results: Iterable[Result], percent: int) -> str:

@@ -166,7 +166,7 @@ class FloorPlan:
         Raises:
             MapError: the pose is outside the grid, or nearer than `radius` to an obstacle or a cliff.
         """
-        place = f'{self.name}: {what} at ({pose.x:.2f}, {pose.y:.2f}) m'
+        place = f'{what} at ({pose.x:.2f}, {pose.y:.2f}) m'
         if not self.contains(pose.x, pose.y):
             left, bottom, right, top = self.bounds
             raise MapError(f'{place} lies outside the map (x {left:.2f} to {right:.2f} m, '

@@ -47,7 +47,7 @@ class FreeSpace:
             self._check_plan(what, pose)
 
     def _check_plan(self, what: str, pose: Pose) -> None:
-        self._terrain.check_pose(pose, self._reach, what)
+        self._terrain.check_pose(pose, self._reach, f'{self._terrain.name}: {what}')
         # The clearance is interpolated, and smaller than the distance near a corner of an obstacle.
         is_free = self._reachable.safe_clearance_at(pose.x, pose.y) >= self._reach
         name = self._obstacles.near(pose.x, pose.y, self._reach + (0.0 if is_free else self._terrain.resolution))
@@ -66,7 +66,7 @@ class FreeSpace:
         if not all(map(math.isfinite, pose)):
             raise WorldError(f'pose ({pose.x}, {pose.y}, {pose.theta}): must be finite numbers')
         try:
-            self._terrain.check_pose(pose, self._reach, 'pose')
+            self._terrain.check_pose(pose, self._reach, f'{self._terrain.name}: pose')
         except MapError as error:
             raise WorldError(str(error)) from None
         for name, other in others.items():

@@ -45,7 +45,7 @@ def reach(plan: FloorPlan, config: RobotConfig, x: float, y: float, is_exact: bo
     Raises:
         MapError: a robot does not fit at the start.
     """
-    plan.check_pose(Pose(x, y, 0.0), config.drive.radius, 'start')
+    plan.check_pose(Pose(x, y, 0.0), config.drive.radius, f'{plan.name}: start')
     needed, half = clearance_needed(config.drive.radius, plan.resolution), 0.5 * config.brush.width
     question = needed, half
     answers = _last.setdefault(plan, {})

@@ -17,7 +17,7 @@ def paint_particles(painter: QPainter, robot: Robot, theme: Theme) -> None:
     """Paint a dot for each place where a robot may be."""
     if robot.particles is None or len(robot.particles) == 0:
         return
-    colour = QColor(robot_colour(theme, robot.name))
+    colour = QColor(robot_colour(robot.name))
     colour.setAlpha(ALPHA)
     pen = QPen(colour, DOT, Qt.SolidLine, Qt.RoundCap)
     pen.setCosmetic(True)
@@ -32,7 +32,7 @@ def paint_believed(painter: QPainter, robot: Robot, theme: Theme) -> None:
     painter.save()
     painter.translate(robot.believed.x, robot.believed.y)
     painter.rotate(math.degrees(robot.believed.theta))
-    pen = QPen(QColor(robot_colour(theme, robot.name)), 2.0, Qt.DashLine)
+    pen = QPen(QColor(robot_colour(robot.name)), 2.0, Qt.DashLine)
     pen.setCosmetic(True)
     painter.setPen(pen)
     painter.setBrush(Qt.NoBrush)

@@ -9,19 +9,17 @@ import numpy as np
 from PyQt5.QtCore import QPointF, QRectF, Qt
 from PyQt5.QtGui import QColor, QImage, QPainter, QPen, QPolygonF
 
+from rumba_sim.model.floor_colours import DOTS, STRIPES, FloorColours
 from rumba_sim.model.floor_plan import FREE, OCCUPIED, UNKNOWN
 from rumba_viewer.scene.snapshot import Array, Grid, MapFeatures, Path, Snapshot
-from rumba_viewer.scene.theme import Theme, robot_colour
+from rumba_viewer.scene.theme import Theme, line_colour
 from rumba_viewer.scene.view_transform import ViewTransform
 
 CRISP = 4.0  # [pixels] side of a cell; larger cells are drawn with sharp edges
 COARSE = 0.5  # [pixels] side of a cell; smaller cells are averaged
-PATH_WIDTH = 1.4  # [pixels]
-PATH_ALPHA = 150
-PLAN_WIDTH = 1.0  # [pixels]
-PLAN_ALPHA = 170
+PATH_WIDTH = 2.0  # [pixels]; thinner lines are nowhere as dark as their colour
+PLAN_WIDTH = 2.0  # [pixels]
 MIN_SEGMENT = 4.0  # [pixels] from one corner of a path to the next
-STRIPES = 0.12  # [m] from one stripe of a cliff to the next, along an axis
 SHADES = 101  # of a cell, from 0 to 100 % swept
 
 
@@ -48,22 +46,23 @@ class FloorPainter:
 def floor_image(plan: Grid, known: Optional[Grid], coverage: Optional[Grid], features: MapFeatures,
                 theme: Theme) -> QImage:
     """The floor with one pixel for each cell; the top row has the highest y. What is not `known` is faint."""
-    colours = np.full(plan.cells.shape, _rgb(theme.unknown), np.uint32)
+    floor = theme.floor
+    colours = np.full(plan.cells.shape, _rgb(floor.unknown), np.uint32)
     free = plan.cells == FREE
-    colours[plan.cells == OCCUPIED] = _rgb(theme.wall)
-    colours[free] = _rgb(theme.out_of_reach if coverage is not None else theme.swept)
+    colours[plan.cells == OCCUPIED] = _rgb(floor.wall)
+    colours[free] = _rgb(floor.swept)
+    if coverage is not None:
+        _stripe(colours, free, plan.resolution, floor.out_of_reach, floor.stripe)
     if coverage is not None and coverage.cells.shape == plan.cells.shape:
         is_known = free & (coverage.cells >= 0) & (coverage.cells < SHADES)
-        colours[is_known] = _shades(QColor(theme.to_sweep), QColor(theme.swept))[coverage.cells[is_known]]
+        colours[is_known] = _shades(QColor(floor.to_sweep), QColor(floor.swept))[coverage.cells[is_known]]
     if features.carpet is not None and features.carpet.shape == plan.cells.shape:
-        _tint(colours, free & features.carpet, QColor(theme.carpet))
+        _dot(colours, free & features.carpet, plan.resolution, floor)
     if features.cliff is not None and features.cliff.shape == plan.cells.shape:
-        rows, columns = np.nonzero(free & features.cliff)
-        striped = (rows + columns) * plan.resolution % STRIPES < 0.5 * STRIPES
-        colours[rows[striped], columns[striped]] = _rgb(theme.cliff)
+        _stripe(colours, free & features.cliff, plan.resolution, floor.cliff, floor.drop)
     if known is not None:
         _tint(colours, (known.cells == UNKNOWN) | (plan.cells == OCCUPIED), QColor(theme.veil))
-        colours[known.cells == OCCUPIED] = _rgb(theme.wall)
+        colours[known.cells == OCCUPIED] = _rgb(floor.wall)
     height, width = colours.shape
     pixels: Any = np.ascontiguousarray(colours[::-1]).data
     return QImage(pixels, width, height, 4 * width, QImage.Format_RGB32).copy()  # which owns its pixels
@@ -79,6 +78,21 @@ def _shades(none: QColor, full: QColor) -> Array:
 
 def _rgb(colour: str) -> int:
     return int(QColor(colour).rgb())
+
+
+def _stripe(colours: Array, cells: Array, resolution: float, one: str, other: str) -> None:
+    """Fill some cells of a size [m] with stripes of two colours."""
+    rows, columns = np.nonzero(cells)
+    is_one = (rows + columns) * resolution % STRIPES < 0.5 * STRIPES
+    colours[rows, columns] = np.where(is_one, np.uint32(_rgb(one)), np.uint32(_rgb(other)))
+
+
+def _dot(colours: Array, cells: Array, resolution: float, floor: FloorColours) -> None:
+    """Put dots of a carpet on some cells of a size [m]."""
+    apart = max(round(DOTS / resolution), 2)
+    dots = np.zeros(cells.shape, bool)
+    dots[::apart, ::apart] = True
+    colours[cells & dots] = _rgb(floor.carpet)
 
 
 def _tint(colours: Array, cells: Array, tint: QColor) -> None:
@@ -138,26 +152,22 @@ class PathPainter:
         if len(path.points) - first < 2 or self._drawn.get(name) == len(path.points):
             return
         self._drawn[name] = len(path.points)
-        colour = QColor(robot_colour(theme, name))
-        colour.setAlpha(PATH_ALPHA)
         painter = QPainter(self._picture)
         painter.setRenderHint(QPainter.Antialiasing)
         painter.setCompositionMode(QPainter.CompositionMode_Source)  # so that crossings are not darker
-        painter.setPen(QPen(colour, PATH_WIDTH, Qt.SolidLine, Qt.SquareCap, Qt.BevelJoin))
+        painter.setPen(QPen(QColor(line_colour(theme, name)), PATH_WIDTH, Qt.SolidLine, Qt.SquareCap, Qt.BevelJoin))
         for line in _lines(path.points[first:], view):
             painter.drawPolyline(QPolygonF([QPointF(x, y) for x, y in line.tolist()]))
         painter.end()
 
 
 def paint_plans(painter: QPainter, snapshot: Snapshot, view: ViewTransform, theme: Theme) -> None:
-    """Paint the planned paths of all robots, faint and dotted; the unit of the painter is the pixel."""
+    """Paint the planned paths of all robots, dashed; the unit of the painter is the pixel."""
     painter.setBrush(Qt.NoBrush)
     for robot in snapshot.robots:
         if robot.planned is None:
             continue
-        colour = QColor(robot_colour(theme, robot.name))
-        colour.setAlpha(PLAN_ALPHA)
-        painter.setPen(QPen(colour, PLAN_WIDTH, Qt.DotLine))
+        painter.setPen(QPen(QColor(line_colour(theme, robot.name)), PLAN_WIDTH, Qt.DashLine))
         for line in _lines(robot.planned, view):
             painter.drawPolyline(QPolygonF([QPointF(x, y) for x, y in line.tolist()]))
 

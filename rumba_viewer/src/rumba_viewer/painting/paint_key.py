@@ -1,15 +1,16 @@
 """Paints what the colours of the floor mean, at the lower edge."""
 
 from PyQt5.QtCore import QRectF, Qt
-from PyQt5.QtGui import QColor, QFont, QFontMetricsF, QPainter, QPen
+from PyQt5.QtGui import QBrush, QColor, QFont, QFontMetricsF, QPainter, QPen
 
 from rumba_viewer.scene.snapshot import MapFeatures
 from rumba_viewer.scene.theme import Theme
 
-STATES = ((('swept',), 'swept'), (('to_sweep',), 'still to sweep'), (('out_of_reach',), 'out of reach'),
-          (('wall',), 'wall'))  # colours over one another, and what they mean
-UNMAPPED = (('wall', 'veil'), 'not on its map')
-FEATURES = ((('swept', 'carpet'), 'carpet'), (('cliff',), 'cliff'), (('dock',), 'dock'))
+STATES = (('swept',), 'swept'), (('to_sweep',), 'still to sweep'), (('out_of_reach', 'stripe'), 'out of reach'), (
+    ('wall',), 'wall')  # a colour, a second one over it, and what they mean
+UNMAPPED = ('wall', 'veil'), 'not on its map'
+FEATURES = (('swept', 'carpet'), 'carpet'), (('cliff', 'drop'), 'cliff'), (('dock',), 'dock')
+PATTERNS = {'stripe': Qt.BDiagPattern, 'drop': Qt.BDiagPattern, 'carpet': Qt.Dense6Pattern}
 PATCH, GAP, EDGE = 11.0, 12.0, 8.0  # [pixels] side of a patch; between two entries; around them
 
 
@@ -50,7 +51,8 @@ def paint_key(painter: QPainter, left: float, width: float, height: float, theme
         for (colours, words), entry in zip(states, widths):
             painter.setPen(QPen(QColor(theme.faint_text), 1.0))
             for colour in colours:
-                painter.setBrush(QColor(getattr(theme, colour)))
+                shade = QColor(theme.veil if colour == 'veil' else getattr(theme.floor, colour))
+                painter.setBrush(QBrush(shade, PATTERNS.get(colour, Qt.SolidPattern)))
                 painter.drawRect(QRectF(x, box.center().y() - 0.5 * PATCH, PATCH, PATCH))
             painter.setPen(QColor(theme.text))
             painter.drawText(QRectF(x + PATCH + 5.0, box.top(), entry, high), Qt.AlignLeft | Qt.AlignVCenter, words)

@@ -19,7 +19,7 @@ def paint_obstacles(painter: QPainter, obstacles: Sequence[Obstacle], theme: The
     pen = QPen(QColor(theme.body_edge), EDGE)
     pen.setCosmetic(True)
     painter.setPen(pen)
-    painter.setBrush(QColor(theme.obstacle))
+    painter.setBrush(QColor(theme.floor.obstacle))
     for obstacle in obstacles:
         painter.save()
         painter.setOpacity(LOW if obstacle.is_low else 1.0)

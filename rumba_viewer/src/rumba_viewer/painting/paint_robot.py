@@ -38,7 +38,7 @@ def paint_dock(painter: QPainter, dock: Dock, radius: float, theme: Theme) -> No
     painter.save()
     _into(painter, dock.pose)
     painter.setPen(_pen(theme.body_edge, 1.0))
-    painter.setBrush(QColor(theme.dock))
+    painter.setBrush(QColor(theme.floor.dock))
     painter.drawRoundedRect(QRectF(radius - 0.6 * DOCK_DEPTH, -0.5 * DOCK_WIDTH, DOCK_DEPTH, DOCK_WIDTH), 0.02, 0.02)
     painter.restore()
 
@@ -54,7 +54,7 @@ def paint_beams(painter: QPainter, robot: Robot, theme: Theme) -> None:
 
 def paint_robot(painter: QPainter, robot: Robot, view: ViewTransform, theme: Theme, is_selected: bool) -> None:
     """Paint a robot: body, bumper, brush, heading; a red cross over one that has fallen."""
-    colour = QColor(robot_colour(theme, robot.name))
+    colour = QColor(robot_colour(robot.name))
     painter.save()
     _into(painter, robot.pose)
     radius = robot.size.radius
@@ -79,7 +79,7 @@ def paint_ghost(painter: QPainter, robot: Robot, pose: Pose, theme: Theme) -> No
     _into(painter, pose)
     painter.setOpacity(GHOST)
     painter.setPen(Qt.NoPen)
-    painter.setBrush(QColor(robot_colour(theme, robot.name)))
+    painter.setBrush(QColor(robot_colour(robot.name)))
     radius = robot.size.radius
     painter.drawEllipse(QPointF(0.0, 0.0), radius, radius)
     painter.setOpacity(1.0)

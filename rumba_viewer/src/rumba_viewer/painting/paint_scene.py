@@ -116,7 +116,7 @@ def _paint_names(painter: QPainter, snapshot: Snapshot, view: ViewTransform, the
         painter.setPen(Qt.NoPen)
         painter.setBrush(_transparent(theme.card, 200))
         painter.drawRoundedRect(area.adjusted(-4.0, 0.0, 4.0, 0.0), 3.0, 3.0)
-        painter.setPen(QColor(robot_colour(theme, robot.name)))
+        painter.setPen(QColor(robot_colour(robot.name)))
         painter.drawText(area, Qt.AlignCenter, robot.name)
     painter.restore()
 
@@ -127,12 +127,12 @@ def _paint_target(painter: QPainter, snapshot: Snapshot, view: ViewTransform, th
         if robot.going_to is not None:
             here = QPointF(*view.to_pixel(robot.pose.x, robot.pose.y))
             there = QPointF(*view.to_pixel(*robot.going_to))
-            painter.setPen(QPen(QColor(robot_colour(theme, robot.name)), 1.5, Qt.DashLine))
+            painter.setPen(QPen(QColor(robot_colour(robot.name)), 1.5, Qt.DashLine))
             painter.drawLine(here, there)
-            _paint_mark(painter, there, theme, robot_colour(theme, robot.name), has_ring=False)
+            _paint_mark(painter, there, theme, robot_colour(robot.name), has_ring=False)
     if snapshot.target is not None:
         _paint_mark(painter, QPointF(*view.to_pixel(*snapshot.target)), theme,
-                    robot_colour(theme, snapshot.selected), has_ring=True)
+                    robot_colour(snapshot.selected), has_ring=True)
 
 
 def _paint_mark(painter: QPainter, at: QPointF, theme: Theme, colour: str, has_ring: bool) -> None:

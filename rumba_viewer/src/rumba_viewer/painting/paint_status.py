@@ -66,7 +66,7 @@ class _Card:
         # Charge is rounded up, as in battery_status: 0 % is empty. Coverage is rounded down: 100 % is everything.
         self._bar('Battery', battery and battery.share, math.ceil, _battery_colour(battery, self._theme))
         self._small_line(_battery_text(battery))
-        self._bar('Swept', cleaning and cleaning.coverage, math.floor, self._theme.robots[0])
+        self._bar('Swept', cleaning and cleaning.coverage, math.floor, self._theme.main)
         self._small_line(_cleaning_text(cleaning))
         self._y += 3.0
         for name, value in _rows(robot, snapshot.simulation):
@@ -78,7 +78,7 @@ class _Card:
         height = QFontMetricsF(self._bold).height() + 4.0
         row = QRectF(self._area.left(), self._y, self._area.width(), height)
         self._painter.setPen(Qt.NoPen)
-        self._painter.setBrush(QColor(robot_colour(self._theme, name)))
+        self._painter.setBrush(QColor(robot_colour(name)))
         self._painter.drawEllipse(QPointF(row.left() + 6.0, row.center().y()), 5.0, 5.0)
         used = self._pill(row, _state_text(robot))
         self._text(row.adjusted(18.0, 0.0, -used, 0.0), name, self._bold, self._theme.text)

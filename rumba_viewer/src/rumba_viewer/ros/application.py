@@ -182,7 +182,7 @@ def _set_style(qt: QApplication, style: str) -> None:
     for role, colour in ((QPalette.WindowText, theme.text), (QPalette.Text, theme.text),
                          (QPalette.ButtonText, theme.text), (QPalette.Base, theme.card),
                          (QPalette.ToolTipBase, theme.card), (QPalette.ToolTipText, theme.text),
-                         (QPalette.Highlight, theme.robots[0])):
+                         (QPalette.Highlight, theme.main)):
         palette.setColor(role, QColor(colour))
     for role in (QPalette.WindowText, QPalette.Text, QPalette.ButtonText):
         faint = QColor(theme.faint_text)

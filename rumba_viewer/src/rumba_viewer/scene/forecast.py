@@ -9,7 +9,8 @@ from rumba_sim.model.battery import BatteryConfig
 from rumba_viewer.scene.snapshot import Battery, Cleaning, Mission
 
 CLEANING, CHARGING, TO_DOCK = 'cleaning', 'charging', ('returning', 'docking')  # states of a mission
-ENOUGH = 20.0  # [s] of cleaning, or of charging, until its rate is known
+BEGINNING = 50.0  # [s] of cleaning until its rate is known: after 20 s it said 68 min for a mission of 27
+ENOUGH = 20.0  # [s] of charging until its rate is known
 GAP = 60.0  # [s] without news, after which what happened meanwhile is not counted
 REST, SLOW = 0.05, 3.0  # the last share of the floor takes so many times as long: leftovers far apart (the apartment)
 AIMLESS = ('wander', 'bounce', 'spiral', 'wall_follow')  # strategies by which less and less of what is swept is new
@@ -76,7 +77,7 @@ class Forecast:
         """How long the mission still takes [s], with all charging; None: unknown, or there is no cleaning."""
         if self._strategy in AIMLESS:
             return None
-        if not self._is_active or self._last is None or self._cleaning_time < ENOUGH or self._cleaned <= 0.0:
+        if not self._is_active or self._last is None or self._cleaning_time < BEGINNING or self._cleaned <= 0.0:
             return None
         still = max(self._target * self._last.reachable_area - self._last.cleaned_area, 0.0)
         weighted = still + (SLOW - 1.0) * min(still, REST * self._last.reachable_area)

@@ -9,7 +9,7 @@ from PyQt5.QtWidgets import QApplication, QWidget
 
 from rumba_sim.model.geometry import Pose, wrap_angle
 from rumba_viewer.painting.paint_legend import paint_legend
-from rumba_viewer.painting.paint_report import paint_report
+from rumba_viewer.painting.paint_report import ReportCard
 from rumba_viewer.painting.paint_scene import ScenePainter
 from rumba_viewer.scene.snapshot import Box, Robot, Snapshot
 from rumba_viewer.scene.theme import DARK, LIGHT, Theme
@@ -75,7 +75,8 @@ class FloorView(QWidget):
         """The part of the map that is shown."""
         if self._transform is None:
             plan = self._snapshot.plan
-            self._transform = ViewTransform.fitted(plan.box if plan else NO_MAP, self.width(), self.height())
+            self._transform = ViewTransform.fitted(plan.box if plan else NO_MAP, self.width(), self.height(),
+                                                   self._card.bottom())
         return self._transform
 
     def show_snapshot(self, snapshot: Snapshot) -> None:
@@ -115,9 +116,13 @@ class FloorView(QWidget):
         theme = theme_of(self.palette())
         painter = QPainter(self)
         painter.setFont(self.font())
+        card = ReportCard(self.font(), self._report, self.hint, self.width()) if self._report else None
+        area = card.area if card is not None else QRectF()
+        if area != self._card:  # the map moves out of its way
+            self._card, self._transform = area, None if self._is_fitted else self._transform
         self.scene.paint(painter, self._snapshot, self.view, theme, self._ghost)
-        if self._report:
-            self._card = paint_report(painter, self._report, self.hint, self.width(), theme)
+        if card is not None:
+            card.paint(painter, theme)
         if self.notice:
             _paint_notice(painter, self.notice, self.width(), self.height(), theme)
         if self.shows_legend:

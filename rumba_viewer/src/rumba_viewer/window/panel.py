@@ -125,7 +125,7 @@ class Panel(QScrollArea):
     def _emphasise(self) -> None:
         theme = theme_of(self.palette())
         self.buttons[MAIN].setStyleSheet(
-            f'QPushButton {{ background: {theme.robots[0]}; color: {theme.card}; font-weight: bold; border: none; '
+            f'QPushButton {{ background: {theme.main}; color: {theme.card}; font-weight: bold; border: none; '
             f'border-radius: 4px; padding: 6px; }} QPushButton:disabled {{ background: {theme.trough}; '
             f'color: {theme.faint_text}; }} QPushButton:pressed {{ background: {theme.text}; }}')
 
