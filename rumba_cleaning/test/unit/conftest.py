@@ -5,7 +5,7 @@ import signal
 import hypothesis
 import pytest
 
-from rumba_cleaning.planning.search import improvement
+from rumba_cleaning.planning.common import effort
 
 hypothesis.settings.register_profile('rumba', derandomize=True, database=None, deadline=None)
 hypothesis.settings.load_profile('rumba')
@@ -19,8 +19,8 @@ ABOUT_PLANS = ('test_planner', 'test_improvement', 'test_sharing', 'test_bounds'
 @pytest.fixture(autouse=True, scope='module')
 def quick_plans(request):
     """Do not rehearse routes: only tests of plans look at how short these are."""
-    usual = improvement.rounds
+    usual = effort.WORK, effort.HASTY
     if request.module.__name__ not in ABOUT_PLANS:
-        improvement.rounds = lambda context: 0
+        effort.WORK = effort.HASTY = 0.0
     yield
-    improvement.rounds = usual
+    effort.WORK, effort.HASTY = usual
