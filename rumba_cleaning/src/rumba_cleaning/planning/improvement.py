@@ -77,11 +77,17 @@ def improved(surroundings: Surroundings, routes: Sequence[Route], paths: Sequenc
         rehearsal, price = _edited(surroundings, rehearsal, found, poor)
         tried.append(rehearsal)
     for _ in range(MENDS):
-        if not rehearsal.is_complete or _is_met(surroundings, rehearsal):
+        if not rehearsal.is_complete or is_met(surroundings.context, rehearsal):
             break
         rehearsal, _ = _edited(surroundings, rehearsal, surroundings.detours(rehearsal.route, rehearsal.swept), set())
         tried.append(rehearsal)
     return max(tried, key=lambda rehearsal: _merit(surroundings, rehearsal)).route
+
+
+def is_met(context: Context, rehearsal: Rehearsal) -> bool:
+    """Whether a route meets the target by its rehearsal, whatever that may be wrong by."""
+    missing = (context.target_coverage - rehearsal.swept.coverage) * context.swept.reachable_area
+    return missing + MARGIN * rehearsal.turned <= 0.0
 
 
 def _rebuilt(surroundings: Surroundings, rehearsal: Rehearsal, paths: Sequence[Array]) -> Rehearsal:
@@ -116,12 +122,7 @@ def _need(surroundings: Surroundings, rehearsal: Rehearsal, surplus: float = 0.0
     return surroundings.need(rehearsal.swept, surplus) + MARGIN * rehearsal.turned
 
 
-def _is_met(surroundings: Surroundings, rehearsal: Rehearsal) -> bool:
-    """Whether a route meets the target."""
-    return _need(surroundings, rehearsal) <= 0.0
-
-
 def _merit(surroundings: Surroundings, rehearsal: Rehearsal) -> Tuple[bool, float]:
     """Compares rehearsals: the quickest one that meets the target, or that which comes nearest to it."""
-    is_met = _is_met(surroundings, rehearsal)
-    return is_met, -rehearsal.seconds if is_met else rehearsal.swept.coverage
+    meets = is_met(surroundings.context, rehearsal)
+    return meets, -rehearsal.seconds if meets else rehearsal.swept.coverage

@@ -14,6 +14,7 @@ from rumba_cleaning.planning.groups import Group, groups
 from rumba_cleaning.planning.improvement import improved, with_detours
 from rumba_cleaning.planning.layouts import Draft, drafts, laid_out, tries
 from rumba_cleaning.planning.paper import drive
+from rumba_cleaning.planning.rectangle import spiral_over
 from rumba_cleaning.planning.regions import NARROW, Shapes, Ways, doors, regions, shapes
 from rumba_cleaning.planning.rehearsal import Rehearsal
 from rumba_cleaning.planning.rings import chains, rings, stretch
@@ -39,15 +40,19 @@ EFFORT = 10  # times as much as usual to search for tours on floors planned thor
 def plan(context: Context, pose: Pose, end: Optional[Pose] = None) -> Optional[Route]:
     """A route that cleans what was missed; None if nothing was missed, or none of it can be reached.
 
-    As long as lanes and rings clean most of it, crumbs are cleaned on detours from these, and the route is rebuilt and
-    improved by rehearsal. The routes after that know where the robot really drove, and visit crumb after crumb; if no
-    obstacles were met, they are improved too. All visit only as many crumbs as the target needs.
+    An empty rectangle is swept in a spiral. Elsewhere, as long as lanes and rings clean most of it, crumbs are cleaned
+    on detours from these, and the route is rebuilt and improved by rehearsal. The routes after that know where the
+    robot really drove, and visit crumb after crumb; if no obstacles were met, they are improved too. All visit only as
+    many crumbs as the target needs.
 
     Args:
         context: with the floor that was swept before; it is not changed.
         pose: from which the route begins, map frame.
         end: near which it should end; None: anywhere.
     """
+    spiral = spiral_over(context, pose) if end is None else None
+    if spiral is not None:
+        return spiral
     ground, labels = context.ground, regions(context.ground)
     surroundings = Surroundings(context, pose, end, _around(context, pose), labels, Walls(ground))
     drafts = _drafts(surroundings)
