@@ -69,8 +69,8 @@ def test_a_plan_that_is_to_end_somewhere_is_no_spiral():
 
 def test_the_robot_may_be_a_radius_from_each_wall():
     context = knowing(hall(), MIDDLE)
-    assert rectangle(context) == approx(
-        (context.ground.reach, context.ground.reach, WIDE - context.ground.reach, HIGH - context.ground.reach), abs=1e-3)
+    reach = context.ground.reach
+    assert rectangle(context) == approx((reach, reach, WIDE - reach, HIGH - reach), abs=1e-3)
 
 
 def test_the_lanes_of_a_spiral_are_evenly_apart():

@@ -88,7 +88,7 @@ def pass_over(k: Record, samples: Array, dirt: Array, tally: Record, start: Trip
     passed = keep_passed(rows, columns, near, from_squares, to, half)
     swept, taken, cells = 0, 0.0, dirt.shape[0] / samples.shape[0]
     for index in range(passed):
-        row, column = np.uint32(rows[index]), np.uint32(columns[index])
+        row, column = rows[index], columns[index]
         fresh, share = clean(k, samples, row, column)
         amount = float(dirt[np.uint32((row + 0.5) * cells), np.uint32((column + 0.5) * cells)])
         swept, taken = swept + fresh, taken + share * amount
@@ -109,7 +109,7 @@ def near_squares(samples: Array, start: Place, end: Place, turn: float, half: fl
         half: half the width of the brush [squares].
 
     Returns:
-        Rows and columns, int32 (any) each, and how many of them count: what follows has no meaning.
+        Rows and columns, uint32 (any) each, and how many of them count: what follows has no meaning.
     """
     (x, y, cos, sin), (to_x, to_y, to_cos, to_sin) = start, end
     distance = math.hypot(to_x - x, to_y - y)
@@ -123,7 +123,7 @@ def near_squares(samples: Array, start: Place, end: Place, turn: float, half: fl
     reach = half / steep + 0.5 * (distance + turn * half)
     first, last = max(int(middle_line - reach), 0), min(int(middle_line + reach) + 1, count)
     widest = int(1.01 * (distance + turn * (reach + 1.5) * steep) * steep + abs(slope)) + 2
-    squares, listed = np.empty((2, (max(last - first, 0) + 1) * widest), np.int32), 0
+    squares, listed = np.empty((2, (max(last - first, 0) + 1) * widest), np.uint32), 0
     lines, across = squares[0], squares[1]
     for line in range(first, last):
         off = line + 0.5 - middle_line
