@@ -9,7 +9,7 @@ import time
 from common import figures, room20
 
 # Robot-steps in a CPU second, by the rate of steps [Hz] and by robots; the lower bounds.
-STEPS = {50: {1: 450_000, 10: 1_450_000, 100: 1_800_000}, 10: {1: 280_000, 10: 500_000, 100: 500_000}}
+STEPS = {50: {1: 450_000, 10: 1_450_000, 100: 1_800_000}, 10: {1: 280_000, 10: 700_000, 100: 850_000}}
 AT_ONCE = {1: 1_000_000, 10: 2_000_000, 100: 2_300_000}  # the same by robots, ten ticks in a call
 SCANS = {1: 30_000, 10: 30_000, 100: 25_000}  # scans of 360 beams in a CPU second, by robots; the lower bounds
 LASER_PERIOD = 0.1  # [s]

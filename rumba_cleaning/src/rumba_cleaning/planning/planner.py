@@ -8,6 +8,7 @@ from rumba_cleaning.belief.context import Context
 from rumba_cleaning.planning.common.effort import effort
 from rumba_cleaning.planning.decompose.regions import regions
 from rumba_cleaning.planning.order.route import through
+from rumba_cleaning.planning.rectangle import spiral_over
 from rumba_cleaning.planning.search.edits import dense
 from rumba_cleaning.planning.search.improvement import improved, with_detours
 from rumba_cleaning.planning.simulate.rehearsal import Rehearsal
@@ -26,18 +27,21 @@ BEYOND = 0.03  # [m] from what the brush reaches, where an obstacle may leave mo
 def plan(context: Context, pose: Pose, end: Optional[Pose] = None) -> Optional[Route]:
     """A route that cleans what was missed; None if nothing was missed, or none of it can be reached.
 
-    As long as lanes and rings clean most of it, crumbs are cleaned on detours from these, and the route is rebuilt and
-    improved by rehearsal. The routes after that know where the robot really drove, and visit crumb after crumb; if no
-    obstacles were met, they are improved too. All visit only as many crumbs as the target needs.
+    An empty rectangle is swept in a spiral. Elsewhere, as long as lanes and rings clean most of it, crumbs are cleaned
+    on detours from these, and the route is rebuilt and improved by rehearsal. The routes after that know where the
+    robot really drove, and visit crumb after crumb; if no obstacles were met, they are improved too. All visit only as
+    many crumbs as the target needs.
 
     Args:
         context: with the floor that was swept before; it is not changed.
         pose: from which the route begins, map frame.
         end: near which it should end; None: anywhere.
     """
+    spiral = spiral_over(context, pose) if end is None else None
+    if spiral is not None:
+        return spiral
     ground, labels = context.ground, regions(context.ground)
-    problem = Problem(context, pose, end, _around(context, pose), labels, Walls(ground),
-                      effort(context))
+    problem = Problem(context, pose, end, _around(context, pose), labels, Walls(ground), effort(context))
     routes = drafts(problem)
     if not routes:
         return _over_crumbs(problem)

@@ -2,6 +2,7 @@
 
 from typing import Sequence, Set, Tuple
 
+from rumba_cleaning.belief.context import Context
 from rumba_cleaning.belief.swept import Swept
 from rumba_cleaning.planning.search.detours import detours
 from rumba_cleaning.planning.search.edits import applied, chosen, dense
@@ -65,11 +66,17 @@ def improved(problem: Problem, routes: Sequence[Route], paths: Sequence[Array]) 
         rehearsal, price = _edited(problem, rehearsal, found, poor)
         tried.append(rehearsal)
     for _ in range(MENDS):
-        if not rehearsal.is_complete or _is_met(problem, rehearsal):
+        if not rehearsal.is_complete or is_met(problem.context, rehearsal):
             break
         rehearsal, _ = _edited(problem, rehearsal, detours(problem, rehearsal.route, rehearsal.swept), set())
         tried.append(rehearsal)
     return max(tried, key=lambda rehearsal: _merit(problem, rehearsal)).route
+
+
+def is_met(context: Context, rehearsal: Rehearsal) -> bool:
+    """Whether a route meets the target by its rehearsal, whatever that may be wrong by."""
+    missing = (context.target_coverage - rehearsal.swept.coverage) * context.swept.reachable_area
+    return missing + MARGIN * rehearsal.turned <= 0.0
 
 
 def _rebuilt(problem: Problem, rehearsal: Rehearsal, paths: Sequence[Array]) -> Rehearsal:
@@ -104,12 +111,7 @@ def _need(problem: Problem, rehearsal: Rehearsal, surplus: float = 0.0) -> float
     return problem.need(rehearsal.swept, surplus) + MARGIN * rehearsal.turned
 
 
-def _is_met(problem: Problem, rehearsal: Rehearsal) -> bool:
-    """Whether a route meets the target."""
-    return _need(problem, rehearsal) <= 0.0
-
-
 def _merit(problem: Problem, rehearsal: Rehearsal) -> Tuple[bool, float]:
     """Compares rehearsals: the quickest one that meets the target, or that which comes nearest to it."""
-    is_met = _is_met(problem, rehearsal)
-    return is_met, -rehearsal.seconds if is_met else rehearsal.swept.coverage
+    meets = is_met(problem.context, rehearsal)
+    return meets, -rehearsal.seconds if meets else rehearsal.swept.coverage

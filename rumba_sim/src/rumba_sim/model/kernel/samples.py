@@ -16,20 +16,30 @@ def sample_point(row: int, column: int) -> Tuple[float, float]:
     points in proportion to its area whatever its heading; points in the middles of the squares would form lines.
     """
     bits = scrambled(row, column)
-    return column + (bits & 0xFFFF) / 65536.0, row + (bits >> 16) / 65536.0
+    return across_of(column, bits), up_of(row, bits)
 
 
-def clean(k: Record, samples: Array, row: int, column: int, passes: int) -> Tuple[int, float]:
-    """Count 1 or 0 more passes over the sample of a square (row, column).
+def across_of(column: int, bits: int) -> float:
+    """Where in a column the point lies whose hash is `bits` [squares]."""
+    return column + (bits & 0xFFFF) / 65536.0
 
-    There are no branches in it: the processor could not foresee where the border of what the brush passes lies.
+
+def up_of(row: int, bits: int) -> float:
+    """Where in a row the point lies whose hash is `bits` [squares]."""
+    return row + (bits >> 16) / 65536.0
+
+
+def clean(k: Record, samples: Array, row: int, column: int) -> Tuple[int, float]:
+    """Count one more pass over the sample of a square (row, column), if there is floor.
+
+    There are no branches in it: the processor could not foresee them.
 
     Returns:
         How many more samples are swept, and the share of the first dirt that is taken.
     """
     sample = int(samples[row, column])
     before = sample // PASS
-    passes &= sample // SWEEPABLE & int(before < MOST_PASSES)
+    passes = sample // SWEEPABLE & int(before < MOST_PASSES)
     samples[row, column] = sample + PASS * passes
     passes &= sample // REACHABLE
     return passes & int(before == 0), passes * k.takes[before]
