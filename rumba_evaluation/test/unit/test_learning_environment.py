@@ -1,5 +1,8 @@
 """The environment rumba/Coverage-v0, by the rules of Gymnasium, alone and for many robots."""
 
+import copy
+import pickle
+
 import numpy as np
 import pytest
 
@@ -52,12 +55,14 @@ def test_each_of_many_robots_plays_what_it_plays_alone(settings):
         assert many.observation_space.contains(seen)
         for index, robot in enumerate(each):
             if ended[index]:  # the vector environment begins again in the step after the end
-                expected = (robot.reset()[0], 0.0, False, False, {'coverage': 0.0})
+                expected = (robot.reset()[0], 0.0, False, False, {'coverage': 0.0, 'is_success': False})
             else:
                 expected = robot.step(actions[index])
             assert_same({name: rows[index] for name, rows in seen.items()}, expected[0])
             assert (reward[index], terminated[index], truncated[index]) == expected[1:4]
             assert info['coverage'][index] == expected[4]['coverage']
+            assert info['is_success'][index] == expected[4]['is_success']
+            assert sum(part[index] for part in info['reward'].values()) == expected[1]
             ended[index] = expected[2] or expected[3]
     assert len({float(rows.sum()) for rows in seen['ranges']}) == 3
 
@@ -88,7 +93,27 @@ def test_without_autoreset_the_mask_says_who_begins_again():
     for index in (0, 2):
         assert_same({name: rows[index] for name, rows in seen.items()},
                     {name: rows[index] for name, rows in before.items()})
-    assert many.step(np.ones((3, 3), np.float32))[3].tolist() == [True, False, True]
+    with pytest.raises(RumbaError, match='the episode of robot 0 has ended: call reset before it acts again'):
+        many.step(np.ones((3, 3), np.float32))
+    many.reset(options={'reset_mask': np.array([True, False, True])})
+    assert not many.step(np.ones((3, 3), np.float32))[3].any()
+
+
+@pytest.mark.parametrize('copied', [copy.deepcopy, lambda made: pickle.loads(pickle.dumps(made))])
+@pytest.mark.parametrize('make, arguments', [(alone, {}), (vector, {}), (vector, {'threads': 2})])
+def test_a_copy_in_the_middle_of_an_episode_goes_on_as_the_environment_does(make, arguments, copied):
+    first = make(**arguments)
+    first.reset(seed=4)
+    first.action_space.seed(1)
+    actions = [first.action_space.sample() for _ in range(18)]
+    for action in actions[:5]:
+        first.step(action)
+    second = copied(first.unwrapped)
+    for number, action in enumerate(actions[5:10 if make is alone else None]):
+        seen, *rest = first.step(action)
+        other, *others = second.step(action)
+        assert_same(seen, other)
+        np.testing.assert_equal(rest, others)
 
 
 def test_threads_change_nothing():

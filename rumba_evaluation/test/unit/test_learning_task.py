@@ -11,10 +11,11 @@ from rooms import room
 from rumba_evaluation.learning.baselines import Bouncing, Random
 from rumba_evaluation.learning.coverage_task import MOVES, CoverageTask
 from rumba_evaluation.learning.picture import BODY, FLOOR, SWEPT, WALL, picture
+from rumba_evaluation.learning.rooms import room as numbered
 from rumba_evaluation.learning.rooms import rooms
 from rumba_evaluation.learning.task_config import TaskConfig
 from rumba_sim.model.config import from_mapping, updated
-from rumba_sim.model.errors import CommandError, ConfigError
+from rumba_sim.model.errors import CommandError, ConfigError, WorldError
 from rumba_sim.model.geometry import Pose
 from rumba_sim.model.robot_config import RobotConfig
 
@@ -246,7 +247,7 @@ def test_bounce_sweeps_more_than_chance():
 def test_a_number_is_a_room_in_which_most_of_the_floor_can_be_cleaned():
     several = rooms(5, 12)
     assert len({plan.occupancy.tobytes() for plan in several}) == 12
-    rooms.__globals__['room'].cache_clear()
+    numbered.cache_clear()
     for plan, again in zip(several, rooms(5, 12)):
         assert plan is not again and np.array_equal(plan.occupancy, again.occupancy) and plan.dock == again.dock
         found = CoverageTask([plan], 1, from_mapping(TaskConfig, {'start': 'dock'}, 'test'))
@@ -279,9 +280,53 @@ def test_settings_that_make_no_task_are_refused(arguments, message):
         task(**arguments)
 
 
-def test_an_action_that_is_no_number_is_refused():
-    with pytest.raises(CommandError, match='not a finite number'):
-        task().step(np.array([[math.nan, 0.0, 0.0]]))
+@pytest.mark.parametrize('actions, action, message', [
+    ('discrete', [6], 'action 6: must be 0 to 5'), ('discrete', [-1], 'action -1: must be 0 to 5'),
+    ('discrete', [1.0], 'actions are of type float64: must be whole numbers'),
+    ('discrete', [[1]], r'the shape of actions is \(1, 1\): must be \(1,\), for 1 robots'),
+    ('continuous', [[1.0, 0.0]], r'the shape of actions is \(1, 2\): must be \(1, 3\), for 1 robots'),
+    ('continuous', [['a', 'b', 'c']], 'must be numbers'),
+    ('continuous', [[math.nan, 0.0, 0.0]], 'action nan: is not a finite number')])
+def test_an_action_that_is_none_is_refused_and_changes_nothing(actions, action, message):
+    found = task(actions=actions)
+    before = found.worlds[0].digest()
+    with pytest.raises(CommandError, match=message):
+        found.step(np.array(action))
+    assert found.worlds[0].digest() == before
+
+
+def test_a_step_before_reset_is_refused():
+    with pytest.raises(WorldError, match='no episode has begun: call reset first'):
+        CoverageTask([HALL]).step(AHEAD)
+
+
+def test_a_robot_whose_episode_has_ended_cannot_act_until_it_begins_again():
+    found = task(time_limit=0.1, robots=2)
+    assert found.step(np.repeat(AHEAD, 2, axis=0)).truncated.all()
+    found.reset([None], np.array([1]))
+    with pytest.raises(WorldError, match='the episode of robot 0 has ended'):
+        found.step(np.repeat(AHEAD, 2, axis=0))
+    outcome = found.step(np.repeat(AHEAD, 2, axis=0), np.array([False, True]))
+    assert outcome.reward[0] == 0.0 and outcome.truncated.tolist() == [True, True]
+
+
+def test_the_parts_of_a_reward_tell_where_it_comes_from():
+    found = task(reward={'time': 0.25, 'finish': 7.0}, target=0.02)
+    while not found.ended[0]:
+        outcome = found.step(AHEAD)
+        assert sum(part[0] for part in outcome.parts.values()) == outcome.reward[0]
+        assert outcome.parts['time'].tolist() == [-0.25] and outcome.parts['bump'].tolist() == [0.0]
+        assert outcome.parts['finish'][0] == 7.0 * outcome.succeeded[0]
+    assert outcome.succeeded[0] and outcome.parts['swept'][0] > 0.0 == outcome.parts['fall'][0]
+
+
+def test_rooms_are_made_when_an_episode_is_there():
+    numbered.cache_clear()
+    found = CoverageTask(range(100))
+    assert numbered.cache_info().currsize == 0
+    for _ in range(5):
+        found.reset([None])
+    assert 1 <= numbered.cache_info().currsize <= 5
 
 
 def test_without_gymnasium_the_message_says_what_to_install():

@@ -7,16 +7,17 @@
 Each robot has a random generator of its own: what it meets depends on its seed alone, and not on the others.
 """
 
-from typing import Any, Dict, NamedTuple, Optional, Sequence, Tuple
+from typing import Any, Dict, NamedTuple, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
 from rumba_cleaning.control import CONTROL_DT, CONTROL_TICKS, STEP_RATE
+from rumba_evaluation.learning.rooms import room
 from rumba_evaluation.learning.task_config import DISCRETE, TaskConfig
 from rumba_evaluation.trials import starts
 from rumba_evaluation.trials.cases import ANYWHERE
 from rumba_sim.model.config import updated
-from rumba_sim.model.errors import ConfigError
+from rumba_sim.model.errors import CommandError, ConfigError, WorldError, quoted
 from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.model.kernel import Array
 from rumba_sim.model.kernel.brush import BEND, STRIDE
@@ -42,6 +43,8 @@ class Outcome(NamedTuple):
     terminated: Array  # bool, the target is reached, the robot has fallen, or its battery is empty
     truncated: Array  # bool, the time is up
     coverage: Array  # float64 [0..1]
+    succeeded: Array  # bool, the target is reached
+    parts: Dict[str, Array]  # float64 each, what the reward is the sum of, by the names of `Reward`
 
 
 class CoverageTask:
@@ -49,15 +52,16 @@ class CoverageTask:
 
     Attributes:
         config: settings of the task.
-        worlds: the worlds in which the robots are, from the first reset of all of them on.
+        ended: bool (robots), whose episodes have ended, so that they act only after a reset.
     """
 
-    def __init__(self, floors: Sequence[FloorPlan], robots: int = 1, config: TaskConfig = TaskConfig(),
+    def __init__(self, floors: Sequence[Union[FloorPlan, int]], robots: int = 1, config: TaskConfig = TaskConfig(),
                  robot: RobotConfig = RobotConfig(), threads: int = 1) -> None:
         """Prepare; `reset` makes the worlds.
 
         Args:
-            floors: each episode takes place on one of them.
+            floors: each episode takes place on one of them. A number is that of a room, which is made at the first
+                episode there.
             robots: how many, each in a world of its own.
             config: settings of the task.
             robot: what a robot is like; the task says how many beams its field of view has, and varies it.
@@ -71,13 +75,25 @@ class CoverageTask:
         if robots < 1:
             raise ConfigError(f'robots is {robots}: must be at least 1')
         self.config = config
-        self.worlds: Worlds
+        self.ended: Array = np.zeros(robots, np.bool_)
+        self._worlds: Optional[Worlds] = None
         self._floors = list(floors)
         self._robot = updated(robot, {'laser': _laser(robot.laser, config.beams)}, 'the task')
         self._threads = threads
         self._generators = [np.random.default_rng() for _ in range(robots)]
         self._steps = np.zeros(robots, np.int64)
         self._full_step = robot.brush.width * config.speed * CONTROL_DT  # [m^2]
+
+    @property
+    def worlds(self) -> Worlds:
+        """The worlds in which the robots are.
+
+        Raises:
+            WorldError: there was no reset of all robots yet.
+        """
+        if self._worlds is None:
+            raise WorldError('no episode has begun: call reset first')
+        return self._worlds
 
     @property
     def highest_reward(self) -> float:
@@ -112,16 +128,17 @@ class CoverageTask:
                 self._generators[index] = np.random.default_rng(seed)
         begun = [self._world(self._generators[index]) for index in order.tolist()]
         if which is None:
-            self.worlds = Worlds(begun, self._threads)
+            self._worlds = Worlds(begun, self._threads)
         else:
             for index, world in zip(order.tolist(), begun):
                 self.worlds[index] = world
-        self._steps[order] = 0
+        self._steps[order], self.ended[order] = 0, False
         return self.look(order)
 
     def _world(self, generator: np.random.Generator) -> World:
         """The world of an episode."""
-        plan = self._floors[generator.integers(len(self._floors))]
+        floor = self._floors[generator.integers(len(self._floors))]
+        plan = floor if isinstance(floor, FloorPlan) else room(int(floor))
         config, charge = self._varied(generator)
         world = World(plan, config, STEP_RATE, int(generator.integers(LARGEST_SEED)))
         pose = None
@@ -157,24 +174,54 @@ class CoverageTask:
             actions: of all robots: int64 (robots), numbers of MOVES, or float64 (robots, 3) [-1..1] with the forward
                 velocity [`speed`], the angular velocity [`turn_rate`], and the brush, which is down from 0 on.
             which: bool (robots), which of them act; None for all. The time of the others stands still.
+
+        Raises:
+            CommandError: an action has another shape, is no number of MOVES or no finite number.
+            WorldError: no episode has begun, or that of a robot which acts has ended.
         """
         worlds, reward = self.worlds, self.config.reward
+        acts = np.ones(len(worlds), np.bool_) if which is None else which
+        self._check(actions, acts)
         swept, bumps = worlds.cleaned_area, worlds.robots['bumps'].copy()
         if self.config.actions == DISCRETE:
             moves, up = MOVES[actions], np.zeros(len(worlds), np.bool_)
         else:
             moves, up = np.clip(actions[:, :2], -1.0, 1.0), actions[:, 2] < 0.0
-        acts = np.ones(len(worlds), np.bool_) if which is None else which
         for _ in range(self.config.hold):  # a command lapses after half a second
             worlds.command(moves[:, 0] * self.config.speed, moves[:, 1] * self.config.turn_rate, up)
             worlds.step(CONTROL_TICKS * acts)
         self._steps += acts
         coverage, robots = worlds.coverage, worlds.robots
         fallen, finished = robots['fallen'] > 0, coverage >= self.config.target
-        worth = (reward.swept / self._full_step * (worlds.cleaned_area - swept) - reward.time * self.config.hold
-                 - reward.bump * (robots['bumps'] - bumps) - reward.fall * fallen + reward.finish * finished)
-        return Outcome(np.where(acts, worth, 0.0), fallen | finished | (robots['charge'] <= 0.0),
-                       self._steps >= self.config.most_steps, coverage)
+        parts = {'swept': reward.swept / self._full_step * (worlds.cleaned_area - swept),
+                 'time': np.full(len(worlds), -reward.time * self.config.hold),
+                 'bump': -reward.bump * (robots['bumps'] - bumps),
+                 'fall': -reward.fall * fallen, 'finish': reward.finish * finished}
+        parts = {name: np.where(acts, part, 0.0) for name, part in parts.items()}
+        terminated = fallen | finished | (robots['charge'] <= 0.0)
+        truncated = self._steps >= self.config.most_steps
+        self.ended |= terminated | truncated
+        return Outcome(sum(parts.values()), terminated, truncated, coverage, finished, parts)
+
+    def _check(self, actions: Array, acts: Array) -> None:
+        """Refuse actions that robots cannot take."""
+        is_discrete = self.config.actions == DISCRETE
+        shape = (len(acts),) if is_discrete else (len(acts), 3)
+        if np.shape(actions) != shape:
+            raise CommandError(f'the shape of actions is {np.shape(actions)}: must be {shape}, for {len(acts)} robots')
+        if is_discrete and not np.issubdtype(actions.dtype, np.integer):
+            raise CommandError(f'actions are of type {actions.dtype}: must be whole numbers')
+        if is_discrete:
+            wrong = actions[(actions < 0) | (actions >= len(MOVES))]
+            if len(wrong):
+                raise CommandError(f'action {wrong[0]}: must be 0 to {len(MOVES) - 1}')
+        elif not np.issubdtype(actions.dtype, np.number):
+            raise CommandError(f'actions are of type {actions.dtype}: must be numbers')
+        elif not np.isfinite(actions).all():
+            raise CommandError(f'action {quoted(actions[~np.isfinite(actions)][0])}: is not a finite number')
+        ended = np.flatnonzero(self.ended & acts)
+        if len(ended):
+            raise WorldError(f'the episode of robot {ended[0]} has ended: call reset before it acts again')
 
     # --- observations ---------------------------------------------------------------------------------------------
 

@@ -12,9 +12,8 @@ from typing import Any, Dict, Mapping, Optional, Sequence, Tuple, Union
 import numpy as np
 
 from rumba_evaluation.learning import spaces
-from rumba_evaluation.learning.coverage_task import CoverageTask, Seen
+from rumba_evaluation.learning.coverage_task import CoverageTask, Outcome, Seen
 from rumba_evaluation.learning.picture import picture
-from rumba_evaluation.learning.rooms import rooms
 from rumba_evaluation.learning.spaces import gymnasium
 from rumba_evaluation.learning.task_config import TaskConfig
 from rumba_sim.model import map_file
@@ -61,10 +60,14 @@ class CoverageEnv(gymnasium.Env):
         return _alone(self._task.reset([seed])), {'coverage': 0.0}
 
     def step(self, action: Any) -> Tuple[Seen, float, bool, bool, Dict[str, Any]]:
-        """Let the robot act for 0.1 s."""
+        """Let the robot act for a step.
+
+        Raises:
+            RumbaError: the action is none, no episode has begun, or it has ended.
+        """
         outcome = self._task.step(np.asarray(action)[np.newaxis])
         return (_alone(self._task.look()), float(outcome.reward[0]), bool(outcome.terminated[0]),
-                bool(outcome.truncated[0]), {'coverage': float(outcome.coverage[0])})
+                bool(outcome.truncated[0]), info_of(outcome, 0))
 
     def render(self) -> Optional[Array]:
         """The world as it is now: uint8 (rows, columns, 3)."""
@@ -75,8 +78,7 @@ def task_of(floors: Floors, robots: int, settings: Optional[Settings], robot: Op
             threads: int = 1) -> CoverageTask:
     """The task that the arguments of an environment describe."""
     config = from_mapping(RobotConfig, robot or {}, 'robot')
-    plans = [rooms(floor, 1)[0] if isinstance(floor, (int, np.integer)) else
-             map_file.load(floor, config.drive.radius) if isinstance(floor, str) else floor for floor in floors]
+    plans = [map_file.load(floor, config.drive.radius) if isinstance(floor, str) else floor for floor in floors]
     return CoverageTask(plans, robots, from_mapping(TaskConfig, settings or {}, 'settings'), config, threads)
 
 
@@ -89,6 +91,12 @@ def checked(render_mode: Optional[str]) -> Optional[str]:
     if render_mode not in (None, *RENDER_MODES):
         raise ConfigError(f'render_mode is {render_mode!r}: must be None or {" or ".join(RENDER_MODES)}')
     return render_mode
+
+
+def info_of(outcome: Outcome, index: int) -> Dict[str, Any]:
+    """What people want to know of a step of one robot beside its reward."""
+    return {'coverage': float(outcome.coverage[index]), 'is_success': bool(outcome.succeeded[index]),
+            'reward': {name: float(part[index]) for name, part in outcome.parts.items()}}
 
 
 def _alone(seen: Seen) -> Seen:

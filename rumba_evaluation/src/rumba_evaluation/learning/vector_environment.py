@@ -77,7 +77,11 @@ class CoverageVectorEnv(gymnasium.vector.VectorEnv):
         return list(seed)
 
     def step(self, actions: Array) -> Tuple[Seen, Array, Array, Array, Dict[str, Any]]:
-        """Let each robot act for 0.1 s; episodes that ended begin again as `autoreset` says."""
+        """Let each robot act for a step; episodes that ended begin again as `autoreset` says.
+
+        Raises:
+            RumbaError: an action is none, no episode has begun, or one has ended and nobody has reset it.
+        """
         ended = self._ended if self._autoreset is AutoresetMode.NEXT_STEP else np.zeros(self.num_envs, np.bool_)
         if ended.any():
             outcome = self._task.step(np.asarray(actions), ~ended)
@@ -90,10 +94,11 @@ class CoverageVectorEnv(gymnasium.vector.VectorEnv):
         self._ended = terminated | truncated
         if self._autoreset is AutoresetMode.SAME_STEP and self._ended.any():
             info = {'final_obs': self._seen, '_final_obs': self._ended, '_final_info': self._ended,
-                    'final_info': {'coverage': outcome.coverage, '_coverage': self._ended}}
+                    'final_info': {'coverage': outcome.coverage, '_coverage': self._ended,
+                                   'is_success': outcome.succeeded, '_is_success': self._ended}}
             which = np.flatnonzero(self._ended)
             self._seen = _replaced(self._seen, which, self._task.reset([None] * len(which), which))
-        info['coverage'] = self._task.worlds.coverage
+        info.update(coverage=self._task.worlds.coverage, is_success=outcome.succeeded & ~ended, reward=outcome.parts)
         return self._seen, outcome.reward, terminated, truncated, info
 
     def _begin_again(self, which: Array, seen: Seen) -> Seen:

@@ -3,7 +3,7 @@
 import dataclasses
 import hashlib
 import math
-from typing import Any, Dict, List, Optional, Sequence, Tuple
+from typing import Any, Callable, Dict, List, Optional, Sequence, Tuple
 
 import numpy as np
 
@@ -394,6 +394,10 @@ class World:
         if world.digest() != state.digest:
             raise WorldError('is damaged: its digest is another one')
         return world
+
+    def __reduce__(self) -> Tuple[Callable[..., 'World'], Tuple[Any, ...]]:
+        """Copies and pickles go on from here, bit for bit, as the world itself does."""
+        return World.restored, (self.state(), self.plan, self._config, self.step_rate, self.seed, self._at_start)
 
 
 def _fans(laser: LaserConfig) -> Array:

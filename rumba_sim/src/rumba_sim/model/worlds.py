@@ -70,6 +70,10 @@ class Worlds:
         self._versions: List[int] = []
         self._take_all()
 
+    def __reduce__(self) -> Tuple[Callable[..., 'Worlds'], Tuple[Any, ...]]:
+        """Copies and pickles go on from here, bit for bit, as the worlds themselves do."""
+        return Worlds, (self._worlds, self.threads)
+
     def __len__(self) -> int:
         """How many worlds there are."""
         return len(self._worlds)
