@@ -161,7 +161,7 @@ def is_in_order(each):
     """Whether a mission ended with enough of the largest part, or a line came before it that says why not."""
     if 'refused' in each or each['of_largest'] >= ENOUGH - CLOSE:
         return True
-    reason = 'has no dock' if each['outcome'] == 'battery_low' else 'cannot be reached'
+    reason = 'has no dock' if each['outcome'] == 'battery_low' else 'is not planned'
     return any(reason in text for text in each['lines'])
 
 

@@ -45,7 +45,8 @@ class Judge:
             obstacles: that stand there all the time: functions of x and y, arrays [m], that say where they are.
         """
         self._origin, self._brush = np.array(origin, float), brush
-        count = math.ceil(resolution / (FINE if obstacles else LATTICE) - 1e-6)
+        # An even number: the middle of each gap is a point.
+        count = 2 * math.ceil(0.5 * resolution / (FINE if obstacles else LATTICE) - 1e-6)
         self._step = resolution / count
         free = np.asarray(free, bool).repeat(count, 0).repeat(count, 1)
         away = self._distances(free, obstacles)
