@@ -24,7 +24,7 @@ def map_of(plan, start, corners, seed=1):
 
 def looked_for(world, mapper, there, corners, search=None):
     """Carry the robot away, and have it drive while it is looked for; what is found, and where the robot then is."""
-    search, robot = search or Relocation(mapper.grid, mapper.noise), world.robots['rumba']
+    search, robot = search or Relocation(mapper.grid, mapper.noise, mapper.correction), world.robots['rumba']
     world.teleport('rumba', there)
     scans = []
 
@@ -49,6 +49,13 @@ def test_a_place_that_no_other_is_like_is_found(there):
     assert max(error(found.pose, true)) < 0.05
 
 
+def test_of_two_places_that_are_alike_the_one_is_found_where_the_robot_was_before():
+    plan = room(4.0, 2.6, 0.02)  # looks the same after half a turn
+    world, mapper = map_of(plan, Pose(0.6, 0.8, 0.0), [(3.4, 0.8), (3.4, 1.8), (0.6, 1.8), (0.6, 0.8)])
+    found, true = looked_for(world, mapper, world.robots['rumba'].pose, [(1.0, 1.8), (1.0, 0.8), (3.2, 0.8)])
+    assert max(error(found.pose, true)) < 0.05
+
+
 def test_between_places_that_are_alike_none_is_chosen():
     plan = room(4.0, 2.6, 0.02)  # looks the same after half a turn
     world, mapper = map_of(plan, Pose(0.6, 0.8, 0.0), [(3.4, 0.8), (3.4, 1.8), (0.6, 1.8), (0.6, 0.8)])
@@ -66,7 +73,7 @@ def test_nothing_is_found_where_the_map_has_nothing():
 def test_a_robot_that_comes_back_to_floor_that_the_map_shows_is_found():
     world, mapper = map_of(crooked(0.02), Pose(0.6, 1.2, 0.0), [(2.0, 1.3), (2.2, 2.6), (1.0, 2.6), (0.6, 1.2)])
     other = world_of(room(9.0, 7.0, 0.05, [(3.0, 3.0, 4.0, 3.5), (6.0, 1.0, 6.5, 2.0)]), Pose(1.0, 1.0, 0.0))
-    search = Relocation(mapper.grid, mapper.noise)
+    search = Relocation(mapper.grid, mapper.noise, mapper.correction)
     found, _ = looked_for(other, mapper, Pose(1.0, 1.5, 0.0), [(5.0, 2.5), (5.0, 5.5)], search)
     assert found is None
     corners = [(2.2, 2.4), (1.0, 2.5), (2.2, 2.4), (1.0, 2.5)]
@@ -78,7 +85,7 @@ def test_on_a_map_too_small_for_a_place_to_be_tried_nothing_is_found():
     world, mapper = world_of(crooked(0.05), Pose(0.6, 1.2, 0.0)), Mapper(config=MapperConfig(delta=0.2))
     mapper.observe(Pose(0.0, 0.0, 0.0), scan(world))
     mapper.grid.odds[:] = 1.0
-    search = Relocation(mapper.grid, mapper.noise)
+    search = Relocation(mapper.grid, mapper.noise, mapper.correction)
     assert search.observe(Pose(0.0, 0.0, 0.0), scan(world)) is None
 
 
@@ -90,7 +97,7 @@ def test_no_scan_tries_more_places_than_it_may(monkeypatch):
                         lambda *given: tried.append(len(given[6])) or look_around(*given))
     world, mapper = map_of(crooked(0.05), Pose(0.6, 1.2, 0.0), [(2.0, 1.3), (0.6, 1.2)])
     tried.clear()
-    search = Relocation(mapper.grid, mapper.noise)
+    search = Relocation(mapper.grid, mapper.noise, mapper.correction)
     for number in range(40):
         search.observe(Pose(0.01 * number, 0.0, 0.0), scan(world))
     assert max(tried) <= 20 and len(tried) > 3

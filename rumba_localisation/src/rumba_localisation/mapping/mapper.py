@@ -111,7 +111,7 @@ class Mapper:
             return self._find(self._search, odometry, scan)
         else:
             estimate = self._judged(self._tracker.follow(self.grid, self.pose(odometry), last, odometry, scan),
-                                    scan)
+                                    odometry, scan)
         self._last, self.estimate = odometry, estimate
         self.correction = compose(estimate.pose, inverse(odometry))
         if self._search is None and self._misfits == 0 and self._is_news(estimate.pose, scan.points):
@@ -201,7 +201,7 @@ class Mapper:
         self.redrawn += 1
         self._visits = dict(collections.Counter(_square(pose) for pose in frames.poses))
 
-    def _judged(self, estimate: Estimate, scan: Scan) -> Estimate:
+    def _judged(self, estimate: Estimate, odometry: Pose, scan: Scan) -> Estimate:
         """If a scan does not fit, look nearby: wheels err along a bare corridor; in the end, look all over the map."""
         grid, ends = self.grid, scan.points
         if is_blind(ends) or grid.share_wrong(estimate.pose, scan, self.noise) < ASTRAY:
@@ -217,7 +217,7 @@ class Mapper:
             return Estimate(near.pose, near.covariance, near.fit, True)
         if self._misfits < LOST_AFTER:
             return estimate
-        self._search = Relocation(grid, self.noise)
+        self._search = Relocation(grid, self.noise, compose(estimate.pose, inverse(odometry)))
         return estimate._replace(covariance=START, is_sure=False)
 
     def _find(self, search: Relocation, odometry: Pose, scan: Scan) -> bool:

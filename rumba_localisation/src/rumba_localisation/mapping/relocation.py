@@ -25,6 +25,7 @@ SPREAD = np.diag([0.15, 0.15, 0.1]) ** 2  # covariance of a place that is follow
 SCANS, WAY = 5, 1.0  # scans, and [m] of way, at least, over which a place must fit
 FITS = 0.6  # quality that scans must have there ...
 MARGIN = 0.15  # ... and by so much more than at any other place
+HARDLY = 0.3  # quality at the best place, below which all are tried again
 
 
 class Place(NamedTuple):
@@ -44,15 +45,24 @@ class Place(NamedTuple):
 class Relocation:
     """Tries places with one scan after the other, follows the best, and tells which fits far better than all others.
 
-    If none of them fits after some way, it tries all again: the map may be wrong where they were tried first.
+    If none of them fits after some way, it tries all again: the map may be wrong where they were tried first. For the
+    same reason, the place where the robot would be if nobody had carried it is followed all the time. It is chosen if
+    scans fit there, and nowhere far better.
     """
 
-    def __init__(self, grid: Grid, noise: Noise) -> None:
-        """Look on a map."""
+    def __init__(self, grid: Grid, noise: Noise, correction: Pose) -> None:
+        """Look on a map.
+
+        Args:
+            grid: the map.
+            noise: of the laser.
+            correction: pose of the frame of the odometry in the map frame, if nobody has carried the robot.
+        """
         self._grid, self._noise = grid, noise
         step = max(round(SPACING / grid.resolution), 1)
         free = np.argwhere(grid.odds[step // 2::step, step // 2::step] < 0.0)[:, ::-1] * step + step // 2 + 0.5
         self._free = free * grid.resolution + np.array(grid.origin)
+        self._here = Place(correction, SPREAD, 0.0, 0)  # of a robot at the origin of its odometry
         self._begin()
         self._last: Optional[Pose] = None
 
@@ -60,6 +70,7 @@ class Relocation:
         """Try all places, from the next scan on."""
         self._untried = self._free
         self._places: List[Place] = []
+        self._here = self._here._replace(score=0.0, scans=0)
         self._way = 0.0
 
     def observe(self, odometry: Pose, scan: Scan) -> Optional[Estimate]:
@@ -70,16 +81,17 @@ class Relocation:
             scan: what the laser told.
         """
         last, self._last = self._last, odometry
-        movement = Pose(0.0, 0.0, 0.0) if last is None else compose(inverse(last), odometry)
+        movement = odometry if last is None else compose(inverse(last), odometry)
+        here = self._here._replace(pose=compose(self._here.pose, movement))
         moved = [place._replace(pose=compose(place.pose, movement)) for place in self._places]
         if is_blind(scan.points):
-            self._places = moved
+            self._places, self._here = moved, here
             return None
         if len(self._untried):
             moved += self._tried(scan.points)
-        else:
+        elif last is not None:
             self._way += math.hypot(movement.x, movement.y)
-        self._places = _best([self._matched(place, scan) for place in moved])
+        self._places, self._here = _best([self._matched(place, scan) for place in moved]), self._matched(here, scan)
         return self._clear()
 
     def _tried(self, ends: Array) -> List[Place]:
@@ -102,18 +114,22 @@ class Relocation:
         return Place(found.pose, found.covariance, place.score + score, place.scans + 1)
 
     def _clear(self) -> Optional[Estimate]:
-        """The best place, if all were tried, enough was seen, and it is far better than the others."""
-        if not self._places or len(self._untried):
+        """The place, if all were tried, enough was seen, and it is far better than the others."""
+        if len(self._untried) or self._here.scans < SCANS or self._way < WAY:
             return None
-        best, *others = self._places
-        if best.scans < SCANS or self._way < WAY:
-            return None
-        if best.mean < FITS:
+        best, other, *_ = [place.mean for place in self._places] + 2 * [-math.inf]
+        if self._here.mean >= max(FITS, best - MARGIN):
+            return _estimate(self._here)
+        if best >= FITS and other <= best - MARGIN and self._places[0].scans >= SCANS:
+            return _estimate(self._places[0])
+        if best < HARDLY:
             self._begin()
-            return None
-        if others and others[0].mean > best.mean - MARGIN:
-            return None
-        return Estimate(best.pose, best.covariance, best.mean, True)
+        return None
+
+
+def _estimate(place: Place) -> Estimate:
+    """A place that was chosen."""
+    return Estimate(place.pose, place.covariance, place.mean, True)
 
 
 def _best(places: List[Place]) -> List[Place]:
