@@ -31,7 +31,8 @@ FOLDERS = {
         'planning/team': {'', 'belief', 'planning/common', 'planning/simulate'},
         'planning': {'', 'belief', 'behaviours', 'planning/common', 'planning/decompose', 'planning/simulate',
                      'planning/swaths', 'planning/order', 'planning/search'},
-        'strategies': {'', 'belief', 'behaviours', 'planning', 'planning/team'}, 'mission': {'', 'belief', 'behaviours', 'strategies'},
+        'strategies': {'', 'belief', 'behaviours', 'planning', 'planning/team'},
+        'mission': {'', 'belief', 'behaviours', 'strategies'},
         'own_robot': set(), 'ros/own_robot': {'own_robot'},
         'ros/cleaner': {'', 'belief', 'behaviours', 'strategies', 'mission', 'own_robot'}},
     'rumba_evaluation': {
