@@ -4,4 +4,5 @@ from setuptools import find_packages, setup
 setup(**generate_distutils_setup(
     packages=find_packages('src'),
     package_dir={'': 'src'},
+    package_data={'rumba_localisation': ['py.typed']},
 ))

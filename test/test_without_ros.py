@@ -158,6 +158,12 @@ def test_many_worlds_advance_as_the_page_shows(venv, tmp_path):
     assert 5.0 < mean < most < 50.0
 
 
+def test_the_public_module_is_there(venv):
+    assert run(venv, 'python', '-c', 'import rumba; print(rumba.load_map("studio").columns > 0)') == 'True\n'
+    [packages] = venv.glob('lib/python3*/site-packages')
+    assert all((packages / name / 'py.typed').exists() for name in ('rumba', *PURE))
+
+
 def test_a_bag_is_refused_in_one_line(venv, tmp_path):
     (tmp_path / 'path.bag').write_bytes(b'#ROSBAG V2.0\n')
     process = subprocess.run([str(venv / 'bin' / 'rumba-evaluate'), '--maps', 'studio', '--path', 'path.bag'],
