@@ -101,3 +101,11 @@ def test_the_way_to_the_dock_is_taken_to_be_longer_than_its_length_by_turns_and_
     rate, home = (0.19 + 1.0 + 0.5) / 9720.0, approach(watch._context)
     far = watch.needed(Pose(home.x - 2.0, home.y, 0.0)) - watch.needed(home)
     assert far == pytest.approx(1.6 * 2.0 / 0.45 * rate, rel=0.03)
+
+
+def test_a_charge_that_falls_more_slowly_than_usual_does_not_make_the_robot_bold():
+    watch = BatteryWatch(context_of(PLAN, mission()[0]))
+    before = watch.needed(HERE)
+    for tick in range(5001):
+        watch.measure(Observation(0.1, HERE, state_of_charge=1.0 - 0.00001 * tick))
+    assert watch.needed(HERE) == before

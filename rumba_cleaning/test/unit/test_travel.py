@@ -50,3 +50,16 @@ def test_at_an_edge_it_backs_off_if_that_holds_it_or_the_map_does_not_show_all(i
         context.footing._see(1.0, 0.5)
     observation = observe(world, 'rumba', CONTROL_DT)._replace(cliffs=(False, True, True, False), is_held=is_held)
     assert (Travel(context, TO_EDGE).command(observation, True).v < 0.0) == (is_held or is_other_seen)
+
+
+@pytest.mark.parametrize('bumper, side', [((True, False), 1.0), ((False, True), -1.0)])
+def test_what_presses_a_switch_is_remembered_on_the_side_of_that_switch(bumper, side):
+    _, world, context = before_edge(False)
+    pose = Pose(2.0, 1.0, 0.0)
+    observation, travel = observe(world, 'rumba', CONTROL_DT)._replace(pose=pose), Travel(context, TO_EDGE)
+    travel.command(observation, True)
+    assert travel.command(observation._replace(bumper=bumper), True).v < 0.0
+    ground = context.ground
+    there, opposite = (float(ground.clearance[ground.node(pose.x + 0.13, pose.y + y)])
+                       for y in (0.12 * side, -0.12 * side))
+    assert there < opposite - 0.05

@@ -10,7 +10,8 @@ from rooms import crooked, room
 from scans import scanned, world_of
 
 from rumba_localisation import compiled_matching
-from rumba_localisation.matcher import STEPS
+from rumba_localisation.localiser_config import LocaliserConfig
+from rumba_localisation.matcher import STEPS, Match, Matcher
 from rumba_localisation.walls import Walls
 from rumba_sim.model.geometry import Pose
 
@@ -101,3 +102,14 @@ def test_a_match_does_not_run_away_from_a_start_that_fits_nowhere():
     for start in ((2.0, 1.3, 0.7), (0.1, 0.1, 3.0), (3.9, 2.9, -2.0)):
         pose, _, _ = matched(walls, start, points, np.diag([1.0, 1.0, 1.0]))
         assert np.abs(pose - start).max() <= compiled_matching.FARTHEST * len(STEPS)
+
+
+@pytest.mark.parametrize('is_sure', [True, False])
+def test_worse_scans_become_usual_soon_only_while_the_robot_knows_its_place(is_sure):
+    matcher = Matcher(None, None, LocaliserConfig())
+    good, worse = (Match(np.zeros(3), np.eye(3), fit, 0.0) for fit in (0.9, 0.5))
+    matcher.follow(good, True)
+    assert not matcher.is_good(worse)
+    for _ in range(20):
+        matcher.follow(worse, is_sure)
+    assert matcher.is_good(worse) == is_sure

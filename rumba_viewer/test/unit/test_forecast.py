@@ -126,3 +126,11 @@ def test_the_closing_report_names_what_was_done_in_this_mission():
                            forecast)
     assert told == ['rumba: 90.0 % of the floor is swept: 18.0 of 20.0 m², 50.0 % of the dirt is left',
                     '0:50, 50.0 m driven, 1 charge, battery 90 %']
+
+
+@pytest.mark.parametrize('state, less, more', [('cleaning', 0.76, 0.79), ('charging', 0.7, 0.73)])
+def test_the_charge_at_which_it_is_back_on_its_dock_is_not_to_be_spent(state, less, more):
+    # 150 s need three times what 50 s took. All but LEAST can be spent of this charge, or of 0.95 after charging.
+    one, none = (after((0.0, 0.0, 1.0, 'cleaning'), (50.0, 5.0, share, 'cleaning'), (50.0, 5.0, share, state)).left
+                 for share in (less, more))
+    assert one > 1.5 * none

@@ -121,3 +121,21 @@ def test_several_subscriptions_of_a_client_are_one():
     assert feed.has_listeners
     feed.remove(reader, '')
     assert not feed.has_listeners
+
+
+def test_after_a_pause_messages_do_not_come_faster_than_they_should():
+    feed, encoding, (reader,) = feed_of(Demand(1.0))
+    arrivals(feed, b'0')
+    feed.tick(0.0, encoding)
+    for tick in range(11):  # 1 s with a message each 0.1 s, after 10 s without any
+        arrivals(feed, b'%d' % tick)
+        feed.tick(10.0 + 0.1 * tick, encoding)
+    assert len(reader.got) <= 3
+
+
+def test_on_average_messages_come_as_often_as_they_should_though_ticks_do_not_fit():
+    feed, encoding, (reader,) = feed_of(Demand(0.1))
+    for tick in range(101):
+        arrivals(feed, b'%d' % tick)
+        feed.tick(0.03 * tick, encoding)
+    assert 29 <= len(reader.got) <= 32
