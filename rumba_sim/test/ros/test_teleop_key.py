@@ -148,7 +148,7 @@ class TeleopKeyTest(unittest.TestCase):
         keyboard = Keyboard(self, 'brushes')
         for state in ('up', 'down', 'up'):
             keyboard.type('b')
-            keyboard.wait_to_see(f'brushes {state} ')
+            keyboard.wait_to_see(f'brushes {state:<4} ')
         self.assertEqual(asked, [True, False, True])
 
     def test_what_the_robot_says_of_its_brushes_counts(self):
@@ -158,7 +158,7 @@ class TeleopKeyTest(unittest.TestCase):
         publisher = rospy.Publisher('/status/rumba/battery_status', BatteryStatus, queue_size=1, latch=True)
         publisher.publish(BatteryStatus(brushes_up=True))
         keyboard = Keyboard(self, 'status')
-        keyboard.wait_to_see('brushes up ')
+        keyboard.wait_to_see('brushes up   ')  # not that of the help
         keyboard.type('b')
         keyboard.wait_to_see('brushes: a sock is in the way\r\n')
         self.assertEqual(asked, [False])
