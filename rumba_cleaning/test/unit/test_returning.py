@@ -37,4 +37,4 @@ def test_it_ends_there_facing_as_it_should(home, end):
 def test_a_place_in_a_wall_is_told_and_the_floor_is_clean_all_the_same():
     mission, _ = ended(Pose(0.0, 0.0, 0.0))
     assert mission.outcome is Outcome.SUCCEEDED
-    assert '; not back: room: target' in mission.message
+    assert '; not back: target' in mission.message

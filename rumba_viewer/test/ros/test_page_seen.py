@@ -126,6 +126,10 @@ class SeenTest(unittest.TestCase):
         browser.wait_for('waiting', '^$')
         keys, mission = Keyboard(browser), Heard(self, '/rumba/mission_status', MissionStatus)
 
+        def reads(label):
+            browser.wait_for('clean', f'^{label}$')
+            wait(self, lambda: browser.element('clean').is_enabled(), f'{label} to be enabled')
+
         def leads_to(key, *states):
             mission.messages.clear()
             keys.press(key)
@@ -137,11 +141,11 @@ class SeenTest(unittest.TestCase):
         wait(self, lambda: browser.element('clean').is_enabled(), 'the cleaner of the first')
         keys.tab_to('clean')
         leads_to('ENTER', MissionStatus.CLEANING)
-        browser.wait_for('clean', '^Pause$')
+        reads('Pause')
         leads_to('SPACE', MissionStatus.IDLE)
-        browser.wait_for('clean', '^Resume$')
+        reads('Resume')
         leads_to('ENTER', MissionStatus.CLEANING)
-        browser.wait_for('clean', '^Pause$')
+        reads('Pause')
         keys.tab_to('home')
         leads_to('ENTER', MissionStatus.RETURNING, MissionStatus.DOCKING)
         leads_to('ESCAPE', MissionStatus.IDLE)

@@ -12,6 +12,7 @@ interpolated = fast.interpolated
 
 Array = Any  # numpy.ndarray
 
+NONE = -1  # of many points, no one
 CLOSE = 0.02  # [m] points so near to each other have no direction between them
 TINY = 1e-9  # [nodes]
 SHARP = 1.6  # [rad] a little more than a right angle

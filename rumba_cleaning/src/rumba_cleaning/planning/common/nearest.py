@@ -4,9 +4,9 @@ from typing import Any
 
 import numpy as np
 
+from rumba_cleaning.planning.common.compiled_ways import NONE
 from rumba_sim.model.kernel import Array
 
-NONE = -1  # no point
 ROUNDING = 1.0 + 1e-9  # of a distance, whose square is compared
 
 

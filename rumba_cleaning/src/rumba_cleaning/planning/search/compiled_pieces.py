@@ -11,8 +11,7 @@ from typing import Any, NamedTuple, Tuple
 import numpy as np
 
 from rumba_cleaning.behaviours.compiled_follower import SLOWEST_BEND, Drive, wrapped
-from rumba_cleaning.planning.common.compiled_ways import CLOSE, Needed, cornering, distance, sight
-from rumba_cleaning.planning.common.nearest import NONE
+from rumba_cleaning.planning.common.compiled_ways import CLOSE, NONE, Needed, cornering, distance, sight
 from rumba_sim.model.jit import compiled
 
 Array = Any  # numpy.ndarray
