@@ -9,8 +9,8 @@ from pytest import approx
 from rooms import room
 
 from rumba_cleaning.behaviours.follower import drive_of
+from rumba_cleaning.planning.common.compiled_ways import NONE
 from rumba_cleaning.planning.common.lines import needed
-from rumba_cleaning.planning.common.nearest import NONE
 from rumba_cleaning.planning.search import pieces
 from rumba_cleaning.planning.search.compiled_pieces import BEYOND, FAR, Pace, cells, durations, links
 from rumba_cleaning.planning.search.edits import dense

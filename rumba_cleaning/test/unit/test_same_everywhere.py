@@ -8,7 +8,8 @@ from scipy import ndimage, spatial
 
 from rumba_cleaning.compiled_bearings import bearings
 from rumba_cleaning.planning.common import gaussian
-from rumba_cleaning.planning.common.nearest import NONE, nearest
+from rumba_cleaning.planning.common.compiled_ways import NONE
+from rumba_cleaning.planning.common.nearest import nearest
 from rumba_cleaning.planning.common.rows import distinct
 from rumba_cleaning.planning.decompose.turned_floor import _on_axes
 

@@ -6,8 +6,9 @@ import numpy as np
 from scipy import spatial
 
 from rumba_cleaning.belief.swept import Swept
+from rumba_cleaning.planning.common.compiled_ways import NONE
 from rumba_cleaning.planning.common.lines import needed
-from rumba_cleaning.planning.common.nearest import NONE, nearest
+from rumba_cleaning.planning.common.nearest import nearest
 from rumba_cleaning.planning.search import compiled_detours
 from rumba_cleaning.planning.simulate.edit import Edit
 from rumba_cleaning.planning.swaths.problem import Problem

@@ -7,7 +7,8 @@ from scipy import spatial
 
 from rumba_cleaning.belief.ground import Ground
 from rumba_cleaning.compiled_bearings import bearings
-from rumba_cleaning.planning.common.nearest import NONE, nearest
+from rumba_cleaning.planning.common.compiled_ways import NONE
+from rumba_cleaning.planning.common.nearest import nearest
 from rumba_cleaning.planning.common.polyline import SPACING
 from rumba_cleaning.planning.swaths.rings import SHORTEST, outlines
 from rumba_sim.model.kernel import Array
