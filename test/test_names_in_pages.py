@@ -26,7 +26,7 @@ HOOKS = re.findall(r'^\| `(\w+)\(.*?\)` ', TABLES, re.MULTILINE)
 
 @pytest.fixture(scope='module')
 def known():
-    """Objects by what the page calls them."""
+    """Objects by their names on the page."""
     context = Context(map_file.load(named_maps.path('studio')), RobotConfig(), CleaningConfig())
     return {'context': context, 'observation': Observation(0.1, Pose(1.0, 1.0, 0.0)), 'paths': paths, 'self': Behaviour}
 

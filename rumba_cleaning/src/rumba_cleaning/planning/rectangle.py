@@ -76,7 +76,7 @@ def _widest(context: Context, pose: Pose, spiral: Array) -> Optional[Rehearsal]:
 
 
 def _is_enough(context: Context, spiral: Array, radius: float) -> bool:
-    """Whether a spiral with such turns [m] meets the target, by what they leave between the arcs of two laps."""
+    """Whether a spiral with such turns [m] meets the target, although they leave floor between the arcs of two laps."""
     left = (len(spiral) - 2) * (1.0 - 0.25 * math.pi) * 2.0 * radius * context.robot.brush.width
     return left <= (1.0 - context.target_coverage - improvement.SURPLUS) * context.swept.reachable_area
 

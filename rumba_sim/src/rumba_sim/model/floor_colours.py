@@ -12,7 +12,7 @@ DOTS = 0.15  # [m] from one dot of a carpet to the next
 
 
 class FloorColours(NamedTuple):
-    """Colours by what they mean.
+    """Colours of a floor, of lines over it, and of robots.
 
     Attributes:
         wall, unknown, to_sweep, swept: of cells.

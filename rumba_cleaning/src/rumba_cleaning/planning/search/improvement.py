@@ -74,7 +74,7 @@ def improved(problem: Problem, routes: Sequence[Route], paths: Sequence[Array]) 
 
 
 def is_met(context: Context, rehearsal: Rehearsal) -> bool:
-    """Whether a route meets the target by its rehearsal, whatever that may be wrong by."""
+    """Whether a route meets the target, even if its rehearsal errs by MARGIN."""
     missing = (context.target_coverage - rehearsal.swept.coverage) * context.swept.reachable_area
     return missing + MARGIN * rehearsal.turned <= 0.0
 

@@ -18,7 +18,7 @@ class Edit(NamedTuple):
     area: float = 0.0  # [m^2] that is swept more
 
     def place(self, route: Route) -> bytes:
-        """What it replaces by what: the same for edits of several routes if these are the same there."""
+        """A key of the replaced part and its replacement: equal for edits of routes that are alike there."""
         return bytes(route.waypoints[[self.first, self.last]].tobytes() + self.path.tobytes())
 
     def is_near(self, price: float) -> bool:
