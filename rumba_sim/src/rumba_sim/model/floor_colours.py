@@ -12,7 +12,7 @@ DOTS = 0.15  # [m] from one dot of a carpet to the next
 
 
 class FloorColours(NamedTuple):
-    """Colours of a floor, of lines over it, and of robots.
+    """Colours of a floor, and of what is drawn on it.
 
     Attributes:
         wall, unknown, to_sweep, swept: of cells.
