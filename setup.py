@@ -9,7 +9,7 @@ ROOT = pathlib.Path(__file__).resolve().parent
 PACKAGES = ('rumba_sim', 'rumba_localisation', 'rumba_cleaning', 'rumba_evaluation')
 NEEDS_ROS = ('*.ros', '*.ros.*')
 PUBLIC = 'rumba'  # what users import
-MAPS = 'rumba_sim.maps'  # where rumba_sim.model.named_maps finds them
+MAPS = 'rumba_sim.maps'  # where rumba_sim.model.maps.named_maps finds them
 PACKAGE = ElementTree.parse(str(ROOT / 'rumba_evaluation' / 'package.xml'))
 # It is an SPDX identifier, for which setuptools has a field of its own since 77, which needs Python 3.9.
 LICENSE_FIELD = 'license_expression' if int(__version__.split('.')[0]) >= 77 else 'license'

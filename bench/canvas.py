@@ -15,10 +15,10 @@ from rumba_cleaning.belief.context import Context
 from rumba_cleaning.cleaning_config import CleaningConfig
 from rumba_cleaning.planning import warm_up
 from rumba_cleaning.planning.planner import plan
-from rumba_sim.model import map_file
-from rumba_sim.model.floor_plan import FREE, OCCUPIED
-from rumba_sim.model.robot_config import RobotConfig
-from rumba_sim.model.world import World
+from rumba_sim.model.maps import map_file
+from rumba_sim.model.maps.floor_plan import FREE, OCCUPIED
+from rumba_sim.model.settings.robot_config import RobotConfig
+from rumba_sim.model.simulation.world import World
 
 CANVASES = (0, 2000, 4000)  # [pixels] of a side; 0: no larger than the floor
 SECONDS, MEGABYTES = 5.0, 700.0  # for floors of up to 200 m2: our choice

@@ -19,8 +19,8 @@ from rumba_cleaning.cleaning_config import CleaningConfig
 from rumba_cleaning.pose_source import Localised, truth
 from rumba_evaluation.trials import starts
 from rumba_evaluation.trials.cases import LOCALISED, TRUTH
-from rumba_sim.model import map_file
-from rumba_sim.model.world import World
+from rumba_sim.model.maps import map_file
+from rumba_sim.model.simulation.world import World
 
 MAPS = pathlib.Path(__file__).resolve().parents[1] / 'rumba_sim' / 'maps'
 STARTS = 200

@@ -25,12 +25,12 @@ from rumba_cleaning.cleaning_config import CleaningConfig
 from rumba_cleaning.outcome import Outcome
 from rumba_evaluation.trials.cases import Conditions
 from rumba_evaluation.trials.trial import Trial
-from rumba_sim.model.constants import clearance_needed
-from rumba_sim.model.floor_plan import FloorPlan
-from rumba_sim.model.geometry import Pose
-from rumba_sim.model.reachability import Parts
-from rumba_sim.model.robot_config import RobotConfig
-from rumba_sim.model.world import World
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.floors.constants import clearance_needed
+from rumba_sim.model.floors.reachability import Parts
+from rumba_sim.model.maps.floor_plan import FloorPlan
+from rumba_sim.model.settings.robot_config import RobotConfig
+from rumba_sim.model.simulation.world import World
 
 KINDS = ('furnished', 'empty', 'dining', 'islands', 'jagged', 'slanted', 'tiny', 'round', 'pits', 'cliffs')
 RESOLUTION = 0.02  # [m]

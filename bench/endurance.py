@@ -21,8 +21,8 @@ from rumba_cleaning.control import STEP_RATE, steps
 from rumba_cleaning.mission.mission import Mission
 from rumba_cleaning.outcome import Outcome
 from rumba_msg.msg import CleanAction, CleanGoal
-from rumba_sim.model import map_file, named_maps
-from rumba_sim.model.world import World
+from rumba_sim.model.maps import map_file, named_maps
+from rumba_sim.model.simulation.world import World
 
 MAP, TARGET = 'apartment', 0.98
 STRIDE = 10  # [s] of rest in one call

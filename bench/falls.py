@@ -23,10 +23,10 @@ from rumba_cleaning.mission.mission import Mission
 from rumba_cleaning.outcome import Outcome
 from rumba_evaluation.trials.cases import MAPLESS, SLAM, Conditions
 from rumba_evaluation.trials.trial import Trial
-from rumba_sim.model.floor_plan import FloorPlan
-from rumba_sim.model.robot import FIRST
-from rumba_sim.model.robot_config import RobotConfig
-from rumba_sim.model.world import World
+from rumba_sim.model.maps.floor_plan import FloorPlan
+from rumba_sim.model.settings.robot_config import RobotConfig
+from rumba_sim.model.simulation.robot import FIRST
+from rumba_sim.model.simulation.world import World
 
 EXPLORED, UNSHOWN, BLIND = 'explored', 'unshown', 'mapless'
 STRATEGIES = {EXPLORED: ('explore_and_clean',), UNSHOWN: ('boustrophedon', 'wander', 'bounce', 'wall_follow'),

@@ -12,9 +12,9 @@ from rumba_cleaning.cleaning_config import CleaningConfig
 from rumba_cleaning.planning.planner import plan
 from rumba_evaluation.trials.cases import Conditions
 from rumba_evaluation.trials.trial import Trial
-from rumba_sim.model import map_file, named_maps
-from rumba_sim.model.robot_config import RobotConfig
-from rumba_sim.model.world import World
+from rumba_sim.model.maps import map_file, named_maps
+from rumba_sim.model.settings.robot_config import RobotConfig
+from rumba_sim.model.simulation.world import World
 
 COVERAGE = 0.98
 SEEDS = range(1, 4)

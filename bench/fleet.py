@@ -16,7 +16,7 @@ from common import figures
 from rumba_cleaning.outcome import Outcome
 from rumba_evaluation.trials.cases import ANYWHERE, DOCK, LOCALISED, POSES, TRUTH, Conditions
 from rumba_evaluation.trials.trial import Trial
-from rumba_sim.model import map_file, named_maps
+from rumba_sim.model.maps import map_file, named_maps
 
 MAP = 'apartment_docks'
 ROBOTS = (1, 2, 3)

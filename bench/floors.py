@@ -23,7 +23,7 @@ from rumba_cleaning.planning import planner
 from rumba_cleaning.strategies import boustrophedon
 from rumba_evaluation.trials.cases import Conditions
 from rumba_evaluation.trials.trial import Trial
-from rumba_sim.model.errors import RumbaError
+from rumba_sim.model.common.errors import RumbaError
 
 RESOLUTIONS = (1.0, 2.0, 5.0, 10.0)  # [cm]
 LARGE = ('furnished', 'empty', 'furnished of 1,300 m2', 'office')  # nobody maps a whole storey at 1 cm

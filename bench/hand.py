@@ -31,10 +31,10 @@ from rumba_cleaning.mission.mission import Mission
 from rumba_cleaning.outcome import Outcome
 from rumba_evaluation.trials import batch
 from rumba_msg.msg import CleanAction, CleanGoal, DockStatus
-from rumba_sim.model import map_file
-from rumba_sim.model.robot import FIRST
-from rumba_sim.model.robot_config import RobotConfig
-from rumba_sim.model.world import World
+from rumba_sim.model.maps import map_file
+from rumba_sim.model.settings.robot_config import RobotConfig
+from rumba_sim.model.simulation.robot import FIRST
+from rumba_sim.model.simulation.world import World
 from rumba_sim.ros.common import teleop
 
 MAPS = pathlib.Path(__file__).resolve().parents[1] / 'rumba_sim' / 'maps'

@@ -24,8 +24,8 @@ from rumba_evaluation.trials.trial import Trial
 from rumba_localisation.logs import carmen, trajectory
 from rumba_localisation.mapping.mapper import Mapper
 from rumba_localisation.scan import Reading
-from rumba_sim.model.config import from_mapping
-from rumba_sim.model.laser_config import MODELS, LaserConfig
+from rumba_sim.model.common.config import from_mapping
+from rumba_sim.model.settings.laser_config import MODELS, LaserConfig
 
 FLOORS = ('studio', 'apartment')
 WANTED = 0.97  # of the floor that can be reached

@@ -27,9 +27,9 @@ from rumba_cleaning.pose_source import Localised
 from rumba_evaluation.trials import starts
 from rumba_evaluation.trials.cases import ANYWHERE, LOCALISED, TRUTH, Conditions
 from rumba_evaluation.trials.trial import Trial
-from rumba_sim.model import map_file, named_maps
-from rumba_sim.model.geometry import wrap_angle
-from rumba_sim.model.world import World
+from rumba_sim.model.common.geometry import wrap_angle
+from rumba_sim.model.maps import map_file, named_maps
+from rumba_sim.model.simulation.world import World
 
 NAMES = ('studio', 'apartment')
 TARGET = 0.98

@@ -23,9 +23,9 @@ from tqdm import tqdm
 from rumba_evaluation.trials.cases import Conditions
 from rumba_evaluation.trials.trial import Trial
 from rumba_msg.msg import MissionStatus
-from rumba_sim.model import map_file
-from rumba_sim.model.robot import nth_name
-from rumba_sim.model.world import World
+from rumba_sim.model.maps import map_file
+from rumba_sim.model.simulation.robot import nth_name
+from rumba_sim.model.simulation.world import World
 
 MAPS = pathlib.Path(__file__).resolve().parents[1] / 'rumba_sim' / 'maps'
 STRATEGY = 'boustrophedon'

@@ -17,7 +17,7 @@ from rumba_cleaning.mission.stages import State
 from rumba_cleaning.outcome import Outcome
 from rumba_evaluation.trials.cases import MAPLESS, Conditions
 from rumba_evaluation.trials.trial import Trial
-from rumba_sim.model import map_file, named_maps
+from rumba_sim.model.maps import map_file, named_maps
 
 MAPS, STRATEGIES = ('studio', 'apartment', 'field'), ('wander', 'bounce', 'wall_follow', 'spiral')
 SHARES = 0.5, 0.95  # of the searches for the dock, by the time that they take

@@ -21,10 +21,10 @@ from rumba_evaluation.trials.cases import SLAM, Conditions
 from rumba_evaluation.trials.trial import Trial
 from rumba_localisation import compiled_matching
 from rumba_localisation.walls import Walls
-from rumba_sim.model import map_file, named_maps
-from rumba_sim.model.floor_plan import OCCUPIED
-from rumba_sim.model.geometry import compose
-from rumba_sim.model.world import World
+from rumba_sim.model.common.geometry import compose
+from rumba_sim.model.maps import map_file, named_maps
+from rumba_sim.model.maps.floor_plan import OCCUPIED
+from rumba_sim.model.simulation.world import World
 
 RING, OFFICE = 'ring', 'office'
 NAMES = ('studio', 'apartment', RING)

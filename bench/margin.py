@@ -10,7 +10,7 @@ from common import drawings, figures, hard_floors, people, wings
 
 from rumba_evaluation.trials.cases import Conditions
 from rumba_evaluation.trials.trial import Trial
-from rumba_sim.model.floor_plan import FloorPlan
+from rumba_sim.model.maps.floor_plan import FloorPlan
 
 MARGINS = 0.0, 0.01, 0.02, 0.03, 0.05  # [m]
 AREA, RESOLUTION, FINE = 60.0, 0.05, 0.02  # [m^2] with furniture; [m]

@@ -12,11 +12,11 @@ from common import figures, ros_session
 from rumba_cleaning.behaviours.bounce import Bounce
 from rumba_cleaning.control import steps
 from rumba_cleaning.pose_source import Mapped
-from rumba_sim.model import map_file
-from rumba_sim.model.config import updated
-from rumba_sim.model.robot_config import RobotConfig
-from rumba_sim.model.world import World
-from rumba_sim.ros.common.maps import map_path
+from rumba_sim.model.common.config import updated
+from rumba_sim.model.maps import map_file
+from rumba_sim.model.settings.robot_config import RobotConfig
+from rumba_sim.model.simulation.world import World
+from rumba_sim.ros.participants.maps import map_path
 
 MAP = 'studio'
 HOUR, DAY = 3600, 86400  # [s]

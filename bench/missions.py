@@ -14,7 +14,7 @@ from common import figures
 from rumba_evaluation.trials import batch
 from rumba_evaluation.trials.batch import Job
 from rumba_evaluation.trials.cases import Case, Conditions
-from rumba_sim.model import named_maps
+from rumba_sim.model.maps import named_maps
 
 STRATEGY = 'boustrophedon'
 NAMES, SEEDS = ('studio', 'apartment'), range(1, 6)

@@ -20,9 +20,9 @@ from common.judge import Tracks
 from rumba_cleaning.outcome import Outcome
 from rumba_evaluation.trials.cases import LOCALISED, POSES, TRUTH, Conditions
 from rumba_evaluation.trials.trial import Trial
-from rumba_sim.model import map_file, named_maps
-from rumba_sim.model.geometry import Pose
-from rumba_sim.model.obstacle import Obstacle, walk
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.maps import map_file, named_maps
+from rumba_sim.model.simulation.obstacle import Obstacle, walk
 
 NAMES = ('studio', 'apartment')
 TARGET = 0.98

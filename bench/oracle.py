@@ -19,10 +19,10 @@ from rumba_cleaning import control
 from rumba_cleaning.behaviours.bounce import Bounce
 from rumba_cleaning.cleaning_config import CleaningConfig
 from rumba_cleaning.pose_source import Localised
-from rumba_sim.model import map_file, named_maps
-from rumba_sim.model.geometry import Pose, as_told, compose, inverse, wrap_angle
-from rumba_sim.model.laser_config import LaserConfig
-from rumba_sim.model.world import World
+from rumba_sim.model.common.geometry import Pose, as_told, compose, inverse, wrap_angle
+from rumba_sim.model.maps import map_file, named_maps
+from rumba_sim.model.settings.laser_config import LaserConfig
+from rumba_sim.model.simulation.world import World
 
 LASER = LaserConfig()
 NAMES = ('studio', 'apartment')

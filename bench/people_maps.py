@@ -27,10 +27,10 @@ from rumba_cleaning.planning import planner, warm_up
 from rumba_cleaning.strategies import boustrophedon
 from rumba_evaluation.trials.foresight import remarks_on
 from rumba_evaluation.trials.trial import Trial
-from rumba_sim.model import map_file
-from rumba_sim.model.dock_place import place_dock
-from rumba_sim.model.errors import RumbaError
-from rumba_sim.model.world import World
+from rumba_sim.model.common.errors import RumbaError
+from rumba_sim.model.floors.dock_place import place_dock
+from rumba_sim.model.maps import map_file
+from rumba_sim.model.simulation.world import World
 
 SEEDS = '1-30'
 ENOUGH, CLOSE = 0.98, 0.002  # of the largest part; how near the judge and the simulator must be

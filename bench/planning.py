@@ -14,9 +14,9 @@ from common import drawings, figures, hard_floors, large_floors, wings
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.cleaning_config import CleaningConfig
 from rumba_cleaning.planning.planner import plan
-from rumba_sim.model import map_file
-from rumba_sim.model.robot_config import RobotConfig
-from rumba_sim.model.world import World
+from rumba_sim.model.maps import map_file
+from rumba_sim.model.settings.robot_config import RobotConfig
+from rumba_sim.model.simulation.world import World
 
 MAPS = pathlib.Path(__file__).resolve().parents[1] / 'rumba_sim' / 'maps'
 BOUNDS = ((1000.0, 3.0), (3600.0, 10.0))  # [m2, CPU s]; our choice: a person waits so long for a robot to start

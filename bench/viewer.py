@@ -18,10 +18,10 @@ from common import figures, ros_session  # noqa: E402
 from PyQt5.QtGui import QImage, QPainter  # noqa: E402
 from PyQt5.QtWidgets import QApplication  # noqa: E402
 
-from rumba_sim.model import map_file  # noqa: E402
-from rumba_sim.model.geometry import Pose  # noqa: E402
-from rumba_sim.model.robot_config import RobotConfig  # noqa: E402
-from rumba_sim.ros.common.maps import map_path  # noqa: E402
+from rumba_sim.model.common.geometry import Pose  # noqa: E402
+from rumba_sim.model.maps import map_file  # noqa: E402
+from rumba_sim.model.settings.robot_config import RobotConfig  # noqa: E402
+from rumba_sim.ros.participants.maps import map_path  # noqa: E402
 from rumba_viewer.painting.paint_scene import ScenePainter  # noqa: E402
 from rumba_viewer.scene.dock_field import dock  # noqa: E402
 from rumba_viewer.scene.snapshot import Grid, MapFeatures, Path, Robot, Snapshot  # noqa: E402

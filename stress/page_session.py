@@ -11,9 +11,9 @@ import sys
 import time
 
 from rumba_viewer.page.allow_list import AllowList, Rights
-from rumba_viewer.page.conversion import to_text
-from rumba_viewer.page.errors import Hostile, Refusal
-from rumba_viewer.page.filling import Filler, serialised
+from rumba_viewer.page.messages.conversion import to_text
+from rumba_viewer.page.messages.errors import Hostile, Refusal
+from rumba_viewer.page.messages.filling import Filler, serialised
 from rumba_viewer.page.protocol import Session
 from rumba_viewer.page.ros import Ros
 from stress import page_inputs

@@ -10,7 +10,7 @@ from workspaces import ROOT
 from rumba_evaluation.learning.coverage_task import CoverageTask
 from rumba_evaluation.learning.rooms import rooms
 from rumba_evaluation.learning.task_config import Reward, TaskConfig
-from rumba_sim.model.config import describe, names
+from rumba_sim.model.common.config import describe, names
 
 PAGE = (ROOT / 'docs' / 'environment.md').read_text()
 EXAMPLES = re.findall(r'```python\n(.*?)```', PAGE, re.DOTALL)

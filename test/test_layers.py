@@ -10,16 +10,32 @@ from workspaces import ROOT
 
 from rumba_sim.ros.common import definitions
 
+KERNEL_FOLDERS = {'model/kernel', 'model/kernel/sensors', 'model/kernel/sweeping', 'model/kernel/ticking'}
+MODEL_FOLDERS = {'model/common', 'model/settings', 'model/compiling', 'model/maps', 'model/floors', 'model/simulation',
+                 'model/devices', *KERNEL_FOLDERS}
+MODEL = {'model', *MODEL_FOLDERS}
+SHARED_BY_NODES = {'ros/common', 'ros/running', 'ros/participants'}
 # Of each package, from the lowest to the highest: its folders, and which folders of the same package each may import.
 # Modules outside these folders belong to ''.
 FOLDERS = {
     'rumba_sim': {
-        'model/kernel': set(), 'model': {'model/kernel'},
-        'ros/common': {'model', 'model/kernel'}, 'ros/robot': {'model', 'model/kernel', 'ros/common'},
-        'ros/simulator': {'model', 'model/kernel', 'ros/common', 'ros/robot'},
-        'ros/turtlesim_body': {'model', 'model/kernel', 'ros/common', 'ros/robot'},
-        'ros/teleop_key': {'model', 'ros/common'}, 'ros': {'model', 'ros/common'}},
-    'rumba_localisation': {'': set(), 'mapping': {''}, 'logs': {''}, 'ros': {'', 'mapping', 'logs'}},
+        'model/kernel': set(), 'model/kernel/sensors': {'model/kernel'}, 'model/kernel/sweeping': {'model/kernel'},
+        'model/kernel/ticking': {'model/kernel', 'model/kernel/sensors', 'model/kernel/sweeping'},
+        'model/common': {'model/kernel'}, 'model/settings': {'model/common', *KERNEL_FOLDERS},
+        'model/compiling': {'model/common', *KERNEL_FOLDERS},
+        'model/maps': {'model/common', 'model/settings', 'model/compiling', *KERNEL_FOLDERS},
+        'model/floors': {'model/common', 'model/settings', 'model/compiling', 'model/maps', *KERNEL_FOLDERS},
+        'model/simulation': {'model/common', 'model/settings', 'model/compiling', 'model/maps', 'model/floors',
+                             *KERNEL_FOLDERS},
+        'model/devices': {'model/common', 'model/settings', 'model/compiling', 'model/maps', 'model/floors',
+                          'model/simulation', *KERNEL_FOLDERS},
+        'model': MODEL_FOLDERS,
+        'ros/common': MODEL, 'ros/running': {*MODEL, 'ros/common'}, 'ros/participants': {*MODEL, *SHARED_BY_NODES},
+        'ros/robot': {*MODEL, *SHARED_BY_NODES}, 'ros/simulator': {*MODEL, *SHARED_BY_NODES, 'ros/robot'},
+        'ros/turtlesim_body': {*MODEL, *SHARED_BY_NODES, 'ros/robot'},
+        'ros/teleop_key': {*MODEL, *SHARED_BY_NODES}, 'ros': {*MODEL, *SHARED_BY_NODES}},
+    'rumba_localisation': {'': set(), 'mapping/grids': {''}, 'mapping': {'', 'mapping/grids'}, 'logs': {''},
+                           'ros': {'', 'mapping', 'mapping/grids', 'logs'}},
     'rumba_cleaning': {
         '': set(), 'belief': {''}, 'behaviours': {'', 'belief'},
         'planning/common': {'', 'belief', 'behaviours'}, 'planning/decompose': {'', 'belief', 'planning/common'},
@@ -34,19 +50,24 @@ FOLDERS = {
         'strategies': {'', 'belief', 'behaviours', 'planning', 'planning/team'},
         'mission': {'', 'belief', 'behaviours', 'strategies'},
         'own_robot': set(), 'ros/own_robot': {'own_robot'},
-        'ros/cleaner': {'', 'belief', 'behaviours', 'strategies', 'mission', 'own_robot'}},
+        'ros/cleaner/robots': {'', 'belief', 'behaviours', 'strategies', 'mission', 'own_robot'},
+        'ros/cleaner/goals': {'', 'belief', 'behaviours', 'strategies', 'mission', 'own_robot', 'ros/cleaner/robots'},
+        'ros/cleaner': {'', 'belief', 'behaviours', 'strategies', 'mission', 'own_robot', 'ros/cleaner/robots',
+                        'ros/cleaner/goals'}},
     'rumba_evaluation': {
         'inspection': set(), 'scoring': set(), 'trials': {'scoring'}, 'report': set(), 'verdicts': set(),
-        'submissions': set(), 'marks': {'trials', 'verdicts', 'submissions'}, 'ros/mission_report': {'report'},
+        'submissions/diagnosis': set(), 'submissions': {'submissions/diagnosis'},
+        'marks': {'trials', 'verdicts', 'submissions', 'submissions/diagnosis'}, 'ros/mission_report': {'report'},
         'learning': {'trials'}, 'ros/judge': {'verdicts'},
-        'ros': {'scoring', 'trials', 'verdicts', 'marks', 'submissions', 'ros/judge'}},
+        'ros': {'scoring', 'trials', 'verdicts', 'marks', 'submissions', 'submissions/diagnosis', 'ros/judge'}},
     'rumba_viewer': {
         'scene': set(), 'painting': {'scene'}, 'window': {'scene', 'painting'}, 'ros': {'scene', 'window'},
-        'page': set(), 'ros/page': {'page'}, 'ros/console': {'scene', 'ros'}}}
+        'page/messages': set(), 'page': {'page/messages'}, 'ros/page/rosapi': {'page', 'page/messages'},
+        'ros/page': {'page', 'page/messages', 'ros/page/rosapi'}, 'ros/console': {'scene', 'ros'}}}
 # Which packages each may import, and which of their folders are there for others.
 BELOW = {'rumba_sim': set(), 'rumba_localisation': {'rumba_sim'}, 'rumba_cleaning': {'rumba_sim', 'rumba_localisation'},
          'rumba_evaluation': {'rumba_sim', 'rumba_cleaning'}, 'rumba_viewer': {'rumba_sim', 'rumba_cleaning'}}
-OFFERED = {'rumba_sim': {'model', 'model/kernel', 'ros/common'}, 'rumba_localisation': {'', 'mapping'},
+OFFERED = {'rumba_sim': {*MODEL, *SHARED_BY_NODES}, 'rumba_localisation': {'', 'mapping', 'mapping/grids'},
            'rumba_cleaning': {'', 'belief', 'behaviours', 'strategies', 'mission'}}
 ROS = ('rospy', 'roslib', 'rospkg', 'rosgraph', 'rosservice', 'actionlib', 'rosbag', 'rostopic', 'rosunit', 'tf',
        'tf2', 'turtlesim')
@@ -143,7 +164,7 @@ def test_only_the_folders_of_the_window_import_qt(package, path):
         assert name.split('.')[0] not in QT or f'{package}/{folder(package, path)}' in WITH_QT, name
 
 
-KERNEL = 'rumba_sim.model.compiled.fast'  # the functions of the kernel, compiled
+KERNEL = 'rumba_sim.model.compiling.compiled.fast'  # the functions of the kernel, compiled
 
 
 def is_compiled(name):
@@ -160,18 +181,24 @@ def is_seen(name, names):
     """Whether numba sees it change if a compiled file imports all these names: by a compiled function of its file."""
     files = {other.rpartition('.')[0] for other in names if is_compiled(other)}
     return is_compiled(name) or name.rpartition('.')[0] in files or name == KERNEL or (
-        KERNEL in names and place(name) == ('rumba_sim', 'model/kernel'))
+        KERNEL in names and is_of_the_kernel(name))
+
+
+def is_of_the_kernel(name):
+    """Whether something that is imported by its full name belongs to the kernel."""
+    package, there = place(name)
+    return package == 'rumba_sim' and there in KERNEL_FOLDERS
 
 
 def test_compiled_files_use_of_others_only_what_numba_sees_change():
     ours = {path: {name for name in imports(path) if name.split('.')[0] in FOLDERS} for _, path in SOURCES}
-    decorator = 'rumba_sim.model.jit.compiled'
+    decorator = 'rumba_sim.model.compiling.jit.compiled'
     found = [names - {decorator} for names in ours.values() if decorator in names]
     assert found and all(is_seen(name, names) for names in found for name in names)
-    assert not is_seen('rumba_sim.model.geometry.compose', {'rumba_sim.model.geometry.compose'})
-    assert not is_compiled('rumba_sim.model.geometry.compose') and not is_compiled('rumba_sim.model.jit')
-    assert all(place(name) == ('rumba_sim', 'model/kernel')
-               for name in ours[source('rumba_sim') / 'model' / 'batch.py'])
+    assert not is_seen('rumba_sim.model.common.geometry.compose', {'rumba_sim.model.common.geometry.compose'})
+    assert not is_compiled('rumba_sim.model.common.geometry.compose')
+    assert not is_compiled('rumba_sim.model.compiling.jit')
+    assert all(is_of_the_kernel(name) for name in ours[source('rumba_sim') / 'model' / 'compiling' / 'batch.py'])
 
 
 @pytest.mark.parametrize('package', FOLDERS)

@@ -12,9 +12,9 @@ from rumba_cleaning.behaviour import Behaviour, Command, Observation
 from rumba_cleaning.belief import paths
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.cleaning_config import CleaningConfig
-from rumba_sim.model import map_file, named_maps
-from rumba_sim.model.geometry import Pose
-from rumba_sim.model.robot_config import RobotConfig
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.maps import map_file, named_maps
+from rumba_sim.model.settings.robot_config import RobotConfig
 
 STRATEGIES = (ROOT / 'docs' / 'strategies.md').read_text()
 PLACES = [[cell.strip().replace('`', '') for cell in row.split('|')[1:-1]]

@@ -6,7 +6,7 @@ import shutil
 import pytest
 from workspaces import ROOT, clean_environment
 
-from rumba_sim.model.interfaces import AT_SCAN, INTERFACES
+from rumba_sim.model.settings.interfaces import AT_SCAN, INTERFACES
 
 PAGE = (ROOT / 'docs' / 'own_node.md').read_text()
 NODES = ROOT / 'rumba_sim' / 'test' / 'ros' / 'their_nodes'

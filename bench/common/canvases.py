@@ -3,7 +3,7 @@
 import numpy as np
 from PIL import Image
 
-from rumba_sim.model.floor_plan import FREE, OCCUPIED
+from rumba_sim.model.maps.floor_plan import FREE, OCCUPIED
 
 BRIGHTNESS = {FREE: 254, OCCUPIED: 0}
 UNKNOWN, RAYS = 205, 9

@@ -9,8 +9,8 @@ from typing import Callable, NamedTuple, Optional
 
 import numpy as np
 
-from rumba_sim.model.floor_plan import FREE, OCCUPIED, FloorPlan
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.maps.floor_plan import FREE, OCCUPIED, FloorPlan
 
 SAMPLE = 0.025  # [m] between the points that are looked at within a cell, at most
 WALL = 0.1  # [m] thickness

@@ -6,7 +6,7 @@ import numpy as np
 from common.drawings import WALL, Drawing, box, disc, drawn, legs, outside, pentagon, turned, union
 from common.wings import empty, furnished, office
 
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.geometry import Pose
 
 THIN_WALL = 0.06  # [m] thickness
 DOOR = 0.8  # [m]

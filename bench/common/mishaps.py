@@ -3,7 +3,7 @@
 import math
 
 from rumba_cleaning.pose_source import due_scan
-from rumba_sim.model.world import World
+from rumba_sim.model.simulation.world import World
 
 TRUE, COUNTED = ('x', 'y', 'theta'), ('odom_x', 'odom_y', 'odom_theta')  # fields of the record of a robot
 MOVING = 0.1  # [m/s] of a wheel: slip begins when the robot moves

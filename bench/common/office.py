@@ -4,8 +4,8 @@ import math
 
 import numpy as np
 
-from rumba_sim.model.floor_plan import FREE, OCCUPIED, FloorPlan
-from rumba_sim.model.geometry import Pose, wrap_angle
+from rumba_sim.model.common.geometry import Pose, wrap_angle
+from rumba_sim.model.maps.floor_plan import FREE, OCCUPIED, FloorPlan
 
 WIDTH, HEIGHT, CELL = 25.0, 20.0, 0.05  # [m]
 BLOCKS = ((2.0, 2.0, 11.5, 9.0), (13.5, 2.0, 23.0, 9.0), (2.0, 11.0, 11.5, 18.0), (13.5, 11.0, 23.0, 18.0))

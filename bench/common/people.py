@@ -6,9 +6,9 @@ import numpy as np
 from common import drawings, wings
 from scipy import ndimage
 
-from rumba_sim.model.config import from_mapping
-from rumba_sim.model.floor_plan import FREE, OCCUPIED, UNKNOWN
-from rumba_sim.model.robot_config import RobotConfig
+from rumba_sim.model.common.config import from_mapping
+from rumba_sim.model.maps.floor_plan import FREE, OCCUPIED, UNKNOWN
+from rumba_sim.model.settings.robot_config import RobotConfig
 
 ROBOTS = {
     'rumba': {},

@@ -4,7 +4,7 @@ import math
 
 from common.drawings import Drawing, box, drawn, union
 
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.geometry import Pose
 
 WIDTH, HEIGHT, CORRIDOR, CELL = 26.0, 5.0, 1.0, 0.05  # [m]
 PILLARS = (4.0, 8.0, 12.0, 16.0, 20.0)  # [m] x of pillars along the upper corridor; the lower one is bare

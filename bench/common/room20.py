@@ -4,9 +4,9 @@ import math
 
 import numpy as np
 
-from rumba_sim.model.floor_plan import FREE, OCCUPIED, FloorPlan
-from rumba_sim.model.geometry import Pose
-from rumba_sim.model.world import World
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.maps.floor_plan import FREE, OCCUPIED, FloorPlan
+from rumba_sim.model.simulation.world import World
 
 SIDE = 20.0  # [m]
 DISCS = ((4, 4), (4, 14), (10, 8), (14, 4), (16, 16))  # [m] centres of discs

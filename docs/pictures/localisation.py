@@ -7,7 +7,7 @@ from matplotlib.figure import Figure
 
 from rumba_evaluation.trials.cases import LOCALISED, ODOMETRY, Conditions
 from rumba_evaluation.trials.trial import Trial
-from rumba_sim.model import map_file, named_maps
+from rumba_sim.model.maps import map_file, named_maps
 
 KINDS = {ODOMETRY: ('by its wheels alone', 12.0, (0.9, 0.47, 0.08)),
          LOCALISED: ('by its laser too', 0.03, (0.2, 0.45, 0.75))}  # words, and how high they stand

@@ -8,8 +8,8 @@ from PIL import Image, ImageDraw
 from rumba_cleaning.mission.stages import State
 from rumba_evaluation.trials.cases import SLAM, Conditions
 from rumba_evaluation.trials.trial import Trial
-from rumba_sim.model import map_file, named_maps
-from rumba_sim.model.floor_plan import FREE, OCCUPIED
+from rumba_sim.model.maps import map_file, named_maps
+from rumba_sim.model.maps.floor_plan import FREE, OCCUPIED
 
 SCALE = 2  # pixels along the side of a cell
 TRUE, WALL, FLOOR, BLANK = (150, 190, 240), (20, 20, 20), (255, 255, 255), (205, 205, 205)

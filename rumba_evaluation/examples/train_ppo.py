@@ -23,7 +23,7 @@ from rumba_evaluation.learning.baselines import Bouncing
 from rumba_evaluation.learning.coverage_task import CoverageTask
 from rumba_evaluation.learning.rooms import rooms
 from rumba_evaluation.learning.task_config import TaskConfig
-from rumba_sim.model.config import from_mapping
+from rumba_sim.model.common.config import from_mapping
 
 ENVIRONMENT = 'rumba_evaluation.learning.environment:rumba/Coverage-v0'
 ROBOTS = 64

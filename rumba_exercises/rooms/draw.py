@@ -6,7 +6,7 @@ the origin of the map is wrong.
 
 import pathlib
 
-from rumba_sim.model.drawing import FREE, ROBOT_AT_WALL, Drawing
+from rumba_sim.model.maps.drawing import FREE, ROBOT_AT_WALL, Drawing
 
 
 def main() -> None:

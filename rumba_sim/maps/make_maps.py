@@ -8,7 +8,7 @@ import pathlib
 import sys
 from typing import Callable, Tuple
 
-from rumba_sim.model.drawing import FREE, ROBOT_AT_WALL, UNKNOWN, Drawing
+from rumba_sim.model.maps.drawing import FREE, ROBOT_AT_WALL, UNKNOWN, Drawing
 
 BY = '; drawn by make_maps.py'
 

@@ -61,8 +61,8 @@ def _set(message, **fields):
 
 
 def pose_that_is_no_number():
-    from rumba_sim.model.errors import RumbaError
-    from rumba_sim.model.geometry import Pose
+    from rumba_sim.model.common.errors import RumbaError
+    from rumba_sim.model.common.geometry import Pose
     from rumba_sim.ros.robot.packed import OdometryPacker
     from rumba_sim.ros.robot.robot_node import RobotNode
     teleport, message, refused = RobotNode._teleport, OdometryPacker.message, []
@@ -93,7 +93,7 @@ def steps_one_too_many():
 
 
 def reset_fails():
-    from rumba_sim.model.errors import WorldError
+    from rumba_sim.model.common.errors import WorldError
     from rumba_sim.ros.simulator.simulator import Simulator
 
     def refuse(*_):
@@ -160,7 +160,7 @@ def dies_of_a_stop():
 
 def dies_of_a_silent_master():
     import rosgraph
-    from rumba_sim.ros.common import peers
+    from rumba_sim.ros.running import peers
     peers.ANSWER_TIMEOUT = 0.3
 
     def watch():
@@ -183,7 +183,7 @@ def dies_without_a_home():
 def dies_of_a_full_disk():
     import logging
 
-    from rumba_sim.ros.common import node
+    from rumba_sim.ros.running import node
     after(node, '_log_trouble_once', lambda _: before(logging.Handler, 'handleError', die))
 
 
@@ -194,12 +194,12 @@ def hangs_after_an_odd_number():
 
 
 def hears_no_signal():
-    from rumba_sim.ros.common import node
+    from rumba_sim.ros.running import node
     node._shut_down = lambda *_: None
 
 
 def ends_with_an_error():
-    from rumba_sim.ros.common import node
+    from rumba_sim.ros.running import node
     node._shut_down = lambda *_: os._exit(1)
 
 
@@ -209,8 +209,8 @@ def ignores_rosnode_kill():
 
 
 def is_a_twin():
-    from rumba_sim.ros.common import peers
     from rumba_sim.ros.robot import robot_node
+    from rumba_sim.ros.running import peers
     from rumba_sim.ros.simulator import simulator
     peers.Reservation.take = lambda _: True
     peers.refuse_twin = robot_node.refuse_twin = lambda _: None
@@ -218,7 +218,7 @@ def is_a_twin():
 
 
 def forgets_the_master():
-    from rumba_sim.ros.common import master_watch
+    from rumba_sim.ros.running import master_watch
     master_watch.start = lambda: None
 
 
@@ -267,8 +267,8 @@ def raises_at_the_end_of_a_test():
 
 
 def raises_for_a_bad_map():
-    from rumba_sim.model import map_file
-    from rumba_sim.model.errors import MapError
+    from rumba_sim.model.common.errors import MapError
+    from rumba_sim.model.maps import map_file
     usual = map_file.load
 
     def load(path, *radius):
@@ -280,7 +280,7 @@ def raises_for_a_bad_map():
 
 
 def refuses_in_two_lines():
-    from rumba_sim.ros.common import node
+    from rumba_sim.ros.running import node
     before(node, '_refuse', lambda *_: print(BODY, file=sys.stderr))
 
 
@@ -307,5 +307,5 @@ def sleeps_over_what_is_no_number():
 
 
 def repeats_what_is_no_id():
-    from rumba_viewer.page import operations
+    from rumba_viewer.page.messages import operations
     after(operations, 'can_be_id', lambda _: True)

@@ -28,7 +28,7 @@ def plant(name):
             fault()
             run(*arguments, **options)
         module.run = planted
-    after_import('rumba_sim.ros.common.node', in_node)
+    after_import('rumba_sim.ros.running.node', in_node)
 
 
 def after_import(name, change):

@@ -8,11 +8,11 @@ from typing import Any, NamedTuple, Optional, Sequence, Tuple, final
 from rumba_cleaning.outcome import Outcome
 from rumba_cleaning.route import Ahead
 from rumba_localisation.scan import SILENT, Scan
-from rumba_sim.model.errors import CommandError, quoted
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.errors import CommandError, quoted
+from rumba_sim.model.common.geometry import Pose
 from rumba_sim.model.kernel import Array
-from rumba_sim.model.kernel.dock import NO_BEAM
-from rumba_sim.model.robot import Infrared
+from rumba_sim.model.kernel.sensors.dock import NO_BEAM
+from rumba_sim.model.simulation.robot import Infrared
 
 Row = Tuple[float, float, float]
 Covariance = Tuple[Row, Row, Row]  # of x, y and heading

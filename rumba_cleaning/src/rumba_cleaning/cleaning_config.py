@@ -2,8 +2,8 @@
 
 import dataclasses
 
-from rumba_sim.model.config import section, setting
-from rumba_sim.model.robot_config import RobotConfig
+from rumba_sim.model.common.config import section, setting
+from rumba_sim.model.settings.robot_config import RobotConfig
 
 DAY = 86400.0  # [s]
 APART = 1.001  # times the cleaning speed is the transit speed of slow robots, at least: routes tell them apart by that

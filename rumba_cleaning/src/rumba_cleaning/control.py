@@ -6,8 +6,8 @@ import numpy as np
 
 from rumba_cleaning.behaviour import Behaviour, Command, Observation, Status
 from rumba_cleaning.pose_source import PoseSource, truth
-from rumba_sim.model.robot import FIRST
-from rumba_sim.model.world import World
+from rumba_sim.model.simulation.robot import FIRST
+from rumba_sim.model.simulation.world import World
 
 STEP_RATE = 50  # [Hz]
 CONTROL_TICKS = 5  # from one observation to the next

@@ -10,12 +10,12 @@ from rumba_localisation.localiser import Localiser, Seed
 from rumba_localisation.mapping.findings import Findings
 from rumba_localisation.mapping.mapper import Mapper
 from rumba_localisation.scan import Reading, Scan, scan_of
-from rumba_sim.model.floor_plan import FloorPlan
-from rumba_sim.model.geometry import Pose, as_told, compose, inverse
+from rumba_sim.model.common.geometry import Pose, as_told, compose, inverse
+from rumba_sim.model.devices.laser_scan import laser_scan
 from rumba_sim.model.kernel import Array
-from rumba_sim.model.laser_config import IDEAL, LaserConfig
-from rumba_sim.model.laser_scan import laser_scan
-from rumba_sim.model.world import World
+from rumba_sim.model.maps.floor_plan import FloorPlan
+from rumba_sim.model.settings.laser_config import IDEAL, LaserConfig
+from rumba_sim.model.simulation.world import World
 
 
 class Belief(NamedTuple):

@@ -2,8 +2,8 @@
 
 import abc
 
-from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.model.kernel import Array
+from rumba_sim.model.maps.floor_plan import FloorPlan
 
 
 class Survey(abc.ABC):

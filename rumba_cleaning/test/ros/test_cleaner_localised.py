@@ -25,12 +25,13 @@ from rumba_cleaning.executors import BeforeNextStep
 from rumba_cleaning.mission.mission import Mission
 from rumba_cleaning.pose_source import Localised
 from rumba_msg.msg import CleanGoal, DockStatus, MissionStatus, Outcome
-from rumba_sim.model import map_file, obstacle_file
-from rumba_sim.model.config import updated
-from rumba_sim.model.robot import FIRST
-from rumba_sim.model.robot_config import RobotConfig
-from rumba_sim.model.world import World
-from rumba_sim.ros.common.maps import map_path
+from rumba_sim.model.common.config import updated
+from rumba_sim.model.maps import map_file
+from rumba_sim.model.settings.robot_config import RobotConfig
+from rumba_sim.model.simulation import obstacle_file
+from rumba_sim.model.simulation.robot import FIRST
+from rumba_sim.model.simulation.world import World
+from rumba_sim.ros.participants.maps import map_path
 
 # Two rooms of 2 m, 40 x 40 cells each, with a door that is 0.75 m wide; the dock is in the left one.
 ROOMS = {'room.yaml': ROOM['room.yaml'] + b'dock: [0.3, 1.79, 1.5707963]\n',

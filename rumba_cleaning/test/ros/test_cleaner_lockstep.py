@@ -27,11 +27,11 @@ from rumba_cleaning.mission.mapless import MaplessMission
 from rumba_cleaning.mission.mission import Mission
 from rumba_cleaning.pose_source import reckoned, truth
 from rumba_msg.msg import CleanGoal, LockstepAnswer, MissionStatus, Outcome
-from rumba_sim.model import map_file
-from rumba_sim.model.robot import FIRST
-from rumba_sim.model.robot_config import RobotConfig
-from rumba_sim.model.world import World
-from rumba_sim.ros.common.maps import map_path
+from rumba_sim.model.maps import map_file
+from rumba_sim.model.settings.robot_config import RobotConfig
+from rumba_sim.model.simulation.robot import FIRST
+from rumba_sim.model.simulation.world import World
+from rumba_sim.ros.participants.maps import map_path
 
 HERE = pathlib.Path(__file__).resolve().parent
 SEED = 3

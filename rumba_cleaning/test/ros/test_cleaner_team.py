@@ -12,8 +12,8 @@ from teams import Crew
 from tiers import thorough
 
 from rumba_msg.msg import MissionStatus, TeamPlan, TeamReport
-from rumba_sim.model import map_file
-from rumba_sim.model.robot_config import RobotConfig
+from rumba_sim.model.maps import map_file
+from rumba_sim.model.settings.robot_config import RobotConfig
 
 MAP = FLOOR + 'docks: [[2.2, 0.65, 0.0], [0.2, 0.65, 3.14159]]\n'
 PICTURE = b'P5 48 26 255\n' + 48 * 26 * b'\xff'  # 2.4 m x 1.3 m

@@ -11,9 +11,9 @@ from rumba_cleaning.belief.context import Context
 from rumba_cleaning.cleaning_config import CleaningConfig
 from rumba_cleaning.control import CONTROL_DT, CONTROL_TICKS, observe, steps
 from rumba_cleaning.pose_source import truth
-from rumba_sim.model.floor_plan import OCCUPIED, FloorPlan
-from rumba_sim.model.geometry import Pose
-from rumba_sim.model.obstacle import Obstacle
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.maps.floor_plan import OCCUPIED, FloorPlan
+from rumba_sim.model.simulation.obstacle import Obstacle
 
 
 def context_of(plan, world, seed=1, executor=None, **changes):

@@ -8,8 +8,8 @@ from rooms import PLANS, quiet, room
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.belief.ground import Ground
 from rumba_cleaning.cleaning_config import CleaningConfig
-from rumba_sim.model.floor_plan import FREE, OCCUPIED, FloorPlan
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.maps.floor_plan import FREE, OCCUPIED, FloorPlan
 
 BRUSH = quiet().brush.width
 STEP = 0.01  # [m]

@@ -8,8 +8,8 @@ from rooms import RADIUS, crooked, quiet
 
 from rumba_cleaning.control import steps
 from rumba_cleaning.mission.mission import Mission
-from rumba_sim.model.geometry import Pose
-from rumba_sim.model.world import World
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.simulation.world import World
 
 DOCK = Pose(4.0 - RADIUS - 0.01, 1.2, 0.0)
 PLAN = crooked(dock=DOCK)

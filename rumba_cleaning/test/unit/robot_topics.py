@@ -8,9 +8,9 @@ from sensor_msgs.msg import BatteryState
 from std_msgs.msg import Header
 from tf2_msgs.msg import TFMessage
 
-from rumba_cleaning.ros.cleaner import certainty, location, senses
+from rumba_cleaning.ros.cleaner.robots import certainty, location, senses
 from rumba_msg.msg import Bumper, CleaningStatus, Cliff, DockStatus, Lockstep
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.geometry import Pose
 from rumba_sim.ros.common.conversions import transform
 
 WORLD = 'run', 0  # and number of resets, of a world in lockstep

@@ -6,10 +6,10 @@ import rospy
 
 from rumba_cleaning.behaviour import Behaviour, Command, Observation
 from rumba_cleaning.mission.stages import State
-from rumba_cleaning.ros.cleaner import run as module
-from rumba_cleaning.ros.cleaner.activities import Activity
-from rumba_cleaning.ros.cleaner.run import Run
-from rumba_sim.model.geometry import Pose
+from rumba_cleaning.ros.cleaner.goals import run as module
+from rumba_cleaning.ros.cleaner.goals.activities import Activity
+from rumba_cleaning.ros.cleaner.goals.run import Run
+from rumba_sim.model.common.geometry import Pose
 
 AHEAD = Command(0.2, 0.5, brushes_up=False)
 DT = 100_000_000  # [ns]

@@ -8,8 +8,8 @@ from rumba_cleaning.control import CONTROL_DT, CONTROL_TICKS, STEP_RATE, act
 from rumba_cleaning.executors import BeforeNextStep
 from rumba_cleaning.mission.mission import Mission
 from rumba_cleaning.mission.team import tell_mates
-from rumba_sim.model.robot import nth_name
-from rumba_sim.model.world import World
+from rumba_sim.model.simulation.robot import nth_name
+from rumba_sim.model.simulation.world import World
 
 QUICKLY = CleaningConfig(planning_rounds=0)  # of the cleaners of the tests with nodes too
 

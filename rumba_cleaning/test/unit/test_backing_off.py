@@ -12,9 +12,9 @@ from rumba_cleaning.behaviours.guard import Guard
 from rumba_cleaning.belief.footing import SEEN
 from rumba_cleaning.control import CONTROL_DT, observe
 from rumba_cleaning.pose_source import seeing, truth
-from rumba_sim.model.geometry import Pose
-from rumba_sim.model.obstacle import Obstacle
-from rumba_sim.model.world import World
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.simulation.obstacle import Obstacle
+from rumba_sim.model.simulation.world import World
 
 BACK = (-0.1, 0.0)
 

@@ -12,7 +12,7 @@ from rumba_cleaning.behaviour import Observation
 from rumba_cleaning.behaviours.dock import approach
 from rumba_cleaning.executors import BeforeNextStep
 from rumba_cleaning.mission.battery_watch import BatteryWatch
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.geometry import Pose
 
 HERE = Pose(1.0, 1.0, 0.0)
 

@@ -8,7 +8,7 @@ import pytest
 from rumba_cleaning import behaviour as module_of_behaviour
 from rumba_cleaning.behaviour import FINAL, STOP, Behaviour, Command, Observation, Status
 from rumba_cleaning.outcome import Outcome
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.geometry import Pose
 
 SOURCE = pathlib.Path(module_of_behaviour.__file__).parent
 HOOKS = ('initialise', 'update', 'terminate', 'take_note')

@@ -8,10 +8,10 @@ from drivers import run
 from rooms import quiet, room
 
 from rumba_cleaning.behaviour import Command, Observation
-from rumba_cleaning.belief.ground import Ground
 from rumba_cleaning.behaviours.bounce import Bounce
-from rumba_sim.model.geometry import Pose
-from rumba_sim.model.world import World
+from rumba_cleaning.belief.ground import Ground
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.simulation.world import World
 
 HERE = Pose(0.0, 0.0, 0.0)
 LEFT, RIGHT, BOTH = (True, False), (False, True), (True, True)

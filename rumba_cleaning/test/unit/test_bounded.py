@@ -5,7 +5,7 @@ import pytest
 from rumba_cleaning.behaviour import STOP, Behaviour, Command, Observation, Status
 from rumba_cleaning.behaviours.bounded import Bounded
 from rumba_cleaning.outcome import Outcome
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.geometry import Pose
 
 DOCK = Pose(3.8, 1.2, 0.0)
 

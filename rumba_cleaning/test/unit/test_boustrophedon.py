@@ -17,9 +17,9 @@ from rumba_cleaning.pose_source import seeing, truth
 from rumba_cleaning.route import Route
 from rumba_cleaning.strategies import boustrophedon
 from rumba_cleaning.strategies.boustrophedon import Boustrophedon
-from rumba_sim.model.geometry import Pose
-from rumba_sim.model.obstacle import Obstacle
-from rumba_sim.model.world import World
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.simulation.obstacle import Obstacle
+from rumba_sim.model.simulation.world import World
 
 
 @pytest.mark.thorough

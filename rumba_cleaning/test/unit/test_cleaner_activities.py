@@ -10,10 +10,10 @@ from rooms import crooked
 
 from rumba_cleaning.behaviour import Observation
 from rumba_cleaning.mission.stages import State
-from rumba_cleaning.ros.cleaner import activities
+from rumba_cleaning.ros.cleaner.goals import activities
 from rumba_msg.msg import CleanGoal, CleaningStatus, DockGoal, GoToGoal, MissionStatus, UndockGoal
-from rumba_sim.model.errors import ConfigError, MapError
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.errors import ConfigError, MapError
+from rumba_sim.model.common.geometry import Pose
 
 
 @pytest.mark.parametrize('time_limit, begins', [(0.0, 600.0), (5.0, 5.0)])

@@ -8,7 +8,7 @@ import rospy
 from geometry_msgs.msg import Twist
 
 from rumba_cleaning.behaviour import Command
-from rumba_cleaning.ros.cleaner import actuators, teleop
+from rumba_cleaning.ros.cleaner.robots import actuators, teleop
 
 
 def test_a_person_drives_from_a_command_on_until_the_time_is_up(monkeypatch):

@@ -9,7 +9,7 @@ from sensor_msgs.msg import BatteryState
 from std_msgs.msg import Header
 
 from rumba_cleaning.behaviour import CERTAIN, UNKNOWN
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.geometry import Pose
 from rumba_sim.ros.common.conversions import transform
 
 

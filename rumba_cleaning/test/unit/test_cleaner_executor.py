@@ -6,7 +6,7 @@ import time
 import pytest
 from drivers import Later
 
-from rumba_cleaning.ros.cleaner import executor
+from rumba_cleaning.ros.cleaner.goals import executor
 
 
 def test_functions_run_beside_their_caller_in_so_many_threads():

@@ -10,8 +10,8 @@ from sensor_msgs.msg import BatteryState
 from std_msgs.msg import Float32, String
 
 from rumba_cleaning.own_robot.inputs import READERS
-from rumba_cleaning.ros.cleaner import optional_inputs
-from rumba_cleaning.ros.cleaner.optional_inputs import OptionalInputs
+from rumba_cleaning.ros.cleaner.robots import optional_inputs
+from rumba_cleaning.ros.cleaner.robots.optional_inputs import OptionalInputs
 from rumba_msg.msg import Bumper, Cliff
 
 

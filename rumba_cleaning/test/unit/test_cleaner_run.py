@@ -11,7 +11,7 @@ from scripted_goal import AHEAD, Robot, ahead, arrive, divide
 from rumba_cleaning.behaviour import STOP, Command
 from rumba_cleaning.mission.stages import State
 from rumba_cleaning.outcome import Outcome
-from rumba_cleaning.ros.cleaner import run as module
+from rumba_cleaning.ros.cleaner.goals import run as module
 from rumba_msg.msg import CleaningStatus
 
 

@@ -12,9 +12,9 @@ from std_msgs.msg import Header
 from rumba_cleaning.behaviour import Command
 from rumba_cleaning.mission.stages import State
 from rumba_cleaning.outcome import Outcome
-from rumba_cleaning.ros.cleaner import conversions
+from rumba_cleaning.ros.cleaner.robots import conversions
 from rumba_msg.msg import CleaningStatus
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.geometry import Pose
 from rumba_sim.ros.common.conversions import transform_pose
 
 

@@ -9,8 +9,9 @@ import rospy
 from actionlib_msgs.msg import GoalID, GoalStatus
 
 from rumba_cleaning.outcome import Outcome
-from rumba_cleaning.ros.cleaner import action_server, conversions
-from rumba_cleaning.ros.cleaner.action_server import LONGEST_ID, MOST, Outlet
+from rumba_cleaning.ros.cleaner.goals import action_server
+from rumba_cleaning.ros.cleaner.goals.action_server import LONGEST_ID, MOST, Outlet
+from rumba_cleaning.ros.cleaner.robots import conversions
 from rumba_msg.msg import GoToAction, GoToActionGoal, GoToResult
 
 

@@ -9,16 +9,16 @@ from rooms import quiet
 from std_msgs.msg import Header
 
 from rumba_cleaning.cleaning_config import CleaningConfig
-from rumba_cleaning.ros.cleaner import workplace
-from rumba_cleaning.ros.cleaner.settings import Settings
+from rumba_cleaning.ros.cleaner.goals import workplace
+from rumba_cleaning.ros.cleaner.goals.settings import Settings
 from rumba_msg.msg import SimulatorState
-from rumba_sim.model import map_file
-from rumba_sim.model.config import from_mapping
-from rumba_sim.model.errors import ConfigError, MapError
-from rumba_sim.model.geometry import Pose
-from rumba_sim.model.own_robot import FramesConfig, OwnRobot
-from rumba_sim.model.robot_config import RobotConfig
-from rumba_sim.ros.common.maps import map_path
+from rumba_sim.model.common.config import from_mapping
+from rumba_sim.model.common.errors import ConfigError, MapError
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.maps import map_file
+from rumba_sim.model.settings.own_robot import FramesConfig, OwnRobot
+from rumba_sim.model.settings.robot_config import RobotConfig
+from rumba_sim.ros.participants.maps import map_path
 
 
 def test_settings_hold_those_of_cleaning():

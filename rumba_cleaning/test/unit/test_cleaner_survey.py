@@ -10,10 +10,10 @@ from std_msgs.msg import Header
 
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.cleaning_config import CleaningConfig
-from rumba_cleaning.ros.cleaner import survey as module
-from rumba_sim.model.errors import MapError
-from rumba_sim.model.geometry import Pose
-from rumba_sim.model.robot_config import RobotConfig
+from rumba_cleaning.ros.cleaner.goals import survey as module
+from rumba_sim.model.common.errors import MapError
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.settings.robot_config import RobotConfig
 from rumba_sim.ros.common.conversions import grid, quaternion
 
 FLOOR = room(4.0, 3.0, 0.02, boxes=[(2.0, 0.0, 2.1, 2.0)])

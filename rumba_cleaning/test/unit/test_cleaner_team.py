@@ -11,12 +11,12 @@ from std_msgs.msg import Header
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.belief.mates import Report, Task
 from rumba_cleaning.cleaning_config import CleaningConfig
-from rumba_cleaning.ros.cleaner import team
-from rumba_cleaning.ros.cleaner.activities import Cleaning
-from rumba_cleaning.ros.cleaner.team import PATIENCE, SILENT, Team
+from rumba_cleaning.ros.cleaner.goals.activities import Cleaning
+from rumba_cleaning.ros.cleaner.robots import team
+from rumba_cleaning.ros.cleaner.robots.team import PATIENCE, SILENT, Team
 from rumba_cleaning.route import Ahead, Relief, Route
 from rumba_msg.msg import CleanGoal, TeamPlan, TeamReport
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.geometry import Pose
 
 NAMES = 'rumba', 'rumba2'
 HERE = Pose(1.0, 2.0, 0.5)

@@ -15,7 +15,7 @@ from rumba_cleaning.belief.compiled_ground import are_of_one_part
 from rumba_cleaning.belief.search import Costs, Lattice, cheapest, is_clear, path_lengths
 from rumba_cleaning.planning.common.compiled_ways import cornered_length
 from rumba_cleaning.planning.swaths.compiled_lanes import NO_ROW, lowest, runs
-from rumba_sim.model.robot_config import DriveConfig
+from rumba_sim.model.settings.robot_config import DriveConfig
 
 NO_SLIP = (0.0, 1.0)
 ORIGIN, RESOLUTION = (-1.0, 2.0), 0.1

@@ -12,9 +12,9 @@ from rumba_cleaning.mission import confinement
 from rumba_cleaning.mission.confinement import AREA, CLEANING, RETURNING, Confinement
 from rumba_cleaning.mission.mission import Mission
 from rumba_cleaning.outcome import Outcome
-from rumba_sim.model.geometry import Pose
-from rumba_sim.model.obstacle import Obstacle
-from rumba_sim.model.world import World
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.simulation.obstacle import Obstacle
+from rumba_sim.model.simulation.world import World
 
 HERE = Pose(2.0, 1.5, 0.0)
 PLAN = room(4.0, 3.0, dock=Pose(4.0 - RADIUS - 0.01, 1.5, 0.0))

@@ -8,7 +8,7 @@ from rooms import quiet, room
 
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.cleaning_config import CleaningConfig
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.geometry import Pose
 
 PLAN = room(4.0, 3.0)
 

@@ -12,7 +12,7 @@ from rumba_cleaning.planning.decompose.regions import regions
 from rumba_cleaning.planning.simulate.paper import drive
 from rumba_cleaning.planning.swaths.crumbs import HEADINGS, LEAST, crumbs, middle_lines
 from rumba_cleaning.planning.swaths.walls import Walls
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.geometry import Pose
 
 START = Pose(0.5, 0.5, 0.0)
 

@@ -14,9 +14,9 @@ from rumba_cleaning.behaviours.preview import Preview
 from rumba_cleaning.behaviours.release import PATIENCE, Release
 from rumba_cleaning.behaviours.slip import NO_SLIP
 from rumba_cleaning.control import CONTROL_DT, CONTROL_TICKS
-from rumba_sim.model.geometry import Pose
-from rumba_sim.model.robot_config import RobotConfig
-from rumba_sim.model.world import World
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.settings.robot_config import RobotConfig
+from rumba_sim.model.simulation.world import World
 
 HALF = 0.5 * RobotConfig().drive.wheel_base
 PLACE = Pose(3.0 - RADIUS - 0.01, 1.0, 0.0)  # a wall is right before it

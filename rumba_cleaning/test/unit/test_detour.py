@@ -10,7 +10,7 @@ from rooms import distances, room
 
 from rumba_cleaning.behaviours.detour import HORIZON, detour
 from rumba_cleaning.route import Route
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.geometry import Pose
 
 POST = np.array([2.0, 1.5])
 START = Pose(0.5, 1.5, 0.0)

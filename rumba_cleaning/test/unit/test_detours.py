@@ -14,7 +14,7 @@ from rumba_cleaning.planning.simulate.paper import drive
 from rumba_cleaning.planning.swaths.problem import Problem
 from rumba_cleaning.planning.swaths.walls import Walls
 from rumba_cleaning.route import Route
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.geometry import Pose
 
 START = Pose(0.5, 1.5, 0.0)
 ACROSS = Route(np.array([[0.5, 1.5], [3.5, 1.5]]), np.array([0.3]))

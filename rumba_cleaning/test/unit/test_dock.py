@@ -6,11 +6,11 @@ import math
 import pytest
 from rooms import alone, crooked, drive, drove, quiet, room
 
-from rumba_sim.model.errors import MapError
-from rumba_sim.model.geometry import Pose
-from rumba_sim.model.kernel.dock import FORCE_FIELD, GREEN_BUOY, NO_BEAM, RED_BUOY
-from rumba_sim.model.robot import Infrared
-from rumba_sim.model.world import World
+from rumba_sim.model.common.errors import MapError
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.kernel.sensors.dock import FORCE_FIELD, GREEN_BUOY, NO_BEAM, RED_BUOY
+from rumba_sim.model.simulation.robot import Infrared
+from rumba_sim.model.simulation.world import World
 
 AT_ONCE = {'acceleration': 1000.0}
 BOTH = RED_BUOY | GREEN_BUOY

@@ -13,11 +13,11 @@ from rumba_cleaning.behaviours.homing import BUOYS, Homing
 from rumba_cleaning.behaviours.undock import Undock
 from rumba_cleaning.control import observe, steps
 from rumba_cleaning.outcome import Outcome
-from rumba_sim.model.errors import MapError
-from rumba_sim.model.config import updated
-from rumba_sim.model.geometry import Pose, wrap_angle
-from rumba_sim.model.obstacle import Obstacle
-from rumba_sim.model.world import World
+from rumba_sim.model.common.config import updated
+from rumba_sim.model.common.errors import MapError
+from rumba_sim.model.common.geometry import Pose, wrap_angle
+from rumba_sim.model.simulation.obstacle import Obstacle
+from rumba_sim.model.simulation.world import World
 
 DOCK = Pose(5.0 - RADIUS - 0.01, 1.3, 0.0)
 PLAN = room(5.0, 3.0, boxes=[(2.0, 2.2, 2.3, 3.0)], dock=DOCK)

@@ -5,10 +5,10 @@ from drivers import context_of, run
 from rooms import RADIUS, crooked, legs, quiet, room
 
 from rumba_cleaning.behaviours.dock import Dock
-from rumba_sim.model.dock_place import place_dock
-from rumba_sim.model.floor_plan import FloorPlan
-from rumba_sim.model.geometry import Pose
-from rumba_sim.model.world import World
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.floors.dock_place import place_dock
+from rumba_sim.model.maps.floor_plan import FloorPlan
+from rumba_sim.model.simulation.world import World
 
 
 @pytest.mark.parametrize('plan', [crooked(0.02), crooked(0.05), legs(0.05), room(2.0, 1.8), room(8.0, 1.7)],

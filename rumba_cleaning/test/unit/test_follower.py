@@ -11,7 +11,7 @@ from rooms import alone, quiet
 
 from rumba_cleaning.behaviours.follower import Follower
 from rumba_cleaning.route import Route
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.geometry import Pose
 
 DRIVE = quiet().drive
 DT, TICKS = 0.1, 5  # [s] from command to command, and ticks of the world in it

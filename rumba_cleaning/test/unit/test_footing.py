@@ -7,8 +7,8 @@ import pytest
 from rooms import quiet, room
 
 from rumba_cleaning.belief.footing import LAG, SEEN, Footing
-from rumba_sim.model.geometry import Pose
-from rumba_sim.model.robot_config import RobotConfig
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.settings.robot_config import RobotConfig
 
 ROBOT = RobotConfig()
 NONE = (False,) * 4

@@ -14,10 +14,10 @@ from rumba_cleaning.control import CONTROL_DT, CONTROL_TICKS, observe, steps
 from rumba_cleaning.outcome import Outcome
 from rumba_cleaning.pose_source import seeing, truth
 from rumba_cleaning.route import Route
-from rumba_sim.model.errors import MapError
-from rumba_sim.model.geometry import Pose, wrap_angle
-from rumba_sim.model.obstacle import Obstacle
-from rumba_sim.model.world import World
+from rumba_sim.model.common.errors import MapError
+from rumba_sim.model.common.geometry import Pose, wrap_angle
+from rumba_sim.model.simulation.obstacle import Obstacle
+from rumba_sim.model.simulation.world import World
 
 PLAN = crooked()
 HALL = room(4.0, 3.0, 0.02)

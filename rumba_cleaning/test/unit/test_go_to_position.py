@@ -7,9 +7,9 @@ import pytest
 from floors import context
 from rooms import crooked, room
 
-from rumba_cleaning.ros.cleaner.go_to_position import heading_toward, velocity_toward
-from rumba_sim.model.errors import MapError
-from rumba_sim.model.geometry import Pose, compose
+from rumba_cleaning.ros.cleaner.goals.go_to_position import heading_toward, velocity_toward
+from rumba_sim.model.common.errors import MapError
+from rumba_sim.model.common.geometry import Pose, compose
 
 TARGET = Pose(3.5, 2.4, -2.0)
 

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from pytest import approx
 from rooms import NAMES, RADIUS, crooked, distances, room
 
-from rumba_sim.model.reachability import SLACK
+from rumba_sim.model.floors.reachability import SLACK
 
 INDEX = st.integers(0, 10 ** 6)
 RESOLUTIONS = pytest.mark.parametrize('resolution', [0.02, 0.05, 0.1])

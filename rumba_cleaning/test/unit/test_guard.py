@@ -18,10 +18,10 @@ from rumba_cleaning.control import CONTROL_DT, observe, steps
 from rumba_cleaning.mission.mission import Mission
 from rumba_cleaning.outcome import Outcome
 from rumba_cleaning.route import Route
-from rumba_sim.model.config import updated
-from rumba_sim.model.floor_plan import FloorPlan
-from rumba_sim.model.geometry import Pose
-from rumba_sim.model.world import World
+from rumba_sim.model.common.config import updated
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.maps.floor_plan import FloorPlan
+from rumba_sim.model.simulation.world import World
 
 STAIRS = (2.0, 0.0, 3.0, 2.0)
 ISLANDS = ((0.8, 0.7, 1.1, 1.0), (1.9, 0.6, 2.4, 0.9), (1.3, 1.6, 1.6, 2.1))

@@ -6,8 +6,8 @@ from drivers import context_of
 from rooms import RADIUS, quiet, room
 
 from rumba_cleaning.behaviours.impasse import NEAR, OFTEN, Impasse
-from rumba_sim.model.geometry import Pose
-from rumba_sim.model.world import World
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.simulation.world import World
 
 PLAN = room(4.0, 3.0)
 

@@ -25,7 +25,7 @@ from rumba_cleaning.planning.swaths.layouts import DRAFTS, IN_RINGS, OTHER_SHAPE
 from rumba_cleaning.planning.swaths.problem import Problem
 from rumba_cleaning.planning.swaths.walls import Walls
 from rumba_cleaning.route import Route
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.geometry import Pose
 
 START = Pose(0.5, 0.5, 0.3)
 # numba's class of compiled functions, wherever its version keeps that

@@ -8,8 +8,8 @@ from rumba_cleaning.behaviour import Status
 from rumba_cleaning.control import steps
 from rumba_cleaning.mission.stages import State
 from rumba_cleaning.outcome import Outcome
-from rumba_sim.model.errors import CommandError
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.errors import CommandError
+from rumba_sim.model.common.geometry import Pose
 
 
 @pytest.mark.thorough(except_for=['elsewhere1-boustrophedon'])

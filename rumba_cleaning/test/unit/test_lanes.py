@@ -15,7 +15,7 @@ from rumba_cleaning.planning.decompose.turned_floor import main_direction
 from rumba_cleaning.planning.simulate.paper import drive
 from rumba_cleaning.planning.swaths.lanes import BLOCK, TURN, Layout, blocks
 from rumba_cleaning.planning.swaths.rings import outlines
-from rumba_sim.model.floor_plan import FREE, OCCUPIED, FloorPlan
+from rumba_sim.model.maps.floor_plan import FREE, OCCUPIED, FloorPlan
 
 SPEED = 0.3
 APART = (1.0 - Layout().overlap) * BRUSH  # [m] from lane to lane

@@ -11,7 +11,7 @@ from rumba_cleaning.planning.common.effort import AREA
 from rumba_cleaning.planning.swaths import layouts
 from rumba_cleaning.planning.swaths.lanes import Layout, blocks
 from rumba_cleaning.planning.swaths.layouts import DRAFTS, IN_RINGS, OTHER_SHAPES, drafts, laid_out
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.geometry import Pose
 
 PLAN = crooked(0.02)
 LAYOUTS = DRAFTS[0].layouts

@@ -15,10 +15,10 @@ from rumba_cleaning.mission.mission import Mission
 from rumba_cleaning.planning.frontiers import frontiers, route_to_frontier
 from rumba_cleaning.pose_source import Belief, Mapped
 from rumba_cleaning.survey import Survey
-from rumba_sim.model.floor_plan import UNKNOWN, FloorPlan
-from rumba_sim.model.geometry import Pose
-from rumba_sim.model.robot_config import RobotConfig
-from rumba_sim.model.world import World
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.maps.floor_plan import UNKNOWN, FloorPlan
+from rumba_sim.model.settings.robot_config import RobotConfig
+from rumba_sim.model.simulation.world import World
 
 WHOLE = room(6.0, 3.0, 0.02, boxes=[(2.9, 0.0, 3.1, 2.0)])
 HERE = Pose(1.0, 1.0, 0.0)

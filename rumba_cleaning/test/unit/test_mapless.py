@@ -23,15 +23,15 @@ from rumba_cleaning.mission.seek import Seek
 from rumba_cleaning.mission.stages import State
 from rumba_cleaning.outcome import Outcome
 from rumba_cleaning.pose_source import reckoned
-from rumba_cleaning.ros.cleaner import activities
+from rumba_cleaning.ros.cleaner.goals import activities
 from rumba_cleaning.strategies.wander import LINES, ROOMY, SPARSE, WALLS, Wander
 from rumba_msg.msg import CleanGoal, DockGoal, GoToGoal
-from rumba_sim.model.config import updated
-from rumba_sim.model.errors import ConfigError, MapError, StrategyError
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.config import updated
+from rumba_sim.model.common.errors import ConfigError, MapError, StrategyError
+from rumba_sim.model.common.geometry import Pose
 from rumba_sim.model.kernel.geometry import arc
-from rumba_sim.model.robot_config import RobotConfig
-from rumba_sim.model.world import World
+from rumba_sim.model.settings.robot_config import RobotConfig
+from rumba_sim.model.simulation.world import World
 
 DOCK = Pose(4.0 - RADIUS - 0.01, 1.2, 0.0)
 PLAN = room(4.0, 3.0, 0.05, dock=DOCK)

@@ -9,9 +9,9 @@ from rumba_cleaning.cleaning_config import CleaningConfig
 from rumba_cleaning.control import steps
 from rumba_cleaning.mission.mission import Mission
 from rumba_cleaning.outcome import Outcome
-from rumba_sim.model.floor_plan import OCCUPIED, FloorPlan
-from rumba_sim.model.geometry import Pose
-from rumba_sim.model.world import World
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.maps.floor_plan import OCCUPIED, FloorPlan
+from rumba_sim.model.simulation.world import World
 
 
 def ragged(**kwargs):

@@ -14,8 +14,8 @@ from rooms import PLANS, RADIUS, crooked, room
 from rumba_cleaning.belief import paths
 from rumba_cleaning.belief.ground import INFLATION
 from rumba_cleaning.belief.met import GROWTH, LARGEST, NOTHING_SEEN, SEEN, Seen
-from rumba_sim.model.floor_plan import FloorPlan
-from rumba_sim.model.reachability import SLACK
+from rumba_sim.model.floors.reachability import SLACK
+from rumba_sim.model.maps.floor_plan import FloorPlan
 
 
 def exact_clearance(floor, marks):

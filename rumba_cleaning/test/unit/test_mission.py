@@ -14,9 +14,9 @@ from rumba_cleaning.control import steps
 from rumba_cleaning.mission.mission import Mission
 from rumba_cleaning.mission.stages import State
 from rumba_cleaning.outcome import Outcome
-from rumba_sim.model.errors import ConfigError, StrategyError
-from rumba_sim.model.geometry import Pose
-from rumba_sim.model.world import World
+from rumba_sim.model.common.errors import ConfigError, StrategyError
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.simulation.world import World
 
 
 def test_it_undocks_cleans_and_comes_home():

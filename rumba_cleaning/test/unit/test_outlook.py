@@ -7,8 +7,8 @@ from rooms import quiet, room
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.cleaning_config import CleaningConfig
 from rumba_cleaning.mission.outlook import outlook, remarks
-from rumba_sim.model.errors import MapError
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.errors import MapError
+from rumba_sim.model.common.geometry import Pose
 
 CONFIG = CleaningConfig()
 

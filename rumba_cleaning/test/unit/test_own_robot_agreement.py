@@ -5,7 +5,7 @@ import math
 import pytest
 
 from rumba_cleaning.own_robot.agreement import GOES_BACK, STANDS, TURNS_BACK, Agreement
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.geometry import Pose
 
 DT = 0.05  # [s]
 

@@ -6,10 +6,10 @@ import pytest
 from rumba_cleaning.own_robot.agreement import STANDS, TURNS_BACK
 from rumba_cleaning.own_robot.check import ODOMETRY, SCAN, TWIST, report, table
 from rumba_cleaning.own_robot.heard import Heard, OdometryHeard, ScanHeard, Topic, View
-from rumba_sim.model.geometry import Pose
-from rumba_sim.model.mounting import CENTRE, Mounting
-from rumba_sim.model.own_robot import FramesConfig, OwnRobot
-from rumba_sim.model.robot_config import RobotConfig
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.settings.mounting import CENTRE, Mounting
+from rumba_sim.model.settings.own_robot import FramesConfig, OwnRobot
+from rumba_sim.model.settings.robot_config import RobotConfig
 
 OWN = OwnRobot(RobotConfig(), FramesConfig(), None)
 SEEN = ScanHeard('laser', (0.1, 0.0), np.array([1.0, np.inf, 2.0]), CENTRE, CENTRE, '')

@@ -6,7 +6,7 @@ import pytest
 
 from rumba_cleaning.own_robot.gate import (CLEANER, PERSON, REPEATED, SEEK_DOCK, STANDING, STOP, Gate, Moment,
                                            Velocity, limited)
-from rumba_sim.model.robot_config import DriveConfig
+from rumba_sim.model.settings.robot_config import DriveConfig
 
 SLOW = DriveConfig(max_speed=0.3, max_turn_rate=1.0, wheel_base=0.2)
 AHEAD = Velocity(0.2, 0.1)

@@ -4,7 +4,7 @@ import pytest
 
 from rumba_cleaning.own_robot.gate import SEEK_DOCK, STOP, Velocity
 from rumba_cleaning.own_robot.own_dock import AGAIN, DOCK, LAPSE, MOVED, UNDOCK, OwnDock
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.geometry import Pose
 
 AHEAD = Velocity(0.2, 0.0)
 BERTH = Pose(1.0, 2.0, 0.5)

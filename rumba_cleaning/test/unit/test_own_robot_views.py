@@ -7,8 +7,8 @@ import pytest
 
 from rumba_cleaning.own_robot.heard import View
 from rumba_cleaning.own_robot.views import can_tell, contradiction, has_moved_by_scans
-from rumba_sim.model.geometry import Pose
-from rumba_sim.model.mounting import Mounting
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.settings.mounting import Mounting
 
 PLACE = Mounting(0.05, -0.02, 0.3)
 DRIVEN = [Pose(0.1 * step, 0.0, 0.0) for step in range(4)] + [Pose(0.3, 0.0, 0.2 * step) for step in range(1, 6)]

@@ -11,7 +11,7 @@ from rooms import room
 
 from rumba_cleaning.planning.common.polyline import resampled, simplified, strides
 from rumba_cleaning.planning.simulate.paper import drive
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.geometry import Pose
 
 PATHS = st.lists(st.tuples(st.floats(0.0, 3.0), st.floats(0.0, 3.0)), min_size=2, max_size=12).map(
     lambda points: np.array(points))

@@ -9,8 +9,8 @@ from rumba_cleaning.planning.simulate.compiled_passes import BEFORE, NEVER, alon
 from rumba_cleaning.planning.simulate.compiled_rehearsal import SPEED
 from rumba_cleaning.planning.simulate.rehearsal import Rehearsal
 from rumba_cleaning.route import Route
-from rumba_sim.model.geometry import Pose
-from rumba_sim.model.kernel.samples import PASS, REACHABLE
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.kernel.sweeping.samples import PASS, REACHABLE
 
 START = Pose(0.5, 0.5, 0.0)
 SPEED_LIMIT = 0.3  # [m/s]

@@ -12,7 +12,7 @@ from rooms import NAMES, distances, room
 
 from rumba_cleaning.belief import paths
 from rumba_cleaning.belief.paths import EXTRA_CLEARANCE
-from rumba_sim.model.reachability import SLACK
+from rumba_sim.model.floors.reachability import SLACK
 
 INDEX = st.integers(0, 10 ** 6)
 RESOLUTIONS = pytest.mark.parametrize('resolution', [0.02, 0.05, 0.1])

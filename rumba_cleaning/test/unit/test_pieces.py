@@ -16,8 +16,8 @@ from rumba_cleaning.planning.search.compiled_pieces import BEYOND, FAR, Pace, ce
 from rumba_cleaning.planning.search.edits import dense
 from rumba_cleaning.planning.simulate.rehearsal import Rehearsal
 from rumba_cleaning.route import Route, lengths_along
-from rumba_sim.model.geometry import Pose
-from rumba_sim.model.robot_config import DriveConfig
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.settings.robot_config import DriveConfig
 
 START = Pose(0.5, 0.5, 0.0)
 SPEED, TRANSIT = 0.3, 0.45

@@ -14,9 +14,9 @@ from rumba_cleaning.behaviours.go_to import GoTo
 from rumba_cleaning.control import steps
 from rumba_cleaning.mission.mission import Mission
 from rumba_cleaning.mission.stages import State
-from rumba_cleaning.ros.cleaner import plan_topic
-from rumba_sim.model.geometry import Pose
-from rumba_sim.model.world import World
+from rumba_cleaning.ros.cleaner.robots import plan_topic
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.simulation.world import World
 from rumba_sim.ros.common.conversions import heading
 
 PLAN = crooked(dock=Pose(4.0 - RADIUS - 0.01, 1.2, 0.0))

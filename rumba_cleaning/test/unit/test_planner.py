@@ -15,10 +15,10 @@ from rumba_cleaning.planning.planner import plan
 from rumba_cleaning.planning.search.edits import dense
 from rumba_cleaning.planning.simulate import paper
 from rumba_cleaning.planning.simulate.rehearsal import Rehearsal
-from rumba_sim.model import map_file
-from rumba_sim.model.floor_plan import FREE, OCCUPIED, FloorPlan
-from rumba_sim.model.geometry import Pose
-from rumba_sim.model.world import World
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.maps import map_file
+from rumba_sim.model.maps.floor_plan import FREE, OCCUPIED, FloorPlan
+from rumba_sim.model.simulation.world import World
 
 MAPS = pathlib.Path(__file__).resolve().parents[3] / 'rumba_sim' / 'maps'
 START = Pose(0.5, 0.5, 0.3)

@@ -19,8 +19,8 @@ from rumba_cleaning.mission.mission import Mission
 from rumba_cleaning.mission.stages import State
 from rumba_cleaning.outcome import Outcome
 from rumba_cleaning.strategies.boustrophedon import Boustrophedon
-from rumba_sim.model.geometry import Pose
-from rumba_sim.model.world import World
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.simulation.world import World
 
 START, TARGET = Pose(0.4, 0.4, 1.0), Pose(3.5, 2.4, -2.0)
 PLAN = crooked(dock=Pose(4.0 - RADIUS - 0.01, 1.2, 0.0))

@@ -8,7 +8,7 @@ from rooms import RADIUS
 from rumba_cleaning.behaviour import Observation
 from rumba_cleaning.behaviours.rear import LEAST, MOST, Rear
 from rumba_cleaning.control import CONTROL_DT
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.geometry import Pose
 
 
 @pytest.fixture

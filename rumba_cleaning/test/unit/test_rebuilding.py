@@ -20,7 +20,7 @@ from rumba_cleaning.planning.simulate.rehearsal import Rehearsal
 from rumba_cleaning.planning.swaths.problem import Problem
 from rumba_cleaning.planning.swaths.walls import Walls
 from rumba_cleaning.route import Route
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.geometry import Pose
 
 BEGIN = Pose(0.5, 0.5, 0.0)
 FLOOR = room(4.0, 3.0, 0.02)

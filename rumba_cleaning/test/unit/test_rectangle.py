@@ -13,7 +13,7 @@ from rumba_cleaning.planning.rectangle import Rectangle, corners, rectangle, rou
 from rumba_cleaning.planning.search.edits import dense
 from rumba_cleaning.planning.simulate import paper
 from rumba_cleaning.planning.simulate.rehearsal import Rehearsal
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.geometry import Pose
 
 WIDE, HIGH = 12.0, 9.0  # [m]
 MIDDLE, CORNER = Pose(6.0, 4.5, 0.0), Pose(0.5, 0.5, 0.0)

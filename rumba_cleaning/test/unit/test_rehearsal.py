@@ -15,7 +15,7 @@ from rumba_cleaning.planning.simulate import rehearsal as rehearsals
 from rumba_cleaning.planning.simulate.edit import Edit
 from rumba_cleaning.planning.simulate.rehearsal import NO_PATH, Rehearsal
 from rumba_cleaning.route import Route
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.geometry import Pose
 
 DT, TICKS = 0.1, 5
 START = Pose(0.5, 0.5, 0.3)

@@ -16,9 +16,9 @@ from rumba_cleaning.mission.mission import Mission
 from rumba_cleaning.mission.stages import State
 from rumba_cleaning.outcome import Outcome
 from rumba_cleaning.pose_source import Belief, truth
-from rumba_sim.model.geometry import Pose
-from rumba_sim.model.robot_config import RobotConfig
-from rumba_sim.model.world import World
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.settings.robot_config import RobotConfig
+from rumba_sim.model.simulation.world import World
 
 HERE = Pose(2.0, 1.3, 0.0)
 LOST = ((0.25, 0.0, 0.0), (0.0, 0.25, 0.0), (0.0, 0.0, 0.07))

@@ -6,8 +6,8 @@ from rooms import crooked, quiet
 
 from rumba_cleaning.mission.returning import ReturningMission
 from rumba_cleaning.outcome import Outcome
-from rumba_sim.model.geometry import Pose, hypot
-from rumba_sim.model.world import World
+from rumba_sim.model.common.geometry import Pose, hypot
+from rumba_sim.model.simulation.world import World
 
 START, HOME = Pose(0.5, 0.5, 1.0), Pose(1.0, 0.8, -2.0)
 

@@ -12,7 +12,7 @@ from rumba_cleaning.belief.context import Context
 from rumba_cleaning.belief.mates import Mates, Report, Task
 from rumba_cleaning.cleaning_config import CleaningConfig
 from rumba_cleaning.route import Ahead, Route
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.geometry import Pose
 
 PLAN = room(6.0, 4.0)
 CORRIDOR = room(6.0, 0.5)

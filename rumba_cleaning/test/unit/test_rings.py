@@ -13,7 +13,7 @@ from rumba_cleaning.planning.common.polyline import SPACING
 from rumba_cleaning.planning.decompose.regions import Shapes, regions
 from rumba_cleaning.planning.swaths import compiled_rings
 from rumba_cleaning.planning.swaths.rings import FORWARD, PASS, WALL_MARGIN, chains, rings, stretch
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.geometry import Pose
 
 START = Pose(0.5, 0.5, 0.0)
 

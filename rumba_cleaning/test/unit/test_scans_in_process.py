@@ -9,11 +9,11 @@ from pytest import approx
 from rooms import crooked
 
 from rumba_cleaning.pose_source import Localised, Mapped, due_scan, scan_of_robot, seeing, truth
-from rumba_sim.model.config import from_mapping
-from rumba_sim.model.geometry import Pose
-from rumba_sim.model.laser_config import LaserConfig
-from rumba_sim.model.robot_config import RobotConfig
-from rumba_sim.model.world import World
+from rumba_sim.model.common.config import from_mapping
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.settings.laser_config import LaserConfig
+from rumba_sim.model.settings.robot_config import RobotConfig
+from rumba_sim.model.simulation.world import World
 
 POSE = Pose(2.1, 1.3, 0.7)
 

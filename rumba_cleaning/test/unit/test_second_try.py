@@ -5,9 +5,9 @@ from drivers import context_of
 from rooms import quiet, room
 
 from rumba_cleaning.mission.second_try import SecondTry
-from rumba_sim.model.geometry import Pose
-from rumba_sim.model.sweep import Part
-from rumba_sim.model.world import World
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.floors.sweep import Part
+from rumba_sim.model.simulation.world import World
 
 PLAN = room(5.0, 3.0, boxes=[(2.4, 0.0, 2.6, 1.0), (2.4, 1.9, 2.6, 3.0)], start=Pose(1.0, 1.0, 0.0))
 

@@ -8,9 +8,9 @@ from rumba_cleaning.behaviours.dock import TRIES, Dock
 from rumba_cleaning.behaviours.self_docking import FARTHEST, PATIENCE, SEEK, SelfDocking
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.cleaning_config import CleaningConfig
-from rumba_sim.model.geometry import Pose
-from rumba_sim.model.robot import Infrared
-from rumba_sim.model.robot_config import RobotConfig
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.settings.robot_config import RobotConfig
+from rumba_sim.model.simulation.robot import Infrared
 
 HOME = Pose(2.0, 1.0, 0.0)
 BEFORE = Pose(1.2, 1.0, 0.0)  # where homing begins

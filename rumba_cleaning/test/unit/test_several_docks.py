@@ -9,10 +9,10 @@ from rooms import RADIUS, quiet, room
 
 from rumba_cleaning.behaviours.dock import Dock
 from rumba_cleaning.belief.mates import Report, Task
-from rumba_sim.model.geometry import Pose
-from rumba_sim.model.obstacle import Obstacle
-from rumba_sim.model.robot import put
-from rumba_sim.model.world import World
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.simulation.obstacle import Obstacle
+from rumba_sim.model.simulation.robot import put
+from rumba_sim.model.simulation.world import World
 
 AWAY = RADIUS + 0.03
 TOP, RIGHT = Pose(1.4, 3.0 - AWAY, 0.5 * math.pi), Pose(3.0 - AWAY, 1.8, 0.0)

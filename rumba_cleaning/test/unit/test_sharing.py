@@ -11,7 +11,7 @@ from rumba_cleaning.planning.search.edits import dense
 from rumba_cleaning.planning.simulate.rehearsal import Rehearsal
 from rumba_cleaning.planning.team.sharing import leave_to_mates
 from rumba_cleaning.route import Ahead, Route
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.geometry import Pose
 
 START = Pose(0.5, 0.5, 0.0)
 ZIGZAG = np.array([[0.5, 0.5], [3.5, 0.5], [3.5, 0.67], [0.5, 0.67], [0.5, 0.84], [3.5, 0.84], [3.5, 1.5], [0.5, 1.5]])

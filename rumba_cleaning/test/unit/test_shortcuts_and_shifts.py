@@ -10,7 +10,7 @@ from rumba_cleaning.planning.search.shifts import ASIDE, OUTWARD, shifts
 from rumba_cleaning.planning.search.shortcuts import shortcuts
 from rumba_cleaning.planning.simulate.rehearsal import Rehearsal
 from rumba_cleaning.route import Route
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.geometry import Pose
 
 START = Pose(0.5, 1.5, 0.0)
 FLOOR = room(4.0, 3.0, 0.02)

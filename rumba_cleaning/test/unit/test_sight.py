@@ -7,10 +7,10 @@ from rooms import quiet, room
 from rumba_cleaning.belief.met import SEEN
 from rumba_cleaning.belief.sight import CELL, MATE, STAYS, Sight
 from rumba_cleaning.pose_source import seeing, truth
-from rumba_sim.model.geometry import Pose
-from rumba_sim.model.obstacle import Obstacle
-from rumba_sim.model.robot_config import RobotConfig
-from rumba_sim.model.world import World
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.settings.robot_config import RobotConfig
+from rumba_sim.model.simulation.obstacle import Obstacle
+from rumba_sim.model.simulation.world import World
 
 PLAN = room(4.0, 3.0, 0.02)
 BOX = Obstacle('box', Pose(2.0, 1.5, 0.0), 0.3, length=0.4, width=0.2)

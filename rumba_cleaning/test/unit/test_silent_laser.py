@@ -10,9 +10,9 @@ from rumba_cleaning.cleaning_config import CleaningConfig
 from rumba_cleaning.control import STEP_RATE, steps
 from rumba_cleaning.mission.mission import Mission
 from rumba_cleaning.pose_source import Localised, scan_of_robot
-from rumba_sim.model.geometry import Pose
-from rumba_sim.model.robot_config import RobotConfig
-from rumba_sim.model.world import World
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.settings.robot_config import RobotConfig
+from rumba_sim.model.simulation.world import World
 
 BEGUN, ENDED = 30.0, 60.0  # [s]
 

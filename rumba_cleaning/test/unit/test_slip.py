@@ -15,9 +15,9 @@ from rumba_cleaning.behaviours.travel import Going, Travel
 from rumba_cleaning.control import CONTROL_DT
 from rumba_cleaning.pose_source import DeadReckoning, scan_of_robot
 from rumba_cleaning.route import Route
-from rumba_sim.model.geometry import Pose
-from rumba_sim.model.obstacle import Obstacle
-from rumba_sim.model.world import World
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.simulation.obstacle import Obstacle
+from rumba_sim.model.simulation.world import World
 
 
 @pytest.mark.parametrize('v', [0.1, 0.3, 0.45])

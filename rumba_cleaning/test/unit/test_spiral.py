@@ -13,9 +13,9 @@ from rumba_cleaning.belief.context import Context
 from rumba_cleaning.cleaning_config import CleaningConfig
 from rumba_cleaning.mission.mission import Mission
 from rumba_cleaning.strategies.spiral import SIZE, Spiral
-from rumba_sim.model.geometry import Pose
-from rumba_sim.model.kernel.samples import PASS
-from rumba_sim.model.world import World
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.kernel.sweeping.samples import PASS
+from rumba_sim.model.simulation.world import World
 
 PLAN = room(4.0, 4.0, 0.02)
 

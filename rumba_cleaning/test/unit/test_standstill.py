@@ -8,8 +8,8 @@ from rumba_cleaning.behaviour import Observation, Status
 from rumba_cleaning.behaviours.standstill import LONGEST, NEAR, Standstill
 from rumba_cleaning.outcome import Outcome
 from rumba_cleaning.strategies.boustrophedon import Boustrophedon
-from rumba_sim.model.geometry import Pose
-from rumba_sim.model.world import World
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.simulation.world import World
 
 HERE = Pose(1.0, 1.0, 0.3)
 

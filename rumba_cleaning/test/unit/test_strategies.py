@@ -9,9 +9,9 @@ from rooms import crooked
 from rumba_cleaning import strategies
 from rumba_cleaning.behaviour import STOP, Behaviour, Observation
 from rumba_cleaning.behaviours.bounce import Bounce
-from rumba_sim.model.errors import StrategyError
-from rumba_sim.model.geometry import Pose
-from rumba_sim.model.world import World
+from rumba_sim.model.common.errors import StrategyError
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.simulation.world import World
 
 PLAN = crooked()
 OTHER = '''

@@ -9,9 +9,9 @@ from pytest import approx
 from rooms import crooked, quiet, room
 
 from rumba_cleaning.belief.swept import Swept
-from rumba_sim.model.errors import MapError
-from rumba_sim.model.geometry import Pose
-from rumba_sim.model.world import World
+from rumba_sim.model.common.errors import MapError
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.simulation.world import World
 
 CLIFF = (3.8, 2.8, 4.0, 3.0)
 WIDTH = 0.17  # [m] of the brush

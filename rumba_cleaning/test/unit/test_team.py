@@ -18,7 +18,7 @@ from rumba_cleaning.planning.common import effort
 from rumba_cleaning.planning.search import improvement
 from rumba_cleaning.planning.team import helping
 from rumba_cleaning.strategies.boustrophedon import MORE
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.geometry import Pose
 
 WALL = (3.0, 0.0, 3.1, 2.0)  # with a door of 1 m above it
 RIGHT, LEFT = Pose(6.1 - RADIUS - 0.01, 1.2, 0.0), Pose(RADIUS + 0.01, 1.2, math.pi)

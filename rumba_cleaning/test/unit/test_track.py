@@ -12,9 +12,9 @@ from rumba_cleaning.belief.track import Track
 from rumba_cleaning.cleaning_config import CleaningConfig
 from rumba_cleaning.planning.frontiers import frontiers
 from rumba_cleaning.survey import Survey
-from rumba_sim.model.floor_plan import UNKNOWN, FloorPlan
-from rumba_sim.model.geometry import Pose
-from rumba_sim.model.robot_config import RobotConfig
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.maps.floor_plan import UNKNOWN, FloorPlan
+from rumba_sim.model.settings.robot_config import RobotConfig
 
 SIDE, MIDDLE = 2.0, 1.0  # [m] of a room, and of its neck and the niche behind it, in y
 ROOM, NICHE = Pose(1.0, MIDDLE, 0.0), 0.25  # from the neck to the middle of the niche [m]

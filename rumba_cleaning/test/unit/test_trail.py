@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from rumba_cleaning.behaviours.trail import LENGTH, OFF, Trail
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.geometry import Pose
 
 HALF = 0.12  # [m]
 STEP = 0.01  # [m] back at a time

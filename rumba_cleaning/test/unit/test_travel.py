@@ -11,8 +11,8 @@ from rumba_cleaning.behaviours.guard import Guard
 from rumba_cleaning.behaviours.travel import Going, Travel
 from rumba_cleaning.control import CONTROL_DT, observe
 from rumba_cleaning.route import Route
-from rumba_sim.model.geometry import Pose
-from rumba_sim.model.world import World
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.simulation.world import World
 
 ROOM, EDGE = room(4.0, 2.0, 0.02, start=Pose(0.5, 0.5, 0.0)), (0.0, 1.4, 4.0, 2.0)
 START, TURN = Pose(1.0, 1.0, 0.5 * math.pi), (1.0, 1.25)  # there, sensors are over the edge

@@ -9,7 +9,7 @@ from rooms import alone, drive, drove, quiet
 
 from rumba_cleaning.behaviours.compiled_follower import STOPPING, fastest
 from rumba_cleaning.behaviours.follower import Turn, turn_rate
-from rumba_sim.model.geometry import Pose, wrap_angle
+from rumba_sim.model.common.geometry import Pose, wrap_angle
 
 DRIVE = quiet().drive
 DT, TICKS = 0.1, 5  # [s] from command to command, and ticks of the world in it

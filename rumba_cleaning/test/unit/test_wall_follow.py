@@ -10,8 +10,8 @@ from rooms import RADIUS, crooked, quiet, room
 from rumba_cleaning.behaviour import Status
 from rumba_cleaning.control import steps
 from rumba_cleaning.strategies.wall_follow import WallFollow
-from rumba_sim.model.geometry import Pose
-from rumba_sim.model.world import World
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.simulation.world import World
 
 
 def following(plan, pose, seconds=400.0):

@@ -12,10 +12,10 @@ from rumba_cleaning.control import CONTROL_DT, steps
 from rumba_cleaning.mission.mission import Mission
 from rumba_cleaning.outcome import Outcome
 from rumba_cleaning.pose_source import seeing, truth
-from rumba_sim.model.floor_plan import FREE, OCCUPIED, FloorPlan
-from rumba_sim.model.geometry import Pose
-from rumba_sim.model.obstacle import Obstacle
-from rumba_sim.model.world import World
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.maps.floor_plan import FREE, OCCUPIED, FloorPlan
+from rumba_sim.model.simulation.obstacle import Obstacle
+from rumba_sim.model.simulation.world import World
 
 SHARES = r'(.*) % swept, (.*) % of what '
 LEAST = 0.001  # of the coverage in the end: what is swept last is no matter

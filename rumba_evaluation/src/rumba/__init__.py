@@ -11,12 +11,12 @@ from rumba_cleaning.strategies import strategy
 from rumba_evaluation.trials.cases import Conditions, Result
 from rumba_evaluation.trials.score import Score
 from rumba_evaluation.trials.trial import Trial
-from rumba_sim.model.errors import RumbaError
-from rumba_sim.model.floor_plan import FloorPlan
-from rumba_sim.model.geometry import Pose
-from rumba_sim.model.robot_config import RobotConfig
-from rumba_sim.model.world import World
-from rumba_sim.model.worlds import Worlds
+from rumba_sim.model.common.errors import RumbaError
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.maps.floor_plan import FloorPlan
+from rumba_sim.model.settings.robot_config import RobotConfig
+from rumba_sim.model.simulation.world import World
+from rumba_sim.model.simulation.worlds import Worlds
 
 __all__ = ['Behaviour', 'Command', 'Conditions', 'FloorPlan', 'Observation', 'Outcome', 'Pose', 'Result', 'RobotConfig',
            'RumbaError', 'Score', 'Trial', 'World', 'Worlds', 'evaluate', 'load_map', 'make_env', 'score_path',

@@ -11,10 +11,10 @@ from rumba_evaluation.scoring.ride import Driven
 from rumba_evaluation.trials import batch, score
 from rumba_evaluation.trials.cases import Case, Conditions, Result
 from rumba_evaluation.trials.trial import Trial
-from rumba_sim.model import map_file, named_maps
-from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.model.kernel import Array
-from rumba_sim.model.robot_config import RobotConfig
+from rumba_sim.model.maps import map_file, named_maps
+from rumba_sim.model.maps.floor_plan import FloorPlan
+from rumba_sim.model.settings.robot_config import RobotConfig
 
 
 def load_map(name: str, robot: Optional[RobotConfig] = None) -> FloorPlan:

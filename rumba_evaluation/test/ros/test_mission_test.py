@@ -23,8 +23,8 @@ from simulators import TIMEOUT, wait
 from std_msgs.msg import Float64, Header
 
 from rumba_msg.msg import BatteryStatus, Bumper, CleaningStatus, DockStatus, SimulatorState
-from rumba_sim.model.geometry import Pose
-from rumba_sim.model.robot import Twist
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.simulation.robot import Twist
 from rumba_sim.ros.robot.packed import OdometryPacker
 
 TOPICS = {'cleaning_status': CleaningStatus, 'ground_truth': Odometry, 'dock_status': DockStatus, 'bumper': Bumper,

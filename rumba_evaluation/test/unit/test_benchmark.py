@@ -6,9 +6,9 @@ import pathlib
 import pytest
 
 from rumba_evaluation.trials import benchmark, floors
-from rumba_sim.model import map_file
-from rumba_sim.model.robot_config import RobotConfig
-from rumba_sim.model.sweep import Sweep
+from rumba_sim.model.floors.sweep import Sweep
+from rumba_sim.model.maps import map_file
+from rumba_sim.model.settings.robot_config import RobotConfig
 
 AREAS = {'bare': 20.0, 'lounge': 20.0, 'rooms': 45.0, 'loft': 33.0, 'narrows': 24.0}  # [m^2] with what stands there
 

@@ -9,9 +9,9 @@ from rooms import crooked, room
 from rumba_cleaning.outcome import Outcome
 from rumba_evaluation.trials.cases import ANYWHERE, Conditions
 from rumba_evaluation.trials.trial import Trial
-from rumba_sim.model import map_file
-from rumba_sim.model.floor_plan import FREE, OCCUPIED, FloorPlan
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.maps import map_file
+from rumba_sim.model.maps.floor_plan import FREE, OCCUPIED, FloorPlan
 
 MAPS = pathlib.Path(__file__).resolve().parents[3] / 'rumba_sim' / 'maps'
 

@@ -15,7 +15,7 @@ from sheets import write
 
 from rumba_evaluation.trials import batch, evaluate
 from rumba_evaluation.trials.results import Results
-from rumba_sim.model.errors import MapError
+from rumba_sim.model.common.errors import MapError
 
 
 @pytest.fixture(autouse=True)

@@ -16,7 +16,7 @@ from rumba_cleaning.outcome import Outcome
 from rumba_evaluation.trials import batch
 from rumba_evaluation.trials.batch import Job
 from rumba_evaluation.trials.cases import Conditions
-from rumba_sim.model.errors import ConfigError
+from rumba_sim.model.common.errors import ConfigError
 
 TIMEOUT = 10.0  # [s]
 PARENT = '''

@@ -10,7 +10,7 @@ from evaluations import case, result, steady
 from rumba_cleaning.outcome import Outcome
 from rumba_evaluation.trials.cases import Conditions, grid
 from rumba_evaluation.trials.results import Results
-from rumba_sim.model.errors import ConfigError
+from rumba_sim.model.common.errors import ConfigError
 
 CASES = [case(seed=seed) for seed in (1, 2, 3)]
 FOUND = [steady(1.5),

@@ -8,10 +8,10 @@ import pytest
 from rooms import RADIUS, distances, room
 
 from rumba_evaluation.trials.starts import anywhere
-from rumba_sim.model.errors import WorldError
-from rumba_sim.model.geometry import Pose
-from rumba_sim.model.robot_config import RobotConfig
-from rumba_sim.model.world import World
+from rumba_sim.model.common.errors import WorldError
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.settings.robot_config import RobotConfig
+from rumba_sim.model.simulation.world import World
 
 ORIGIN = Pose(0.5, 0.5, 0.0)
 

@@ -8,8 +8,8 @@ from nav_msgs.msg import Odometry
 
 from rumba_evaluation.ros.exam_recording import COMMANDS, TRUTH, findings
 from rumba_evaluation.ros.judge.recording import Recording
-from rumba_sim.model.errors import ConfigError
-from rumba_sim.ros.common.examiner_frames import COMMAND, MESSAGE, Frame, serialised
+from rumba_sim.model.common.errors import ConfigError
+from rumba_sim.ros.participants.examiner_frames import COMMAND, MESSAGE, Frame, serialised
 
 
 @pytest.fixture

@@ -10,9 +10,9 @@ from std_msgs.msg import Header
 from rumba_evaluation.ros.judge.examiner_feed import ExaminerFeed
 from rumba_evaluation.ros.judge.robot_feed import RobotFeed
 from rumba_msg.msg import Bumper, CleaningStatus, Lockstep, LockstepAnswer
-from rumba_sim.model.errors import WorldError
-from rumba_sim.ros.common import examiner
-from rumba_sim.ros.common.examiner import ExaminerClient, ExaminerServer, socket_path
+from rumba_sim.model.common.errors import WorldError
+from rumba_sim.ros.participants import examiner
+from rumba_sim.ros.participants.examiner import ExaminerClient, ExaminerServer, socket_path
 
 CLEANING, BUMPER, TICK = '/rumba/cleaning_status', '/rumba/bumper', '/simulator/lockstep'
 PATIENCE = 20.0  # [s]

@@ -9,7 +9,7 @@ from rumba_evaluation.verdicts.field_conditions import Agreement, Rate
 from rumba_evaluation.verdicts.mission_requirements import Requirements
 from rumba_evaluation.verdicts.mission_verdict import Judge
 from rumba_evaluation.verdicts.tick_readings import TickReadings
-from rumba_sim.model.errors import ConfigError
+from rumba_sim.model.common.errors import ConfigError
 
 OWN, OTHER = 0, 1
 

@@ -10,8 +10,8 @@ from rooms import RADIUS, room
 from rumba_cleaning.outcome import Outcome
 from rumba_evaluation.scoring.guarded import Guarded
 from rumba_evaluation.trials import evaluate
-from rumba_sim.model.geometry import Pose
-from rumba_sim.model.obstacle import Obstacle
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.simulation.obstacle import Obstacle
 from sheets import B, W, write
 
 LEG = 0.02  # [m] half of its side

@@ -9,9 +9,9 @@ from sheets import B, G, W, write
 
 from rumba_evaluation.inspection import inspect_map
 from rumba_evaluation.inspection.barriers import Kind, barrier
-from rumba_sim.model.constants import clearance_needed
-from rumba_sim.model.floor_plan import FREE, UNKNOWN, FloorPlan
-from rumba_sim.model.reachability import Parts
+from rumba_sim.model.floors.constants import clearance_needed
+from rumba_sim.model.floors.reachability import Parts
+from rumba_sim.model.maps.floor_plan import FREE, UNKNOWN, FloorPlan
 
 CELL = 0.05  # [m]
 

@@ -6,7 +6,7 @@ import pickle
 import numpy as np
 import pytest
 
-from rumba_sim.model.errors import RumbaError
+from rumba_sim.model.common.errors import RumbaError
 
 gymnasium = pytest.importorskip('gymnasium', minversion='1.1', reason="Gymnasium is optional: pip install 'gymnasium'")
 from gymnasium.utils.env_checker import check_env  # noqa: E402

@@ -14,10 +14,10 @@ from rumba_evaluation.learning.picture import BODY, FLOOR, SWEPT, WALL, picture
 from rumba_evaluation.learning.rooms import room as numbered
 from rumba_evaluation.learning.rooms import rooms
 from rumba_evaluation.learning.task_config import TaskConfig
-from rumba_sim.model.config import from_mapping, updated
-from rumba_sim.model.errors import CommandError, ConfigError, WorldError
-from rumba_sim.model.geometry import Pose
-from rumba_sim.model.robot_config import RobotConfig
+from rumba_sim.model.common.config import from_mapping, updated
+from rumba_sim.model.common.errors import CommandError, ConfigError, WorldError
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.settings.robot_config import RobotConfig
 
 STEADY = updated(RobotConfig(), {'odometry': {'scale_error': 0.0, 'noise': 0.0, 'floor_traction': 1.0},
                                  'laser': {'noise': 0.0}}, 'test')

@@ -9,9 +9,9 @@ import pytest
 from rumba_cleaning.outcome import Outcome
 from rumba_evaluation.trials.cases import SLAM, Conditions
 from rumba_evaluation.trials.trial import Trial
-from rumba_sim.model import map_file
-from rumba_sim.model.floor_plan import FREE, OCCUPIED, FloorPlan
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.maps import map_file
+from rumba_sim.model.maps.floor_plan import FREE, OCCUPIED, FloorPlan
 
 STUDIO = pathlib.Path(__file__).resolve().parents[3] / 'rumba_sim' / 'maps' / 'studio.yaml'
 ELSEWHERE = Pose(2.5, 2.0, 2.0)  # [m, rad]

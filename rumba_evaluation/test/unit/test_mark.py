@@ -12,11 +12,11 @@ from rumba_evaluation.marks.marking import Ros
 from rumba_evaluation.marks.scheme import Mark
 from rumba_evaluation.marks.submission import Launch, Outcome, Submission
 from rumba_evaluation.submissions import supervised
-from rumba_evaluation.submissions.mistakes import Wanted
+from rumba_evaluation.submissions.diagnosis.mistakes import Wanted
 from rumba_evaluation.submissions.sandbox import Plain
 from rumba_evaluation.submissions.supervised import Run
-from rumba_sim.model.errors import ConfigError
-from rumba_sim.ros.common import launched
+from rumba_sim.model.common.errors import ConfigError
+from rumba_sim.ros.running import launched
 
 TEST = '''
     <launch>

@@ -15,7 +15,7 @@ from tf2_msgs.msg import TFMessage
 from rumba_evaluation.report.mission_events import events
 from rumba_evaluation.report.mission_summary import summary
 from rumba_evaluation.ros.mission_report import mission_bag, mission_report
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.geometry import Pose
 from rumba_sim.ros.common.conversions import transform
 
 

@@ -8,8 +8,8 @@ from rumba_evaluation.verdicts.conditions import Battery, Collisions, Condition,
 from rumba_evaluation.verdicts.field_conditions import Field, FieldCondition
 from rumba_evaluation.verdicts.mission_requirements import Requirements
 from rumba_evaluation.verdicts.mission_verdict import Judge
-from rumba_sim.model.errors import ConfigError
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.errors import ConfigError
+from rumba_sim.model.common.geometry import Pose
 
 LIMIT = 100.0  # [s]
 ANYWHERE = math.nan

@@ -7,10 +7,10 @@ import time
 
 import pytest
 
-from rumba_evaluation.submissions import installed_packages
-from rumba_evaluation.submissions.mistakes import MOST, Wanted, of_submission
-from rumba_evaluation.submissions.quotations import printable
-from rumba_evaluation.submissions.submitted_files import MOST_BYTES
+from rumba_evaluation.submissions.diagnosis import installed_packages
+from rumba_evaluation.submissions.diagnosis.mistakes import MOST, Wanted, of_submission
+from rumba_evaluation.submissions.diagnosis.quotations import printable
+from rumba_evaluation.submissions.diagnosis.submitted_files import MOST_BYTES
 
 CLEANER = Wanted('sweeper', 'cleaner')
 SCRIPT = '#!/usr/bin/env python3\nimport rospy\n'

@@ -5,7 +5,7 @@ import time
 import pytest
 from printed import sections
 
-from rumba_evaluation.submissions.mistakes import MOST, of_build
+from rumba_evaluation.submissions.diagnosis.mistakes import MOST, of_build
 
 PRINTED = sections('printed_by_builds.txt')
 CMAKE = 'sweeper/CMakeLists.txt, line '

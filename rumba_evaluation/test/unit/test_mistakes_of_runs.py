@@ -5,7 +5,7 @@ import time
 import pytest
 from printed import sections
 
-from rumba_evaluation.submissions.mistakes import MOST, of_run
+from rumba_evaluation.submissions.diagnosis.mistakes import MOST, of_run
 
 PRINTED = sections('printed_by_runs.txt')
 SCRIPTS = 'sweeper/scripts/'

@@ -11,7 +11,7 @@ from std_msgs.msg import Empty
 from rumba_evaluation.ros import evaluate
 from rumba_evaluation.ros.path_bag import read
 from rumba_evaluation.scoring.drawn_path import PathError
-from rumba_sim.model.geometry import half_angle
+from rumba_sim.model.common.geometry import half_angle
 
 
 def message(points, headings=None, times=None):

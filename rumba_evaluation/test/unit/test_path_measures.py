@@ -12,10 +12,10 @@ from rooms import RADIUS, quiet, room
 from rumba_cleaning.outcome import Outcome
 from rumba_evaluation.scoring.measures import events, ratios, runs, turns_in
 from rumba_evaluation.scoring.ride import AsDrawn, Driven
-from rumba_sim.model.config import updated
-from rumba_sim.model.geometry import Pose
-from rumba_sim.model.kernel.samples import PASS, REACHABLE
-from rumba_sim.model.obstacle import Obstacle
+from rumba_sim.model.common.config import updated
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.kernel.sweeping.samples import PASS, REACHABLE
+from rumba_sim.model.simulation.obstacle import Obstacle
 
 TICK = 0.02  # [s]
 RIM = RADIUS - 0.5 * WIDTH  # [m] along a wall, which no brush reaches

@@ -11,7 +11,7 @@ from mission_bags import record
 from PIL import Image
 
 from rumba_evaluation.report.report_page import page
-from rumba_sim.model.floor_colours import DARK, LIGHT
+from rumba_sim.model.maps.floor_colours import DARK, LIGHT
 
 HAS_BROWSER = all(map(shutil.which, ('chromium', 'chromedriver'))) and importlib.util.find_spec('selenium')
 pytestmark = pytest.mark.skipif(not HAS_BROWSER, reason='needs chromium, chromium-driver and python3-selenium')

@@ -15,7 +15,7 @@ from rumba_evaluation.report.mission_record import Grid, MissionRecord, MissionS
 from rumba_evaluation.report.report_figures import figures
 from rumba_evaluation.report.report_page import page
 from rumba_evaluation.report.report_slider import track
-from rumba_sim.model.floor_colours import DARK
+from rumba_sim.model.maps.floor_colours import DARK
 
 VOID = ('meta', 'br', 'img', 'input')
 

@@ -14,12 +14,12 @@ from rumba_cleaning.mission.stages import State
 from rumba_cleaning.outcome import Outcome
 from rumba_evaluation.trials.cases import ANYWHERE, Conditions
 from rumba_evaluation.trials.trial import Trial
-from rumba_sim.model import map_file
-from rumba_sim.model.config import updated
-from rumba_sim.model.errors import ConfigError, StrategyError, WorldError
-from rumba_sim.model.geometry import Pose
-from rumba_sim.model.obstacle import Obstacle
-from rumba_sim.model.robot_config import RobotConfig
+from rumba_sim.model.common.config import updated
+from rumba_sim.model.common.errors import ConfigError, StrategyError, WorldError
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.maps import map_file
+from rumba_sim.model.settings.robot_config import RobotConfig
+from rumba_sim.model.simulation.obstacle import Obstacle
 
 ROBOT = RobotConfig()
 STUDIO = pathlib.Path(__file__).resolve().parents[3] / 'rumba_sim' / 'maps' / 'studio.yaml'

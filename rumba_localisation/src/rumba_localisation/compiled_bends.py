@@ -10,7 +10,7 @@ from typing import Any, Tuple
 import numpy as np
 
 from rumba_localisation.compiled_matrices import inverse, product
-from rumba_sim.model.jit import compiled
+from rumba_sim.model.compiling.jit import compiled
 
 JUMP = 0.15  # [m] from one echo to the next on a wall, at most, beyond what a wall has that is nearly grazed
 GRAZED = 5.0  # times the way across between beams, which lies on a wall between two echoes, at most

@@ -15,7 +15,7 @@ from typing import Any, Tuple
 import numpy as np
 
 from rumba_localisation.compiled_matrices import inverse, product
-from rumba_sim.model.jit import compiled
+from rumba_sim.model.compiling.jit import compiled
 
 FARTHEST = 0.5  # [m], [rad] in one step of `match`: beyond, its lines say nothing of the walls
 BEFORE = 0.15  # [m] of a beam before its end that may be in a wall: by so much a pose that is not wrong may err

@@ -3,8 +3,8 @@
 import math
 from typing import List, NamedTuple, Optional, Sequence, Tuple
 
-from rumba_sim.model.geometry import Pose, compose
-from rumba_sim.model.robot_config import RobotConfig
+from rumba_sim.model.common.geometry import Pose, compose
+from rumba_sim.model.settings.robot_config import RobotConfig
 
 JUMP = 0.5  # [m] from one pose to the next: somebody put the robot elsewhere; our choice, as in `Swept`
 

@@ -12,9 +12,9 @@ from rumba_localisation.scan import Scan, is_blind, thinned
 from rumba_localisation.search import NEAR, WRONG, Search
 from rumba_localisation.systematic import Systematic
 from rumba_localisation.walls import Walls
-from rumba_sim.model.floor_plan import FloorPlan
-from rumba_sim.model.geometry import Pose, compose, inverse, wrap_angle
+from rumba_sim.model.common.geometry import Pose, compose, inverse, wrap_angle
 from rumba_sim.model.kernel import Array
+from rumba_sim.model.maps.floor_plan import FloorPlan
 
 Seed = Union[int, Sequence[int]]
 SURE = 0.9  # share of the weight in one cluster from which on the robot knows where it is

@@ -2,8 +2,8 @@
 
 import dataclasses
 
-from rumba_sim.model.config import setting
-from rumba_sim.model.errors import ConfigError
+from rumba_sim.model.common.config import setting
+from rumba_sim.model.common.errors import ConfigError
 
 
 @dataclasses.dataclass(frozen=True)

@@ -10,7 +10,7 @@ from rumba_localisation.localiser_config import LocaliserConfig
 from rumba_localisation.scan import Scan, thinned
 from rumba_localisation.search import NEAR, WRONG, Search
 from rumba_localisation.walls import Walls
-from rumba_sim.model.geometry import Pose, wrap_angle
+from rumba_sim.model.common.geometry import Pose, wrap_angle
 from rumba_sim.model.kernel import Array
 
 STEPS = np.geomspace(0.15, 0.03, 6)  # [m] sigmas of `match`

@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 from rumba_localisation.localiser_config import LocaliserConfig
-from rumba_sim.model.geometry import Pose, wrap_angle
+from rumba_sim.model.common.geometry import Pose, wrap_angle
 from rumba_sim.model.kernel import Array
 
 STRAIGHT = 0.01  # [m] a shorter way has no direction that could be told from noise

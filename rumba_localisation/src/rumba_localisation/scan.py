@@ -7,7 +7,7 @@ from typing import Any, NamedTuple, Optional, Tuple
 import numpy as np
 
 from rumba_sim.model.kernel import Array
-from rumba_sim.model.mounting import CENTRE, Mounting
+from rumba_sim.model.settings.mounting import CENTRE, Mounting
 
 FEWEST = 10  # beams with an echo, fewer tell nothing
 SILENT = 1.0  # [s] of the time of a robot without a scan, from which on its laser is silent: five scans at 5 Hz

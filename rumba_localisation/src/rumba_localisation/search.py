@@ -8,9 +8,9 @@ import numpy as np
 from rumba_localisation import compiled_matching
 from rumba_localisation.scan import Scan, thinned
 from rumba_localisation.walls import Walls
-from rumba_sim.model.floor_plan import FloorPlan
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.geometry import Pose
 from rumba_sim.model.kernel import Array
+from rumba_sim.model.maps.floor_plan import FloorPlan
 
 SPACING = 0.15  # [m] between the positions that are tried
 HEADINGS = 60

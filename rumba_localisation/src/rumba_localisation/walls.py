@@ -7,8 +7,8 @@ import numpy as np
 from scipy import ndimage
 
 from rumba_localisation import compiled_matching
-from rumba_sim.model.floor_plan import FloorPlan
 from rumba_sim.model.kernel import Array
+from rumba_sim.model.maps.floor_plan import FloorPlan
 
 FARTHEST = 2.0  # [m] beyond that all distances count alike
 

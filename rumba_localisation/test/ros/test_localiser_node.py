@@ -15,7 +15,7 @@ from std_srvs.srv import Empty
 from tf2_msgs.msg import TFMessage
 
 from rumba_localisation.ros.conversions import pose_with_covariance
-from rumba_sim.model.geometry import Pose, compose
+from rumba_sim.model.common.geometry import Pose, compose
 from rumba_sim.ros.common.conversions import heading, plane_pose
 
 CLOSE = 0.03  # [m], [rad]

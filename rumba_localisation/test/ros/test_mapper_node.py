@@ -15,8 +15,8 @@ from simulators import Heard, Simulator, folder_of, shared, wait
 from std_srvs.srv import Trigger
 from tf2_msgs.msg import TFMessage
 
-from rumba_sim.model import map_file, named_maps
-from rumba_sim.model.geometry import Pose, compose, inverse
+from rumba_sim.model.common.geometry import Pose, compose, inverse
+from rumba_sim.model.maps import map_file, named_maps
 from rumba_sim.ros.common.conversions import heading, plane_pose
 
 CLOSE = 0.05  # [m], [rad]

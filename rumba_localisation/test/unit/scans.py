@@ -7,9 +7,9 @@ from rooms import crooked
 
 from rumba_localisation.localiser import Localiser
 from rumba_localisation.scan import Scan, scan_of
-from rumba_sim.model.geometry import Pose
-from rumba_sim.model.robot_config import RobotConfig
-from rumba_sim.model.world import World
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.settings.robot_config import RobotConfig
+from rumba_sim.model.simulation.world import World
 
 BLIND = Scan(np.empty((0, 2)), np.empty((0, 2)))
 RADIUS, RANGE = RobotConfig().drive.radius, RobotConfig().laser.range_max

@@ -5,13 +5,13 @@ import math
 import numpy as np
 import pytest
 
-from rumba_localisation.mapping import compiled_grid
 from rumba_localisation.mapping.believed_plan import believed_plan
-from rumba_localisation.mapping.grid import Grid, placed
+from rumba_localisation.mapping.grids import compiled_grid
+from rumba_localisation.mapping.grids.grid import Grid, placed
 from rumba_localisation.noise import Noise
 from rumba_localisation.scan import Scan
-from rumba_sim.model.floor_plan import FREE, OCCUPIED, UNKNOWN
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.maps.floor_plan import FREE, OCCUPIED, UNKNOWN
 
 NONE, NOISE = np.empty((0, 2)), Noise(0.01)
 

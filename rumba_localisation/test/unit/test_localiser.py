@@ -10,11 +10,11 @@ from scans import BLIND, drive, error, localiser_of, scanned, world_of
 from rumba_localisation.localiser import START
 from rumba_localisation.localiser_config import LocaliserConfig
 from rumba_localisation.scan import thinned
-from rumba_sim.model.errors import ConfigError
-from rumba_sim.model.geometry import Pose, compose
-from rumba_sim.model.obstacle import Obstacle
-from rumba_sim.model.robot_config import RobotConfig
-from rumba_sim.model.world import World
+from rumba_sim.model.common.errors import ConfigError
+from rumba_sim.model.common.geometry import Pose, compose
+from rumba_sim.model.settings.robot_config import RobotConfig
+from rumba_sim.model.simulation.obstacle import Obstacle
+from rumba_sim.model.simulation.world import World
 
 NOBODY = Pose(0.0, 0.0, 0.0)
 

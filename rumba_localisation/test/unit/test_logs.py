@@ -9,7 +9,7 @@ import pytest
 from rumba_localisation.logs import carmen, trajectory
 from rumba_localisation.logs.entry import LogError
 from rumba_localisation.scan import AS_TOLD
-from rumba_sim.model.geometry import Pose, compose
+from rumba_sim.model.common.geometry import Pose, compose
 
 RANGES = ' '.join(['2.0'] * 89 + ['81.9'] + ['2.0'] * 90)
 LOG = f"""# a comment

@@ -15,8 +15,8 @@ from rumba_localisation.mapping.key_frames import KeyFrames
 from rumba_localisation.mapping.loop_closure import LoopClosure
 from rumba_localisation.mapping.mapper import Mapper
 from rumba_localisation.noise import Noise
-from rumba_sim.model.geometry import Pose
-from rumba_sim.model.robot_config import RobotConfig
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.settings.robot_config import RobotConfig
 
 START = Pose(1.0, 1.0, 0.0)
 ROUGH = np.diag([0.1, 0.1, 0.02]) ** 2  # covariance of a step

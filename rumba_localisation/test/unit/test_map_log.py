@@ -19,8 +19,8 @@ from tf2_msgs.msg import TFMessage
 from rumba_localisation.logs import trajectory
 from rumba_localisation.ros import map_log
 from rumba_localisation.ros.conversions import pose_message
-from rumba_sim.model import map_file
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.maps import map_file
 
 START = Pose(0.6, 1.2, 0.0)
 CORNERS = [(2.0, 1.3), (2.2, 2.6), (1.0, 2.6), (0.6, 1.2), (3.4, 1.2)]

@@ -13,11 +13,11 @@ from rumba_localisation.mapping.key_frames import KeyFrames
 from rumba_localisation.mapping.mapper import Mapper
 from rumba_localisation.mapping.tracker import DRIFT, Tracker
 from rumba_localisation.scan import scan_of
-from rumba_sim.model.config import updated
-from rumba_sim.model.floor_plan import OCCUPIED
-from rumba_sim.model.geometry import Pose, compose, wrap_angle
-from rumba_sim.model.robot_config import RobotConfig
-from rumba_sim.model.world import World
+from rumba_sim.model.common.config import updated
+from rumba_sim.model.common.geometry import Pose, compose, wrap_angle
+from rumba_sim.model.maps.floor_plan import OCCUPIED
+from rumba_sim.model.settings.robot_config import RobotConfig
+from rumba_sim.model.simulation.world import World
 
 BAD = updated(RobotConfig(), {'odometry': {'scale_error': 0.03}}, 'wheels that err more than those of a Rumba')
 

@@ -13,7 +13,7 @@ from rumba_localisation import compiled_matching
 from rumba_localisation.localiser_config import LocaliserConfig
 from rumba_localisation.matcher import STEPS, Match, Matcher
 from rumba_localisation.walls import Walls
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.geometry import Pose
 
 WIDE = np.diag([0.1, 0.1, 0.1]) ** 2
 

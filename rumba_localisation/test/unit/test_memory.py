@@ -5,12 +5,12 @@ import math
 import numpy as np
 import pytest
 
-from rumba_localisation.mapping.grid import Grid
+from rumba_localisation.mapping.grids.grid import Grid
 from rumba_localisation.mapping.mapper import LARGEST, MOST, Mapper
 from rumba_localisation.mapping.mapper_config import MapperConfig
 from rumba_localisation.noise import Noise
 from rumba_localisation.scan import scan_of
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.geometry import Pose
 
 STEP = math.radians(1.0)
 

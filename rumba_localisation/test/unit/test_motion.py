@@ -7,7 +7,7 @@ import pytest
 
 from rumba_localisation.localiser_config import LocaliserConfig
 from rumba_localisation.motion import moved, noise
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.geometry import Pose
 
 EXACT = LocaliserConfig(odom_alpha1=0.0, odom_alpha2=0.0, odom_alpha3=0.0, odom_alpha4=0.0)
 HERE = np.array([[2.0, 1.0, 0.5 * math.pi]])

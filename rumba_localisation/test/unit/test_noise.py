@@ -10,10 +10,10 @@ from scans import error
 from rumba_localisation.mapping.mapper import Mapper
 from rumba_localisation.noise import FIRST, KERNEL, LEAST, Noise
 from rumba_localisation.scan import scan_of
-from rumba_sim.model.config import updated
-from rumba_sim.model.geometry import Pose, wrap_angle
-from rumba_sim.model.robot_config import RobotConfig
-from rumba_sim.model.world import World
+from rumba_sim.model.common.config import updated
+from rumba_sim.model.common.geometry import Pose, wrap_angle
+from rumba_sim.model.settings.robot_config import RobotConfig
+from rumba_sim.model.simulation.world import World
 
 STEP = math.radians(1.0)
 TABLE = [(0.01, 0.0), (0.02, 0.0), (0.03, 0.0), (0.04, 0.0), (0.005, 0.01), (0.005, 0.02)]  # [m], and share of a range

@@ -8,7 +8,7 @@ import pytest
 from rumba_localisation.mapping.key_frames import KeyFrames
 from rumba_localisation.mapping.pose_graph import Link, optimised
 from rumba_localisation.scan import Scan
-from rumba_sim.model.geometry import Pose, compose, inverse
+from rumba_sim.model.common.geometry import Pose, compose, inverse
 
 EQUAL = np.eye(3)
 TRUE = [Pose(0.3, -0.2, 0.4), Pose(1.3, 0.1, 1.0), Pose(1.5, 1.2, 2.6), Pose(0.2, 1.0, -2.9)]

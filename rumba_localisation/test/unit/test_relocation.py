@@ -11,7 +11,7 @@ from rumba_localisation.mapping import relocation
 from rumba_localisation.mapping.mapper import Mapper
 from rumba_localisation.mapping.mapper_config import MapperConfig
 from rumba_localisation.mapping.relocation import Relocation
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.geometry import Pose
 
 
 def map_of(plan, start, corners, seed=1):

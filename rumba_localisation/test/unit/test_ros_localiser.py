@@ -18,10 +18,10 @@ from rumba_localisation.ros import localiser as node
 from rumba_localisation.ros.localiser import Settings
 from rumba_localisation.ros.odometries import KEPT, Odometries
 from rumba_localisation.scan import SILENT
-from rumba_sim.model.errors import ConfigError, MapError
-from rumba_sim.model.geometry import Pose, compose
+from rumba_sim.model.common.errors import ConfigError, MapError
+from rumba_sim.model.common.geometry import Pose, compose
 from rumba_sim.ros.common.conversions import grid, quaternion
-from rumba_sim.ros.common.maps import floor_plan
+from rumba_sim.ros.participants.maps import floor_plan
 
 
 def message_of(plan):

@@ -14,10 +14,10 @@ from test_loop_closure import START, drive_around
 from rumba_localisation.ros import mapper as node
 from rumba_localisation.ros import scan_loop
 from rumba_msg.msg import DockStatus
-from rumba_sim.model.floor_plan import OCCUPIED
-from rumba_sim.model.geometry import Pose, compose
+from rumba_sim.model.common.geometry import Pose, compose
+from rumba_sim.model.maps.floor_plan import OCCUPIED
 from rumba_sim.ros.common.conversions import heading, plane_pose, quaternion
-from rumba_sim.ros.common.maps import floor_plan
+from rumba_sim.ros.participants.maps import floor_plan
 
 ALONG = 24.8  # [m] x from which on the robot is at the far end of the corridor that shows nothing
 TOPICS = '/map', 'key_frames', 'dock_pose', '/tf'

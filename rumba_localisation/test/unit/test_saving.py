@@ -6,17 +6,17 @@ import numpy as np
 import pytest
 from rooms import crooked
 
-from rumba_localisation.mapping import saving
 from rumba_localisation.mapping.believed_plan import believed_plan
 from rumba_localisation.mapping.findings import Findings
-from rumba_localisation.mapping.grid import Grid
+from rumba_localisation.mapping.grids import saving
+from rumba_localisation.mapping.grids.grid import Grid
 from rumba_localisation.noise import Noise
 from rumba_localisation.scan import Scan
-from rumba_sim.model import map_file
-from rumba_sim.model.errors import MapError
-from rumba_sim.model.floor_plan import FREE, OCCUPIED, UNKNOWN, FloorPlan
-from rumba_sim.model.geometry import Pose
-from rumba_sim.model.robot_config import RobotConfig
+from rumba_sim.model.common.errors import MapError
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.maps import map_file
+from rumba_sim.model.maps.floor_plan import FREE, OCCUPIED, UNKNOWN, FloorPlan
+from rumba_sim.model.settings.robot_config import RobotConfig
 
 AWAY = RobotConfig().drive.radius + 0.02
 QUIET = (False,) * 4

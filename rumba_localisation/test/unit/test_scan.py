@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from rumba_localisation.scan import DENSE, FARTHEST, Reading, fault, scan_of, told
-from rumba_sim.model.mounting import Mounting
+from rumba_sim.model.settings.mounting import Mounting
 
 RIGHT, AHEAD, LEFT = (0.0, -1.0), (1.0, 0.0), (0.0, 1.0)  # directions
 QUARTER = 0.5 * math.pi

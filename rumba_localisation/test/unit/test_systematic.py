@@ -12,12 +12,12 @@ from rumba_localisation.mapping.believed_plan import believed_plan
 from rumba_localisation.mapping.mapper import Mapper
 from rumba_localisation.scan import Scan, scan_of
 from rumba_localisation.systematic import FEWEST, Systematic, lengthened
-from rumba_sim.model.config import updated
-from rumba_sim.model.floor_plan import OCCUPIED
-from rumba_sim.model.geometry import Pose
-from rumba_sim.model.mounting import Mounting
-from rumba_sim.model.robot_config import RobotConfig
-from rumba_sim.model.world import World
+from rumba_sim.model.common.config import updated
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.maps.floor_plan import OCCUPIED
+from rumba_sim.model.settings.mounting import Mounting
+from rumba_sim.model.settings.robot_config import RobotConfig
+from rumba_sim.model.simulation.world import World
 
 STEP = math.radians(0.5)
 WIDTH, HEIGHT = 4.0, 3.0  # [m] of the room

@@ -23,9 +23,10 @@ LARGEST = 1 << 17  # [bytes] of a request
 # Modules to load; test modules add theirs before they start a node. The main of a warm_up is called too.
 LIBRARIES = [
     'diagnostic_msgs.msg', 'geometry_msgs.msg', 'nav_msgs.msg', 'nav_msgs.srv', 'PIL.Image', 'rosgraph',
-    'rosgraph_msgs.msg', 'rumba_msg.msg', 'rumba_msg.srv', 'rumba_sim.model.guided_world', 'rumba_sim.model.map_file',
-    'rumba_sim.model.world_state', 'rumba_sim.model.warm_up', 'scipy.ndimage', 'sensor_msgs.msg', 'std_srvs.srv',
-    'tf2_msgs.msg', 'visualization_msgs.msg', 'xmlrpc.server', 'yaml']
+    'rosgraph_msgs.msg', 'rumba_msg.msg', 'rumba_msg.srv', 'rumba_sim.model.maps.map_file',
+    'rumba_sim.model.simulation.guided_world', 'rumba_sim.model.simulation.world_state', 'rumba_sim.model.warm_up',
+    'scipy.ndimage', 'sensor_msgs.msg', 'std_srvs.srv', 'tf2_msgs.msg', 'visualization_msgs.msg', 'xmlrpc.server',
+    'yaml']
 
 
 @functools.lru_cache(maxsize=None)

@@ -22,7 +22,7 @@ from std_srvs.srv import SetBool, Trigger
 
 from rumba_msg.msg import BatteryStatus, Bumper, CleaningStatus, Cliff, DockStatus, SimulatorState
 from rumba_msg.srv import AddObstacle, Kill, RemoveObstacle, Spawn, Step, Teleport
-from rumba_sim.ros.common import publisher_updates
+from rumba_sim.ros.running import publisher_updates
 
 TIMEOUT = 90.0  # [s] of the wall clock: on a busy machine, a mission takes half a minute as fast as it can
 LOOK_PERIOD = 0.04  # [s] between two questions to a master

@@ -17,7 +17,7 @@ BROKEN = """
 import dataclasses
 import time
 from rumba_sim.ros.common import node
-from rumba_sim.ros.common.requests import Requests
+from rumba_sim.ros.participants.requests import Requests
 
 @dataclasses.dataclass(frozen=True)
 class Settings:

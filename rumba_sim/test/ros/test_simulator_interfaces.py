@@ -19,7 +19,7 @@ from simulators import STEP_RATE, Commands, Heard, Simulator, folder_of, wait
 from std_msgs.msg import Empty, UInt16
 from tf2_msgs.msg import TFMessage
 
-from rumba_sim.model.interfaces import AT_SCAN, INTERFACES
+from rumba_sim.model.settings.interfaces import AT_SCAN, INTERFACES
 from rumba_sim.ros.robot.interface_topics import message_class
 
 NODES = pathlib.Path(__file__).resolve().parent / 'their_nodes'

@@ -11,11 +11,11 @@ import rostest
 from simulators import TICK, Commands, Heard, Simulator, wait
 
 from rumba_msg.msg import Bumper, Lockstep
-from rumba_sim.model import map_file
-from rumba_sim.model.robot import FIRST
-from rumba_sim.model.world import World
-from rumba_sim.ros.common.lockstep import Participant
-from rumba_sim.ros.common.maps import map_path
+from rumba_sim.model.maps import map_file
+from rumba_sim.model.simulation.robot import FIRST
+from rumba_sim.model.simulation.world import World
+from rumba_sim.ros.participants.lockstep import Participant
+from rumba_sim.ros.participants.maps import map_path
 
 CONTROL_TICKS = 5
 COUNT = 40  # control ticks of a test

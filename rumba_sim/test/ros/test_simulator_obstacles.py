@@ -11,10 +11,11 @@ from simulators import ROOM, Commands, Heard, Simulator, folder_of, wait
 from visualization_msgs.msg import Marker, MarkerArray
 
 from rumba_msg.srv import AddObstacleRequest
-from rumba_sim.model import map_file, obstacle_file
-from rumba_sim.model.robot_config import RobotConfig
-from rumba_sim.model.world import World
-from rumba_sim.ros.common.maps import map_path
+from rumba_sim.model.maps import map_file
+from rumba_sim.model.settings.robot_config import RobotConfig
+from rumba_sim.model.simulation import obstacle_file
+from rumba_sim.model.simulation.world import World
+from rumba_sim.ros.participants.maps import map_path
 
 RADIUS = RobotConfig().drive.radius
 THINGS = b"""

@@ -11,10 +11,11 @@ import rostest
 from geometry_msgs.msg import Pose2D
 from simulators import ROOM, TIMEOUT, Heard, Simulator, folder_of, forget_parameters, wait
 
-from rumba_sim.model import map_file, world_state
-from rumba_sim.model.config import updated
-from rumba_sim.model.robot_config import RobotConfig
-from rumba_sim.model.world import World
+from rumba_sim.model.common.config import updated
+from rumba_sim.model.maps import map_file
+from rumba_sim.model.settings.robot_config import RobotConfig
+from rumba_sim.model.simulation import world_state
+from rumba_sim.model.simulation.world import World
 
 MINUTE = 3000  # [ticks]
 DRAIN = '_battery/drain:=20'

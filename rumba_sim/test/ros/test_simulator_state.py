@@ -12,7 +12,7 @@ from dynamic_reconfigure.client import Client
 from simulators import ENDS_WITHIN, ROOM, TIMEOUT, Heard, Simulator, folder_of, forget_parameters, lookup, wait
 
 from rumba_msg.msg import SimulatorState
-from rumba_sim.ros.common.simulator_client import SimulatorClient, robot_config
+from rumba_sim.ros.participants.simulator_client import SimulatorClient, robot_config
 
 FILES = {**ROOM, 'robot.yaml': b'drive: {radius: 0.2, max_speed: 0.4}\nspeed: 3.0\n'}
 

@@ -14,7 +14,7 @@ from turtles import SPEED, Turtle, ask, body, turtlesim
 
 from rumba_msg.srv import Teleport
 from rumba_sim.ros.common import teleop
-from rumba_sim.ros.common.simulator_client import robot_config
+from rumba_sim.ros.participants.simulator_client import robot_config
 
 PEN = (240, 240, 255)  # the parameters' defaults
 DRAIN = 20.0

@@ -7,11 +7,11 @@ import math
 import numpy as np
 from hypothesis import strategies as st
 
-from rumba_sim.model.config import updated
-from rumba_sim.model.floor_plan import FREE, OCCUPIED, FloorPlan
-from rumba_sim.model.geometry import Pose
-from rumba_sim.model.robot_config import RobotConfig
-from rumba_sim.model.world import World
+from rumba_sim.model.common.config import updated
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.maps.floor_plan import FREE, OCCUPIED, FloorPlan
+from rumba_sim.model.settings.robot_config import RobotConfig
+from rumba_sim.model.simulation.world import World
 
 RADIUS = RobotConfig().drive.radius
 PILLARS = ((1.2, 0.4, 1.5, 0.9), (2.6, 1.6, 2.9, 2.6), (0.3, 2.0, 0.7, 2.2))

@@ -3,7 +3,7 @@
 import numpy as np
 from PIL import Image
 
-from rumba_sim.model.floor_plan import FREE, OCCUPIED, UNKNOWN
+from rumba_sim.model.maps.floor_plan import FREE, OCCUPIED, UNKNOWN
 
 B, G, W = 0, 205, 254
 PIXELS = np.array([  # an F with a rim, which differs from all its mirror images and rotations; row 0 at the top

@@ -8,8 +8,8 @@ from hypothesis import strategies as st
 from rooms import NAMES, PLANS, RADIUS, STARTS, distances, quiet, start
 from things import clutter, distance
 
-from rumba_sim.model.errors import WorldError
-from rumba_sim.model.world import World
+from rumba_sim.model.common.errors import WorldError
+from rumba_sim.model.simulation.world import World
 
 SPARE = 0.002  # [m] by which the way back is wider than the robot
 STRAIGHT_ON = np.arange(0.0, 0.2, 0.01)  # [m]

@@ -5,7 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from pytest import approx
 
-from rumba_sim.model.battery import CELLS, Battery, BatteryConfig
+from rumba_sim.model.settings.battery import CELLS, Battery, BatteryConfig
 
 CONFIG = BatteryConfig(capacity=2.0, resistance=0.25, charge_current=1.0, trickle_current=0.05, taper_start=0.8)
 

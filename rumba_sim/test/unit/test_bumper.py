@@ -8,8 +8,8 @@ from hypothesis import strategies as st
 from pytest import approx
 from rooms import NAMES, PLANS, RADIUS, STARTS, alone, drive, drove, quiet, room, start
 
-from rumba_sim.model.geometry import Pose, wrap_angle
-from rumba_sim.model.world import World
+from rumba_sim.model.common.geometry import Pose, wrap_angle
+from rumba_sim.model.simulation.world import World
 
 LEFT_ONLY, RIGHT_ONLY, BOTH, NONE = (True, False), (False, True), (True, True), (False, False)
 AT_ONCE = {'acceleration': 1000.0}

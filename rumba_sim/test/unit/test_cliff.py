@@ -6,8 +6,8 @@ import pytest
 from pytest import approx
 from rooms import alone, drive, drove, room
 
-from rumba_sim.model.errors import WorldError
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.errors import WorldError
+from rumba_sim.model.common.geometry import Pose
 
 HOLE = (2.0, 1.0, 3.0, 2.5)
 SMALL = (1.4, 1.04, 1.42, 1.06)

@@ -10,9 +10,9 @@ from hypothesis import strategies as st
 from pytest import approx
 from rooms import NAMES, PLANS, RADIUS, STARTS, alone, distances, drive, drove, hall, quiet, room, start
 
-from rumba_sim.model.errors import WorldError
-from rumba_sim.model.geometry import Pose
-from rumba_sim.model.world import World
+from rumba_sim.model.common.errors import WorldError
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.simulation.world import World
 
 EXACT = 1e-6  # [m]
 

@@ -7,14 +7,14 @@ import numpy as np
 import pytest
 from rooms import crooked
 
-from rumba_sim.model.compiled import fast, functions_of, kernel_modules
-from rumba_sim.model.constants import constants
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.compiling.compiled import fast, functions_of, kernel_modules
+from rumba_sim.model.floors.constants import constants
+from rumba_sim.model.floors.reachability import stands
 from rumba_sim.model.kernel.records import OBSTACLE, ROBOT
-from rumba_sim.model.kernel.samples import REACHABLE, SWEEPABLE
-from rumba_sim.model.obstacle import Obstacle, walk
-from rumba_sim.model.reachability import stands
-from rumba_sim.model.world import World
+from rumba_sim.model.kernel.sweeping.samples import REACHABLE, SWEEPABLE
+from rumba_sim.model.simulation.obstacle import Obstacle, walk
+from rumba_sim.model.simulation.world import World
 
 DOCK = Pose(3.8, 1.0, 0.0)
 STARTS = [Pose(0.5, 0.5, 0.3), Pose(0.9, 0.5, 3.0), Pose(2.0, 1.3, -2.0), Pose(3.5, 1.0, 0.1), Pose(3.2, 2.6, 0.0)]

@@ -10,11 +10,11 @@ import sys
 import programs
 import pytest
 
-from rumba_sim.model import compiled
+from rumba_sim.model.compiling import compiled
 
 LINE = 'rumba_sim: the kernel is compiled anew, which takes some seconds: '
 ADVICE = '; NUMBA_CACHE_DIR can name a writable folder for its cache\n'
-TURN = 'from rumba_sim.model.compiled import fast; print(fast.wrap(7.0) == 7.0 - 6.283185307179586)'
+TURN = 'from rumba_sim.model.compiling.compiled import fast; print(fast.wrap(7.0) == 7.0 - 6.283185307179586)'
 # numba has read another environment; and Python's bytecode of a source would outlive a change within the same second.
 BEGIN = 'import numba, sys; numba.config.reload_config(); sys.dont_write_bytecode = True; '
 SMALL_FILES = 'import resource; resource.setrlimit(resource.RLIMIT_FSIZE, (0, 0)); '
@@ -30,7 +30,7 @@ class Later:
 cpu.rtsys = Later
 """
 ARRAY = """import numpy
-from rumba_sim.model.compiled import fast
+from rumba_sim.model.compiling.compiled import fast
 print(fast.interpolated(numpy.ones((3, 3)), 1.5, 0.5)[0])
 """
 
@@ -95,7 +95,7 @@ def turned_around(source, path):
     assert changed.read_text() != text and changed.stat().st_size == original.stat().st_size
 
 
-ANGLE = 'from rumba_sim.model.compiled import fast; print(fast.wrap(-4.0) == -4.0)'
+ANGLE = 'from rumba_sim.model.compiling.compiled import fast; print(fast.wrap(-4.0) == -4.0)'
 
 
 @pytest.mark.parametrize('place', ['HOME', 'NUMBA_CACHE_DIR'])
@@ -144,7 +144,7 @@ def test_what_was_cached_does_not_outlive_a_change_of_a_file_that_it_depends_on(
     (model / 'kernel').mkdir()
     for path, text in SMALL.items():
         (model / path).write_text(text)
-    code = f'from rumba_sim.model.compiled import {name}; print({name}.{call})'
+    code = f'from rumba_sim.model.compiling.compiled import {name}; print({name}.{call})'
     for _ in range(2):  # the second time from the cache
         assert run(source, code, **home) == ('12.0\n', '')
     (model / changed).write_text(SMALL[changed].replace('2.0', '3.0'))
@@ -161,8 +161,8 @@ def write_chain(folder, factor):
     before = ''
     for name, body in CHAIN.items():
         body = body.replace('2.0 * x', f'{factor} * x')
-        (folder / f'{name}.py').write_text(f'from rumba_sim.model.jit import compiled\n{before}\n\n@compiled\n'
-                                           f'def {name}(x):\n    {body}\n')
+        (folder / f'{name}.py').write_text(f'from rumba_sim.model.compiling.jit import compiled\n{before}\n\n'
+                                           f'@compiled\ndef {name}(x):\n    {body}\n')
         before = f'from {name} import {name}\n'
 
 

@@ -6,8 +6,8 @@ import math
 
 import pytest
 
-from rumba_sim.model import config
-from rumba_sim.model.errors import LONGEST, ConfigError
+from rumba_sim.model.common import config
+from rumba_sim.model.common.errors import LONGEST, ConfigError
 
 BOMB = functools.reduce(lambda inner, _: [inner] * 9, range(40), ['ha'])  # 9 ** 40 elements
 

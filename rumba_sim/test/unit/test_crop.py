@@ -6,8 +6,8 @@ from pytest import approx
 from scipy import ndimage
 from sheets import B, G, W, write
 
-from rumba_sim.model import crop, map_file
-from rumba_sim.model.floor_plan import FREE
+from rumba_sim.model.maps import crop, map_file
+from rumba_sim.model.maps.floor_plan import FREE
 
 
 def with_rays(size, *boxes):

@@ -4,7 +4,7 @@ import warnings
 
 import pytest
 
-from rumba_sim.model.deprecation import deprecated
+from rumba_sim.model.common.deprecation import deprecated
 
 
 @deprecated('0.2.0', 'new')

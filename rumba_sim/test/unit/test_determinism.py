@@ -10,8 +10,8 @@ RUN = '''
 import hashlib, sys
 import numpy as np
 from rooms import crooked
-from rumba_sim.model.geometry import Pose
-from rumba_sim.model.world import World
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.simulation.world import World
 
 for seed in map(int, sys.argv[1:]):
     world = World(crooked(dock=Pose(3.8, 1.0, 0.0), cliff=(3.6, 2.6, 4.0, 3.0), carpet=(0.0, 0.0, 1.0, 1.0)),

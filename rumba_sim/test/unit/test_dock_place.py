@@ -9,11 +9,12 @@ from pytest import approx
 from rooms import RADIUS, crooked, quiet, room
 from sheets import B, G, W, write
 
-from rumba_sim.model import map_file, place_dock
-from rumba_sim.model.dock_place import place_dock as place
-from rumba_sim.model.floor_plan import FREE, OCCUPIED, UNKNOWN, FloorPlan
-from rumba_sim.model.geometry import Pose
-from rumba_sim.model.world import World
+from rumba_sim.model import place_dock
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.floors.dock_place import place_dock as place
+from rumba_sim.model.maps import map_file
+from rumba_sim.model.maps.floor_plan import FREE, OCCUPIED, UNKNOWN, FloorPlan
+from rumba_sim.model.simulation.world import World
 
 
 def placed(plan, x=0.5, y=0.5):

@@ -7,8 +7,8 @@ import pytest
 from pytest import approx
 from rooms import alone, drive, drove
 
-from rumba_sim.model.errors import CommandError
-from rumba_sim.model.geometry import Pose, wrap_angle
+from rumba_sim.model.common.errors import CommandError
+from rumba_sim.model.common.geometry import Pose, wrap_angle
 
 START = Pose(10.0, 10.0, 0.4)
 BASE, ACCELERATION = 0.235, 0.9

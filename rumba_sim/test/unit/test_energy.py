@@ -7,9 +7,9 @@ import pytest
 from pytest import approx
 from rooms import alone, crooked, drive, drove, quiet
 
-from rumba_sim.model.geometry import Pose
-from rumba_sim.model.robot_config import BatteryConfig
-from rumba_sim.model.world import World
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.settings.robot_config import BatteryConfig
+from rumba_sim.model.simulation.world import World
 
 DOCK = Pose(3.8, 1.0, 0.0)
 LOADS = {'idle_current': 0.2, 'brush_current': 0.7, 'wheel_current_slow': 0.25, 'wheel_current': 1.15,

@@ -5,7 +5,7 @@ import time
 
 import pytest
 
-from rumba_sim.model.errors import LONGEST, LONGEST_QUOTE, MapError, one_line, quoted
+from rumba_sim.model.common.errors import LONGEST, LONGEST_QUOTE, MapError, one_line, quoted
 
 
 @pytest.mark.parametrize('value, text', [

@@ -7,11 +7,11 @@ import pytest
 from pytest import approx
 from rooms import alone, crooked, drive, drove, quiet, room
 
-from rumba_sim.model.floor import Floor
-from rumba_sim.model.geometry import Pose
-from rumba_sim.model.kernel.brush import STRIDE
-from rumba_sim.model.kernel.samples import PASS, REACHABLE
-from rumba_sim.model.world import World
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.floors.floor import Floor
+from rumba_sim.model.kernel.sweeping.brush import STRIDE
+from rumba_sim.model.kernel.sweeping.samples import PASS, REACHABLE
+from rumba_sim.model.simulation.world import World
 
 WIDTH = 0.17
 AT_ONCE = {'acceleration': 1000.0}

@@ -4,7 +4,7 @@ import itertools
 
 import pytest
 
-from rumba_sim.model.floor_colours import DARK, LIGHT, ROBOTS, contrast
+from rumba_sim.model.maps.floor_colours import DARK, LIGHT, ROBOTS, contrast
 
 LEAST = 3.0
 

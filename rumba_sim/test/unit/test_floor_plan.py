@@ -9,10 +9,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from pytest import approx
 
-from rumba_sim.model.errors import MapError
-from rumba_sim.model.floor_plan import FREE, MAX_CELLS, OCCUPIED, UNKNOWN, FloorPlan, check_size
-from rumba_sim.model.geometry import Pose
-from rumba_sim.model.kernel.beams import IN_WALL
+from rumba_sim.model.common.errors import MapError
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.kernel.sensors.beams import IN_WALL
+from rumba_sim.model.maps.floor_plan import FREE, MAX_CELLS, OCCUPIED, UNKNOWN, FloorPlan, check_size
 
 SIGNS = {'#': OCCUPIED, '.': FREE, '?': UNKNOWN, '~': FREE}
 

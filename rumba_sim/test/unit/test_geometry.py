@@ -5,7 +5,7 @@ import math
 import pytest
 from pytest import approx
 
-from rumba_sim.model.geometry import wrap_angle
+from rumba_sim.model.common.geometry import wrap_angle
 
 
 @pytest.mark.parametrize('angle, wrapped', [

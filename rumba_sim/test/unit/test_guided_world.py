@@ -5,11 +5,11 @@ import math
 import pytest
 from rooms import DENT, PLANS, RADIUS, distances, room
 
-from rumba_sim.model.errors import WorldError
-from rumba_sim.model.geometry import Pose
-from rumba_sim.model.guided_world import GuidedWorld
-from rumba_sim.model.robot_config import OdometryConfig, RobotConfig
-from rumba_sim.model.world import World
+from rumba_sim.model.common.errors import WorldError
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.settings.robot_config import OdometryConfig, RobotConfig
+from rumba_sim.model.simulation.guided_world import GuidedWorld
+from rumba_sim.model.simulation.world import World
 
 RATE = 62.5  # [Hz]
 EXACT = RobotConfig(odometry=OdometryConfig(scale_error=0.0, noise=0.0, floor_traction=1.0))

@@ -10,9 +10,10 @@ import mutations
 import pytest
 from sheets import write
 
-from rumba_sim.model import config, map_file, yaml_file
-from rumba_sim.model.errors import LONGEST, ConfigError, MapError
-from rumba_sim.model.robot_config import RobotConfig
+from rumba_sim.model.common import config, yaml_file
+from rumba_sim.model.common.errors import LONGEST, ConfigError, MapError
+from rumba_sim.model.maps import map_file
+from rumba_sim.model.settings.robot_config import RobotConfig
 
 SEEDS = range(150)
 LONGEST_CASE = 3.0  # [s] of CPU time

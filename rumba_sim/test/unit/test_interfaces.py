@@ -8,14 +8,14 @@ import pytest
 from pytest import approx
 from rooms import alone, quiet, room
 
-from rumba_sim.model.config import ConfigError, from_mapping, updated
-from rumba_sim.model.geometry import Pose
-from rumba_sim.model.interfaces import INTERFACES, PRESETS, is_due
-from rumba_sim.model.laser_config import LaserConfig
-from rumba_sim.model.laser_scan import intensities
-from rumba_sim.model.light_bumper import REACH, STRONGEST, light_bumper
-from rumba_sim.model.obstacle import Obstacle
-from rumba_sim.model.world import World
+from rumba_sim.model.common.config import ConfigError, from_mapping, updated
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.devices.laser_scan import intensities
+from rumba_sim.model.devices.light_bumper import REACH, STRONGEST, light_bumper
+from rumba_sim.model.settings.interfaces import INTERFACES, PRESETS, is_due
+from rumba_sim.model.settings.laser_config import LaserConfig
+from rumba_sim.model.simulation.obstacle import Obstacle
+from rumba_sim.model.simulation.world import World
 from rumba_sim.ros.robot.interface_topics import message_class
 from rumba_sim.ros.simulator.settings import Settings
 

@@ -6,9 +6,9 @@ from typing import NamedTuple
 import numpy as np
 import pytest
 
-from rumba_sim.model.floor_plan import FREE, OCCUPIED, UNKNOWN
-from rumba_sim.model.geometry import Pose
-from rumba_sim.model.laid_over import laid_over
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.maps.floor_plan import FREE, OCCUPIED, UNKNOWN
+from rumba_sim.model.maps.laid_over import laid_over
 
 
 class Grid(NamedTuple):

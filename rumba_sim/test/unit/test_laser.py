@@ -7,12 +7,12 @@ import pytest
 from pytest import approx
 from rooms import PILLARS, RADIUS, alone, crooked, drove, quiet, room, squares
 
-from rumba_sim.model.constants import constants
-from rumba_sim.model.floor_plan import FREE, OCCUPIED, FloorPlan
-from rumba_sim.model.geometry import Pose
-from rumba_sim.model.kernel import beams
-from rumba_sim.model.kernel.beams import NUDGE
-from rumba_sim.model.world import World
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.floors.constants import constants
+from rumba_sim.model.kernel.sensors import beams
+from rumba_sim.model.kernel.sensors.beams import NUDGE
+from rumba_sim.model.maps.floor_plan import FREE, OCCUPIED, FloorPlan
+from rumba_sim.model.simulation.world import World
 
 POSES = [Pose(0.5, 0.5, 0.0), Pose(2.1, 1.3, 0.7), Pose(3.6, 2.7, -2.0), Pose(1.83, 2.41, math.pi),
          Pose(2.0, 0.4, math.pi / 2.0), Pose(0.4, 1.0, -math.pi / 2.0)]

@@ -10,18 +10,18 @@ from pytest import approx
 from rooms import crooked, hall, quiet, room
 from things import box, disc
 
-from rumba_sim.model import yaml_file
-from rumba_sim.model.compiled import fast
-from rumba_sim.model.config import from_mapping, updated
-from rumba_sim.model.errors import ConfigError, WorldError
-from rumba_sim.model.geometry import Pose, compose
-from rumba_sim.model.kernel import laser as kernel
-from rumba_sim.model.laser_config import MODELS, LaserConfig
-from rumba_sim.model.laser_scan import laser_scan
-from rumba_sim.model.mounting import Mounting
-from rumba_sim.model.robot_config import RobotConfig
-from rumba_sim.model.world import World
-from rumba_sim.model.worlds import Worlds
+from rumba_sim.model.common import yaml_file
+from rumba_sim.model.common.config import from_mapping, updated
+from rumba_sim.model.common.errors import ConfigError, WorldError
+from rumba_sim.model.common.geometry import Pose, compose
+from rumba_sim.model.compiling.compiled import fast
+from rumba_sim.model.devices.laser_scan import laser_scan
+from rumba_sim.model.kernel.sensors import laser as kernel
+from rumba_sim.model.settings.laser_config import MODELS, LaserConfig
+from rumba_sim.model.settings.mounting import Mounting
+from rumba_sim.model.settings.robot_config import RobotConfig
+from rumba_sim.model.simulation.world import World
+from rumba_sim.model.simulation.worlds import Worlds
 
 REAL = [model for model in MODELS if model != 'ideal']
 EXACT = {'noise': 0.0, 'relative_noise': 0.0, 'bias': 0.0, 'relative_bias': 0.0, 'resolution': 0.0, 'dropouts': 0.0,

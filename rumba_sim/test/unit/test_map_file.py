@@ -11,9 +11,9 @@ from PIL import Image
 from pytest import approx
 from sheets import CUT, PIXELS, G, W, grid, write
 
-from rumba_sim.model import map_file
-from rumba_sim.model.errors import LONGEST, MapError
-from rumba_sim.model.floor_plan import FREE, OCCUPIED, UNKNOWN
+from rumba_sim.model.common.errors import LONGEST, MapError
+from rumba_sim.model.maps import map_file
+from rumba_sim.model.maps.floor_plan import FREE, OCCUPIED, UNKNOWN
 
 
 def test_a_map_is_cropped_to_its_free_cells_and_keeps_its_coordinates(tmp_path):

@@ -9,9 +9,9 @@ import pytest
 from PIL import Image
 from sheets import CUT, PIXELS, B, G, W, grid, write
 
-from rumba_sim.model import map_file, map_image
-from rumba_sim.model.errors import MapError
-from rumba_sim.model.floor_plan import FREE, OCCUPIED, UNKNOWN
+from rumba_sim.model.common.errors import MapError
+from rumba_sim.model.maps import map_file, map_image
+from rumba_sim.model.maps.floor_plan import FREE, OCCUPIED, UNKNOWN
 
 
 def test_a_layer_with_a_transparent_background_marks_what_is_drawn(tmp_path):

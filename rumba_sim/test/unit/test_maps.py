@@ -8,10 +8,10 @@ import pytest
 from PIL import Image
 from pytest import approx
 
-from rumba_sim.model import map_file
-from rumba_sim.model.floor_plan import FREE
-from rumba_sim.model.robot_config import RobotConfig
-from rumba_sim.model.sweep import Sweep
+from rumba_sim.model.floors.sweep import Sweep
+from rumba_sim.model.maps import map_file
+from rumba_sim.model.maps.floor_plan import FREE
+from rumba_sim.model.settings.robot_config import RobotConfig
 
 MAPS = pathlib.Path(__file__).resolve().parents[2] / 'maps'
 NAMES = ('apartment', 'studio', 'field')

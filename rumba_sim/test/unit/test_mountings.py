@@ -8,7 +8,7 @@ from sensor_msgs.msg import LaserScan
 from std_msgs.msg import Header
 from tf2_msgs.msg import TFMessage
 
-from rumba_sim.model.mounting import CENTRE, Mounting
+from rumba_sim.model.settings.mounting import CENTRE, Mounting
 from rumba_sim.ros.common.mountings import Mountings
 
 

@@ -8,12 +8,12 @@ from pytest import approx
 from rooms import RADIUS, crooked, drive, drove, quiet, room
 from things import LOW, box, disc, gaps, walker
 
-from rumba_sim.model.config import updated
-from rumba_sim.model.errors import WorldError
-from rumba_sim.model.geometry import Pose
-from rumba_sim.model.obstacle import Obstacle, door, walk
-from rumba_sim.model.robot_config import RobotConfig
-from rumba_sim.model.world import World
+from rumba_sim.model.common.config import updated
+from rumba_sim.model.common.errors import WorldError
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.settings.robot_config import RobotConfig
+from rumba_sim.model.simulation.obstacle import Obstacle, door, walk
+from rumba_sim.model.simulation.world import World
 
 HALL = room(6.0, 5.0)
 GAP = 0.0006  # [m] at most between two that touch

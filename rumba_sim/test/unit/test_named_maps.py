@@ -4,8 +4,8 @@ import os
 
 import pytest
 
-from rumba_sim.model import named_maps
-from rumba_sim.model.errors import MapError
+from rumba_sim.model.common.errors import MapError
+from rumba_sim.model.maps import named_maps
 
 
 def test_the_maps_of_the_package_are_found_here():

@@ -6,11 +6,12 @@ import pathlib
 import pytest
 from rooms import quiet
 
-from rumba_sim.model import map_file, obstacle_file
-from rumba_sim.model.errors import ConfigError
-from rumba_sim.model.geometry import Pose
-from rumba_sim.model.obstacle import Obstacle, Stop, walk
-from rumba_sim.model.world import World
+from rumba_sim.model.common.errors import ConfigError
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.maps import map_file
+from rumba_sim.model.simulation import obstacle_file
+from rumba_sim.model.simulation.obstacle import Obstacle, Stop, walk
+from rumba_sim.model.simulation.world import World
 
 PACKAGE = pathlib.Path(__file__).parents[2]
 DISC = {'pose': [1, 2], 'radius': 0.05, 'height': 0.4}

@@ -10,12 +10,12 @@ from pytest import approx
 from rooms import PLANS, RADIUS, crooked, distances, drive, drove, positions, quiet, room
 from things import HIGH, LOW, box, clutter, corners, disc, gaps, to_segment, walker
 
-from rumba_sim.model.constants import RECORD
-from rumba_sim.model.errors import WorldError
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.errors import WorldError
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.floors.constants import RECORD
 from rumba_sim.model.kernel.records import OBSTACLE, ROBOT, TALLY
-from rumba_sim.model.obstacle import LASER_HEIGHT, Obstacle
-from rumba_sim.model.world import World
+from rumba_sim.model.simulation.obstacle import LASER_HEIGHT, Obstacle
+from rumba_sim.model.simulation.world import World
 
 LEFT, RIGHT, BOTH, NONE = (True, False), (False, True), (True, True), (False, False)
 EXACT = 1e-6  # [m]
@@ -283,7 +283,7 @@ def test_what_moves_is_still_met_after_an_obstacle_was_refused():
 
 
 def test_there_are_at_most_so_many_obstacles(monkeypatch):
-    monkeypatch.setattr('rumba_sim.model.obstacles.MOST', 2)
+    monkeypatch.setattr('rumba_sim.model.simulation.obstacles.MOST', 2)
     world, _ = among(disc('a', 3.0, 3.0, 0.1), disc('b', 3.0, 4.0, 0.1))
     with pytest.raises(WorldError, match='^there are 2 obstacles already: remove one first$'):
         world.add_obstacle(disc('c', 4.0, 4.0, 0.1))

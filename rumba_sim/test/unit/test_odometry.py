@@ -7,8 +7,8 @@ import pytest
 from pytest import approx
 from rooms import RADIUS, alone, drove, hall, quiet, room
 
-from rumba_sim.model.geometry import Pose, wrap_angle
-from rumba_sim.model.world import World
+from rumba_sim.model.common.geometry import Pose, wrap_angle
+from rumba_sim.model.simulation.world import World
 
 BASE = 0.235
 TICKS_PER_METRE = 508.8 / (math.pi * 0.072)

@@ -2,10 +2,10 @@
 
 import pytest
 
-from rumba_sim.model.errors import ConfigError
-from rumba_sim.model.mounting import Mounting
-from rumba_sim.model.own_robot import load
-from rumba_sim.model.robot_config import RobotConfig
+from rumba_sim.model.common.errors import ConfigError
+from rumba_sim.model.settings.mounting import Mounting
+from rumba_sim.model.settings.own_robot import load
+from rumba_sim.model.settings.robot_config import RobotConfig
 from rumba_sim.ros.common.frames import frames
 from rumba_sim.ros.common.own_robots import frames_of, own_robot
 

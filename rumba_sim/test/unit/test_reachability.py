@@ -8,11 +8,11 @@ from pytest import approx
 from rooms import crooked, quiet, room, slanted
 from scipy import ndimage, spatial
 
-from rumba_sim.model.constants import clearance_needed
-from rumba_sim.model.errors import MapError
-from rumba_sim.model.floor_plan import FREE, OCCUPIED, FloorPlan
-from rumba_sim.model.kernel.samples import REACHABLE, SWEEPABLE, sample_point
-from rumba_sim.model.reachability import SLACK, reach, stands
+from rumba_sim.model.common.errors import MapError
+from rumba_sim.model.floors.constants import clearance_needed
+from rumba_sim.model.floors.reachability import SLACK, reach, stands
+from rumba_sim.model.kernel.sweeping.samples import REACHABLE, SWEEPABLE, sample_point
+from rumba_sim.model.maps.floor_plan import FREE, OCCUPIED, FloorPlan
 
 RESOLUTIONS = (0.005, 0.01, 0.02, 0.05, 0.1)
 RADIUS, BRUSH = 0.17425, 0.17  # [m]

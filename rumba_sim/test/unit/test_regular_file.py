@@ -8,8 +8,9 @@ import socket
 import pytest
 from sheets import write
 
-from rumba_sim.model import map_file, regular_file, yaml_file
-from rumba_sim.model.errors import LONGEST, ConfigError, MapError
+from rumba_sim.model.common import regular_file, yaml_file
+from rumba_sim.model.common.errors import LONGEST, ConfigError, MapError
+from rumba_sim.model.maps import map_file
 
 
 @contextlib.contextmanager

@@ -5,13 +5,13 @@ import yaml
 from pytest import approx
 from rooms import quiet, room
 
-from rumba_sim.model.constants import clearance_needed
-from rumba_sim.model.floor_plan import FloorPlan
-from rumba_sim.model.geometry import Pose
-from rumba_sim.model.obstacle import Obstacle
-from rumba_sim.model.reachability import Parts
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.floors.constants import clearance_needed
+from rumba_sim.model.floors.reachability import Parts
+from rumba_sim.model.maps.floor_plan import FloorPlan
 from rumba_sim.model.remarks import remarks
-from rumba_sim.model.world import World
+from rumba_sim.model.simulation.obstacle import Obstacle
+from rumba_sim.model.simulation.world import World
 
 FLAT = [(3.1, 0.0, 3.2, 8.3), (0.0, 3.1, 3.1, 8.3)]  # a closed room of 3.1 m square beside a flat of 2.7 x 8.3 m
 

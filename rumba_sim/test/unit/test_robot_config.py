@@ -11,12 +11,12 @@ import pytest
 from pytest import approx
 from rooms import crooked, quiet
 
-from rumba_sim.model.compiled import kernel_modules
-from rumba_sim.model.config import describe, from_mapping, leaves, updated
-from rumba_sim.model.constants import Constants, check_speed, constants
-from rumba_sim.model.errors import ConfigError, MapError
-from rumba_sim.model.geometry import Pose
-from rumba_sim.model.robot_config import DockConfig, RobotConfig
+from rumba_sim.model.common.config import describe, from_mapping, leaves, updated
+from rumba_sim.model.common.errors import ConfigError, MapError
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.compiling.compiled import kernel_modules
+from rumba_sim.model.floors.constants import Constants, check_speed, constants
+from rumba_sim.model.settings.robot_config import DockConfig, RobotConfig
 
 LEAVES = dict(leaves(RobotConfig))
 NUMBERS = {path: field for path, field in LEAVES.items() if type(field.default) in (float, int)}

@@ -9,7 +9,7 @@ from rospy.impl import simtime
 from std_msgs.msg import Header
 
 from rumba_sim.ros import battery_status_publisher
-from rumba_sim.ros.common import clock
+from rumba_sim.ros.running import clock
 from rumba_sim.ros.turtlesim_body import turtlesim_body
 
 

@@ -9,10 +9,10 @@ import rospy
 from sensor_msgs.msg import BatteryState
 from std_msgs.msg import Header
 
-from rumba_sim.model.battery import Battery, BatteryConfig
-from rumba_sim.model.config import from_mapping
-from rumba_sim.model.laser_config import LaserConfig
-from rumba_sim.model.robot_config import OdometryConfig
+from rumba_sim.model.common.config import from_mapping
+from rumba_sim.model.settings.battery import Battery, BatteryConfig
+from rumba_sim.model.settings.laser_config import LaserConfig
+from rumba_sim.model.settings.robot_config import OdometryConfig
 from rumba_sim.ros.common import conversions
 from rumba_sim.ros.common.frames import frames
 

@@ -14,10 +14,10 @@ from geometry_msgs.msg import Twist
 from std_msgs.msg import Header
 
 from rumba_msg.msg import Bumper, LockstepAnswer
-from rumba_sim.model.errors import WorldError
-from rumba_sim.ros.common import examiner
-from rumba_sim.ros.common.examiner import ExaminerClient, ExaminerServer, socket_path
-from rumba_sim.ros.common.examiner_frames import COMMAND, INTRUDER, MESSAGE, Frame, frames, packed
+from rumba_sim.model.common.errors import WorldError
+from rumba_sim.ros.participants import examiner
+from rumba_sim.ros.participants.examiner import ExaminerClient, ExaminerServer, socket_path
+from rumba_sim.ros.participants.examiner_frames import COMMAND, INTRUDER, MESSAGE, Frame, frames, packed
 from rumba_sim.ros.robot.rates import EVERYTHING
 from rumba_sim.ros.simulator.lockstep import Lockstep
 from rumba_sim.ros.simulator.settings import Settings

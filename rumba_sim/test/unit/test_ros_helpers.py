@@ -11,13 +11,15 @@ import pytest
 import rospy
 from diagnostic_updater import DiagnosticStatusWrapper
 
-from rumba_sim.model.battery import Battery, BatteryConfig
-from rumba_sim.model.config import from_mapping
-from rumba_sim.model.errors import ConfigError, MapError, WorldError
-from rumba_sim.model.name import NAME
-from rumba_sim.ros.common import maps, node, paths
-from rumba_sim.ros.common.requests import Requests
+from rumba_sim.model.common.config import from_mapping
+from rumba_sim.model.common.errors import ConfigError, MapError, WorldError
+from rumba_sim.model.common.name import NAME
+from rumba_sim.model.settings.battery import Battery, BatteryConfig
+from rumba_sim.ros.common import paths
+from rumba_sim.ros.participants import maps
+from rumba_sim.ros.participants.requests import Requests
 from rumba_sim.ros.robot.latecomers import Latecomers
+from rumba_sim.ros.running import node
 from rumba_sim.ros.simulator import diagnostics, reconfigure
 from rumba_sim.ros.simulator.settings import TUNABLE, Rates, Settings
 

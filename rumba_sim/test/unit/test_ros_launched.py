@@ -4,7 +4,7 @@ import json
 
 import pytest
 
-from rumba_sim.ros.common import launched
+from rumba_sim.ros.running import launched
 
 
 @pytest.fixture

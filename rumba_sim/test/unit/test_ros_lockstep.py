@@ -9,8 +9,8 @@ import rospy
 from std_msgs.msg import Header
 
 from rumba_msg.msg import Lockstep, LockstepAnswer
-from rumba_sim.ros.common import lockstep
-from rumba_sim.ros.common.lockstep import LONGEST, Participant, Work
+from rumba_sim.ros.participants import lockstep
+from rumba_sim.ros.participants.lockstep import LONGEST, Participant, Work
 
 PATIENCE = 30.0  # [s]
 WHILE = 0.1  # [s] many signs

@@ -8,9 +8,9 @@ import rospy
 from geometry_msgs.msg import PoseWithCovarianceStamped
 from pytest import approx
 
-from rumba_sim.model.geometry import Pose, compose
+from rumba_sim.model.common.geometry import Pose, compose
 from rumba_sim.ros.common.conversions import quaternion
-from rumba_sim.ros.common.requests import Requests
+from rumba_sim.ros.participants.requests import Requests
 from rumba_sim.ros.robot import localisation, map_anchor
 
 FRAME = Pose(4.0, -3.0, 2.0)  # of the map, in the world

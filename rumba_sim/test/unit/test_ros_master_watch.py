@@ -3,8 +3,8 @@
 import pytest
 import rosgraph
 
-from rumba_sim.model.errors import WorldError
-from rumba_sim.ros.common import master_watch
+from rumba_sim.model.common.errors import WorldError
+from rumba_sim.ros.running import master_watch
 
 HERE = 'http://localhost:1/'
 

@@ -8,8 +8,8 @@ import sys
 
 import pytest
 
-from rumba_sim.model.errors import ConfigError
-from rumba_sim.ros.common import node
+from rumba_sim.model.common.errors import ConfigError
+from rumba_sim.ros.running import node
 from rumba_sim.ros.simulator.settings import Settings
 
 

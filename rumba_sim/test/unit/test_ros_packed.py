@@ -7,8 +7,8 @@ import rospy
 from nav_msgs.msg import Odometry
 from tf2_msgs.msg import TFMessage
 
-from rumba_sim.model.geometry import Pose
-from rumba_sim.model.robot import Twist
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.simulation.robot import Twist
 from rumba_sim.ros.robot.packed import OdometryPacker, TransformPacker, transforms
 
 STAMP = rospy.Time(12, 34)

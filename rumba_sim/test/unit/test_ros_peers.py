@@ -6,8 +6,8 @@ import xmlrpc.server
 
 import pytest
 
-from rumba_sim.ros.common import peers
-from rumba_sim.ros.common.peers import has_ended, is_alive
+from rumba_sim.ros.running import peers
+from rumba_sim.ros.running.peers import has_ended, is_alive
 
 NAME = '/simulator'
 

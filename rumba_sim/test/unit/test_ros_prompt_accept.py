@@ -7,7 +7,7 @@ import pytest
 import rosgraph.network
 from rospy.impl.tcpros_base import TCPROSServer
 
-from rumba_sim.ros.common import prompt_accept
+from rumba_sim.ros.running import prompt_accept
 
 PATIENCE = 30.0  # [s]: it waits for a minute if it does not begin in threads
 

@@ -11,8 +11,8 @@ from rospy.impl.tcpros_base import TCPROSTransport
 from rospy.impl.tcpros_pubsub import QueuedConnection, TCPROSPub
 from std_msgs.msg import String
 
-from rumba_sim.ros.common import prompt_connection
-from rumba_sim.ros.common.prompt_connection import PromptConnection
+from rumba_sim.ros.running import prompt_connection
+from rumba_sim.ros.running.prompt_connection import PromptConnection
 
 QUEUE = 5
 SIZE = 100_000  # [bytes] of a message: some of them fill a socket

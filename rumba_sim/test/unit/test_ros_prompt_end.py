@@ -6,7 +6,7 @@ from xmlrpc import client
 import pytest
 from rosgraph import xmlrpc
 
-from rumba_sim.ros.common import prompt_end
+from rumba_sim.ros.running import prompt_end
 
 PATIENCE = 30.0  # [s]
 

@@ -5,7 +5,7 @@ import threading
 import pytest
 from rospy.impl.registration import RegManager
 
-from rumba_sim.ros.common import publisher_updates
+from rumba_sim.ros.running import publisher_updates
 
 TOPIC, OTHER = '/rumba/dock/cancel', '/rumba/dock/goal'
 PATIENCE = 30.0  # [s]

@@ -8,10 +8,10 @@ import pytest
 import rospy
 
 from rumba_msg.msg import SimulatorState
-from rumba_sim.model.errors import ConfigError, MapError
-from rumba_sim.model.robot_config import DriveConfig, RobotConfig
-from rumba_sim.ros.common import simulator_client
-from rumba_sim.ros.common.simulator_client import SimulatorClient, robot_config
+from rumba_sim.model.common.errors import ConfigError, MapError
+from rumba_sim.model.settings.robot_config import DriveConfig, RobotConfig
+from rumba_sim.ros.participants import simulator_client
+from rumba_sim.ros.participants.simulator_client import SimulatorClient, robot_config
 from rumba_sim.ros.robot import state_publisher
 from rumba_sim.ros.simulator.settings import Settings
 

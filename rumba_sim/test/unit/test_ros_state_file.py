@@ -3,9 +3,9 @@
 import pytest
 from rooms import room
 
-from rumba_sim.model import world_state
-from rumba_sim.model.errors import WorldError
-from rumba_sim.model.world import World
+from rumba_sim.model.common.errors import WorldError
+from rumba_sim.model.simulation import world_state
+from rumba_sim.model.simulation.world import World
 from rumba_sim.ros.simulator import state_file
 from rumba_sim.ros.simulator.settings import Settings
 from rumba_sim.ros.simulator.state_file import StateFile

@@ -6,10 +6,10 @@ import types
 import pytest
 import rospy
 
-from rumba_sim.model.errors import ConfigError, WorldError
-from rumba_sim.model.geometry import Pose
-from rumba_sim.model.robot import Twist
-from rumba_sim.ros.common.requests import Requests
+from rumba_sim.model.common.errors import ConfigError, WorldError
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.simulation.robot import Twist
+from rumba_sim.ros.participants.requests import Requests
 from rumba_sim.ros.turtlesim_body import turtle, turtlesim_body
 from rumba_sim.ros.turtlesim_body.watch import GONE_AFTER, HUNG_AFTER, SILENT_AFTER, UNHEARD_AFTER, Watch
 

@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from rumba_sim.model import map_file, named_maps
-from rumba_sim.model.errors import WorldError
-from rumba_sim.model.geometry import Pose
-from rumba_sim.model.seek_dock import RATE, Reading, SeekDock
-from rumba_sim.model.world import World
+from rumba_sim.model.common.errors import WorldError
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.devices.seek_dock import RATE, Reading, SeekDock
+from rumba_sim.model.maps import map_file, named_maps
+from rumba_sim.model.simulation.world import World
 
 LONGEST = 900  # [s]
 

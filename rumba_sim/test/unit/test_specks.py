@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from sheets import B, G, W, write
 
-from rumba_sim.model import map_file
-from rumba_sim.model.floor_plan import UNKNOWN
+from rumba_sim.model.maps import map_file
+from rumba_sim.model.maps.floor_plan import UNKNOWN
 
 
 def specked(cell):

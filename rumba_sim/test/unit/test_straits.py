@@ -8,13 +8,13 @@ import pytest
 from pytest import approx
 from rooms import RADIUS, quiet
 
-from rumba_sim.model.constants import clearance_needed
-from rumba_sim.model.floor_plan import FREE, OCCUPIED, FloorPlan
-from rumba_sim.model.geometry import Pose
-from rumba_sim.model.obstacle import Obstacle
-from rumba_sim.model.reachability import SLACK, Parts, reach
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.floors.constants import clearance_needed
+from rumba_sim.model.floors.reachability import SLACK, Parts, reach
+from rumba_sim.model.maps.floor_plan import FREE, OCCUPIED, FloorPlan
 from rumba_sim.model.remarks import remarks
-from rumba_sim.model.world import World
+from rumba_sim.model.simulation.obstacle import Obstacle
+from rumba_sim.model.simulation.world import World
 
 LEFT, BOTTOM = 1.0, 2.0  # [m] the corner of the lower block
 

@@ -3,7 +3,7 @@
 import pytest
 from pytest import approx
 
-from rumba_sim.ros.common.terminal import split_keys
+from rumba_sim.ros.running.terminal import split_keys
 from rumba_sim.ros.teleop_key.driver import MOVES, SPEEDS, ZEROS, Driver
 from rumba_sim.ros.teleop_key.settings import Settings
 from rumba_sim.ros.teleop_key.teleop_key import HELP

@@ -5,8 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from rumba_sim.model.geometry import Pose, wrap_angle
-from rumba_sim.model.turtle_motion import FASTEST, FRAME, MOST_LOST, TurtleMotion
+from rumba_sim.model.common.geometry import Pose, wrap_angle
+from rumba_sim.model.simulation.turtle_motion import FASTEST, FRAME, MOST_LOST, TurtleMotion
 
 
 def rounded(pose):

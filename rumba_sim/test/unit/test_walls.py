@@ -8,13 +8,13 @@ from pytest import approx
 from rooms import DENT, PLANS, RADIUS, distances, drive, drove, quiet, room
 from things import disc
 
-from rumba_sim.model.compiled import fast
-from rumba_sim.model.constants import constants
-from rumba_sim.model.floor_plan import FloorPlan
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.compiling.compiled import fast
+from rumba_sim.model.floors.constants import constants
 from rumba_sim.model.kernel import motion, walls
 from rumba_sim.model.kernel.ground import BLOCKED
-from rumba_sim.model.world import World
+from rumba_sim.model.maps.floor_plan import FloorPlan
+from rumba_sim.model.simulation.world import World
 
 
 def inputs(plan):

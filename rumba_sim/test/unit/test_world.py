@@ -7,12 +7,12 @@ import pytest
 from pytest import approx
 from rooms import RADIUS, alone, crooked, drive, drove, hall, quiet, room
 
-from rumba_sim.model.config import updated
-from rumba_sim.model.constants import constants
-from rumba_sim.model.errors import ConfigError, MapError, WorldError
-from rumba_sim.model.geometry import Pose
-from rumba_sim.model.robot_config import OdometryConfig, RobotConfig
-from rumba_sim.model.world import World
+from rumba_sim.model.common.config import updated
+from rumba_sim.model.common.errors import ConfigError, MapError, WorldError
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.floors.constants import constants
+from rumba_sim.model.settings.robot_config import OdometryConfig, RobotConfig
+from rumba_sim.model.simulation.world import World
 
 DOCK = Pose(3.8, 1.0, 0.0)
 PLAN = crooked(dock=DOCK)

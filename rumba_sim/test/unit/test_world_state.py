@@ -13,12 +13,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from rooms import crooked, quiet, room
 
-from rumba_sim.model import world_state
-from rumba_sim.model.config import updated
-from rumba_sim.model.errors import RumbaError, WorldError
-from rumba_sim.model.geometry import Pose
-from rumba_sim.model.robot_config import RobotConfig
-from rumba_sim.model.world import World
+from rumba_sim.model.common.config import updated
+from rumba_sim.model.common.errors import RumbaError, WorldError
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.settings.robot_config import RobotConfig
+from rumba_sim.model.simulation import world_state
+from rumba_sim.model.simulation.world import World
 
 PLAN = crooked(dock=Pose(3.8, 1.0, 0.0), cliff=(3.6, 2.6, 4.0, 3.0), carpet=(0.0, 0.0, 1.0, 1.0))
 CONFIG = updated(RobotConfig(), {'battery': {'drain': 50}}, 'test')
@@ -237,8 +237,8 @@ import gc, resource, signal, sys
 sys.path.insert(0, {str(pathlib.Path(__file__).parent)!r})
 from rooms import room
 from rumba_sim.model import world_state
-from rumba_sim.model.errors import WorldError
-from rumba_sim.model.world import World
+from rumba_sim.model.common.errors import WorldError
+from rumba_sim.model.simulation.world import World
 signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
 resource.setrlimit(resource.RLIMIT_FSIZE, (300, 300))
 try:

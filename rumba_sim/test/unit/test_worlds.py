@@ -8,16 +8,16 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from rooms import PLANS, crooked, gaps, room
 
-from rumba_sim.model import batch
-from rumba_sim.model.compiled import many
-from rumba_sim.model.config import updated
-from rumba_sim.model.errors import CommandError, WorldError
-from rumba_sim.model.geometry import Pose
-from rumba_sim.model.noise import NOISE_TICKS
-from rumba_sim.model.obstacle import Obstacle, walk
-from rumba_sim.model.robot_config import RobotConfig
-from rumba_sim.model.world import World
-from rumba_sim.model.worlds import Worlds, world_with_a_robot
+from rumba_sim.model.common.config import updated
+from rumba_sim.model.common.errors import CommandError, WorldError
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.compiling import batch
+from rumba_sim.model.compiling.compiled import many
+from rumba_sim.model.settings.robot_config import RobotConfig
+from rumba_sim.model.simulation.noise import NOISE_TICKS
+from rumba_sim.model.simulation.obstacle import Obstacle, walk
+from rumba_sim.model.simulation.world import World
+from rumba_sim.model.simulation.worlds import Worlds, world_with_a_robot
 
 FLOORS = [crooked(dock=Pose(3.8, 1.0, 0.0), cliff=(3.6, 2.6, 4.0, 3.0), carpet=(0.0, 0.0, 1.0, 1.0)),
           crooked(0.02), gaps(0.05), room(2.0, 1.5, 0.1, dock=Pose(1.8, 0.7, 0.0), further_docks=[Pose(0.2, 0.7, 3.1)])]
@@ -206,7 +206,7 @@ def test_the_plain_functions_give_the_results_of_the_compiled_ones(monkeypatch):
     worlds.command(np.array([0.4, 0.3]), np.array([0.5, 0.0]))
     worlds.step(90)
     seen = worlds.scan(), worlds.infrared(), worlds.cliffs(), worlds.surroundings(6, [0.2])
-    monkeypatch.setattr('rumba_sim.model.worlds.many', batch)
+    monkeypatch.setattr('rumba_sim.model.simulation.worlds.many', batch)
     plain.command(np.array([0.4, 0.3]), np.array([0.5, 0.0]))
     plain.step(90)
     for one, other in zip(seen, (plain.scan(), plain.infrared(), plain.cliffs(), plain.surroundings(6, [0.2]))):

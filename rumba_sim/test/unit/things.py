@@ -6,8 +6,8 @@ import math
 import numpy as np
 from hypothesis import strategies as st
 
-from rumba_sim.model.geometry import Pose
-from rumba_sim.model.obstacle import Obstacle, walk
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.simulation.obstacle import Obstacle, walk
 
 HIGH, LOW = 0.5, 0.05  # [m] over the laser and below it
 

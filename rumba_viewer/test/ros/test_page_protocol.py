@@ -13,7 +13,7 @@ from std_msgs.msg import String
 from tf2_msgs.msg import TFMessage
 
 from rumba_msg.msg import CleanActionGoal
-from rumba_viewer.page import cbor
+from rumba_viewer.page.messages import cbor
 
 GOAL = '/rumba/clean/goal'
 

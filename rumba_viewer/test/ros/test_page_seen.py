@@ -13,7 +13,7 @@ from pages import DESK, HAS_BROWSER, PHONE, Browser, Page
 from simulators import Heard, Simulator, wait
 
 from rumba_msg.msg import MissionStatus
-from rumba_sim.model.floor_colours import contrast
+from rumba_sim.model.maps.floor_colours import contrast
 
 AXE = pathlib.Path(os.environ.get('NODE_PATH', ''), 'axe-core', 'axe.min.js')
 SCHEMES = ('light', 'dark')

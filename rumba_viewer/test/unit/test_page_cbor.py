@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from rumba_viewer.page.cbor import encoded
+from rumba_viewer.page.messages.cbor import encoded
 
 
 @pytest.mark.parametrize('value, data', [  # RFC 8949, appendix A

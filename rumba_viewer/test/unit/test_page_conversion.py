@@ -13,9 +13,9 @@ from sensor_msgs.msg import BatteryState, Image, LaserScan  # noqa: E402
 from std_msgs.msg import Char, Duration, Header, Int8, Int64, String, UInt8  # noqa: E402
 
 from rumba_msg.msg import CleanActionGoal, SimulatorState  # noqa: E402
-from rumba_viewer.page import conversion, filling  # noqa: E402
-from rumba_viewer.page.errors import Refusal  # noqa: E402
-from rumba_viewer.ros.page import types  # noqa: E402
+from rumba_viewer.page.messages import conversion, filling  # noqa: E402
+from rumba_viewer.page.messages.errors import Refusal  # noqa: E402
+from rumba_viewer.ros.page.rosapi import types  # noqa: E402
 
 FILLER = filling.Filler(types.of_message, lambda: (12, 34))
 

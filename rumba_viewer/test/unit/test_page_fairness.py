@@ -5,8 +5,8 @@ from served_pages import Page, is_told_and_ended, run
 
 from rumba_viewer.page.addresses import Address
 from rumba_viewer.page.allow_list import Rights, Tokens
-from rumba_viewer.page.errors import Refusal
 from rumba_viewer.page.feeds import Demand
+from rumba_viewer.page.messages.errors import Refusal
 
 
 class Client:

@@ -10,10 +10,10 @@ pytest.importorskip('genpy', reason='needs the messages of ROS')
 from genpy import Duration, Time  # noqa: E402
 from genpy.dynamic import generate_dynamic  # noqa: E402
 
-from rumba_viewer.page.errors import Refusal  # noqa: E402
 from rumba_viewer.page.feeds import Arrival  # noqa: E402
-from rumba_viewer.page.filling import Filler, serialised  # noqa: E402
-from rumba_viewer.ros.page import types  # noqa: E402
+from rumba_viewer.page.messages.errors import Refusal  # noqa: E402
+from rumba_viewer.page.messages.filling import Filler, serialised  # noqa: E402
+from rumba_viewer.ros.page.rosapi import types  # noqa: E402
 from rumba_viewer.ros.page.wire import Encoder  # noqa: E402
 
 INTEGERS = {f'{sign}int{bits}': [-(1 << bits - 1), 7, (1 << bits - 1) - 1] if not sign else [0, 7, (1 << bits) - 1]

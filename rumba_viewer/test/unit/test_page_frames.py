@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 from pytest import approx
 
-from rumba_viewer.page.errors import Refusal
 from rumba_viewer.page.feeds import Demand
+from rumba_viewer.page.messages.errors import Refusal
+from rumba_viewer.page.messages.transforms import Transform, Tree, inverse, product
 from rumba_viewer.page.republishing import CANCEL, FEEDBACK, GOAL, MOST_WANTED, RESULT, SLICE, STATUS, Republisher
-from rumba_viewer.page.transforms import Transform, Tree, inverse, product
 
 
 def turned(angle, axis=(0.0, 0.0, 1.0), shift=(0.0, 0.0, 0.0)):

@@ -4,8 +4,8 @@ import pytest
 
 pytest.importorskip('rospy', reason='needs ROS')
 
-from rumba_viewer.ros.page import graph  # noqa: E402
-from rumba_viewer.ros.page.graph import PERIOD, Graph, Known  # noqa: E402
+from rumba_viewer.ros.page.rosapi import graph  # noqa: E402
+from rumba_viewer.ros.page.rosapi.graph import PERIOD, Graph, Known  # noqa: E402
 
 
 def test_the_first_client_after_a_while_hears_of_what_is_there_now(monkeypatch):

@@ -8,8 +8,8 @@ import subprocess
 import numpy as np
 import pytest
 
-from rumba_sim.model.geometry import Pose
-from rumba_viewer.page.layers import described, runs
+from rumba_sim.model.common.geometry import Pose
+from rumba_viewer.page.messages.layers import described, runs
 
 PAGE = pathlib.Path(__file__).resolve().parents[2] / 'page'
 PROGRAM = """

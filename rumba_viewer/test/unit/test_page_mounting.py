@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from pytest import approx
 
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.geometry import Pose
 from rumba_viewer.ros.readings import Mounting, Scan
 
 PAGE = pathlib.Path(__file__).resolve().parents[2] / 'page'

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 from pytest import approx
 
-from rumba_sim.model.geometry import Pose, compose
-from rumba_sim.model.laid_over import laid_over
+from rumba_sim.model.common.geometry import Pose, compose
+from rumba_sim.model.maps.laid_over import laid_over
 from rumba_viewer.scene.map_frame import on_map
 from rumba_viewer.scene.snapshot import Grid, Point
 

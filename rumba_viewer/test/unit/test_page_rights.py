@@ -2,9 +2,9 @@
 
 import pytest
 
-from rumba_sim.model.errors import ConfigError
+from rumba_sim.model.common.errors import ConfigError
 from rumba_viewer.page.allow_list import AllowList, Rights, Tokens, is_loopback, is_origin_allowed, robot_tokens
-from rumba_viewer.page.errors import Refusal
+from rumba_viewer.page.messages.errors import Refusal
 
 EVERYTHING, NOTHING = Rights(everything=True), Rights()
 

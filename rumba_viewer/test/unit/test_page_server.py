@@ -9,7 +9,7 @@ from served_pages import (
     FOLDER, GREETING, PING, TIMEOUT, Page, frame, is_served, is_told_and_ended, listener, read, run, until)
 from tornado.httpclient import AsyncHTTPClient, HTTPClientError
 
-from rumba_sim.model.errors import ConfigError
+from rumba_sim.model.common.errors import ConfigError
 from rumba_viewer.page.addresses import GUESSES
 from rumba_viewer.page.allow_list import Tokens
 from rumba_viewer.page.client import DELAY

@@ -6,8 +6,8 @@ import sys
 import pytest
 
 from rumba_viewer.page.allow_list import AllowList, Rights
-from rumba_viewer.page.errors import Hostile, Refusal
 from rumba_viewer.page.feeds import Demand
+from rumba_viewer.page.messages.errors import Hostile, Refusal
 from rumba_viewer.page.protocol import MOST_TOPICS, Session
 
 

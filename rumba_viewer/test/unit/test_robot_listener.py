@@ -14,7 +14,7 @@ from std_msgs.msg import Header
 from tf2_msgs.msg import TFMessage
 
 from rumba_msg.msg import BatteryStatus, CleanActionResult, CleaningStatus, CleanResult, Cliff, MissionStatus, Outcome
-from rumba_sim.model.laser_config import LaserConfig
+from rumba_sim.model.settings.laser_config import LaserConfig
 from rumba_sim.ros.common.conversions import quaternion, static_transforms
 from rumba_sim.ros.common.frames import frames
 from rumba_viewer.ros import robot_listener

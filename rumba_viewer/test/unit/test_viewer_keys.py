@@ -7,7 +7,7 @@ import pytest
 from PyQt5.QtCore import QEvent, Qt
 from windows import APPLICATION, MISSING, Opened, plan, robot, simulation, snapshot
 
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.geometry import Pose
 from rumba_viewer.scene.snapshot import YIELDING, Dock, MapFeatures, Mission, Snapshot
 from rumba_viewer.window import window
 

@@ -9,7 +9,7 @@ from PyQt5.QtCore import QEvent, Qt
 from pytest import approx
 from windows import Opened, count, plan, robot, snapshot
 
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.geometry import Pose
 from rumba_viewer.scene.theme import robot_colour
 
 

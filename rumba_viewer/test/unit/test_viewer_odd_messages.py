@@ -21,8 +21,8 @@ from windows import APPLICATION, Opened
 
 from rumba_msg.msg import (BatteryStatus, Bumper, CleanActionResult, CleaningStatus, CleanResult, Cliff, MissionStatus,
                            Outcome, SimulatorState)
-from rumba_sim.model.geometry import Pose
-from rumba_sim.model.robot_config import RobotConfig
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.settings.robot_config import RobotConfig
 from rumba_sim.ros.common.conversions import transform
 from rumba_viewer.ros import listener, subscription
 from rumba_viewer.ros.ros_graph import RosGraph

@@ -16,9 +16,9 @@ from std_msgs.msg import Header
 from tf2_msgs.msg import TFMessage
 from windows import HEIGHT, SCALE, WIDTH, Opened, count, near, robot, simulation, snapshot
 
-from rumba_sim.model.floor_plan import FREE, OCCUPIED, UNKNOWN
-from rumba_sim.model.geometry import Pose, compose
-from rumba_sim.model.robot_config import RobotConfig
+from rumba_sim.model.common.geometry import Pose, compose
+from rumba_sim.model.maps.floor_plan import FREE, OCCUPIED, UNKNOWN
+from rumba_sim.model.settings.robot_config import RobotConfig
 from rumba_sim.ros.common.conversions import transform
 from rumba_viewer.painting.paint_scene import ScenePainter, picture
 from rumba_viewer.ros import listener

@@ -9,8 +9,8 @@ import pytest
 from PyQt5.QtGui import QImage, QPainter
 from windows import BOTTOM, HEIGHT, LEFT, SCALE, WIDTH, count, near, path, pixels, plan, robot, snapshot
 
-from rumba_sim.model.floor_colours import ROBOTS, contrast
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.maps.floor_colours import ROBOTS, contrast
 from rumba_viewer.painting.paint_belief import RING
 from rumba_viewer.painting.paint_scene import ScenePainter, picture
 from rumba_viewer.scene.snapshot import Dock, MapFeatures, Obstacle, Point, Snapshot

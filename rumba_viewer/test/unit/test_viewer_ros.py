@@ -13,9 +13,9 @@ from pytest import approx
 from std_msgs.msg import Header
 
 from rumba_msg.msg import SimulatorState
-from rumba_sim.model import obstacle
-from rumba_sim.model.geometry import Pose
-from rumba_sim.model.robot_config import RobotConfig
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.settings.robot_config import RobotConfig
+from rumba_sim.model.simulation import obstacle
 from rumba_sim.ros.common.obstacle_markers import markers
 from rumba_viewer.ros import listener
 from rumba_viewer.ros.ros_graph import RosGraph, robots

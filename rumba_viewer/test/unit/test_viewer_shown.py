@@ -11,7 +11,7 @@ from PyQt5.QtGui import QFontMetrics, QFontMetricsF
 from pytest import approx
 from windows import BOTTOM, LEFT, MISSING, Opened, count, robot, simulation, snapshot
 
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.geometry import Pose
 from rumba_viewer.painting import paint_status
 from rumba_viewer.scene.acts import ACTS, legend
 from rumba_viewer.scene.snapshot import YIELDING, Battery, Cleaning, Mission, Snapshot

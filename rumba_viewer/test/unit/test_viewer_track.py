@@ -9,7 +9,7 @@ import pytest
 from hammering import hammer
 from pytest import approx
 
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.geometry import Pose
 from rumba_viewer.scene import track
 from rumba_viewer.scene.track import Glide, Trail
 

@@ -13,8 +13,8 @@ from PyQt5.QtCore import QEvent, QEventLoop, QPoint, QPointF, Qt  # noqa: E402
 from PyQt5.QtGui import QColor, QImage, QKeyEvent, QMouseEvent, QPalette, QWheelEvent  # noqa: E402
 from PyQt5.QtWidgets import QApplication  # noqa: E402
 
-from rumba_sim.model.floor_plan import FREE, OCCUPIED, UNKNOWN  # noqa: E402
-from rumba_sim.model.geometry import Pose  # noqa: E402
+from rumba_sim.model.common.geometry import Pose  # noqa: E402
+from rumba_sim.model.maps.floor_plan import FREE, OCCUPIED, UNKNOWN  # noqa: E402
 from rumba_viewer.scene.snapshot import (Battery, Cleaning, Grid, Mission, Path, Robot, Simulation,  # noqa: E402
                                          Snapshot)
 from rumba_viewer.scene.theme import DARK, LIGHT  # noqa: E402

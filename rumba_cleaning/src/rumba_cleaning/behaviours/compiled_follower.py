@@ -11,7 +11,7 @@ from typing import Any, NamedTuple, Tuple
 
 import numpy as np
 
-from rumba_sim.model.jit import compiled
+from rumba_sim.model.compiling.jit import compiled
 
 Array = Any  # numpy.ndarray
 

@@ -5,7 +5,7 @@ from typing import Any, Tuple
 
 import numpy as np
 
-from rumba_sim.model.jit import compiled
+from rumba_sim.model.compiling.jit import compiled
 
 STEP = 0.02  # [s] of the simulation: one tick at 50 Hz
 HOLD_STEPS = 5  # for which a command holds: the control period

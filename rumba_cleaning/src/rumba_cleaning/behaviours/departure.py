@@ -12,7 +12,7 @@ import numpy as np
 from rumba_cleaning.behaviour import Command
 from rumba_cleaning.belief.footing import Footing
 from rumba_cleaning.belief.ground import Ground
-from rumba_sim.model.geometry import Pose, wrap_angle
+from rumba_sim.model.common.geometry import Pose, wrap_angle
 from rumba_sim.model.kernel import Array
 
 # All figures below are our choice.

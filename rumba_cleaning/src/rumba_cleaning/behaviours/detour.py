@@ -7,7 +7,7 @@ import numpy as np
 from rumba_cleaning.belief import paths
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.route import Route, lengths_along
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.geometry import Pose
 from rumba_sim.model.kernel import Array
 
 HORIZON = 6.0  # [m] of the route that are looked at: longer than a lane and a turn; the rest is looked at if it is met

@@ -15,10 +15,10 @@ from rumba_cleaning.belief.mates import Task
 from rumba_cleaning.belief.places import places_apart
 from rumba_cleaning.outcome import Outcome
 from rumba_cleaning.route import Ahead, Route
-from rumba_sim.model.errors import MapError
-from rumba_sim.model.geometry import Pose, hypot, wrap_angle
-from rumba_sim.model.kernel.dock import NO_BEAM
-from rumba_sim.model.robot import Infrared
+from rumba_sim.model.common.errors import MapError
+from rumba_sim.model.common.geometry import Pose, hypot, wrap_angle
+from rumba_sim.model.kernel.sensors.dock import NO_BEAM
+from rumba_sim.model.simulation.robot import Infrared
 
 STEP = 0.05  # [m]
 BEFORE = (16, 14, 12, 10, 8, 6)  # steps from the dock to the point on its axis at which homing begins: the most that

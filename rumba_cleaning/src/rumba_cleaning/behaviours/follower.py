@@ -15,9 +15,9 @@ import numpy as np
 from rumba_cleaning.behaviours import compiled_follower
 from rumba_cleaning.behaviours.compiled_follower import DISTANCE, LEAST_AHEAD, V, W, Drive, Piece
 from rumba_cleaning.route import Route
-from rumba_sim.model.geometry import Pose, wrap_angle
+from rumba_sim.model.common.geometry import Pose, wrap_angle
 from rumba_sim.model.kernel import Array
-from rumba_sim.model.robot_config import DriveConfig
+from rumba_sim.model.settings.robot_config import DriveConfig
 
 # Our choice; `compiled_follower` has what concerns the way along a piece.
 LOST = 0.35  # [m] off the route: twice the robot's radius; it cannot slip so far, somebody moved it

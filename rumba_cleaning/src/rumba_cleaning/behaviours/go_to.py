@@ -15,7 +15,7 @@ from rumba_cleaning.belief import paths
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.outcome import Outcome
 from rumba_cleaning.route import Ahead, Route
-from rumba_sim.model.geometry import Pose, hypot
+from rumba_sim.model.common.geometry import Pose, hypot
 from rumba_sim.model.kernel import Array
 
 PAUSE = 5.0  # [s] before it tries again what was closed: who stands in the way may walk on; our choice

@@ -19,8 +19,8 @@ from rumba_cleaning.behaviours.release import RESERVE, Release
 from rumba_cleaning.behaviours.slip import Alignment, Slip, along_contacts, slipped
 from rumba_cleaning.behaviours.trail import Trail
 from rumba_cleaning.belief.context import Context
-from rumba_sim.model.geometry import Pose
-from rumba_sim.model.robot_config import RobotConfig
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.settings.robot_config import RobotConfig
 
 SHARES = (0.6, 0.3)  # of a command that are tried, after the whole and a slow one, before the robot stops; our choice
 LONGEST = 0.3  # [s] the same, at most, by the time since the last one: in a longer step the node was busy

@@ -13,8 +13,8 @@ from rumba_cleaning.behaviour import Behaviour, Command, Observation
 from rumba_cleaning.behaviours.follower import Turn
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.outcome import Outcome
-from rumba_sim.model.geometry import Pose, hypot, wrap_angle
-from rumba_sim.model.kernel.dock import FORCE_FIELD, GREEN_BUOY, RED_BUOY
+from rumba_sim.model.common.geometry import Pose, hypot, wrap_angle
+from rumba_sim.model.kernel.sensors.dock import FORCE_FIELD, GREEN_BUOY, RED_BUOY
 
 BUOYS = GREEN_BUOY | RED_BUOY
 # The figures below were chosen together with bench/docking.py: each of its 800 robots comes to the contacts.

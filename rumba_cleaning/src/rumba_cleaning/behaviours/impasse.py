@@ -4,7 +4,7 @@ from typing import Optional
 
 from rumba_cleaning.behaviours.travel import mark
 from rumba_cleaning.belief.context import Context
-from rumba_sim.model.geometry import Pose, hypot
+from rumba_sim.model.common.geometry import Pose, hypot
 
 NEAR = 0.2  # [m] in which a robot that is stopped is still at the same place: more than it backs off
 OFTEN = 6  # times, one after the other: an obstacle in the way is outlined by fewer touches from so near; our choice

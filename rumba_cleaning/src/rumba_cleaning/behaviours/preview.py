@@ -3,9 +3,9 @@
 from rumba_cleaning.behaviour import Command
 from rumba_cleaning.behaviours.compiled_guard import HOLD_STEPS, ROUNDING, Wheels, path
 from rumba_cleaning.behaviours.slip import Slip
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.geometry import Pose
 from rumba_sim.model.kernel import Array
-from rumba_sim.model.robot_config import DriveConfig
+from rumba_sim.model.settings.robot_config import DriveConfig
 
 MOSTLY = 0.25  # speed of the middle of a robot, as a share of the difference of its wheels, beyond which it does not
 #                just turn; our choice

@@ -11,7 +11,7 @@ import numpy as np
 
 from rumba_cleaning.behaviour import Observation
 from rumba_cleaning.behaviours.slip import heading_between
-from rumba_sim.model.geometry import Pose, hypot
+from rumba_sim.model.common.geometry import Pose, hypot
 
 # All figures below are our choice.
 GAP = 0.03  # [m] from the body to what a beam met: three standard deviations of its range

@@ -6,7 +6,7 @@ from typing import Deque, Optional, Tuple
 from rumba_cleaning.behaviour import Observation
 from rumba_cleaning.behaviours.guard import Guard
 from rumba_cleaning.belief.context import Context
-from rumba_sim.model.geometry import Pose, hypot
+from rumba_sim.model.common.geometry import Pose, hypot
 
 # [m] of way at least, and twice that at most: with wheels that differ by 1 %, the heading errs by 0.04 rad after a
 # metre, and what was seen at its beginning is 0.02 m off, as much as the guard spares.

@@ -8,7 +8,7 @@ from typing import Tuple
 
 from rumba_cleaning.behaviour import Observation
 from rumba_cleaning.belief.ground import Ground
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.geometry import Pose
 
 SPEED = 0.1  # [m/s] backward: slow, since nothing looks behind the robot
 BUMP = 0.05  # [m] back from a contact: the bumper is open again, and the robot can turn

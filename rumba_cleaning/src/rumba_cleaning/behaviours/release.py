@@ -11,7 +11,7 @@ from rumba_cleaning.behaviours.preview import Preview
 from rumba_cleaning.behaviours.slip import NO_SLIP, Slip
 from rumba_cleaning.belief.footing import Footing
 from rumba_cleaning.belief.ground import Ground
-from rumba_sim.model.geometry import Pose, hypot
+from rumba_sim.model.common.geometry import Pose, hypot
 
 # All figures below are our choice.
 PATIENCE = 2.0  # [s] held by edges, after which it looks for a way out

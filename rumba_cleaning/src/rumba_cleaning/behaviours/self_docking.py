@@ -2,7 +2,7 @@
 
 from rumba_cleaning.behaviour import Behaviour, Command, Observation
 from rumba_cleaning.belief.context import Context
-from rumba_sim.model.geometry import Pose, hypot
+from rumba_sim.model.common.geometry import Pose, hypot
 
 SEEK = Command(0.0, 0.0, brushes_up=True, seeks_dock=True)
 PATIENCE = 90.0  # [s]: from before the dock a robot takes half a minute; our choice

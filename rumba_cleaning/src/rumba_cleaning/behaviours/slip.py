@@ -4,7 +4,7 @@ import math
 from typing import List, NamedTuple, Optional
 
 from rumba_cleaning.behaviour import Observation
-from rumba_sim.model.geometry import Pose, wrap_angle
+from rumba_sim.model.common.geometry import Pose, wrap_angle
 
 # Our choice.
 LEAST = 0.02  # [m/s] sideways, for it to count: more than the noise of a pose

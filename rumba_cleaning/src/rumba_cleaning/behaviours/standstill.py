@@ -2,7 +2,7 @@
 
 from typing import Optional
 
-from rumba_sim.model.geometry import Pose, hypot
+from rumba_sim.model.common.geometry import Pose, hypot
 
 NEAR = 0.3  # [m] in which a robot is still at the same place: as far as it backs off, twice
 LONGEST = 300.0  # [s] that it may try to get away; our choice

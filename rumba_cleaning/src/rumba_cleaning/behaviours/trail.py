@@ -6,7 +6,7 @@ from typing import List, Optional, Tuple
 import numpy as np
 
 from rumba_localisation.edges import JUMP
-from rumba_sim.model.geometry import Pose, hypot, wrap_angle
+from rumba_sim.model.common.geometry import Pose, hypot, wrap_angle
 from rumba_sim.model.kernel import Array
 
 # All figures below are our choice.

@@ -14,7 +14,7 @@ from rumba_cleaning.behaviours.follower import Follower
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.belief.ground import Ground
 from rumba_cleaning.route import Ahead, Route
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.geometry import Pose
 
 KNOWN = 0.03  # [m] if a known obstacle is so near to the body, a contact is a contact with that: three errors of a pose
 SIDE = 0.74  # [rad] the middle of the part of the bumper that presses one switch alone: (field + overlap) / 4

@@ -8,7 +8,7 @@ from rumba_cleaning.behaviours.follower import Turn
 from rumba_cleaning.behaviours.travel import LONGEST
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.outcome import Outcome
-from rumba_sim.model.geometry import Pose, hypot, wrap_angle
+from rumba_sim.model.common.geometry import Pose, hypot, wrap_angle
 
 DISTANCE = 0.4  # [m] backward (create3_sim)
 SPEED = 0.2  # [m/s]

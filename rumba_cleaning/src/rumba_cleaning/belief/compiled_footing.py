@@ -3,7 +3,7 @@
 import math
 from typing import Any, Tuple
 
-from rumba_sim.model.jit import compiled
+from rumba_sim.model.compiling.jit import compiled
 
 Array = Any  # numpy.ndarray
 Triple = Tuple[float, float, float]

@@ -17,13 +17,13 @@ from rumba_cleaning.belief.track import Track
 from rumba_cleaning.cleaning_config import CleaningConfig, attainable
 from rumba_cleaning.executors import InPlace
 from rumba_cleaning.survey import Survey
-from rumba_sim.model.config import updated
-from rumba_sim.model.floor_plan import FloorPlan
-from rumba_sim.model.geometry import Pose, hypot
+from rumba_sim.model.common.config import updated
+from rumba_sim.model.common.geometry import Pose, hypot
+from rumba_sim.model.floors.reachability import SLACK
+from rumba_sim.model.floors.sweep import Part
 from rumba_sim.model.kernel import Array
-from rumba_sim.model.reachability import SLACK
-from rumba_sim.model.robot_config import RobotConfig
-from rumba_sim.model.sweep import Part
+from rumba_sim.model.maps.floor_plan import FloorPlan
+from rumba_sim.model.settings.robot_config import RobotConfig
 
 if TYPE_CHECKING:
     from rumba_cleaning.belief.sight import Sight

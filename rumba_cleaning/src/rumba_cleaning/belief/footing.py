@@ -10,11 +10,11 @@ from scipy import ndimage
 
 from rumba_cleaning.belief import compiled_footing
 from rumba_localisation.edges import JUMP, Edges
-from rumba_sim.model.compiled import fast
-from rumba_sim.model.floor_plan import FloorPlan
-from rumba_sim.model.geometry import Pose, hypot, wrap_angle
+from rumba_sim.model.common.geometry import Pose, hypot, wrap_angle
+from rumba_sim.model.compiling.compiled import fast
 from rumba_sim.model.kernel import Array
-from rumba_sim.model.robot_config import RobotConfig
+from rumba_sim.model.maps.floor_plan import FloorPlan
+from rumba_sim.model.settings.robot_config import RobotConfig
 
 FAR = 1.0  # [m] what is farther from a cliff than this is far enough for everything that a robot does
 SEEN = 0.015  # [m] radius that is assumed for an edge that a sensor saw: half of what a robot drives between readings

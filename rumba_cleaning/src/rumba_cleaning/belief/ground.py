@@ -10,11 +10,11 @@ from rumba_cleaning.belief.compiled_ground import are_of_one_part, keep_clear
 from rumba_cleaning.belief.limits import limited
 from rumba_cleaning.belief.met import Mark, Met, Seen
 from rumba_cleaning.belief.search import is_clear
-from rumba_sim.model.constants import clearance_needed
-from rumba_sim.model.floor_plan import FloorPlan
+from rumba_sim.model.floors.constants import clearance_needed
+from rumba_sim.model.floors.reachability import SLACK
 from rumba_sim.model.kernel import Array
-from rumba_sim.model.reachability import SLACK
-from rumba_sim.model.robot_config import RobotConfig
+from rumba_sim.model.maps.floor_plan import FloorPlan
+from rumba_sim.model.settings.robot_config import RobotConfig
 
 # All figures below are our choice; each comment says what speaks for a larger and for a smaller value.
 ESCAPE = 0.15  # [m] from where a robot is, it may go to another part of the floor, through a passage ...

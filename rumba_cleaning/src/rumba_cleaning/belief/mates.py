@@ -9,7 +9,7 @@ import enum
 from typing import Dict, List, NamedTuple, Optional, Sequence
 
 from rumba_cleaning.route import Ahead
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.geometry import Pose
 
 
 class Task(enum.IntEnum):

@@ -4,7 +4,7 @@ from typing import Callable, List, NamedTuple
 
 import numpy as np
 
-from rumba_sim.model.geometry import hypot
+from rumba_sim.model.common.geometry import hypot
 from rumba_sim.model.kernel import Array
 
 # All figures below are our choice; each comment says what speaks for a larger and for a smaller value.

@@ -10,7 +10,7 @@ import numpy as np
 
 from rumba_cleaning.belief.ground import INFLATION, Ground
 from rumba_cleaning.belief.search import Costs, Lattice, cheapest, path_lengths
-from rumba_sim.model.jit import plain
+from rumba_sim.model.compiling.jit import plain
 from rumba_sim.model.kernel import Array
 
 # Our choice; each comment says what speaks for a larger and for a smaller value.

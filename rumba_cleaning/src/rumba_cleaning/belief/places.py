@@ -4,7 +4,7 @@ import numpy as np
 from scipy import spatial
 
 from rumba_cleaning.belief.ground import Ground
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.geometry import Pose
 from rumba_sim.model.kernel import Array
 
 GRID = 0.1  # [m] between the places that are looked at; our choice

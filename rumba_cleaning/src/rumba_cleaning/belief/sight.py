@@ -9,14 +9,14 @@ from scipy.spatial import distance
 
 from rumba_cleaning.belief.ground import ALL_AROUND
 from rumba_cleaning.belief.met import NOTHING_SEEN, Seen
-from rumba_localisation.mapping import compiled_grid
-from rumba_localisation.mapping.grid import placed
+from rumba_localisation.mapping.grids import compiled_grid
+from rumba_localisation.mapping.grids.grid import placed
 from rumba_localisation.scan import Scan
 from rumba_localisation.systematic import Systematic
-from rumba_sim.model.compiled import fast
-from rumba_sim.model.floor_plan import FloorPlan
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.compiling.compiled import fast
 from rumba_sim.model.kernel import Array
+from rumba_sim.model.maps.floor_plan import FloorPlan
 
 # All figures below are our choice.
 CELL = 0.04  # [m] side of a cell: a third of a chair's leg would need less, the time of a scan more

@@ -4,8 +4,8 @@ import math
 
 import numpy as np
 
-from rumba_sim.model.floor_plan import FREE, FloorPlan
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.maps.floor_plan import FREE, FloorPlan
 
 SIZE = 6.0  # [m] of a plan: more than a robot drives until it gets the next one, and sees, to all sides
 CELL = 0.05  # [m]

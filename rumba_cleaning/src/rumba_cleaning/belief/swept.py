@@ -6,11 +6,11 @@ from typing import Callable, Dict, Optional, Sequence, Tuple
 
 import numpy as np
 
-from rumba_sim.model.floor_plan import FloorPlan
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.floors.sweep import Brush, Part, Sweep
 from rumba_sim.model.kernel import Array
-from rumba_sim.model.robot_config import RobotConfig
-from rumba_sim.model.sweep import Brush, Part, Sweep
+from rumba_sim.model.maps.floor_plan import FloorPlan
+from rumba_sim.model.settings.robot_config import RobotConfig
 
 # Our choice: ten times what a robot drives at the default transit speed, 0.45 m/s, from one observation to the next.
 JUMP = 0.5  # [m] |dx| + |dy| from pose to pose: the robot did not drive there, somebody moved it

@@ -6,9 +6,9 @@ import numpy as np
 
 from rumba_cleaning.belief.limits import limited
 from rumba_cleaning.belief.swept import JUMP
-from rumba_sim.model.floor_plan import FloorPlan
-from rumba_sim.model.geometry import Pose, hypot
+from rumba_sim.model.common.geometry import Pose, hypot
 from rumba_sim.model.kernel import Array
+from rumba_sim.model.maps.floor_plan import FloorPlan
 
 STEP = 0.01  # [m] between points that are remembered: less than a cell, so that no node is left out
 DEEP = 0.5  # of the distance that it needs, so near to what the map shows no robot was: its pose was wrong

@@ -10,8 +10,8 @@ from rumba_cleaning.behaviour import Observation
 from rumba_cleaning.behaviours.dock import approach
 from rumba_cleaning.belief import paths
 from rumba_cleaning.belief.context import Context
-from rumba_sim.model.errors import MapError
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.errors import MapError
+from rumba_sim.model.common.geometry import Pose
 from rumba_sim.model.kernel import Array
 
 DOCKING = 40.0  # [s] from before the dock onto its contacts; the median of bench/docking.py is 31 s

@@ -3,7 +3,7 @@
 from typing import Optional, Tuple
 
 from rumba_cleaning.behaviours.travel import LONGEST
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.geometry import Pose
 
 AREA = 1.0  # [m] side of the area: what is larger is floor that is worth cleaning; our choice
 CLEANING = 400.0  # [s] that a robot may clean there: longer than it may try at one place; our choice

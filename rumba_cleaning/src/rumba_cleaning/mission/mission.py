@@ -20,8 +20,8 @@ from rumba_cleaning.mission.second_try import SecondTry
 from rumba_cleaning.mission.stages import EMPTY, HELD, START, StagedMission, State
 from rumba_cleaning.mission.wording import percent, swept
 from rumba_cleaning.outcome import Outcome
-from rumba_sim.model.errors import ConfigError
-from rumba_sim.model.geometry import Pose, hypot
+from rumba_sim.model.common.errors import ConfigError
+from rumba_sim.model.common.geometry import Pose, hypot
 
 JUMP = 0.5  # [m] from one observation to the next: the robot did not drive there, somebody moved it; as in `Swept`
 EXACT = 0.0002  # of coverage beyond the target: by so much the account of a robot may differ from the truth

@@ -7,9 +7,9 @@ import numpy as np
 
 from rumba_cleaning.cleaning_config import CleaningConfig, attainable
 from rumba_cleaning.mission.duration import TAPER
-from rumba_sim.model.floor_plan import FloorPlan
-from rumba_sim.model.robot_config import RobotConfig
-from rumba_sim.model.sweep import Sweep
+from rumba_sim.model.floors.sweep import Sweep
+from rumba_sim.model.maps.floor_plan import FloorPlan
+from rumba_sim.model.settings.robot_config import RobotConfig
 
 HOUR = 3600.0  # [s]
 INSIDE = 0.25  # of a cell that can be reached, at least, for the cell to be inside the edges; along straight walls,

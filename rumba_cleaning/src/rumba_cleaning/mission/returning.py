@@ -6,8 +6,8 @@ from rumba_cleaning.behaviour import Command, Observation, Status
 from rumba_cleaning.behaviours.go_to import GoTo
 from rumba_cleaning.mission.mission import Mission
 from rumba_cleaning.mission.stages import State
-from rumba_sim.model.errors import MapError
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.errors import MapError
+from rumba_sim.model.common.geometry import Pose
 
 
 class ReturningMission(Mission):

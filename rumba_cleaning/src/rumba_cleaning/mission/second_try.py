@@ -1,7 +1,7 @@
 """Judges whether a robot that gave up begins again once it is home: from there the way may be open."""
 
 from rumba_cleaning.belief.context import Context
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.geometry import Pose
 
 MUCH = 0.97  # of what lies beside obstacles: who swept so much left crumbs, and was not shut in; our choice
 

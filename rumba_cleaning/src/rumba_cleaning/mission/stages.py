@@ -8,7 +8,7 @@ from rumba_cleaning.behaviour import STOP, Behaviour, Command, Observation, Stat
 from rumba_cleaning.belief.mates import Report
 from rumba_cleaning.outcome import Outcome
 from rumba_cleaning.route import Ahead
-from rumba_sim.model.errors import CommandError
+from rumba_sim.model.common.errors import CommandError
 
 HELD = 60.0  # [s] for which edges may hold the robot at one place: it has tried other ways by then; our choice
 OFF = 1.0  # [s] off the contacts while charging: the robot was moved; contacts that bounce are closed again sooner

@@ -4,7 +4,7 @@ import collections
 import math
 from typing import Deque, NamedTuple, Optional
 
-from rumba_sim.model.geometry import Pose, wrap_angle
+from rumba_sim.model.common.geometry import Pose, wrap_angle
 
 WINDOW = 3.0  # [s] over which movements are compared
 SETTLED = 0.8  # [s] after a command changed its sign, from which on it is compared: robots lag, and brake first

@@ -11,7 +11,7 @@ from rumba_cleaning.own_robot.heard import Heard, OdometryHeard, ScanHeard, Topi
 from rumba_cleaning.own_robot.inputs import READERS
 from rumba_cleaning.own_robot.own_dock import PASSIVE
 from rumba_cleaning.own_robot.views import can_tell, contradiction, has_driven, has_moved_by_scans
-from rumba_sim.model.own_robot import OwnRobot
+from rumba_sim.model.settings.own_robot import OwnRobot
 
 MODE = ('create_msgs/Mode', 'ca_msgs/Mode')
 SCAN, ODOMETRY, TWIST = 'sensor_msgs/LaserScan', 'nav_msgs/Odometry', 'geometry_msgs/Twist'

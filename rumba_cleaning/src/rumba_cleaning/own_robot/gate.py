@@ -3,7 +3,7 @@
 import math
 from typing import Dict, NamedTuple, Optional, Sequence
 
-from rumba_sim.model.robot_config import DriveConfig
+from rumba_sim.model.settings.robot_config import DriveConfig
 
 STANDING = 2.0  # [s] of the wall clock without a sign, after which the robot is stopped although its time stands still
 REPEATED = 1.0  # [s] for which a stop is commanded again and again; then others may drive, who do not go by the gate

@@ -2,9 +2,9 @@
 
 from typing import Dict, List, NamedTuple, Optional, Tuple
 
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.geometry import Pose
 from rumba_sim.model.kernel import Array
-from rumba_sim.model.mounting import Mounting
+from rumba_sim.model.settings.mounting import Mounting
 
 NAMES = Tuple[str, ...]
 

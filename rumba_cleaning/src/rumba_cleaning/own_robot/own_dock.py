@@ -11,7 +11,7 @@ Interface specification (modes; packets 17, 21, 35; the characters 160 to 173 of
 from typing import Optional
 
 from rumba_cleaning.own_robot.gate import STOP, Velocity
-from rumba_sim.model.geometry import Pose, hypot
+from rumba_sim.model.common.geometry import Pose, hypot
 
 DOCK, UNDOCK = 'dock', 'undock'  # what a driver can be told
 PASSIVE = 1  # mode, and below it is off

@@ -8,9 +8,9 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from rumba_cleaning.own_robot.heard import View
-from rumba_sim.model.geometry import Pose, hypot, wrap_angle
+from rumba_sim.model.common.geometry import Pose, hypot, wrap_angle
 from rumba_sim.model.kernel import Array
-from rumba_sim.model.mounting import Mounting
+from rumba_sim.model.settings.mounting import Mounting
 
 WAY, TURN = 0.12, 0.3  # [m], [rad] that the odometry must tell, so that the scans can contradict it
 STEP = math.radians(5.0)  # from one angle that is tried to the next

@@ -9,9 +9,9 @@ from rumba_cleaning.belief import paths
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.belief.ground import Ground
 from rumba_cleaning.route import Route
-from rumba_sim.model.floor_plan import OCCUPIED, FloorPlan
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.geometry import Pose
 from rumba_sim.model.kernel import Array
+from rumba_sim.model.maps.floor_plan import OCCUPIED, FloorPlan
 
 LEAST = 0.1  # [m^2] of positions behind a frontier: smaller ones are seen when the robot cleans there; our choice
 SEEN = 0.4  # [m] around a point to which the robot went to look; what is unknown there then stays unknown

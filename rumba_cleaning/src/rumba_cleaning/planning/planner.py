@@ -16,7 +16,7 @@ from rumba_cleaning.planning.swaths.drafting import Drafted, choices, drafted
 from rumba_cleaning.planning.swaths.problem import Problem
 from rumba_cleaning.planning.swaths.walls import Walls
 from rumba_cleaning.route import Route
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.geometry import Pose
 from rumba_sim.model.kernel import Array
 
 # Our choice.

@@ -18,7 +18,7 @@ from rumba_cleaning.planning.search.edits import dense
 from rumba_cleaning.planning.simulate.rehearsal import Rehearsal
 from rumba_cleaning.planning.swaths.rings import WALL_MARGIN
 from rumba_cleaning.route import Route
-from rumba_sim.model.geometry import Pose, hypot
+from rumba_sim.model.common.geometry import Pose, hypot
 from rumba_sim.model.kernel import Array
 
 # All figures are our choice.

@@ -8,9 +8,9 @@ from rumba_cleaning.belief.context import Context
 from rumba_cleaning.cleaning_config import CleaningConfig
 from rumba_cleaning.planning.planner import plan
 from rumba_cleaning.planning.simulate.paper import drive
-from rumba_sim.model.floor_plan import FREE, OCCUPIED, FloorPlan
-from rumba_sim.model.geometry import Pose
-from rumba_sim.model.robot_config import RobotConfig
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.maps.floor_plan import FREE, OCCUPIED, FloorPlan
+from rumba_sim.model.settings.robot_config import RobotConfig
 
 
 def main() -> None:

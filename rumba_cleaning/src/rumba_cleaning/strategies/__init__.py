@@ -13,7 +13,7 @@ from typing import Callable, Dict, List, Set, TypeVar
 
 from rumba_cleaning.behaviour import Behaviour
 from rumba_cleaning.belief.context import Context
-from rumba_sim.model.errors import StrategyError, quoted
+from rumba_sim.model.common.errors import StrategyError, quoted
 
 Factory = Callable[[Context], Behaviour]
 Made = TypeVar('Made', bound=Factory)

@@ -13,7 +13,7 @@ from rumba_cleaning.belief.context import Context
 from rumba_cleaning.outcome import Outcome
 from rumba_cleaning.route import Ahead, Relief, Route
 from rumba_cleaning.strategies import strategy
-from rumba_sim.model.geometry import Pose, hypot
+from rumba_sim.model.common.geometry import Pose, hypot
 
 WORTH = 0.0005  # of coverage: a round that gains less, and less than half of what was missing, is the last: a round for
 #                 the last spots gains little more

@@ -11,7 +11,7 @@ from rumba_cleaning.belief.context import Context
 from rumba_cleaning.route import Ahead, Route
 from rumba_cleaning.strategies import strategy
 from rumba_cleaning.strategies.boustrophedon import Boustrophedon
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.geometry import Pose
 from rumba_sim.model.kernel import Array
 
 LOOK = 2.0  # [s] of driving, after which the robot plans again: in that it drives a metre

@@ -7,7 +7,7 @@ from rumba_cleaning.behaviour import Behaviour, Command, Observation
 from rumba_cleaning.behaviours import recoil
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.strategies import strategy
-from rumba_sim.model.geometry import Pose, hypot
+from rumba_sim.model.common.geometry import Pose, hypot
 
 SIZE = 0.6  # [m] radius of the spot (our choice; a spot of a Roomba is about a metre across)
 OVERLAP = 0.85  # of the brush's width from one turn to the next: the rest hides errors of the odometry

@@ -9,7 +9,7 @@ from rumba_cleaning.behaviours import recoil
 from rumba_cleaning.behaviours.follower import turn_rate
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.strategies import strategy
-from rumba_sim.model.geometry import Pose, hypot, wrap_angle
+from rumba_sim.model.common.geometry import Pose, hypot, wrap_angle
 
 # The figures below are our choice, tried on the maps of rumba_sim: the robot gets once around each of them.
 LEAN = 1.5  # [1/m] curvature of the path back to the wall

@@ -8,7 +8,7 @@ from rumba_cleaning.strategies import strategy
 from rumba_cleaning.strategies.bounce import bounce
 from rumba_cleaning.strategies.spiral import Spiral
 from rumba_cleaning.strategies.wall_follow import WallFollow
-from rumba_sim.model.geometry import Pose, hypot
+from rumba_sim.model.common.geometry import Pose, hypot
 
 # The figures are our choice; bench/mapless.py shows what they bring.
 LINES, WALLS = 40.0, 25.0  # [s] of straight lines, and along walls, before the other one has its turn

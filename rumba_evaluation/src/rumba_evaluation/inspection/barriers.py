@@ -7,9 +7,9 @@ import numpy as np
 from scipy import ndimage
 from skimage import graph
 
-from rumba_sim.model.floor_plan import OCCUPIED, FloorPlan
+from rumba_sim.model.floors.reachability import Parts
 from rumba_sim.model.kernel import Array
-from rumba_sim.model.reachability import Parts
+from rumba_sim.model.maps.floor_plan import OCCUPIED, FloorPlan
 
 ALL_AROUND = np.ones((3, 3))
 STEEPNESS = 8  # power of the clearance by which a way costs less where there is more: the larger, the wider its narrows

@@ -7,19 +7,19 @@ import numpy as np
 from rumba_cleaning.cleaning_config import CleaningConfig
 from rumba_cleaning.mission.outlook import INSIDE, Outlook, outlook
 from rumba_evaluation.inspection.barriers import Barrier, barrier
-from rumba_sim.model import map_file
-from rumba_sim.model.constants import clearance_needed
-from rumba_sim.model.dock_place import place_dock
-from rumba_sim.model.floor_plan import FREE, FloorPlan
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.floors.constants import clearance_needed
+from rumba_sim.model.floors.dock_place import place_dock
+from rumba_sim.model.floors.reachability import SLACK, Parts
+from rumba_sim.model.floors.sweep import Sweep
 from rumba_sim.model.kernel import Array
-from rumba_sim.model.map_header import Header, read_header
-from rumba_sim.model.map_image import Picture
-from rumba_sim.model.reachability import SLACK, Parts
-from rumba_sim.model.robot_config import RobotConfig
-from rumba_sim.model.specks import specks
-from rumba_sim.model.sweep import Sweep
-from rumba_sim.model.world import World
+from rumba_sim.model.maps import map_file
+from rumba_sim.model.maps.floor_plan import FREE, FloorPlan
+from rumba_sim.model.maps.map_header import Header, read_header
+from rumba_sim.model.maps.map_image import Picture
+from rumba_sim.model.maps.specks import specks
+from rumba_sim.model.settings.robot_config import RobotConfig
+from rumba_sim.model.simulation.world import World
 
 MOST = 3  # closed parts that are described
 LEAST = 0.05  # [m^2] that a brush can reach in a closed part: smaller ones are corners beside things

@@ -10,9 +10,10 @@ from typing import Callable, Sequence
 
 from rumba_evaluation.inspection.findings import inspected
 from rumba_evaluation.inspection.lines import lines
-from rumba_sim.model import named_maps, robot_file
-from rumba_sim.model.command_line import BAD_INPUT, ERROR, Parser
-from rumba_sim.model.errors import ConfigError, RumbaError
+from rumba_sim.model.common.command_line import BAD_INPUT, ERROR, Parser
+from rumba_sim.model.common.errors import ConfigError, RumbaError
+from rumba_sim.model.maps import named_maps
+from rumba_sim.model.settings import robot_file
 
 NAME = 'inspect_map'
 

@@ -6,9 +6,9 @@ import numpy as np
 
 from rumba_evaluation.inspection.barriers import Barrier, Kind
 from rumba_evaluation.inspection.findings import Closed, Findings
-from rumba_sim.model.floor_plan import FREE, OCCUPIED
-from rumba_sim.model.geometry import Pose
-from rumba_sim.model.map_file import SPECK
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.maps.floor_plan import FREE, OCCUPIED
+from rumba_sim.model.maps.map_file import SPECK
 
 WIDTH = 9  # of the first column
 

@@ -13,9 +13,9 @@ from matplotlib.figure import Figure
 
 from rumba_evaluation.inspection.barriers import Kind
 from rumba_evaluation.inspection.findings import Findings
-from rumba_sim.model.floor_plan import OCCUPIED
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.geometry import Pose
 from rumba_sim.model.kernel import Array
+from rumba_sim.model.maps.floor_plan import OCCUPIED
 
 FREE, UNKNOWN, WALL, CLIFF, REACHED, CLOSED = range(6)
 COLOURS = ('white', '#D8D8D8', '#404040', '#56B4E9', '#BFE3D6', '#F6D9A8')

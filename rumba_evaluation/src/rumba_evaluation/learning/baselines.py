@@ -9,7 +9,7 @@ from rumba_cleaning.behaviours.bounce import Bounce
 from rumba_cleaning.control import CONTROL_DT
 from rumba_evaluation.learning.coverage_task import Seen
 from rumba_evaluation.learning.task_config import TaskConfig
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.geometry import Pose
 from rumba_sim.model.kernel import Array
 
 NOWHERE = Pose(0.0, 0.0, 0.0)  # bounce does not ask where it is

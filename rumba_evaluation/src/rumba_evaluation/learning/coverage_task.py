@@ -16,16 +16,16 @@ from rumba_evaluation.learning.rooms import room
 from rumba_evaluation.learning.task_config import DISCRETE, TaskConfig
 from rumba_evaluation.trials import starts
 from rumba_evaluation.trials.cases import ANYWHERE
-from rumba_sim.model.config import updated
-from rumba_sim.model.errors import CommandError, ConfigError, WorldError, quoted
-from rumba_sim.model.floor_plan import FloorPlan
+from rumba_sim.model.common.config import updated
+from rumba_sim.model.common.errors import CommandError, ConfigError, WorldError, quoted
 from rumba_sim.model.kernel import Array
-from rumba_sim.model.kernel.brush import BEND, STRIDE
-from rumba_sim.model.laser_config import LaserConfig
-from rumba_sim.model.robot import FIRST
-from rumba_sim.model.robot_config import RobotConfig
-from rumba_sim.model.world import World
-from rumba_sim.model.worlds import Worlds
+from rumba_sim.model.kernel.sweeping.brush import BEND, STRIDE
+from rumba_sim.model.maps.floor_plan import FloorPlan
+from rumba_sim.model.settings.laser_config import LaserConfig
+from rumba_sim.model.settings.robot_config import RobotConfig
+from rumba_sim.model.simulation.robot import FIRST
+from rumba_sim.model.simulation.world import World
+from rumba_sim.model.simulation.worlds import Worlds
 
 # The discrete actions: ahead, ahead to the left, ahead to the right, turn left, turn right, back.
 MOVES = np.array([(1.0, 0.0), (1.0, 0.5), (1.0, -0.5), (0.0, 0.7), (0.0, -0.7), (-0.5, 0.0)])

@@ -16,12 +16,12 @@ from rumba_evaluation.learning.coverage_task import CoverageTask, Outcome, Seen
 from rumba_evaluation.learning.picture import picture
 from rumba_evaluation.learning.spaces import gymnasium
 from rumba_evaluation.learning.task_config import TaskConfig
-from rumba_sim.model import map_file
-from rumba_sim.model.config import from_mapping
-from rumba_sim.model.errors import ConfigError
-from rumba_sim.model.floor_plan import FloorPlan
+from rumba_sim.model.common.config import from_mapping
+from rumba_sim.model.common.errors import ConfigError
 from rumba_sim.model.kernel import Array
-from rumba_sim.model.robot_config import RobotConfig
+from rumba_sim.model.maps import map_file
+from rumba_sim.model.maps.floor_plan import FloorPlan
+from rumba_sim.model.settings.robot_config import RobotConfig
 
 ID = 'rumba/Coverage-v0'
 RENDER_MODES = ['rgb_array']

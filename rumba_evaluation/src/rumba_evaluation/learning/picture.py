@@ -4,11 +4,11 @@ import math
 
 import numpy as np
 
-from rumba_sim.model.floor_plan import OCCUPIED
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.geometry import Pose
 from rumba_sim.model.kernel import Array
-from rumba_sim.model.robot import FIRST
-from rumba_sim.model.world import World
+from rumba_sim.model.maps.floor_plan import OCCUPIED
+from rumba_sim.model.simulation.robot import FIRST
+from rumba_sim.model.simulation.world import World
 
 PIXEL = 0.02  # [m] side of a pixel, about
 # The colours are those of `trials.plots`, in red, green and blue.

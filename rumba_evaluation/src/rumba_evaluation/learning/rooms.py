@@ -5,12 +5,12 @@ from typing import List, Tuple
 
 import numpy as np
 
-from rumba_sim.model.errors import MapError
-from rumba_sim.model.floor_plan import FREE, OCCUPIED, FloorPlan
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.errors import MapError
+from rumba_sim.model.common.geometry import Pose
 from rumba_sim.model.kernel import Array
-from rumba_sim.model.robot_config import RobotConfig
-from rumba_sim.model.world import World
+from rumba_sim.model.maps.floor_plan import FREE, OCCUPIED, FloorPlan
+from rumba_sim.model.settings.robot_config import RobotConfig
+from rumba_sim.model.simulation.world import World
 
 RESOLUTION = 0.05  # [m] side of a cell
 WIDTH, HEIGHT = (3.0, 6.0), (3.0, 5.0)  # [m] of the room

@@ -5,7 +5,7 @@ from typing import List
 
 from rumba_cleaning.control import CONTROL_DT
 from rumba_evaluation.trials.cases import ANYWHERE, DOCK
-from rumba_sim.model.config import section, setting
+from rumba_sim.model.common.config import section, setting
 
 CONTINUOUS, DISCRETE = 'continuous', 'discrete'
 

@@ -13,7 +13,7 @@ from rumba_evaluation.learning.coverage_task import Seen
 from rumba_evaluation.learning.environment import FRAMES, RENDER_MODES, Floors, Settings, checked, task_of
 from rumba_evaluation.learning.picture import picture
 from rumba_evaluation.learning.spaces import AutoresetMode, gymnasium
-from rumba_sim.model.errors import ConfigError
+from rumba_sim.model.common.errors import ConfigError
 from rumba_sim.model.kernel import Array
 
 

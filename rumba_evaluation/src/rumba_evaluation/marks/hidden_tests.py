@@ -7,8 +7,8 @@ from typing import Any, Dict, List, Mapping, NamedTuple, Sequence
 
 from rumba_evaluation.marks.scheme import Scheme
 from rumba_evaluation.verdicts.mission_requirements import Requirements
-from rumba_sim.model.config import names, updated
-from rumba_sim.model.errors import ConfigError
+from rumba_sim.model.common.config import names, updated
+from rumba_sim.model.common.errors import ConfigError
 
 MISSION_TEST = 'mission_test'
 START = 90.0  # [s] of the wall clock that a world, a judge and a submission need to start and to end

@@ -19,8 +19,8 @@ from rumba_evaluation.marks import gradescope, kept
 from rumba_evaluation.marks.marking import Marking, Ros
 from rumba_evaluation.submissions import scratch
 from rumba_evaluation.submissions.supervised import Stopped
-from rumba_sim.model.command_line import BAD_INPUT, ERROR, INTERRUPTED, Parser
-from rumba_sim.model.errors import RumbaError
+from rumba_sim.model.common.command_line import BAD_INPUT, ERROR, INTERRUPTED, Parser
+from rumba_sim.model.common.errors import RumbaError
 
 NAME = 'mark'
 

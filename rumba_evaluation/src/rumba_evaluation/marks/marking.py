@@ -17,11 +17,11 @@ from rumba_evaluation.marks.hidden_tests import HiddenTest
 from rumba_evaluation.marks.scheme import nothing
 from rumba_evaluation.marks.submission import Launch, Outcome, Submission
 from rumba_evaluation.submissions import intake, sandbox, scratch
-from rumba_evaluation.submissions.quotations import printable
+from rumba_evaluation.submissions.diagnosis.quotations import printable
 from rumba_evaluation.submissions.sandbox import Bubblewrap, Plain
 from rumba_evaluation.submissions.supervised import Stopped
-from rumba_sim.model.command_line import ERROR
-from rumba_sim.model.errors import ConfigError
+from rumba_sim.model.common.command_line import ERROR
+from rumba_sim.model.common.errors import ConfigError
 
 SHEET, BUILD_LOG, BAG = 'marks.csv', 'build.log', 'recording.bag'
 EXAM, RECORDING = 'exam', 'recording'  # argument of a .test file, and parameter of a mission_test

@@ -10,7 +10,7 @@ from typing import Dict, List, NamedTuple, Optional, Sequence
 
 from rumba_evaluation.verdicts.conditions import Condition
 from rumba_evaluation.verdicts.mission_verdict import Verdict
-from rumba_sim.model.errors import ConfigError
+from rumba_sim.model.common.errors import ConfigError
 
 DIGITS = 2  # of points after the decimal point
 

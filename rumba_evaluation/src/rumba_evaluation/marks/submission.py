@@ -10,9 +10,10 @@ from typing import Any, Dict, List, Mapping, NamedTuple, Sequence, Tuple, Union
 from rumba_evaluation.marks.gradescope import beside, marks_of
 from rumba_evaluation.marks.hidden_tests import HiddenTest
 from rumba_evaluation.marks.scheme import Mark, nothing
-from rumba_evaluation.submissions import mistakes, supervised
-from rumba_evaluation.submissions.mistakes import Wanted
-from rumba_evaluation.submissions.quotations import printable
+from rumba_evaluation.submissions import supervised
+from rumba_evaluation.submissions.diagnosis import mistakes
+from rumba_evaluation.submissions.diagnosis.mistakes import Wanted
+from rumba_evaluation.submissions.diagnosis.quotations import printable
 from rumba_evaluation.submissions.sandbox import Bubblewrap, Plain
 from rumba_evaluation.submissions.supervised import Limits, Stop
 from rumba_evaluation.submissions.workspace import Problem, Workspace

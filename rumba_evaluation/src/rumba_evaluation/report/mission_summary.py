@@ -11,7 +11,7 @@ from rumba_cleaning.cleaning_config import CleaningConfig
 from rumba_cleaning.mission.stages import State
 from rumba_evaluation.report.mission_record import (MOVING, MissionRecord, Series, charging_spans, clock, jumps, rises,
                                                     state_spans, steps)
-from rumba_sim.model.robot_config import BrushConfig
+from rumba_sim.model.settings.robot_config import BrushConfig
 
 CLOSE = 5e-4  # of coverage: by so much the account of a robot may differ from the truth, rounded as it is shown
 

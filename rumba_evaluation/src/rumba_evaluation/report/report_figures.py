@@ -18,7 +18,7 @@ from rumba_cleaning.mission.stages import State
 from rumba_evaluation.report.mission_events import LOW, bump_positions, contacts
 from rumba_evaluation.report.mission_record import Grid, MissionRecord, charging_spans, jumps, state_spans
 from rumba_evaluation.report.mission_summary import ideal_time
-from rumba_sim.model.floor_colours import DARK, LIGHT, STRIPES
+from rumba_sim.model.maps.floor_colours import DARK, LIGHT, STRIPES
 
 # Colours of the page by name, on a light and on a dark screen. matplotlib draws with the light ones; _inline replaces
 # them by their names, so that no two may be equal. Cells are pictures, which the page has for both screens.

@@ -14,7 +14,7 @@ from rumba_cleaning.mission.stages import State
 from rumba_evaluation.report.mission_events import bump_positions
 from rumba_evaluation.report.mission_record import MissionRecord, jumps, state_spans
 from rumba_evaluation.report.report_figures import HEIGHT, MARGINS, WIDTH, map_scale, on_map
-from rumba_sim.model.robot_config import BrushConfig, DriveConfig
+from rumba_sim.model.settings.robot_config import BrushConfig, DriveConfig
 
 STEP = 0.04  # [m] from one point of the path to the next
 MOST_POINTS = 8000  # of a path

@@ -1,6 +1,6 @@
 """The style sheet of a mission's report, and its colours beside those of the figures."""
 
-from rumba_sim.model.floor_colours import ROBOTS
+from rumba_sim.model.maps.floor_colours import ROBOTS
 
 STYLE = '''
 *{box-sizing:border-box}

@@ -4,7 +4,7 @@ import sys
 
 from rumba_evaluation.scoring.drawn_path import DrawnPath
 from rumba_evaluation.trials import evaluate
-from rumba_sim.ros.common.maps import map_path
+from rumba_sim.ros.participants.maps import map_path
 
 
 def main() -> None:

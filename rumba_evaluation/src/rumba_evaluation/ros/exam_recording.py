@@ -6,7 +6,7 @@ from typing import Any, Dict, List, Set
 import rosbag
 import rospy
 
-from rumba_sim.model.robot import FIRST
+from rumba_sim.model.simulation.robot import FIRST
 
 TRUTH = f'/{FIRST}/ground_truth'
 COMMANDS = (f'/{FIRST}/cmd_vel', f'/{FIRST}/teleop/cmd_vel')

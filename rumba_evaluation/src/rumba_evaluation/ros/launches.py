@@ -9,9 +9,9 @@ import roslaunch.core
 import rospkg
 
 from rumba_evaluation.marks.hidden_tests import MISSION_TEST, HiddenTest
-from rumba_evaluation.submissions.mistakes import Wanted
 from rumba_evaluation.marks.submission import Launch
-from rumba_sim.model.errors import ConfigError
+from rumba_evaluation.submissions.diagnosis.mistakes import Wanted
+from rumba_sim.model.common.errors import ConfigError
 
 SYSTEM = ('/usr/', '/opt/')
 OURS = 'rumba_'

@@ -29,8 +29,9 @@ from rumba_evaluation.verdicts.mission_verdict import Judge, Verdict
 from rumba_evaluation.verdicts.origins import Origins
 from rumba_evaluation.verdicts.tick_readings import TickReadings
 from rumba_msg.msg import Lockstep
-from rumba_sim.model.errors import WorldError
-from rumba_sim.ros.common import conversions, simulator_client
+from rumba_sim.model.common.errors import WorldError
+from rumba_sim.ros.common import conversions
+from rumba_sim.ros.participants import simulator_client
 
 PERIOD = 0.05  # [s] of the wall clock
 LOOK_PERIOD = 0.5  # [s] of the wall clock from one look at the master to the next

@@ -55,12 +55,12 @@ from rumba_evaluation.verdicts.conditions import Condition
 from rumba_evaluation.verdicts.field_conditions import FieldCondition
 from rumba_evaluation.verdicts.mission_requirements import Requirements
 from rumba_evaluation.verdicts.mission_verdict import Verdict
-from rumba_sim.model.config import setting
-from rumba_sim.model.errors import ConfigError
-from rumba_sim.model.robot import FIRST
-from rumba_sim.ros.common import node
+from rumba_sim.model.common.config import setting
+from rumba_sim.model.common.errors import ConfigError
+from rumba_sim.model.simulation.robot import FIRST
 from rumba_sim.ros.common.names import check_names
 from rumba_sim.ros.common.paths import absolute
+from rumba_sim.ros.running import node
 
 PACKAGE, NAME = 'rumba_evaluation', 'mission_test'
 OUTPUT = '--gtest_output=xml:'  # rostest gives each test the file for its results ...

@@ -6,7 +6,7 @@ import numpy as np
 import rosbag
 
 from rumba_evaluation.scoring.drawn_path import DrawnPath, PathError, drawn_path
-from rumba_sim.model.geometry import yaw
+from rumba_sim.model.common.geometry import yaw
 from rumba_sim.model.kernel import Array
 
 KIND = 'nav_msgs/Path'

@@ -6,10 +6,10 @@ from typing import Optional, Sequence, Tuple
 
 import numpy as np
 
-from rumba_sim.model.errors import RumbaError
-from rumba_sim.model.floor_plan import FREE, FloorPlan
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.errors import RumbaError
+from rumba_sim.model.common.geometry import Pose
 from rumba_sim.model.kernel import Array
+from rumba_sim.model.maps.floor_plan import FREE, FloorPlan
 
 MOST_POSES = 1_000_000
 LONGEST = 86_400.0  # [s] a day

@@ -18,10 +18,10 @@ from rumba_cleaning.outcome import Outcome
 from rumba_cleaning.route import Route, lengths_along
 from rumba_evaluation.scoring.drawn_path import DrawnPath
 from rumba_evaluation.scoring.ride import AT_END, Driven
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.geometry import Pose
 from rumba_sim.model.kernel import Array
-from rumba_sim.model.robot import Robot
-from rumba_sim.model.world import World
+from rumba_sim.model.simulation.robot import Robot
+from rumba_sim.model.simulation.world import World
 
 APART = 0.1  # [m] from one point of the path, to which a detour may lead back, to the next, at most; our choice
 

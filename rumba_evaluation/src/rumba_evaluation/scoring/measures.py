@@ -7,12 +7,12 @@ from typing import List, NamedTuple, Tuple
 import numpy as np
 from scipy import ndimage
 
-from rumba_sim.model.compiled import fast
-from rumba_sim.model.floor_plan import FloorPlan
+from rumba_sim.model.compiling.compiled import fast
 from rumba_sim.model.kernel import Array
-from rumba_sim.model.kernel.samples import PASS, REACHABLE
-from rumba_sim.model.robot import Robot
-from rumba_sim.model.world import World
+from rumba_sim.model.kernel.sweeping.samples import PASS, REACHABLE
+from rumba_sim.model.maps.floor_plan import FloorPlan
+from rumba_sim.model.simulation.robot import Robot
+from rumba_sim.model.simulation.world import World
 
 CONTACT = 0.001  # [m] a smaller gap between body and wall is a contact: more than the model leaves there
 NEAR = 0.02  # [m] a smaller gap without a contact is a near miss; our choice: the cells of a fine map

@@ -1,10 +1,10 @@
 """Sums over the time in which a robot drives."""
 
 from rumba_cleaning.control import CONTROL_DT
-from rumba_sim.model.compiled import fast
-from rumba_sim.model.geometry import wrap_angle
-from rumba_sim.model.robot import Robot
-from rumba_sim.model.world import World
+from rumba_sim.model.common.geometry import wrap_angle
+from rumba_sim.model.compiling.compiled import fast
+from rumba_sim.model.simulation.robot import Robot
+from rumba_sim.model.simulation.world import World
 
 OVERLAP = 0.001  # [m] of body and wall that can come from rounding
 HOUR = 3600.0  # [s]

@@ -12,11 +12,11 @@ from typing import Callable, Dict, Iterator, List, NamedTuple, Optional, Sequenc
 import numpy as np
 
 from rumba_evaluation.scoring.drawn_path import MOST_POSES, DrawnPath, PathError, drawn_path
-from rumba_sim.model.config import nearest
-from rumba_sim.model.errors import quoted
-from rumba_sim.model.geometry import yaw
+from rumba_sim.model.common.config import nearest
+from rumba_sim.model.common.errors import quoted
+from rumba_sim.model.common.geometry import yaw
+from rumba_sim.model.common.regular_file import opened
 from rumba_sim.model.kernel import Array
-from rumba_sim.model.regular_file import opened
 
 MOST_BYTES = 100_000_000
 LONGEST_LINE = 1000  # [bytes]

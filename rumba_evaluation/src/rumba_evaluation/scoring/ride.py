@@ -16,14 +16,14 @@ from rumba_evaluation.scoring.drawn_path import DrawnPath, PathError, check_on_m
 from rumba_evaluation.scoring.measures import Observer
 from rumba_evaluation.scoring.meter import Meter
 from rumba_evaluation.scoring.timetable import beyond_robots, timetable
-from rumba_sim.model.errors import WorldError
-from rumba_sim.model.floor_plan import FloorPlan
-from rumba_sim.model.geometry import Pose, wrap_angle
+from rumba_sim.model.common.errors import WorldError
+from rumba_sim.model.common.geometry import Pose, wrap_angle
 from rumba_sim.model.kernel import Array
-from rumba_sim.model.obstacle import Obstacle
-from rumba_sim.model.robot import FIRST, Robot, put
-from rumba_sim.model.robot_config import RobotConfig
-from rumba_sim.model.world import World
+from rumba_sim.model.maps.floor_plan import FloorPlan
+from rumba_sim.model.settings.robot_config import RobotConfig
+from rumba_sim.model.simulation.obstacle import Obstacle
+from rumba_sim.model.simulation.robot import FIRST, Robot, put
+from rumba_sim.model.simulation.world import World
 
 PATIENCE = 10.0  # [s] without progress along the path: something is in the way; our choice, longer than any turn
 PROGRESS = 0.01  # [m]: more than a robot at rest seems to move

@@ -7,7 +7,7 @@ import sys
 from typing import Dict, List, Mapping, Optional, Sequence, Union
 
 from rumba_evaluation.submissions import intake, sandbox, supervised
-from rumba_evaluation.submissions.mistakes import Wanted
+from rumba_evaluation.submissions.diagnosis.mistakes import Wanted
 from rumba_evaluation.submissions.sandbox import Bubblewrap, Plain
 from rumba_evaluation.submissions.supervised import Limits, Run, Stop
 

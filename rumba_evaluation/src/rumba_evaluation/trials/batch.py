@@ -21,12 +21,14 @@ from rumba_cleaning import strategies
 from rumba_cleaning.outcome import Outcome
 from rumba_evaluation.trials.cases import Case, Conditions, Result
 from rumba_evaluation.trials.trial import Trial
-from rumba_sim.model import map_file, obstacle_file, robot_file
-from rumba_sim.model.errors import ConfigError, RumbaError, StrategyError
-from rumba_sim.model.floor_plan import FloorPlan
+from rumba_sim.model.common.errors import ConfigError, RumbaError, StrategyError
 from rumba_sim.model.kernel import Array
-from rumba_sim.model.obstacle import Obstacle
-from rumba_sim.model.robot_config import DriveConfig
+from rumba_sim.model.maps import map_file
+from rumba_sim.model.maps.floor_plan import FloorPlan
+from rumba_sim.model.settings import robot_file
+from rumba_sim.model.settings.robot_config import DriveConfig
+from rumba_sim.model.simulation import obstacle_file
+from rumba_sim.model.simulation.obstacle import Obstacle
 
 SCHEDULER_TIMEOUT = 10.0  # [s]
 WORKERS_PERIOD = 5.0  # [s] between two looks whether a cluster has workers

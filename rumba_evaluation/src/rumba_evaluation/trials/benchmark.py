@@ -14,16 +14,16 @@ from typing import Any, Dict, List, NamedTuple, Sequence
 from rumba_cleaning import strategies
 from rumba_evaluation.scoring import path_file
 from rumba_evaluation.scoring.drawn_path import PathError
-from rumba_evaluation.scoring.measures import Observer
 from rumba_evaluation.scoring.guarded import Guarded
+from rumba_evaluation.scoring.measures import Observer
 from rumba_evaluation.scoring.ride import AsDrawn
 from rumba_evaluation.trials import batch, score
 from rumba_evaluation.trials.cases import Case, Conditions
-from rumba_sim.model.command_line import BAD_INPUT, INTERRUPTED, Parser
 from rumba_evaluation.trials.evaluate_path import FORMATS, JSON, TEXT
 from rumba_evaluation.trials.floors import FLOORS
 from rumba_evaluation.trials.score import Score
-from rumba_sim.model.errors import ConfigError, RumbaError
+from rumba_sim.model.common.command_line import BAD_INPUT, INTERRUPTED, Parser
+from rumba_sim.model.common.errors import ConfigError, RumbaError
 
 NAME = 'rumba-benchmark'
 SEEDS = 3

@@ -7,9 +7,9 @@ from typing import List, NamedTuple, Sequence, Tuple
 
 from rumba_cleaning.cleaning_config import CleaningConfig
 from rumba_cleaning.outcome import Outcome
-from rumba_sim.model.config import setting
-from rumba_sim.model.errors import ConfigError
-from rumba_sim.model.laser_config import IDEAL, MODELS
+from rumba_sim.model.common.config import setting
+from rumba_sim.model.common.errors import ConfigError
+from rumba_sim.model.settings.laser_config import IDEAL, MODELS
 
 TRUTH, LOCALISED, ODOMETRY, SLAM, MAPLESS = POSES = 'truth', 'localised', 'odometry', 'slam', 'mapless'
 DOCK, ANYWHERE = 'dock', 'anywhere'

@@ -22,13 +22,13 @@ from rumba_evaluation.scoring.path_file import ReadBag
 from rumba_evaluation.trials import batch, evaluate_path, score, table
 from rumba_evaluation.trials.batch import Job
 from rumba_evaluation.trials.cases import ANYWHERE, DOCK, POSES, TRUTH, Case, Conditions, Result, grid
-from rumba_sim.model.command_line import BAD_INPUT, ERROR, INTERRUPTED, Parser
 from rumba_evaluation.trials.foresight import remarks_on
 from rumba_evaluation.trials.results import Results
-from rumba_sim.model import named_maps
-from rumba_sim.model.config import explain, updated
-from rumba_sim.model.errors import ConfigError, RumbaError
-from rumba_sim.model.laser_config import IDEAL, MODELS
+from rumba_sim.model.common.command_line import BAD_INPUT, ERROR, INTERRUPTED, Parser
+from rumba_sim.model.common.config import explain, updated
+from rumba_sim.model.common.errors import ConfigError, RumbaError
+from rumba_sim.model.maps import named_maps
+from rumba_sim.model.settings.laser_config import IDEAL, MODELS
 
 NAME = 'evaluate'
 FOLDER = 'evaluation'

@@ -13,9 +13,9 @@ from rumba_evaluation.scoring.guarded import Guarded
 from rumba_evaluation.scoring.ride import AsDrawn, Driven
 from rumba_evaluation.trials import batch, score
 from rumba_evaluation.trials.cases import Case, Conditions
-from rumba_sim.model import robot_file
-from rumba_sim.model.config import updated
-from rumba_sim.model.errors import ConfigError
+from rumba_sim.model.common.config import updated
+from rumba_sim.model.common.errors import ConfigError
+from rumba_sim.model.settings import robot_file
 
 JSON, TEXT = FORMATS = 'json', 'text'
 OF_MISSIONS = (

@@ -6,7 +6,7 @@ Lengths are in metres, x points to the right and y up; (0, 0) is the lower left 
 import pathlib
 from typing import Callable, Dict
 
-from rumba_sim.model.drawing import FREE, ROBOT_AT_WALL, Drawing
+from rumba_sim.model.maps.drawing import FREE, ROBOT_AT_WALL, Drawing
 
 RESOLUTION = 0.02  # [m]
 WALL = 0.12  # [m]

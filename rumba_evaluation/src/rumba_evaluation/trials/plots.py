@@ -17,8 +17,8 @@ from matplotlib.figure import Figure
 from rumba_evaluation.trials.batch import Trace
 from rumba_evaluation.trials.cases import Result
 from rumba_evaluation.trials.table import Group
-from rumba_sim.model.floor_plan import OCCUPIED, FloorPlan
 from rumba_sim.model.kernel import Array
+from rumba_sim.model.maps.floor_plan import OCCUPIED, FloorPlan
 
 COLOURS = ('#0072B2', '#D55E00', '#009E73', '#CC79A7', '#E69F00', '#56B4E9')
 STYLES = ('-', '--', '-.', ':')  # for lines of the same colour

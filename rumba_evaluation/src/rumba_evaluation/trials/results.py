@@ -9,7 +9,7 @@ from typing import Any, Dict, List, Sequence, Tuple
 
 from rumba_cleaning.outcome import Outcome
 from rumba_evaluation.trials.cases import LEVELS, Case, Conditions, Curve, Result
-from rumba_sim.model.errors import ConfigError
+from rumba_sim.model.common.errors import ConfigError
 
 DIGITS = 7  # of a number: enough for 0.1 s in ten days
 SHORTEST = 1e-6  # [s] ideal time of a mission

@@ -12,8 +12,8 @@ from rumba_evaluation.scoring.measures import Event, Measures
 from rumba_evaluation.scoring.ride import Ride
 from rumba_evaluation.trials import table
 from rumba_evaluation.trials.cases import LEVELS, Case, Result
-from rumba_sim.model.geometry import Pose
-from rumba_sim.model.geometry import TURN
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.common.geometry import TURN
 
 PLACES = 10  # of one kind that a person wants to read
 

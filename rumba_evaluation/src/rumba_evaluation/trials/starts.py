@@ -5,11 +5,11 @@ from typing import Callable, List
 
 import numpy as np
 
-from rumba_sim.model.errors import WorldError
-from rumba_sim.model.floor_plan import FloorPlan
-from rumba_sim.model.geometry import Pose
-from rumba_sim.model.reachability import reach
-from rumba_sim.model.robot_config import RobotConfig
+from rumba_sim.model.common.errors import WorldError
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.floors.reachability import reach
+from rumba_sim.model.maps.floor_plan import FloorPlan
+from rumba_sim.model.settings.robot_config import RobotConfig
 
 
 def anywhere(plan: FloorPlan, config: RobotConfig, origin: Pose, count: int,

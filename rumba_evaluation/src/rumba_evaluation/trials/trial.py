@@ -27,14 +27,14 @@ from rumba_cleaning.pose_source import DeadReckoning, Localised, Mapped, PoseSou
 from rumba_evaluation.scoring.meter import Meter
 from rumba_evaluation.trials import starts
 from rumba_evaluation.trials.cases import ANYWHERE, LOCALISED, MAPLESS, ODOMETRY, SLAM, Conditions, Result, severity
-from rumba_sim.model.config import updated
-from rumba_sim.model.floor_plan import FloorPlan
-from rumba_sim.model.geometry import TURN, Pose
-from rumba_sim.model.laser_config import IDEAL
-from rumba_sim.model.obstacle import Obstacle
-from rumba_sim.model.robot import nth_name
-from rumba_sim.model.robot_config import RobotConfig
-from rumba_sim.model.world import World
+from rumba_sim.model.common.config import updated
+from rumba_sim.model.common.geometry import TURN, Pose
+from rumba_sim.model.maps.floor_plan import FloorPlan
+from rumba_sim.model.settings.laser_config import IDEAL
+from rumba_sim.model.settings.robot_config import RobotConfig
+from rumba_sim.model.simulation.obstacle import Obstacle
+from rumba_sim.model.simulation.robot import nth_name
+from rumba_sim.model.simulation.world import World
 
 
 OWN_FRAME = (SLAM, MAPLESS)  # of each robot, where it says it is

@@ -15,7 +15,7 @@ import abc
 import math
 from typing import Any, Tuple
 
-from rumba_sim.model.geometry import Pose, wrap_angle
+from rumba_sim.model.common.geometry import Pose, wrap_angle
 
 
 class Condition(abc.ABC):

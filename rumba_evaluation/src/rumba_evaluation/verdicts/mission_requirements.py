@@ -6,9 +6,9 @@ from typing import List
 
 from rumba_evaluation.verdicts.conditions import Battery, Collisions, Condition, Coverage, Docked, Reach
 from rumba_evaluation.verdicts.field_conditions import Agreement, Field, Rate
-from rumba_sim.model.config import setting
-from rumba_sim.model.errors import ConfigError
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.config import setting
+from rumba_sim.model.common.errors import ConfigError
+from rumba_sim.model.common.geometry import Pose
 
 NOT_REQUIRED = -1
 

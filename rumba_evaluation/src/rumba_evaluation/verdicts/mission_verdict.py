@@ -11,7 +11,7 @@ without any value has failed, and so has a guard if the run was aborted. If the 
 from typing import Any, Callable, Dict, List, NamedTuple, Optional, Sequence
 
 from rumba_evaluation.verdicts.conditions import Condition
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.geometry import Pose
 
 
 class Verdict(NamedTuple):

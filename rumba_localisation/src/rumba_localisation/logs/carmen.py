@@ -13,9 +13,9 @@ import numpy as np
 
 from rumba_localisation.logs.entry import Entry, LogError
 from rumba_localisation.scan import Reading, Scan, scan_of
-from rumba_sim.model.geometry import Pose, compose, inverse
+from rumba_sim.model.common.geometry import Pose, compose, inverse
 from rumba_sim.model.kernel import Array
-from rumba_sim.model.mounting import Mounting
+from rumba_sim.model.settings.mounting import Mounting
 
 FULL = math.pi  # [rad] that a FLASER of 180 or 181, or 360 or 361 beams covers
 NOTHING = 80.0  # [m] from which on a SICK LMS, of which such logs are, tells that there is no echo

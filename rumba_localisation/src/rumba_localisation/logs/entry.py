@@ -3,7 +3,7 @@
 from typing import NamedTuple, Optional
 
 from rumba_localisation.scan import Scan
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.geometry import Pose
 
 
 class LogError(Exception):

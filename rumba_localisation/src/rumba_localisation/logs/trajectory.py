@@ -6,7 +6,7 @@ from typing import Dict, List, NamedTuple, Sequence, Tuple
 import numpy as np
 
 from rumba_localisation.logs.entry import LogError
-from rumba_sim.model.geometry import Pose, compose, inverse, wrap_angle
+from rumba_sim.model.common.geometry import Pose, compose, inverse, wrap_angle
 from rumba_sim.model.kernel import Array
 
 Trajectory = Sequence[Tuple[float, Pose]]  # stamps [s] and poses [m, rad]

@@ -8,10 +8,10 @@ from scipy import ndimage
 from scipy.spatial import cKDTree
 
 from rumba_localisation.mapping.findings import Findings, Point
-from rumba_localisation.mapping.grid import Grid
-from rumba_sim.model.floor_plan import FREE, OCCUPIED, UNKNOWN, FloorPlan
-from rumba_sim.model.geometry import Pose
+from rumba_localisation.mapping.grids.grid import Grid
+from rumba_sim.model.common.geometry import Pose
 from rumba_sim.model.kernel import Array
+from rumba_sim.model.maps.floor_plan import FREE, OCCUPIED, UNKNOWN, FloorPlan
 
 MOST = 4_000_000  # cells of a plan, if those of its grid are divided
 GAPS = 0.08  # [m] half the width of what lies unseen between two beams, and is free if all around it is

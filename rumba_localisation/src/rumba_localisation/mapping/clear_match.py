@@ -6,11 +6,11 @@ from typing import NamedTuple, Optional
 import numpy as np
 
 from rumba_localisation import compiled_matching
-from rumba_localisation.mapping.grid import Grid
+from rumba_localisation.mapping.grids.grid import Grid
 from rumba_localisation.mapping.look_around import best_around
 from rumba_localisation.noise import Noise
 from rumba_localisation.scan import Scan, thinned
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.geometry import Pose
 from rumba_sim.model.kernel import Array
 
 BEAMS, INDEPENDENT = 360, 0.2  # of a match, at most, and the share of them that err independently

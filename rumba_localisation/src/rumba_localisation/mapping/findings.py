@@ -4,9 +4,9 @@ import math
 from typing import Callable, Dict, List, Sequence, Tuple
 
 from rumba_localisation.edges import Edges
-from rumba_localisation.mapping.grid import Grid
-from rumba_sim.model.geometry import Pose
-from rumba_sim.model.robot_config import RobotConfig
+from rumba_localisation.mapping.grids.grid import Grid
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.settings.robot_config import RobotConfig
 
 Point = Tuple[float, float]  # [m], map frame
 

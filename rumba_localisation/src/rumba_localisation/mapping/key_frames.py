@@ -8,12 +8,12 @@ from scipy import sparse
 from scipy.sparse import csgraph
 
 from rumba_localisation.compiled_matrices import inverse as inverted
-from rumba_localisation.mapping.grid import Grid, ends_of, placed
+from rumba_localisation.mapping.grids.grid import Grid, ends_of, placed
 from rumba_localisation.mapping.pose_graph import Link, optimised
 from rumba_localisation.noise import Noise
 from rumba_localisation.scan import Scan
 from rumba_localisation.systematic import lengthened
-from rumba_sim.model.geometry import Pose, compose, inverse, wrap_angle
+from rumba_sim.model.common.geometry import Pose, compose, inverse, wrap_angle
 from rumba_sim.model.kernel import Array
 
 

@@ -6,9 +6,9 @@ from typing import List
 import numpy as np
 
 from rumba_localisation import compiled_matching
-from rumba_localisation.mapping.grid import Grid
+from rumba_localisation.mapping.grids.grid import Grid
 from rumba_localisation.scan import thinned
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.geometry import Pose
 from rumba_sim.model.kernel import Array
 
 STRIDE, TURN = 0.08, 0.03  # [m], [rad] from pose to pose that is tried: a match finds what is twice as far off

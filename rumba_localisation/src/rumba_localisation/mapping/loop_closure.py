@@ -9,7 +9,7 @@ from rumba_localisation.mapping.clear_match import INDEPENDENT, Match, Sought, c
 from rumba_localisation.mapping.key_frames import KeyFrames
 from rumba_localisation.noise import Noise
 from rumba_localisation.scan import Scan, is_blind
-from rumba_sim.model.geometry import Pose, compose, inverse, wrap_angle
+from rumba_sim.model.common.geometry import Pose, compose, inverse, wrap_angle
 from rumba_sim.model.kernel import Array
 
 # All these are our choice:

@@ -10,7 +10,7 @@ from rumba_localisation.localiser import START, Estimate
 from rumba_localisation.mapping.believed_plan import believed_plan
 from rumba_localisation.mapping.clear_match import Sought, clear_match
 from rumba_localisation.mapping.findings import Findings
-from rumba_localisation.mapping.grid import Grid
+from rumba_localisation.mapping.grids.grid import Grid
 from rumba_localisation.mapping.key_frames import KeyFrames
 from rumba_localisation.mapping.loop_closure import LoopClosure
 from rumba_localisation.mapping.mapper_config import MapperConfig
@@ -19,9 +19,9 @@ from rumba_localisation.mapping.tracker import INDEPENDENT, LEAST, MATCHED, TWIS
 from rumba_localisation.noise import Noise
 from rumba_localisation.scan import Scan, is_blind, thinned
 from rumba_localisation.systematic import Systematic
-from rumba_sim.model.floor_plan import FloorPlan
-from rumba_sim.model.geometry import Pose, compose, inverse, wrap_angle
+from rumba_sim.model.common.geometry import Pose, compose, inverse, wrap_angle
 from rumba_sim.model.kernel import Array
+from rumba_sim.model.maps.floor_plan import FloorPlan
 
 FINE, COARSE, LARGEST = 0.02, 0.05, 0.2  # [m] side of a cell at first, by noise at most, and of a large map at most
 SHOWN = 0.025  # [m] side of a cell of the plan, at most: robots drive along walls

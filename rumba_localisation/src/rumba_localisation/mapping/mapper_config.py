@@ -2,7 +2,7 @@
 
 import dataclasses
 
-from rumba_sim.model.config import setting
+from rumba_sim.model.common.config import setting
 
 
 @dataclasses.dataclass(frozen=True)

@@ -8,10 +8,10 @@ import numpy as np
 from rumba_localisation import compiled_matching
 from rumba_localisation.localiser import Estimate
 from rumba_localisation.mapping.clear_match import WRONG
-from rumba_localisation.mapping.grid import Grid
+from rumba_localisation.mapping.grids.grid import Grid
 from rumba_localisation.noise import Noise
 from rumba_localisation.scan import Scan, is_blind, thinned
-from rumba_sim.model.geometry import Pose, compose, inverse, wrap_angle
+from rumba_sim.model.common.geometry import Pose, compose, inverse, wrap_angle
 from rumba_sim.model.kernel import Array
 
 # All these are our choice:

@@ -8,12 +8,12 @@ import numpy as np
 from rumba_localisation.compiled_matrices import inverse as inverted
 from rumba_localisation.localiser import Estimate
 from rumba_localisation.mapping.clear_match import WRONG
-from rumba_localisation.mapping.grid import Grid
+from rumba_localisation.mapping.grids.grid import Grid
 from rumba_localisation.mapping.look_around import best_around
 from rumba_localisation.mapping.mapper_config import MapperConfig
 from rumba_localisation.noise import Noise
 from rumba_localisation.scan import Scan, is_blind, thinned
-from rumba_sim.model.geometry import Pose, wrap_angle
+from rumba_sim.model.common.geometry import Pose, wrap_angle
 from rumba_sim.model.kernel import Array
 
 MATCHED = 180  # beams, at most, by which a pose is found

@@ -7,8 +7,8 @@ import numpy as np
 from rumba_localisation.localiser import Localiser
 from rumba_localisation.mapping.mapper import Mapper
 from rumba_localisation.scan import scan_of
-from rumba_sim.model.floor_plan import FloorPlan
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.maps.floor_plan import FloorPlan
 
 
 def main() -> None:

@@ -9,11 +9,11 @@ from geometry_msgs.msg import Pose as PoseMessage
 from nav_msgs.msg import MapMetaData, OccupancyGrid
 from std_msgs.msg import Header
 
-from rumba_sim.model.floor_plan import FloorPlan
-from rumba_sim.model.geometry import Pose, compose, inverse
+from rumba_sim.model.common.geometry import Pose, compose, inverse
 from rumba_sim.model.kernel import Array
+from rumba_sim.model.maps.floor_plan import FloorPlan
 from rumba_sim.ros.common.conversions import heading, quaternion
-from rumba_sim.ros.common.maps import floor_plan
+from rumba_sim.ros.participants.maps import floor_plan
 
 PLANE = (0, 1, 5)  # rows and columns of x, y and the rotation about z in a covariance of ROS
 

@@ -42,17 +42,17 @@ from rumba_localisation.ros import conversions
 from rumba_localisation.ros.laser_settings import LaserSettings
 from rumba_localisation.ros.scan_loop import COMPLAINT_PERIOD, QUEUE, ScanLoop
 from rumba_localisation.scan import Scan
-from rumba_sim.model import map_file
-from rumba_sim.model.config import part, setting
-from rumba_sim.model.errors import ConfigError, MapError
-from rumba_sim.model.floor_plan import FloorPlan
-from rumba_sim.model.geometry import Pose, compose, inverse
-from rumba_sim.ros.common import node
+from rumba_sim.model.common.config import part, setting
+from rumba_sim.model.common.errors import ConfigError, MapError
+from rumba_sim.model.common.geometry import Pose, compose, inverse
+from rumba_sim.model.maps import map_file
+from rumba_sim.model.maps.floor_plan import FloorPlan
 from rumba_sim.ros.common.conversions import grid, plane_pose
 from rumba_sim.ros.common.frames import MAP
-from rumba_sim.ros.common.maps import map_path
 from rumba_sim.ros.common.names import check_names
 from rumba_sim.ros.common.own_robots import own_robot, own_robot_setting
+from rumba_sim.ros.participants.maps import map_path
+from rumba_sim.ros.running import node
 
 HERE = Pose(0.0, 0.0, 0.0)
 

@@ -21,13 +21,13 @@ from tqdm import tqdm
 
 from rumba_localisation.logs import carmen, trajectory
 from rumba_localisation.logs.entry import Entry, LogError
-from rumba_localisation.mapping import saving
+from rumba_localisation.mapping.grids import saving
 from rumba_localisation.mapping.mapper import Mapper
 from rumba_localisation.mapping.mapper_config import MapperConfig
 from rumba_localisation.scan import Reading
-from rumba_sim.model.errors import MapError
-from rumba_sim.model.floor_plan import FREE, OCCUPIED, FloorPlan
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.errors import MapError
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.maps.floor_plan import FREE, OCCUPIED, FloorPlan
 
 WHITE, GREY, BLACK = 255, 190, 0
 OURS, TRUE = (230, 110, 0), (40, 90, 220)

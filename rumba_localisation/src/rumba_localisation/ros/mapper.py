@@ -34,8 +34,8 @@ from nav_msgs.msg import OccupancyGrid
 from std_msgs.msg import Header
 from std_srvs.srv import Trigger, TriggerResponse
 
-from rumba_localisation.mapping import saving
 from rumba_localisation.mapping.findings import Findings
+from rumba_localisation.mapping.grids import saving
 from rumba_localisation.mapping.mapper import Mapper
 from rumba_localisation.mapping.mapper_config import MapperConfig
 from rumba_localisation.ros import conversions
@@ -43,17 +43,17 @@ from rumba_localisation.ros.laser_settings import LaserSettings
 from rumba_localisation.ros.scan_loop import COMPLAINT_PERIOD, QUEUE, ScanLoop
 from rumba_localisation.scan import Reading, Scan
 from rumba_msg.msg import Bumper, Cliff, DockStatus
-from rumba_sim.model.config import part, setting
-from rumba_sim.model.errors import MapError
-from rumba_sim.model.floor_plan import OCCUPIED, FloorPlan
-from rumba_sim.model.geometry import Pose
-from rumba_sim.model.robot_config import RobotConfig
-from rumba_sim.ros.common import node
+from rumba_sim.model.common.config import part, setting
+from rumba_sim.model.common.errors import MapError
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.maps.floor_plan import OCCUPIED, FloorPlan
+from rumba_sim.model.settings.robot_config import RobotConfig
 from rumba_sim.ros.common.conversions import grid
 from rumba_sim.ros.common.frames import MAP
 from rumba_sim.ros.common.names import check_names
 from rumba_sim.ros.common.own_robots import own_robot, own_robot_setting
 from rumba_sim.ros.common.paths import absolute
+from rumba_sim.ros.running import node
 
 CALM = (False, False), (False,) * 4  # bumper and cliff sensors
 

@@ -5,7 +5,7 @@ from typing import List, NamedTuple, Optional
 
 import rospy
 
-from rumba_sim.model.geometry import Pose, wrap_angle
+from rumba_sim.model.common.geometry import Pose, wrap_angle
 
 KEPT = 200  # messages: four seconds at 50 Hz
 

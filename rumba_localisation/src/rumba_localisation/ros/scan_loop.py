@@ -14,15 +14,15 @@ from rumba_localisation.ros.odometries import Odometries
 from rumba_localisation.scan import FARTHEST as FARTHEST_ECHO
 from rumba_localisation.scan import SILENT, Reading, Scan, fault, told
 from rumba_msg.msg import Lockstep
-from rumba_sim.model.geometry import Pose, wrap_angle
-from rumba_sim.model.own_robot import OwnRobot
+from rumba_sim.model.common.geometry import Pose, wrap_angle
+from rumba_sim.model.settings.own_robot import OwnRobot
 from rumba_sim.ros.common.conversions import plane_pose, transform
 from rumba_sim.ros.common.frames import MAP
-from rumba_sim.ros.common.lockstep import Participant, Resent, Work
-from rumba_sim.ros.common.maps import FARTHEST
 from rumba_sim.ros.common.mountings import HeardMountings
 from rumba_sim.ros.common.own_robots import frames_of
-from rumba_sim.ros.common.requests import Requests
+from rumba_sim.ros.participants.lockstep import Participant, Resent, Work
+from rumba_sim.ros.participants.maps import FARTHEST
+from rumba_sim.ros.participants.requests import Requests
 
 PERIOD = 0.1  # [s] of the wall clock between two looks whether ROS shuts down
 QUEUE = 100  # messages that may wait to be read

@@ -6,11 +6,12 @@ A map without a dock can be cleaned with a single charge only.
 import sys
 from typing import Sequence
 
-from rumba_sim.model import map_file, named_maps, robot_file
-from rumba_sim.model.command_line import BAD_INPUT, ERROR, Parser
-from rumba_sim.model.dock_place import ALONG, BEHIND, place_dock
-from rumba_sim.model.errors import RumbaError
-from rumba_sim.model.world import World
+from rumba_sim.model.common.command_line import BAD_INPUT, ERROR, Parser
+from rumba_sim.model.common.errors import RumbaError
+from rumba_sim.model.floors.dock_place import ALONG, BEHIND, place_dock
+from rumba_sim.model.maps import map_file, named_maps
+from rumba_sim.model.settings import robot_file
+from rumba_sim.model.simulation.world import World
 
 NAME = 'place_dock'
 

@@ -4,9 +4,9 @@ from typing import List
 
 import numpy as np
 
-from rumba_sim.model.kernel.samples import REACHABLE
-from rumba_sim.model.reachability import Parts, reach
-from rumba_sim.model.world import World
+from rumba_sim.model.floors.reachability import Parts, reach
+from rumba_sim.model.kernel.sweeping.samples import REACHABLE
+from rumba_sim.model.simulation.world import World
 
 MUCH = 0.03  # share of the floor: rather a part of a room than a corner; our choice
 LEAST = 0.002  # share of what can be reached: what a mission tells of its coverage is as exact; our choice

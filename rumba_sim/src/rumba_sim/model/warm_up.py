@@ -2,13 +2,13 @@
 
 import numpy as np
 
-from rumba_sim.model.floor_plan import FloorPlan
-from rumba_sim.model.geometry import Pose
-from rumba_sim.model.guided_world import GuidedWorld
-from rumba_sim.model.light_bumper import light_bumper
-from rumba_sim.model.obstacle import Obstacle, walk
-from rumba_sim.model.world import World
-from rumba_sim.model.worlds import Worlds
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.devices.light_bumper import light_bumper
+from rumba_sim.model.maps.floor_plan import FloorPlan
+from rumba_sim.model.simulation.guided_world import GuidedWorld
+from rumba_sim.model.simulation.obstacle import Obstacle, walk
+from rumba_sim.model.simulation.world import World
+from rumba_sim.model.simulation.worlds import Worlds
 
 
 def main() -> None:

@@ -15,9 +15,9 @@ import sys
 import rospy
 
 from rumba_msg.msg import BatteryStatus
-from rumba_sim.model.errors import one_line
-from rumba_sim.ros.common import node
-from rumba_sim.ros.common.terminal import TO_LINE_START_AND_ERASE, width
+from rumba_sim.model.common.errors import one_line
+from rumba_sim.ros.running import node
+from rumba_sim.ros.running.terminal import TO_LINE_START_AND_ERASE, width
 
 
 @dataclasses.dataclass(frozen=True)

@@ -14,10 +14,11 @@ from typing import Optional
 import rospy
 
 from rumba_msg.msg import BatteryStatus
-from rumba_sim.model.battery import Battery, BatteryConfig
-from rumba_sim.model.config import setting
-from rumba_sim.model.geometry import Pose, wrap_angle
-from rumba_sim.ros.common import conversions, node
+from rumba_sim.model.common.config import setting
+from rumba_sim.model.common.geometry import Pose, wrap_angle
+from rumba_sim.model.settings.battery import Battery, BatteryConfig
+from rumba_sim.ros.common import conversions
+from rumba_sim.ros.running import node
 
 LEAP = 3600.0  # [s] from one message to the next: no time has passed, but the clock is another one
 

@@ -3,7 +3,7 @@
 import collections
 from typing import Any, Callable, Deque, Dict
 
-from rumba_sim.model.errors import one_line
+from rumba_sim.model.common.errors import one_line
 from rumba_viewer.page.turns import Account, Bucket, Limit
 
 SHARE, BURST = 0.2, 0.1  # of a core, and [s] of CPU time at once, for all requests of one address

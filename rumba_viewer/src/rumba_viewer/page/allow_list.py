@@ -9,8 +9,8 @@ import hmac
 import re
 from typing import FrozenSet, Mapping, NamedTuple, Optional, Sequence, Tuple
 
-from rumba_sim.model.errors import ConfigError, quoted
-from rumba_viewer.page.errors import Refusal
+from rumba_sim.model.common.errors import ConfigError, quoted
+from rumba_viewer.page.messages.errors import Refusal
 
 ACTIONS = ('clean', 'dock', 'undock', 'go_to')
 READ = ('/map', '/clock', '/tf', '/tf_static', 'simulator/state', 'simulator/map', 'simulator/obstacles',

@@ -12,7 +12,7 @@ from tornado.web import HTTPError
 from tornado.websocket import WebSocketHandler, WebSocketProtocol13
 
 from rumba_viewer.page.allow_list import Rights, Tokens, is_origin_allowed
-from rumba_viewer.page.errors import Hostile, Refusal
+from rumba_viewer.page.messages.errors import Hostile, Refusal
 from rumba_viewer.page.protocol import Session
 from rumba_viewer.page.turns import Bucket
 

@@ -6,12 +6,13 @@ What is asked of ROS goes to a `Ros`; this module knows names, rights and bounds
 import json
 from typing import Any, Callable, Dict, List, Optional, Set
 
-from rumba_sim.model.errors import quoted
-from rumba_viewer.page import operations, republishing
+from rumba_sim.model.common.errors import quoted
+from rumba_viewer.page import republishing
 from rumba_viewer.page.allow_list import AllowList, Rights
-from rumba_viewer.page.errors import Hostile, Refusal
 from rumba_viewer.page.feeds import Demand
-from rumba_viewer.page.operations import Operation
+from rumba_viewer.page.messages import operations
+from rumba_viewer.page.messages.errors import Hostile, Refusal
+from rumba_viewer.page.messages.operations import Operation
 from rumba_viewer.page.ros import Ros
 
 LEVELS = ('none', 'error', 'warning', 'info')

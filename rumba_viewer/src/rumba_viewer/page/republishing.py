@@ -9,11 +9,11 @@ import itertools
 import math
 from typing import Any, Callable, Deque, Dict, List, Tuple
 
-from rumba_sim.model.errors import quoted
-from rumba_viewer.page import operations
-from rumba_viewer.page.errors import Refusal
+from rumba_sim.model.common.errors import quoted
 from rumba_viewer.page.feeds import Demand
-from rumba_viewer.page.transforms import Transform, Tree
+from rumba_viewer.page.messages import operations
+from rumba_viewer.page.messages.errors import Refusal
+from rumba_viewer.page.messages.transforms import Transform, Tree
 
 SOURCE = '/tf'  # whoever may subscribe to it may use all of this
 SERVICE, SERVICE_TYPE = '/republish_tfs', 'tf2_web_republisher/RepublishTFs'

@@ -12,13 +12,13 @@ from tornado.httpserver import HTTPServer
 from tornado.ioloop import IOLoop, PeriodicCallback
 from tornado.netutil import bind_sockets
 
-from rumba_sim.model.errors import ConfigError
+from rumba_sim.model.common.errors import ConfigError
 from rumba_viewer.page.addresses import Address, Addresses
 from rumba_viewer.page.allow_list import AllowList, Rights, Tokens, is_loopback
 from rumba_viewer.page.client import Client
 from rumba_viewer.page.door import Door
-from rumba_viewer.page.errors import Refusal
 from rumba_viewer.page.feeds import Demand, Encode, Feed
+from rumba_viewer.page.messages.errors import Refusal
 from rumba_viewer.page.protocol import Session
 from rumba_viewer.page.ros import Ros
 from rumba_viewer.page.turns import Account, Limit, Turns

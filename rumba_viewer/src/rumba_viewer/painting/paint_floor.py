@@ -9,8 +9,8 @@ import numpy as np
 from PyQt5.QtCore import QPointF, QRectF, Qt
 from PyQt5.QtGui import QColor, QImage, QPainter, QPen, QPolygonF
 
-from rumba_sim.model.floor_colours import DOTS, STRIPES, FloorColours
-from rumba_sim.model.floor_plan import FREE, OCCUPIED, UNKNOWN
+from rumba_sim.model.maps.floor_colours import DOTS, STRIPES, FloorColours
+from rumba_sim.model.maps.floor_plan import FREE, OCCUPIED, UNKNOWN
 from rumba_viewer.scene.snapshot import Array, Grid, MapFeatures, Path, Snapshot
 from rumba_viewer.scene.theme import Theme, line_colour
 from rumba_viewer.scene.view_transform import ViewTransform

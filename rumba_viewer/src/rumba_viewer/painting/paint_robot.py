@@ -6,7 +6,7 @@ from typing import Sequence
 from PyQt5.QtCore import QPointF, QRectF, Qt
 from PyQt5.QtGui import QBrush, QColor, QPainter, QPen, QPolygonF
 
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.geometry import Pose
 from rumba_viewer.scene.snapshot import Dock, Robot
 from rumba_viewer.scene.theme import Theme, robot_colour
 from rumba_viewer.scene.view_transform import ViewTransform

@@ -6,7 +6,7 @@ from typing import Optional, Tuple
 from PyQt5.QtCore import QPointF, QRectF, Qt
 from PyQt5.QtGui import QColor, QFont, QImage, QPainter, QPen
 
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.geometry import Pose
 from rumba_viewer.painting import paint_robot
 from rumba_viewer.painting.paint_belief import paint_believed, paint_particles
 from rumba_viewer.painting.paint_floor import FloorPainter, PathPainter, paint_plans

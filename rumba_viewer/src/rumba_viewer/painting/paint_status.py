@@ -7,7 +7,7 @@ from typing import Callable, List, Optional, Tuple
 from PyQt5.QtCore import QPointF, QRectF, Qt
 from PyQt5.QtGui import QColor, QFont, QFontMetricsF, QPainter
 
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.geometry import Pose
 from rumba_viewer.scene.snapshot import YIELDING, Battery, Cleaning, Robot, Simulation, Snapshot
 from rumba_viewer.scene.theme import Theme, robot_colour
 from rumba_viewer.scene.wording import taken

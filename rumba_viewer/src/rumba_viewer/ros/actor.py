@@ -13,7 +13,7 @@ from geometry_msgs.msg import Pose2D
 from std_srvs.srv import SetBool, Trigger
 
 from rumba_msg.srv import Step, Teleport
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.geometry import Pose
 from rumba_viewer.ros.mission_record import MissionRecord, RecordError
 from rumba_viewer.ros.robot_client import RobotClient
 

@@ -16,9 +16,9 @@ from PyQt5.QtWidgets import QApplication
 from std_srvs.srv import Trigger, TriggerResponse
 
 from rumba_cleaning import strategies
-from rumba_sim.model.errors import WorldError
-from rumba_sim.ros.common import node
-from rumba_sim.ros.common.requests import Requests
+from rumba_sim.model.common.errors import WorldError
+from rumba_sim.ros.participants.requests import Requests
+from rumba_sim.ros.running import node
 from rumba_viewer.ros.actor import Actor
 from rumba_viewer.ros.listener import Listener, missing_master
 from rumba_viewer.scene.snapshot import Snapshot

@@ -12,11 +12,11 @@ import rospy
 from visualization_msgs.msg import MarkerArray
 
 from rumba_msg.msg import SimulatorState
-from rumba_sim.model import map_file
-from rumba_sim.model.errors import RumbaError, one_line
-from rumba_sim.model.robot_config import RobotConfig
+from rumba_sim.model.common.errors import RumbaError, one_line
+from rumba_sim.model.maps import map_file
+from rumba_sim.model.settings.robot_config import RobotConfig
 from rumba_sim.ros.common import obstacle_markers
-from rumba_sim.ros.common.simulator_client import TOPIC, robot_config
+from rumba_sim.ros.participants.simulator_client import TOPIC, robot_config
 from rumba_viewer.ros import readings, ros_graph
 from rumba_viewer.ros.map_listener import MapListener, Maps
 from rumba_viewer.ros.readings import State

@@ -9,10 +9,10 @@ from nav_msgs.msg import OccupancyGrid
 from rospy.numpy_msg import numpy_msg
 from tf2_msgs.msg import TFMessage
 
-from rumba_sim.model.floor_plan import UNKNOWN
-from rumba_sim.model.geometry import Pose
-from rumba_sim.model.laid_over import laid_over
-from rumba_sim.ros.common import maps
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.maps.floor_plan import UNKNOWN
+from rumba_sim.model.maps.laid_over import laid_over
+from rumba_sim.ros.participants import maps
 from rumba_viewer.ros import readings
 from rumba_viewer.ros.subscription import Subscription
 from rumba_viewer.scene.map_frame import SAME

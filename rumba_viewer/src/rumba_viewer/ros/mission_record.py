@@ -8,8 +8,8 @@ from typing import List, Optional
 import rospkg
 import rospy
 
-from rumba_sim.model.errors import one_line
-from rumba_sim.ros.common.maps import TRUE_TOPIC
+from rumba_sim.model.common.errors import one_line
+from rumba_sim.ros.participants.maps import TRUE_TOPIC
 
 TOPICS = ('ground_truth', 'battery_state', 'battery_status', 'cleaning_status', 'bumper', 'cliff', 'dock_status',
           'mission_status', 'coverage', 'clean/goal')  # of the robot, that docs/mission_report.md names

@@ -17,10 +17,10 @@ from tf2_msgs.msg import TFMessage
 from visualization_msgs.msg import Marker, MarkerArray
 
 from rumba_msg.msg import CleaningStatus, GoToActionGoal, MissionStatus, SimulatorState
-from rumba_sim.model.errors import RumbaError, one_line, quoted
-from rumba_sim.model.geometry import TURN, Pose, compose
-from rumba_sim.model.map_image import MAX_PIXELS
-from rumba_sim.model.obstacle import LASER_HEIGHT
+from rumba_sim.model.common.errors import RumbaError, one_line, quoted
+from rumba_sim.model.common.geometry import TURN, Pose, compose
+from rumba_sim.model.maps.map_image import MAX_PIXELS
+from rumba_sim.model.simulation.obstacle import LASER_HEIGHT
 from rumba_sim.ros.common.conversions import map_pose, plane_pose, transform_pose
 from rumba_viewer.scene.snapshot import GOING_TO, YIELDING, Array, Battery, Cleaning, Grid, Mission, Obstacle, Point
 

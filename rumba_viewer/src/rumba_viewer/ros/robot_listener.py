@@ -14,8 +14,8 @@ from tf2_msgs.msg import TFMessage
 
 from rumba_msg.msg import (BatteryStatus, Bumper, CleanActionResult, CleaningStatus, Cliff, GoToActionGoal,
                            MissionStatus, Outcome)
-from rumba_sim.model.errors import one_line
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.errors import one_line
+from rumba_sim.model.common.geometry import Pose
 from rumba_sim.ros.common.frames import frames
 from rumba_viewer.ros import readings
 from rumba_viewer.ros.readings import Mounting, Reading, Scan

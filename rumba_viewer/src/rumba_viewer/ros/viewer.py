@@ -28,11 +28,11 @@ from typing import Any
 
 import rospy
 
-from rumba_sim.model.config import setting
-from rumba_sim.model.errors import ConfigError, WorldError
-from rumba_sim.ros.common import node
+from rumba_sim.model.common.config import setting
+from rumba_sim.model.common.errors import ConfigError, WorldError
 from rumba_sim.ros.common.names import check_names
 from rumba_sim.ros.common.teleop import ANGULAR_RANGE, LINEAR_RANGE
+from rumba_sim.ros.running import node
 from rumba_viewer.window import display
 
 STYLES = ('auto', 'light', 'dark')

@@ -3,7 +3,7 @@
 import math
 from typing import Callable, Dict, List, NamedTuple, Optional, Tuple
 
-from rumba_sim.model.robot import FIRST
+from rumba_sim.model.simulation.robot import FIRST
 from rumba_viewer.scene.snapshot import Snapshot
 
 SPEEDS = (0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 0.0)  # that are offered [times real time]; 0: as fast as possible

@@ -5,9 +5,9 @@ from typing import Tuple
 
 import numpy as np
 
-from rumba_sim.model.floor_plan import FloorPlan
-from rumba_sim.model.geometry import Pose
-from rumba_sim.model.robot_config import RobotConfig
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.maps.floor_plan import FloorPlan
+from rumba_sim.model.settings.robot_config import RobotConfig
 from rumba_viewer.scene.snapshot import Array, Dock
 
 BEAMS = 90  # of a sector

@@ -5,7 +5,7 @@ from typing import Optional
 
 from rumba_cleaning.cleaning_config import CleaningConfig
 from rumba_cleaning.mission.duration import TAPER
-from rumba_sim.model.battery import BatteryConfig
+from rumba_sim.model.settings.battery import BatteryConfig
 from rumba_viewer.scene.snapshot import Battery, Cleaning, Mission
 
 CLEANING, CHARGING, TO_DOCK = 'cleaning', 'charging', ('returning', 'docking')  # states of a mission

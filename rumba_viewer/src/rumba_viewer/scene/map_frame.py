@@ -5,8 +5,8 @@ from typing import Optional
 
 import numpy as np
 
-from rumba_sim.model.geometry import Pose, compose, inverse
-from rumba_sim.model.laid_over import points_in_parent
+from rumba_sim.model.common.geometry import Pose, compose, inverse
+from rumba_sim.model.maps.laid_over import points_in_parent
 from rumba_viewer.scene.snapshot import Array, Point, Robot
 
 SAME = Pose(0.0, 0.0, 0.0)

@@ -4,8 +4,8 @@ import dataclasses
 import math
 from typing import Any, FrozenSet, NamedTuple, Optional, Tuple
 
-from rumba_sim.model.geometry import Pose
-from rumba_sim.model.robot_config import BrushConfig, DriveConfig
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.settings.robot_config import BrushConfig, DriveConfig
 
 Array = Any  # numpy.ndarray
 YIELDING, GOING_TO = 'yielding', 'going to'  # states of a mission

@@ -3,9 +3,9 @@
 import dataclasses
 import zlib
 
-from rumba_sim.model import floor_colours
-from rumba_sim.model.floor_colours import ROBOTS, FloorColours
-from rumba_sim.model.robot import FIRST
+from rumba_sim.model.maps import floor_colours
+from rumba_sim.model.maps.floor_colours import ROBOTS, FloorColours
+from rumba_sim.model.simulation.robot import FIRST
 
 
 @dataclasses.dataclass(frozen=True)

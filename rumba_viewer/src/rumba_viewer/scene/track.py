@@ -7,7 +7,7 @@ from typing import NamedTuple, Optional
 
 import numpy as np
 
-from rumba_sim.model.geometry import Pose, wrap_angle
+from rumba_sim.model.common.geometry import Pose, wrap_angle
 from rumba_viewer.scene.snapshot import Path
 
 STEP = 0.02  # [m] points that are nearer to the last one are left out

@@ -7,7 +7,7 @@ from PyQt5.QtCore import QPoint, QRectF, QSize, Qt, pyqtSignal
 from PyQt5.QtGui import QColor, QPainter, QPalette
 from PyQt5.QtWidgets import QApplication, QWidget
 
-from rumba_sim.model.geometry import Pose, wrap_angle
+from rumba_sim.model.common.geometry import Pose, wrap_angle
 from rumba_viewer.painting.paint_legend import paint_legend
 from rumba_viewer.painting.paint_report import ReportCard
 from rumba_viewer.painting.paint_scene import ScenePainter

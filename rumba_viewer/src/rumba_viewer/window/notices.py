@@ -3,7 +3,7 @@
 import time
 from typing import Callable, List, Tuple
 
-from rumba_sim.model.errors import one_line
+from rumba_sim.model.common.errors import one_line
 
 DURATION = 6.0  # [s] for which a line is shown
 MAX_LINES = 2  # that are shown at the same time

@@ -8,7 +8,7 @@ from typing import Any, Callable, Dict, NamedTuple, Optional, Sequence, Tuple
 from PyQt5.QtCore import QEvent, Qt, QTimer
 from PyQt5.QtWidgets import QHBoxLayout, QWidget
 
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.geometry import Pose
 from rumba_viewer.scene.acts import ACTS, BY_NAME, Act, Steering, next_speed, robot, way
 from rumba_viewer.scene.map_frame import SAME, on_map
 from rumba_viewer.scene.snapshot import Point, Snapshot

@@ -8,7 +8,7 @@ from typing import Any, List, Tuple
 
 import numpy as np
 
-from rumba_sim.model.jit import compiled
+from rumba_sim.model.compiling.jit import compiled
 
 Array = Any  # numpy.ndarray
 

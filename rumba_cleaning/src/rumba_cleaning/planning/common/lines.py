@@ -4,7 +4,7 @@ import math
 
 from rumba_cleaning.belief.ground import Ground
 from rumba_cleaning.planning.common.compiled_ways import Needed
-from rumba_sim.model.reachability import SLACK
+from rumba_sim.model.floors.reachability import SLACK
 
 # Our choice.
 NEAR = 0.15  # [m] to the ends of a line, which lie beside walls if that of a path does: nearer than this, it may be ...

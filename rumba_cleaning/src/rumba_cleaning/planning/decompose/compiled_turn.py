@@ -5,8 +5,8 @@ from typing import Any, Tuple
 
 import numpy as np
 
-from rumba_sim.model.compiled import fast
-from rumba_sim.model.jit import compiled
+from rumba_sim.model.compiling.compiled import fast
+from rumba_sim.model.compiling.jit import compiled
 
 Array = Any  # numpy.ndarray
 interpolated = fast.interpolated

@@ -13,7 +13,7 @@ from rumba_cleaning.planning.common.rows import distinct
 from rumba_cleaning.planning.common.stretches import Stretch, headings
 from rumba_cleaning.planning.order import compiled_tours
 from rumba_cleaning.route import BENT, STOP, TURN_RATE
-from rumba_sim.model.jit import plain
+from rumba_sim.model.compiling.jit import plain
 from rumba_sim.model.kernel import Array
 
 # All figures are our choice; each comment says what speaks for a larger and for a smaller value.

@@ -5,7 +5,7 @@ from typing import Any, Tuple
 import numpy as np
 
 from rumba_cleaning.planning.common.compiled_ways import Needed, cornered_length, sight
-from rumba_sim.model.jit import compiled
+from rumba_sim.model.compiling.jit import compiled
 
 Array = Any  # numpy.ndarray
 

@@ -12,7 +12,7 @@ import numpy as np
 
 from rumba_cleaning.behaviours.compiled_follower import SLOWEST_BEND, Drive, wrapped
 from rumba_cleaning.planning.common.compiled_ways import CLOSE, NONE, Needed, cornering, distance, sight
-from rumba_sim.model.jit import compiled
+from rumba_sim.model.compiling.jit import compiled
 
 Array = Any  # numpy.ndarray
 

@@ -13,7 +13,7 @@ from rumba_cleaning.planning.search import compiled_detours
 from rumba_cleaning.planning.simulate.edit import Edit
 from rumba_cleaning.planning.swaths.problem import Problem
 from rumba_cleaning.route import Route
-from rumba_sim.model.jit import plain
+from rumba_sim.model.compiling.jit import plain
 
 # All figures are our choice; each comment says what speaks for a larger and for a smaller value.
 FARTHEST = 0.6  # [m] from the route to a crumb: large meets high targets, small leaves more to the next route

@@ -23,7 +23,7 @@ from rumba_cleaning.planning.search.compiled_rebuilding import GOAL, START, Net
 from rumba_cleaning.planning.simulate.rehearsal import Rehearsal
 from rumba_cleaning.planning.swaths.problem import Problem
 from rumba_cleaning.route import BENT, STOP, TURN_RATE, Route, lengths_along
-from rumba_sim.model.jit import plain
+from rumba_sim.model.compiling.jit import plain
 from rumba_sim.model.kernel import Array
 
 # All figures are our choice; each comment says what speaks for a larger and for a smaller value.

@@ -13,7 +13,7 @@ from rumba_cleaning.belief.context import Context
 from rumba_cleaning.planning.common.compiled_ways import kept
 from rumba_cleaning.planning.simulate.edit import Edit
 from rumba_cleaning.route import Route
-from rumba_sim.model.geometry import hypot
+from rumba_sim.model.common.geometry import hypot
 from rumba_sim.model.kernel import Array
 
 # All figures are our choice.

@@ -7,10 +7,10 @@ import numpy as np
 from rumba_cleaning.planning.common.compiled_ways import distance
 from rumba_cleaning.planning.simulate.compiled_passes import Passes, blank, gain
 from rumba_cleaning.planning.simulate.compiled_rehearsal import ALONG, DT, SPEED, Walls, rehearse
-from rumba_sim.model.jit import compiled
+from rumba_sim.model.compiling.jit import compiled
 
 Array = Any  # numpy.ndarray
-Brush = Any  # rumba_sim.model.sweep.Brush
+Brush = Any  # rumba_sim.model.floors.sweep.Brush
 Drive = Any  # rumba_cleaning.behaviours.compiled_follower.Drive
 
 # [m] before and behind an edit, within which the robot drives otherwise because of it: large is exact, small is fast.

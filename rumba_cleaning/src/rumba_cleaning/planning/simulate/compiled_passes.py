@@ -11,14 +11,14 @@ from typing import Any, NamedTuple, Tuple
 import numpy as np
 
 from rumba_cleaning.planning.simulate.compiled_rehearsal import SPEED, THETA, X, Y, pose_of
-from rumba_sim.model.compiled import fast
-from rumba_sim.model.jit import compiled
-from rumba_sim.model.kernel.samples import PASS, REACHABLE, SWEEPABLE
+from rumba_sim.model.compiling.compiled import fast
+from rumba_sim.model.compiling.jit import compiled
+from rumba_sim.model.kernel.sweeping.samples import PASS, REACHABLE, SWEEPABLE
 
 sweep = fast.sweep
 
 Array = Any  # numpy.ndarray
-Brush = Any  # rumba_sim.model.sweep.Brush
+Brush = Any  # rumba_sim.model.floors.sweep.Brush
 Window = Tuple[Tuple[int, int], Tuple[int, int]]  # rows and columns: each the first, and the one after the last
 
 STRIDE, STRAIGHT = 4, 0.02  # rows that are swept at once, at most, if the robot turns by less [rad]: large is fast

@@ -11,8 +11,8 @@ import numpy as np
 
 from rumba_cleaning.behaviours.compiled_follower import (DISTANCE, IS_TURNING, Drive, Piece, V, W, follow, leg_at,
                                                          piece_of, split, start)
-from rumba_sim.model.compiled import fast
-from rumba_sim.model.jit import compiled
+from rumba_sim.model.compiling.compiled import fast
+from rumba_sim.model.compiling.jit import compiled
 
 Array = Any  # numpy.ndarray
 arc, interpolated = fast.arc, fast.interpolated

@@ -17,8 +17,8 @@ from rumba_cleaning.planning.simulate.compiled_passes import Passes
 from rumba_cleaning.planning.simulate.compiled_rehearsal import ALONG, COLUMNS, DT, LEFT, RIGHT, Walls
 from rumba_cleaning.planning.simulate.edit import Edit
 from rumba_cleaning.route import Route, lengths_along
-from rumba_sim.model.geometry import Pose
-from rumba_sim.model.jit import plain
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.compiling.jit import plain
 from rumba_sim.model.kernel import Array
 
 NO_PATH = np.zeros((0, 2))  # as that of an edit

@@ -13,7 +13,7 @@ from typing import Any, List, NamedTuple, Tuple
 
 import numpy as np
 
-from rumba_sim.model.jit import compiled
+from rumba_sim.model.compiling.jit import compiled
 
 Array = Any  # numpy.ndarray
 NO_ROW = -1

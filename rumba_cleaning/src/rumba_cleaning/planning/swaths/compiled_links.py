@@ -6,7 +6,7 @@ from typing import Any, Tuple
 import numpy as np
 
 from rumba_cleaning.belief.search import is_clear
-from rumba_sim.model.jit import compiled
+from rumba_sim.model.compiling.jit import compiled
 
 Array = Any  # numpy.ndarray
 

@@ -5,9 +5,9 @@ from typing import Any, NamedTuple, Tuple
 
 import numpy as np
 
-from rumba_sim.model.compiled import fast
-from rumba_sim.model.jit import compiled
-from rumba_sim.model.kernel.samples import PASS, REACHABLE
+from rumba_sim.model.compiling.compiled import fast
+from rumba_sim.model.compiling.jit import compiled
+from rumba_sim.model.kernel.sweeping.samples import PASS, REACHABLE
 
 interpolated = fast.interpolated
 

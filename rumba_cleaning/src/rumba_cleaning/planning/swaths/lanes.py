@@ -13,9 +13,9 @@ import numpy as np
 from rumba_cleaning.belief.ground import Ground
 from rumba_cleaning.planning.decompose.turned_floor import TurnedFloor, Window
 from rumba_cleaning.planning.swaths import compiled_lanes
-from rumba_sim.model.jit import plain
+from rumba_sim.model.compiling.jit import plain
+from rumba_sim.model.floors.reachability import SLACK
 from rumba_sim.model.kernel import Array
-from rumba_sim.model.reachability import SLACK
 
 # All figures are our choice; each comment says what speaks for a larger and for a smaller value.
 LEAST = 0.08  # [m] length of a lane, half a brush: a shorter one is left to the crumbs

@@ -8,8 +8,8 @@ from rumba_cleaning.belief import paths
 from rumba_cleaning.belief.ground import Ground
 from rumba_cleaning.planning.common.stretches import Variant, pair
 from rumba_cleaning.planning.swaths import compiled_links
+from rumba_sim.model.floors.reachability import SLACK
 from rumba_sim.model.kernel import Array
-from rumba_sim.model.reachability import SLACK
 
 SAME = 1e-6  # [m] waypoints so near to each other are one
 NO_POINTS = np.zeros((0, 2))

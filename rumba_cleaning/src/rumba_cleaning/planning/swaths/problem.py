@@ -8,7 +8,7 @@ from rumba_cleaning.planning.common.effort import Effort
 from rumba_cleaning.planning.common.stretches import Stretch
 from rumba_cleaning.planning.swaths.crumbs import crumbs
 from rumba_cleaning.planning.swaths.walls import Walls
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.geometry import Pose
 from rumba_sim.model.kernel import Array
 
 

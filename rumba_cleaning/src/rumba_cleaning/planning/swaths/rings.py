@@ -19,7 +19,7 @@ from rumba_cleaning.planning.common.stretches import Stretch, Variant, pair
 from rumba_cleaning.planning.decompose.regions import Shapes
 from rumba_cleaning.planning.simulate.paper import drive
 from rumba_cleaning.planning.swaths import compiled_rings
-from rumba_sim.model.jit import plain
+from rumba_sim.model.compiling.jit import plain
 from rumba_sim.model.kernel import Array
 
 # All figures are our choice; each comment says what speaks for a larger and for a smaller value.

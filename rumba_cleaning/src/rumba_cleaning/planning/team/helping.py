@@ -7,7 +7,7 @@ import numpy as np
 from rumba_cleaning.belief import paths
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.route import Relief, Route, lengths_along
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.geometry import Pose
 
 LEAST = 7.0  # [s] of work that are taken over, at least: our choice, less is hardly worth the way there
 

@@ -9,7 +9,7 @@ from rumba_cleaning.planning.common.effort import effort
 from rumba_cleaning.planning.simulate import paper
 from rumba_cleaning.planning.simulate.rehearsal import Rehearsal
 from rumba_cleaning.route import Route
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.geometry import Pose
 
 
 def leave_to_mates(context: Context) -> None:

@@ -44,22 +44,23 @@ from rumba_cleaning import strategies
 from rumba_cleaning.belief.context import Context, own_seed
 from rumba_cleaning.belief.mates import Report, Task
 from rumba_cleaning.outcome import Outcome
-from rumba_cleaning.ros.cleaner import conversions, foresight
-from rumba_cleaning.ros.cleaner.action_server import Server
-from rumba_cleaning.ros.cleaner.activities import ACTIONS, Activity, Cleaning
-from rumba_cleaning.ros.cleaner.executor import DaemonExecutor, Planners
-from rumba_cleaning.ros.cleaner.go_to_position import GoToPosition
-from rumba_cleaning.ros.cleaner.interruption import Interruption
-from rumba_cleaning.ros.cleaner.robot import Robot
-from rumba_cleaning.ros.cleaner.run import Run, describe
-from rumba_cleaning.ros.cleaner.settings import Settings
-from rumba_cleaning.ros.cleaner.survey import SurveyListener
-from rumba_cleaning.ros.cleaner.workplace import Workplace, World
+from rumba_cleaning.ros.cleaner.goals import foresight
+from rumba_cleaning.ros.cleaner.goals.action_server import Server
+from rumba_cleaning.ros.cleaner.goals.activities import ACTIONS, Activity, Cleaning
+from rumba_cleaning.ros.cleaner.goals.executor import DaemonExecutor, Planners
+from rumba_cleaning.ros.cleaner.goals.go_to_position import GoToPosition
+from rumba_cleaning.ros.cleaner.goals.interruption import Interruption
+from rumba_cleaning.ros.cleaner.goals.run import Run, describe
+from rumba_cleaning.ros.cleaner.goals.settings import Settings
+from rumba_cleaning.ros.cleaner.goals.survey import SurveyListener
+from rumba_cleaning.ros.cleaner.goals.workplace import Workplace, World
+from rumba_cleaning.ros.cleaner.robots import conversions
+from rumba_cleaning.ros.cleaner.robots.robot import Robot
 from rumba_msg.msg import CleanActionGoal
-from rumba_sim.model.errors import RumbaError
-from rumba_sim.ros.common import node
-from rumba_sim.ros.common.lockstep import Work
+from rumba_sim.model.common.errors import RumbaError
 from rumba_sim.ros.common.own_robots import own_robot
+from rumba_sim.ros.participants.lockstep import Work
+from rumba_sim.ros.running import node
 
 LOOK_PERIOD = 0.2  # [s] of the wall clock from one look after a silent robot to the next
 PLANNERS = 4  # threads: a plan that is not needed any more may occupy one for seconds, and the next goal needs another

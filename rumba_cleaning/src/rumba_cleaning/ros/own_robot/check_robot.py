@@ -22,12 +22,12 @@ from rumba_cleaning.own_robot.gate import STOP, Velocity, limited
 from rumba_cleaning.own_robot.heard import Heard, Topic
 from rumba_cleaning.ros.own_robot.listeners import (
     CommandListener, ModeListener, OdometryListener, ScanListener, TopicListener)
-from rumba_sim.model.config import setting
-from rumba_sim.model.errors import ConfigError
-from rumba_sim.model.geometry import wrap_angle
-from rumba_sim.model.robot_config import DriveConfig
-from rumba_sim.ros.common import node
+from rumba_sim.model.common.config import setting
+from rumba_sim.model.common.errors import ConfigError
+from rumba_sim.model.common.geometry import wrap_angle
+from rumba_sim.model.settings.robot_config import DriveConfig
 from rumba_sim.ros.common.own_robots import own_robot, own_robot_setting
+from rumba_sim.ros.running import node
 
 PERIOD = 0.02  # [s] of the wall clock between two looks
 CLOCK_PATIENCE = 3.0  # [s] of the wall clock for which time may stand still

@@ -13,8 +13,8 @@ from rumba_cleaning.own_robot.gate import Velocity
 from rumba_cleaning.own_robot.own_dock import DOCK, UNDOCK, OwnDock
 from rumba_cleaning.ros.own_robot.publishing import publish
 from rumba_msg.msg import DockStatus
-from rumba_sim.model.errors import ConfigError
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.errors import ConfigError
+from rumba_sim.model.common.geometry import Pose
 
 PACKAGE = 'create_msgs'
 MOTORS = 'main_brush_motor', 'side_brush_motor', 'vacuum_motor'  # topics

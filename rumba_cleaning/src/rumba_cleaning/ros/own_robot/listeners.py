@@ -14,8 +14,8 @@ from tf2_msgs.msg import TFMessage
 from rumba_cleaning.own_robot.agreement import STANDS, Agreement
 from rumba_cleaning.own_robot.heard import OdometryHeard, ScanHeard, Topic, View
 from rumba_localisation.scan import thinned, told
-from rumba_sim.model.geometry import Pose, hypot, wrap_angle
-from rumba_sim.model.own_robot import OwnRobot
+from rumba_sim.model.common.geometry import Pose, hypot, wrap_angle
+from rumba_sim.model.settings.own_robot import OwnRobot
 from rumba_sim.ros.common.conversions import plane_pose
 from rumba_sim.ros.common.frames import MAP
 from rumba_sim.ros.common.mountings import Mountings

@@ -45,12 +45,13 @@ from rumba_cleaning.own_robot.agreement import STANDS, Agreement
 from rumba_cleaning.own_robot.gate import CLEANER, PERSON, SEEK_DOCK, STOP, Gate, Moment, Velocity
 from rumba_cleaning.ros.own_robot.create import Create
 from rumba_cleaning.ros.own_robot.publishing import publish
-from rumba_sim.model.config import setting
-from rumba_sim.model.errors import ConfigError
-from rumba_sim.ros.common import node, teleop
+from rumba_sim.model.common.config import setting
+from rumba_sim.model.common.errors import ConfigError
+from rumba_sim.ros.common import teleop
 from rumba_sim.ros.common.conversions import plane_pose
 from rumba_sim.ros.common.names import check_names
 from rumba_sim.ros.common.own_robots import own_robot, own_robot_setting
+from rumba_sim.ros.running import node
 
 PERIOD = 0.02  # [s] of the wall clock between two looks
 LAST = 3  # stops that are sent at the end

@@ -11,9 +11,9 @@ from std_msgs.msg import Header
 from rumba_evaluation.ros.judge.recording import Recording
 from rumba_evaluation.ros.judge.robot_feed import Found, OnState, RobotFeed, Take
 from rumba_msg.msg import Lockstep, LockstepAnswer
-from rumba_sim.ros.common import lockstep
-from rumba_sim.ros.common.examiner import REFUSED, ExaminerClient, socket_path
-from rumba_sim.ros.common.examiner_frames import INTRUDER, MESSAGE, Frame
+from rumba_sim.ros.participants import lockstep
+from rumba_sim.ros.participants.examiner import REFUSED, ExaminerClient, socket_path
+from rumba_sim.ros.participants.examiner_frames import INTRUDER, MESSAGE, Frame
 
 
 class ExaminerFeed(RobotFeed):

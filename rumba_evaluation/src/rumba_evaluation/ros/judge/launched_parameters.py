@@ -4,8 +4,8 @@ from typing import Any, Dict, List, Tuple
 
 import rospy
 
-from rumba_sim.ros.common import launched
-from rumba_sim.ros.common.simulator_client import SETTINGS
+from rumba_sim.ros.participants.simulator_client import SETTINGS
+from rumba_sim.ros.running import launched
 
 SIMULATOR, SIMULATED = 'simulator', 'use_sim_time'
 

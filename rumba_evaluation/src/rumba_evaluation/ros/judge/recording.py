@@ -7,8 +7,8 @@ import rosbag
 import roslib.message
 import rospy
 
-from rumba_sim.model.errors import ConfigError
-from rumba_sim.ros.common.examiner_frames import COMMAND, MESSAGE, Frame
+from rumba_sim.model.common.errors import ConfigError
+from rumba_sim.ros.participants.examiner_frames import COMMAND, MESSAGE, Frame
 
 RECORDED = ('ground_truth', 'battery_state', 'bumper', 'dock_status', 'cleaning_status')  # below the robot's name
 

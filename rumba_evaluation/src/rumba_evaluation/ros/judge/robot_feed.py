@@ -7,8 +7,9 @@ import rospy
 import rostopic
 
 from rumba_msg.msg import Lockstep, SimulatorState
-from rumba_sim.ros.common import clock, peers, simulator_client
-from rumba_sim.ros.common.lockstep import Participant
+from rumba_sim.ros.participants import simulator_client
+from rumba_sim.ros.participants.lockstep import Participant
+from rumba_sim.ros.running import clock, peers
 
 COMPLAINT_PERIOD = 40.0  # [s]
 Take = Callable[[Any, str], None]  # gets a message, and the full name of its sender

@@ -8,7 +8,7 @@ import rosgraph
 import rospy
 
 from rumba_evaluation.verdicts.silence import Seen
-from rumba_sim.ros.common import peers
+from rumba_sim.ros.running import peers
 
 RESERVED = '/reserved'  # below it are topics of nodes that have no name yet
 

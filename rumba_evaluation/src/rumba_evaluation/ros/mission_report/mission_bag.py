@@ -8,9 +8,9 @@ import roslib.message
 from rumba_evaluation.report.mission_record import MissionRecord
 from rumba_evaluation.ros.mission_report.recorded_maps import read_maps
 from rumba_evaluation.ros.mission_report.recorded_robot import TYPES, RecordedRobot, Topics
-from rumba_sim.model.errors import RumbaError, one_line
-from rumba_sim.model.robot import FIRST
-from rumba_sim.ros.common.maps import TRUE_TOPIC
+from rumba_sim.model.common.errors import RumbaError, one_line
+from rumba_sim.model.simulation.robot import FIRST
+from rumba_sim.ros.participants.maps import TRUE_TOPIC
 
 POSITION, BATTERY = ('ground_truth', 'battery_status'), ('battery_status', 'battery_state')  # one of each is needed
 LONGEST = 3000  # [characters] of an error

@@ -15,8 +15,8 @@ from rumba_evaluation.report.mission_record import MissionRecord, clock
 from rumba_evaluation.report.mission_summary import summary
 from rumba_evaluation.ros.mission_report import mission_bag
 from rumba_evaluation.ros.mission_report.mission_bag import ReportError
-from rumba_sim.model.errors import ConfigError, RumbaError
-from rumba_sim.ros.common.node import BAD_INPUT
+from rumba_sim.model.common.errors import ConfigError, RumbaError
+from rumba_sim.ros.running.node import BAD_INPUT
 
 
 class _Parser(argparse.ArgumentParser):

@@ -8,10 +8,10 @@ import rosbag
 
 from rumba_evaluation.report.mission_record import Grid
 from rumba_evaluation.ros.mission_report.recorded_robot import FAR, GRID, grid_of
-from rumba_sim.model.geometry import Pose
-from rumba_sim.model.laid_over import laid_over
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.maps.laid_over import laid_over
 from rumba_sim.ros.common.conversions import map_pose
-from rumba_sim.ros.common.maps import TRUE_TOPIC
+from rumba_sim.ros.participants.maps import TRUE_TOPIC
 
 STATIC = 'tf_static'
 

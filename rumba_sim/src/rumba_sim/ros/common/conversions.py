@@ -13,19 +13,19 @@ from sensor_msgs.msg import BatteryState, LaserScan
 from std_msgs.msg import Header
 
 from rumba_msg.msg import BatteryStatus, Bumper, CleaningStatus, Cliff, DockStatus
-from rumba_sim.model.battery import CELLS, Battery
-from rumba_sim.model.geometry import Pose, half_angle, yaw
+from rumba_sim.model.common.geometry import Pose, half_angle, yaw
 from rumba_sim.model.kernel import Array
-from rumba_sim.model.laser_config import LaserConfig
-from rumba_sim.model.robot import Infrared, Robot
-from rumba_sim.model.robot_config import OdometryConfig
+from rumba_sim.model.settings.battery import CELLS, Battery
+from rumba_sim.model.settings.laser_config import LaserConfig
+from rumba_sim.model.settings.robot_config import OdometryConfig
+from rumba_sim.model.simulation.robot import Infrared, Robot
 from rumba_sim.ros.common.frames import MAP, WORLD, Frames
 
 if TYPE_CHECKING:  # with numba and SciPy, they take longer to import than all the rest of battery_status_publisher
     from tf2_msgs.msg import TFMessage
 
-    from rumba_sim.model.floor import Floor
-    from rumba_sim.model.floor_plan import FloorPlan
+    from rumba_sim.model.floors.floor import Floor
+    from rumba_sim.model.maps.floor_plan import FloorPlan
 
 LASER_HEIGHT = 0.07  # [m] of laser over base_link
 

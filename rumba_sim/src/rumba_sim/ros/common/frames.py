@@ -2,7 +2,7 @@
 
 from typing import NamedTuple
 
-from rumba_sim.model.robot import FIRST
+from rumba_sim.model.simulation.robot import FIRST
 
 MAP = 'map'
 WORLD = 'world'  # of what only a simulator knows, while a robot makes a map of its own

@@ -10,7 +10,7 @@ from sensor_msgs.msg import LaserScan
 from tf2_msgs.msg import TFMessage
 
 from rumba_sim.model.kernel import Array
-from rumba_sim.model.mounting import CENTRE, Mounting
+from rumba_sim.model.settings.mounting import CENTRE, Mounting
 
 QUEUE = 100  # messages that may wait to be read
 FARTHEST = 10.0  # [m] from the centre of a robot, at most

@@ -4,7 +4,7 @@ from typing import Any
 
 import rosgraph
 
-from rumba_sim.model.errors import ConfigError
+from rumba_sim.model.common.errors import ConfigError
 
 
 def check_names(settings: Any, *names: str) -> None:

@@ -7,8 +7,8 @@ from geometry_msgs.msg import Pose as PoseMessage
 from std_msgs.msg import ColorRGBA, Header
 from visualization_msgs.msg import Marker, MarkerArray
 
-from rumba_sim.model.geometry import Pose
-from rumba_sim.model.obstacle import Obstacle
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.simulation.obstacle import Obstacle
 from rumba_sim.ros.common.conversions import quaternion
 
 TOPIC = 'simulator/obstacles'

@@ -2,8 +2,8 @@
 
 from typing import Any, Optional
 
-from rumba_sim.model.config import setting
-from rumba_sim.model.own_robot import OwnRobot, load
+from rumba_sim.model.common.config import setting
+from rumba_sim.model.settings.own_robot import OwnRobot, load
 from rumba_sim.ros.common.frames import Frames, frames
 from rumba_sim.ros.common.paths import absolute
 

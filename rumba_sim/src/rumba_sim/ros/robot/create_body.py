@@ -5,10 +5,10 @@ from typing import Any, Callable, Dict, Optional
 import rospy
 from std_msgs.msg import Empty, Float32, Int16, UInt16
 
-from rumba_sim.model.light_bumper import light_bumper
-from rumba_sim.model.seek_dock import RATE, Reading, SeekDock
-from rumba_sim.model.world import World
-from rumba_sim.ros.common.requests import Requests
+from rumba_sim.model.devices.light_bumper import light_bumper
+from rumba_sim.model.devices.seek_dock import RATE, Reading, SeekDock
+from rumba_sim.model.simulation.world import World
+from rumba_sim.ros.participants.requests import Requests
 from rumba_sim.ros.robot import interface_messages
 
 try:

@@ -6,12 +6,12 @@ from geometry_msgs.msg import Vector3
 from sensor_msgs.msg import Imu, JointState, LaserScan
 from std_msgs.msg import Header
 
-from rumba_sim.model.geometry import TURN
-from rumba_sim.model.interfaces import Interface
+from rumba_sim.model.common.geometry import TURN
+from rumba_sim.model.devices.laser_scan import intensities
 from rumba_sim.model.kernel import Array
-from rumba_sim.model.laser_scan import intensities
-from rumba_sim.model.robot import Robot
-from rumba_sim.model.world import World
+from rumba_sim.model.settings.interfaces import Interface
+from rumba_sim.model.simulation.robot import Robot
+from rumba_sim.model.simulation.world import World
 from rumba_sim.ros.common import conversions
 from rumba_sim.ros.robot.packed import OdometryPacker, odometry_message
 

@@ -8,14 +8,14 @@ import rospy
 from geometry_msgs.msg import TransformStamped
 from std_msgs.msg import Header
 
-from rumba_sim.model.errors import ConfigError
-from rumba_sim.model.geometry import Pose
-from rumba_sim.model.interfaces import AT_SCAN, COMMAND, CREATE, INTERFACES, Topic, is_due
+from rumba_sim.model.common.errors import ConfigError
+from rumba_sim.model.common.geometry import Pose
 from rumba_sim.model.kernel import Array
-from rumba_sim.model.world import World
+from rumba_sim.model.settings.interfaces import AT_SCAN, COMMAND, CREATE, INTERFACES, Topic, is_due
+from rumba_sim.model.simulation.world import World
 from rumba_sim.ros.common.conversions import transform
 from rumba_sim.ros.common.frames import frames, prefix
-from rumba_sim.ros.common.requests import Requests
+from rumba_sim.ros.participants.requests import Requests
 from rumba_sim.ros.robot.create_body import CreateBody
 from rumba_sim.ros.robot.interface_messages import MAKERS, Reading
 from rumba_sim.ros.robot.latecomers import Latecomers

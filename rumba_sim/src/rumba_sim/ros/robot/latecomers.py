@@ -5,7 +5,7 @@ from typing import Any, Callable
 
 import rospy
 
-from rumba_sim.ros.common.requests import Requests
+from rumba_sim.ros.participants.requests import Requests
 
 
 class Latecomers(rospy.SubscribeListener):

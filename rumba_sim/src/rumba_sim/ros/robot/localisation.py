@@ -2,9 +2,9 @@
 
 from typing import Any, Optional
 
-from rumba_sim.model.config import setting
+from rumba_sim.model.common.config import setting
 from rumba_sim.ros.common.frames import MAP, WORLD
-from rumba_sim.ros.common.maps import TOPIC, TRUE_TOPIC
+from rumba_sim.ros.participants.maps import TOPIC, TRUE_TOPIC
 
 TRUTH, SLAM = 'truth', 'slam'
 

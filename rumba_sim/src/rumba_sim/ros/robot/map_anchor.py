@@ -7,10 +7,10 @@ from typing import Callable, Deque, Tuple
 import rospy
 from geometry_msgs.msg import PoseWithCovarianceStamped
 
-from rumba_sim.model.geometry import Pose, compose, inverse
+from rumba_sim.model.common.geometry import Pose, compose, inverse
 from rumba_sim.ros.common.conversions import plane_pose
-from rumba_sim.ros.common.maps import FARTHEST
-from rumba_sim.ros.common.requests import Requests
+from rumba_sim.ros.participants.maps import FARTHEST
+from rumba_sim.ros.participants.requests import Requests
 
 KEPT = 100  # true poses: those of the scans with which a mapper may begin
 FIRST_NUMBER = 1  # of the first message of a publisher; roscpp counts from 0

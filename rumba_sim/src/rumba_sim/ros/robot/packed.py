@@ -5,9 +5,9 @@ from typing import List, Sequence
 
 import rospy
 
-from rumba_sim.model.geometry import Pose, half_angle
-from rumba_sim.model.robot import Robot, Twist
-from rumba_sim.model.world import World
+from rumba_sim.model.common.geometry import Pose, half_angle
+from rumba_sim.model.simulation.robot import Robot, Twist
+from rumba_sim.model.simulation.world import World
 from rumba_sim.ros.common import conversions
 
 KNOWN = 1e-6  # variance of what is known: a robot on a floor does not rise, roll or pitch

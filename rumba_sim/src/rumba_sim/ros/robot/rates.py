@@ -4,8 +4,8 @@ import dataclasses
 import functools
 from typing import NamedTuple, Tuple
 
-from rumba_sim.model.config import names, setting
-from rumba_sim.model.errors import ConfigError
+from rumba_sim.model.common.config import names, setting
+from rumba_sim.model.common.errors import ConfigError
 
 MAX_RATE = 1000
 

@@ -15,20 +15,21 @@ from std_srvs.srv import SetBool, SetBoolResponse
 
 from rumba_msg.msg import BatteryStatus, Bumper, CleaningStatus, Cliff, DockStatus
 from rumba_msg.srv import Teleport, TeleportResponse
-from rumba_sim.model.errors import RumbaError, WorldError
-from rumba_sim.model.geometry import Pose, compose, inverse
-from rumba_sim.model.interfaces import RUMBA
-from rumba_sim.model.robot import Robot
-from rumba_sim.model.world import World
-from rumba_sim.ros.common import conversions, peers, teleop
-from rumba_sim.ros.common.examiner import ExaminerServer
+from rumba_sim.model.common.errors import RumbaError, WorldError
+from rumba_sim.model.common.geometry import Pose, compose, inverse
+from rumba_sim.model.settings.interfaces import RUMBA
+from rumba_sim.model.simulation.robot import Robot
+from rumba_sim.model.simulation.world import World
+from rumba_sim.ros.common import conversions, teleop
 from rumba_sim.ros.common.frames import MAP, frames
-from rumba_sim.ros.common.requests import Requests
+from rumba_sim.ros.participants.examiner import ExaminerServer
+from rumba_sim.ros.participants.requests import Requests
 from rumba_sim.ros.robot.interface_topics import InterfaceTopics
 from rumba_sim.ros.robot.latecomers import Latecomers
 from rumba_sim.ros.robot.packed import OdometryPacker, TransformPacker, odometry_message
 from rumba_sim.ros.robot.rates import Due, Rates
 from rumba_sim.ros.robot.velocity_mux import Input, VelocityMux
+from rumba_sim.ros.running import peers
 
 COMPLAINT_PERIOD = 1.0  # [s]
 QUEUE = 100  # messages that a subscriber may be behind, at speed 0 too, before it misses one

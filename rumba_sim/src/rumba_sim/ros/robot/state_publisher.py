@@ -10,7 +10,7 @@ import rospy
 from std_msgs.msg import Header
 
 from rumba_msg.msg import SimulatorState
-from rumba_sim.ros.common.simulator_client import SETTINGS, TOPIC
+from rumba_sim.ros.participants.simulator_client import SETTINGS, TOPIC
 
 PERIOD = 1.0  # [s] of the wall clock between messages if nothing changes
 

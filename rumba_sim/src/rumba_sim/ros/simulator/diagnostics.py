@@ -6,7 +6,7 @@ import rospy
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from diagnostic_updater import DiagnosticStatusWrapper, Updater
 
-from rumba_sim.model.robot import Robot
+from rumba_sim.model.simulation.robot import Robot
 
 LOW, CRITICAL = 10, 3  # [%] (the Create 3 goes home below 10 % and warns below 3 %)
 SLOW = 0.9  # share of the wanted speed below which the simulation is too slow

@@ -8,15 +8,15 @@ import rospy
 from geometry_msgs.msg import TransformStamped
 from tf2_msgs.msg import TFMessage
 
-from rumba_sim.model.errors import WorldError
-from rumba_sim.model.geometry import Pose
-from rumba_sim.model.name import check_name
-from rumba_sim.model.robot import nth_name
-from rumba_sim.model.world import World
+from rumba_sim.model.common.errors import WorldError
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.common.name import check_name
+from rumba_sim.model.simulation.robot import nth_name
+from rumba_sim.model.simulation.world import World
 from rumba_sim.ros.common.conversions import transform
-from rumba_sim.ros.common.examiner import ExaminerServer
 from rumba_sim.ros.common.frames import MAP, WORLD
-from rumba_sim.ros.common.requests import Requests
+from rumba_sim.ros.participants.examiner import ExaminerServer
+from rumba_sim.ros.participants.requests import Requests
 from rumba_sim.ros.robot import packed
 from rumba_sim.ros.robot.latecomers import Latecomers
 from rumba_sim.ros.robot.localisation import SLAM, TRUTH, true_frame

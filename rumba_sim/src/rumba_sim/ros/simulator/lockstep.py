@@ -11,12 +11,12 @@ from std_msgs.msg import Header
 
 from rumba_msg.msg import Lockstep as LockstepMessage
 from rumba_msg.msg import LockstepAnswer
-from rumba_sim.ros.common import peers
-from rumba_sim.ros.common.examiner import ExaminerServer
-from rumba_sim.ros.common.lockstep import ANSWERS, QUEUE, TOPIC
-from rumba_sim.ros.common.requests import Requests
+from rumba_sim.ros.participants.examiner import ExaminerServer
+from rumba_sim.ros.participants.lockstep import ANSWERS, QUEUE, TOPIC
+from rumba_sim.ros.participants.requests import Requests
 from rumba_sim.ros.robot.latecomers import Latecomers
 from rumba_sim.ros.robot.rates import Due
+from rumba_sim.ros.running import peers
 from rumba_sim.ros.simulator.participants import STARTING, Participants
 
 LOOK_PERIOD = 0.1  # [s] of the wall clock between two looks at those who do not answer

@@ -7,10 +7,10 @@ from std_msgs.msg import Header
 from visualization_msgs.msg import MarkerArray
 
 from rumba_msg.srv import AddObstacleRequest, RemoveObstacleRequest
-from rumba_sim.model import obstacle_file
-from rumba_sim.model.world import World
+from rumba_sim.model.simulation import obstacle_file
+from rumba_sim.model.simulation.world import World
 from rumba_sim.ros.common.obstacle_markers import TOPIC, markers
-from rumba_sim.ros.common.requests import Requests
+from rumba_sim.ros.participants.requests import Requests
 from rumba_sim.ros.robot.latecomers import Latecomers
 
 RATE = 5  # [Hz] of simulated time, while something moves

@@ -5,7 +5,7 @@ from typing import Any, Callable, Dict, List, Mapping
 from dynamic_reconfigure.encoding import Config
 from dynamic_reconfigure.server import Server
 
-from rumba_sim.model.config import leaves
+from rumba_sim.model.common.config import leaves
 
 TYPES = {bool: 'bool', int: 'int', float: 'double', str: 'str'}
 UNLIMITED = 1e9

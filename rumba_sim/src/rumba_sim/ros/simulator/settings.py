@@ -5,10 +5,10 @@ import functools
 
 import rosgraph
 
-from rumba_sim.model.config import names, part, section, setting
-from rumba_sim.model.errors import ConfigError, quoted
-from rumba_sim.model.interfaces import PRESETS, RUMBA
-from rumba_sim.model.robot_config import RobotConfig
+from rumba_sim.model.common.config import names, part, section, setting
+from rumba_sim.model.common.errors import ConfigError, quoted
+from rumba_sim.model.settings.interfaces import PRESETS, RUMBA
+from rumba_sim.model.settings.robot_config import RobotConfig
 from rumba_sim.ros.robot.localisation import TRUTH, localisation_setting
 from rumba_sim.ros.robot.rates import MAX_RATE, Rates
 

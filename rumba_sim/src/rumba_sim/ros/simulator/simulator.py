@@ -39,21 +39,22 @@ from std_srvs.srv import Trigger, TriggerResponse
 from rumba_msg.srv import (
     AddObstacle, AddObstacleResponse, Kill, KillResponse, RemoveObstacle, RemoveObstacleResponse, Spawn, SpawnResponse,
     Step, StepResponse)
-from rumba_sim.model import map_file, obstacle_file
-from rumba_sim.model.config import updated
-from rumba_sim.model.errors import ConfigError, RumbaError, WorldError
-from rumba_sim.model.geometry import Pose
+from rumba_sim.model.common.config import updated
+from rumba_sim.model.common.errors import ConfigError, RumbaError, WorldError
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.maps import map_file
 from rumba_sim.model.remarks import remarks
-from rumba_sim.model.world import World
-from rumba_sim.ros.common import master_watch, node, peers
-from rumba_sim.ros.common.examiner import ExaminerServer, socket_path
-from rumba_sim.ros.common.maps import map_path, refuse_second, tell_map
+from rumba_sim.model.simulation import obstacle_file
+from rumba_sim.model.simulation.world import World
 from rumba_sim.ros.common.paths import absolute
-from rumba_sim.ros.common.peers import NO_ANSWER
-from rumba_sim.ros.common.requests import Requests
-from rumba_sim.ros.common.simulator_client import SETTINGS
+from rumba_sim.ros.participants.examiner import ExaminerServer, socket_path
+from rumba_sim.ros.participants.maps import map_path, refuse_second, tell_map
+from rumba_sim.ros.participants.requests import Requests
+from rumba_sim.ros.participants.simulator_client import SETTINGS
 from rumba_sim.ros.robot.localisation import map_topic, true_frame
 from rumba_sim.ros.robot.state_publisher import StatePublisher, tell_settings
+from rumba_sim.ros.running import master_watch, node, peers
+from rumba_sim.ros.running.peers import NO_ANSWER
 from rumba_sim.ros.simulator import reconfigure
 from rumba_sim.ros.simulator.diagnostics import Diagnostics
 from rumba_sim.ros.simulator.fleet import Fleet

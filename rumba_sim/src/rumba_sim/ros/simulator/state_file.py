@@ -5,11 +5,11 @@ from typing import Optional, Sequence, Tuple
 
 import rospy
 
-from rumba_sim.model import world_state
-from rumba_sim.model.errors import WorldError
-from rumba_sim.model.floor_plan import FloorPlan
-from rumba_sim.model.obstacle import Obstacle
-from rumba_sim.model.world import World
+from rumba_sim.model.common.errors import WorldError
+from rumba_sim.model.maps.floor_plan import FloorPlan
+from rumba_sim.model.simulation import world_state
+from rumba_sim.model.simulation.obstacle import Obstacle
+from rumba_sim.model.simulation.world import World
 from rumba_sim.ros.common.paths import absolute
 from rumba_sim.ros.simulator.settings import Settings
 

@@ -2,7 +2,7 @@
 
 import dataclasses
 
-from rumba_sim.model.config import setting
+from rumba_sim.model.common.config import setting
 from rumba_sim.ros.common.teleop import ANGULAR_RANGE, LINEAR_RANGE
 
 

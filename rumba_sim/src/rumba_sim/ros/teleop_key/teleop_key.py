@@ -25,8 +25,9 @@ from typing import Optional, Tuple
 import rospy
 from geometry_msgs.msg import Twist
 
-from rumba_sim.ros.common import node, teleop
-from rumba_sim.ros.common.terminal import CTRL_C, CTRL_D, ESCAPE, Terminal
+from rumba_sim.ros.common import teleop
+from rumba_sim.ros.running import node
+from rumba_sim.ros.running.terminal import CTRL_C, CTRL_D, ESCAPE, Terminal
 from rumba_sim.ros.teleop_key.brushes import Brushes
 from rumba_sim.ros.teleop_key.driver import ZEROS, Driver
 from rumba_sim.ros.teleop_key.settings import Settings

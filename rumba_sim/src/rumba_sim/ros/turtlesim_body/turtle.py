@@ -10,10 +10,10 @@ from geometry_msgs.msg import Twist as TwistMessage
 from geometry_msgs.msg import Vector3
 from std_srvs.srv import Empty
 
-from rumba_sim.model.errors import ConfigError, WorldError
-from rumba_sim.model.geometry import Pose
-from rumba_sim.model.robot import Twist
-from rumba_sim.ros.common import peers
+from rumba_sim.model.common.errors import ConfigError, WorldError
+from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.simulation.robot import Twist
+from rumba_sim.ros.running import peers
 
 try:
     from turtlesim.msg import Pose as PoseMessage

@@ -31,24 +31,24 @@ import rospy
 from std_srvs.srv import Trigger, TriggerResponse
 from tf2_msgs.msg import TFMessage
 
-from rumba_sim.model import map_file
-from rumba_sim.model.config import part, section, setting
-from rumba_sim.model.errors import one_line
-from rumba_sim.model.geometry import Pose, wrap_angle
-from rumba_sim.model.guided_world import GuidedWorld
-from rumba_sim.model.robot_config import RobotConfig
-from rumba_sim.model.turtle_motion import FRAME_RATE, PIXELS_PER_METRE, TurtleMotion
-from rumba_sim.model.world import World
-from rumba_sim.ros.common import node
-from rumba_sim.ros.common.maps import map_path, refuse_second, tell_map
+from rumba_sim.model.common.config import part, section, setting
+from rumba_sim.model.common.errors import one_line
+from rumba_sim.model.common.geometry import Pose, wrap_angle
+from rumba_sim.model.maps import map_file
+from rumba_sim.model.settings.robot_config import RobotConfig
+from rumba_sim.model.simulation.guided_world import GuidedWorld
+from rumba_sim.model.simulation.turtle_motion import FRAME_RATE, PIXELS_PER_METRE, TurtleMotion
+from rumba_sim.model.simulation.world import World
 from rumba_sim.ros.common.names import check_names
-from rumba_sim.ros.common.requests import Requests
-from rumba_sim.ros.common.simulator_client import SETTINGS
+from rumba_sim.ros.participants.maps import map_path, refuse_second, tell_map
+from rumba_sim.ros.participants.requests import Requests
+from rumba_sim.ros.participants.simulator_client import SETTINGS
 from rumba_sim.ros.robot import packed
 from rumba_sim.ros.robot.localisation import TRUTH, localisation_setting
 from rumba_sim.ros.robot.rates import Rates
 from rumba_sim.ros.robot.robot_node import RobotNode
 from rumba_sim.ros.robot.state_publisher import StatePublisher
+from rumba_sim.ros.running import node
 from rumba_sim.ros.turtlesim_body.turtle import Pen, Turtle, turtles
 from rumba_sim.ros.turtlesim_body.watch import Watch
 

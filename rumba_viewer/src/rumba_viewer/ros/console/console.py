@@ -21,9 +21,9 @@ from sensor_msgs.msg import BatteryState
 
 from rumba_cleaning.cleaning_config import CleaningConfig
 from rumba_msg.msg import CleaningStatus, MissionStatus
-from rumba_sim.model.config import setting
-from rumba_sim.ros.common import node
+from rumba_sim.model.common.config import setting
 from rumba_sim.ros.common.names import check_names
+from rumba_sim.ros.running import node
 from rumba_viewer.ros import readings
 from rumba_viewer.ros.console.bottom_line import BottomLine
 from rumba_viewer.ros.subscription import Subscription

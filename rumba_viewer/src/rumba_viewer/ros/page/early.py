@@ -10,9 +10,9 @@ import rosgraph
 from rospy.client import load_command_line_node_params
 from tornado.ioloop import IOLoop
 
-from rumba_sim.model import config
-from rumba_viewer.page.errors import Refusal
+from rumba_sim.model.common import config
 from rumba_viewer.page.feeds import Demand
+from rumba_viewer.page.messages.errors import Refusal
 from rumba_viewer.page.ros import Done, Ros
 from rumba_viewer.page.server import serve, sockets
 from rumba_viewer.ros.page.settings import Settings, folder, hub_of, tokens_of, url

@@ -7,10 +7,10 @@ from tf2_msgs.msg import TFMessage
 
 from rumba_viewer.page import republishing
 from rumba_viewer.page.feeds import Arrival, Demand
+from rumba_viewer.page.messages.transforms import Transform
 from rumba_viewer.page.republishing import Republisher
 from rumba_viewer.page.ros import Done, Ros
 from rumba_viewer.page.server import TICK, Hub
-from rumba_viewer.page.transforms import Transform
 from rumba_viewer.ros.page.listening import Listening
 from rumba_viewer.ros.page.wire import framed_values
 

@@ -18,19 +18,19 @@ from typing import Any, Callable, Optional
 import rospy
 from tornado.ioloop import IOLoop
 
-from rumba_sim.ros.common import node
-from rumba_viewer.page.errors import Refusal
+from rumba_sim.ros.running import node
 from rumba_viewer.page.feeds import Demand
-from rumba_viewer.page.filling import Filler, serialised
+from rumba_viewer.page.messages.errors import Refusal
+from rumba_viewer.page.messages.filling import Filler, serialised
 from rumba_viewer.page.ros import Done, Ros
 from rumba_viewer.page.server import MOST_TOPICS, Hub, serve, sockets
-from rumba_viewer.ros.page import types
-from rumba_viewer.ros.page.api import Api
-from rumba_viewer.ros.page.clock import Clock
 from rumba_viewer.ros.page.early import Early
 from rumba_viewer.ros.page.frames import Frames
-from rumba_viewer.ros.page.graph import Graph
 from rumba_viewer.ros.page.listening import Listening
+from rumba_viewer.ros.page.rosapi import types
+from rumba_viewer.ros.page.rosapi.api import Api
+from rumba_viewer.ros.page.rosapi.clock import Clock
+from rumba_viewer.ros.page.rosapi.graph import Graph
 from rumba_viewer.ros.page.services import Services
 from rumba_viewer.ros.page.serving import Serving
 from rumba_viewer.ros.page.settings import Settings, folder, hub_of, tokens_of, url

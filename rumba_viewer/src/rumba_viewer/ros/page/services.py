@@ -7,13 +7,13 @@ from typing import Any, Callable, Dict, List
 import rospy
 import rosservice
 
-from rumba_sim.model.errors import one_line
-from rumba_viewer.page.conversion import to_json
-from rumba_viewer.page.errors import Refusal
-from rumba_viewer.page.filling import Filler, serialised
+from rumba_sim.model.common.errors import one_line
+from rumba_viewer.page.messages.conversion import to_json
+from rumba_viewer.page.messages.errors import Refusal
+from rumba_viewer.page.messages.filling import Filler, serialised
 from rumba_viewer.page.protocol import API
 from rumba_viewer.page.ros import Done
-from rumba_viewer.ros.page.api import Api
+from rumba_viewer.ros.page.rosapi.api import Api
 from rumba_viewer.ros.page.serving import Serving
 
 THREADS = 64  # calls at the same time; a service that does not answer keeps one

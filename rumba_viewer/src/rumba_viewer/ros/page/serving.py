@@ -7,13 +7,13 @@ from typing import Any, Callable, Dict, Optional
 
 import rospy
 
-from rumba_sim.model.errors import one_line, quoted
-from rumba_sim.ros.common import peers
-from rumba_viewer.page.conversion import to_json
-from rumba_viewer.page.errors import Refusal
-from rumba_viewer.page.filling import Filler, serialised
-from rumba_viewer.page.operations import can_be_repeated
-from rumba_viewer.ros.page import types
+from rumba_sim.model.common.errors import one_line, quoted
+from rumba_sim.ros.running import peers
+from rumba_viewer.page.messages.conversion import to_json
+from rumba_viewer.page.messages.errors import Refusal
+from rumba_viewer.page.messages.filling import Filler, serialised
+from rumba_viewer.page.messages.operations import can_be_repeated
+from rumba_viewer.ros.page.rosapi import types
 
 MOST_PENDING = 20  # requests of a service that wait for its client
 LONGEST = 60.0  # [s] for an answer of a client

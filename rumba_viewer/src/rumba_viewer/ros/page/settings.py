@@ -9,7 +9,7 @@ from typing import Any, Callable, List
 import rospkg
 import rospy
 
-from rumba_sim.model.config import setting
+from rumba_sim.model.common.config import setting
 from rumba_viewer.page.allow_list import AllowList, Tokens, robot_tokens
 from rumba_viewer.page.server import Bounds, Hub, check_address
 

@@ -8,8 +8,8 @@ from typing import Any, Callable, Dict, List, Optional, Set
 import rosgraph
 import rospy
 
-from rumba_viewer.page.errors import Refusal
-from rumba_viewer.ros.page import types
+from rumba_viewer.page.messages.errors import Refusal
+from rumba_viewer.ros.page.rosapi import types
 
 QUEUE = 20  # messages that wait for a subscriber that is slow; of more, the oldest are dropped
 PATIENCE = 1.0  # [s] for which a new publisher waits for the subscribers that the master knows

@@ -9,11 +9,11 @@ from typing import Any, Callable, Dict, Optional, Tuple
 
 import numpy as np
 
-from rumba_sim.model.errors import one_line
-from rumba_viewer.page import cbor, conversion
+from rumba_sim.model.common.errors import one_line
 from rumba_viewer.page.client import framed
 from rumba_viewer.page.feeds import Arrival
-from rumba_viewer.ros.page import types
+from rumba_viewer.page.messages import cbor, conversion
+from rumba_viewer.ros.page.rosapi import types
 
 LARGEST = 4_000_000  # [bytes] of a serialised message; a larger one is not handed on
 FAST = 1  # level of zlib: of the coverage of the map apartment, 450 kB, it leaves 20 kB in 1 ms; Pillow takes 3 to 5 ms

@@ -1,0 +1,1 @@
+"""What is wrong with a submission, in words that its author understands."""

@@ -1,0 +1,1 @@
+"""What bumper, laser and infrared receive."""

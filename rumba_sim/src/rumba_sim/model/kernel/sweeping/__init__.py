@@ -1,0 +1,1 @@
+"""What the brush can reach, and what it sweeps."""

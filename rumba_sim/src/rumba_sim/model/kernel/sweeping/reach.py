@@ -1,0 +1,63 @@
+"""Which samples the brush can reach."""
+
+import math
+
+from rumba_sim.model.kernel import Array
+from rumba_sim.model.kernel.geometry import interpolated
+from rumba_sim.model.kernel.motion import PUSH
+from rumba_sim.model.kernel.sweeping.samples import REACHABLE, SWEEPABLE, sample_point
+
+
+def mark_reachable(field: Array, resolution: float, stands: Array, reach: float, half: float, samples: Array) -> int:
+    """Set the bit REACHABLE of all samples that the brush can reach; returns how many these are.
+
+    Args, apart from those of the package:
+        resolution: side of a cell [m].
+        stands: bool (2 * rows + 1, 2 * columns + 1), where a robot can stand and drive to: at the corners of the cells,
+            in the middle of their sides, and at their centres.
+        reach: clearance that a robot needs [m].
+        half: half the width of the brush [m].
+    """
+    squares, count = samples.shape[0] // (field.shape[0] - 1), 0
+    for row in range(samples.shape[0]):
+        for column in range(samples.shape[1]):
+            if samples[row, column] & SWEEPABLE:
+                across, up = sample_point(row, column)
+                if is_reachable(field, resolution, stands, reach, half, across / squares, up / squares):
+                    samples[row, column] |= REACHABLE
+                    count += 1
+    return count
+
+
+def is_reachable(field: Array, resolution: float, stands: Array, reach: float, half: float, u: float,
+                 v: float) -> bool:
+    """Whether the point (u, v) [cells] lies within `half` of a position at which a robot can stand.
+
+    The nearest such position is usually up the slope of the clearance. If that leads nowhere, all positions nearby are
+    tried: around each of them a robot can stand as far as its clearance is larger than it needs.
+    """
+    gap, along_u, along_v = interpolated(field, u, v)
+    if reach - gap > half:
+        return False
+    slope = math.hypot(along_u, along_v)
+    away = max(reach - gap, 0.0) / resolution / slope if slope > 0.0 else 0.0
+    to_u, to_v = u + away * along_u, v + away * along_v
+    if interpolated(field, to_u, to_v)[0] >= reach - PUSH and stands_beside(stands, to_u, to_v):
+        return True
+    size = int(math.ceil(2.0 * half / resolution)) + 2
+    row, column = int(round(2.0 * v)), int(round(2.0 * u))
+    for i in range(max(row - size, 0), min(row + size + 1, stands.shape[0])):
+        for j in range(max(column - size, 0), min(column + size + 1, stands.shape[1])):
+            if stands[i, j]:
+                spare = interpolated(field, 0.5 * j, 0.5 * i)[0] - reach
+                if math.hypot(0.5 * j - u, 0.5 * i - v) * resolution - spare <= half:
+                    return True
+    return False
+
+
+def stands_beside(stands: Array, u: float, v: float) -> bool:
+    """Whether a robot can stand at one of the four positions of `stands` around the point (u, v) [cells]."""
+    i, j = int(2.0 * v), int(2.0 * u)
+    if not (0 <= i < stands.shape[0] - 1 and 0 <= j < stands.shape[1] - 1):
+        return False
+    return bool(stands[i, j] or stands[i, j + 1] or stands[i + 1, j] or stands[i + 1, j + 1])

@@ -1,0 +1,1 @@
+"""What happens in a tick: wheels, movers, battery, and the order of all."""

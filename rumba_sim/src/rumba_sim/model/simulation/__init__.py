@@ -1,0 +1,1 @@
+"""The world: robots and obstacles on a floor plan, advanced tick by tick, one world or many."""

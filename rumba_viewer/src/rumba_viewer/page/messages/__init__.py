@@ -1,0 +1,1 @@
+"""Messages as JSON and CBOR, their definitions, and the operations of a client in them."""

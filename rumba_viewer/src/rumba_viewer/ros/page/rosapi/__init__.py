@@ -1,0 +1,1 @@
+"""The services of rosapi that the page offers: topics, types, parameters, the graph."""
