@@ -16,14 +16,15 @@ PAGE = (ROOT / 'docs' / 'environment.md').read_text()
 EXAMPLES = re.findall(r'```python\n(.*?)```', PAGE, re.DOTALL)
 
 
-@pytest.mark.parametrize('number, printed', enumerate([
-    r'swept \d+% of a room in a minute; a picture of \(\d+, \d+, 3\)', r'mean coverage 0\.0\d+']))
-def test_the_examples_run(number, printed):
-    pytest.importorskip('gymnasium', minversion='1.1', reason="Gymnasium is optional: pip install 'gymnasium'")
-    assert len(EXAMPLES) == 2
+@pytest.mark.parametrize('number, needed, printed', [
+    (0, 'gymnasium', r'swept \d+% of a room in a minute; a picture of \(\d+, \d+, 3\)\n'),
+    (1, 'gymnasium', r'mean coverage 0\.0\d+\n'), (2, 'stable_baselines3', '')])
+def test_the_examples_run(number, needed, printed):
+    pytest.importorskip(needed, reason=f'{needed} is optional: pip install {needed}')
+    assert len(EXAMPLES) == 3
     done = subprocess.run([sys.executable, '-c', EXAMPLES[number]], stdout=subprocess.PIPE, universal_newlines=True,
                           check=True)
-    assert re.fullmatch(printed + '\n', done.stdout)
+    assert re.fullmatch(printed, done.stdout)
 
 
 def test_the_settings_are_those_that_there_are():

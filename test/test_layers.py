@@ -81,7 +81,7 @@ KEYS = {'PIL': 'python3-pil', 'PyQt5': 'python3-pyqt5', 'matplotlib': 'python3-m
         'numba': 'python3-numba', 'numpy': 'python3-numpy', 'rospkg': 'python3-rospkg', 'scipy': 'python3-scipy',
         'skimage': 'python3-skimage', 'tornado': 'python3-tornado', 'tqdm': 'python3-tqdm', 'yaml': 'python3-yaml'}
 # Imported only if they are installed.
-OPTIONAL = {'create_msgs', 'dask', 'distributed', 'gymnasium', 'turtlesim'}
+OPTIONAL = {'create_msgs', 'dask', 'distributed', 'gymnasium', 'stable_baselines3', 'turtlesim'}
 SOURCES = [(package, path) for package in FOLDERS
            for path in sorted((ROOT / package / 'src' / package).glob('**/*.py'))]
 ARCHITECTURE = (ROOT / 'docs' / 'architecture.md').read_text()

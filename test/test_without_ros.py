@@ -76,8 +76,9 @@ import importlib, sys
 for name in sys.argv[1:]:
     try:
         importlib.import_module(name)
-    except ImportError as error:  # of the extra `gym`, which need not be installed
-        assert name.startswith('rumba_evaluation.learning.') and "pip install 'gymnasium" in str(error), name
+    except ImportError as error:  # of the extra `gym`, or stable-baselines3, which need not be installed
+        assert name.startswith('rumba_evaluation.learning.') and 'needs' in str(error), name
+        assert "pip install 'gymnasium" in str(error) or 'pip install stable-baselines3' in str(error), name
 try:
     import rospy
 except ImportError:

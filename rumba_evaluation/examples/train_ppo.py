@@ -11,21 +11,19 @@ import csv
 import pathlib
 import time
 
-import gymnasium
 import numpy as np
 import torch
 from stable_baselines3 import PPO
 from stable_baselines3.common.callbacks import BaseCallback
 from stable_baselines3.common.torch_layers import BaseFeaturesExtractor
-from stable_baselines3.common.vec_env import VecEnv
 
 from rumba_evaluation.learning.baselines import Bouncing
 from rumba_evaluation.learning.coverage_task import CoverageTask
 from rumba_evaluation.learning.rooms import rooms
+from rumba_evaluation.learning.stable_baselines import CoverageVecEnv
 from rumba_evaluation.learning.task_config import TaskConfig
 from rumba_sim.model.common.config import from_mapping
 
-ENVIRONMENT = 'rumba_evaluation.learning.environment:rumba/Coverage-v0'
 ROBOTS = 64
 SEEN, UNSEEN = range(200), range(10_000, 10_020)  # numbers of rooms
 EPISODES = 40  # in the unseen rooms, for one point of the curve
@@ -33,56 +31,6 @@ SECONDS = 300.0  # of an episode
 SETTINGS = {'actions': 'discrete', 'hold': 4, 'maps': 2, 'map_size': 16, 'map_pitch': 0.1, 'time_limit': SECONDS,
             'target': 0.98, 'reward': {'swept': 0.25, 'time': 0.02, 'bump': 0.1, 'finish': 10.0}}
 USED = ('ranges', 'bumper', 'maps')  # of what the robot sees
-
-
-class Robots(VecEnv):
-    """The vector environment of Gymnasium as stable-baselines3 wants it."""
-
-    def __init__(self):
-        """Make the robots."""
-        self._robots = gymnasium.make_vec(ENVIRONMENT, num_envs=ROBOTS, vectorization_mode='vector_entry_point',
-                                          floors=SEEN, settings=SETTINGS, autoreset='SameStep')
-        spaces = self._robots.single_observation_space
-        super().__init__(ROBOTS, gymnasium.spaces.Dict({name: spaces[name] for name in USED}),
-                         self._robots.single_action_space)
-        self.coverages = []
-
-    def reset(self):
-        """Begin all episodes."""
-        return used(self._robots.reset(seed=1)[0])
-
-    def step_async(self, actions):
-        """Remember what to do."""
-        self._actions = actions
-
-    def step_wait(self):
-        """Do it."""
-        seen, reward, terminated, truncated, info = self._robots.step(self._actions)
-        infos = [{} for _ in range(ROBOTS)]
-        for index in np.flatnonzero(terminated | truncated):
-            self.coverages.append(info['final_info']['coverage'][index])
-            infos[index] = {'terminal_observation': {name: info['final_obs'][name][index] for name in USED},
-                            'TimeLimit.truncated': bool(truncated[index] and not terminated[index])}
-        return used(seen), reward.astype(np.float32), terminated | truncated, infos
-
-    def close(self):
-        """Nothing is open."""
-
-    def get_attr(self, attr_name, indices=None):
-        """Of each environment."""
-        return [getattr(self._robots, attr_name, None)] * ROBOTS
-
-    def set_attr(self, attr_name, value, indices=None):
-        """There is nothing to set."""
-        raise NotImplementedError
-
-    def env_method(self, method_name, *args, indices=None, **kwargs):
-        """There is nothing to call."""
-        raise NotImplementedError
-
-    def env_is_wrapped(self, wrapper_class, indices=None):
-        """No."""
-        return [False] * ROBOTS
 
 
 def used(seen):
@@ -134,9 +82,10 @@ class Watch(BaseCallback):
         """Watch for so many minutes."""
         super().__init__()
         self._begin, self._minutes, self._folder, self._others = time.monotonic(), minutes, folder, others
-        self._next, self.rows = 0.0, []
+        self._next, self.rows, self._coverages = 0.0, [], []
 
     def _on_step(self):
+        self._coverages += [info['coverage'] for info in self.locals['infos'] if 'terminal_observation' in info]
         minutes = (time.monotonic() - self._begin) / 60.0
         if minutes >= self._next:
             self._next = minutes + self._minutes / 10.0
@@ -145,10 +94,9 @@ class Watch(BaseCallback):
 
     def measure(self, minutes):
         """One more row of the curve."""
-        seen = self.training_env.coverages
         mean, least = coverage_in_unseen_rooms(
             lambda seen: self.model.predict(used(seen), deterministic=False)[0], SETTINGS)
-        recent = float(np.mean(seen[-ROBOTS:])) if seen else float('nan')
+        recent = float(np.mean(self._coverages[-ROBOTS:])) if self._coverages else float('nan')
         self.rows.append((minutes, time.process_time() / 60.0, self.num_timesteps, recent, mean, least))
         print(f'{minutes:6.1f} min, {self.num_timesteps:9,d} steps: in rooms to learn in {recent:.3f}, unseen '
               f'{mean:.3f}, worst {least:.3f}; bounce {self._others[0]:.3f}, worst {self._others[1]:.3f}', flush=True)
@@ -185,8 +133,10 @@ def main():
     torch.set_num_threads(wanted.threads)
     others = bounce()
     print(f'bounce in unseen rooms: {others[0]:.3f} after {SECONDS:g} s, worst {others[1]:.3f}', flush=True)
+    robots = CoverageVecEnv(ROBOTS, USED, floors=SEEN, settings=SETTINGS)
+    robots.seed(1)
     watch = Watch(wanted.minutes, wanted.out, others)
-    model = PPO('MultiInputPolicy', Robots(), n_steps=128, batch_size=1024, n_epochs=4, gamma=0.99, ent_coef=0.01,
+    model = PPO('MultiInputPolicy', robots, n_steps=128, batch_size=1024, n_epochs=4, gamma=0.99, ent_coef=0.01,
                 learning_rate=lambda left: 5e-4, seed=1, device='cpu',
                 policy_kwargs={'features_extractor_class': Features, 'net_arch': [128]})
     model.learn(10 ** 9, callback=watch)

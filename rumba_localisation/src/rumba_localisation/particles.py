@@ -72,7 +72,7 @@ def heaviest(poses: Array, share: Array) -> Cluster:
     mean, covariance = mean_and_covariance(poses, share)
     if _are_near(poses, mean, 0.5).all():  # then they are near each other, and the mean of any bin is near them all
         return Cluster(mean, covariance, float(share.sum()))
-    bins, where = np.unique(bins_of(poses), return_inverse=True)
+    _, where = np.unique(bins_of(poses), return_inverse=True)
     is_best = where == np.argmax(np.bincount(where, weights=share))
     middle, _ = mean_and_covariance(poses[is_best], share[is_best])
     is_near = _are_near(poses, middle, 1.0)

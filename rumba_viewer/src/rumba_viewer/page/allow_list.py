@@ -88,7 +88,7 @@ def _compiled(text: str, namespace: str) -> 're.Pattern[str]':
     if not re.fullmatch(r'/(\*|[A-Za-z][\w-]*)(/(\*|[A-Za-z][\w-]*))*', full):
         raise ConfigError(f'{quoted(text)} cannot be allowed: must be a name such as /chatter or */scan')
     belongs_to_a_robot = not text.startswith('/') and '*' in text
-    before, star, after = full.partition('*')
+    before, _, after = full.partition('*')
     if not belongs_to_a_robot:
         return re.compile(re.escape(full).replace(r'\*', '[A-Za-z][A-Za-z0-9_]*'))
     return re.compile(f'(?P<robot>{re.escape(before)}[A-Za-z][A-Za-z0-9_]*)'

@@ -35,9 +35,9 @@ def paint_key(painter: QPainter, left: float, width: float, height: float, theme
     more = [*states, *(entry for entry, is_there in zip(FEATURES, (
         features.carpet is not None, features.cliff is not None, features.docks)) if is_there)]
     high = metrics.height() + 8.0
-    for states in (more, states):
-        widths = [PATCH + 5.0 + metrics.horizontalAdvance(words) for _, words in states]
-        wide = sum(widths) + GAP * (len(states) - 1) + 2.0 * EDGE
+    for shown in (more, states):
+        widths = [PATCH + 5.0 + metrics.horizontalAdvance(words) for _, words in shown]
+        wide = sum(widths) + GAP * (len(shown) - 1) + 2.0 * EDGE
         if left + wide <= width - 8.0:
             break
     if left + wide <= width - 8.0:
@@ -48,7 +48,7 @@ def paint_key(painter: QPainter, left: float, width: float, height: float, theme
         painter.setBrush(card)
         painter.drawRoundedRect(box, 4.0, 4.0)
         x = box.left() + EDGE
-        for (colours, words), entry in zip(states, widths):
+        for (colours, words), entry in zip(shown, widths):
             painter.setPen(QPen(QColor(theme.faint_text), 1.0))
             for colour in colours:
                 shade = QColor(theme.veil if colour == 'veil' else getattr(theme.floor, colour))

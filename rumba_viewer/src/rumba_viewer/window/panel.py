@@ -136,8 +136,7 @@ class Panel(QScrollArea):
             shown = self.buttons[button]
             shown.setIcon(icon(name, shown.palette().color(QPalette.ButtonText)) if name else QIcon())
 
-    def show_snapshot(self, snapshot: Snapshot, checked: Dict[str, bool],
-                      recorded: Dict[str, float] = {}) -> None:
+    def show_snapshot(self, snapshot: Snapshot, checked: Dict[str, bool], recorded: Dict[str, float]) -> None:
         """Show a new snapshot.
 
         Args:
