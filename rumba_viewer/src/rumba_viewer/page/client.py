@@ -84,7 +84,7 @@ class Patient(WebSocketProtocol13):
         if self._is_too_much and not self.stream.closed():  # else the status would be lost with the connection
             self._is_too_much = False
             self.client_terminated = True  # else what is drained would be taken for frames
-            self._draining = asyncio.ensure_future(self._drain())  # without a reference it might be collected before its end
+            self._draining = asyncio.ensure_future(self._drain())  # else it might be collected
         else:
             super()._abort()
 
