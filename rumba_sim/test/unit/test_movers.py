@@ -155,6 +155,20 @@ def test_a_mover_that_meets_a_robot_on_the_first_part_of_its_way_pauses_at_its_e
     assert np.diff(met) == approx(cycle, abs=0.1) and len(met) == int((100.0 - met[0]) / cycle) + 1
 
 
+def test_a_mover_in_a_loop_goes_back_by_half_of_it_at_most_so_that_it_does_not_meet_the_robot_from_behind():
+    loop = [(1.0, 1.0), (4.0, 1.0), (4.0, 4.0), (1.0, 4.0)]
+    world = World(HALL, quiet(), obstacles=[walker('cat', loop, 1.0, 0.15, is_loop=True)])
+    robot = world.spawn('rumba', Pose(2.5, 1.0, 0.0))
+    places = []
+    for _ in range(50 * 120):
+        world.step()
+        pose = next(world.obstacles.poses())[1]
+        places.append((pose.x, pose.y))
+    ways = np.array(places)
+    assert ways[:, 0].max() == approx(2.5 - RADIUS - 0.15, abs=0.02) and ways[:, 1].max() == approx(4.0)
+    assert robot.pose == Pose(2.5, 1.0, 0.0)
+
+
 def turns(world, seconds):
     """Where along x the one mover of a world turned round [m]."""
     places = [next(world.obstacles.poses())[1].x for _ in range(round(50 * seconds)) if world.step() is None]
