@@ -67,7 +67,7 @@ class Ending(NamedTuple):
         return self.outcome is Outcome.SUCCEEDED and self.coverage >= TARGET - NOT_MEASURED and self.is_docked
 
     def __str__(self):
-        return (f'seed {self.seed}: {self.outcome.name}, {self.message}; {100.0 * self.coverage:.1f} % clean, '
+        return (f'seed {self.seed}: {self.outcome.name}, {self.message}; {100.0 * self.coverage:.1f} % swept, '
                 f'{"docked" if self.is_docked else "not docked"}, {self.takeovers} takeovers')
 
 

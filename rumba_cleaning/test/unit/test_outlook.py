@@ -47,7 +47,7 @@ def test_a_large_floor_takes_charges_and_each_takes_its_time():
 def test_a_map_without_a_dock_on_which_the_battery_does_not_last_is_told():
     remark, = remarks(room(30.0, 20.0, 0.1), 5.0, 5.0, quiet(), CONFIG)
     assert remark == (
-        'room: the map has no dock, and 591 m2 take about 2 charges: add a dock (rosrun rumba_sim place_dock finds a '
+        'room: the map has no dock, and 591 m² take about 2 charges: add a dock (rosrun rumba_sim place_dock finds a '
         'place), or set drain to 0')
     assert remarks(room(30.0, 20.0, 0.1, dock=Pose(1.0, 0.2, 0.0)), 5.0, 5.0, quiet(), CONFIG) == []
     assert remarks(room(6.0, 5.0, 0.1), 1.0, 1.0, quiet(), CONFIG) == []

@@ -66,4 +66,4 @@ def test_what_is_odd_about_a_map_is_told_before_the_missions(run, tmp_path):
     first, second, third = errors.splitlines()
     assert code == 0 and first.endswith("flat.yaml: unknown keys are ignored: 'map_type'")
     assert 'is out of reach of the start at (' in second
-    assert 'the map has no dock, and 3 m2 take about ' in third and 'place_dock' in third
+    assert 'the map has no dock, and 3 m² take about ' in third and 'place_dock' in third

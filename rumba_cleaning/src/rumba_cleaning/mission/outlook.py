@@ -73,7 +73,7 @@ def remarks(plan: FloorPlan, x: float, y: float, robot: RobotConfig, config: Cle
     found = []
     expected = None if plan.docks else outlook(plan, x, y, robot, config)
     if expected is not None and expected.charges:
-        found.append(f'{plan.name}: the map has no dock, and {expected.area:.0f} m2 take about {expected.charges} '
+        found.append(f'{plan.name}: the map has no dock, and {expected.area:.0f} m² take about {expected.charges} '
                      f'charge{"s" if expected.charges > 1 else ""}: add a dock (rosrun rumba_sim place_dock finds a '
                      'place), or set drain to 0')
     fastest = robot.drive.max_speed

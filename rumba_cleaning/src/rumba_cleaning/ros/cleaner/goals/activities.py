@@ -167,12 +167,12 @@ class Cleaning(Activity):
         return CleanResult(senses.cleaning or conversions.no_cleaning_status(), outcome)
 
     def report(self, before: Optional[CleaningStatus], after: Optional[CleaningStatus]) -> str:
-        """Distance, charges and coverage."""
+        """Distance and charges; how much is swept follows in the message of the outcome."""
         charges = f'{self._mission.charges} charge{"" if self._mission.charges == 1 else "s"}'
         if before is None or after is None:
             return f', {charges}'
         driven = max(after.distance - before.distance, 0.0)  # the world may have been reset
-        return f', {driven:.1f} m, {charges}; the floor is {100.0 * after.coverage:.1f} % clean'
+        return f', {driven:.1f} m, {charges}'
 
 
 class Docking(Activity):
