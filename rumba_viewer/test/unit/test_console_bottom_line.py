@@ -79,7 +79,7 @@ def test_log_lines_scroll_above_the_live_line(terminal, before):
     screen, bottom, update = terminal(20, 6)
     screen.feed(''.join(f'old {number}\n' for number in range(before)))
     for number in range(8):
-        bottom.show(f'live {number}')
+        bottom.show([f'live {number}'])
         update()
         screen.feed(f'log {number}\n')
         assert screen.rows[-1] == f'live {number}'
@@ -87,16 +87,19 @@ def test_log_lines_scroll_above_the_live_line(terminal, before):
     assert screen.rows == ['log 4', 'log 5', 'log 6', 'log 7', '', 'live 7']
 
 
-def test_the_live_line_is_cut_to_the_width(terminal):
+def test_the_longest_live_line_that_fits_is_shown_or_one_is_cut(terminal):
     screen, bottom, update = terminal(12, 5)
-    bottom.show('99.0 % swept and more')
+    bottom.show(['99.0 % swept and more'])
     update()
     assert screen.rows[-1] == '99.0 % swep'
+    bottom.show(['99.0 % swept and more', '99.0 % now', '99 %'])
+    update()
+    assert screen.rows[-1] == '99.0 % now'
 
 
 def test_a_report_stays_above_the_live_line(terminal):
     screen, bottom, update = terminal(20, 6)
-    bottom.show('live')
+    bottom.show(['live'])
     bottom.say(['one', 'two'])
     update()
     assert [line for line in screen.rows if line] == ['one', 'two', 'live'] and screen.rows[-1] == 'live'
@@ -104,7 +107,7 @@ def test_a_report_stays_above_the_live_line(terminal):
 
 def test_at_the_end_the_row_is_given_back(terminal):
     screen, bottom, update = terminal(20, 5)
-    bottom.show('live')
+    bottom.show(['live'])
     bottom.close()
     update()
     screen.feed(''.join(f'{number}\n' for number in range(9)))
@@ -113,11 +116,11 @@ def test_at_the_end_the_row_is_given_back(terminal):
 
 def test_a_terminal_that_changes_its_size_gets_the_line_in_its_new_last_row(terminal, monkeypatch):
     screen, bottom, update = terminal(20, 6)
-    bottom.show('live')
+    bottom.show(['live'])
     update()
     monkeypatch.setenv('LINES', '8')
     screen.rows += ['', '']
-    bottom.show('live again')
+    bottom.show(['live again'])
     update()
     screen.feed('log\n' * 9)
     assert screen.rows[-1] == 'live again' and screen.rows[:2] == ['log'] * 2
@@ -125,7 +128,7 @@ def test_a_terminal_that_changes_its_size_gets_the_line_in_its_new_last_row(term
 
 def test_a_terminal_of_few_rows_has_no_live_line(terminal):
     screen, bottom, update = terminal(20, 3)
-    bottom.show('live')
+    bottom.show(['live'])
     bottom.say(['said'])
     update()
     assert screen.rows == ['said', '', '']

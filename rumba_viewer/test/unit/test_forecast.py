@@ -109,21 +109,37 @@ def test_a_share_below_a_target_does_not_read_like_it():
 
 
 def test_the_live_line_begins_with_what_matters_most():
-    line = wording.live_line(mission(), cleaning(50.0, 5.0), battery(0.64), 50.0, 1290.0)
+    line = live_line(mission(), cleaning(50.0, 5.0), battery(0.64), 50.0, 1290.0)
     assert line == '25.0 % swept  battery 64 %  0:50, about 22 min left  cleaning by boustrophedon'
-    assert len(line) < 80 and 'battery 64 %  0:50' in line[:39]
-    assert wording.live_line(mission('idle'), cleaning(50.0, 1.0), battery(0.64), None, None) == (
-        ' 5.0 % swept  battery 64 %  idle')
-    assert wording.live_line(mission(), cleaning(50.0, 5.0), battery(0.64), None, 1290.0) == (
+    assert live_line(mission('idle'), cleaning(50.0, 1.0), battery(0.64)) == ' 5.0 % swept  battery 64 %  idle'
+    assert live_line(mission(), cleaning(50.0, 5.0), battery(0.64), left=1290.0) == (
         '25.0 % swept  battery 64 %  about 22 min left  cleaning by boustrophedon')
-    assert wording.live_line(None, None, battery(math.nan), None, None) == 'no floor  battery -  no cleaner'
+    assert live_line(None, None, battery(math.nan)) == 'no floor  battery -  no cleaner'
+
+
+def live_line(mission, cleaning, battery, elapsed=None, left=None):
+    """The longest line."""
+    return wording.live_lines(mission, cleaning, battery, elapsed, left)[0]
+
+
+def test_narrow_terminals_have_lines_that_keep_battery_and_time():
+    now = mission()._replace(strategy='explore_and_clean')
+    lines = wording.live_lines(now, cleaning(50.0, 20.0), battery(1.0), 4039.0, 7000.0)
+    assert lines == ['100.0 % swept  battery 100 %  1:07:19, about 117 min left  cleaning by explore_and_clean',
+                     '100.0 % swept  battery 100 %  1:07:19, about 117 min left  cleaning',
+                     '100.0 % swept  battery 100 %  1:07:19  cleaning', '100.0 % swept  battery 100 %  1:07:19']
+    assert len(lines[1]) < 80 and len(lines[-1]) < 40
+
+
+@pytest.mark.parametrize('message', ['planning', '0.0 % swept; planning'])
+def test_a_robot_that_stands_since_it_plans_is_said_to_plan(message):
+    for state in ('undocking', 'cleaning'):
+        assert live_line(mission(state)._replace(message=message), cleaning(50.0, 1.0), battery(0.64)).endswith(
+            '64 %  planning')
 
 
 def test_the_closing_report_names_what_was_done_in_this_mission():
-    forecast = after((90.0, 1.0, 1.0, 'idle'), (100.0, 1.0, 1.0, 'cleaning'), (140.0, 18.0, 0.9, 'charging'),
-                     (150.0, 18.0, 0.9, 'idle'))
-    told = wording.closing('rumba', mission('idle'), cleaning(150.0, 18.0), cleaning(100.0, 1.0), battery(0.9),
-                           forecast)
+    told = wording.closing('rumba', mission('idle'), cleaning(150.0, 18.0), battery(0.9), wording.Effort(50.0, 50.0, 1))
     assert told == ['rumba: 90.0 % of the floor is swept: 18.0 of 20.0 m², 50.0 % of the dirt is left',
                     '0:50, 50.0 m driven, 1 charge, battery 90 %']
 

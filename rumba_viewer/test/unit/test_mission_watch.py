@@ -49,10 +49,30 @@ def test_what_is_no_cleaning_has_a_time_but_neither_a_rest_nor_a_report():
     assert watched(IDLE, floor(10.0), GOING, floor(11.0), floor(31.0), IDLE, floor(32.0)).report == ()
 
 
+def test_a_mission_that_is_seen_late_has_the_time_since_its_goal_came():
+    late = watched(floor(1000.0, 2.0), CLEANING, floor(1001.0, 2.1))
+    late.take_goal(300.0)
+    assert late.elapsed == 701.0
+    late.take_cleaning(floor(1051.0, 7.0))
+    assert late.elapsed == 751.0
+    late.take_mission(IDLE)
+    late.take_cleaning(floor(1052.0, 7.0))
+    assert late.elapsed is None and late.report[1] == '12:32, battery 80 %'
+    late.take_mission(GOING)  # no cleaning
+    late.take_cleaning(floor(1053.0, 7.0))
+    assert late.elapsed == 0.0
+
+
+def test_a_goal_of_another_world_tells_no_time():
+    late = watched(floor(10.0, 2.0), CLEANING, floor(11.0, 2.1))
+    late.take_goal(300.0)
+    assert late.elapsed is None
+
+
 def test_a_mission_whose_beginning_was_not_seen_has_no_time_but_a_rest():
     late = watched(floor(1000.0, 2.0), CLEANING, floor(1001.0, 2.1), floor(1051.0, 7.0))
     assert late.elapsed is None and late.left > 100.0
     late.take_mission(IDLE)
     late.take_cleaning(floor(1052.0, 7.0))
-    assert late.report[1].endswith(' m driven, 0 charges, battery 80 %') and ':' not in late.report[1]
+    assert late.report[1] == 'battery 80 %'
     assert watched(CLEANING, floor(10.0), floor(40.0, 3.0)).elapsed == 30.0  # which has just begun

@@ -10,6 +10,7 @@ from typing import Any, NamedTuple, Optional, Tuple, Union
 
 import numpy as np
 import rosgraph
+from actionlib_msgs.msg import GoalStatusArray
 from geometry_msgs.msg import PoseArray, PoseWithCovarianceStamped
 from nav_msgs.msg import Odometry, Path
 from sensor_msgs.msg import BatteryState
@@ -157,6 +158,11 @@ def mission(message: MissionStatus) -> Mission:
     """What the cleaner makes a robot do."""
     return Mission(STATES.get(message.state, '?'), message.state not in WITHOUT_GOAL, one_line(message.strategy),
                    one_line(message.message))
+
+
+def goal_time(message: GoalStatusArray) -> Optional[float]:
+    """When the last goal came of an action [s]; None if it has none."""
+    return max((status.goal_id.stamp.to_sec() for status in message.status_list), default=None)
 
 
 def destination(message: GoToActionGoal) -> Point:

@@ -6,6 +6,7 @@ import threading
 import time
 from typing import Any, Callable, Dict, FrozenSet, Iterable, List, NamedTuple, Optional, Tuple
 
+from actionlib_msgs.msg import GoalStatusArray
 from geometry_msgs.msg import PoseArray, PoseWithCovarianceStamped
 from nav_msgs.msg import OccupancyGrid, Odometry, Path
 from rospy.numpy_msg import numpy_msg
@@ -112,12 +113,13 @@ class RobotListener:
         self._goals = Subscription(f'{name}/go_to/goal', GoToActionGoal, readings.destination,
                                    lambda point: self._learn(destination=point), queue_size=10)
         laser = frames(name).laser
+        self._status = Subscription(f'{name}/clean/status', GoalStatusArray, readings.goal_time, self._on_goal_time)
         self._parts = Subscription('/tf_static', TFMessage, lambda message: readings.mounting(message, laser),
                                    self._on_mounting, queue_size=10)
 
     def close(self) -> None:
         """Stop listening."""
-        subscriptions: List[Subscription[Any]] = [self._truth, self._results, self._goals, self._parts,
+        subscriptions: List[Subscription[Any]] = [self._truth, self._results, self._goals, self._status, self._parts,
                                                   *self._subscriptions.values()]
         for subscription in subscriptions:
             subscription.close()
@@ -178,6 +180,10 @@ class RobotListener:
         if code != Outcome.REFUSED:
             self._learn(can_resume=None if code == Outcome.NO_READINGS else code in INTERRUPTED)
             self._on_news()
+
+    def _on_goal_time(self, came: Optional[float]) -> None:
+        with self._lock:
+            self._watch.take_goal(came)
 
     def _on_mounting(self, mounting: Optional[Mounting]) -> None:
         if mounting is not None:  # many nodes publish on this topic

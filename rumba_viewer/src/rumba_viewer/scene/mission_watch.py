@@ -7,6 +7,7 @@ from rumba_cleaning.cleaning_config import CleaningConfig
 from rumba_viewer.scene import wording
 from rumba_viewer.scene.forecast import Forecast
 from rumba_viewer.scene.snapshot import Battery, Cleaning, Mission
+from rumba_viewer.scene.wording import Effort
 
 UNKNOWN = Battery(math.nan, math.nan, math.nan, '')
 
@@ -24,6 +25,7 @@ class MissionWatch:
         self._robot = robot
         self._forecast = Forecast(target)
         self._began: Optional[Cleaning] = None  # when the mission began
+        self._goal_came: Optional[float] = None  # when the last goal of cleaning came [s]
         self._ended: Optional[float] = None  # time of the last figures before the end [s], until there are newer ones
         self.cleaning: Optional[Cleaning] = None
         self.battery: Optional[Battery] = None
@@ -44,6 +46,10 @@ class MissionWatch:
         if last is not None and last.is_cleaning and not mission.is_active:
             self._ended = self.cleaning.time if self.cleaning is not None else -math.inf
 
+    def take_goal(self, came: Optional[float]) -> None:
+        """Take when the last goal of cleaning came [s]; None: there was none for a while."""
+        self._goal_came = came
+
     def take_cleaning(self, cleaning: Cleaning) -> None:
         """Take the figures of the floor."""
         last, self.cleaning = self.cleaning, cleaning
@@ -55,14 +61,30 @@ class MissionWatch:
         self._forecast.add(cleaning, battery, self.mission)
         if self._ended is not None and cleaning.time > self._ended:
             self._ended = None
-            self.report = tuple(wording.closing(self._robot, self.mission, cleaning, self._began, battery,
-                                                self._forecast))
+            self.report = tuple(wording.closing(self._robot, self.mission, cleaning, battery, self._effort(cleaning)))
+
+    def _effort(self, cleaning: Cleaning) -> Effort:
+        """What the mission took that has just ended with these figures."""
+        if not self._forecast.is_whole:
+            return Effort(self._since_goal)
+        driven = cleaning.distance - (self._began.distance if self._began is not None else 0.0)
+        return Effort(self._forecast.elapsed, max(driven, 0.0), self._forecast.charges)
 
     @property
     def elapsed(self) -> Optional[float]:
-        """How long the mission takes already [s]; None without one, or if its beginning was not seen."""
-        is_known = self.mission is not None and self.mission.is_active and self._forecast.is_whole
-        return self._forecast.elapsed if is_known else None
+        """How long the mission takes already [s]; None without one, or if nobody tells when it began."""
+        if self.mission is None or not self.mission.is_active:
+            return None
+        if self._forecast.is_whole:
+            return self._forecast.elapsed
+        return self._since_goal if self.mission.is_cleaning else None
+
+    @property
+    def _since_goal(self) -> Optional[float]:
+        """Time since the last goal of cleaning came [s]: also in a window that was opened later."""
+        if self._goal_came is None or self.cleaning is None or not self.cleaning.time >= self._goal_came:
+            return None
+        return self.cleaning.time - self._goal_came
 
     @property
     def left(self) -> Optional[float]:

@@ -123,7 +123,7 @@ class Battery(NamedTuple):
 
 
 class Cleaning(NamedTuple):
-    """How much of the floor is clean: shares 0..1, areas [m^2], distance driven [m], when [s]; NaN: unknown."""
+    """How much of the floor is swept: shares 0..1, areas [m^2], distance driven [m], when [s]; NaN: unknown."""
 
     coverage: float
     cleaned_area: float

@@ -1,12 +1,13 @@
 """A mission in words, for the terminal and the window."""
 
 import math
-from typing import List, Optional
+from typing import List, NamedTuple, Optional
 
-from rumba_viewer.scene.forecast import CLEANING, Forecast
+from rumba_viewer.scene.forecast import CLEANING
 from rumba_viewer.scene.snapshot import Battery, Cleaning, Mission
 
 UNKNOWN = '-'
+PLANNING = 'planning'  # so the message of a mission ends while the robot stands and plans
 
 
 def percent(share: float, digits: int = 0) -> str:
@@ -38,33 +39,43 @@ def taken(elapsed: Optional[float], left: Optional[float]) -> str:
     return ', '.join(known if left is None else [*known, f'{about(left)} left'])
 
 
+def live_lines(mission: Optional[Mission], cleaning: Optional[Cleaning], battery: Battery,
+               elapsed: Optional[float], left: Optional[float]) -> List[str]:
+    """A mission in one line: all of it, and shorter lines for narrow terminals; each keeps battery and time."""
+    figures = [f'{percent(cleaning.coverage, 1):>6} swept' if cleaning is not None else 'no floor',
+               f'battery {percent(battery.share)}']
+    whole, short = (taken(elapsed, one) for one in (left, None))
+    state = doing(mission)
+    strategy = f' by {mission.strategy}' if mission is not None and state == CLEANING and mission.strategy else ''
+    lines = [(whole, state + strategy), (whole, state), (short, state), (short, '')]
+    return list(dict.fromkeys('  '.join(filter(None, [*figures, *parts])) for parts in lines))
+
+
 def doing(mission: Optional[Mission]) -> str:
-    """What a robot does."""
+    """What a robot does, in one or two words."""
     if mission is None:
         return 'no cleaner'
-    strategy = f' by {mission.strategy}' if mission.state == CLEANING and mission.strategy else ''
-    return f'{mission.state}{strategy}'
+    return PLANNING if mission.message.rpartition('; ')[2] == PLANNING else mission.state
 
 
-def live_line(mission: Optional[Mission], cleaning: Optional[Cleaning], battery: Battery,
-              elapsed: Optional[float], left: Optional[float]) -> str:
-    """A mission in one line, the most important first, since a narrow terminal shows its beginning."""
-    parts = [f'{percent(cleaning.coverage, 1):>6} swept' if cleaning is not None else 'no floor',
-             f'battery {percent(battery.share)}']
-    time = taken(elapsed, left)
-    if time:
-        parts.append(time)
-    return '  '.join((*parts, doing(mission)))
+class Effort(NamedTuple):
+    """What a mission took: time [s], distance [m], number of charges; None: not seen."""
+
+    time: Optional[float] = None
+    distance: Optional[float] = None
+    charges: Optional[int] = None
+
+    def words(self) -> List[str]:
+        """What is known of it."""
+        return [*([] if self.time is None else [span(self.time)]),
+                *([] if self.distance is None else [f'{self.distance:.1f} m driven']),
+                *([] if self.charges is None else [f'{self.charges} charge{"" if self.charges == 1 else "s"}'])]
 
 
-def closing(robot: str, mission: Mission, cleaning: Cleaning, begin: Optional[Cleaning], battery: Battery,
-            forecast: Forecast) -> List[str]:
+def closing(robot: str, mission: Mission, cleaning: Cleaning, battery: Battery, effort: Effort) -> List[str]:
     """A small report at the end of a mission."""
-    charges = forecast.charges
-    time = f'{span(forecast.elapsed)}, ' if forecast.is_whole else ''
-    driven = cleaning.distance - (begin.distance if begin is not None else 0.0)
     return [
         f'{robot}: {percent(cleaning.coverage, 1)} of the floor is swept: {cleaning.cleaned_area:.1f} of '
         f'{cleaning.reachable_area:.1f} m², {percent(cleaning.dirt, 1)} of the dirt is left',
-        f'{time}{max(driven, 0.0):.1f} m driven, {charges} charge{"" if charges == 1 else "s"}, '
-        f'battery {percent(battery.share)}' + (f'; {mission.message}' if mission.state == 'stranded' else '')]
+        ', '.join([*effort.words(), f'battery {percent(battery.share)}'])
+        + (f'; {mission.message}' if mission.state == 'stranded' else '')]

@@ -21,11 +21,12 @@ class BottomLine:
         self._fd = fd
         self._size = (0, 0)  # columns and rows for which the rows above were set to scroll
 
-    def show(self, line: str) -> None:
-        """Show a line, cut to the width of the terminal."""
+    def show(self, lines: List[str]) -> None:
+        """Show the first of these lines that fits the terminal; else the last, cut to its width."""
         columns, rows = size = _size()
         if rows < FEWEST_ROWS:
             return
+        line = next((line for line in lines if len(line) < columns), lines[-1])
         begin = '' if size == self._size else self._reserve(rows)
         self._size = size
         self._write(f'{begin}{SAVE}\x1b[{rows};1H{ERASE_LINE}{line[:columns - 1]}{RESTORE}')

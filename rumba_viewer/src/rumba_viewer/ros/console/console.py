@@ -1,11 +1,11 @@
 """console: one live line about a mission in the terminal, and a small report at its end.
 
-The line stays in the last row of the terminal, and is cut to its width; what others print scrolls above it. Into a pipe
-or a file it prints a line from time to time.
+The line stays in the last row of the terminal, and is as long as fits there. What others print scrolls above it. Into a
+pipe or a file it prints a line from time to time.
 
 Subscribes, below the name of the robot:
   cleaning_status  rumba_msg/CleaningStatus   battery_state    sensor_msgs/BatteryState
-  mission_status   rumba_msg/MissionStatus
+  mission_status   rumba_msg/MissionStatus    clean/status     actionlib_msgs/GoalStatusArray
 
 Parameters, as in `rosrun rumba_viewer console _robot:=rumba2`:
 """
@@ -17,6 +17,7 @@ import threading
 from typing import Any, Callable, List, Tuple, Type
 
 import rospy
+from actionlib_msgs.msg import GoalStatusArray
 from sensor_msgs.msg import BatteryState
 
 from rumba_cleaning.cleaning_config import CleaningConfig
@@ -65,13 +66,13 @@ def show(settings: Settings) -> None:
     rospy.on_shutdown(ended.set)
     try:
         while not ended.wait(PERIOD if bottom is not None else PIPE_PERIOD):
-            report, line = console.report(), console.line()
+            report, lines = console.report(), console.lines()
             if bottom is not None:
                 if report:
                     bottom.say(report)
-                bottom.show(line)
+                bottom.show(lines)
             else:
-                print(*report, line, sep='\n', flush=True)
+                print(*report, lines[0], sep='\n', flush=True)
     finally:
         if bottom is not None:
             bottom.close()
@@ -89,6 +90,7 @@ class Console:
         self._topics = [
             self._topic('battery_state', BatteryState, readings.battery, self._watch.take_battery),
             self._topic('mission_status', MissionStatus, readings.mission, self._watch.take_mission),
+            self._topic('clean/status', GoalStatusArray, readings.goal_time, self._watch.take_goal),
             self._topic('cleaning_status', CleaningStatus, readings.cleaning, self._watch.take_cleaning)]
 
     def _topic(self, name: str, kind: Type[Any], read: Callable[[Any], Any],
@@ -104,10 +106,11 @@ class Console:
             told, self._told = self._told, self._watch.report
         return [*self._told, *NEXT] if self._told and self._told != told else []
 
-    def line(self) -> str:
-        """The live line."""
+    def lines(self) -> List[str]:
+        """The live line, and shorter ones for narrow terminals."""
         with self._lock:
             watch = self._watch
             if watch.cleaning is None:
-                return f'waiting for {rospy.resolve_name(self._robot)}/cleaning_status'
-            return wording.live_line(watch.mission, watch.cleaning, watch.battery or UNKNOWN, watch.elapsed, watch.left)
+                return [f'waiting for {rospy.resolve_name(self._robot)}/cleaning_status']
+            return wording.live_lines(watch.mission, watch.cleaning, watch.battery or UNKNOWN, watch.elapsed,
+                                      watch.left)
