@@ -227,7 +227,7 @@ TURTLE = simulation(node='/turtlesim_body', speed=1.0, wanted=None, services=fro
     (snapshot(robot(), simulation=TURTLE), 'step', '/turtlesim_body has no service step'),
     (snapshot(robot(has_cleaner=False)), 'clean', 'no cleaner is running: rosrun rumba_cleaning cleaner'),
     (snapshot(robot('rumba2', has_cleaner=False), selected='rumba2'), 'undock', '_robot:=rumba2'),
-    (snapshot(robot('rumba2')), 'brushes', 'there is no rumba: Tab selects another robot'),
+    (snapshot(robot('rumba2')), 'brushes', 'there is no rumba: T selects another robot'),
     (snapshot(robot(), features=NO_DOCK), 'dock', 'this map has no dock'),
     (snapshot(robot()), 'clean', 'rumba is already cleaning: cancel that first'),
     (snapshot(robot()), 'resume_cleaning', 'rumba is already cleaning: cancel that first'),

@@ -108,18 +108,23 @@ class Source:
 
 
 class Actor:
-    """A fake actor: it records the calls of its methods."""
+    """A fake actor: it records the calls of its methods; what the window records by itself is apart."""
 
     def __init__(self):
-        self.done = []
+        self.done, self.recorded = [], []
         self.notices = queue.SimpleQueue()
         self.report = ''
-        self.can_record = True
+        self.can_record = self.can_keep = True
 
     def record_mission(self, *what):
         """Whether it records."""
-        self.done.append(('record_mission', *what))
+        (self.done if what[-1] else self.recorded).append(('record_mission', *what))
         return self.can_record
+
+    def keep_recording(self, bag):
+        """Whether the bag can stay."""
+        self.done.append(('keep_recording', bag))
+        return self.can_keep
 
     def __getattr__(self, name):
         return lambda *arguments: self.done.append((name, *arguments))

@@ -4,7 +4,7 @@ import functools
 import pathlib
 import queue
 import threading
-from typing import Any, Callable, Dict, Optional
+from typing import Any, Callable, Dict, Optional, Sequence
 
 import rospy
 from dynamic_reconfigure.msg import Config, DoubleParameter
@@ -145,35 +145,55 @@ class Actor:
             return str(path)
         self._call('saved', call)
 
-    def record_mission(self, robot: str, bag: pathlib.Path) -> bool:
-        """Begin to record a robot into a bag; returns whether that is possible. Only the main thread may call it."""
+    def record_mission(self, robots: Sequence[str], is_asked: bool) -> bool:
+        """Begin to record robots instead of what was recorded before; returns whether that is possible.
+
+        Only the main thread may call it. Why it is not possible is told if a person asked for it.
+        """
         self.report = ''
+        old, self._record = self._record, None
+        if old is not None:
+            threading.Thread(target=old.discard, daemon=True).start()
         try:
-            self._record = MissionRecord(robot, bag)
+            self._record = MissionRecord(robots)
+        except RecordError as error:
+            if is_asked:
+                self.notices.put(f'report: {error}')
+        return self._record is not None
+
+    def keep_recording(self, bag: pathlib.Path) -> bool:
+        """Have the recording stay as a file; returns whether that is possible, and tells why it is not."""
+        try:
+            if self._record is not None:
+                self._record.keep_as(bag)
         except RecordError as error:
             self.notices.put(f'report: {error}')
             return False
-        self.notices.put(f'report: {robot} is recorded until its mission ends')
-        return True
+        return self._record is not None
 
-    def make_report(self) -> None:
-        """End the recording, and make a report of it."""
+    def end_recording(self) -> None:
+        """End the recording."""
+        if self._record is not None:
+            threading.Thread(target=self._record.close, daemon=True).start()
+
+    def make_report(self, robot: str) -> None:
+        """Make a report about a robot of what was recorded."""
         record, self._record = self._record, None
         if record is not None:
-            self.report = f'The report of {record.bag.name} is being made.'
-            self._call(f'report of {record.bag.name}', functools.partial(self._make_report, record))
+            self.report = 'The report is being made.'
+            self._call('report', functools.partial(self._make_report, record, robot))
 
-    def _make_report(self, record: MissionRecord) -> str:
+    def _make_report(self, record: MissionRecord, robot: str) -> str:
         try:
-            self.report = f'The report is {record.report()}'
+            self.report = f'The report is {record.report(robot)}'
         except RecordError as error:
             self.report = f'No report: {error}'
         return self.report
 
     def close(self) -> None:
-        """End a recording that is under way; its bag stays."""
+        """End a recording that is under way; its bag stays if a person asked for a report."""
         if self._record is not None:
-            self._record.close()
+            self._record.discard()
 
     def _call(self, what: str, act: Callable[[], str]) -> None:
         """Call something in a thread, and tell its answer or what went wrong."""

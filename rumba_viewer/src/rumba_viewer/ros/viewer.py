@@ -8,7 +8,7 @@ Subscribes, for each robot that publishes a ground_truth, below its name:
   battery_status   rumba_msg/BatteryStatus    battery_state    sensor_msgs/BatteryState
   cleaning_status  rumba_msg/CleaningStatus   mission_status   rumba_msg/MissionStatus
   cliff            rumba_msg/Cliff            clean/result     rumba_msg/CleanActionResult
-  go_to/goal       rumba_msg/GoToActionGoal
+  go_to/goal       rumba_msg/GoToActionGoal   clean/status     actionlib_msgs/GoalStatusArray
 for the selected robot also
   coverage         nav_msgs/OccupancyGrid     scan             sensor_msgs/LaserScan, while the laser is shown
 to /tf_static (tf2_msgs/TFMessage), /map (nav_msgs/OccupancyGrid) and simulator/state (rumba_msg/SimulatorState)

@@ -51,7 +51,7 @@ def service(name: str) -> Callable[[Snapshot], str]:
 
 def robot(now: Snapshot) -> str:
     """It needs the selected robot."""
-    return '' if now.robot is not None else simulator(now) or f'there is no {now.selected}: Tab selects another robot'
+    return '' if now.robot is not None else simulator(now) or f'there is no {now.selected}: T selects another robot'
 
 
 def cleaner(now: Snapshot) -> str:
@@ -131,10 +131,11 @@ ACTS = (
     Act('path', 'Path', 'P', 'show or hide the path driven', nothing),
     Act('field', 'Dock beams', 'I', 'show or hide where the beams of the dock are received', nothing),
     Act('fit', 'Fit', 'Home', 'show the whole map', nothing),
-    Act('next_robot', 'Next robot', 'Tab', 'select the next robot', another_robot),
+    Act('next_robot', 'Next robot', 'T', 'select the next robot', another_robot),
+    Act('more', 'More', 'M', 'show or hide the buttons for time and robot', nothing),
     Act('save', 'Save PNG', 'Ctrl+S', 'save a picture of the window', nothing),
     Act('record', 'Record', 'Ctrl+G', 'start or stop recording the floor as a GIF', nothing),
-    Act('report', 'Report', 'Ctrl+B', 'record a mission; at its end, or pressed again, make a report of it', robot),
+    Act('report', 'Report', 'Ctrl+B', 'make a page about the mission: at its end, or, pressed again, now', robot),
     Act('legend', 'Keys', 'F1', 'show or hide this list', nothing),
 )
 BY_NAME: Dict[str, Act] = {act.name: act for act in ACTS}
@@ -144,6 +145,7 @@ DRIVE = {'Up': (1, 0), 'W': (1, 0), 'Down': (-1, 0), 'S': (-1, 0),
          'Left': (0, 1), 'A': (0, 1), 'Right': (0, -1), 'D': (0, -1)}
 MOUSE = (
     ('Arrows, W A S D', 'drive while held; the cleaner waits meanwhile'),
+    ('Tab, Shift+Tab', 'go to the next or last button; Space or Enter presses it'),
     ('Click', 'choose a target on the floor; select a robot'),
     ('Double click', 'send the robot to that point'),
     ('Drag the robot', 'put it elsewhere; the wheel turns it'),

@@ -1,20 +1,22 @@
 """The panel beside the floor: the card of the selected robot, and buttons."""
 
-from typing import Any, Callable, Dict, List, Optional, Sequence
+from typing import Any, Callable, Dict, List, Optional, Sequence, Tuple
 
-from PyQt5.QtCore import QEvent, QRectF, QSize, Qt
+from PyQt5.QtCore import QEvent, QRectF, QSize, Qt, QTimer
 from PyQt5.QtGui import QIcon, QPainter, QPalette
-from PyQt5.QtWidgets import QComboBox, QGridLayout, QLabel, QPushButton, QScrollArea, QVBoxLayout, QWidget
+from PyQt5.QtWidgets import QGridLayout, QLabel, QPushButton, QScrollArea, QVBoxLayout, QWidget
 
 from rumba_viewer.painting.paint_status import paint_status, status_height
 from rumba_viewer.scene.acts import BY_NAME, simulated, speeds_with
 from rumba_viewer.scene.snapshot import Snapshot
 from rumba_viewer.scene.wording import span
+from rumba_viewer.window.controls import Button, Choice
 from rumba_viewer.window.floor_view import theme_of
 from rumba_viewer.window.icons import icon
 
 WIDTH = 322  # [pixels]
 EDGE = 8  # [pixels]
+SPACING = 5  # [pixels] between rows
 ICON = 12  # [pixels] side of an icon
 FRAME = 3  # letters that are as wide as the frame of a button
 LIST = 7  # letters in a list
@@ -22,11 +24,12 @@ LETTERS = {'pause': 10, 'step': 6, 'record': 8, 'report': 8}  # as wide as the i
 STRATEGIES, SPEED = 'strategies', 'speeds'  # lists among the buttons
 GROUPS = (  # of buttons, by name, with their headings
     ('Mission', (('clean', STRATEGIES), ('resume_cleaning', 'go_there'), ('dock', 'undock', 'cancel'))),
-    ('Time and robot', (('pause', 'step', SPEED), ('brushes', 'next_robot', 'reset'))),
-    ('View and save', (('laser', 'path', 'fit', 'legend'), ('field', 'save'), ('record', 'report'))))
+    ('View and save', (('laser', 'path', 'fit', 'legend'), ('field', 'save'), ('record', 'report'))),
+    ('', (('more',),)))
+MORE = 'Time and robot', (('pause', 'step', SPEED), ('brushes', 'next_robot', 'reset'))  # shown when asked for
 MAIN = 'clean'  # the most prominent button
 RECORDS = ('record', 'report')  # buttons that show how long they are pressed
-SWITCHES = ('laser', 'path', 'field', *RECORDS, 'legend')  # buttons that stay pressed
+SWITCHES = ('laser', 'path', 'field', *RECORDS, 'legend', 'more')  # buttons that stay pressed
 
 
 class StatusCard(QWidget):
@@ -68,19 +71,24 @@ class Panel(QScrollArea):
         inside = QWidget()
         self.card = StatusCard(snapshot)
         self.buttons: Dict[str, QPushButton] = {}
-        self.strategies = _list(['default', *strategies])
-        self.speeds = _list([])
+        self.strategies = Choice(['default', *strategies])
+        self.speeds = Choice()
         self._speeds: List[float] = []  # that the list offers
         self._icons: Dict[str, str] = {}
         self.speeds.activated.connect(lambda index: set_speed(self._speeds[index]))
         column = QVBoxLayout(inside)
         column.setContentsMargins(EDGE, EDGE, EDGE, EDGE)
-        column.setSpacing(5)
+        column.setSpacing(SPACING)
         column.addWidget(self.card)
-        for heading, rows in GROUPS:
-            column.addWidget(_heading(heading))
-            for row in rows:
-                column.addLayout(self._row(row, act))
+        for group in GROUPS:
+            self._add(column, group, act)
+        self._more = QWidget()
+        self._more.setVisible(False)
+        hidden = QVBoxLayout(self._more)
+        hidden.setContentsMargins(0, 0, 0, 0)
+        hidden.setSpacing(SPACING)
+        self._add(hidden, MORE, act)
+        column.addWidget(self._more)
         column.addStretch(1)
         self.setWidget(inside)
         self.setWidgetResizable(True)
@@ -95,6 +103,29 @@ class Panel(QScrollArea):
         size: QSize = self.widget().sizeHint()
         return size
 
+    def _add(self, column: QVBoxLayout, group: Tuple[str, Sequence[Sequence[str]]], act: Callable[[str], None]) -> None:
+        """Add a heading, if there is one, and rows of buttons."""
+        heading, rows = group
+        if heading:
+            column.addWidget(_heading(heading))
+        for row in rows:
+            column.addLayout(self._row(row, act))
+
+    @property
+    def shows_more(self) -> bool:
+        """Whether the buttons of MORE are shown."""
+        return not self._more.isHidden()
+
+    def switch_more(self) -> None:
+        """Show or hide the buttons of MORE."""
+        self._more.setVisible(not self.shows_more)
+        if self.shows_more:
+            QTimer.singleShot(0, lambda: self.ensureWidgetVisible(self._more))  # once they have their place
+
+    def keyPressEvent(self, event: Any) -> None:  # noqa: N802 (Qt's name)
+        """Leave the arrows to the robot."""
+        event.ignore()
+
     def _row(self, names: Sequence[str], act: Callable[[str], None]) -> QGridLayout:
         row = QGridLayout()
         row.setSpacing(6)
@@ -106,10 +137,8 @@ class Panel(QScrollArea):
         return row
 
     def _button(self, name: str, act: Callable[[str], None]) -> QPushButton:
-        button = QPushButton(BY_NAME[name].label)
-        button.setFocusPolicy(Qt.NoFocus)  # the arrow keys are for the robot
+        button = Button(BY_NAME[name].label)
         button.setCheckable(name in SWITCHES)
-        button.setMinimumWidth(40)
         button.clicked.connect(lambda: act(name))
         button.setIconSize(QSize(ICON, ICON))
         self.buttons[name] = button
@@ -127,7 +156,8 @@ class Panel(QScrollArea):
         self.buttons[MAIN].setStyleSheet(
             f'QPushButton {{ background: {theme.main}; color: {theme.card}; font-weight: bold; border: none; '
             f'border-radius: 4px; padding: 6px; }} QPushButton:disabled {{ background: {theme.trough}; '
-            f'color: {theme.faint_text}; }} QPushButton:pressed {{ background: {theme.text}; }}')
+            f'color: {theme.faint_text}; }} QPushButton:pressed {{ background: {theme.text}; }} '
+            f'QPushButton:focus {{ border: 2px solid {theme.text}; }}')
 
     def _show_icon(self, button: str, name: str) -> None:
         """Show an icon on a button; empty: none."""
@@ -179,14 +209,6 @@ class Panel(QScrollArea):
     def strategy(self) -> str:
         """The chosen strategy; empty: the default of the cleaner."""
         return self.strategies.currentText() if self.strategies.currentIndex() > 0 else ''
-
-
-def _list(texts: Sequence[str]) -> QComboBox:
-    box = QComboBox()
-    box.addItems(texts)
-    box.setFocusPolicy(Qt.NoFocus)
-    box.setMinimumWidth(40)
-    return box
 
 
 def _heading(text: str) -> QLabel:

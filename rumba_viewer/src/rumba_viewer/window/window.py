@@ -86,6 +86,7 @@ class Window(QWidget):
         row.addWidget(self.panel)
         self.setWindowTitle('Rumba')
         self.setFocusPolicy(Qt.StrongFocus)
+        self.setFocus()  # not a button
         self.floor.clicked.connect(self._choose_target)
         self.floor.double_clicked.connect(self._go_to)
         self.floor.robot_clicked.connect(self._select)
@@ -110,8 +111,9 @@ class Window(QWidget):
         while not self._actor.notices.empty():
             self.tell(self._actor.notices.get())
         self._notices.expire()
+        was_asked = self.reports.is_asked
         self.reports.follow(self.snapshot)
-        if self.pictures.is_recording or self.reports.is_recording:  # while nothing else happens, its time goes on
+        if self.pictures.is_recording or was_asked:  # while nothing else happens, its time goes on
             self._show()
         if self._source.has_news(now):
             new = self._source.snapshot(now)
@@ -124,8 +126,8 @@ class Window(QWidget):
         self.floor.show_snapshot(self.snapshot)
         self.panel.show_snapshot(self.snapshot, {
             'laser': self._shows_laser, 'path': self.floor.scene.shows_path, 'field': self.floor.scene.shows_field,
-            'record': self.pictures.is_recording, 'report': self.reports.is_recording,
-            'legend': self.floor.shows_legend},
+            'record': self.pictures.is_recording, 'report': self.reports.is_asked,
+            'legend': self.floor.shows_legend, 'more': self.panel.shows_more},
             {'record': self.pictures.recorded, 'report': self.reports.recorded})
 
     # --- what is done -------------------------------------------------------------------------------------------------
@@ -167,9 +169,10 @@ class Window(QWidget):
             'brushes': lambda: actor.set_brushes_up(not brushes_up),
             'slower': lambda: self._change_speed(-1), 'faster': lambda: self._change_speed(1),
             'laser': self._laser, 'path': self.floor.switch_path, 'field': self.floor.switch_field,
-            'legend': self.floor.switch_legend, 'fit': self.floor.fit, 'next_robot': self._next_robot,
+            'legend': self.floor.switch_legend, 'fit': self.floor.fit, 'more': self.panel.switch_more,
+            'next_robot': self._next_robot,
             'save': self.pictures.save, 'record': self.pictures.switch_record,
-            'report': lambda: self.reports.switch(snapshot.selected)}
+            'report': lambda: self.reports.switch(snapshot)}
 
     def _interrupt(self, name: str, act: Callable[[], Any]) -> None:
         """Do what interrupts a cleaning, and tell how to continue that."""
@@ -274,10 +277,6 @@ class Window(QWidget):
         """Stop, unless another key drives."""
         if self._steering.release(key):
             self._command()
-
-    def focusNextPrevChild(self, _: bool) -> bool:  # noqa: N802
-        """Tab selects robots, not widgets."""
-        return False
 
     def event(self, event: Any) -> bool:
         """Stop if another window comes to the front: it gets the release of the key."""
