@@ -21,11 +21,13 @@ with_progress() { # TITLE USUALLY COMMAND ...
                     [ -t 1 ] || say "$(progress)"
                     line=${line%"$mark"}
                     [ -z "$line" ] || echo "$line" >>"$log" ;;
-                dlstatus:*:*:* | pmstatus:*:*:*) percent=${line#*:*:} doing=${line##*:} ;;
-                *\[*%\]*) percent=${line#*[} doing=${line#*] }; echo "$line" >>"$log" ;;
+                # Packages are downloaded first, and then installed.
+                dlstatus:*:*:*) reach 0 30 "${line#*:*:}"; doing=${line##*:} ;;
+                pmstatus:*:*:*) reach 30 100 "${line#*:*:}"; doing=${line##*:} ;;
+                # The last step of make, which compiles the planner, takes nearly half of the time.
+                *\[*%\]*) reach 0 60 "${line#*[}"; doing=${line#*] }; echo "$line" >>"$log" ;;
                 *) echo "$line" >>"$log"; continue ;;
             esac
-            percent=${percent%%[.:%]*}
             redraw
         done
     }
@@ -66,6 +68,11 @@ with_beats() { # SECONDS COMMAND ...
 
 begin() {
     begun=$(date +%s) elapsed=0:00 percent='' doing=''
+}
+
+reach() { # FIRST LAST PERCENT: of a part of the work, which goes from FIRST % to LAST % of all
+    of_part=${3%%[.:%]*}
+    percent=$(($1 + ($2 - $1) * of_part / 100))
 }
 
 take_time() { # since $begun, as minutes:seconds, in $elapsed

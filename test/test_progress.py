@@ -1,13 +1,17 @@
 """Long commands of ./rumba say how far they are: no terminal stays silent for ten seconds."""
 
 import os
-import pty
+import re
 import subprocess
+import sys
 import time
 
 import pytest
 from checkouts import commands, make_checkout, on_system, surroundings
 from workspaces import ROOT
+
+sys.path.insert(0, str(ROOT / 'packaging'))
+import silence  # noqa: E402
 
 SILENCE = 10.0  # [s] in which newcomers begin to think of Ctrl-C
 APT = '''#!/bin/sh
@@ -23,26 +27,9 @@ SETUP = f'say() {{ echo "rumba: $*"; }}; . {ROOT}/packaging/progress.sh; log=/de
 
 
 def recorded(command, environment, is_terminal=False):
-    """What a command prints, with the time of each piece [s], the exit code, and the longest silence [s]."""
-    ours, theirs = pty.openpty() if is_terminal else os.pipe()
-    begin = time.monotonic()
-    process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=theirs, stderr=subprocess.STDOUT,
-                               env=environment)
-    os.close(theirs)
-    pieces, times = [], [begin]
-    while True:
-        try:
-            piece = os.read(ours, 65536)
-        except OSError:  # a terminal that all have closed
-            break
-        if not piece:
-            break
-        pieces.append(piece.decode())
-        times.append(time.monotonic())
-    os.close(ours)
-    code = process.wait()
-    times.append(time.monotonic())
-    return ''.join(pieces), code, max(after - before for before, after in zip(times, times[1:]))
+    """What a command prints, its exit code, and the longest silence [s]."""
+    done = silence.record(command, environment, is_terminal)
+    return done.text, done.code, done.silences()[0].time
 
 
 @pytest.mark.parametrize('is_terminal', [False, True], ids=['piped', 'terminal'])
@@ -51,18 +38,18 @@ def test_apt_that_says_nothing_leaves_no_silence(tmp_path, is_terminal):
         'apt-get': APT,
         'apt-cache': '#!/bin/sh\n', 'id': '#!/bin/sh\necho 0\n', 'dpkg-query': '#!/bin/sh\nexit 1\n'})
     environment = surroundings(PATH=f'{path}:{os.environ["PATH"]}', **on_system(tmp_path))
-    said, code, silence = recorded([str(make_checkout(tmp_path / 'checkout') / 'rumba'), 'build'], environment,
+    said, code, longest = recorded([str(make_checkout(tmp_path / 'checkout') / 'rumba'), 'build'], environment,
                                    is_terminal)
     assert code == 1 and 'cannot install packages: broken' in said
-    assert 'rumba: installing 2 packages, 7 MB to download' in said
-    assert 'MB to download, 0:08 (usually 1 to 5 min)' in said and silence < SILENCE
+    assert 'rumba: installing 2 packages, 7 MB' in said
+    assert '7 MB, 0:08 (usually 1 to 5 min)' in said and longest < SILENCE
 
 
-def test_a_build_that_stands_at_100_percent_says_what_it_does_and_for_how_long():
+def test_a_build_whose_targets_are_made_but_for_the_last_says_what_it_does_and_for_how_long():
     work = 'work() { echo "[100%] Compiling the functions"; sleep 5; return 3; }; '
-    said, code, silence = recorded(['sh', '-c', f"{SETUP}{work}with_progress building '2 min' work"], surroundings())
-    assert code == 3 and silence < 4.0
-    assert said.startswith('rumba: building\nrumba: building 100 %, 0:0')
+    said, code, longest = recorded(['sh', '-c', f"{SETUP}{work}with_progress building '2 min' work"], surroundings())
+    assert code == 3 and longest < 4.0
+    assert said.startswith('rumba: building\nrumba: building 60 %, 0:0')
     assert said.splitlines()[-1].endswith(' (usually 2 min): Compiling the functions')
 
 
@@ -70,13 +57,13 @@ def test_a_line_of_progress_fits_a_terminal_of_80_columns():
     work = f'work() {{ echo "[ 45%] {"long " * 40}"; }}; '
     said, _, _ = recorded(['sh', '-c', f"{SETUP}{work}with_progress building '2 min' work"], surroundings(), True)
     lines = [line for line in said.replace('\x1b[K', '').split('\r') if line]
-    assert max(map(len, lines)) == 79 and lines[-1].startswith('rumba: building  45 %, 0:00 (usually 2 min): long')
+    assert max(map(len, lines)) == 79 and lines[-1].startswith('rumba: building 27 %, 0:00 (usually 2 min): long')
 
 
 def test_a_command_that_is_shown_is_spoken_of_only_while_it_is_silent():
     work = 'work() { for i in 1 2 3; do echo $i; sleep 0.4; done; sleep 3; echo end; }; '
-    said, code, silence = recorded(['sh', '-c', f"{SETUP}{work}with_voice testing '' work"], surroundings())
-    assert code == 0 and silence < 3.0
+    said, code, longest = recorded(['sh', '-c', f"{SETUP}{work}with_voice testing '' work"], surroundings())
+    assert code == 0 and longest < 3.0
     lines = said.splitlines()
     assert lines[:3] == ['1', '2', '3'] and lines[-1] == 'end'
     assert all(line.startswith('rumba: testing, 0:0') for line in lines[3:-1]) and len(lines) > 4
@@ -86,3 +73,25 @@ def test_nobody_waits_for_the_next_beat_once_the_command_has_ended():
     begin = time.monotonic()
     said, code, _ = recorded(['sh', '-c', f"{SETUP}beat=60; with_progress building '' true"], surroundings())
     assert (said, code) == ('rumba: building\n', 0) and time.monotonic() - begin < 30.0
+
+
+def test_the_bar_of_an_installation_runs_once():
+    lines = ['dlstatus:1:0.00:Retrieving', 'dlstatus:2:99.9:Retrieving', 'pmstatus:a:0.5:Unpacking a',
+             'pmstatus:a:50:Configuring a', 'pmstatus:a:100:Installed a']
+    work = f'work() {{ printf "%s\\n" {" ".join(map(repr, lines))}; }}; '
+    said, _, _ = recorded(['sh', '-c', f"{SETUP}{work}with_progress installing '' work"], surroundings(), True)
+    assert [int(percent) for percent in re.findall(r'installing (\d+) %', said)] == [0, 29, 30, 65, 100]
+
+
+@pytest.mark.parametrize('arguments, code', [([], 0), (['--at-most', '0.5'], 1), (['--until', 'o.e'], 0)])
+def test_the_recorder_says_when_a_command_was_silent_longest(tmp_path, arguments, code):
+    log = tmp_path / 'log'
+    command = [sys.executable, str(ROOT / 'packaging' / 'silence.py'), '--log', str(log), *arguments, 'sh', '-c',
+               'echo one; sleep 1; echo two; sleep ' + ('600' if '--until' in arguments else '0')]
+    done = subprocess.run(command, stdout=subprocess.PIPE, universal_newlines=True, timeout=60.0)
+    assert done.returncode == code
+    if '--until' in arguments:
+        assert re.search(r"^silence: 0\.\d s in all, 0\.\d s until 'o\.e'$", done.stdout, re.MULTILINE)
+    else:
+        assert re.search(r"^silence: 1\.\d s after 'one\\r\\n'$", done.stdout, re.MULTILINE)
+        assert [line.split(maxsplit=1)[1] for line in log.read_text().splitlines()] == ["'one\\r\\n'", "'two\\r\\n'"]
