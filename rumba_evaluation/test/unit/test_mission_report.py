@@ -93,14 +93,19 @@ def test_a_robot_is_chosen_by_its_name_with_the_map_of_its_namespace(two_robots,
     record = mission_bag.read(two_robots, robot)
     assert (record.robot, summary(record).distance) == (name, approx(distance))
     assert record.floor.cells.tolist() == floor.tolist()
-    assert record.remarks == [f'Also in the bag: {"rumba" if name != "rumba" else "up/rumba2"}.']
+    mate, = record.mates
+    assert {(one.robot, round(summary(one).distance, 6)) for one in (record, mate)} == {
+        ('rumba', 12.0), ('up/rumba2', 4.0)}
+    assert record.remarks == []
 
 
 def test_the_only_robot_with_enough_topics_is_chosen(tmp_path):
     path = write(tmp_path / 'a.bag', LEAST, '/b')
     with rosbag.Bag(path, 'a') as bag:
         mission_bags.add(bag, ['bumper'], '/rumba')
-    assert mission_bag.read(path).robot == 'b'
+    record = mission_bag.read(path)
+    assert (record.robot, record.mates) == ('b', [])
+    assert record.remarks == ['Also in the bag, without what a report needs: rumba.']
 
 
 def test_topics_without_a_namespace_belong_to_a_robot_too(tmp_path):

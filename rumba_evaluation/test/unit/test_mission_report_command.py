@@ -7,6 +7,7 @@ import subprocess
 import sys
 
 import genpy
+import mission_bags
 import pytest
 import rosbag
 from mission_bags import EVENTS, LEAST, write
@@ -54,6 +55,22 @@ def test_the_command_writes_to_the_given_path(bag, tmp_path, capsys):
     mission_report.main([bag, '--output', str(output)])
     assert capsys.readouterr().out.splitlines()[0] == str(output)
     assert output.read_bytes() == first, 'the same bag gives the same page'
+
+
+def test_with_two_robots_page_and_summary_have_the_figures_of_both(tmp_path, capsys):
+    path = write(tmp_path / 'two.bag')
+    with rosbag.Bag(path, 'a') as two:
+        mission_bags.add(two, LEAST, '/rumba2', until=10.0)
+    mission_report.main([path])
+    told = capsys.readouterr().out.splitlines()[1:]
+    assert [line for line in told if ' driven' in line] == [
+        'rumba: 90.0 % swept, 25.0 % of the dirt left, 12.0 m driven at 0.50 m/s, bumps: 3',
+        'rumba2: coverage not recorded, 4.0 m driven at 0.50 m/s']
+    text = (tmp_path / 'two.html').read_text()
+    rows = re.findall(r'<tr>(.*?)</tr>', text[text.index('<h2>Robots</h2>'):text.index('<h2>Path</h2>')])
+    cells = [re.findall(r'<td>(.*?)</td>', row) for row in rows[1:]]
+    assert [row[:3] for row in cells] == [['rumba', '0:00:34', '12.0 m'], ['rumba2', 'not recorded', '4.0 m']]
+    assert cells[0][6].startswith('The robot swept 90.0 %') and cells[1][6] == 'not recorded'
 
 
 def test_without_matplotlib_the_message_names_the_package(tmp_path):

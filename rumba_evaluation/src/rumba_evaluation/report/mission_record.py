@@ -103,6 +103,7 @@ class MissionRecord:
         known: what the robot's own map shows in each cell of the map, likewise; None if the map is its own.
         swept: at the end: 100 swept, 0 missed, -1 out of reach.
         remarks: sentences about the recording for the reader.
+        mates: the records of the other robots, without maps.
     """
 
     source: str
@@ -124,6 +125,7 @@ class MissionRecord:
     known: Optional[Grid] = None
     swept: Optional[Grid] = None
     remarks: Sequence[str] = field(default_factory=tuple)
+    mates: Sequence[MissionRecord] = ()
 
     @property
     def duration(self) -> float:

@@ -40,6 +40,7 @@ def page(record: MissionRecord) -> str:
 <main>
 {_outcome(record, totals)}
 {_tiles(record, totals)}
+{_team(record)}
 {_map(record, drawn.path)}
 <div class="columns">
 {_section('Coverage', drawn.coverage, _coverage_legend(record))}
@@ -91,6 +92,24 @@ def _tiles(record: MissionRecord, totals: Summary) -> str:
     return '<dl class="tiles">' + ''.join(
         f'<div><dt>{name}</dt><dd>{value}{more and f"<small>{more}</small>"}</dd></div>' for name, value, more in tiles
     ) + '</dl>'
+
+
+def _team(record: MissionRecord) -> str:
+    """The figures of each robot, if there are several; they share the floor, so that one coverage is that of all."""
+    if not record.mates:
+        return ''
+    heads = ('Robot', 'Mission', 'Distance', 'Charges', 'Battery', 'Bumps', 'How it ended')
+    rows = []
+    for one in (record, *record.mates):
+        totals = summary(one)
+        rows.append((one.robot, clock(totals.busy) if totals.busy is not None else NOT_RECORDED,
+                     f'{totals.distance:.1f} m', str(totals.charges),
+                     f'{totals.charge[1]:.0f} %, lowest {totals.charge[2]:.0f} %',
+                     str(totals.bumps) if totals.bumps is not None else NOT_RECORDED, totals.outcome or NOT_RECORDED))
+    return ('<section class="team"><h2>Robots</h2><table><thead><tr>'
+            + ''.join(f'<th scope="col">{head}</th>' for head in heads) + '</tr></thead><tbody>'
+            + ''.join('<tr>' + ''.join(f'<td>{html.escape(cell)}</td>' for cell in row) + '</tr>' for row in rows)
+            + '</tbody></table></section>')
 
 
 def _percent(share: Optional[float]) -> str:

@@ -52,6 +52,8 @@ th,td{text-align:left;vertical-align:top;padding:.25rem .5rem .25rem 0;border-bo
 td:first-child,th[scope=row]{white-space:nowrap}
 th[scope=row]{font-weight:400;color:var(--soft)}
 td{overflow-wrap:anywhere}
+.team{margin-bottom:.75rem;overflow-x:auto}
+.team td:last-child{min-width:12rem}
 .events td:first-child{font-variant-numeric:tabular-nums;color:var(--soft)}
 @media (max-width:30rem){body{padding:.5rem}section,.tiles div{padding:.5rem .6rem}}
 @media (min-width:44rem),print{.tiles{grid-template-columns:repeat(4,1fr)}}

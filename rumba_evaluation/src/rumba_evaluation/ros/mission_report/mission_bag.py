@@ -1,5 +1,6 @@
 """Reads a bag: finds the robots in it, checks that a report can be made, and makes the record of one robot."""
 
+import dataclasses
 from typing import Dict, Iterable, List
 
 import rosbag
@@ -72,14 +73,24 @@ def _read(bag: rosbag.Bag, path: str, wanted: str, target: float) -> MissionReco
     robots = _robots(kinds)
     name = _choose(path, robots, wanted)
     _check(path, name, robots.get(name, {}), kinds)
-    remarks = [f'Also in the bag: {_listed(other for other in robots if other != name)}.'] if len(robots) > 1 else []
+    mates = _mates(bag, path, {other: topics for other, topics in robots.items() if other != name}, target)
+    others = [other for other in robots if other != name and _shown(other) not in [mate.robot for mate in mates]]
+    remarks = [f'Also in the bag, without what a report needs: {_listed(others)}.'] if others else []
     maps = read_maps(bag, kinds, name)
     record = RecordedRobot(bag, robots[name]).record(path, _shown(name), maps.floor, maps.known,
                                                      [*remarks, *maps.remarks], target)
+    record = dataclasses.replace(record, mates=mates)
     for what, part in (('position', record.path), ('charge', record.charge)):
         if not len(part.times):
             raise ReportError(f'{path}: robot {record.robot}: no {what} is a finite number')
     return record
+
+
+def _mates(bag: rosbag.Bag, path: str, robots: Dict[str, Topics], target: float) -> List[MissionRecord]:
+    """The records of those robots of which a report can be made."""
+    records = [RecordedRobot(bag, topics).record(path, _shown(name), None, None, [], target)
+               for name, topics in robots.items() if not _lacks(topics)]
+    return [record for record in records if len(record.path.times) and len(record.charge.times)]
 
 
 def _robots(kinds: Dict[str, str]) -> Dict[str, Topics]:

@@ -91,6 +91,11 @@ def _page_maker() -> Callable[[MissionRecord], str]:
 
 
 def _lines(record: MissionRecord) -> List[str]:
+    """A summary: of each robot, if there are several."""
+    return [line for one in (record, *record.mates) for line in _lines_of(one)]
+
+
+def _lines_of(record: MissionRecord) -> List[str]:
     totals = summary(record)
     coverage = f'{100.0 * totals.coverage:.1f} % swept' if totals.coverage is not None else 'coverage not recorded'
     dirt = f', {100.0 * record.dirt:.1f} % of the dirt left' if record.dirt is not None else ''
