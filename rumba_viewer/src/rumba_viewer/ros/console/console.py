@@ -3,7 +3,7 @@
 The line stays in the last row of the terminal, and is as long as fits there. What others print scrolls above it. Into a
 pipe or a file it prints a line from time to time.
 
-Subscribes, below the name of the robot:
+Subscribes, below the name of each robot:
   cleaning_status  rumba_msg/CleaningStatus   battery_state    sensor_msgs/BatteryState
   mission_status   rumba_msg/MissionStatus    clean/status     actionlib_msgs/GoalStatusArray
 
@@ -14,8 +14,9 @@ import dataclasses
 import os
 import sys
 import threading
-from typing import Any, Callable, List, Tuple, Type
+from typing import Any, Callable, Dict, List, Sequence, Tuple, Type
 
+import rosgraph
 import rospy
 from actionlib_msgs.msg import GoalStatusArray
 from sensor_msgs.msg import BatteryState
@@ -23,6 +24,7 @@ from sensor_msgs.msg import BatteryState
 from rumba_cleaning.cleaning_config import CleaningConfig
 from rumba_msg.msg import CleaningStatus, MissionStatus
 from rumba_sim.model.common.config import setting
+from rumba_sim.model.common.errors import ConfigError
 from rumba_sim.ros.common.names import check_names
 from rumba_sim.ros.running import node
 from rumba_viewer.ros import readings
@@ -47,9 +49,13 @@ class Settings:
     target_coverage: float = setting(CleaningConfig().target_coverage, 'share of the floor that missions sweep, by '
                                      'which the time left is estimated', '0..1', 0.0, 1.0)
 
+    mates: str = setting('', 'names of other robots whose reports are printed too, with spaces between')
+
     def __post_init__(self) -> None:
-        """Check the name of the robot, of which names of topics are made."""
+        """Check the names of the robots, of which names of topics are made."""
         check_names(self, 'robot')
+        if not all(map(rosgraph.names.is_legal_base_name, self.mates.split())):
+            raise ConfigError(f'mates is {self.mates!r}: must be names of robots, with spaces between')
 
 
 def main() -> None:
@@ -59,7 +65,7 @@ def main() -> None:
 
 def show(settings: Settings) -> None:
     """Show the mission of a robot, until ROS shuts down."""
-    console = Console(settings.robot, settings.target_coverage)
+    console = Console([settings.robot, *settings.mates.split()], settings.target_coverage)
     is_terminal = sys.stdout.isatty() and os.environ.get('TERM', 'dumb') != 'dumb'
     bottom = BottomLine(sys.stdout.fileno()) if is_terminal else None
     ended = threading.Event()
@@ -79,38 +85,39 @@ def show(settings: Settings) -> None:
 
 
 class Console:
-    """Listens to a robot, and puts its mission into words."""
+    """Listens to robots, and puts their missions into words."""
 
-    def __init__(self, robot: str, target: float) -> None:
-        """Listen to a robot whose missions have a target [0..1]."""
-        self._robot = robot
-        self._lock = threading.Lock()  # held while the watch is used
-        self._watch = MissionWatch(robot, target)
-        self._told: Tuple[str, ...] = ()
-        self._topics = [
-            self._topic('battery_state', BatteryState, readings.battery, self._watch.take_battery),
-            self._topic('mission_status', MissionStatus, readings.mission, self._watch.take_mission),
-            self._topic('clean/status', GoalStatusArray, readings.goal_time, self._watch.take_goal),
-            self._topic('cleaning_status', CleaningStatus, readings.cleaning, self._watch.take_cleaning)]
+    def __init__(self, robots: Sequence[str], target: float) -> None:
+        """Listen to robots whose missions have a target [0..1]; the live line is about the first of them."""
+        self._lock = threading.Lock()  # held while a watch is used
+        self._watches = {robot: MissionWatch(robot, target) for robot in robots}
+        self._told: Dict[str, Tuple[str, ...]] = dict.fromkeys(robots, ())
+        self._topics = [topic for robot, watch in self._watches.items() for topic in (
+            self._topic(robot, 'battery_state', BatteryState, readings.battery, watch.take_battery),
+            self._topic(robot, 'mission_status', MissionStatus, readings.mission, watch.take_mission),
+            self._topic(robot, 'clean/status', GoalStatusArray, readings.goal_time, watch.take_goal),
+            self._topic(robot, 'cleaning_status', CleaningStatus, readings.cleaning, watch.take_cleaning))]
 
-    def _topic(self, name: str, kind: Type[Any], read: Callable[[Any], Any],
+    def _topic(self, robot: str, name: str, kind: Type[Any], read: Callable[[Any], Any],
                take: Callable[[Any], None]) -> 'Subscription[Any]':
         def take_alone(value: Any) -> None:
             with self._lock:
                 take(value)
-        return Subscription(f'{self._robot}/{name}', kind, read, take_alone, queue_size=10)
+        return Subscription(f'{robot}/{name}', kind, read, take_alone, queue_size=10)
 
     def report(self) -> List[str]:
-        """The report of a mission that has just ended, once; else no lines."""
+        """The reports of missions that have just ended, once, and after the last what to do next; else no lines."""
         with self._lock:
-            told, self._told = self._told, self._watch.report
-        return [*self._told, *NEXT] if self._told and self._told != told else []
+            told, self._told = self._told, {robot: watch.report for robot, watch in self._watches.items()}
+            lines = [line for robot, report in self._told.items() if report != told[robot] for line in report]
+            is_over = not any(watch.mission is not None and watch.mission.is_active for watch in self._watches.values())
+        return [*lines, *NEXT] if lines and is_over else lines
 
     def lines(self) -> List[str]:
         """The live line, and shorter ones for narrow terminals."""
         with self._lock:
-            watch = self._watch
+            robot, watch = next(iter(self._watches.items()))
             if watch.cleaning is None:
-                return [f'waiting for {rospy.resolve_name(self._robot)}/cleaning_status']
+                return [f'waiting for {rospy.resolve_name(robot)}/cleaning_status']
             return wording.live_lines(watch.mission, watch.cleaning, watch.battery or UNKNOWN, watch.elapsed,
                                       watch.left)
