@@ -24,6 +24,9 @@ with_progress() { # TITLE USUALLY COMMAND ...
                 # Packages are downloaded first, and then installed.
                 dlstatus:*:*:*) reach 0 30 "${line#*:*:}"; doing=${line##*:} ;;
                 pmstatus:*:*:*) reach 30 100 "${line#*:*:}"; doing=${line##*:} ;;
+                # Sphinx reads all pages, and then writes them.
+                reading*\[*%\]*) reach 0 50 "${line#*[}"; doing=${line#*] }; echo "$line" >>"$log" ;;
+                writing*\[*%\]*) reach 50 100 "${line#*[}"; doing=${line#*] }; echo "$line" >>"$log" ;;
                 # The last step of make, which compiles the planner, takes nearly half of the time.
                 *\[*%\]*) reach 0 60 "${line#*[}"; doing=${line#*] }; echo "$line" >>"$log" ;;
                 *) echo "$line" >>"$log"; continue ;;

@@ -19,9 +19,11 @@ BATTERY = re.compile(r'battery +(\d+) %   at \((-?[\d.]+), (-?[\d.]+)\) m')
 README = (ROOT / 'README.md').read_text()
 LIVE = re.search(r'^.* % swept .* left .*$', README, re.MULTILINE).group(0)
 REPORT = re.search(r'^```\n(rumba: .*?)^```$', README, re.MULTILINE | re.DOTALL).group(1)
+STATUS = re.search(r'^percentage_battery: .*?^---$', README, re.MULTILINE | re.DOTALL).group(0)
+MEANT = len('debug_message: "# V, # A')  # what follows depends on what the robot meets
 LINE = r'^[ \d.]+ % swept  '
 BARE = 'env -u DISPLAY -u WAYLAND_DISPLAY -u QT_QPA_PLATFORM'
-NUMBER = re.compile(r'[\d.:]+')
+NUMBER = re.compile(r'-?\d[\d.]*(e-\d+)?(:\d+)*')
 
 
 @pytest.mark.parametrize('path', LAUNCH_FILES, ids=lambda path: path.name)
@@ -64,8 +66,13 @@ def test_what_the_arguments_of_the_demo_bring(workspace, arguments, wanted):
 
 
 def shape(line):
-    """A line of the report, whatever its numbers are."""
+    """A line, whatever its numbers are."""
     return NUMBER.sub('#', line).replace('charges', 'charge')
+
+
+def fields(status):
+    """A message as rostopic prints it, whatever the robot does."""
+    return [shape(line.replace('True', 'False'))[:MEANT] for line in status.splitlines()]
 
 
 def open_sockets(reachable):
@@ -94,6 +101,7 @@ class TestWithoutADisplayAndAnAddress:
         demo.find('  battery 50 %')
         status = workspace.space('devel').run('rostopic echo -n1 /rumba/battery_status')
         assert status.startswith('percentage_battery: 50\n')
+        assert fields(status) == fields(STATUS)
 
     def test_other_machines_cannot_reach_it(self, demo):
         wait_for(demo.process, open_sockets(0))

@@ -75,12 +75,15 @@ def test_nobody_waits_for_the_next_beat_once_the_command_has_ended():
     assert (said, code) == ('rumba: building\n', 0) and time.monotonic() - begin < 30.0
 
 
-def test_the_bar_of_an_installation_runs_once():
-    lines = ['dlstatus:1:0.00:Retrieving', 'dlstatus:2:99.9:Retrieving', 'pmstatus:a:0.5:Unpacking a',
-             'pmstatus:a:50:Configuring a', 'pmstatus:a:100:Installed a']
+@pytest.mark.parametrize('lines, shown', [
+    (['dlstatus:1:0.00:Retrieving', 'dlstatus:2:99.9:Retrieving', 'pmstatus:a:0.5:Unpacking a',
+      'pmstatus:a:50:Configuring a', 'pmstatus:a:100:Installed a'], [0, 29, 30, 65, 100]),
+    (['reading sources... [  5%] a', 'reading sources... [100%] z', 'writing output... [  0%] a',
+      'writing output... [100%] z'], [2, 50, 50, 100])], ids=['apt', 'sphinx'])
+def test_a_bar_runs_once(lines, shown):
     work = f'work() {{ printf "%s\\n" {" ".join(map(repr, lines))}; }}; '
-    said, _, _ = recorded(['sh', '-c', f"{SETUP}{work}with_progress installing '' work"], surroundings(), True)
-    assert [int(percent) for percent in re.findall(r'installing (\d+) %', said)] == [0, 29, 30, 65, 100]
+    said, _, _ = recorded(['sh', '-c', f"{SETUP}{work}with_progress working '' work"], surroundings(), True)
+    assert [int(percent) for percent in re.findall(r'working (\d+) %', said)] == shown
 
 
 @pytest.mark.parametrize('arguments, code', [([], 0), (['--at-most', '0.5'], 1), (['--until', 'o.e'], 0)])
