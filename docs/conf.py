@@ -3,12 +3,6 @@
 import pathlib
 import re
 
-# furo as Debian builds it lacks the rule that makes a page dark where the desktop is.
-DARK = """addEventListener("DOMContentLoaded", () => {
-  if (document.body.dataset.theme === "auto" && matchMedia("(prefers-color-scheme: dark)").matches)
-    document.body.dataset.theme = "dark";
-});"""
-
 project = 'Rumba'
 extensions = ['myst_parser', 'sphinx.ext.autodoc', 'sphinx.ext.napoleon']
 root_doc = 'docs/index'
@@ -16,7 +10,7 @@ html_title = 'Rumba'
 html_theme = 'furo'
 html_search_scorer = str(pathlib.Path(__file__).with_name('search.js'))
 html_show_sourcelink = False
-html_js_files = [(None, {'body': DARK})]
+html_static_path, html_css_files, html_js_files = ['site'], ['site.css'], ['site.js']
 highlight_language = 'none'  # what programs print is no Python
 myst_heading_anchors = 4  # links to headings
 autodoc_mock_imports = ['distributed', 'gymnasium']  # optional

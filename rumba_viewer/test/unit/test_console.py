@@ -50,5 +50,5 @@ def test_the_missions_of_all_robots_are_reported_and_what_to_do_next_after_the_l
 
 
 def test_a_name_that_is_no_name_of_a_topic_is_refused():
-    with pytest.raises(ConfigError, match="^mates is 'rumba2, rumba3': must be names of robots, with spaces between$"):
-        console.Settings(mates='rumba2, rumba3')
+    with pytest.raises(ConfigError, match="^others is 'rumba2, rumba3': must be names of robots, with spaces between$"):
+        console.Settings(others='rumba2, rumba3')

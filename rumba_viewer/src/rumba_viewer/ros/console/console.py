@@ -49,13 +49,13 @@ class Settings:
     target_coverage: float = setting(CleaningConfig().target_coverage, 'share of the floor that missions sweep, by '
                                      'which the time left is estimated', '0..1', 0.0, 1.0)
 
-    mates: str = setting('', 'names of other robots whose reports are printed too, with spaces between')
+    others: str = setting('', 'names of other robots whose reports are printed too, with spaces between')
 
     def __post_init__(self) -> None:
         """Check the names of the robots, of which names of topics are made."""
         check_names(self, 'robot')
-        if not all(map(rosgraph.names.is_legal_base_name, self.mates.split())):
-            raise ConfigError(f'mates is {self.mates!r}: must be names of robots, with spaces between')
+        if not all(map(rosgraph.names.is_legal_base_name, self.others.split())):
+            raise ConfigError(f'others is {self.others!r}: must be names of robots, with spaces between')
 
 
 def main() -> None:
@@ -65,7 +65,7 @@ def main() -> None:
 
 def show(settings: Settings) -> None:
     """Show the mission of a robot, until ROS shuts down."""
-    console = Console([settings.robot, *settings.mates.split()], settings.target_coverage)
+    console = Console([settings.robot, *settings.others.split()], settings.target_coverage)
     is_terminal = sys.stdout.isatty() and os.environ.get('TERM', 'dumb') != 'dumb'
     bottom = BottomLine(sys.stdout.fileno()) if is_terminal else None
     ended = threading.Event()
