@@ -11,6 +11,7 @@ html_theme = 'furo'
 html_search_scorer = str(pathlib.Path(__file__).with_name('search.js'))
 html_show_sourcelink = False
 html_static_path, html_css_files, html_js_files = ['site'], ['site.css'], ['site.js']
+pygments_style, pygments_dark_style = 'xcode', 'rrt'  # those whose colours differ from their background by 4.5 to 1
 highlight_language = 'none'  # what programs print is no Python
 myst_heading_anchors = 4  # links to headings
 autodoc_mock_imports = ['distributed', 'gymnasium']  # optional

@@ -23,11 +23,13 @@ function name(selector, attributes) {
     for (const [key, value] of Object.entries(attributes)) element.setAttribute(key, value);
 }
 
-// A label that opens a sidebar, as a button.
+// The icon of a label that opens a sidebar, as a button.
 function press(label) {
-  label.tabIndex = 0;
-  label.setAttribute("role", "button");
-  label.addEventListener("keydown", event => {
+  const icon = label.querySelector(".icon");
+  icon.tabIndex = 0;
+  icon.setAttribute("role", "button");
+  icon.setAttribute("aria-label", label.textContent.trim());
+  icon.addEventListener("keydown", event => {
     if (event.key !== "Enter" && event.key !== " ") return;
     event.preventDefault();
     label.click();
@@ -50,7 +52,7 @@ addEventListener("DOMContentLoaded", () => {
   if (!document.querySelector("h1")) {
     const title = document.createElement("h1");
     title.textContent = document.title;
-    document.querySelector("[role=main], body").prepend(title);
+    (document.querySelector("[role=main]") ?? document.body).prepend(title);
   }
   reach();
   addEventListener("resize", reach);
