@@ -250,6 +250,15 @@ def test_the_speed_is_never_shown_as_zero_only_because_a_tick_takes_longer_than_
     assert text in written(snapshot(robot(), simulation=simulation(speed=speed, wanted=wanted)))
 
 
+def test_of_what_the_mission_says_the_account_of_its_own_is_left_out(written, monkeypatch):
+    lines = []
+    monkeypatch.setattr(paint_status._Card, '_small_lines', lambda _, text, *rest: lines.append(text))
+    for message in ('98.9 % swept; 31 m of the plan to go', '98.9 % swept', 'planning'):
+        written(snapshot(robot(mission=Mission('cleaning', True, 'bounce', message))))
+    assert {line for line in lines if '31' in line or 'swept' in line or 'plan' in line} == {
+        '31 m of the plan to go', 'planning'}
+
+
 def test_what_is_unknown_is_a_dash(written):
     unknown = robot(battery=Battery(math.nan, math.nan, math.nan, ''),
                     cleaning=Cleaning(math.nan, math.nan, math.nan, math.nan, math.nan))

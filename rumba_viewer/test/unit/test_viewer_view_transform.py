@@ -25,6 +25,12 @@ def test_a_fitted_map_fills_the_picture_in_one_direction_and_is_centred(width, h
     assert view.to_pixel(1.0, 3.5) == approx((0.5 * width, 0.5 * height))
 
 
+def test_rows_above_and_below_the_map_are_left_free():
+    view = ViewTransform.fitted(BOX, 400.0, 300.0, 50.0, 100.0)
+    rows = [view.to_pixel(BOX.left, y)[1] for y in (BOX.top, BOX.bottom)]
+    assert rows[0] >= 50.0 + 13.9 and rows[1] <= 200.0 - 13.9 and sum(rows) / 2.0 == approx(125.0)
+
+
 @pytest.mark.parametrize('box, width, height', [(Box(1.0, 1.0, 1.0, 1.0), 100.0, 100.0), (BOX, 1.0, 1.0)])
 def test_a_map_or_picture_without_size_can_be_fitted(box, width, height):
     assert ViewTransform.fitted(box, width, height).scale > 0.0

@@ -22,6 +22,7 @@ LOW, CRITICAL = 0.25, 0.10  # charge, below which the bar is yellow, red
 STATES = {'cleaning': 'good', 'charging': 'good', 'charged': 'good', YIELDING: 'warning', 'stranded': 'bad',
           FALLEN: 'bad'}
 FIGURES = re.compile(r'[\d.]+ V, [\d.]+ A, ')
+OWN_ACCOUNT = re.compile(r'^[\d.]+ % swept(; |$)')  # what the world measures stands below it: one figure is enough
 FAR = 100.0  # [m] from which on a distance has no digits behind the point
 UNKNOWN, MINUS = '-', '\u2212'
 SLOW = 0.1  # [times real time] a lower speed is too few ticks to be measured in a second
@@ -168,7 +169,7 @@ def _mission_text(robot: Optional[Robot]) -> str:
         return 'over a cliff: drag the robot elsewhere'
     if robot.mission is None:
         return 'no cleaner'
-    return 'yielding to a person' if robot.mission.state == YIELDING else robot.mission.message
+    return 'yielding to a person' if robot.mission.state == YIELDING else OWN_ACCOUNT.sub('', robot.mission.message)
 
 
 def _mission_time(robot: Optional[Robot]) -> str:

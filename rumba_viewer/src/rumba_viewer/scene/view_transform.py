@@ -27,12 +27,12 @@ class ViewTransform:
     scale: float
 
     @staticmethod
-    def fitted(box: Box, width: float, height: float, top: float = 0.0) -> 'ViewTransform':
-        """A whole box, as large as possible below the uppermost rows of the picture [pixels]."""
+    def fitted(box: Box, width: float, height: float, top: float = 0.0, bottom: float = 0.0) -> 'ViewTransform':
+        """A whole box, as large as possible, without the uppermost and lowest rows of the picture [pixels]."""
         across, up = max(box.right - box.left, MIN_SIZE), max(box.top - box.bottom, MIN_SIZE)
-        scale = min(max(width - 2.0 * MARGIN, 1.0) / across, max(height - top - 2.0 * MARGIN, 1.0) / up)
+        scale = min(max(width - 2.0 * MARGIN, 1.0) / across, max(height - top - bottom - 2.0 * MARGIN, 1.0) / up)
         return ViewTransform(width, height, 0.5 * (box.left + box.right),
-                             0.5 * (box.bottom + box.top) + 0.5 * top / scale, scale)
+                             0.5 * (box.bottom + box.top) + 0.5 * (top - bottom) / scale, scale)
 
     def to_pixel(self, x: float, y: float) -> Tuple[float, float]:
         """The pixel at which a point of the map [m] is shown."""

@@ -19,6 +19,7 @@ ZOOM = 1.2  # for one notch of the wheel
 NOTCH = 120.0  # the angle delta of one notch in Qt
 TURN = math.radians(15.0)  # of a robot that is being dragged, for one notch
 GRIP = 8.0  # [pixels] from a robot's centre within which a click selects it, if its radius is smaller
+KEY = 26.0  # [pixels] at the lower edge, with the margin of the map: for one row of the key, and the scale
 NO_MAP = Box(0.0, 0.0, 10.0, 8.0)
 
 
@@ -76,7 +77,7 @@ class FloorView(QWidget):
         if self._transform is None:
             plan = self._snapshot.plan
             self._transform = ViewTransform.fitted(plan.box if plan else NO_MAP, self.width(), self.height(),
-                                                   self._card.bottom())
+                                                   self._card.bottom(), KEY)
         return self._transform
 
     def show_snapshot(self, snapshot: Snapshot) -> None:
