@@ -20,6 +20,7 @@ import tempfile
 import urllib.parse
 
 import actionlib
+import rosgraph
 import rospy
 from common import figures, ros_session
 from common.browsers import AXE, IS_THERE, SCHEMES, Browser
@@ -39,9 +40,10 @@ FAST = 20.0  # times real time, from one state to the next
 SIMULATOR = {'map': 'apartment', 'speed': 2, 'battery/drain': 20}
 EMPTY = 10_000.0  # times as fast as a real battery
 TARGET = 0.55  # share of the floor after which the first mission is done
+SETTLE = 5.0  # [s] of the simulation, until a new window has got map and coverage
 PATIENCE = 900.0  # [s] for a part of a mission
 TOKENS = {'token': 'teacher', 'robot_tokens': 'rumba:blue,rumba2:green'}
-RECORDED = ('/map', *(f'/rumba/{name}' for name in (
+RECORDED = ('/map', *(f'/{robot}/{name}' for robot in ('rumba', 'rumba2') for name in (
     'ground_truth', 'battery_state', 'cleaning_status', 'bumper', 'dock_status', 'mission_status', 'coverage')))
 SITE = pathlib.Path(__file__).resolve().parents[1] / '.ws' / 'docs' / 'html'
 PAGES_OF_SITE = ('index.html', 'docs/first_minutes.html', 'docs/interfaces.html')
@@ -128,14 +130,27 @@ class Faces:
             ['rosrun', 'rumba_viewer', 'page', f'_port:={self._port}',
              *(f'_{key}:={value}' for key, value in TOKENS.items())]))
         os.environ['QT_QPA_PLATFORM'] = 'offscreen'
+        self._stack = stack
         for size, scheme in itertools.product(SIZES, SCHEMES):
-            stack.enter_context(ros_session.process(
-                ['rosrun', 'rumba_viewer', 'viewer', f'__name:={window(size, scheme)}',
-                 f'_width:={size[0]}', f'_height:={size[1]}', f'_style:={scheme}', f'_folder:={self._pictures.name}']))
+            self._open_window(window(size, scheme), size, scheme)
         self.terminals = [stack.enter_context(contextlib.closing(Terminal(
             ['rosrun', 'rumba_viewer', 'console', f'__name:=console_{columns}'], columns))) for columns in COLUMNS]
         ros_session.wait_until(lambda: is_served(self._port))
         self.open('teacher')
+
+    def _open_window(self, name, size, scheme):
+        """Open one more window."""
+        self._stack.enter_context(ros_session.process(
+            ['rosrun', 'rumba_viewer', 'viewer', f'__name:={name}', f'_width:={size[0]}', f'_height:={size[1]}',
+             f'_style:={scheme}', f'_folder:={self._pictures.name}']))
+
+    def take_late(self):
+        """Take a window that is opened now, while a mission goes on: it shows how long that has lasted."""
+        self._open_window('window_late', SIZES[1], 'light')
+        rospy.wait_for_service('/window_late/save_png', PATIENCE)
+        ros_session.wait_until(lambda: listens('/window_late', '/rumba/coverage'))
+        rospy.sleep(SETTLE)
+        self._keep_window('window_late', 'window_late.png')
 
     def open(self, token=''):
         """Open the page with a token, until it shows a robot."""
@@ -152,9 +167,16 @@ class Faces:
         """Take what all of them show."""
         self.album.page(f'page_{state}')
         for size, scheme in itertools.product(SIZES, SCHEMES):
-            answer = rospy.ServiceProxy(f'/{window(size, scheme)}/save_png', Trigger)()
-            self.album.keep(answer.message, f'window_{state}_{size[0]}_{scheme}.png')
+            self._keep_window(window(size, scheme), f'window_{state}_{size[0]}_{scheme}.png')
         return [(f'terminal_{state}_{terminal.columns}', terminal.line()) for terminal in self.terminals]
+
+    def _keep_window(self, name, picture):
+        self.album.keep(rospy.ServiceProxy(f'/{name}/save_png', Trigger)().message, picture)
+
+
+def listens(node, topic):
+    """Whether a node subscribes to a topic."""
+    return node in dict(rosgraph.Master('/faces').getSystemState()[1]).get(topic, [])
 
 
 def is_served(port):
@@ -247,6 +269,7 @@ def first_mission(faces, cleaner):
     lines += faces.take('planning')
     reach(lambda: floor.coverage > 0.3)
     lines += faces.take('cleaning')
+    faces.take_late()
     faces.open()
     faces.album.page('page_token')
     faces.open('teacher')
