@@ -1,5 +1,5 @@
 #!/bin/sh
-# Makes the pictures of the documentation, about three minutes: ./rumba shell docs/pictures/make.sh
+# Makes the pictures of the documentation, about five minutes: ./rumba shell docs/pictures/make.sh
 # A mission in the apartment at twenty times the speed, in a roscore of its own, without a display: the window light and
 # dark, a GIF of it, the page in a phone and on a desk, and the report of the mission; a robot that makes its own map; and
 # the paths of two robots that share it. Needs chromium, chromium-driver and python3-selenium for page and report.
@@ -20,20 +20,24 @@ trap 'kill -INT $pids 2>/dev/null || true; wait; rm -rf "$folder"' EXIT
 value() { rostopic echo -n1 "/rumba/$1" | head -n1; } # TOPIC/FIELD
 until_swept() { until value cleaning_status/coverage | awk "{ exit !(\$1 >= $1) }"; do sleep 0.5; done; }
 save() { rosservice call "/$1/save_png" | sed -n 's/^message: "\(.*\)"$/\1/p'; } # VIEWER: prints the path
-viewer() { start rosrun rumba_viewer viewer __name:="$1" _style:="$1" _folder:="$folder" _width:=1100 _height:=700; }
+# Each viewer has a folder of its own: names of pictures have seconds only.
+viewer() { # NAME STYLE
+    start rosrun rumba_viewer viewer __name:="$1" _style:="$2" _folder:="$folder/$1" _width:=1100 _height:=700
+}
 shoot() { python3 shoot.py "$@"; } # see there
 frames() { # a picture of the window every second, as long as the mission goes on
     number=1000
     until value mission_status/state | grep -qx 0; do
         number=$((number + 1))
-        mv "$(save light)" "$folder/frame$number.png"
+        mv "$(save film)" "$folder/frame$number.png"
     done
 }
 
 start roscore -p "$port"
 until rosparam get /run_id >/dev/null 2>&1; do sleep 0.2; done
-viewer light
-viewer dark
+viewer film light
+viewer light light
+viewer dark dark
 start rosrun rumba_viewer page _port:=$((port + 1))
 start roslaunch rumba_launch demo.launch speed:=20 drain:=4 gui:=false
 demo=$!
