@@ -41,6 +41,7 @@ with_voice() { # TITLE USUALLY COMMAND ...
     title=$1 usually=$2
     shift 2
     begin
+    say "$title${usually:+, usually $usually}"
     # Only the second beat of a silence is sure to be one.
     with_beats $((beat / 2)) "$@" | {
         is_silent=

@@ -62,11 +62,11 @@ def test_a_line_of_progress_fits_a_terminal_of_80_columns():
 
 def test_a_command_that_is_shown_is_spoken_of_only_while_it_is_silent():
     work = 'work() { for i in 1 2 3; do echo $i; sleep 0.4; done; sleep 3; echo end; }; '
-    said, code, longest = recorded(['sh', '-c', f"{SETUP}{work}with_voice testing '' work"], surroundings())
+    said, code, longest = recorded(['sh', '-c', f"{SETUP}{work}with_voice testing '3 s' work"], surroundings())
     assert code == 0 and longest < 3.0
     lines = said.splitlines()
-    assert lines[:3] == ['1', '2', '3'] and lines[-1] == 'end'
-    assert all(line.startswith('rumba: testing, 0:0') for line in lines[3:-1]) and len(lines) > 4
+    assert lines[:4] == ['rumba: testing, usually 3 s', '1', '2', '3'] and lines[-1] == 'end'
+    assert all(line.startswith('rumba: testing, 0:0') for line in lines[4:-1]) and len(lines) > 5
 
 
 def test_nobody_waits_for_the_next_beat_once_the_command_has_ended():
