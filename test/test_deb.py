@@ -206,7 +206,8 @@ def test_a_dependency_without_a_name_in_debian_is_refused():
 @pytest.mark.parametrize('arguments, message', [
     ([], 'give the folder for a new Debian 12, which must not exist'),
     (['/tmp'], '/tmp exists: give a folder that does not')])
-@pytest.mark.parametrize('script', ['packaging/try_debs', 'packaging/try_first_minutes', 'rumba_exercises/ci/try_dockerfile'])
+@pytest.mark.parametrize('script', [
+    'packaging/try_debs', 'packaging/try_first_minutes', 'rumba_exercises/ci/try_dockerfile'])
 def test_a_bare_debian_is_made_only_where_nothing_is(script, arguments, message):
     assert run(ROOT / script, *arguments) == (2, '', f'{script.rpartition("/")[2]}: {message}\n')
 
