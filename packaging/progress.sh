@@ -76,6 +76,7 @@ begin() {
 
 reach() { # FIRST LAST PERCENT: of a part of the work, which goes from FIRST % to LAST % of all
     of_part=${3%%[.:%]*}
+    case $of_part in *[!0-9\ ]* | '') return 0 ;; esac # no number
     percent=$(($1 + ($2 - $1) * of_part / 100))
 }
 

@@ -79,10 +79,11 @@ def test_nobody_waits_for_the_next_beat_once_the_command_has_ended():
     (['dlstatus:1:0.00:Retrieving', 'dlstatus:2:99.9:Retrieving', 'pmstatus:a:0.5:Unpacking a',
       'pmstatus:a:50:Configuring a', 'pmstatus:a:100:Installed a'], [0, 29, 30, 65, 100]),
     (['reading sources... [  5%] a', 'reading sources... [100%] z', 'writing output... [  0%] a',
-      'writing output... [100%] z'], [2, 50, 50, 100])], ids=['apt', 'sphinx'])
+      'writing output... [100%] z'], [2, 50, 50, 100]),
+    (['[ 50%] Building', 'warning: [all%] of it', '[100%] Built'], [30, 30, 60])], ids=['apt', 'sphinx', 'make'])
 def test_a_bar_runs_once(lines, shown):
     work = f'work() {{ printf "%s\\n" {" ".join(map(repr, lines))}; }}; '
-    said, _, _ = recorded(['sh', '-c', f"{SETUP}{work}with_progress working '' work"], surroundings(), True)
+    said, _, _ = recorded(['sh', '-c', f"set -eu; {SETUP}{work}with_progress working '' work"], surroundings(), True)
     assert [int(percent) for percent in re.findall(r'working (\d+) %', said)] == shown
 
 
