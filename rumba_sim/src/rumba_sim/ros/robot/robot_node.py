@@ -22,6 +22,7 @@ from rumba_sim.model.simulation.robot import Robot
 from rumba_sim.model.simulation.world import World
 from rumba_sim.ros.common import conversions, teleop
 from rumba_sim.ros.common.frames import MAP, frames
+from rumba_sim.ros.common.shared_reception import share
 from rumba_sim.ros.participants.examiner import ExaminerServer
 from rumba_sim.ros.participants.requests import Requests
 from rumba_sim.ros.robot.interface_topics import InterfaceTopics
@@ -100,6 +101,7 @@ class RobotNode:
         if examiner is not None:
             for topic, full_name in self._told.items():
                 examiner.declare(full_name, kinds[topic])
+        share(*self._inputs.values())
         self._subscribers = [
             rospy.Subscriber(f'{name}/{each.name}', Twist, self._on_command, each.name, queue_size=1)
             for each in INPUTS]

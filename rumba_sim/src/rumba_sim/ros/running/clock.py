@@ -4,6 +4,9 @@ import rospy
 from rosgraph_msgs.msg import Clock
 from rospy.impl import simtime
 
+from rumba_sim.ros.common.shared_reception import share
+
+CLOCK = '/clock'
 LATEST = 2 ** 31 - 1  # [s]: sums with durations are still times, and differences are durations
 SECOND = 1_000_000_000  # [ns]
 COMPLAINT_PERIOD = 10.0  # [s]
@@ -15,6 +18,7 @@ def guard() -> None:
     rospy takes any time. Once it has a stamp that does not fit into a message, nothing can be published any more.
     """
     setattr(simtime, '_set_rostime_clock_wrapper', take)
+    share(CLOCK)
 
 
 def is_unknown() -> bool:

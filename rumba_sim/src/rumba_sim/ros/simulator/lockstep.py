@@ -11,6 +11,7 @@ from std_msgs.msg import Header
 
 from rumba_msg.msg import Lockstep as LockstepMessage
 from rumba_msg.msg import LockstepAnswer
+from rumba_sim.ros.common.shared_reception import share
 from rumba_sim.ros.participants.examiner import ExaminerServer
 from rumba_sim.ros.participants.lockstep import ANSWERS, QUEUE, TOPIC
 from rumba_sim.ros.participants.requests import Requests
@@ -46,6 +47,7 @@ class Lockstep:
         self._asked: Optional[threading.Thread] = None  # asks whether someone who is silent has ended
         self._tick = LockstepMessage(run=run)
         self._publisher = rospy.Publisher(TOPIC, LockstepMessage, Latecomers(requests, self._held), queue_size=QUEUE)
+        share(rospy.resolve_name(ANSWERS))
         self._subscriber = rospy.Subscriber(ANSWERS, LockstepAnswer, self._on_answer, queue_size=QUEUE)
         self._examiner = examiner
         self._judges: Set[str] = set()  # nodes that have answered as the examiner: no other node answers for them

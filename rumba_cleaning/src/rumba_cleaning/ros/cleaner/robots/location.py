@@ -9,13 +9,14 @@ from tf2_msgs.msg import TFMessage
 from rumba_sim.model.common.geometry import Pose, compose
 from rumba_sim.ros.common.conversions import transform_pose
 from rumba_sim.ros.common.frames import MAP, Frames, frames
+from rumba_sim.ros.common.newest_transforms import NewestTransforms
 
 QUEUE = 100  # messages that may wait to be read
 FARTHEST = 1e6  # [m] of a coordinate, at most
 NORM = 0.01  # by which the square of the norm of a rotation may differ from 1
 COMPLAINT_PERIOD = 10.0  # [s]
 
-STATIC = '/tf_static'
+TF, STATIC = '/tf', '/tf_static'
 Link = Tuple[str, str]  # frame and child
 Known = Tuple[Pose, bool]  # of the child in the frame, and whether it is static
 
@@ -48,8 +49,8 @@ class Location:
         self._links = (MAP, self._frames.odom), (self._frames.odom, self._frames.base_footprint)
         self._newest: Dict[Link, Known] = {self._links[0]: (Pose(0.0, 0.0, 0.0), True)} if is_mapless else {}
         self._listens_to = self._links[1:] if is_mapless else self._links if own_frames is None else self._links[:1]
-        for topic in ('/tf', STATIC):
-            rospy.Subscriber(topic, TFMessage, self._on_transforms, topic == STATIC, queue_size=QUEUE)
+        for topic in (TF, STATIC):
+            rospy.Subscriber(topic, NewestTransforms, self._on_transforms, topic == STATIC, queue_size=QUEUE)
 
     def _on_transforms(self, message: TFMessage, is_static: bool) -> None:
         before = self.stamp, self.corrected

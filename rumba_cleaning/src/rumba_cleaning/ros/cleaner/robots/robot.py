@@ -2,14 +2,19 @@
 
 from typing import Callable, Optional, Sequence, Tuple
 
+import rospy
+
 from rumba_cleaning.ros.cleaner.robots.actuators import Brushes, Wheels
 from rumba_cleaning.ros.cleaner.robots.announcer import Announcer
+from rumba_cleaning.ros.cleaner.robots.location import TF
 from rumba_cleaning.ros.cleaner.robots.own_senses import OwnSenses
 from rumba_cleaning.ros.cleaner.robots.plan_topic import PlanTopic
-from rumba_cleaning.ros.cleaner.robots.senses import Senses
+from rumba_cleaning.ros.cleaner.robots.senses import TOPICS, Senses
 from rumba_cleaning.ros.cleaner.robots.team import Team
 from rumba_cleaning.ros.cleaner.robots.teleop import Teleop
 from rumba_sim.model.settings.own_robot import OwnRobot
+from rumba_sim.ros.common.shared_reception import share
+from rumba_sim.ros.participants.lockstep import TOPIC as TICKS
 from rumba_sim.ros.participants.lockstep import Participant
 
 
@@ -43,6 +48,7 @@ class Robot:
             own: what it is like if it is not ours.
             docks: whether it docks by itself.
         """
+        share(*map(rospy.resolve_name, (*(f'{name}/{topic}' for topic in TOPICS), TF, TICKS)))
         self.announcer = Announcer(name)
         self.plan = PlanTopic(name)
         self.teleop = Teleop(name)

@@ -24,6 +24,7 @@ SECOND = 1_000_000_000  # [ns]
 PAUSE = SECOND  # [ns] between two stamps; more is not counted as time: a pause in real time, or another simulator
 CLOCK = 'dock_status'  # the simulator publishes it last
 READING = {'bumper': Bumper, 'cliff': Cliff, 'dock_status': DockStatus}
+TOPICS = *READING, 'battery_state', 'cleaning_status', 'scan', 'amcl_pose'  # what comes often, and is only noted
 MOST = 100  # stamps that are kept until bumper and cliff have come, too
 
 
