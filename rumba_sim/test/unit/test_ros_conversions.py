@@ -1,7 +1,6 @@
 """From the model to messages: units, signs and frames, without a master."""
 
 import math
-import types
 
 import numpy as np
 import pytest
@@ -96,15 +95,6 @@ def test_the_variance_of_odometry_is_that_of_two_wheels():
     place, heading = conversions.odometry_variance(2.0, OdometryConfig(), 0.235)
     assert place == pytest.approx(wheel / 2.0)
     assert heading == pytest.approx(2.0 * wheel / 0.235 ** 2)
-
-
-@pytest.mark.parametrize('has_fallen', [False, True])
-def test_cliff_has_the_sensors_from_left_to_right_and_a_separate_field_for_the_wheels(has_fallen):
-    robot = types.SimpleNamespace(has_fallen=has_fallen)
-    message = conversions.cliff(robot, (True, False, True, False), HEADER)
-    assert (message.is_cliff_left, message.is_cliff_front_left) == (True, False)
-    assert (message.is_cliff_front_right, message.is_cliff_right) == (True, False)
-    assert (message.is_wheel_dropped, message.header.frame_id) == (has_fallen, 'base')
 
 
 def test_the_frames_of_all_robots_except_the_first_have_a_prefix():

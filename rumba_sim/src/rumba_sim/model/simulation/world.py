@@ -301,12 +301,25 @@ class World:
         Raises:
             WorldError: there is no robot of that name.
         """
-        index = self._index(name)
-        ranges, noise = np.empty(self._draws[1]), np.empty(self._draws)
-        self.noise.draw_laser(index, noise)
-        fast.scan(self._states, index, self.constants, self.obstacles.records, self.terrain.skips, self.fans, noise,
-                  self.noise.biases[index], ranges)
-        return ranges
+        return self.prepared_scan(name)()
+
+    def prepared_scan(self, name: str) -> Callable[[], Array]:
+        """As `scan`, but gives a function that measures, for those who may not need the ranges.
+
+        It measures the world as it is when it is called, with the errors of this scan.
+
+        Raises:
+            WorldError: there is no robot of that name; that function raises it too.
+        """
+        noise = np.empty(self._draws)
+        self.noise.draw_laser(self._index(name), noise)
+
+        def measure() -> Array:
+            index, ranges = self._index(name), np.empty(len(noise[0]))
+            fast.scan(self._states, index, self.constants, self.obstacles.records, self.terrain.skips, self.fans,
+                      noise, self.noise.biases[index], ranges)
+            return ranges
+        return measure
 
     @property
     def is_scan_due(self) -> bool:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, List, Optional, Sequence
+from typing import TYPE_CHECKING, Dict, List, Optional, Sequence
 
 from geometry_msgs.msg import Point
 from geometry_msgs.msg import Pose as PoseMessage
@@ -12,13 +12,13 @@ from nav_msgs.msg import MapMetaData, OccupancyGrid
 from sensor_msgs.msg import BatteryState, LaserScan
 from std_msgs.msg import Header
 
-from rumba_msg.msg import BatteryStatus, Bumper, CleaningStatus, Cliff, DockStatus
+from rumba_msg.msg import BatteryStatus, CleaningStatus
 from rumba_sim.model.common.geometry import Pose, half_angle, yaw
 from rumba_sim.model.kernel import Array
 from rumba_sim.model.settings.battery import CELLS, Battery
 from rumba_sim.model.settings.laser_config import LaserConfig
 from rumba_sim.model.settings.robot_config import OdometryConfig
-from rumba_sim.model.simulation.robot import Infrared, Robot
+from rumba_sim.model.simulation.robot import Robot
 from rumba_sim.ros.common.frames import MAP, WORLD, Frames
 
 if TYPE_CHECKING:  # with numba and SciPy, they take longer to import than all the rest of battery_status_publisher
@@ -58,19 +58,24 @@ def trouble(robot: Robot) -> str:
     return ''
 
 
-def battery_state(battery: Battery, is_docked: bool, header: Header) -> BatteryState:
-    """The battery as sensor_msgs has it; what is not measured is NaN."""
+def battery_numbers(battery: Battery, is_docked: bool) -> Dict[str, float]:
+    """What BatteryState has of a battery that changes, and is measured, by the names of its fields."""
     full = battery.state_of_charge >= 1.0
     status = BatteryState.POWER_SUPPLY_STATUS_DISCHARGING
     if is_docked:
         status = BatteryState.POWER_SUPPLY_STATUS_FULL if full else BatteryState.POWER_SUPPLY_STATUS_CHARGING
     health = BatteryState.POWER_SUPPLY_HEALTH_GOOD if battery.charge > 0.0 else BatteryState.POWER_SUPPLY_HEALTH_DEAD
-    message = BatteryState(
-        header=header, voltage=battery.voltage, current=battery.current, charge=battery.charge,
-        capacity=battery.config.capacity, design_capacity=battery.config.capacity,
-        percentage=battery.state_of_charge, power_supply_status=status, power_supply_health=health,
-        power_supply_technology=BatteryState.POWER_SUPPLY_TECHNOLOGY_NIMH, present=True,
-        cell_voltage=[math.nan] * CELLS, location='base')
+    return {
+        'voltage': battery.voltage, 'current': battery.current, 'charge': battery.charge,
+        'capacity': battery.config.capacity, 'design_capacity': battery.config.capacity,
+        'percentage': battery.state_of_charge, 'power_supply_status': status, 'power_supply_health': health,
+        'power_supply_technology': BatteryState.POWER_SUPPLY_TECHNOLOGY_NIMH, 'present': True}
+
+
+def battery_state(battery: Battery, is_docked: bool, header: Header) -> BatteryState:
+    """The battery as sensor_msgs has it; what is not measured is NaN."""
+    message = BatteryState(header=header, cell_voltage=[math.nan] * CELLS, location='base',
+                           **battery_numbers(battery, is_docked))
     for unmeasured in {'temperature', 'cell_temperature'} & set(message.__slots__):
         setattr(message, unmeasured, [math.nan] * CELLS if unmeasured.startswith('cell') else math.nan)
     return message
@@ -132,22 +137,6 @@ def scan(ranges: Array, config: LaserConfig, period: float, header: Header) -> L
         angle_max=config.first_angle + (len(ranges) - 1) * config.increment,
         angle_increment=config.increment, time_increment=0.0, scan_time=period, range_min=config.range_min,
         range_max=config.range_max, ranges=ranges.tolist(), intensities=[])
-
-
-def bumper(robot: Robot, header: Header) -> Bumper:
-    """The contact switches."""
-    left, right = robot.bumper
-    return Bumper(header, left, right)
-
-
-def cliff(robot: Robot, cliffs: Sequence[bool], header: Header) -> Cliff:
-    """The floor sensors, from left to right, and the wheels of a robot."""
-    return Cliff(header, *cliffs, robot.has_fallen)
-
-
-def dock_status(is_docked: bool, infrared: Infrared, header: Header) -> DockStatus:
-    """Contacts and infrared beams."""
-    return DockStatus(header, any(infrared), is_docked, infrared.omni, infrared.left, infrared.right)
 
 
 def cleaning_status(robot: Robot, floor: Floor, header: Header) -> CleaningStatus:

@@ -64,6 +64,8 @@ class Requests:
                 return
 
     def _next(self, seconds: float) -> Optional[Tuple[Callable[[], Any], Answer]]:
+        if seconds <= 0.0 and self._queue.empty():  # the usual case, which need not cost an exception
+            return None
         try:
             return self._queue.get(timeout=seconds) if seconds > 0.0 else self._queue.get_nowait()
         except queue.Empty:

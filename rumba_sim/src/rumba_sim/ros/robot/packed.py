@@ -1,7 +1,8 @@
 """The messages of every tick, packed at once: making objects of all their fields takes longer than the tick itself."""
 
+import itertools
 import struct
-from typing import List, Sequence
+from typing import Any, List, Sequence
 
 import rospy
 
@@ -9,12 +10,14 @@ from rumba_sim.model.common.geometry import Pose, half_angle
 from rumba_sim.model.simulation.robot import Robot, Twist
 from rumba_sim.model.simulation.world import World
 from rumba_sim.ros.common import conversions
+from rumba_sim.ros.participants.examiner_frames import serialised
 
 KNOWN = 1e-6  # variance of what is known: a robot on a floor does not rise, roll or pitch
 HEADER = struct.Struct('<3I')  # number of the message, and stamp [s], [ns]; then comes the frame
 ODOMETRY = struct.Struct('<85d')  # pose (3 + 4), covariance (36), twist (3 + 3), covariance (36); after the child
 TRANSFORM = struct.Struct('<7d')  # translation (3), rotation (4); after the child
 LENGTH = struct.Struct('<I')
+CODES = {'bool': 'B', 'uint8': 'B', 'float32': 'f', 'float64': 'd'}  # of struct
 
 
 class OdometryPacker:
@@ -43,6 +46,29 @@ def odometry_message(packer: OdometryPacker, world: World, robot: Robot, stamp: 
     return packer.message(
         stamp, robot.odometry, twist, conversions.odometry_variance(robot.distance, config.odometry, wheel_base),
         [variance / tick ** 2 for variance in conversions.odometry_variance(distance, config.odometry, wheel_base)])
+
+
+class NumbersPacker:
+    """Makes messages of a kind that begins with a header and numbers; what comes after these stays as it is.
+
+    Attributes:
+        names: of the numbers, in their order.
+    """
+
+    def __init__(self, example: Any) -> None:
+        """Make messages that have the frame of an example, and what comes after its numbers."""
+        kinds = list(itertools.takewhile(CODES.__contains__, example._slot_types[1:]))
+        self.names = example.__slots__[1:1 + len(kinds)]
+        self._numbers = struct.Struct('<' + ''.join(map(CODES.__getitem__, kinds)))
+        self._frame = _text(example.header.frame_id)
+        self._rest = serialised(example)[HEADER.size + len(self._frame) + self._numbers.size:]
+        self._count = 0
+
+    def message(self, stamp: rospy.Time, *numbers: float) -> rospy.AnyMsg:
+        """Such a message."""
+        self._count += 1
+        return _message(HEADER.pack(self._count, stamp.secs, stamp.nsecs) + self._frame
+                        + self._numbers.pack(*numbers) + self._rest)
 
 
 class TransformPacker:

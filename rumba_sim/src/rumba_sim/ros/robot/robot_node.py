@@ -28,6 +28,7 @@ from rumba_sim.ros.participants.requests import Requests
 from rumba_sim.ros.robot.interface_topics import InterfaceTopics
 from rumba_sim.ros.robot.latecomers import Latecomers
 from rumba_sim.ros.robot.packed import OdometryPacker, TransformPacker, odometry_message
+from rumba_sim.ros.robot.packed_sensors import SensorPackers
 from rumba_sim.ros.robot.rates import Due, Rates
 from rumba_sim.ros.robot.velocity_mux import Input, VelocityMux
 from rumba_sim.ros.running import peers
@@ -74,6 +75,7 @@ class RobotNode:
         self._frame = frame
         odom, base = self._frames.odom, self._frames.base_footprint
         self._odometry, self._truth = OdometryPacker(odom, base), OdometryPacker(frame, base)
+        self._sensors = SensorPackers(self._frames.base_link)
         self._body, self._correction = TransformPacker(odom, base), TransformPacker(MAP, odom)
         self._has_localisation = has_localisation
         self._mux, self._mux_lock = VelocityMux(INPUTS), threading.Lock()
@@ -192,11 +194,11 @@ class RobotNode:
         self._stamp = stamp
         robot = self._robot
         if due.scan:
-            ranges = self._world.scan(self._name)
+            ranges = self._world.prepared_scan(self._name)  # most of a scan is not made if nobody listens
             self._tell('scan', lambda: conversions.scan(
-                ranges, robot.config.laser, 1.0 / rates.scan, self._header(self._frames.laser)))
+                ranges(), robot.config.laser, 1.0 / rates.scan, self._header(self._frames.laser)))
             if self._interface is not None:
-                self._interface.note_scan(ranges, 1.0 / rates.scan)
+                self._interface.note_scan(ranges(), 1.0 / rates.scan)
         if due.odom:
             self._tell('odom', lambda: odometry_message(self._odometry, self._world, robot, stamp))
         if due.ground_truth:
@@ -215,13 +217,11 @@ class RobotNode:
             self._interface.publish(stamp)
 
     def _publish_sensors(self) -> None:
-        base = self._frames.base_link
-        self._tell('battery_state', lambda: conversions.battery_state(
-            self._robot.battery, self._robot.is_docked, self._header(base)))
-        self._tell('bumper', lambda: conversions.bumper(self._robot, self._header(base)))
-        self._tell('cliff', lambda: conversions.cliff(self._robot, self._world.cliffs(self._name), self._header(base)))
-        self._tell('dock_status', lambda: conversions.dock_status(
-            self._robot.is_docked, self._world.infrared(self._name), self._header(base)))
+        self._tell('battery_state', lambda: self._sensors.battery_state(self._robot, self._stamp))
+        self._tell('bumper', lambda: self._sensors.bumper(self._robot, self._stamp))
+        self._tell('cliff', lambda: self._sensors.cliff(self._robot, self._world.cliffs(self._name), self._stamp))
+        self._tell('dock_status', lambda: self._sensors.dock_status(
+            self._robot, self._world.infrared(self._name), self._stamp))
 
     def _tell(self, topic: str, message: Callable[[], Any]) -> None:
         """Make and publish a message if somebody listens: most of the cost is in making it."""
