@@ -4,6 +4,10 @@
 
 Each mission runs in process, and through the nodes `simulator` and `cleaner` beside a number of busy loops. When it is
 over, the digest of the world is compared with that of the mission in process at the same tick.
+
+    ./rumba shell python3 bench/lockstep.py --against CHECKOUT
+
+compares the speed with that of another checkout, on the studio with one robot.
 """
 
 import argparse
@@ -16,7 +20,7 @@ import time
 from typing import NamedTuple
 
 import rospy
-from common import figures, ros_session
+from common import checkouts, figures, ros_session
 from std_srvs.srv import Trigger
 from tqdm import tqdm
 
@@ -31,6 +35,7 @@ MAPS = pathlib.Path(__file__).resolve().parents[1] / 'rumba_sim' / 'maps'
 STRATEGY = 'boustrophedon'
 PATIENCE = 3600.0  # [s] for a mission
 FASTEST = 0.0  # speed
+FASTER = 1.25  # times, at least, that of e9e3154e
 
 
 class Case(NamedTuple):
@@ -51,6 +56,7 @@ class Ending(NamedTuple):
     digest: str
     tick: int
     factor: float  # simulated seconds per second of the wall clock, from the first step to the end
+    per_cpu: float  # the same per second of CPU time of all nodes
 
 
 def main():
@@ -63,7 +69,10 @@ def main():
     parser.add_argument('--busy', nargs='+', type=int, default=[0], help='busy loops beside the nodes')
     parser.add_argument('--heard', action='store_true', help='with one subscriber to each topic, in another process')
     parser.add_argument('--target', type=float, default=0.99, help='share of the floor to clean [0..1]')
+    checkouts.add_arguments(parser)
     options = parser.parse_args()
+    if options.against is not None:
+        return compare(options.against, options.pairs, options.target)
     cases = [Case(*each, options.target) for each in itertools.product(options.maps, options.robots, options.seeds)]
     conditions = list(itertools.product(options.speeds, options.busy))
     figures.heading(f'Missions to {100.0 * options.target:g} % through ROS, in lockstep'
@@ -78,9 +87,31 @@ def main():
                 count, equal = count + 1, equal + is_equal
                 figures.row(f'{case}, speed {speed:g}, {busy} busy loops: {"equal" if is_equal else "NOT EQUAL"}; '
                             'simulated s per s', ending.factor)
+                figures.row('    per CPU s of the nodes', ending.per_cpu)
                 bar.update()
     figures.row('missions that end as in process, bit for bit', equal, at_least=count)
     return 0 if equal == count else 1
+
+
+def compare(checkout, pairs, target):
+    """Print the speed of this checkout against that of another one.
+
+    Returns:
+        The exit code: 1 if a mission of this checkout does not end as in process.
+    """
+    figures.heading(f'A mission to {100.0 * target:g} % in the studio through ROS, in lockstep, nobody else listens')
+    case = Case('studio', 1, 1, target)
+    trial, are_equal = in_process(case), []
+
+    def measure(checkout):
+        ending = through_ros(case, FASTEST, 0, False, checkout)
+        if checkout is None:
+            are_equal.append(ending.digest == digest_at(trial, ending.tick))
+        return {'simulated s per CPU s of the nodes': ending.per_cpu, 'simulated s per s': ending.factor}
+    with ros_session.master():
+        checkouts.rows(checkouts.compare(measure, checkout, pairs), FASTER)
+    figures.row('missions here that end as in process, bit for bit', sum(are_equal), at_least=pairs)
+    return 0 if all(are_equal) else 1
 
 
 def in_process(case):
@@ -102,29 +133,31 @@ def digest_at(trial, tick):
     return later.digest()
 
 
-def through_ros(case, speed, busy, is_heard):
-    """The same mission through ROS."""
+def through_ros(case, speed, busy, is_heard, checkout=None):
+    """The same mission through ROS, by the nodes of another checkout unless that is None."""
     names = [nth_name(number) for number in range(1, case.robots + 1)]
     with contextlib.ExitStack() as stack:
         for _ in range(busy):
             stack.enter_context(ros_session.process([sys.executable, '-c', 'while True: pass']))
         ends = stack.enter_context(Ends(names))
-        stack.enter_context(ros_session.simulator(
-            map=case.map, robots=case.robots, seed=case.seed, speed=speed, brushes_up='true', lockstep='true',
+        simulator = stack.enter_context(ros_session.simulator(
+            checkout, map=case.map, robots=case.robots, seed=case.seed, speed=speed, brushes_up='true', lockstep='true',
             wait_for=' '.join(f'cleaner_of_{name}' for name in names)))
         if is_heard:
             stack.enter_context(ros_session.listener())
+        pids = [simulator.pid]
         for name in names:
-            stack.enter_context(ros_session.process([
+            pids.append(stack.enter_context(ros_session.process(checkouts.command(checkout, [
                 'rosrun', 'rumba_cleaning', 'cleaner', f'__name:=cleaner_of_{name}', f'_robot:={name}',
                 f'_team:={" ".join(names)}', f'_seed:={case.seed}', f'_strategy:={STRATEGY}',
                 f'_target_coverage:={case.target}',
-                '_autostart:=true']))
+                '_autostart:=true']))).pid)
         begin = ends.wait_for_begin()
+        cpu = sum(map(figures.cpu_seconds, pids))
         ends.wait()
-        seconds = time.monotonic() - begin
+        seconds, cpu = time.monotonic() - begin, sum(map(figures.cpu_seconds, pids)) - cpu
         digest, tick = rospy.ServiceProxy('/simulator/digest', Trigger)().message.split()
-        return Ending(digest, int(tick), ends.simulated / seconds)
+        return Ending(digest, int(tick), ends.simulated / seconds, ends.simulated / cpu)
 
 
 class Ends:

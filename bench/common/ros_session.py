@@ -10,7 +10,7 @@ import time
 
 import rosgraph
 import rospy
-from common import figures
+from common import checkouts, figures
 from common.ports import free_port
 
 from rumba_msg.msg import SimulatorState
@@ -106,9 +106,10 @@ class Node:
         return figures.resident_megabytes(self.pid)
 
 
-def command(**parameters):
-    """The command that starts the simulator."""
-    return ['rosrun', 'rumba_sim', 'simulator', *(f'_{name}:={value}' for name, value in parameters.items())]
+def command(checkout=None, **parameters):
+    """The command that starts the simulator, of another checkout unless that is None."""
+    return checkouts.command(checkout, ['rosrun', 'rumba_sim', 'simulator', *(
+        f'_{name}:={value}' for name, value in parameters.items())])
 
 
 @contextlib.contextmanager
@@ -122,9 +123,9 @@ def fresh_parameters():
 
 
 @contextlib.contextmanager
-def simulator(**parameters):
-    """A simulator that runs as long as the block."""
-    with fresh_parameters(), process(command(**parameters)) as started:
+def simulator(checkout=None, **parameters):
+    """A simulator that runs as long as the block, of another checkout unless that is None."""
+    with fresh_parameters(), process(command(checkout, **parameters)) as started:
         node = Node(started.pid)
         try:
             yield node
