@@ -1,7 +1,7 @@
 """Parts a floor into regions, such as the rooms of a flat, at doors and other narrow passages.
 
 A watershed of the clearance: each region grows from a wide part of the floor, and two regions meet where the passage
-between them is narrowest (skimage.segmentation.watershed).
+between them is narrowest.
 """
 
 from typing import Dict, List, NamedTuple, Optional, Tuple
@@ -9,10 +9,10 @@ from typing import Dict, List, NamedTuple, Optional, Tuple
 import numpy as np
 from scipy import ndimage, sparse
 from scipy.sparse import csgraph
-from skimage import segmentation
 
 from rumba_cleaning.belief.ground import Ground
 from rumba_cleaning.planning.common.rows import distinct
+from rumba_cleaning.planning.decompose.watershed import watershed
 from rumba_sim.model.kernel import Array
 
 # Our choice: 2 * WIDE is wider than the doors of dwellings (0.7 to 0.9 m), and narrower than a room.
@@ -34,9 +34,9 @@ def regions(ground: Ground) -> Array:
     has_seed[connected[seeds > 0]] = True
     narrow = fits & ~has_seed[connected]
     seeds = np.where(narrow, connected + seeds.max(), seeds)
-    coarse = segmentation.watershed(-clearance, seeds, connectivity=2, mask=fits)
+    coarse = watershed(-clearance, seeds, fits)
     if step == 1:
-        return np.asarray(coarse)
+        return coarse
     if not coarse.any():
         return ground.fits.astype(coarse.dtype)
     nearest = ndimage.distance_transform_edt(coarse == 0, return_distances=False, return_indices=True)
