@@ -2,11 +2,20 @@
 
 Every robot has its battery, noisy odometry, bumper, dirt and coverage. Each tick is one call of World.step, unless the
 heading says that nobody looks in between.
+
+    ./rumba shell python3 bench/world_speed.py --against CHECKOUT
+
+prints a table of simulated seconds against those of another checkout.
 """
 
+import argparse
+import json
+import pathlib
+import subprocess
+import sys
 import time
 
-from common import figures, room20
+from common import checkouts, figures, room20
 
 # Robot-steps in a CPU second, by the rate of steps [Hz] and by robots; the lower bounds.
 STEPS = {50: {1: 450_000, 10: 1_450_000, 100: 1_800_000}, 10: {1: 280_000, 10: 700_000, 100: 850_000}}
@@ -16,9 +25,42 @@ LASER_PERIOD = 0.1  # [s]
 ROBOTS = (1, 10, 100)
 WORK = 100_000  # robot-steps in a run
 LONGEST = 3000.0  # [s] a run, at most: a battery lasts twice as long
+NO_SLOWER = 0.97  # times another checkout, at least: so far two medians of the same code may be apart
 
 
 def main():
+    """Do as the command line asks."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    checkouts.add_arguments(parser)
+    parser.add_argument('--table', action='store_true', help='print the figures of the table alone, as JSON')
+    options = parser.parse_args()
+    if options.table:
+        print(json.dumps(dict(table())))
+    elif options.against is not None:
+        figures.heading('ROOM20, steps of 0.1 s: simulated seconds in a CPU second; beams to 8 m every 0.1 s')
+        checkouts.rows(checkouts.compare(told_by, options.against, options.pairs), NO_SLOWER)
+    else:
+        report()
+
+
+def told_by(checkout):
+    """The table of a checkout, None for this one, by a process of its own."""
+    arguments = [sys.executable, str(pathlib.Path(__file__).resolve()), '--table']
+    told = subprocess.run(checkouts.command(checkout, arguments), check=True, stdout=subprocess.PIPE)
+    return json.loads(told.stdout.splitlines()[-1])
+
+
+def table():
+    """Simulated seconds in a CPU second, by what was simulated."""
+    for resolution in (0.05, 0.02):
+        plan = room20.room20(resolution)
+        for beams in (0, 360):
+            for robots in ROBOTS:
+                yield (f'cells of {resolution * 100:.0f} cm, {beams:>3} beams, {robots:>3} robots',
+                       measured_scanning(plan, robots, 10) if beams else measured_steps(plan, robots, 10) / robots / 10)
+
+
+def report():
     """Measure and print."""
     begin = time.process_time()
     small = room20.populated(room20.room20(0.1), 2, 50)
@@ -79,12 +121,18 @@ def steps_at_once(plan, robots):
 def lasers(plan, robots, step_rate):
     """Print figures with laser."""
     figures.row(f'{robots:>4} robots: scans', measured_scans(plan, robots, step_rate), at_least=SCANS[robots])
+    figures.row('             simulated seconds, steps and scans', measured_scanning(plan, robots, step_rate))
+
+
+def measured_scanning(plan, robots, step_rate):
+    """Simulated seconds in a CPU second, with steps and scans."""
     world = room20.populated(plan, robots, step_rate)
     room20.begin(world)
     ticks = round(step_rate * max(LASER_PERIOD, 10.0 / robots))
-    figures.row('             simulated seconds, steps and scans', figures.per_cpu_second(
-        lambda: room20.drive(world, ticks, LASER_PERIOD), ticks / step_rate, 0.4, prepare=lambda: room20.begin(world)))
+    figure = figures.per_cpu_second(lambda: room20.drive(world, ticks, LASER_PERIOD), ticks / step_rate, 0.4,
+                                    prepare=lambda: room20.begin(world))
     room20.check(world)
+    return figure
 
 
 def more_robots():

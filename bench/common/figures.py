@@ -1,5 +1,6 @@
 """How figures are printed, and how CPU time and memory are read."""
 
+import contextlib
 import os
 import pathlib
 import statistics
@@ -63,6 +64,21 @@ def cpu_seconds(pid):
     """CPU time of a process so far [s], user and system."""
     fields = pathlib.Path(f'/proc/{pid}/stat').read_text().rpartition(')')[2].split()
     return (int(fields[11]) + int(fields[12])) / CLOCK_TICKS
+
+
+def cpu_seconds_of_tree(pid):
+    """CPU time so far of a process and of all that it started, also of those that have ended [s]."""
+    spent, parents = {}, {}
+    for stat in pathlib.Path('/proc').glob('[0-9]*/stat'):
+        with contextlib.suppress(OSError):  # it has ended meanwhile
+            fields = stat.read_text().rpartition(')')[2].split()
+            number = int(stat.parent.name)
+            spent[number], parents[number] = sum(map(int, fields[11:15])), int(fields[1])
+    tree, found = set(), {pid}
+    while found:
+        tree |= found
+        found = {number for number, parent in parents.items() if parent in found}
+    return sum(spent.get(number, 0) for number in tree) / CLOCK_TICKS
 
 
 def resident_megabytes(pid='self'):
