@@ -25,6 +25,7 @@ LASER_PERIOD = 0.1  # [s]
 ROBOTS = (1, 10, 100)
 WORK = 100_000  # robot-steps in a run
 LONGEST = 3000.0  # [s] a run, at most: a battery lasts twice as long
+TABLE_RUNS = 3  # of each row; the ratios are medians of several tables, too
 NO_SLOWER = 0.97  # times another checkout, at least: so far two medians of the same code may be apart
 
 
@@ -47,7 +48,7 @@ def told_by(checkout):
     """The table of a checkout, None for this one, by a process of its own."""
     arguments = [sys.executable, str(pathlib.Path(__file__).resolve()), '--table']
     told = subprocess.run(checkouts.command(checkout, arguments), check=True, stdout=subprocess.PIPE)
-    return json.loads(told.stdout.splitlines()[-1])
+    return json.loads(told.stdout)
 
 
 def table():
@@ -57,7 +58,8 @@ def table():
         for beams in (0, 360):
             for robots in ROBOTS:
                 yield (f'cells of {resolution * 100:.0f} cm, {beams:>3} beams, {robots:>3} robots',
-                       measured_scanning(plan, robots, 10) if beams else measured_steps(plan, robots, 10) / robots / 10)
+                       measured_scanning(plan, robots, 10, TABLE_RUNS) if beams
+                       else measured_steps(plan, robots, 10, runs=TABLE_RUNS) / robots / 10)
 
 
 def report():
@@ -124,12 +126,12 @@ def lasers(plan, robots, step_rate):
     figures.row('             simulated seconds, steps and scans', measured_scanning(plan, robots, step_rate))
 
 
-def measured_scanning(plan, robots, step_rate):
+def measured_scanning(plan, robots, step_rate, runs=5):
     """Simulated seconds in a CPU second, with steps and scans."""
     world = room20.populated(plan, robots, step_rate)
     room20.begin(world)
     ticks = round(step_rate * max(LASER_PERIOD, 10.0 / robots))
-    figure = figures.per_cpu_second(lambda: room20.drive(world, ticks, LASER_PERIOD), ticks / step_rate, 0.4,
+    figure = figures.per_cpu_second(lambda: room20.drive(world, ticks, LASER_PERIOD), ticks / step_rate, 0.3, runs,
                                     prepare=lambda: room20.begin(world))
     room20.check(world)
     return figure

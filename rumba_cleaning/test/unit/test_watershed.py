@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+import skimage
 from skimage import segmentation
 
 from rumba_cleaning.planning.decompose.watershed import NEIGHBOURS, watershed
@@ -37,13 +38,10 @@ def test_it_floods_by_the_definition(seed):
     assert labels.dtype == np.int32 and np.array_equal(labels, flooded(heights, seeds, mask))
 
 
+@pytest.mark.skipif(not skimage.__version__.startswith('0.19.'), reason='other versions flood in another order')
 @pytest.mark.parametrize('seed', range(10))
 @pytest.mark.parametrize('heights', [0, 1, 4])
 def test_it_is_that_of_scikit_image_also_where_heights_are_equal(seed, heights):
-    # Newer ones let water that has passed a height not flow down behind it before all else of that height.
-    pass_and_valley = np.array([[3.0, 1.0, 2.0, 2.5]]), np.array([[1, 0, 0, 2]]), np.ones((1, 4), np.bool_)
-    if segmentation.watershed(*pass_and_valley[:2]).tolist() != watershed(*pass_and_valley).tolist():
-        pytest.skip('this scikit-image floods in another order')
     case = example(seed, (60, 50), heights)
     expected = segmentation.watershed(case[0], case[1], connectivity=2, mask=case[2])
     assert np.array_equal(watershed(*case), expected)

@@ -110,9 +110,9 @@ class SharedConnection(TCPROSTransport):
             raise TransportTerminated(str(error)) from None
         if not self.done:
             self._has_ended.wait()
-        error, self._error = self._error, None
-        if error is not None:
-            raise error if isinstance(error, TransportException) else TransportException(f'{self.name}: {error}')
+        failure, self._error = self._error, None
+        if failure is not None:
+            raise failure if isinstance(failure, TransportException) else TransportException(f'{self.name}: {failure}')
         return []
 
     def take(self) -> None:
