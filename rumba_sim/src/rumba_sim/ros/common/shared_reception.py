@@ -83,7 +83,7 @@ class SharedConnection(TCPROSTransport):
         """As TCPROSTransport."""
         super().__init__(*arguments, **named)
         self._has_ended = threading.Event()
-        self._error: Optional[Exception] = None
+        self._error: Optional[BaseException] = None
         self._tell: Callable[[List[Any], Any], None] = lambda messages, connection: None
 
     def receive_loop(self, msgs_callback: Callable[[List[Any], Any], None]) -> None:
@@ -122,7 +122,7 @@ class SharedConnection(TCPROSTransport):
             messages = self._unpacked()
             if messages and not is_shutdown():
                 self._tell(messages, self)
-        except Exception as error:
+        except BaseException as error:  # the other topics must go on
             _reception.remove(self)
             self._error = error
             self._has_ended.set()
