@@ -3,7 +3,9 @@
 Arguments that functions share:
     odds: float32 (rows, columns), logarithm of the odds that a cell is occupied; 0 if nothing is known.
     hits: float32 (rows, columns, 5), for each cell the means over the beams that ended in it: of x and y [cells from
-        the corner of the grid], and of the x and y of the directions toward the laser; and the weight of these beams.
+        the corner of the grid], and of the x and y of the directions toward the laser; and the weight of all beams
+        that ended in it. Noise scatters hits around a wall, also where beams pass: none is forgotten, or walls would
+        be drawn behind where they are.
     field: float32 (rows + 1, columns + 1), signed distance from each node to the nearest wall [m].
 """
 
@@ -21,7 +23,7 @@ HIT, MISS = 0.9, -0.5  # logarithms of odds: what more than a third of the beams
 MOST = 4.0  # the largest, so that what has changed is believed after some scans
 BESIDE = 3  # [cells] around a cell to which a line is fitted
 STRAIGHT, THIN = 1.0, 0.2  # [cells^2] variance along a line, at least, and that across in units of it, at most
-ENOUGH = 20.0  # weight of the beams over which means are taken, at most: after that walls do not drift
+ENOUGH = 20.0  # weight of the beams over which the means in a cell are taken, at most: after that they do not drift
 
 
 @compiled
@@ -54,7 +56,6 @@ def add_beams(odds: Array, hits: Array, x: float, y: float, ends: Array, weights
             before = odds[row, column]
             odds[row, column] = max(before + MISS, -MOST)
             if before > 0.0 and odds[row, column] <= 0.0:
-                hits[row, column, 4] = 0.0
                 top, left = min(top, row), min(left, column)
                 bottom, right = max(bottom, row + 1), max(right, column + 1)
             if row == last_row or column != last_column and next_x < next_y:
@@ -70,9 +71,9 @@ def add_beams(odds: Array, hits: Array, x: float, y: float, ends: Array, weights
             top, left = min(top, row), min(left, column)
             bottom, right = max(bottom, row + 1), max(right, column + 1)
         cell = hits[row, column]
+        cell[4] += weights[beam]
         if cell[4] < ENOUGH:
             length = math.hypot(by_x, by_y)
-            cell[4] += weights[beam]
             share = weights[beam] / cell[4]
             cell[0] += (to_x - cell[0]) * share
             cell[1] += (to_y - cell[1]) * share
