@@ -65,7 +65,7 @@ def test_an_improved_route_meets_the_target_sooner_than_one_with_all_lanes():
     problem = problem_of(crooked(0.02), target_coverage=0.95)
     draft = first_draft(problem)
     before = Rehearsal(problem.context, START, dense(draft))
-    after = Rehearsal(problem.context, START, improved(problem, [draft], []))
+    after = Rehearsal(problem.context, START, improved(problem, [draft]))
     assert before.swept.coverage > 0.96 and after.is_complete
     assert after.swept.coverage >= 0.95 and after.seconds < 0.97 * before.seconds
 
@@ -74,7 +74,7 @@ def test_an_improved_route_sweeps_what_lanes_without_overlap_and_corners_would_l
     problem = problem_of(crooked(0.02), target_coverage=0.993)
     draft = first_draft(problem, 0.0)
     before = Rehearsal(problem.context, START, dense(draft))
-    after = Rehearsal(problem.context, START, improved(problem, [draft], []))
+    after = Rehearsal(problem.context, START, improved(problem, [draft]))
     assert before.swept.coverage < 0.992 and after.swept.coverage >= 0.993
     assert after.seconds < 1.15 * before.seconds
 
@@ -83,9 +83,9 @@ def test_a_route_that_edits_leave_short_of_the_target_is_mended_by_detours(monke
     monkeypatch.setattr(improvement, 'EDITED', -0.008)  # so that they do
     problem = problem_of(crooked(0.02), target_coverage=0.92, planning_rounds=1)
     draft = first_draft(problem, 0.0)
-    mended = Rehearsal(problem.context, START, improved(problem, [draft], []))
+    mended = Rehearsal(problem.context, START, improved(problem, [draft]))
     monkeypatch.setattr(improvement, 'MENDS', 0)
-    short = Rehearsal(problem.context, START, improved(problem, [draft], []))
+    short = Rehearsal(problem.context, START, improved(problem, [draft]))
     assert mended.swept.coverage >= 0.92 and mended.seconds < 0.95 * short.seconds
 
 
@@ -96,7 +96,7 @@ def test_there_are_as_many_rounds_as_are_wanted_and_as_the_floor_is_worth(size, 
     assert effort(knowing(room(*size), START, planning_rounds=wanted)).rounds == count
 
 
-def test_on_a_large_floor_one_draft_is_rehearsed_rebuilt_and_edited_but_nothing_is_shifted(monkeypatch):
+def test_on_a_large_floor_one_draft_is_rehearsed_and_edited_but_nothing_is_shifted(monkeypatch):
     problem = problem_of(crooked(0.02), target_coverage=0.95)
     monkeypatch.setattr(efforts, 'WORK', 0.9 * problem.context.swept.reachable_area)
     problem = problem._replace(effort=effort(problem.context))
@@ -128,47 +128,9 @@ def test_the_better_of_two_routes_is_improved():
     good = first_draft(problem)
     bad = Route(np.concatenate([good.waypoints, good.waypoints[-2::-1]]),
                 np.concatenate([good.speeds, good.speeds[::-1]]))
-    chosen = Rehearsal(problem.context, START, improved(problem, [bad, good], []))
-    alone = Rehearsal(problem.context, START, improved(problem, [good], []))
+    chosen = Rehearsal(problem.context, START, improved(problem, [bad, good]))
+    alone = Rehearsal(problem.context, START, improved(problem, [good]))
     assert chosen.seconds == alone.seconds and chosen.swept.coverage == alone.swept.coverage
-
-
-@pytest.mark.parametrize('planning_rounds, count', [(1, 1), (3, 1), (4, 2), (5, 2)])
-def test_a_route_is_rebuilt_before_it_is_edited_and_the_best_so_far_after_three_rounds(monkeypatch, planning_rounds,
-                                                                                       count):
-    given, rebuilt = [], improvement.rebuilt
-
-    def noted(problem, rehearsal, paths):
-        given.append((improvement._cost(problem, rehearsal), paths))
-        return rebuilt(problem, rehearsal, paths)
-    monkeypatch.setattr(improvement, 'rebuilt', noted)
-    problem = problem_of(crooked(0.02), target_coverage=0.95, planning_rounds=planning_rounds)
-    paths = [np.array([[0.5, 0.5], [2.5, 0.5]])]
-    improved(problem, [first_draft(problem)], paths)
-    costs = [cost for cost, _ in given]
-    assert len(given) == count and all(found is paths for _, found in given)
-    assert all(later < earlier for earlier, later in zip(costs, costs[1:]))
-
-
-def test_a_rebuilt_route_that_nobody_can_follow_is_not_taken(monkeypatch):
-    problem = problem_of(room(4.0, 3.0, 0.02, [(1.9, 0.0, 2.1, 2.2)]))
-    before = Rehearsal(problem.context, START, dense(Route(np.array([[0.5, 0.5], [0.5, 2.5]]), np.array([0.3]))))
-    for end, is_taken in ((3.5, False), (1.5, True)):
-        route = Route(np.array([[0.5, 0.5], [end, 0.5]]), np.array([0.3]))
-        monkeypatch.setattr(improvement, 'rebuilt', lambda *_, found=route: found)
-        assert (improvement._rebuilt(problem, before, []) is not before) == is_taken
-
-
-def test_a_route_is_rebuilt_of_the_stretches_of_all_drafts(monkeypatch):
-    given = []
-    monkeypatch.setattr(planner, 'improved', lambda _, routes, paths: given.append((routes, paths)) or routes[0])
-    problem = problem_of(room(4.0, 3.0))
-    planner.plan(problem.context, START)
-    drafts = planner.drafts(problem)
-    (routes, paths), = given
-    assert len(routes) == len(drafts) > 1
-    found = [path for draft, _ in drafts for path in draft.paths]
-    assert len(paths) == len(found) and all(np.array_equal(*each) for each in zip(paths, found))
 
 
 def test_a_route_with_more_turns_is_to_sweep_more_since_each_is_driven_otherwise_than_rehearsed():
@@ -193,7 +155,7 @@ def test_a_route_over_crumbs_is_improved_too(monkeypatch):
 def test_a_route_that_nobody_can_follow_stays_as_it_is():
     problem = problem_of(room(4.0, 3.0, 0.02, [(1.9, 0.0, 2.1, 3.0)]))
     through = Route(np.array([[0.5, 0.5], [3.5, 0.5]]), np.array([0.3]))
-    assert improved(problem, [through], []).waypoints.tolist() == dense(through).waypoints.tolist()
+    assert improved(problem, [through]).waypoints.tolist() == dense(through).waypoints.tolist()
 
 
 @pytest.mark.parametrize('has_marks', [False, True])
@@ -205,7 +167,7 @@ def test_of_a_route_over_crumbs_the_beginning_is_improved_that_a_robot_can_follo
     through = Route(np.array([START[:2], (0.6, 1.5), (3.5, 1.5)]), np.full(2, 0.3))
     monkeypatch.setattr(planner, 'drafts', lambda _: [])
     monkeypatch.setattr(planner, 'through', lambda *_: through)
-    monkeypatch.setattr(planner, 'improved', lambda _, routes, paths: given.extend(routes) or routes[0])
+    monkeypatch.setattr(planner, 'improved', lambda _, routes: given.extend(routes) or routes[0])
     found = planner.plan(context, START)
     assert (found is through) == has_marks and len(given) == 1 - has_marks
     assert has_marks or Rehearsal(context, START, found).is_complete and len(found.speeds) > 1
@@ -214,7 +176,7 @@ def test_of_a_route_over_crumbs_the_beginning_is_improved_that_a_robot_can_follo
 def test_plans_repeat():
     problem = problem_of(crooked(0.05))
     draft = first_draft(problem)
-    one, other = improved(problem, [draft], []), improved(problem, [draft], [])
+    one, other = improved(problem, [draft]), improved(problem, [draft])
     assert np.array_equal(one.waypoints, other.waypoints) and np.array_equal(one.speeds, other.speeds)
 
 
@@ -230,7 +192,7 @@ def test_numba_does_not_take_the_types_of_what_a_plan_calls_for_new_ones(monkeyp
     typeof = DISPATCHER.typeof_pyval
     monkeypatch.setattr(DISPATCHER, 'typeof_pyval', asked)
     planner.plan(knowing(floor, START), START)
-    few = {'sweep_trace', 'passed', 'changes', 'rebuilt'}  # with many arrays: these are few calls
+    few = {'sweep_trace', 'passed', 'changes'}  # with many arrays: these are few calls
     if numba.__version__ < '0.49':  # it loses more of the texts
-        few |= {'durations', 'rehearse'}
+        few |= {'rehearse'}
     assert names <= few

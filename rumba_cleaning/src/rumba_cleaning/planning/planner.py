@@ -48,7 +48,7 @@ def plan(context: Context, pose: Pose, end: Optional[Pose] = None) -> Optional[R
     if problem.effort.rounds == 0:
         draft, route = routes[0]
         return with_detours(problem, route, draft.paper)
-    return improved(problem, [route for _, route in routes], [path for draft, _ in routes for path in draft.paths])
+    return improved(problem, [route for _, route in routes])
 
 
 def drafts(problem: Problem) -> List[Tuple[Drafted, Route]]:
@@ -83,4 +83,4 @@ def _over_crumbs(problem: Problem) -> Optional[Route]:
     if route is None or problem.effort.rounds == 0 or context.ground.has_marks:
         return route
     begun = Rehearsal(context, problem.pose, dense(route)).begun
-    return improved(problem, [begun], [part.variants[0].path() for part in found])
+    return improved(problem, [begun])

@@ -6,14 +6,12 @@ from rumba_cleaning.belief.context import Context
 from rumba_cleaning.belief.swept import Swept
 from rumba_cleaning.planning.search.detours import detours
 from rumba_cleaning.planning.search.edits import applied, chosen, dense
-from rumba_cleaning.planning.search.rebuilding import rebuilt
 from rumba_cleaning.planning.search.shifts import shifts
 from rumba_cleaning.planning.search.shortcuts import shortcuts
 from rumba_cleaning.planning.simulate.edit import Edit
 from rumba_cleaning.planning.simulate.rehearsal import Rehearsal
 from rumba_cleaning.planning.swaths.problem import Problem
 from rumba_cleaning.route import Route
-from rumba_sim.model.kernel import Array
 
 # All figures are our choice; each comment says what speaks for a larger and for a smaller value.
 SURPLUS = 0.005  # of coverage that is planned beyond the target on paper, since no robot drives exactly as planned ...
@@ -25,7 +23,6 @@ MENDS = 2  # times that detours are added, at most, to a route that edits left s
 # [s/m^2] a lane takes 20: dearer edits are left out on paper, where they clean less than it seems, and by rehearsal.
 DEAREST_ON_PAPER, DEAREST = 200.0, 3000.0
 LEAST_ON_PAPER = 0.005  # [m^2] of a crumb: a smaller one is hardly ever worth that price; large plans faster
-EDITS = 3  # rounds of edits after a route is rebuilt, before that is done again
 # [s/m^2] that edits save for what they leave, if there is more than the target needs, and take for what is missing.
 SAVED, ADDED = 120.0, 600.0
 CHEAP = 0.8  # share of the last price that a shortcut must save to be judged: small tries more
@@ -41,23 +38,19 @@ def with_detours(problem: Problem, route: Route, paper: Swept) -> Route:
     return applied(route, edits, problem.context.config.speed)
 
 
-def improved(problem: Problem, routes: Sequence[Route], paths: Sequence[Array]) -> Route:
-    """The best of several routes, rebuilt and edited, so that it meets the target by rehearsal in little time.
+def improved(problem: Problem, routes: Sequence[Route]) -> Route:
+    """The best of several routes, edited so that it meets the target by rehearsal in little time.
 
     Args:
         problem: for which the routes are.
         routes: drafts.
-        paths: what they lead over, float64 (any, 2) [m] each.
     """
     context = problem.context
     rehearsal = min((Rehearsal(context, problem.pose, dense(route)) for route in routes),
                     key=lambda rehearsal: _cost(problem, rehearsal))
     tried, price = [rehearsal], SAVED
     poor: Set[bytes] = set()  # edits, by their places, that were far from worth it when they were judged
-    for number in range(problem.effort.rounds):
-        if number % EDITS == 0:
-            rehearsal = _rebuilt(problem, min(tried, key=lambda each: _cost(problem, each)), paths)
-            tried.append(rehearsal)
+    for _ in range(problem.effort.rounds):
         if not rehearsal.is_complete:
             break
         shifted = shifts(context, rehearsal.route) if problem.effort.is_thorough else []
@@ -66,7 +59,7 @@ def improved(problem: Problem, routes: Sequence[Route], paths: Sequence[Array]) 
         rehearsal, price = _edited(problem, rehearsal, found, poor)
         tried.append(rehearsal)
     for _ in range(MENDS):
-        if not rehearsal.is_complete or is_met(problem.context, rehearsal):
+        if not rehearsal.is_complete or is_met(context, rehearsal):
             break
         rehearsal, _ = _edited(problem, rehearsal, detours(problem, rehearsal.route, rehearsal.swept), set())
         tried.append(rehearsal)
@@ -77,13 +70,6 @@ def is_met(context: Context, rehearsal: Rehearsal) -> bool:
     """Whether a route meets the target, even if its rehearsal errs by MARGIN."""
     missing = (context.target_coverage - rehearsal.swept.coverage) * context.swept.reachable_area
     return missing + MARGIN * rehearsal.turned <= 0.0
-
-
-def _rebuilt(problem: Problem, rehearsal: Rehearsal, paths: Sequence[Array]) -> Rehearsal:
-    """A rehearsal of a route that is rebuilt, or the one before if the robot would not get to the end of it."""
-    route = rebuilt(problem, rehearsal, paths)
-    after = Rehearsal(problem.context, problem.pose, dense(route))
-    return after if after.is_complete else rehearsal
 
 
 def _edited(problem: Problem, rehearsal: Rehearsal, found: Sequence[Edit],
