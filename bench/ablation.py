@@ -60,7 +60,6 @@ STAGES = {
     'other drafts': ((drafting, 'drafts', lambda _: layouts.drafts(0)),),
     'other layouts': ((drafting, 'layouts', lambda _: 1),),
     'shifts': ((improvement, 'shifts', nothing),),
-    'detours': ((improvement, 'detours', nothing),),
     'strips': ((drafting, '_strips', nothing),),
     'kicks': ((tour, 'KICKS', 0),),
     'spiral': ((planner, 'spiral_over', lambda *_: None),),
@@ -90,7 +89,7 @@ def main():
         summarise(stage, found, cases)
     if arguments.each:
         for case in cases:
-            print(*case, *(f'{found[(stage, *case)].multiple:.4f} {found[(stage, *case)].seconds:.2f}' for stage in without))
+            print(*case, *(f'{found[(stage, *case)].multiple:.4f}' for stage in without))
 
 
 def summarise(stage, found, cases):

@@ -13,7 +13,6 @@ from rumba_cleaning.behaviours.follower import drive_of
 from rumba_cleaning.belief.compiled_footing import DRIVEN, SEEN, are_marked, stamp
 from rumba_cleaning.belief.compiled_ground import are_of_one_part
 from rumba_cleaning.belief.search import Costs, Lattice, cheapest, is_clear, path_lengths
-from rumba_cleaning.planning.common.compiled_ways import cornered_length
 from rumba_cleaning.planning.swaths.compiled_lanes import NO_ROW, lowest, runs
 from rumba_sim.model.settings.robot_config import DriveConfig
 
@@ -43,14 +42,6 @@ def test_the_lowest_row_is_that_with_a_long_run_and_short_ones_of_the_whole_widt
     assert not remaining[1].any()
     assert lowest(remaining, 0, 5, 0, 10, 2, 3) == (3, 1, 9)  # both are one
     assert lowest(remaining, 4, 5, 0, 10, 0, 3)[0] == NO_ROW
-
-
-@pytest.mark.parametrize('path, length', [
-    ([(0.0, 0.0)], 0.0), ([(0.0, 0.0), (3.0, 4.0)], 5.0), ([(0.0, 0.0), (1.0, 0.0), (1.0, 0.0), (1.0, 2.0)], 3.0),
-    ([(0.0, 0.0), (-1.0, 1e-3), (-2.0, 0.0)], 2.0)])
-def test_each_corner_of_a_path_counts_by_its_angle_the_short_way_round(path, length):
-    turns = {1: 0.0, 2: 0.0, 3: 2e-3, 4: math.pi / 2.0}[len(path)]
-    assert cornered_length(np.array(path), 0.1) == pytest.approx(length + 0.1 * turns, abs=1e-6)
 
 
 def length_of(path):

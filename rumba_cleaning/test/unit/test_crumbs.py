@@ -11,7 +11,6 @@ from rooms import crooked, room
 from rumba_cleaning.planning.decompose.regions import regions
 from rumba_cleaning.planning.simulate.paper import drive
 from rumba_cleaning.planning.swaths.crumbs import HEADINGS, LEAST, crumbs, middle_lines
-from rumba_cleaning.planning.swaths.walls import Walls
 from rumba_sim.model.common.geometry import Pose
 
 START = Pose(0.5, 0.5, 0.0)
@@ -24,7 +23,7 @@ def missed_alone(plan, *boxes):
 
 def found(context, least=0.0):
     """The crumbs on the floor of a context, those of an area [m^2] or more."""
-    return crumbs(context.ground, Walls(context.ground), context.swept.missing_share(), regions(context.ground), least)
+    return crumbs(context.ground, context.swept.missing_share(), regions(context.ground), least)
 
 
 @pytest.mark.parametrize('resolution', [0.01, 0.02, 0.05])
@@ -58,7 +57,7 @@ def test_what_is_left_in_a_broken_line_is_one_strip_if_its_pieces_are_near_enoug
         share[row:row + thick, column + number * (piece + gap):][:, :piece] = 1.0
 
     def parts(**only):
-        return crumbs(floor, Walls(floor), share, regions(floor), **only)
+        return crumbs(floor, share, regions(floor), **only)
 
     assert len(parts()) == len(parts(apart=0.03)) == 8
     strip, = parts(apart=0.06)
@@ -124,4 +123,4 @@ def test_ground_without_crumbs_has_none():
     plan = room(4.0, 3.0)
     share = np.zeros(plan.refined().occupancy.shape, np.float32)
     floor = ground(plan.refined())
-    assert crumbs(floor, Walls(floor), share, regions(floor)) == []
+    assert crumbs(floor, share, regions(floor)) == []

@@ -1,4 +1,4 @@
-"""Groups of stretches: by region, and in parts if there are many."""
+"""Groups of stretches: one if there are few, by region if there are more, and in parts if a region has many."""
 
 import numpy as np
 
@@ -19,9 +19,17 @@ def names(stretches):
     return [id(stretch) for stretch in stretches]
 
 
-def test_the_stretches_of_a_region_are_a_group_in_their_order():
-    one, other = scattered(20, 1, 5.0, 5.0), scattered(20, 7, 5.0, 5.0)
-    found = groups([stretch for both in zip(other, one) for stretch in both])
+def test_few_stretches_are_one_group_whatever_their_regions_if_a_tour_may_lead_across_them():
+    found = [*scattered(20, 1, 5.0, 5.0), *scattered(20, 7, 5.0, 5.0)]
+    assert [group.region for group in groups(found)] == [1, 7]
+    group, = groups(found, across=True)
+    assert group.region == 0 and names(group.stretches) == names(found)
+
+
+def test_of_more_stretches_those_of_a_region_are_a_group_in_their_order():
+    count = MANY // (4 * PAIRS) + 1
+    one, other = scattered(count, 1, 5.0, 5.0), scattered(count, 7, 5.0, 5.0)
+    found = groups([stretch for both in zip(other, one) for stretch in both], across=True)
     assert [group.region for group in found] == [7, 1]
     assert [names(group.stretches) for group in found] == [names(other), names(one)]
 

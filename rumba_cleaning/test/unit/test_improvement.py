@@ -23,7 +23,6 @@ from rumba_cleaning.planning.swaths.drafting import choices, drafted
 from rumba_cleaning.planning.swaths.lanes import Layout
 from rumba_cleaning.planning.swaths.layouts import DRAFTS, IN_RINGS, OTHER_SHAPES, Draft
 from rumba_cleaning.planning.swaths.problem import Problem
-from rumba_cleaning.planning.swaths.walls import Walls
 from rumba_cleaning.route import Route
 from rumba_sim.model.common.geometry import Pose
 
@@ -35,7 +34,7 @@ DISPATCHER = next(kind for kind in type(compiled_changes.changes).__mro__ if 'ty
 def problem_of(floor, pose=START, **config):
     context = knowing(floor, pose, **config)
     around = np.ones(context.plan.free.shape, bool)
-    return Problem(context, pose, None, around, regions(context.ground), Walls(context.ground), effort(context))
+    return Problem(context, pose, None, around, regions(context.ground), 0.0, effort(context))
 
 
 def first_draft(problem, overlap=0.05):
@@ -56,7 +55,7 @@ def test_there_are_drafts_for_rings_and_other_shapes_only_where_a_region_has_suc
 
 def test_no_two_of_the_routes_that_are_rehearsed_are_the_same():
     """In a corridor without lanes, drafts that differ in these alone are one."""
-    routes = [route.waypoints for _, route in planner.drafts(problem_of(room(8.0, 0.8)))]
+    routes = [route.waypoints for route in planner.drafts(problem_of(room(8.0, 0.8)))]
     assert len(routes) == 3
     assert not any(np.array_equal(one, other) for one, other in itertools.combinations(routes, 2))
 
@@ -79,16 +78,6 @@ def test_an_improved_route_sweeps_what_lanes_without_overlap_and_corners_would_l
     assert after.seconds < 1.15 * before.seconds
 
 
-def test_a_route_that_edits_leave_short_of_the_target_is_mended_by_detours(monkeypatch):
-    monkeypatch.setattr(improvement, 'EDITED', -0.008)  # so that they do
-    problem = problem_of(crooked(0.02), target_coverage=0.92, planning_rounds=1)
-    draft = first_draft(problem, 0.0)
-    mended = Rehearsal(problem.context, START, improved(problem, [draft]))
-    monkeypatch.setattr(improvement, 'MENDS', 0)
-    short = Rehearsal(problem.context, START, improved(problem, [draft]))
-    assert mended.swept.coverage >= 0.92 and mended.seconds < 0.95 * short.seconds
-
-
 @pytest.mark.parametrize('size, wanted, count', [((4.0, 2.0), 5, 5), ((4.0, 2.0), 2, 2), ((4.0, 2.0), 0, 0),
                                                  ((10.0, 5.0), 5, 3), ((16.0, 12.0), 5, 1), ((16.0, 12.0), 0, 0),
                                                  ((16.0, 16.0), 5, 0)])
@@ -101,8 +90,8 @@ def test_on_a_large_floor_one_draft_is_rehearsed_and_edited_but_nothing_is_shift
     monkeypatch.setattr(efforts, 'WORK', 0.9 * problem.context.swept.reachable_area)
     problem = problem._replace(effort=effort(problem.context))
     monkeypatch.setattr(improvement, 'shifts', None)  # so that to call it would be an error
-    (draft, route), = planner.drafts(problem)
-    before = Rehearsal(problem.context, START, improvement.with_detours(problem, route, draft.paper))
+    route, = planner.drafts(problem)
+    before = Rehearsal(problem.context, START, dense(route))
     after = Rehearsal(problem.context, START, planner.plan(problem.context, START))
     assert after.swept.coverage >= 0.95 and after.seconds < 0.95 * before.seconds
 

@@ -4,54 +4,12 @@ import math
 
 import numpy as np
 import pytest
-from scipy import ndimage, spatial
+from scipy import ndimage
 
 from rumba_cleaning.compiled_bearings import bearings
 from rumba_cleaning.planning.common import gaussian
-from rumba_cleaning.planning.common.compiled_ways import NONE
-from rumba_cleaning.planning.common.nearest import nearest
 from rumba_cleaning.planning.common.rows import distinct
 from rumba_cleaning.planning.decompose.turned_floor import _on_axes
-
-CROSS = np.array([[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0], [0.0, 0.0], [3.0, 0.0], [0.0, 0.0]])
-
-
-class Backward:
-    """A tree that finds what is equally far in the opposite order, as another version of SciPy may."""
-
-    def __init__(self, points):
-        self._tree = spatial.cKDTree(points[::-1])
-        self._last = len(points) - 1
-        self.data = points
-
-    def query(self, points, *args, **kwargs):
-        distances, near = self._tree.query(points, *args, **kwargs)
-        return distances, self._last - near
-
-    def query_ball_point(self, point, reach):
-        return [self._last - index for index in self._tree.query_ball_point(point, reach)]
-
-
-@pytest.mark.parametrize('tree', [spatial.cKDTree(CROSS), Backward(CROSS)])
-@pytest.mark.parametrize('count, farthest, found', [
-    (7, 2.0, [4, 6, 0, 1, 2, 3, NONE]), (4, 2.0, [4, 6, 0, 1]), (1, 2.0, [4]), (3, 0.5, [4, 6, NONE]),
-    (7, 5.0, [4, 6, 0, 1, 2, 3, 5])])
-def test_of_points_equally_far_the_first_are_the_nearest(tree, count, farthest, found):
-    assert nearest(tree, np.zeros((1, 2)), count, farthest).tolist() == [found]
-
-
-def test_the_nearest_points_are_those_of_a_look_at_all_of_them():
-    generator = np.random.default_rng(1)
-    points, places = generator.integers(0, 12, (300, 2)) / 7.0, generator.random((40, 2))
-    found = nearest(spatial.cKDTree(points), places, 25, 0.6)
-    for place, near in zip(places, found.tolist()):
-        squares = ((points - place) ** 2).sum(axis=1)
-        wanted = [index for index in np.argsort(squares, kind='stable')[:25].tolist() if squares[index] <= 0.6 ** 2]
-        assert near == wanted + [NONE] * (25 - len(wanted))
-
-
-def test_no_point_is_near_if_there_is_none():
-    assert nearest(spatial.cKDTree(np.zeros((0, 2))), CROSS, 2, 1.0).tolist() == [[NONE, NONE]] * len(CROSS)
 
 
 def test_distinct_rows_are_those_of_numpy_and_none_has_none():

@@ -1,20 +1,21 @@
 """Plans how to clean what was missed: region by region, along the walls, in lanes or in rings, and then the crumbs."""
 
-from typing import List, Optional, Tuple
+from typing import List, Optional
 
 import numpy as np
 
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.planning.common.effort import effort
 from rumba_cleaning.planning.decompose.regions import regions
+from rumba_cleaning.planning.decompose.turned_floor import main_direction
 from rumba_cleaning.planning.order.route import through
 from rumba_cleaning.planning.rectangle import spiral_over
 from rumba_cleaning.planning.search.edits import dense
-from rumba_cleaning.planning.search.improvement import improved, with_detours
+from rumba_cleaning.planning.search.improvement import improved
 from rumba_cleaning.planning.simulate.rehearsal import Rehearsal
-from rumba_cleaning.planning.swaths.drafting import Drafted, choices, drafted
+from rumba_cleaning.planning.swaths.drafting import choices, drafted
 from rumba_cleaning.planning.swaths.problem import Problem
-from rumba_cleaning.planning.swaths.walls import Walls
+from rumba_cleaning.planning.swaths.rings import outlines
 from rumba_cleaning.route import Route
 from rumba_sim.model.common.geometry import Pose
 from rumba_sim.model.kernel import Array
@@ -27,10 +28,9 @@ BEYOND = 0.03  # [m] from what the brush reaches, where an obstacle may leave mo
 def plan(context: Context, pose: Pose, end: Optional[Pose] = None) -> Optional[Route]:
     """A route that cleans what was missed; None if nothing was missed, or none of it can be reached.
 
-    An empty rectangle is swept in a spiral. Elsewhere, as long as lanes and rings clean most of it, crumbs are cleaned
-    on detours from these, and the route is rebuilt and improved by rehearsal. The routes after that know where the
-    robot really drove, and visit crumb after crumb; if no obstacles were met, they are improved too. All visit only as
-    many crumbs as the target needs.
+    An empty rectangle is swept in a spiral. Elsewhere, as long as lanes and rings clean most of it, the route leads
+    over these, and is improved by rehearsal. The routes after that know where the robot really drove, and visit crumb
+    after crumb, as many as the target needs; if no obstacles were met, they are improved too.
 
     Args:
         context: with the floor that was swept before; it is not changed.
@@ -40,19 +40,17 @@ def plan(context: Context, pose: Pose, end: Optional[Pose] = None) -> Optional[R
     spiral = spiral_over(context, pose) if end is None else None
     if spiral is not None:
         return spiral
-    ground, labels = context.ground, regions(context.ground)
-    problem = Problem(context, pose, end, _around(context, pose), labels, Walls(ground), effort(context))
+    ground = context.ground
+    problem = Problem(context, pose, end, _around(context, pose), regions(ground), main_direction(outlines(ground)),
+                      effort(context))
     routes = drafts(problem)
     if not routes:
         return _over_crumbs(problem)
-    if problem.effort.rounds == 0:
-        draft, route = routes[0]
-        return with_detours(problem, route, draft.paper)
-    return improved(problem, [route for _, route in routes])
+    return routes[0] if problem.effort.rounds == 0 else improved(problem, routes)
 
 
-def drafts(problem: Problem) -> List[Tuple[Drafted, Route]]:
-    """Drafts that clean most of what was missed, each with a route; none, if that is little."""
+def drafts(problem: Problem) -> List[Route]:
+    """Routes of drafts that clean most of what was missed; none, if that is little."""
     swept, area = problem.context.swept, problem.context.swept.reachable_area
     missing = float((swept.missing_share() * problem.around).sum()) * problem.context.plan.resolution ** 2
     found = []
@@ -60,7 +58,7 @@ def drafts(problem: Problem) -> List[Tuple[Drafted, Route]]:
         is_much = draft.paper.coverage - swept.coverage > MOST * missing / area
         route = through(problem, draft.stretches) if is_much else None
         if route is not None:
-            found.append((draft, route))
+            found.append(route)
     return found
 
 

@@ -12,7 +12,6 @@ interpolated = fast.interpolated
 
 Array = Any  # numpy.ndarray
 
-NONE = -1  # of many points, no one
 CLOSE = 0.02  # [m] points so near to each other have no direction between them
 TINY = 1e-9  # [nodes]
 SHARP = 1.6  # [rad] a little more than a right angle
@@ -206,19 +205,3 @@ def kept(path: Array, off: float) -> Array:
 def distance(one: Array, other: Array) -> float:
     """The distance between two points (2)."""
     return math.hypot(other[0] - one[0], other[1] - one[1])
-
-
-@compiled
-def cornered_length(path: Array, corner: float) -> float:
-    """Length of a path (any, 2) [m], to which its corners add so much for each radian [m]."""
-    length, last = 0.0, math.nan
-    for index in range(1, len(path)):
-        x, y = path[index, 0] - path[index - 1, 0], path[index, 1] - path[index - 1, 1]
-        if x == 0.0 and y == 0.0:
-            continue
-        heading = math.atan2(y, x)
-        if not math.isnan(last):
-            length += corner * abs((heading - last + math.pi) % (2.0 * math.pi) - math.pi)
-        length += math.hypot(x, y)
-        last = heading
-    return length

@@ -1,4 +1,4 @@
-"""Groups of stretches, in each of which a tour is searched: those of a region, or of a part of it if there are many."""
+"""Groups of stretches, in each of which a tour is searched: all, or those of a region or of a part of it."""
 
 from typing import Dict, List, NamedTuple, Sequence
 
@@ -7,15 +7,15 @@ import numpy as np
 from rumba_cleaning.planning.common.stretches import Stretch
 from rumba_sim.model.kernel import Array
 
-# Variants in a group, and in each of its parts, if it has more: the time for a tour grows with their square and more,
-# but from part to part the robot drives farther. Our choice, by halls of up to 3,500 m2 with pillars or chairs.
+# Variants in a group, and in each part of a region, if it has more: the time for a tour grows with their square and
+# more, but from part to part the robot drives farther. Our choice, by halls of up to 3,500 m2 with pillars or chairs.
 MANY, MOST = 1500, 350
 
 
 class Group(NamedTuple):
     """Stretches that are driven one after the other."""
 
-    region: int  # its label
+    region: int  # its label; 0: several regions
     stretches: List[Stretch]
 
     def middle(self) -> Array:
@@ -24,8 +24,15 @@ class Group(NamedTuple):
         return np.asarray(entries[int(np.argmin(np.hypot(*(entries - entries.mean(axis=0)).T)))])
 
 
-def groups(found: Sequence[Stretch]) -> List[Group]:
-    """Stretches in groups, in the order of the first of each region."""
+def groups(found: Sequence[Stretch], across: bool = False) -> List[Group]:
+    """Stretches in groups, in the order of the first of each region.
+
+    Args:
+        found: the stretches.
+        across: whether they may be one group, if they are few, so that a tour leads to and fro between regions.
+    """
+    if across and sum(len(part.variants) for part in found) <= MANY:
+        return [Group(0, list(found))]
     by_region: Dict[int, List[Stretch]] = {}
     for part in found:
         by_region.setdefault(part.region, []).append(part)

@@ -20,7 +20,7 @@ from rumba_sim.model.kernel import Array
 ROUNDS = 20  # of improvement, at most: most tours stop improving earlier
 KICKS = 300  # random changes of a tour, after each of which it is improved again, at most; ...
 # ... and at most so many divided by stretches * variants, times an effort: more make shorter tours, and take more time.
-STEPS = 40_000
+STEPS = 160_000
 BESIDE = 0.03  # [m] beyond the touching distance on a way: a robot that cuts a corner is stuck at an edge or a leg
 UNSEEN = 3.0  # [m] that are added to twice the distance of points between which no line of sight leads: a guess
 AROUND = 0.3  # [m] about all stretches, in which obstacles are looked at that a way may lead around

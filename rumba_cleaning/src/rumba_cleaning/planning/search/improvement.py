@@ -3,8 +3,6 @@
 from typing import Sequence, Set, Tuple
 
 from rumba_cleaning.belief.context import Context
-from rumba_cleaning.belief.swept import Swept
-from rumba_cleaning.planning.search.detours import detours
 from rumba_cleaning.planning.search.edits import applied, chosen, dense
 from rumba_cleaning.planning.search.shifts import shifts
 from rumba_cleaning.planning.search.shortcuts import shortcuts
@@ -12,6 +10,7 @@ from rumba_cleaning.planning.simulate.edit import Edit
 from rumba_cleaning.planning.simulate.rehearsal import Rehearsal
 from rumba_cleaning.planning.swaths.problem import Problem
 from rumba_cleaning.route import Route
+from rumba_sim.model.common.geometry import hypot
 
 # All figures are our choice; each comment says what speaks for a larger and for a smaller value.
 SURPLUS = 0.005  # of coverage that is planned beyond the target on paper, since no robot drives exactly as planned ...
@@ -19,23 +18,11 @@ SURPLUS = 0.005  # of coverage that is planned beyond the target on paper, since
 # rehearsed: large sweeps too much, small may need another route for a few last spots.
 MARGIN = 0.00006
 EDITED = 0.0004  # of coverage that edits are to bring beyond that: together they bring a little less than one by one
-MENDS = 2  # times that detours are added, at most, to a route that edits left short of the target: that takes little
-# [s/m^2] a lane takes 20: dearer edits are left out on paper, where they clean less than it seems, and by rehearsal.
-DEAREST_ON_PAPER, DEAREST = 200.0, 3000.0
-LEAST_ON_PAPER = 0.005  # [m^2] of a crumb: a smaller one is hardly ever worth that price; large plans faster
+DEAREST = 3000.0  # [s/m^2] a lane takes 20: edits that are dearer are not made
 # [s/m^2] that edits save for what they leave, if there is more than the target needs, and take for what is missing.
 SAVED, ADDED = 120.0, 600.0
 CHEAP = 0.8  # share of the last price that a shortcut must save to be judged: small tries more
 SHORTCUTS = 1500  # that are judged in a round, at most
-
-
-def with_detours(problem: Problem, route: Route, paper: Swept) -> Route:
-    """A route with detours, so that it meets the target on paper, where that was swept after it."""
-    route, need = dense(route), problem.need(paper, SURPLUS)
-    if need <= 0.0:
-        return route
-    edits, _ = chosen(detours(problem, route, paper, LEAST_ON_PAPER), need, DEAREST_ON_PAPER)
-    return applied(route, edits, problem.context.config.speed)
 
 
 def improved(problem: Problem, routes: Sequence[Route]) -> Route:
@@ -54,14 +41,8 @@ def improved(problem: Problem, routes: Sequence[Route]) -> Route:
         if not rehearsal.is_complete:
             break
         shifted = shifts(context, rehearsal.route) if problem.effort.is_thorough else []
-        found = [*shortcuts(context, rehearsal, CHEAP * price)[:SHORTCUTS], *shifted,
-                 *detours(problem, rehearsal.route, rehearsal.swept)]
+        found = [*shortcuts(context, rehearsal, CHEAP * price)[:SHORTCUTS], *shifted]
         rehearsal, price = _edited(problem, rehearsal, found, poor)
-        tried.append(rehearsal)
-    for _ in range(MENDS):
-        if not rehearsal.is_complete or is_met(context, rehearsal):
-            break
-        rehearsal, _ = _edited(problem, rehearsal, detours(problem, rehearsal.route, rehearsal.swept), set())
         tried.append(rehearsal)
     return max(tried, key=lambda rehearsal: _merit(problem, rehearsal)).route
 
@@ -87,9 +68,12 @@ def _edited(problem: Problem, rehearsal: Rehearsal, found: Sequence[Edit],
 
 
 def _cost(problem: Problem, rehearsal: Rehearsal) -> float:
-    """The time that a route will take, about, once edits have it meet the target [s]."""
-    need = _need(problem, rehearsal)
-    return rehearsal.seconds + need * (ADDED if need > 0.0 else SAVED)
+    """The time that a route will take, about, with the way to where it should end, once it meets the target [s]."""
+    need, metres = _need(problem, rehearsal), 0.0
+    if problem.end is not None:
+        x, y = rehearsal.route.waypoints[-1]
+        metres = hypot(problem.end.x - x, problem.end.y - y)
+    return rehearsal.seconds + metres / problem.context.config.transit_speed + need * (ADDED if need > 0.0 else SAVED)
 
 
 def _need(problem: Problem, rehearsal: Rehearsal, surplus: float = 0.0) -> float:

@@ -10,7 +10,6 @@ from skimage import morphology
 from rumba_cleaning.belief.ground import Ground
 from rumba_cleaning.planning.common.polyline import simplified
 from rumba_cleaning.planning.common.stretches import Stretch, Variant, pair
-from rumba_cleaning.planning.swaths.walls import Walls
 from rumba_cleaning.route import lengths_along
 from rumba_sim.model.kernel import Array
 
@@ -31,13 +30,11 @@ NEIGHBOURS = tuple((row, column) for row in (-1, 0, 1) for column in (-1, 0, 1) 
 Pixel = Tuple[int, int]
 
 
-def crumbs(ground: Ground, walls: Walls, share: Array, regions: Array, least: float = 0.0,
-           apart: float = 0.0) -> List[Stretch]:
+def crumbs(ground: Ground, share: Array, regions: Array, least: float = 0.0, apart: float = 0.0) -> List[Stretch]:
     """The crumbs: strips and spots.
 
     Args:
         ground: where the robot can stand.
-        walls: of the same ground.
         share: of each cell that was missed, float32 (rows, columns).
         regions: the region of each node, int (rows + 1, columns + 1).
         least: area of a crumb [m^2]; there is a least one in any case.
@@ -56,7 +53,7 @@ def crumbs(ground: Ground, walls: Walls, share: Array, regions: Array, least: fl
         if max(cells.shape) * res >= STRIP:
             found += _strips(ground, cells, corner, region, areas[number])
         else:
-            found.append(_small(ground, walls, cells, corner, region, areas[number]))
+            found.append(_spot(ground, cells, corner, region, areas[number]))
     return found
 
 
@@ -67,17 +64,6 @@ def _joined(cells: Array, reach: int) -> Array:
     across = np.arange(-reach, reach + 1)
     disc = across ** 2 + across[:, np.newaxis] ** 2 <= reach ** 2
     return np.asarray(ndimage.binary_dilation(cells, disc))
-
-
-def _small(ground: Ground, walls: Walls, cells: Array, corner: Array, region: int, area: float) -> Stretch:
-    """Along a wall, or over a spot."""
-    points = ground.points(np.argwhere(cells) + corner + 0.5)
-    middle = points.mean(axis=0)
-    if np.hypot(*(_standing(ground, middle[np.newaxis])[0] - middle)) > RIM:
-        path = walls.beside(points)
-        if path is not None:
-            return Stretch(pair([path]), region, area, True)
-    return _spot(ground, cells, corner, region, area)
 
 
 def _region(ground: Ground, cells: Array, corner: Array, regions: Array) -> int:

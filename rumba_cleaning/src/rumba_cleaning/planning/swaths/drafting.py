@@ -10,7 +10,7 @@ from rumba_cleaning.belief.swept import Swept
 from rumba_cleaning.planning.common.effort import layouts
 from rumba_cleaning.planning.common.stretches import Stretch
 from rumba_cleaning.planning.decompose.regions import NARROW, Shapes, shapes
-from rumba_cleaning.planning.decompose.turned_floor import Window, main_direction
+from rumba_cleaning.planning.decompose.turned_floor import Window
 from rumba_cleaning.planning.simulate.paper import drive
 from rumba_cleaning.planning.swaths.layouts import Draft, drafts, laid_out
 from rumba_cleaning.planning.swaths.problem import Problem
@@ -74,13 +74,13 @@ def _rings(problem: Problem, paper: Swept, shape: Shapes, draft: Draft) -> List[
 def _lanes(problem: Problem, paper: Swept, shape: Shapes, draft: Draft) -> List[Stretch]:
     """Lanes that clean what was missed beside the rings, but for crumbs; they are driven on paper."""
     context, labels = problem.context, problem.labels
-    ground, angle = context.ground, main_direction(problem.walls.outlines)
+    ground = context.ground
     missed = (paper.missing_share() > draft.missed) & problem.around
     compared = draft.layouts[:layouts(float(missed.sum()) * ground.plan.resolution ** 2)]
     found: List[Stretch] = []
     for region, part, window in _by_region(ground, missed, labels):
         if shape.has_lanes[region]:
-            found += laid_out(context, paper, part, region, angle, compared, window)
+            found += laid_out(context, paper, part, region, problem.angle, compared, window)
     return found
 
 

@@ -24,7 +24,7 @@ class Draft(NamedTuple):
     missed: float  # share of a cell, for a lane to clean it: small drives over swept floor
     narrow: float = NARROW  # [m] where rings suit a region better than lanes, as in `regions.shapes`
     ring_pass: float = PASS  # from ring to ring, as in `rings.rings`
-    strip: float = 0.1  # [m^2] of what rings and lanes leave, for the tour to lead over it; the rest is for detours
+    strip: float = 0.1  # [m^2] of what rings and lanes leave, for the tour to lead over it; the rest may stay
     apart: float = 0.0  # [m] up to which pieces of that belong together, as a broken line in the middle of a corridor
 
 

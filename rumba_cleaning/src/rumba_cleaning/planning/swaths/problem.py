@@ -7,7 +7,6 @@ from rumba_cleaning.belief.swept import Swept
 from rumba_cleaning.planning.common.effort import Effort
 from rumba_cleaning.planning.common.stretches import Stretch
 from rumba_cleaning.planning.swaths.crumbs import crumbs
-from rumba_cleaning.planning.swaths.walls import Walls
 from rumba_sim.model.common.geometry import Pose
 from rumba_sim.model.kernel import Array
 
@@ -20,12 +19,12 @@ class Problem(NamedTuple):
     end: Optional[Pose]  # near which a route should end; None: anywhere
     around: Array  # the cells that it can sweep, bool (rows, columns)
     labels: Array  # the region of each node, int (rows + 1, columns + 1)
-    walls: Walls  # of the ground of the context
+    angle: float  # by which most walls are turned against the map's axes [rad]
     effort: Effort  # that the plan is worth
 
     def crumbs(self, swept: Swept, least: float = 0.0, apart: float = 0.0) -> List[Stretch]:
         """Crumbs of an area [m^2] or more: see `crumbs`."""
-        return crumbs(self.context.ground, self.walls, swept.missing_share() * self.around, self.labels, least, apart)
+        return crumbs(self.context.ground, swept.missing_share() * self.around, self.labels, least, apart)
 
     def need(self, swept: Swept, surplus: float) -> float:
         """Area that is missing to the target and a surplus [m^2]."""
