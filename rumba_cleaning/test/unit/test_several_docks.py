@@ -104,3 +104,30 @@ def test_a_robot_that_cannot_dock_at_its_own_dock_goes_to_another_one():
     behaviour = Dock(context)
     run(behaviour, world, seconds=900.0)
     assert (behaviour.message, context.home, world.robots['rumba'].is_docked) == ('docked', RIGHT, True)
+
+
+@pytest.mark.parametrize('own, left, right, start', [
+    (2.0, 2.4, 0.7, Pose(3.3, 1.5, -0.5)), (1.4, 1.2, 0.9, Pose(3.0, 1.6, 2.8)), (2.3, 1.7, 0.5, Pose(2.9, 2.3, 2.5)),
+    (1.3, 2.3, 0.7, Pose(2.7, 1.5, -0.8)), (1.6, 1.2, 0.8, Pose(0.8, 2.4, 2.2)),
+])
+def test_a_robot_drives_straight_into_its_dock_although_there_is_one_on_each_side(own, left, right, start):
+    """The beams of the docks aside led it past the contacts, again and again."""
+    docks = [Pose(own, AWAY, -0.5 * math.pi), Pose(AWAY, left, math.pi), Pose(4.0 - AWAY, right, 0.0)]
+    world = World(room(4.0, 3.0, dock=docks[0], further_docks=tuple(docks[1:])), quiet())
+    world.spawn('rumba', start)
+    behaviour = Dock(context_of(world.plan, world))
+    assert run(behaviour, world, seconds=120.0) < 60.0
+    assert behaviour.message == 'docked' and abs(world.robots['rumba'].pose.x - own) < 0.1
+
+
+def test_a_robot_begins_nearer_to_its_dock_if_a_mate_is_docked_before_it():
+    own, other = Pose(AWAY, 1.5, math.pi), Pose(AWAY + 0.71, 1.42, 0.0)
+    world = World(room(AWAY + 0.71 + AWAY, 3.0, dock=own, further_docks=(other,)), quiet())
+    world.spawn('rumba', Pose(0.5, 2.4, 0.0))
+    world.spawn('rumba2', Pose(other.x - 0.07, other.y, 0.0))
+    world.step()
+    context = context_of(world.plan, world)
+    context.hear('rumba2', Report(world.robots['rumba2'].pose, True, Task.OFF, None))
+    behaviour = Dock(context)
+    assert run(behaviour, world, seconds=300.0) < 100.0
+    assert (behaviour.message, world.robots['rumba'].pose.x < 0.35) == ('docked', True)

@@ -9,6 +9,7 @@ import numpy as np
 from rumba_cleaning.behaviour import STOP, Behaviour, Command, Observation, Status
 from rumba_cleaning.behaviours.go_to import GoTo
 from rumba_cleaning.behaviours.homing import BUOYS, FAR_SPEED, Homing
+from rumba_cleaning.behaviours.own_beams import own_beams
 from rumba_cleaning.behaviours.self_docking import SelfDocking
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.belief.mates import Task
@@ -16,19 +17,19 @@ from rumba_cleaning.belief.places import places_apart
 from rumba_cleaning.outcome import Outcome
 from rumba_cleaning.route import Ahead, Route
 from rumba_sim.model.common.errors import MapError
-from rumba_sim.model.common.geometry import Pose, hypot, wrap_angle
-from rumba_sim.model.kernel.sensors.dock import NO_BEAM
-from rumba_sim.model.simulation.robot import Infrared
+from rumba_sim.model.common.geometry import Pose, hypot
+from rumba_sim.model.kernel import Array
 
 STEP = 0.05  # [m]
 BEFORE = (16, 14, 12, 10, 8, 6)  # steps from the dock to the point on its axis at which homing begins: the most that
 #                                  are free; bench/docking.py brings all robots home from there
+CLOSER = (5, 4)  # the same if only a robot that is docked nearby stands in the way; as near as it can turn
 BERTH = 0.5  # [m] from the dock, within which a mate occupies it: our choice, more than a robot's width
 CLOSE = 1.0  # [m] from the dock, within which a robot with mates follows the beams: mates cannot know where to
 STANDING = (Task.DOCKED, Task.OFF, Task.SEEKING)  # at a dock; others pass by
 POLITE = 0.6  # [m] from the line on which robots drive up to the dock and leave it: our choice, they pass there
 FARTHEST = 4.0  # [m] to a place to wait for the dock; our choice
-ELSEWHERE = 0.6  # [rad] off the dock, where its beams do not come from ahead: our choice, twice what receivers overlap
+APART = 0.02  # [m] to a mate that stands at a dock, at least; our choice
 TRIES = 3  # our choice: a robot that stands in the way has left after that, or stays
 
 
@@ -96,7 +97,7 @@ class Dock(Behaviour):
             self._part = Homing(self._context) if homes else self._way_home()
         elif isinstance(self._part, GoTo) and self._is_covered():
             self._part = self._way_home()
-        command = self._part.step(self._without_others(observation) if self.is_homing else observation)
+        command = self._part.step(self._with_own_beams(observation) if self.is_homing else observation)
         self.message = self._part.message
         if self.is_homing and not any(observation.contact):
             self._context.ground.leave_out(*pose[:2], self._context.robot.drive.radius)
@@ -118,18 +119,10 @@ class Dock(Behaviour):
                 return self.fail(f'{TRIES} attempts to dock failed: {self.message}', outcome)
         return Command(0.0, 0.0, brushes_up=True)
 
-    def _without_others(self, observation: Observation) -> Observation:
-        """Without beams from ahead while the robot looks elsewhere than to its dock, if others may send them."""
-        dock, pose, infrared = self._home, observation.pose, observation.infrared
-        reach = self._context.robot.dock.buoy_range
-        others = [other for other in self._context.plan.docks
-                  if other != dock and hypot(other.x - pose.x, other.y - pose.y) < reach]
-        radius = self._context.robot.drive.radius
-        ahead = math.atan2(dock.y + radius * math.sin(dock.theta) - pose.y,
-                           dock.x + radius * math.cos(dock.theta) - pose.x)
-        if not others or abs(wrap_angle(ahead - pose.theta)) < ELSEWHERE:
-            return observation
-        return observation._replace(infrared=Infrared(infrared.omni, NO_BEAM, NO_BEAM))
+    def _with_own_beams(self, observation: Observation) -> Observation:
+        """Without beams that only other docks can send."""
+        others = [dock for dock in self._context.plan.docks if dock != self._home]
+        return own_beams(observation, self._home, others, self._context.robot)
 
     def _homing(self) -> Union[Homing, SelfDocking]:
         """From the point before the dock onto its contacts."""
@@ -142,9 +135,9 @@ class Dock(Behaviour):
         return GoTo(self._context, self._approach)
 
     def _is_covered(self) -> bool:
-        """Whether an obstacle that the robot met covers the point before the dock, and another one will do."""
-        here = np.array(self._approach[:2])
-        return self._context.ground.is_marked(here, here) and approach(self._context) != self._approach
+        """Whether an obstacle or a mate covers the point before the dock, and another one will do."""
+        here = np.array([self._approach[:2]])
+        return not _is_free(self._context, here) and approach(self._context) != self._approach
 
     # --- the queue ------------------------------------------------------------------------------------------------
 
@@ -230,7 +223,7 @@ def home(context: Context) -> Pose:
 
 
 def approach(context: Context) -> Pose:
-    """Where a robot stands before the dock, and faces it: as far away as obstacles that it met leave the line free.
+    """Where a robot stands before the dock, and faces it: as far away as obstacles and mates leave the line free.
 
     Raises:
         MapError: the plan has no dock, or the robot fits nowhere before it.
@@ -243,6 +236,14 @@ def approach(context: Context) -> Pose:
     if not fitting:
         raise MapError(f'{context.plan.name}: too little space before the dock at ({dock.x:.2f}, {dock.y:.2f}) m: '
                        f'a robot of radius {context.robot.drive.radius:.3f} m cannot drive up to it')
-    free = [steps for steps in fitting if not context.ground.is_marked(line[0], line[steps - 1])]
+    free = [steps for steps in (*fitting, *CLOSER) if _is_free(context, line[:steps])]
     x, y = line[(free or fitting)[0] - 1].tolist()
     return Pose(x, y, dock.theta)
+
+
+def _is_free(context: Context, line: Array) -> bool:
+    """Whether no obstacle that the robot met and no docked mate stands on a straight line, float64 (any, 2) [m]."""
+    apart = 2.0 * context.robot.drive.radius + APART
+    return not context.ground.is_marked(line[0], line[-1]) and all(
+        (np.hypot(*(line - report.pose[:2]).T) > apart).all() for report in context.mates.reports.values()
+        if report.task in (Task.DOCKED, Task.OFF))
