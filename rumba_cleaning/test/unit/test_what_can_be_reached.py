@@ -13,6 +13,7 @@ from rumba_cleaning.mission.mission import Mission
 from rumba_cleaning.outcome import Outcome
 from rumba_cleaning.pose_source import seeing, truth
 from rumba_sim.model.common.geometry import Pose
+from rumba_sim.model.floors.sweep import Sweep
 from rumba_sim.model.maps.floor_plan import FREE, OCCUPIED, FloorPlan
 from rumba_sim.model.simulation.obstacle import Obstacle
 from rumba_sim.model.simulation.world import World
@@ -59,3 +60,13 @@ def test_a_mission_that_cannot_get_into_a_niche_ends_soon_after_it_has_swept_the
     assert behaviour.outcome is Outcome.SUCCEEDED
     of_map, beside = map(float, re.fullmatch(SHARES + 'lies beside obstacles', behaviour.message).groups())
     assert of_map < 97.0 and beside >= 98.0
+
+
+def test_a_mission_asks_what_is_swept_before_a_passage_only_if_it_may_be_enough(monkeypatch):
+    """Each answer takes as much computing as many steps of the robot."""
+    asked, within = [], Sweep.within
+    monkeypatch.setattr(Sweep, 'within', lambda sweep, *args: asked.append(sweep.coverage) or within(sweep, *args))
+    world, behaviour = mission(two_parts())
+    run(behaviour, world, seconds=400.0)
+    assert behaviour.outcome is Outcome.SUCCEEDED
+    assert sum(share < 0.5 for share in asked) < 10, asked

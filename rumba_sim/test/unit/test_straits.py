@@ -119,3 +119,29 @@ def test_a_doorway_of_an_odd_number_of_cells_through_a_wall_is_a_passage(long):
     assert 0.5 * 15 * 0.025 > needed + SLACK > 0.5 * 14 * 0.025
     assert len(Parts(doorway(15, long), needed).areas) == 1
     assert len(Parts(doorway(14, long), needed).areas) == 2
+
+
+def niche(wide, deep=40, resolution=0.025):
+    """A room of 2 x 2 m with a dead end, so many cells wide and deep, on its right."""
+    side = round(2.0 / resolution)
+    cells = np.full((side + 2, side + deep + 2), OCCUPIED, np.int8)
+    cells[1:-1, 1:side + 1] = FREE
+    cells[side // 2:side // 2 + wide, side + 1:side + deep + 1] = FREE
+    return FloorPlan('niche', cells, resolution, (-resolution, -resolution))
+
+
+def test_a_dead_end_of_an_odd_number_of_cells_can_be_reached_as_well_as_a_wider_one():
+    """No node in it is far enough from both walls, so no other part of the floor shows that it is there."""
+    blind, odd, even = (reached(niche(wide), 1.0, 1.0) for wide in (14, 15, 16))
+    brush = quiet().brush.width
+    assert odd - blind == approx((1.0 - RADIUS) * brush, rel=0.25) and 0.0 <= even - odd < 0.04
+
+
+@pytest.mark.parametrize('side', [15, 16])
+def test_a_pocket_with_room_for_little_more_than_the_robot_can_be_reached_through_a_strait(side):
+    """A wide brush covers much of it, although the robot can stand at few points only."""
+    plan = niche(15, 4 + side)
+    low = plan.rows // 2 - side // 2
+    plan.occupancy[1:-1, -side - 1:-1] = OCCUPIED
+    plan.occupancy[low:low + side, -side - 1:-1] = FREE
+    assert reached(plan, 1.0, 1.0) - reached(niche(15, 0), 1.0, 1.0) > 0.8 * quiet().brush.width ** 2

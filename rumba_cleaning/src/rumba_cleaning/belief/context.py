@@ -282,6 +282,8 @@ class Context:
 
     def is_met_beside_obstacles(self, pose: Pose) -> bool:
         """Whether the target is met of what can be reached; obstacles may keep a robot from less than a room."""
+        if not self.ground.has_lasting and self.swept.coverage < self.target_coverage * self.swept.planned:
+            return False  # even if all that was swept lies before straits: a quick answer to what missions often ask
         return not self.is_shut_in(pose) and self.beside_obstacles(pose).coverage >= self.target_coverage
 
     def is_all_swept(self, pose: Pose) -> bool:

@@ -15,6 +15,7 @@ from rumba_sim.model.settings.robot_config import RobotConfig
 # Our choice: ten times what a robot drives at the default transit speed, 0.45 m/s, from one observation to the next.
 JUMP = 0.5  # [m] |dx| + |dy| from pose to pose: the robot did not drive there, somebody moved it
 MOST = 0.5  # share of a cell's area, from which on the cell is missed: less is the rim of what was swept
+FEW = 0.001  # of what can be reached: so little behind straits is left to the rest of the floor; our choice
 
 
 class Swept:
@@ -22,7 +23,7 @@ class Swept:
 
     Attributes:
         start: from where it was counted what can be reached, x and y [m], map frame.
-        has_straits: whether part of that lies behind straits, through which robots do not plan their way.
+        planned: share of that which robots plan to reach [0..1]: straits, through which they do not plan, hide the rest.
     """
 
     def __init__(self, plan: FloorPlan, config: RobotConfig, is_exact: bool = True) -> None:
@@ -32,7 +33,7 @@ class Swept:
         self._sweep = Sweep(plan, config, is_exact)
         self._last: Dict[str, Pose] = {}  # by the name of the robot
         self.start = math.nan, math.nan
-        self.has_straits = False
+        self.planned = 1.0
 
     def begin(self, x: float, y: float) -> None:
         """Forget what was swept, and find out what can be reached from (x, y) [m], map frame.
@@ -43,7 +44,7 @@ class Swept:
         self._sweep.begin(x, y)
         self._last = {}
         self.start = x, y
-        self.has_straits = self._sweep.has_straits(x, y)
+        self.planned = self._sweep.planned(x, y)
 
     def learn(self, plan: FloorPlan, points: Sequence[Tuple[float, float]],
               way_back: Optional[Callable[[Array], Array]] = None) -> None:
@@ -97,6 +98,11 @@ class Swept:
             starts, ends: x [m], y [m] and theta [rad] of each, float64 (any, 3).
         """
         self._sweep.pass_over(starts, ends)
+
+    @property
+    def has_straits(self) -> bool:
+        """Whether more than FEW of what can be reached lies behind straits."""
+        return self.planned < 1.0 - FEW
 
     @property
     def coverage(self) -> float:

@@ -9,7 +9,7 @@ from scipy import ndimage
 from rumba_sim.model.common.geometry import Pose
 from rumba_sim.model.compiling.compiled import fast
 from rumba_sim.model.floors.constants import clearance_needed
-from rumba_sim.model.floors.straits import Floor, joined
+from rumba_sim.model.floors.straits import Floor, between_nodes, joined
 from rumba_sim.model.kernel import Array
 from rumba_sim.model.kernel.sweeping.samples import SWEEPABLE
 from rumba_sim.model.maps.floor_plan import ROUNDING, FloorPlan
@@ -74,11 +74,10 @@ def stands(plan: FloorPlan, needed: float, x: float, y: float, is_exact: bool = 
         bool (2 * rows + 1, 2 * columns + 1), at points half a cell apart: element (i, j) is the point
         `origin + 0.5 * resolution * (j, i)`.
     """
-    fits = fitting(plan, needed)
+    fitted = _exactly_fitting if is_exact else fitting
+    fits, is_wide = fitted(plan, needed), fitted(plan, needed + SLACK)
     start = _nearest(plan, fits, x, y)
-    fits[start] = True
-    is_wide = fitting(plan, needed + SLACK)
-    is_wide[start] = True
+    fits[start] = is_wide[start] = True
     labels = _parts(plan, needed, is_wide) if is_exact else ndimage.label(is_wide)[0]
     start = _nearest(plan, is_wide, x, y)
     return np.asarray(ndimage.binary_dilation(labels == labels[start], iterations=RIM, mask=fits))
@@ -101,7 +100,7 @@ class Parts:
             needed: the clearance that the robot needs [m].
         """
         self._plan = plan
-        labels = _parts(plan, needed, fitting(plan, needed + SLACK))
+        labels = _parts(plan, needed, _exactly_fitting(plan, needed + SLACK))
         sizes = np.bincount(labels.ravel())[1:]
         by_size = np.argsort(-sizes, kind='stable')[:np.count_nonzero(sizes)]
         ranks = np.zeros(len(sizes) + 1, labels.dtype)
@@ -123,9 +122,18 @@ def _parts(plan: FloorPlan, needed: float, is_wide: Array) -> Array:
     labels, number = ndimage.label(is_wide)
     if number < 2:
         return labels
+    return joined(labels, number, _floor(plan, needed + SLACK))
+
+
+def _floor(plan: FloorPlan, needed: float) -> Floor:
+    """The floor on which robots can be that need some clearance [m]."""
     cells = plan.free if plan.cliff is None else plan.free & ~plan.cliff
-    return joined(labels, number, Floor(cells, plan.safe_clearance / plan.resolution,
-                                        (needed + SLACK - ROUNDING) / plan.resolution))
+    return Floor(cells, plan.safe_clearance / plan.resolution, (needed - ROUNDING) / plan.resolution)
+
+
+def _exactly_fitting(plan: FloorPlan, needed: float) -> Array:
+    """As `fitting`, also where the interpolated clearance is too small, but the exact one is not."""
+    return np.asarray(fitting(plan, needed) | between_nodes(_floor(plan, needed)))
 
 
 def fitting(plan: FloorPlan, needed: float) -> Array:

@@ -20,8 +20,6 @@ LONGEST = 64  # points of the lattice from end to end of what may hold straits: 
 FINER = 16  # times smaller than a cell is the step of the closer look
 HIDDEN = 1.07  # [cells] by which the interpolated clearance at a point of the lattice can be less than that on a way
 #                nearby: half a diagonal of the lattice, and half one of a cell
-POCKET = 64  # points of the lattice: smaller parts are no matter
-
 CLOSER = 0.01  # [cells] more than distances that are the same differ by rounding
 
 Window = Tuple[slice, slice]
@@ -33,6 +31,18 @@ class Floor(NamedTuple):
     cells: Array  # bool (rows, columns): floor on which a robot can be
     clearance: Array  # float64 (rows + 1, columns + 1), distance from each node to the nearest obstacle
     wide: float  # distance to obstacles that a robot needs
+
+
+def between_nodes(floor: Floor) -> Array:
+    """The points of a lattice of half cells that are wide enough: bool (2 * rows + 1, 2 * columns + 1).
+
+    The interpolated clearance shows half a cell too little in the middle of a passage of an odd number of cells. None
+    of these points lies near an obstacle that the cells do not show.
+    """
+    away = _exact(floor.cells, 2, beyond=False)
+    hidden = np.zeros(away.shape, np.bool_)
+    hidden[::2, ::2] = floor.clearance < away[::2, ::2] - CLOSER
+    return np.asarray((away >= floor.wide) & ~ndimage.binary_dilation(hidden, ALL_AROUND))
 
 
 def joined(labels: Array, number: int, floor: Floor) -> Array:
@@ -50,7 +60,7 @@ def joined(labels: Array, number: int, floor: Floor) -> Array:
     sizes = np.bincount(labels.ravel(), minlength=number + 1)
     largest = int(np.argmax(sizes[1:])) + 1
     for label, box in enumerate(ndimage.find_objects(labels), 1):
-        if label != largest and sizes[label] >= POCKET:
+        if label != largest:
             pairs += _neighbours(labels, label, _grown(box, 2 * SHORT, labels.shape), floor)
     if not pairs:
         return labels
@@ -96,7 +106,7 @@ def _through(labels: Array, window: Window, floor: Floor) -> List[List[int]]:
                   for span, size in zip(cells, floor.cells.shape))
     inner = tuple(slice((span.start - out.start) * FINER, (span.stop - out.start) * FINER + 1)
                   for span, out in zip(cells, outer))
-    away = _exact(floor.cells[outer])[inner]
+    away = _exact(floor.cells[outer], FINER)[inner]
     nodes = floor.clearance[cells[0].start:cells[0].stop + 1, cells[1].start:cells[1].stop + 1]
     if (nodes < np.minimum(away[::FINER, ::FINER], floor.wide) - CLOSER).any():
         return []  # obstacles stand there that the cells do not show
@@ -107,14 +117,14 @@ def _through(labels: Array, window: Window, floor: Floor) -> List[List[int]]:
     return [np.unique(there[known & (at_points == part)]).tolist() for part in np.unique(at_points[known])]
 
 
-def _exact(cells: Array) -> Array:
-    """Distance to the nearest cell that is not floor, in cells, at points FINER times as dense as the nodes.
+def _exact(cells: Array, finer: int, beyond: bool = True) -> Array:
+    """Distance to the nearest cell that is not floor, in cells, at points so many times as dense as the nodes.
 
-    It is exact, since the nearest point of a cell is such a point too.
+    It is exact, since the nearest point of a cell is such a point too. Beyond the cells, there is floor or not.
     """
-    floor = np.pad(cells.repeat(FINER, 0).repeat(FINER, 1), 1, mode='constant', constant_values=True)
+    floor = np.pad(cells.repeat(finer, 0).repeat(finer, 1), 1, mode='constant', constant_values=beyond)
     inside = floor[:-1, :-1] & floor[:-1, 1:] & floor[1:, :-1] & floor[1:, 1:]
-    return np.asarray(ndimage.distance_transform_edt(inside)) / FINER
+    return np.asarray(ndimage.distance_transform_edt(inside)) / finer
 
 
 def _grown(box: Window, by: int, shape: Tuple[int, ...]) -> Window:

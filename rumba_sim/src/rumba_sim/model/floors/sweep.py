@@ -140,9 +140,9 @@ class Sweep:
         """cleaned_area / reachable_area [0..1]; 1 if nothing is reachable."""
         return int(self.tally['swept'][0]) / self.reachable if self.reachable else 1.0
 
-    def has_straits(self, x: float, y: float) -> bool:
-        """Whether part of what can be reached lies behind straits for a robot that starts at (x, y) [m]."""
-        return reach(self._plan, self._config, x, y, is_exact=False).reachable < self.reachable
+    def planned(self, x: float, y: float) -> float:
+        """Share [0..1] of what can be reached that does not lie behind straits for a robot that starts at (x, y) [m]."""
+        return reach(self._plan, self._config, x, y, is_exact=False).reachable / max(self.reachable, 1)
 
     def within(self, clearance: Array, x: float, y: float) -> Part:
         """What a robot plans to reach on the same floor with less clearance; all, if it does not fit at the start then.
@@ -151,7 +151,9 @@ class Sweep:
             clearance: as `FloorPlan.safe_clearance` [m].
             x, y: the start [m], map frame.
         """
-        plan = self._plan.with_clearance(self._plan.clearance, clearance)
+        plan = self._plan  # about which the last answer is known: missions ask every few seconds
+        if not np.array_equal(clearance, plan.safe_clearance):
+            plan = plan.with_clearance(plan.clearance, clearance)
         if not self.reachable or plan.safe_clearance_at(x, y) < self._config.drive.radius:
             return Part(1.0, self.coverage)
         found = reach(plan, self._config, x, y, is_exact=False)

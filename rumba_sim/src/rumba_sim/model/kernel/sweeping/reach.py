@@ -49,7 +49,7 @@ def is_reachable(field: Array, resolution: float, stands: Array, reach: float, h
     for i in range(max(row - size, 0), min(row + size + 1, stands.shape[0])):
         for j in range(max(column - size, 0), min(column + size + 1, stands.shape[1])):
             if stands[i, j]:
-                spare = interpolated(field, 0.5 * j, 0.5 * i)[0] - reach
+                spare = max(interpolated(field, 0.5 * j, 0.5 * i)[0] - reach, 0.0)
                 if math.hypot(0.5 * j - u, 0.5 * i - v) * resolution - spare <= half:
                     return True
     return False
