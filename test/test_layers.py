@@ -37,9 +37,9 @@ FOLDERS = {
     'rumba_localisation': {'': set(), 'mapping/grids': {''}, 'mapping': {'', 'mapping/grids'}, 'logs': {''},
                            'ros': {'', 'mapping', 'mapping/grids', 'logs'}},
     'rumba_cleaning': {
-        '': set(), 'belief': {''}, 'behaviours': {'', 'belief'},
+        '': set(), 'edges': {''}, 'belief': {'', 'edges'}, 'behaviours': {'', 'edges', 'belief'},
         'planning/common': {'', 'belief', 'behaviours'}, 'planning/decompose': {'', 'belief', 'planning/common'},
-        'planning/simulate': {'', 'belief', 'behaviours', 'planning/common'},
+        'planning/simulate': {'', 'edges', 'belief', 'behaviours', 'planning/common'},
         'planning/swaths': {'', 'belief', 'planning/common', 'planning/decompose', 'planning/simulate'},
         'planning/order': {'', 'belief', 'planning/common', 'planning/decompose', 'planning/swaths'},
         'planning/search': {'', 'belief', 'behaviours', 'planning/common', 'planning/simulate', 'planning/swaths',
@@ -48,11 +48,12 @@ FOLDERS = {
         'planning': {'', 'belief', 'behaviours', 'planning/common', 'planning/decompose', 'planning/simulate',
                      'planning/swaths', 'planning/order', 'planning/search'},
         'strategies': {'', 'belief', 'behaviours', 'planning', 'planning/team'},
-        'mission': {'', 'belief', 'behaviours', 'strategies'},
+        'mission': {'', 'edges', 'belief', 'behaviours', 'strategies'},
         'own_robot': set(), 'ros/own_robot': {'own_robot'},
-        'ros/cleaner/robots': {'', 'belief', 'behaviours', 'strategies', 'mission', 'own_robot'},
-        'ros/cleaner/goals': {'', 'belief', 'behaviours', 'strategies', 'mission', 'own_robot', 'ros/cleaner/robots'},
-        'ros/cleaner': {'', 'belief', 'behaviours', 'strategies', 'mission', 'own_robot', 'ros/cleaner/robots',
+        'ros/cleaner/robots': {'', 'edges', 'belief', 'behaviours', 'strategies', 'mission', 'own_robot'},
+        'ros/cleaner/goals': {'', 'edges', 'belief', 'behaviours', 'strategies', 'mission', 'own_robot',
+                              'ros/cleaner/robots'},
+        'ros/cleaner': {'', 'edges', 'belief', 'behaviours', 'strategies', 'mission', 'own_robot', 'ros/cleaner/robots',
                         'ros/cleaner/goals'}},
     'rumba_evaluation': {
         'inspection': set(), 'scoring': set(), 'trials': {'scoring'}, 'report': set(), 'verdicts': set(),
@@ -68,7 +69,7 @@ FOLDERS = {
 BELOW = {'rumba_sim': set(), 'rumba_localisation': {'rumba_sim'}, 'rumba_cleaning': {'rumba_sim', 'rumba_localisation'},
          'rumba_evaluation': {'rumba_sim', 'rumba_cleaning'}, 'rumba_viewer': {'rumba_sim', 'rumba_cleaning'}}
 OFFERED = {'rumba_sim': {*MODEL, *SHARED_BY_NODES}, 'rumba_localisation': {'', 'mapping', 'mapping/grids'},
-           'rumba_cleaning': {'', 'belief', 'behaviours', 'strategies', 'mission'}}
+           'rumba_cleaning': {'', 'edges', 'belief', 'behaviours', 'strategies', 'mission'}}
 ROS = ('rospy', 'roslib', 'rospkg', 'rosgraph', 'rosservice', 'actionlib', 'rosbag', 'rostopic', 'rosunit', 'tf',
        'tf2', 'turtlesim')
 ROS_ENDINGS = ('_msgs', '_msg', '_srvs', '_ros')

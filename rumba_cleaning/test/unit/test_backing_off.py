@@ -8,9 +8,9 @@ from drivers import context_of, guarded, with_cliffs
 from rooms import RADIUS, quiet, room
 
 from rumba_cleaning.behaviour import Command
-from rumba_cleaning.behaviours.guard import Guard
-from rumba_cleaning.belief.footing import SEEN
 from rumba_cleaning.control import CONTROL_DT, observe
+from rumba_cleaning.edges.cliff_map import SEEN
+from rumba_cleaning.edges.guard import Guard
 from rumba_cleaning.pose_source import seeing, truth
 from rumba_sim.model.common.geometry import Pose
 from rumba_sim.model.simulation.obstacle import Obstacle
@@ -51,7 +51,7 @@ def test_after_a_bend_it_goes_back_by_the_bend_and_comes_no_nearer_to_a_pit_besi
     list(poses(world, guard, (0.15, 0.0), 4.0, sees_edge))
     way = list(poses(world, guard, BACK, 6.0))
     list(poses(world, guard, (0.0, 1.9), 2.0))
-    assert context.footing.seen and not robot.has_fallen
+    assert context.cliff_map.seen and not robot.has_fallen
     assert way[-1].theta == pytest.approx(start.theta, abs=0.03) and min(pose.x for pose in way) > start.x - 0.01
 
 
@@ -120,8 +120,8 @@ def test_an_edge_close_beside_the_way_by_which_it_came_does_not_keep_it_from_one
     guard, robot = Guard(context), world.robots['rumba']
     list(itertools.chain(poses(world, guard, (0.1, 0.0), 5.0), poses(world, guard, (0.0, 0.0), 1.0)))
     start, half = robot.pose, 0.5 * world.config.drive.wheel_base
-    context.footing._see(start.x - 0.012, start.y + half + SEEN + beside)
-    context.footing._see(start.x + 0.12, start.y)
+    context.cliff_map._see(start.x - 0.012, start.y + half + SEEN + beside)
+    context.cliff_map._see(start.x + 0.12, start.y)
     list(poses(world, guard, BACK, 3.0))
     assert start.x - robot.pose.x > 0.15 if goes else start.x - robot.pose.x < 0.012
 

@@ -8,11 +8,11 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from rumba_cleaning.behaviours.compiled_follower import nearest, piece_of
-from rumba_cleaning.behaviours.compiled_guard import HOLD_STEPS, STEP, path
 from rumba_cleaning.behaviours.follower import drive_of
-from rumba_cleaning.belief.compiled_footing import DRIVEN, SEEN, are_marked, stamp
 from rumba_cleaning.belief.compiled_ground import are_of_one_part
 from rumba_cleaning.belief.search import Costs, Lattice, cheapest, is_clear, path_lengths
+from rumba_cleaning.edges.compiled_cliff_map import DRIVEN, SEEN, are_marked, stamp
+from rumba_cleaning.edges.compiled_preview import HOLD_STEPS, STEP, path
 from rumba_cleaning.planning.swaths.compiled_lanes import NO_ROW, lowest, runs
 from rumba_sim.model.settings.robot_config import DriveConfig
 

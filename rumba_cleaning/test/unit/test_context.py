@@ -47,7 +47,7 @@ def test_work_does_not_see_what_the_robot_meets_and_sweeps_later():
     assert other.swept.coverage == 0.0 < context.swept.coverage
 
 
-@pytest.mark.parametrize('name', ['sight', 'footing', 'generator'])
+@pytest.mark.parametrize('name', ['sight', 'cliff_map', 'generator'])
 def test_work_cannot_use_what_changes_meanwhile_and_is_not_copied(name):
     context = knowing()
     with pytest.raises(AttributeError, match=name):

@@ -8,12 +8,12 @@ from drivers import context_of, with_cliffs
 from rooms import RADIUS, quiet, room
 
 from rumba_cleaning.behaviour import STOP, Command
-from rumba_cleaning.behaviours.departure import LENGTH, Departure, Search
-from rumba_cleaning.behaviours.guard import SPARE
-from rumba_cleaning.behaviours.preview import Preview
-from rumba_cleaning.behaviours.release import PATIENCE, Release
-from rumba_cleaning.behaviours.slip import NO_SLIP
 from rumba_cleaning.control import CONTROL_DT, CONTROL_TICKS
+from rumba_cleaning.edges.cliff_map import SPARE
+from rumba_cleaning.edges.departure import LENGTH, Departure, Search
+from rumba_cleaning.edges.preview import Preview
+from rumba_cleaning.edges.release import PATIENCE, Release
+from rumba_cleaning.edges.slip import NO_SLIP
 from rumba_sim.model.common.geometry import Pose
 from rumba_sim.model.settings.robot_config import RobotConfig
 from rumba_sim.model.simulation.world import World
@@ -39,7 +39,7 @@ def pit_behind(side):
 
 def search(context):
     """A search by what a robot knows."""
-    return Search(context.ground, context.footing, HALF)
+    return Search(context.cliff_map, RobotConfig().drive)
 
 
 def distance(point, box):
@@ -103,7 +103,7 @@ def test_between_edges_that_let_it_neither_turn_nor_go_on_it_finds_nothing():
 def test_once_it_has_met_a_cliff_that_no_map_shows_it_goes_only_where_it_knows_floor():
     context, _ = knowing(PLACE)
     assert search(context).find(PLACE, RESERVE, HALF + SPARE, 0) is not None
-    context.footing._see(0.5, 0.5)
+    context.cliff_map._see(0.5, 0.5)
     assert search(context).find(PLACE, RESERVE, HALF + SPARE, 0) is None
 
 
@@ -113,7 +113,7 @@ def test_held_for_long_between_a_wall_and_a_pit_to_which_it_is_turned_again_and_
     place = Pose(1.5, 2.0 - RADIUS - 0.005, math.radians(-95.0))
     box = place.x + 0.107, place.y - 0.6, place.x + 0.7, place.y - 0.043
     context, world = knowing(place, box)
-    release = Release(context.ground, context.footing, Preview(world.config.drive), HALF + SPARE, 0)
+    release = Release(context.cliff_map, Preview(world.config.drive), HALF + SPARE, 0)
     robot, poses = world.robots['rumba'], []
     while world.time < 40.0:
         speeds = robot.twist[0] - HALF * robot.twist[1], robot.twist[0] + HALF * robot.twist[1]
@@ -131,7 +131,7 @@ def test_held_for_long_between_a_wall_and_a_pit_to_which_it_is_turned_again_and_
 def test_a_robot_that_gains_nothing_on_its_way_out_as_it_pushes_against_a_wall_is_left_to_its_behaviour_again():
     box = PLACE.x - 0.15, 0.95, PLACE.x + 0.03, 1.1
     context, world = knowing(PLACE, box)
-    release = Release(context.ground, context.footing, Preview(world.config.drive), HALF + SPARE, 0)
+    release = Release(context.cliff_map, Preview(world.config.drive), HALF + SPARE, 0)
     out, pushed = STOP, 0.0
     for _ in range(round(PATIENCE / CONTROL_DT) + 1):
         release.is_due(PLACE, True, CONTROL_DT)

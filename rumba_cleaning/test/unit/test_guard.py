@@ -11,10 +11,10 @@ from rooms import RADIUS, quiet, room
 
 from rumba_cleaning.behaviour import Command
 from rumba_cleaning.behaviours.bounded import Bounded
-from rumba_cleaning.behaviours.guard import FOUND_SPEED, SWIFT_SPEED, Guard, why_it_creeps
 from rumba_cleaning.behaviours.travel import Travel
-from rumba_cleaning.belief.footing import CELL, SEEN
 from rumba_cleaning.control import CONTROL_DT, observe, steps
+from rumba_cleaning.edges.cliff_map import CELL, SEEN
+from rumba_cleaning.edges.guard import FOUND_SPEED, SWIFT_SPEED, Guard, why_it_creeps
 from rumba_cleaning.mission.mission import Mission
 from rumba_cleaning.outcome import Outcome
 from rumba_cleaning.route import Route
@@ -74,7 +74,7 @@ def test_an_edge_lies_half_way_between_the_readings_of_the_sensor_that_found_it(
     world.spawn('rumba', Pose(1.0 + ahead, 1.0, 0.0))
     context = context_of(plan, world)
     run(Bounded(Always(0.3, 0.0), 1000.0, context), world, seconds=5.0)
-    assert context.footing.seen[0][0] == pytest.approx(STAIRS[0], abs=SEEN + 0.001)
+    assert context.cliff_map.seen[0][0] == pytest.approx(STAIRS[0], abs=SEEN + 0.001)
 
 
 def test_it_is_wary_near_a_cliff_that_no_map_shows_and_only_there():
@@ -83,7 +83,7 @@ def test_it_is_wary_near_a_cliff_that_no_map_shows_and_only_there():
     robot = world.spawn('rumba')
     context = context_of(plan, world)
     run(Bounded(Always(0.3, 0.0), 1000.0, context), world, seconds=20.0)
-    assert context.footing.seen
+    assert context.cliff_map.seen
     for x, fastest in ((4.75, 0.25), (2.0, 0.3)):
         world.teleport('rumba', Pose(x, 1.0, math.pi))
         run(Bounded(Always(0.3, 0.0), 1000.0, context), world, seconds=1.0)
@@ -132,7 +132,7 @@ def test_where_one_cliff_was_found_wheels_are_slow_over_floor_that_no_sensor_has
     world = World(plan, quiet())
     world.spawn('rumba')
     half, context = 0.5 * world.config.drive.wheel_base, context_of(plan, world)
-    context.footing._see(0.5, 0.5)
+    context.cliff_map._see(0.5, 0.5)
     given = [command for _, command in steps(Bounded(Always(v, w), 1e3, context), world, seconds=2.0)]
     outer = [command.v + half * command.w for command in given]
     assert min(outer[5:]) == pytest.approx(FOUND_SPEED) == np.median(outer[5:])  # some of it is known
@@ -173,7 +173,7 @@ def test_a_wary_robot_does_not_creep_over_an_edge_inside_its_bend_that_no_sensor
     world = World(with_cliffs(plan, (pit_x - 0.04, pit_y + 0.02, pit_x + 0.04, pit_y + 0.05)), quiet())
     robot = world.spawn('rumba', Pose(0.6, pit_y - 0.15, 0.0))
     context = context_of(plan, world)
-    context.footing._see(pit_x + 0.3, pit_y - 0.3)
+    context.cliff_map._see(pit_x + 0.3, pit_y - 0.3)
     given = list(guarded(Guard(context), world, lambda observation: Command(
         0.06, 0.4 if observation.pose.x > pit_x else 0.0), seconds=30.0))
     assert not robot.has_fallen
@@ -186,8 +186,8 @@ def test_a_robot_that_edges_hold_looks_for_a_way_out_itself():
     half = 0.5 * world.config.drive.wheel_base
     robot = world.spawn('rumba', Pose(1.5, 0.5 + half + 0.022, 0.0))
     context = context_of(with_cliffs(plan, (0.5, 0.2, 2.5, 0.5)), world)
-    away = [context.footing.clearance_at(robot.pose.x + half * math.sin(robot.pose.theta),
-                                         robot.pose.y - half * math.cos(robot.pose.theta))
+    away = [context.cliff_map.clearance_at(robot.pose.x + half * math.sin(robot.pose.theta),
+                                           robot.pose.y - half * math.cos(robot.pose.theta))
             for _ in steps(Bounded(Always(0.1, -0.3), 1000.0, context), world, seconds=10.0)]
     assert max(away[:15]) < 0.03 and max(away) > 0.1
 
@@ -197,12 +197,12 @@ def test_a_small_hole_in_the_floor_that_was_seen_does_not_hold_a_robot_for_long(
     world = World(plan, quiet())
     robot = world.spawn('rumba', Pose(1.5, 1.0, 0.0))
     context = context_of(plan, world)
-    footing, guard = context.footing, Guard(context)
-    footing._see(1.9, 1.0)
+    cliff_map, guard = context.cliff_map, Guard(context)
+    cliff_map._see(1.9, 1.0)
     guard.see(observe(world, 'rumba', CONTROL_DT))
     aside = 0.5 * world.config.drive.wheel_base / math.sqrt(2.0)
-    row, column = int((1.0 + aside - footing._origin[1]) / CELL), int((1.5 - aside - footing._origin[0]) / CELL)
-    footing._floor[row - 1:row + 2, column - 1:column + 2] = 0  # on the way of the left wheel
+    row, column = int((1.0 + aside - cliff_map._origin[1]) / CELL), int((1.5 - aside - cliff_map._origin[0]) / CELL)
+    cliff_map._floor[row - 1:row + 2, column - 1:column + 2] = 0  # on the way of the left wheel
     for _ in guarded(guard, world, lambda observation: Command(0.0, 1.0), seconds=3.0):
         pass
     assert robot.pose.theta > 2.0
@@ -214,7 +214,7 @@ def test_a_turn_on_the_spot_that_is_too_slow_for_the_drive_does_not_stand_for_wh
     world = World(plan, quiet())
     robot = world.spawn('rumba', Pose(1.5, 1.0, 0.0))
     context = context_of(plan, world)
-    context.footing._see(1.9, 1.0)
+    context.cliff_map._see(1.9, 1.0)
     guard = Guard(context)
     w = 0.9 * world.config.drive.dead_band / (0.5 * world.config.drive.wheel_base)
     for _ in guarded(guard, world, lambda observation: Command(0.2, w), seconds=2.9):
@@ -238,7 +238,7 @@ def test_near_a_cliff_that_no_map_shows_a_robot_that_slides_turns_along_the_wall
     world = World(plan, quiet())
     robot = world.spawn('rumba', Pose(0.4, RADIUS + 0.005, -0.25))
     context = context_of(plan, world)
-    context.footing._see(1.6, cliff_y)
+    context.cliff_map._see(1.6, cliff_y)
     for _ in guarded(Guard(context), world, lambda observation: Command(0.2, 0.0), seconds=7.0):
         pass
     assert least < robot.pose.theta < most and robot.pose.x > 1.2

@@ -66,16 +66,16 @@ def test_what_was_swept_met_and_felt_is_known_on_a_larger_plan():
     context.swept.sweep(HERE, Pose(1.3, 1.0, 0.0))
     area = context.swept.coverage * context.swept.reachable_area
     context.ground.mark(1.5, 2.0, 0.05)
-    context.footing.note(HERE, (False, True, False, False), False)
-    seen = context.footing.seen[0]
+    context.cliff_map.note(HERE, (False, True, False, False), False)
+    seen = context.cliff_map.seen[0]
     assert context.learn(HERE)
     assert context.plan is large
     assert context.swept.reachable_area > 3.0 * area
     assert context.swept.coverage * context.swept.reachable_area == pytest.approx(area, rel=0.01)
     assert context.ground.clearance[context.ground.node(1.5, 2.0)] == 0.0
     assert context.ground.fits.shape == (large.rows + 1, large.columns + 1)
-    assert context.footing.clearance_at(*seen) < 0.02 < context.footing.clearance_at(4.0, 1.0)
-    assert [context.footing.are_known(np.array([[x, 1.0]]), 2) for x in (1.0, 4.0)] == [True, False]
+    assert context.cliff_map.clearance_at(*seen) < 0.02 < context.cliff_map.clearance_at(4.0, 1.0)
+    assert [context.cliff_map.are_known(np.array([[x, 1.0]]), 2) for x in (1.0, 4.0)] == [True, False]
     assert not context.learn(HERE)
 
 
@@ -152,7 +152,7 @@ def redrawn(by):
         context.swept.follow(Pose(x, y, 0.0), False)
         context.swept.follow(Pose(x + 0.4, y, 0.0), False)
     context.ground.mark(1.5, 2.0, 0.05)
-    context.footing.note(HERE, (False, True, False, False), False)
+    context.cliff_map.note(HERE, (False, True, False, False), False)
     survey.poses = np.array([LEFT, Pose(*np.add(RIGHT, by))])
     return context
 
@@ -178,8 +178,8 @@ def test_what_was_swept_stays_at_the_key_frames_of_a_redrawn_map():
 def test_obstacles_and_edges_are_forgotten_with_the_map_on_which_they_were_met():
     context = redrawn((0.1, 0.0, 0.0))
     context.follow(HERE)
-    assert not context.ground.has_marks and not context.footing.seen
-    assert not context.footing.are_known(np.array([[1.0, 1.0]]), 1)
+    assert not context.ground.has_marks and not context.cliff_map.seen
+    assert not context.cliff_map.are_known(np.array([[1.0, 1.0]]), 1)
 
 
 def test_a_jump_of_the_pose_with_the_map_sweeps_nothing():

@@ -14,10 +14,10 @@ from rumba_cleaning import strategies
 from rumba_cleaning.behaviour import Command, Observation, Status
 from rumba_cleaning.behaviours.bounded import Bounded
 from rumba_cleaning.behaviours.homing import BUOYS
-from rumba_cleaning.behaviours.recent_guard import REMEMBERED, SAFE_SPEED, RecentGuard
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.cleaning_config import CleaningConfig
 from rumba_cleaning.control import steps
+from rumba_cleaning.edges.recent_guard import REMEMBERED, SAFE_SPEED, RecentGuard
 from rumba_cleaning.mission.mapless import MaplessMission
 from rumba_cleaning.mission.seek import Seek
 from rumba_cleaning.mission.stages import State
@@ -235,7 +235,7 @@ def test_an_edge_is_remembered_for_a_metre_and_forgotten_after_two():
     for step in range(250):
         pose = Pose(0.01 * step, 0.0, 0.0)
         guard.step(lambda _: Command(0.1, 0.0), Observation(0.1, pose, cliffs=(step == 0, False, False, False)))
-        remembered.append(bool(knowledge.footing.seen))
+        remembered.append(bool(knowledge.cliff_map.seen))
     assert all(remembered[:100]) and not any(remembered[200:])
     assert knowledge.plan.bounds.left < 2.5 - 2.0 * REMEMBERED < 2.5 + 2.0 * REMEMBERED < knowledge.plan.bounds.right
 

@@ -6,8 +6,8 @@ import pytest
 from rooms import RADIUS
 
 from rumba_cleaning.behaviour import Observation
-from rumba_cleaning.behaviours.rear import LEAST, MOST, Rear
 from rumba_cleaning.control import CONTROL_DT
+from rumba_cleaning.edges.rear import LEAST, MOST, Rear
 from rumba_sim.model.common.geometry import Pose
 
 

@@ -9,10 +9,10 @@ from rooms import RADIUS, quiet, room
 
 from rumba_cleaning.behaviour import Observation
 from rumba_cleaning.behaviours.bounded import Bounded
-from rumba_cleaning.behaviours.guard import Guard
-from rumba_cleaning.behaviours.slip import NO_SLIP, Alignment, Slip, slipped
 from rumba_cleaning.behaviours.travel import Going, Travel
 from rumba_cleaning.control import CONTROL_DT
+from rumba_cleaning.edges.guard import Guard
+from rumba_cleaning.edges.slip import NO_SLIP, Alignment, Slip, slipped
 from rumba_cleaning.pose_source import DeadReckoning, scan_of_robot
 from rumba_cleaning.route import Route
 from rumba_sim.model.common.geometry import Pose

@@ -8,9 +8,9 @@ from drivers import context_of, drive_by_hand, guarded, run
 from rooms import RADIUS, quiet, room
 
 from rumba_cleaning.behaviour import Status
-from rumba_cleaning.behaviours.recent_guard import RecentGuard
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.cleaning_config import CleaningConfig
+from rumba_cleaning.edges.recent_guard import RecentGuard
 from rumba_cleaning.mission.mission import Mission
 from rumba_cleaning.strategies.spiral import SIZE, Spiral
 from rumba_sim.model.common.geometry import Pose

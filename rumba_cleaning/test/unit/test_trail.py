@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from rumba_cleaning.behaviours.trail import LENGTH, OFF, Trail
+from rumba_cleaning.edges.trail import LENGTH, OFF, Trail
 from rumba_sim.model.common.geometry import Pose
 
 HALF = 0.12  # [m]

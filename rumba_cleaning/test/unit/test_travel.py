@@ -7,9 +7,9 @@ import pytest
 from drivers import context_of, guarded, with_cliffs
 from rooms import quiet, room
 
-from rumba_cleaning.behaviours.guard import Guard
 from rumba_cleaning.behaviours.travel import Going, Travel
 from rumba_cleaning.control import CONTROL_DT, observe
+from rumba_cleaning.edges.guard import Guard
 from rumba_cleaning.route import Route
 from rumba_sim.model.common.geometry import Pose
 from rumba_sim.model.simulation.world import World
@@ -47,7 +47,7 @@ def test_only_an_edge_that_the_map_does_not_show_ends_a_travel(is_shown, ends):
 def test_at_an_edge_it_backs_off_if_that_holds_it_or_the_map_does_not_show_all(is_held, is_other_seen):
     _, world, context = before_edge(True)
     if is_other_seen:
-        context.footing._see(1.0, 0.5)
+        context.cliff_map._see(1.0, 0.5)
     observation = observe(world, 'rumba', CONTROL_DT)._replace(cliffs=(False, True, True, False), is_held=is_held)
     assert (Travel(context, TO_EDGE).command(observation, True).v < 0.0) == (is_held or is_other_seen)
 

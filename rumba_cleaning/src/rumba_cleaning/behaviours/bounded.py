@@ -3,8 +3,9 @@
 from typing import Optional
 
 from rumba_cleaning.behaviour import Behaviour, Command, Observation, Status
-from rumba_cleaning.behaviours import recent_guard, relocation
+from rumba_cleaning.behaviours import relocation
 from rumba_cleaning.belief.context import Context
+from rumba_cleaning.edges import recent_guard
 from rumba_cleaning.outcome import Outcome
 from rumba_cleaning.route import Ahead
 

@@ -117,7 +117,7 @@ class Travel:
 
         Beside edges that the map shows, a route leads by design, and the guard keeps the wheels on the floor.
         """
-        return any(observation.cliffs) and (observation.is_held or bool(self._context.footing.seen))
+        return any(observation.cliffs) and (observation.is_held or bool(self._context.cliff_map.seen))
 
     def _is_blocked(self, observation: Observation) -> bool:
         """Whether something is in the way that the ground does not show; marks it."""

@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING, Any, Callable, List, Optional, Sequence, TypeV
 import numpy as np
 
 from rumba_cleaning.behaviour import Observation
-from rumba_cleaning.belief.footing import Footing
 from rumba_cleaning.belief.ground import Ground
 from rumba_cleaning.belief.mates import Mates, Report
 from rumba_cleaning.belief.surroundings import blank
 from rumba_cleaning.belief.swept import Swept
 from rumba_cleaning.belief.track import Track
 from rumba_cleaning.cleaning_config import CleaningConfig, attainable
+from rumba_cleaning.edges.cliff_map import SPARE, CliffMap
 from rumba_cleaning.executors import InPlace
 from rumba_cleaning.survey import Survey
 from rumba_sim.model.common.config import updated
@@ -32,7 +32,7 @@ Result = TypeVar('Result')
 Seed = Union[int, Sequence[int]]
 CUT_OFF = 0.02  # of the reachable floor: less than a room, more than corners beside things; our choice
 SHUT_IN = 0.2  # of the reachable floor: a room, for which it is worth waiting minutes; our choice
-NOT_COPIED = ('sight', 'footing', 'generator')  # attributes that what is submitted does without
+NOT_COPIED = ('sight', 'cliff_map', 'generator')  # attributes that what is submitted does without
 OPENED = 0.05  # [m^2] half of what a robot covers: a gap that opens less is not worth squeezing through; our choice
 
 
@@ -60,7 +60,7 @@ class Context:
         ground: where the robot can go, with the obstacles that it met.
         mates: the robots with which it shares the floor.
         swept: what its brush passed over, and those of its mates, of the floor that it reaches with the margin.
-        footing: where the floor ends.
+        cliff_map: where the floor ends.
         sight: what its laser sees; None if it does without.
         has_map: whether the plan, and the pose of the robot on it, can be relied on; without, the plan is blank, and
             poses are those of the odometry, which err more with every metre.
@@ -95,7 +95,7 @@ class Context:
         self.ground = Ground(plan, robot)
         self.swept = Swept(plan, updated(robot, {'drive': {'radius': robot.drive.radius + config.margin}}, 'margin'),
                            is_exact=survey is None)
-        self.footing = Footing(plan, robot)
+        self.cliff_map = CliffMap(plan, robot)
         self.sight = _sight(plan) if config.laser else None
 
     @classmethod
@@ -109,6 +109,13 @@ class Context:
     def plan(self) -> FloorPlan:
         """The refined floor plan, as it is known now."""
         return self.ground.plan
+
+    def note_cliffs(self, observation: Observation) -> None:
+        """Remember what the cliff sensors see, and have the ground show it."""
+        before = len(self.cliff_map.seen)
+        self.cliff_map.note(observation.pose, observation.cliffs, observation.is_docked)
+        for x, y in self.cliff_map.seen if before and not self.ground.has_marks else self.cliff_map.seen[before:]:
+            self.ground.mark(x, y, SPARE)
 
     def learn(self, pose: Pose) -> bool:
         """Take the newest plan of a floor that is being mapped; returns whether there is one.
@@ -154,14 +161,14 @@ class Context:
         self._track.move(redrawing.way_back(after, before))
         self.forget_obstacles()
         self._take(survey.plan(), pose, redrawing.way_back(before, after))
-        self.footing.forget()
+        self.cliff_map.forget()
         return True
 
     def _take(self, plan: FloorPlan, pose: Pose, way_back: Optional[Callable[[Array], Array]] = None) -> None:
         """Go on with a newer plan, on which the robot can go where it has been; see `Swept.learn`."""
         self._surveyed, plan = plan, self._track.on(plan, self.ground.reach + SLACK)
         self.ground.learn(plan)
-        self.footing.learn(plan)
+        self.cliff_map.learn(plan)
         if self.sight is not None:
             self.sight.learn(plan)
         usual = self.cleaned_ground()
@@ -178,9 +185,9 @@ class Context:
         """Without a map, know nothing of the floor around a pose: nothing was met there, or seen."""
         plan = blank(pose)
         self.ground.learn(plan)
-        self.footing.learn(plan)
+        self.cliff_map.learn(plan)
         self.forget_obstacles()
-        self.footing.forget()
+        self.cliff_map.forget()
 
     def moor(self, pose: Pose) -> None:
         """Make the dock that is nearest to a pose the home of the robot."""
@@ -294,7 +301,7 @@ class Context:
         """Have the executor compute `function(context, *args)` with a copy of this context as it is now.
 
         The function may run in another thread, while this context changes. So the copy has a ground, swept floor and
-        mates of its own; the ground shows what the laser has seen. It has neither sight nor footing nor generator:
+        mates of its own; the ground shows what the laser has seen. It has neither sight nor cliff map nor generator:
         these would be those of this context, and to use them is an AttributeError.
         """
         self.show_seen()

@@ -6,10 +6,10 @@ driving about until it receives the beams. The wheels tell it only how it moved 
 
 from rumba_cleaning import strategies
 from rumba_cleaning.behaviour import STOP, Command, Observation, Status
-from rumba_cleaning.behaviours import recent_guard
 from rumba_cleaning.behaviours.homing import BUOYS
 from rumba_cleaning.behaviours.undock import Undock
 from rumba_cleaning.belief.context import Context
+from rumba_cleaning.edges import recent_guard
 from rumba_cleaning.mission.seek import Seek
 from rumba_cleaning.mission.stages import EMPTY, HELD, START, StagedMission, State
 from rumba_cleaning.mission.wording import percent

@@ -9,11 +9,11 @@ from rumba_cleaning import strategies
 from rumba_cleaning.behaviour import CERTAIN, STOP, Command, Observation, Status
 from rumba_cleaning.behaviours import relocation
 from rumba_cleaning.behaviours.dock import Dock
-from rumba_cleaning.behaviours.guard import Guard
 from rumba_cleaning.behaviours.right_of_way import RightOfWay
 from rumba_cleaning.behaviours.undock import Undock
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.belief.mates import Report, Task
+from rumba_cleaning.edges.guard import Guard
 from rumba_cleaning.mission import confinement
 from rumba_cleaning.mission.battery_watch import BatteryWatch
 from rumba_cleaning.mission.second_try import SecondTry
@@ -72,7 +72,7 @@ class Mission(StagedMission):
             self._gained = 0.0  # coverage at the last charge
             self._has_memory = False
             self._context.forget_obstacles()
-            self._context.footing.forget()
+            self._context.cliff_map.forget()
             self._watch = BatteryWatch(self._context)
         self._resumes = False
         self._guard.rest()

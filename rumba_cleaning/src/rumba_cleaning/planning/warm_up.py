@@ -31,8 +31,8 @@ def main() -> None:
     plan(context, pose)
     paths.between(context.ground, np.array([1.0, 1.0]), np.array([1.0, 5.0]))
     paths.lengths_to(context.ground, 1.0, 1.0)
-    context.footing.note(pose, 4 * (False,), False)
-    context.footing.are_known(np.array([[1.0, 1.0]]), 2)
+    context.cliff_map.note(pose, 4 * (False,), False)
+    context.cliff_map.are_known(np.array([[1.0, 1.0]]), 2)
     context.ground.is_marked(np.array([1.0, 1.0]), np.array([2.0, 1.0]))
 
 

@@ -8,11 +8,11 @@ import numpy as np
 
 from rumba_cleaning.behaviour import STOP, Behaviour, Command, Observation
 from rumba_cleaning.behaviours.detour import detour
-from rumba_cleaning.behaviours.guard import Guard
 from rumba_cleaning.behaviours.impasse import Impasse
 from rumba_cleaning.behaviours.travel import Going, Travel
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.cleaning_config import CleaningConfig
+from rumba_cleaning.edges.guard import Guard
 from rumba_cleaning.mission.stages import HELD
 from rumba_cleaning.outcome import Outcome
 from rumba_cleaning.route import Route, lengths_along

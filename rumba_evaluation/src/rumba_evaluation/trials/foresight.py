@@ -2,8 +2,8 @@
 
 from typing import List
 
-from rumba_cleaning.behaviours.guard import why_it_creeps
 from rumba_cleaning.cleaning_config import CleaningConfig
+from rumba_cleaning.edges.guard import why_it_creeps
 from rumba_cleaning.mission import outlook
 from rumba_evaluation.trials.trial import Trial
 from rumba_sim.model import remarks

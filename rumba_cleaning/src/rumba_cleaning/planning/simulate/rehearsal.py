@@ -10,8 +10,8 @@ from typing import List, Sequence
 import numpy as np
 
 from rumba_cleaning.behaviours.follower import drive_of
-from rumba_cleaning.behaviours.guard import SWIFT_SPEED
 from rumba_cleaning.belief.context import Context
+from rumba_cleaning.edges.guard import SWIFT_SPEED
 from rumba_cleaning.planning.simulate import compiled_changes, compiled_passes, compiled_rehearsal
 from rumba_cleaning.planning.simulate.compiled_passes import Passes
 from rumba_cleaning.planning.simulate.compiled_rehearsal import ALONG, COLUMNS, DT, LEFT, RIGHT, Walls

@@ -4,7 +4,7 @@ from typing import Callable, NamedTuple, Optional, Tuple
 
 import rospy
 
-from rumba_cleaning.behaviours.guard import why_it_creeps
+from rumba_cleaning.edges.guard import why_it_creeps
 from rumba_cleaning.ros.cleaner.goals.survey import SurveyListener
 from rumba_msg.msg import SimulatorState
 from rumba_sim.model.common.errors import ConfigError, MapError

@@ -6,26 +6,24 @@ Approach to Collision Avoidance, 1997: a velocity is admissible if the robot can
 """
 
 import math
-from typing import Callable, List, Optional, Tuple
+from typing import Callable, List, Optional, Protocol, Tuple
 
 import numpy as np
 
 from rumba_cleaning.behaviour import Command, Observation
-from rumba_cleaning.behaviours.compiled_guard import ROUNDING, Wheels
-from rumba_cleaning.behaviours.departure import SLOW
-from rumba_cleaning.behaviours.preview import Preview, faster, goes_back, part_of
-from rumba_cleaning.behaviours.rear import Rear
-from rumba_cleaning.behaviours.release import RESERVE, Release
-from rumba_cleaning.behaviours.slip import Alignment, Slip, along_contacts, slipped
-from rumba_cleaning.behaviours.trail import Trail
-from rumba_cleaning.belief.context import Context
+from rumba_cleaning.edges.cliff_map import SPARE, CliffMap
+from rumba_cleaning.edges.compiled_preview import ROUNDING, Wheels
+from rumba_cleaning.edges.departure import SLOW
+from rumba_cleaning.edges.preview import Preview, faster, goes_back, part_of
+from rumba_cleaning.edges.rear import Rear
+from rumba_cleaning.edges.release import RESERVE, Release
+from rumba_cleaning.edges.slip import Alignment, Slip, along_contacts, slipped
+from rumba_cleaning.edges.trail import Trail
 from rumba_sim.model.common.geometry import Pose
 from rumba_sim.model.settings.robot_config import RobotConfig
 
 SHARES = (0.6, 0.3)  # of a command that are tried, after the whole and a slow one, before the robot stops; our choice
 LONGEST = 0.3  # [s] the same, at most, by the time since the last one: in a longer step the node was busy
-SPARE = 0.02  # [m] from a wheel to an edge: a cell of a fine map; an edge that was seen is known no better. Back by the
-#               way that it came, RESERVE will do: the wheel has been there.
 AT_REST = 0.02  # [m/s] of both wheels
 CREEP = 1e-4  # [m] by which an edge may come nearer to the middle of a robot that is too near already: rounding
 
@@ -66,10 +64,24 @@ def why_it_creeps(robot: RobotConfig) -> str:
             f'sensor sees the floor before the wheels, so the robot creeps on new floor; {cure} would do')
 
 
+class Knowledge(Protocol):
+    """What a guard needs of the context of a robot."""
+
+    robot: RobotConfig
+    cliff_map: CliffMap
+    has_map: bool
+
+    def note_cliffs(self, observation: Observation) -> None:
+        """Remember what the cliff sensors see."""
+
+    def begin_anew(self, pose: Pose) -> None:
+        """Without a map, know nothing of the floor around a pose."""
+
+
 class Guard:
     """Watches what a robot sees and what it is commanded; a controller, for the behaviour that is in charge."""
 
-    def __init__(self, context: Context, safe_speed: float = SAFE_SPEED, swift_speed: float = SWIFT_SPEED,
+    def __init__(self, context: Knowledge, safe_speed: float = SAFE_SPEED, swift_speed: float = SWIFT_SPEED,
                  wary_guess: int = 0) -> None:
         """Guard the robot of a context.
 
@@ -81,13 +93,13 @@ class Guard:
                 that the map does not show, and on its way out.
         """
         self._safe_speed, self._swift_speed, self._wary_guess = safe_speed, swift_speed, wary_guess
-        self._ground, self._footing = context.ground, context.footing
+        self._context, self._cliff_map = context, context.cliff_map
         self._acceleration = context.robot.drive.acceleration
         self._preview = Preview(context.robot.drive)
         self._clear = self._preview.half + SPARE  # [m] from the middle to an edge: the robot can turn on the spot
         self._rear = Rear(context.robot.drive.radius)
         self._trail, self._alignment = Trail(self._preview.half), Alignment()
-        self._release = Release(self._ground, self._footing, self._preview, self._clear, wary_guess)
+        self._release = Release(self._cliff_map, self._preview, self._clear, wary_guess)
         self.rest()
 
     def rest(self) -> None:
@@ -108,12 +120,8 @@ class Guard:
         return self._release.held_time
 
     def see(self, observation: Observation) -> None:
-        """Remember what the cliff sensors see, and show it to the ground."""
-        footing = self._footing
-        before = len(footing.seen)
-        footing.note(observation.pose, observation.cliffs, observation.is_docked)
-        for x, y in footing.seen if before and not self._ground.has_marks else footing.seen[before:]:
-            self._ground.mark(x, y, SPARE)
+        """Remember what the cliff sensors see."""
+        self._context.note_cliffs(observation)
 
     def stand_by(self, observation: Observation) -> None:
         """Watch while a person drives."""
@@ -138,7 +146,7 @@ class Guard:
         self._command = self._admitted(observation, command)
         is_held = self._held != NONE and faster(self._speeds) == 0.0
         if is_held:
-            self._footing.close_holes(observation.pose.x, observation.pose.y)
+            self._cliff_map.close_holes(observation.pose.x, observation.pose.y)
         if self._release.is_due(observation.pose, is_held, dt):
             self._command = self._way_out(observation, command) or self._command
         self._last = observation.pose
@@ -151,7 +159,7 @@ class Guard:
         """
         left, right = self._speeds
         is_braking = (left + right > 0.0 or abs(right - left) > AT_REST) and not self._is_on_trail
-        is_back = command.v < 0.0 and not is_braking and bool(self._footing.seen)
+        is_back = command.v < 0.0 and not is_braking and bool(self._cliff_map.seen)
         motion = self._trail.back(pose) if is_back else None
         self._is_on_trail = motion is not None
         if motion is None:
@@ -187,7 +195,7 @@ class Guard:
             wanted = preview.wanted(command)
         fastest = max(faster(self._speeds), faster(wanted))
         braking = fastest * LONGEST + 0.5 * fastest ** 2 / self._acceleration
-        is_near = self._footing.clearance_at(pose.x, pose.y) <= self._clear + braking
+        is_near = self._cliff_map.clearance_at(pose.x, pose.y) <= self._clear + braking
         must_know = is_wary or not (self._sees_ahead(wanted) and self._sees_ahead(self._speeds))
         if not (is_near or must_know) or fastest == 0.0:
             return command
@@ -218,11 +226,11 @@ class Guard:
 
     def _is_wary(self, pose: Pose) -> bool:
         """Whether a cliff that the map does not show is near."""
-        return bool(self._footing.seen) and self._footing.clearance_at(pose.x, pose.y) < WARY
+        return bool(self._cliff_map.seen) and self._cliff_map.clearance_at(pose.x, pose.y) < WARY
 
     def _limits(self) -> Tuple[float, float]:
         """How fast a wheel may be where no floor is known, in a tight bend and otherwise [m/s]."""
-        if self._footing.seen:
+        if self._cliff_map.seen:
             return min(FOUND_SPEED, self._safe_speed), min(FOUND_SPEED, self._safe_speed)
         return self._swift_speed, self._safe_speed
 
@@ -265,7 +273,7 @@ class Guard:
         """As `_edges`, for a robot that slides in one way."""
         middle, left, right = self._preview.path(pose, self._speeds, wanted, slip)
         if is_near:
-            near = [self._footing.clearances(line) for line in (middle, left, right)]
+            near = [self._cliff_map.clearances(line) for line in (middle, left, right)]
             spare = RESERVE if self._is_on_trail else SPARE
             least = [min(line[0], limit) for line, limit in zip(near, (self._clear, spare, spare))]
             if (near[0] < least[0] - CREEP).any():
@@ -276,7 +284,7 @@ class Guard:
                 return over
         if must_know:
             guess = self._guess(pose, wanted)
-            return not self._footing.are_known(left[1:], *guess), not self._footing.are_known(right[1:], *guess)
+            return not self._cliff_map.are_known(left[1:], *guess), not self._cliff_map.are_known(right[1:], *guess)
         return NONE
 
     def _guess(self, pose: Pose, wanted: Wheels) -> Tuple[int, bool]:

@@ -10,10 +10,10 @@ from typing import Iterator, NamedTuple, Optional
 import numpy as np
 
 from rumba_cleaning.behaviour import Command
-from rumba_cleaning.belief.footing import Footing
-from rumba_cleaning.belief.ground import Ground
+from rumba_cleaning.edges.cliff_map import CliffMap
 from rumba_sim.model.common.geometry import Pose, wrap_angle
 from rumba_sim.model.kernel import Array
+from rumba_sim.model.settings.robot_config import DriveConfig
 
 # All figures below are our choice.
 TURN = 0.5  # [rad/s]
@@ -45,9 +45,9 @@ class Departure(NamedTuple):
 class Search:
     """Looks for departures of one robot."""
 
-    def __init__(self, ground: Ground, footing: Footing, half: float) -> None:
-        """Look on a floor, for a robot whose wheels are so far off its middle [m]."""
-        self._ground, self._footing, self._half = ground, footing, half
+    def __init__(self, cliff_map: CliffMap, drive: DriveConfig) -> None:
+        """Look on a floor, for a robot with this drive."""
+        self._cliff_map, self._half, self._radius = cliff_map, 0.5 * drive.wheel_base, drive.radius
 
     def find(self, pose: Pose, reserve: float, least: float, cells: int) -> Optional[Departure]:
         """The departure with the smallest turn; None: there is none.
@@ -79,10 +79,9 @@ class Search:
         if not self._is_safe(self._wheels(pose, ahead), reserve, cells):
             return False
         middle = np.array(pose[:2]) + ahead[:, np.newaxis] * (math.cos(pose.theta), math.sin(pose.theta))
-        nodes = self._ground.nodes(middle)
-        walls = self._ground.plan.clearance[nodes[:, 0], nodes[:, 1]]
-        return bool(walls.min() >= min(walls[0], self._ground.reach) - PUSH
-                    and self._footing.clearances(middle[-1:])[0] >= least)
+        walls = self._cliff_map.near_walls(middle)
+        return bool(walls.min() >= min(walls[0], self._radius) - PUSH
+                    and self._cliff_map.clearances(middle[-1:])[0] >= least)
 
     def _wheels(self, pose: Pose, ahead: Array) -> Array:
         """The points under both wheels after so many distances (any) straight on [m]: float64 (any, 2)."""
@@ -93,6 +92,6 @@ class Search:
 
     def _is_safe(self, points: Array, reserve: float, cells: int) -> bool:
         """Whether wheels can be at points (any, 2) [m]."""
-        if self._footing.clearances(points).min() < reserve:
+        if self._cliff_map.clearances(points).min() < reserve:
             return False
-        return not self._footing.seen or self._footing.are_known(points, cells)
+        return not self._cliff_map.seen or self._cliff_map.are_known(points, cells)

@@ -5,12 +5,11 @@ from typing import Callable, Iterable, Optional, Tuple
 import numpy as np
 
 from rumba_cleaning.behaviour import Command
-from rumba_cleaning.behaviours.compiled_guard import HOLD_STEPS, Wheels
-from rumba_cleaning.behaviours.departure import SLOW, Departure, Search
-from rumba_cleaning.behaviours.preview import Preview
-from rumba_cleaning.behaviours.slip import NO_SLIP, Slip
-from rumba_cleaning.belief.footing import Footing
-from rumba_cleaning.belief.ground import Ground
+from rumba_cleaning.edges.cliff_map import CliffMap
+from rumba_cleaning.edges.compiled_preview import HOLD_STEPS, Wheels
+from rumba_cleaning.edges.departure import SLOW, Departure, Search
+from rumba_cleaning.edges.preview import Preview
+from rumba_cleaning.edges.slip import NO_SLIP, Slip
 from rumba_sim.model.common.geometry import Pose, hypot
 
 # All figures below are our choice.
@@ -33,17 +32,17 @@ class Release:
         held_time: for how long edges have kept the robot, about where it is, from what it was to do [s].
     """
 
-    def __init__(self, ground: Ground, footing: Footing, preview: Preview, clear: float, guess: int) -> None:
+    def __init__(self, cliff_map: CliffMap, preview: Preview, clear: float, guess: int) -> None:
         """Watch a robot.
 
         Args:
-            ground, footing: what it knows of the floor.
+            cliff_map: what it knows of the floor.
             preview: of its commands.
             clear: from its middle to an edge, with which it can turn on the spot [m].
             guess: how many cells beside floor that it knows it takes for floor too.
         """
-        self._footing, self._preview, self._clear, self._guess = footing, preview, clear, guess
-        self._search = Search(ground, footing, preview.half)
+        self._cliff_map, self._preview, self._clear, self._guess = cliff_map, preview, clear, guess
+        self._search = Search(cliff_map, preview.drive)
         self.rest()
 
     def rest(self) -> None:
@@ -128,7 +127,7 @@ class Release:
         0 over unknown floor, once the robot has met a cliff that no map shows.
         """
         _, left, right = self._preview.path(pose, speeds, wanted, slip, steps)
-        if self._footing.seen and not self._footing.are_known(np.concatenate([left, right]), self._guess):
+        if self._cliff_map.seen and not self._cliff_map.are_known(np.concatenate([left, right]), self._guess):
             return 0.0, 0.0
-        near = np.minimum(self._footing.clearances(left), self._footing.clearances(right))
+        near = np.minimum(self._cliff_map.clearances(left), self._cliff_map.clearances(right))
         return float(near[-1]), float(near.min())

@@ -10,7 +10,7 @@ from typing import Optional
 import numpy as np
 
 from rumba_cleaning.behaviour import Observation
-from rumba_cleaning.behaviours.slip import heading_between
+from rumba_cleaning.edges.slip import heading_between
 from rumba_sim.model.common.geometry import Pose, hypot
 
 # All figures below are our choice.

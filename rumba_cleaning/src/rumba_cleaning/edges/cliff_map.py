@@ -8,7 +8,7 @@ from typing import Deque, List, NamedTuple, Optional, Sequence, Tuple
 import numpy as np
 from scipy import ndimage
 
-from rumba_cleaning.belief import compiled_footing
+from rumba_cleaning.edges import compiled_cliff_map
 from rumba_localisation.edges import JUMP, Edges
 from rumba_sim.model.common.geometry import Pose, hypot, wrap_angle
 from rumba_sim.model.compiling.compiled import fast
@@ -18,6 +18,7 @@ from rumba_sim.model.settings.robot_config import RobotConfig
 
 FAR = 1.0  # [m] what is farther from a cliff than this is far enough for everything that a robot does
 SEEN = 0.015  # [m] radius that is assumed for an edge that a sensor saw: half of what a robot drives between readings
+SPARE = 0.02  # [m] from a wheel to an edge: a cell of a fine map; an edge that was seen is known no better
 SAME = 0.02  # [m] from a cliff of the map, a sensor sees that one
 INSIDE = 0.003  # [m] from a cliff that a sensor saw, another edge tells nothing new
 CELL = 0.01  # [m] side of the cells in which floor is remembered
@@ -39,7 +40,7 @@ class Between(NamedTuple):
     lines: Tuple[bool, ...]  # between which neighbours there was floor on both sides
 
 
-class Footing:
+class CliffMap:
     """The floor and its edges as one robot knows them. It sees a cliff only if it is nearly there, so it remembers.
 
     Attributes:
@@ -93,6 +94,10 @@ class Footing:
             self._see(x, y)
         self.seen = seen  # although the plan may show some of them: it need not show all cliffs
 
+    def near_walls(self, points: Array) -> Array:
+        """Distance of points (any, 2) [m] from the nearest walls of the plan [m]: float64 (any)."""
+        return np.asarray(fast.interpolated_at(self._plan.clearance, *self._plan.origin, self._plan.resolution, points))
+
     def _know(self, plan: FloorPlan) -> None:
         """Measure the distances to the cliffs of a plan."""
         self._plan = plan
@@ -117,7 +122,7 @@ class Footing:
         turn = wrap_angle(pose.theta - last.theta)
         change = pose.x - last.x, pose.y - last.y, turn
         count = int((hypot(change[0], change[1]) + self._far * abs(turn)) / STEP) + 1
-        self._stamp(self._wheels, last, change, count, compiled_footing.DRIVEN)
+        self._stamp(self._wheels, last, change, count, compiled_cliff_map.DRIVEN)
         if not any(cliffs):
             self._stamp(self._sensors, last, change, count)
         self._pass(pose, last, change, count, cliffs)
@@ -141,7 +146,7 @@ class Footing:
                 self._stamp(line, passed.start, passed.change, passed.poses)
 
     def _stamp(self, points: Array, pose: Pose, change: Tuple[float, float, float] = (0.0, 0.0, 0.0),
-               count: int = 1, mark: int = compiled_footing.SEEN) -> None:
+               count: int = 1, mark: int = compiled_cliff_map.SEEN) -> None:
         """Remember floor under points of a robot that moves.
 
         Args:
@@ -151,19 +156,19 @@ class Footing:
             count: poses that count: the last one, and others at equal distances after the first.
             mark: how the floor is known.
         """
-        compiled_footing.stamp(self._floor, *self._origin, CELL, pose, change, count, points, mark)
+        compiled_cliff_map.stamp(self._floor, *self._origin, CELL, pose, change, count, points, mark)
 
     def close_holes(self, x: float, y: float) -> None:
         """Take holes in the floor that the sensors saw around a point [m] for floor: no cliff is as small."""
         reach = int(AROUND / CELL)
         column, row = int((x - self._origin[0]) / CELL), int((y - self._origin[1]) / CELL)
         window = self._floor[max(row - reach, 0):row + reach + 1, max(column - reach, 0):column + reach + 1]
-        holes, count = ndimage.label(window != compiled_footing.SEEN)
+        holes, count = ndimage.label(window != compiled_cliff_map.SEEN)
         rim = np.unique(np.concatenate([holes[0], holes[-1], holes[:, 0], holes[:, -1]]))
         sizes = np.bincount(holes.ravel(), minlength=count + 1)
         is_small = sizes * CELL ** 2 <= HOLE
         is_small[rim] = is_small[0] = False
-        window[is_small[holes]] = compiled_footing.SEEN
+        window[is_small[holes]] = compiled_cliff_map.SEEN
 
     def _see(self, x: float, y: float) -> None:
         """Remember a cliff, unless it is a known one."""
@@ -205,8 +210,8 @@ class Footing:
         To a wary robot, floor that only a wheel was on tells nothing of what is beside: cell by cell, it would creep on
         over an edge.
         """
-        least = compiled_footing.SEEN if is_wary else compiled_footing.DRIVEN
-        return bool(compiled_footing.are_marked(self._floor, *self._origin, CELL, points, cells, least))
+        least = compiled_cliff_map.SEEN if is_wary else compiled_cliff_map.DRIVEN
+        return bool(compiled_cliff_map.are_marked(self._floor, *self._origin, CELL, points, cells, least))
 
 
 def _line(start: Tuple[float, float], end: Tuple[float, float]) -> Array:

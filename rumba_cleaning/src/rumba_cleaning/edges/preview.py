@@ -1,8 +1,8 @@
 """What a command leads to, by what the drive of a robot can do."""
 
 from rumba_cleaning.behaviour import Command
-from rumba_cleaning.behaviours.compiled_guard import HOLD_STEPS, ROUNDING, Wheels, path
-from rumba_cleaning.behaviours.slip import Slip
+from rumba_cleaning.edges.compiled_preview import HOLD_STEPS, ROUNDING, Wheels, path
+from rumba_cleaning.edges.slip import Slip
 from rumba_sim.model.common.geometry import Pose
 from rumba_sim.model.kernel import Array
 from rumba_sim.model.settings.robot_config import DriveConfig
@@ -15,17 +15,18 @@ class Preview:
     """Looks ahead for one robot.
 
     Attributes:
+        drive: of the robot.
         half: distance of its wheels from its middle [m].
     """
 
     def __init__(self, drive: DriveConfig) -> None:
         """Look ahead for a robot with this drive."""
-        self._drive = drive
+        self.drive = drive
         self.half = 0.5 * drive.wheel_base
 
     def wanted(self, command: Command) -> Wheels:
         """The speeds of the wheels that a command asks for, within the limits of the drive [m/s]."""
-        drive = self._drive
+        drive = self.drive
         v = min(max(command.v, -drive.max_speed), drive.max_speed)
         w = min(max(command.w, -drive.max_turn_rate), drive.max_turn_rate)
         left, right = v - w * self.half, v + w * self.half
@@ -34,7 +35,7 @@ class Preview:
 
     def after(self, speeds: Wheels, wanted: Wheels, seconds: float) -> Wheels:
         """The speeds of the wheels so long after these speeds were commanded [m/s]."""
-        change = self._drive.acceleration * seconds
+        change = self.drive.acceleration * seconds
         (left, right), (left_goal, right_goal) = speeds, wanted
         return (min(max(left_goal, left - change), left + change),
                 min(max(right_goal, right - change), right + change))
@@ -46,11 +47,11 @@ class Preview:
 
     def moves(self, command: Command) -> bool:
         """Whether a wheel turns at all."""
-        return faster(self.wanted(command)) >= self._drive.dead_band
+        return faster(self.wanted(command)) >= self.drive.dead_band
 
     def path(self, pose: Pose, speeds: Wheels, wanted: Wheels, slip: Slip, hold: int = HOLD_STEPS) -> Array:
         """Where the robot, its left and its right wheel are after a command, until it has stopped: see `path`."""
-        return path(pose, speeds, wanted, slip, self.half, self._drive.acceleration, hold)
+        return path(pose, speeds, wanted, slip, self.half, self.drive.acceleration, hold)
 
     def curvature(self, speeds: Wheels) -> float:
         """Curvature of the path of wheels that are so fast [m/s]: [1/m]."""

@@ -4,8 +4,7 @@ import collections
 from typing import Deque, Optional, Tuple
 
 from rumba_cleaning.behaviour import Observation
-from rumba_cleaning.behaviours.guard import Guard
-from rumba_cleaning.belief.context import Context
+from rumba_cleaning.edges.guard import Guard, Knowledge
 from rumba_sim.model.common.geometry import Pose, hypot
 
 # [m] of way at least, and twice that at most: with wheels that differ by 1 %, the heading errs by 0.04 rad after a
@@ -20,10 +19,9 @@ WARY_GUESS = 1  # cells: without these, what it has forgotten holds it beside ed
 class RecentGuard(Guard):
     """A guard that forgets, since the wheels soon do not tell any more where it was what the robot saw."""
 
-    def __init__(self, context: Context) -> None:
+    def __init__(self, context: Knowledge) -> None:
         """Guard the robot of a context, whose plan is always that of a few metres around it."""
         super().__init__(context, SAFE_SPEED, SAFE_SPEED, WARY_GUESS)
-        self._context = context
         self._at: Optional[Pose] = None
         self._way = 0.0  # [m]
         self._forgets_at = -1.0  # [m] of that
@@ -46,6 +44,6 @@ class RecentGuard(Guard):
             super().see(each)
 
 
-def guard(context: Context) -> Guard:
+def guard(context: Knowledge) -> Guard:
     """The guard that suits a robot with a map, or without one."""
     return Guard(context) if context.has_map else RecentGuard(context)
