@@ -199,7 +199,7 @@ def test_a_small_hole_in_the_floor_that_was_seen_does_not_hold_a_robot_for_long(
     context = context_of(plan, world)
     cliff_map, guard = context.cliff_map, Guard(context)
     cliff_map._see(1.9, 1.0)
-    guard.see(observe(world, 'rumba', CONTROL_DT))
+    context.sense(observe(world, 'rumba', CONTROL_DT))
     aside = 0.5 * world.config.drive.wheel_base / math.sqrt(2.0)
     row, column = int((1.0 + aside - cliff_map._origin[1]) / CELL), int((1.5 - aside - cliff_map._origin[0]) / CELL)
     cliff_map._floor[row - 1:row + 2, column - 1:column + 2] = 0  # on the way of the left wheel

@@ -10,7 +10,7 @@ from rooms import RADIUS, quiet, room
 from rumba_cleaning.behaviour import Status
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.cleaning_config import CleaningConfig
-from rumba_cleaning.edges.recent_guard import RecentGuard
+from rumba_cleaning.edges.guard import Guard
 from rumba_cleaning.mission.mission import Mission
 from rumba_cleaning.strategies.spiral import SIZE, Spiral
 from rumba_sim.model.common.geometry import Pose
@@ -50,7 +50,7 @@ def test_slowed_by_the_guard_it_leaves_no_gap_either():
     world.spawn('rumba', Pose(2.0, 2.0, 0.0))
     mine = Context.without_map(world.config, CleaningConfig())
     behaviour = Spiral(mine)
-    for _ in guarded(RecentGuard(mine), world, behaviour.step, 120.0):
+    for _ in guarded(Guard(mine), world, behaviour.step, 120.0):
         if behaviour.status is not Status.RUNNING:
             break
     assert behaviour.message == 'a spot of 1.2 m is swept'

@@ -5,7 +5,7 @@ from typing import Optional
 from rumba_cleaning.behaviour import Behaviour, Command, Observation, Status
 from rumba_cleaning.behaviours import relocation
 from rumba_cleaning.belief.context import Context
-from rumba_cleaning.edges import recent_guard
+from rumba_cleaning.edges.guard import Guard
 from rumba_cleaning.outcome import Outcome
 from rumba_cleaning.route import Ahead
 
@@ -26,7 +26,7 @@ class Bounded(Behaviour):
         With a context, it is kept from edges, and it waits while the robot is lost; a mission sees to that itself.
         """
         self.behaviour = behaviour
-        self._guard = None if context is None else recent_guard.guard(context)
+        self._guard = None if context is None else Guard(context)
         self._relocation = None if context is None else relocation.Relocation(context)
         self._time_limit = time_limit
 
@@ -75,7 +75,7 @@ class Bounded(Behaviour):
         """Count the time, and have the other one stand by."""
         self.time += observation.dt
         if self._guard is not None:
-            self._guard.stand_by(observation)
+            observation = self._guard.stand_by(observation)
         self.behaviour.stand_by(observation)
 
     def plan_ahead(self) -> Optional[Ahead]:

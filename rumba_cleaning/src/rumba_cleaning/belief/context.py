@@ -10,6 +10,7 @@ import numpy as np
 from rumba_cleaning.behaviour import Observation
 from rumba_cleaning.belief.ground import Ground
 from rumba_cleaning.belief.mates import Mates, Report
+from rumba_cleaning.belief.recent import Recent
 from rumba_cleaning.belief.surroundings import blank
 from rumba_cleaning.belief.swept import Swept
 from rumba_cleaning.belief.track import Track
@@ -70,6 +71,7 @@ class Context:
     """
 
     has_map = has_dock = True
+    _recent: Optional[Recent] = None  # without a map
     docks_itself = False
     end: Optional[Pose] = None
 
@@ -102,7 +104,7 @@ class Context:
     def without_map(cls, robot: RobotConfig, config: CleaningConfig, seed: Seed = 0) -> 'Context':
         """What a robot knows that has neither a map nor a laser."""
         context = cls(blank(Pose(0.0, 0.0, 0.0)), robot, dataclasses.replace(config, laser=False), seed)
-        context.has_map = False
+        context.has_map, context._recent = False, Recent()
         return context
 
     @property
@@ -110,8 +112,20 @@ class Context:
         """The refined floor plan, as it is known now."""
         return self.ground.plan
 
-    def note_cliffs(self, observation: Observation) -> None:
-        """Remember what the cliff sensors see, and have the ground show it."""
+    def sense(self, observation: Observation) -> Observation:
+        """Remember what the cliff sensors see; what behaviours go by: without a map, the pose is corrected."""
+        if self._recent is None:
+            self._note_cliffs(observation)
+            return observation
+        observation = self._recent.corrected(observation)
+        anew = self._recent.relearned(observation)
+        if anew is not None:
+            self.begin_anew(observation.pose)
+        for each in [observation] if anew is None else anew:
+            self._note_cliffs(each)
+        return observation
+
+    def _note_cliffs(self, observation: Observation) -> None:
         before = len(self.cliff_map.seen)
         self.cliff_map.note(observation.pose, observation.cliffs, observation.is_docked)
         for x, y in self.cliff_map.seen if before and not self.ground.has_marks else self.cliff_map.seen[before:]:

@@ -43,6 +43,10 @@ WARY = 0.5  # [m] from such a cliff: its edge may have any shape where it was no
 WARY_SPEED = 0.25  # [m/s] so near: in 0.06 m the robot stops, whatever the shape is
 GUESS = 3  # cells beside known floor that are taken to be floor too, elsewhere, by a robot that keeps these limits
 ON_TRAIL = 2  # cells, back along its trail: points of the way of a wheel are known, what it passed between them is not
+# Without a map, a robot forgets, and comes to every edge as if it had never seen it: faster ones fell down the stairs
+# of the apartment, one of them in a tight bend.
+RECENT_SPEED = 0.25  # [m/s] of its wheels, in any bend
+RECENT_GUESS = 1  # cells as GUESS: without these, what it has forgotten holds it beside edges, until it gives up
 TURN_RATE = 1.0  # [rad/s] of a robot that turns along a wall by which it slides, near such a cliff; our choice
 
 BESIDE = 0.017  # [m] from a wheel out to where the outer sensor looks, as that of the usual robot
@@ -71,35 +75,24 @@ class Knowledge(Protocol):
     cliff_map: CliffMap
     has_map: bool
 
-    def note_cliffs(self, observation: Observation) -> None:
-        """Remember what the cliff sensors see."""
-
-    def begin_anew(self, pose: Pose) -> None:
-        """Without a map, know nothing of the floor around a pose."""
+    def sense(self, observation: Observation) -> Observation:
+        """Remember what the cliff sensors see; what the robot observes by it."""
 
 
 class Guard:
     """Watches what a robot sees and what it is commanded; a controller, for the behaviour that is in charge."""
 
-    def __init__(self, context: Knowledge, safe_speed: float = SAFE_SPEED, swift_speed: float = SWIFT_SPEED,
-                 wary_guess: int = 0) -> None:
-        """Guard the robot of a context.
-
-        Args:
-            context: of the robot.
-            safe_speed: of its wheels, at which it need not remember the floor ahead [m/s].
-            swift_speed: the same in tight bends [m/s].
-            wary_guess: how many cells beside floor that it knows it takes for floor too, as it creeps near a cliff
-                that the map does not show, and on its way out.
-        """
-        self._safe_speed, self._swift_speed, self._wary_guess = safe_speed, swift_speed, wary_guess
+    def __init__(self, context: Knowledge) -> None:
+        """Guard the robot of a context."""
+        self._safe_speed, self._swift_speed, self._wary_guess = (
+            (SAFE_SPEED, SWIFT_SPEED, 0) if context.has_map else (RECENT_SPEED, RECENT_SPEED, RECENT_GUESS))
         self._context, self._cliff_map = context, context.cliff_map
         self._acceleration = context.robot.drive.acceleration
         self._preview = Preview(context.robot.drive)
         self._clear = self._preview.half + SPARE  # [m] from the middle to an edge: the robot can turn on the spot
         self._rear = Rear(context.robot.drive.radius)
         self._trail, self._alignment = Trail(self._preview.half), Alignment()
-        self._release = Release(self._cliff_map, self._preview, self._clear, wary_guess)
+        self._release = Release(self._cliff_map, self._preview, self._clear, self._wary_guess)
         self.rest()
 
     def rest(self) -> None:
@@ -119,21 +112,17 @@ class Guard:
         """For how long edges have kept the robot, about where it is, from what it was to do [s]."""
         return self._release.held_time
 
-    def see(self, observation: Observation) -> None:
-        """Remember what the cliff sensors see."""
-        self._context.note_cliffs(observation)
-
-    def stand_by(self, observation: Observation) -> None:
-        """Watch while a person drives."""
+    def stand_by(self, observation: Observation) -> Observation:
+        """Watch while a person drives; what the robot observes, as what decides gets it."""
         self.rest()
-        self.see(observation)
+        return self._context.sense(observation)
 
     def step(self, decide: Callable[[Observation], Command], observation: Observation) -> Command:
         """The command that is decided on, or one that does not lead over an edge.
 
         What decides gets the observation; if an edge stopped the robot, as if the cliff sensors saw it.
         """
-        self.see(observation)
+        observation = self._context.sense(observation)
         dt = min(observation.dt, LONGEST)
         self._rear.watch(self._last, observation, 0.5 * sum(self._speeds) * dt)
         left, right = self._held

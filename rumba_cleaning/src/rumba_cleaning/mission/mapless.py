@@ -9,7 +9,7 @@ from rumba_cleaning.behaviour import STOP, Command, Observation, Status
 from rumba_cleaning.behaviours.homing import BUOYS
 from rumba_cleaning.behaviours.undock import Undock
 from rumba_cleaning.belief.context import Context
-from rumba_cleaning.edges import recent_guard
+from rumba_cleaning.edges.guard import Guard
 from rumba_cleaning.mission.seek import Seek
 from rumba_cleaning.mission.stages import EMPTY, HELD, START, StagedMission, State
 from rumba_cleaning.mission.wording import percent
@@ -34,7 +34,7 @@ class MaplessMission(StagedMission):
         strategies.check_mapless(strategy)
         self._context = context
         self._cleaning = strategies.make(strategy, context)
-        self._guard = recent_guard.guard(context)
+        self._guard = Guard(context)
         battery = context.robot.battery
         rate = battery.discharge_rate(battery.cleaning_current - battery.brush_current)  # [1/s] with brushes up
         self._needed = min(rate * SEEKING, MOST) + context.config.reserve  # state of charge for the way home
@@ -63,7 +63,7 @@ class MaplessMission(StagedMission):
 
     def take_note(self, observation: Observation) -> None:
         """Follow the robot."""
-        self._guard.stand_by(observation)
+        observation = self._guard.stand_by(observation)
         self._track(observation)
         if self._part is not None:
             self._part.stand_by(observation)

@@ -145,7 +145,7 @@ class Mission(StagedMission):
         self._brushes_up = True
         self._is_undisturbed = False
         self._confinement.rest()
-        self._guard.stand_by(observation)
+        observation = self._guard.stand_by(observation)
         self._track(observation)
         if self._part is not None:
             self._part.stand_by(observation)
