@@ -54,6 +54,24 @@ def test_while_much_is_left_it_plans_again_after_some_rounds_that_gained_nothing
     assert is_enough or mission.message.endswith('the target is 98.0 %: another round would gain too little')
 
 
+def test_rounds_that_each_gain_little_of_what_is_missing_but_enough_go_on(monkeypatch):
+    """As if something unknown ended each of them early."""
+    plan = room(2.0, 1.5, start=Pose(0.5, 0.5, 0.0))
+    world = World(plan, quiet())
+    world.spawn('rumba')
+    planned, rounds = boustrophedon.plan, []
+
+    def beginning(context, pose, end=None):
+        rounds.append(pose)
+        route = planned(context, pose, end)
+        count = 4 if len(rounds) <= 2 * boustrophedon.PATIENT else len(route.waypoints)
+        return Route(route.waypoints[:count], route.speeds[:count - 1])
+    monkeypatch.setattr(boustrophedon, 'plan', beginning)
+    mission = Mission(context_of(plan, world), 'boustrophedon', 0.98)
+    run(mission, world)
+    assert mission.outcome is Outcome.SUCCEEDED and len(rounds) > boustrophedon.PATIENT + 2
+
+
 @pytest.mark.parametrize('v, seconds', [(0.2, 1.0), (0.3, 6.0)])
 def test_driven_elsewhere_by_a_person_it_returns_to_its_route_and_goes_on_where_it_left_off(v, seconds):
     plan = room(5.0, 4.0, start=Pose(0.5, 0.5, 0.0))

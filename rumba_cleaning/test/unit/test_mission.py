@@ -7,10 +7,11 @@ import re
 import pytest
 from drivers import context_of, run, with_box
 from missions import DOCK, PLAN, mission, percent_swept, states, until
-from rooms import RADIUS, crooked, room
+from rooms import RADIUS, crooked, quiet, room
 
 from rumba_cleaning.behaviour import STOP, Observation, Status
-from rumba_cleaning.control import steps
+from rumba_cleaning.belief.swept import Swept
+from rumba_cleaning.control import observe, steps
 from rumba_cleaning.mission.mission import Mission
 from rumba_cleaning.mission.stages import State
 from rumba_cleaning.outcome import Outcome
@@ -215,6 +216,18 @@ def test_a_fall_ends_a_mission_and_is_a_failure():
     assert (behaviour.status, behaviour.outcome, behaviour.state) == (
         Status.FAILED, Outcome.FALLEN, State.STRANDED)
     assert behaviour.message == 'a wheel hangs over a cliff: the robot must be put elsewhere'
+
+
+def test_once_all_is_swept_a_target_of_all_is_met_at_once(monkeypatch):
+    """Although the account of a robot may err, no more than all can be swept."""
+    plan = room(2.0, 1.5, start=Pose(0.5, 0.5, 0.0))
+    world = World(plan, quiet())
+    world.spawn('rumba')
+    behaviour = Mission(context_of(plan, world), 'boustrophedon', 1.0)
+    until(behaviour, world, 0.01)
+    monkeypatch.setattr(Swept, 'coverage', 1.0)
+    behaviour.step(observe(world, 'rumba', 0.1))
+    assert behaviour.outcome is Outcome.SUCCEEDED
 
 
 def test_the_context_that_it_is_made_with_keeps_its_target():

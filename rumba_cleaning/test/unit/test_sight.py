@@ -119,3 +119,15 @@ def test_another_plan_begins_anew():
     look(sight, world_with(BOX))
     sight.learn(PLAN)
     assert not len(sight.seen().passing) and SEEN == CELL / 2
+
+
+def test_what_is_not_seen_for_a_moment_was_there_all_the_time():
+    """A beam that grazes it passes by now and then."""
+    sight, world = Sight(PLAN), world_with(BOX)
+    look(sight, world)
+    look(sight, world, count=round(0.8 * STAYS / 0.2))
+    world.remove_obstacle('box')
+    assert not len(look(sight, world, count=3).passing)
+    world.add_obstacle(BOX)
+    seen = look(sight, world, count=round(0.3 * STAYS / 0.2))
+    assert len(seen.staying) and not len(seen.passing)
