@@ -11,6 +11,7 @@ from scipy.spatial import cKDTree
 from rumba_localisation.mapping.believed_plan import believed_plan
 from rumba_localisation.mapping.key_frames import KeyFrames
 from rumba_localisation.mapping.mapper import Mapper
+from rumba_localisation.mapping.mapper_config import MapperConfig
 from rumba_localisation.mapping.tracker import DRIFT, Tracker
 from rumba_localisation.scan import scan_of
 from rumba_sim.model.common.config import updated
@@ -203,6 +204,14 @@ def contradictions(change):
         mapper.observe(robot.odometry, seen._replace(points=change(seen.points)))
         found.append(mapper.is_contradicted)
     return found
+
+
+@pytest.mark.parametrize('sigma, side', [(0.01, 0.02), (0.026, 0.05), (0.2, 0.05)])
+def test_the_cells_of_a_map_grow_with_the_noise_of_the_laser_to_five_centimetres_at_most(sigma, side):
+    world, mapper = world_of(crooked(), Pose(1.9, 1.3, 0.5)), Mapper(config=MapperConfig(sigma=sigma))
+    for _ in drive(world, mapper, [(2.6, 1.3)]):
+        pass
+    assert mapper.grid.resolution == side
 
 
 def test_a_mirrored_laser_contradicts_the_odometry():
