@@ -66,7 +66,7 @@ def test_it_has_pictures_if_they_are_asked_for():
 
 
 def test_ppo_learns_with_it():
-    robots = VecMonitor(CoverageVecEnv(4, floors=range(2), settings={**SHORT, 'actions': 'discrete'}))
+    robots = VecMonitor(CoverageVecEnv(4, floors=range(2), settings={'time_limit': 1.0, 'actions': 'discrete'}))
     model = PPO('MultiInputPolicy', robots, n_steps=16, batch_size=32, n_epochs=1, seed=1, device='cpu')
     model.learn(256)
     assert model.num_timesteps == 256 and len(model.ep_info_buffer) == 24

@@ -109,8 +109,10 @@ class CoverageVectorEnv(gymnasium.vector.VectorEnv):
 
     def render(self) -> Optional[Tuple[Array, ...]]:
         """The worlds as they are now: for each uint8 (rows, columns, 3)."""
+        if self.render_mode is None:
+            return None
         worlds = self._task.worlds
-        return tuple(picture(worlds[index]) for index in range(len(worlds))) if self.render_mode else None
+        return tuple(picture(worlds[index]) for index in range(len(worlds)))
 
 
 def _replaced(seen: Seen, which: Array, rows: Seen) -> Seen:
