@@ -2,6 +2,8 @@
 
 import dataclasses
 import pathlib
+import subprocess
+import time
 
 import pytest
 import rospkg
@@ -164,6 +166,22 @@ def test_a_recording_is_deleted_unless_it_was_to_stay(begun, tmp_path):
         actor.close()
         assert (tmp_path / 'pictures' / 'a.bag').exists() == kept
     assert {path.name for path in set(tmp_path.iterdir()) - folders} == {'pictures'}
+
+
+def test_a_recording_that_nobody_wants_ends_at_once_with_all_its_processes(monkeypatch, tmp_path):
+    monkeypatch.setattr(mission_record, '_check_installed', lambda: None)
+    monkeypatch.setattr(mission_record.rospy, 'resolve_name', lambda name: f'/{name}')
+    command = ['sh', '-c', 'trap "" INT; sleep 600 & echo on; wait']  # as rosbag, it has a process of its own
+    popen = subprocess.Popen
+    monkeypatch.setattr(mission_record.subprocess, 'Popen', lambda _, **__: popen(
+        command, stdout=subprocess.PIPE, start_new_session=True))
+    record = MissionRecord(['rumba'])
+    output = record._process.stdout
+    assert output.readline() == b'on\n'
+    begin = time.monotonic()
+    record.discard()
+    assert output.read() == b''  # all that had it open have ended
+    assert time.monotonic() - begin < mission_record.CLOSES_WITHIN
 
 
 @pytest.mark.parametrize('content, said', [

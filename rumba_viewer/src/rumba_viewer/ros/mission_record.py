@@ -1,5 +1,6 @@
 """A mission in a bag, written by rosbag, and the report that the evaluation makes of it."""
 
+import os
 import pathlib
 import shutil
 import signal
@@ -79,10 +80,20 @@ class MissionRecord:
 
     def discard(self) -> None:
         """End the recording, and delete it; if it was to stay, move it to its place, or leave it if that fails."""
+        if self._kept is None:
+            self._kill()
         try:
             self._save()
         except OSError as error:
             rospy.logwarn(f'{self.bag} cannot be moved to {self._kept}: {error}')
+
+    def _kill(self) -> None:
+        """End rosbag without waiting for what it has buffered."""
+        with self._lock:
+            process, self._process = self._process, None
+            if process is not None:
+                os.killpg(process.pid, signal.SIGKILL)
+                process.wait()
 
     def _save(self) -> None:
         self.close()
