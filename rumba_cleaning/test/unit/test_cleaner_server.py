@@ -91,6 +91,12 @@ def test_a_cancel_that_is_later_than_now_is_of_a_time_that_is_over(topics, stamp
     assert topics.goal('second') is not None
 
 
+@pytest.mark.parametrize('stamp, told', [(99.0, 99.0), (1.8e9, 100.0), (0.0, 100.0)])
+def test_the_status_tells_when_a_goal_came_also_if_its_client_has_another_clock(topics, stamp, told):
+    topics.goal('mine', stamp)
+    assert topics.server.status_list[-1].status.goal_id.stamp.to_sec() == told
+
+
 def test_a_goal_with_the_id_of_one_of_a_time_that_is_over_is_a_new_one(topics):
     handle = topics.goal('mine')
     handle.set_accepted()

@@ -16,6 +16,7 @@ QUEUE = 50  # messages for a client that may be behind
 STATUS_PERIOD = 0.2  # [s] of the wall clock
 REMEMBERED = 5.0  # [s] after its end, for which a goal is in the status; after a cancel, for which its goal may come
 MOST = 50  # goals without a result, goals that have ended, and cancels: each status carries all goals
+FAR = 3600.0  # [s] from now, beyond which the stamp of a goal is of another clock: it gets the time at which it came
 LONGEST_ID = 300  # [characters]
 WAITING, STARTED = (GoalStatus.PENDING, GoalStatus.RECALLING), (GoalStatus.ACTIVE, GoalStatus.PREEMPTING)
 
@@ -97,6 +98,8 @@ class Server(ActionServer):
                 self._answer(goal.goal_id, GoalStatus.REJECTED, Outcome.REFUSED,
                              f'{MOST} goals wait already: send it again later')
             else:
+                if abs((goal.goal_id.stamp - now).to_sec()) > FAR:
+                    goal.goal_id.stamp = now
                 super().internal_goal_callback(goal)
 
     def _forget(self, now: rospy.Time) -> None:
