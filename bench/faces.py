@@ -44,7 +44,8 @@ SETTLE = 5.0  # [s] of the simulation, until a new window has got map and covera
 PATIENCE = 900.0  # [s] for a part of a mission
 TOKENS = {'token': 'teacher', 'robot_tokens': 'rumba:blue,rumba2:green'}
 RECORDED = ('/map', *(f'/{robot}/{name}' for robot in ('rumba', 'rumba2') for name in (
-    'ground_truth', 'battery_state', 'cleaning_status', 'bumper', 'dock_status', 'mission_status', 'coverage')))
+    'ground_truth', 'battery_state', 'cleaning_status', 'bumper', 'dock_status', 'mission_status', 'coverage',
+    'clean/goal')))
 SITE = pathlib.Path(__file__).resolve().parents[1] / '.ws' / 'docs' / 'html'
 PAGES_OF_SITE = ('index.html', 'docs/first_minutes.html', 'docs/interfaces.html')
 

@@ -67,6 +67,7 @@ def test_with_two_robots_page_and_summary_have_the_figures_of_both(tmp_path, cap
         'rumba: 90.0 % swept, 25.0 % of the dirt left, 12.0 m driven at 0.50 m/s, bumps: 3',
         'rumba2: coverage not recorded, 4.0 m driven at 0.50 m/s']
     text = (tmp_path / 'two.html').read_text()
+    assert '<section class="team" tabindex="0" ' in text  # it scrolls on a phone
     rows = re.findall(r'<tr>(.*?)</tr>', text[text.index('<h2>Robots</h2>'):text.index('<h2>Path</h2>')])
     cells = [re.findall(r'<td>(.*?)</td>', row) for row in rows[1:]]
     assert [row[:3] for row in cells] == [['rumba', '0:00:34', '12.0 m'], ['rumba2', 'not recorded', '4.0 m']]

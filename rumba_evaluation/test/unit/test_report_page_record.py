@@ -83,7 +83,9 @@ def test_a_stay_on_the_dock_is_one_event_at_each_end():
     ([(State.CLEANING, 'working')], 'The recording ends before the mission, after 0:01:40: '
                                     '90.0 % of the floor is swept, the robot is cleaning.'),
     ([(State.CLEANING, 'working'), (State.IDLE, '90.0 % swept')],
-     'The robot swept 90.0 % of the floor in 0:00:01, less than the target of 99 %: 90.0 % swept.'),
+     'The robot swept 90.0 % of the floor in 0:00:01, less than the target of 99 %.'),
+    ([(State.CLEANING, 'working'), (State.IDLE, '90.0 % swept: the battery is low')],
+     'The robot swept 90.0 % of the floor in 0:00:01, less than the target of 99 %: the battery is low.'),
     ([(State.CLEANING, 'working'), (State.STRANDED, 'stuck')], 'The robot is stranded after 0:01:40: stuck.'),
     ([(State.STRANDED, '')], 'The robot is stranded after 0:01:40: it does not say why.'),
     ([(len(State), '')], 'The recording ends before the mission, after 0:01:40: 90.0 % of the floor is swept, '
@@ -102,8 +104,9 @@ def test_a_mission_that_met_its_target(target, docked, told):
 
 
 def test_the_end_of_a_mission_without_coverage_is_told_in_its_own_words():
-    said = [MissionState(0.0, State.CLEANING, '', ''), MissionState(1.0, State.IDLE, '', 'done')]
-    assert summary(record(states=said, coverage=series([], []))).outcome == 'The mission ended after 0:00:01: done.'
+    said = [MissionState(0.0, State.CLEANING, '', ''), MissionState(1.0, State.IDLE, '', '9 % swept')]
+    told = summary(record(states=said, coverage=series([], []))).outcome
+    assert told == 'The mission ended after 0:00:01: 9 % swept.'
 
 
 def test_charges_are_those_of_the_mission_and_not_its_last_return_to_the_dock():

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 from typing import Optional, Tuple
 
@@ -13,6 +14,7 @@ from rumba_evaluation.report.mission_record import (MOVING, MissionRecord, Serie
                                                     state_spans, steps)
 from rumba_sim.model.settings.robot_config import BrushConfig
 
+OWN_ACCOUNT = re.compile(r'^[\d.]+ % swept(?:[:;,] |$)')  # with which a message begins: one figure is enough
 CLOSE = 5e-4  # of coverage: by so much the account of a robot may differ from the truth, rounded as it is shown
 
 
@@ -103,5 +105,6 @@ def _outcome(record: MissionRecord) -> str:
         return f'The mission ended after {clock(busy)}{f": {said}" if said else ""}.'
     if record.coverage.values[-1] + CLOSE >= record.target:
         return f'The robot swept {swept} in {clock(busy)}{where}: the target was {100.0 * record.target:g} %.'
+    said = OWN_ACCOUNT.sub('', said)
     return (f'The robot swept {swept} in {clock(busy)}{where}, less than the target of {100.0 * record.target:g} %'
             f'{f": {said}" if said else ""}.')

@@ -106,7 +106,7 @@ def _team(record: MissionRecord) -> str:
                      f'{totals.distance:.1f} m', str(totals.charges),
                      f'{totals.charge[1]:.0f} %, lowest {totals.charge[2]:.0f} %',
                      str(totals.bumps) if totals.bumps is not None else NOT_RECORDED, totals.outcome or NOT_RECORDED))
-    return ('<section class="team"><h2>Robots</h2><table><thead><tr>'
+    return ('<section class="team" tabindex="0" aria-label="Robots"><h2>Robots</h2><table><thead><tr>'
             + ''.join(f'<th scope="col">{head}</th>' for head in heads) + '</tr></thead><tbody>'
             + ''.join('<tr>' + ''.join(f'<td>{html.escape(cell)}</td>' for cell in row) + '</tr>' for row in rows)
             + '</tbody></table></section>')
