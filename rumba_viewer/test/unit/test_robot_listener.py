@@ -6,6 +6,7 @@ import time
 import numpy as np
 import pytest
 import rospy
+from actionlib_msgs.msg import GoalID, GoalStatus, GoalStatusArray
 from hammering import hammer
 from nav_msgs.msg import Odometry
 from pytest import approx
@@ -48,6 +49,18 @@ def test_a_robot_has_fallen_if_a_wheel_is_dropped_whatever_its_text_says(heard, 
     assert not heard().has_fallen
     topics['rumba/cliff'].callback(Cliff(is_wheel_dropped=True))
     assert heard().has_fallen
+
+
+def test_a_mission_that_began_before_the_window_was_opened_has_the_time_since_its_goal_came(heard, topics):
+    goals = [GoalStatus(goal_id=GoalID(rospy.Time(secs=secs), 'a goal')) for secs in (100, 300)]
+    topics['rumba/clean/status'].callback(GoalStatusArray(status_list=goals))
+    topics['rumba/mission_status'].callback(MissionStatus(state=MissionStatus.CHARGING, strategy='bounce'))
+    for secs in (1299, 1312):
+        topics['rumba/cleaning_status'].callback(
+            CleaningStatus(header=Header(stamp=rospy.Time(secs=secs)), coverage=0.5, distance=100.0))
+    assert heard().elapsed == 1012.0
+    topics['rumba/clean/status'].callback(GoalStatusArray())
+    assert heard().elapsed is None
 
 
 def cleaning_ends(topics, code):
