@@ -124,13 +124,6 @@ def test_every_installed_program_is_named_with_its_package():
     assert set(NODES) <= set(PACKAGES)
 
 
-def test_what_echo_prints_in_the_readme_is_what_it_prints(workspace):
-    here = workspace.space('devel')
-    shown = re.search(r'-n1 /rumba/battery_status\n(percentage_battery.*?---\n)', README, re.DOTALL).group(1)
-    with here.running('$LIB/rumba_sim/battery_status_publisher _percentage:=97 _drain:=0'):
-        assert here.run('rostopic echo -n1 /rumba/battery_status') == shown
-
-
 def test_a_clone_in_another_workspace_brings_the_packages_and_no_lesson_and_no_test():
     assert sorted(catkin_pkg.packages.find_package_paths(str(ROOT))) == sorted(
         str(path.relative_to(ROOT)) for path in OURS)
