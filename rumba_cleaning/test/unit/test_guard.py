@@ -96,6 +96,16 @@ def test_a_robot_does_not_back_over_an_edge_that_it_knows(heading):
     assert not robot.has_fallen and robot.distance > 0.1
 
 
+@pytest.mark.parametrize('v, w', [(-0.2, 0.0), (-0.3, 0.2)])
+def test_a_wheel_goes_back_only_slowly_over_floor_that_no_sensor_has_seen(v, w):
+    """The sensors are under the front."""
+    plan = room(6.0, 6.0, 0.02, start=Pose(3.0, 3.0, 0.0))
+    world = World(plan, quiet())
+    robot = world.spawn('rumba')
+    run(Bounded(Always(v, w), 1000.0, context_of(plan, world)), world, seconds=6.0)
+    assert robot.distance < 0.8 * abs(v) * 6.0
+
+
 def test_far_from_edges_commands_are_not_changed():
     plan = with_cliffs(room(6.0, 2.0, 0.02, start=Pose(0.5, 1.0, 0.0)), (5.0, 0.0, 6.0, 2.0))
     world = World(plan, quiet())
