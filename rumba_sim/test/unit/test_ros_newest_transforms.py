@@ -15,7 +15,8 @@ from rumba_sim.ros.common.newest_transforms import NewestTransforms
 def link(frame, child, number):
     """A transform whose numbers tell it from others."""
     turn = Quaternion(0.1, 0.2, 0.3, number)
-    return TransformStamped(Header(number, rospy.Time(number, 5), frame), child, Transform(Vector3(number, -1.0, 2.0), turn))
+    place = Vector3(number, -1.0, 2.0)
+    return TransformStamped(Header(number, rospy.Time(number, 5), frame), child, Transform(place, turn))
 
 
 def packed(*transforms):
