@@ -25,9 +25,10 @@ from floors import Stopwatch, span
 from rumba_cleaning.planning import planner
 from rumba_cleaning.planning.common.effort import Effort
 from rumba_cleaning.planning.decompose.regions import Shapes, shapes
-from rumba_cleaning.planning.order import tour
+from rumba_cleaning.planning.order import route, tour
+from rumba_cleaning.planning.order.groups import groups
 from rumba_cleaning.planning.search import improvement
-from rumba_cleaning.planning.swaths import drafting, layouts
+from rumba_cleaning.planning.swaths import compiled_links, drafting, layouts
 from rumba_cleaning.strategies import boustrophedon
 from rumba_evaluation.trials.cases import ANYWHERE, DOCK, Conditions
 from rumba_evaluation.trials.trial import Trial
@@ -51,16 +52,25 @@ def without_rings(ground, labels, *_):
     return Shapes(np.zeros_like(found.is_open), np.ones_like(found.has_lanes))
 
 
+def without_lanes(ground, labels, *_):
+    """Rings in all regions."""
+    found = shapes(ground, labels)
+    return Shapes(found.is_open, np.zeros_like(found.has_lanes))
+
+
 # What replaces functions: (where, name, what) each.
 STAGES = {
     'nothing': (),
-    'rehearsal': ((planner, 'effort', lambda _: Effort(0, False)),),
+    'rehearsal': ((planner, 'effort', lambda _: Effort(0)),),
     'rings': ((drafting, 'shapes', without_rings), (drafting, 'rings', nothing)),
+    'lanes': ((drafting, 'shapes', without_lanes),),
     'shortcuts': ((improvement, 'shortcuts', nothing),),
     'other drafts': ((drafting, 'drafts', lambda _: layouts.drafts(0)),),
     'other layouts': ((drafting, 'layouts', lambda _: 1),),
     'shifts': ((improvement, 'shifts', nothing),),
     'strips': ((drafting, '_strips', nothing),),
+    'half circles': ((compiled_links, 'joined', lambda *_: np.zeros((0, 2))),),
+    'tours across rooms': ((route, 'groups', lambda found, _: groups(found)),),
     'kicks': ((tour, 'KICKS', 0),),
     'spiral': ((planner, 'spiral_over', lambda *_: None),),
 }

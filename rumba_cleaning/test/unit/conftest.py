@@ -19,8 +19,8 @@ ABOUT_PLANS = ('test_planner', 'test_improvement', 'test_sharing', 'test_bounds'
 @pytest.fixture(autouse=True, scope='module')
 def quick_plans(request):
     """Do not rehearse routes: only tests of plans look at how short these are."""
-    usual = effort.WORK, effort.HASTY
+    usual = effort.WORK
     if request.module.__name__ not in ABOUT_PLANS:
-        effort.WORK = effort.HASTY = 0.0
+        effort.WORK = 0.0
     yield
-    effort.WORK, effort.HASTY = usual
+    effort.WORK = usual

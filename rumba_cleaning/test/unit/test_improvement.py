@@ -79,21 +79,20 @@ def test_an_improved_route_sweeps_what_lanes_without_overlap_and_corners_would_l
 
 
 @pytest.mark.parametrize('size, wanted, count', [((4.0, 2.0), 5, 5), ((4.0, 2.0), 2, 2), ((4.0, 2.0), 0, 0),
-                                                 ((10.0, 5.0), 5, 3), ((16.0, 12.0), 5, 1), ((16.0, 12.0), 0, 0),
+                                                 ((12.0, 7.0), 5, 2), ((16.0, 12.0), 5, 1), ((16.0, 12.0), 0, 0),
                                                  ((16.0, 16.0), 5, 0)])
 def test_there_are_as_many_rounds_as_are_wanted_and_as_the_floor_is_worth(size, wanted, count):
     assert effort(knowing(room(*size), START, planning_rounds=wanted)).rounds == count
 
 
-def test_on_a_large_floor_one_draft_is_rehearsed_and_edited_but_nothing_is_shifted(monkeypatch):
+def test_on_a_large_floor_a_route_is_edited_once(monkeypatch):
     problem = problem_of(crooked(0.02), target_coverage=0.95)
-    monkeypatch.setattr(efforts, 'WORK', 0.9 * problem.context.swept.reachable_area)
+    monkeypatch.setattr(efforts, 'WORK', 1.1 * problem.context.swept.reachable_area)
     problem = problem._replace(effort=effort(problem.context))
-    monkeypatch.setattr(improvement, 'shifts', None)  # so that to call it would be an error
-    route, = planner.drafts(problem)
-    before = Rehearsal(problem.context, START, dense(route))
+    assert problem.effort.rounds == 1
+    before = min(Rehearsal(problem.context, START, dense(route)).seconds for route in planner.drafts(problem))
     after = Rehearsal(problem.context, START, planner.plan(problem.context, START))
-    assert after.swept.coverage >= 0.95 and after.seconds < 0.95 * before.seconds
+    assert after.swept.coverage >= 0.95 and after.seconds < 0.95 * before
 
 
 def test_edits_that_were_far_from_worth_it_are_not_judged_again(monkeypatch):
@@ -136,7 +135,7 @@ def test_a_route_over_crumbs_is_improved_too(monkeypatch):
     context = wiped_but(knowing(room(4.0, 3.0, 0.02), START, target_coverage=0.99), (0.4, 0.5, 0.5, 0.7),
                         (2.0, 0.5, 2.1, 0.7), (3.3, 1.2, 3.5, 1.3), (1.0, 1.6, 1.2, 1.8), (2.6, 2.2, 2.8, 2.5))
     found = Rehearsal(context, START, dense(planner.plan(context, START)))
-    monkeypatch.setattr(planner, 'effort', lambda _: Effort(0, False))
+    monkeypatch.setattr(planner, 'effort', lambda _: Effort(0))
     plain = Rehearsal(context, START, dense(planner.plan(context, START)))
     assert found.seconds < plain.seconds and found.swept.coverage >= 0.99
 

@@ -5,9 +5,8 @@ from typing import NamedTuple
 from rumba_cleaning.belief.context import Context
 
 # All figures are our choice; each comment says what speaks for a larger and for a smaller value.
-WORK = 150.0  # [m^2] of floor, times rounds: large makes shorter routes, small plans faster
-HASTY = 240.0  # [m^2] of floor, up to which one beyond WORK gets one quick round all the same: as WORK
-THOROUGH = 10  # times as much as usual to search for tours on small floors: large drives less, small plans faster
+WORK = 240.0  # [m^2] of floor, times rounds: large makes shorter routes, small plans faster
+THOROUGH = 10  # times as much as usual to search for tours where routes are rehearsed: small plans faster
 AREA = 600.0  # [m^2] to clean, times the layouts that are compared: large drives less, small plans faster
 LITTLE = 1.0  # [m^2] to clean, for which no layouts are compared: most of that is left to the crumbs
 
@@ -16,24 +15,16 @@ class Effort(NamedTuple):
     """What a plan for a floor is worth."""
 
     rounds: int  # in which a route is edited, each after another rehearsal; 0: routes are not rehearsed
-    is_thorough: bool  # whether the floor is small enough for several drafts and all kinds of edits
-
-    @property
-    def drafts(self) -> int:
-        """How many rounds drafts are worth; 0: only the usual one is made."""
-        return self.rounds if self.is_thorough else 0
 
     @property
     def tours(self) -> int:
         """How many times as much as usual tours are searched."""
-        return THOROUGH if self.is_thorough else 1
+        return THOROUGH if self.rounds else 1
 
 
 def effort(context: Context) -> Effort:
     """The effort for the floor of a context."""
-    area = context.swept.reachable_area
-    rounds = min(max(int(WORK / area), int(area <= HASTY)), context.config.planning_rounds)
-    return Effort(rounds, rounds > 0 and area <= WORK)
+    return Effort(min(int(WORK / context.swept.reachable_area), context.config.planning_rounds))
 
 
 def layouts(area: float) -> int:

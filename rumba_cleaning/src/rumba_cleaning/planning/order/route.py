@@ -26,7 +26,7 @@ def through(problem: Problem, found: List[Stretch]) -> Optional[Route]:
     if not found:
         return None
     context, pose = problem.context, problem.pose
-    tours = _tours(problem, groups(found, problem.effort.is_thorough))
+    tours = _tours(problem, groups(found, problem.effort.rounds > 0))
     if all(part.is_crumb for part in found):
         _cull(context, tours)
     return route_over(context, pose, _legs(tours))

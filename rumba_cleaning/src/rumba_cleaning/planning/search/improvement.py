@@ -40,8 +40,7 @@ def improved(problem: Problem, routes: Sequence[Route]) -> Route:
     for _ in range(problem.effort.rounds):
         if not rehearsal.is_complete:
             break
-        shifted = shifts(context, rehearsal.route) if problem.effort.is_thorough else []
-        found = [*shortcuts(context, rehearsal, CHEAP * price)[:SHORTCUTS], *shifted]
+        found = [*shortcuts(context, rehearsal, CHEAP * price)[:SHORTCUTS], *shifts(context, rehearsal.route)]
         rehearsal, price = _edited(problem, rehearsal, found, poor)
         tried.append(rehearsal)
     return max(tried, key=lambda rehearsal: _merit(problem, rehearsal)).route

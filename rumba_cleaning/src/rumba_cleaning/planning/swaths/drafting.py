@@ -53,7 +53,7 @@ def drafted(problem: Problem, choices: Sequence[Tuple[Draft, Shapes]]) -> Iterat
 def choices(problem: Problem) -> List[Tuple[Draft, Shapes]]:
     """The drafts to rehearse, with what suits the regions by each; none for rings or shapes that no region has."""
     usual, *others = [(draft, shapes(problem.context.ground, problem.labels, draft.narrow))
-                      for draft in drafts(problem.effort.drafts)]
+                      for draft in drafts(problem.effort.rounds)]
     return [usual, *(other for other in others if _is_of_use(*other, usual[1]))]
 
 
