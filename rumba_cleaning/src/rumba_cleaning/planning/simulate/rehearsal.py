@@ -32,7 +32,6 @@ class Rehearsal:
 
     Attributes:
         route: what is followed.
-        drive: limits of the wheels.
         swept: the floor afterwards.
         is_complete: whether the robot would get to the end.
         seconds: that it takes.
@@ -46,12 +45,12 @@ class Rehearsal:
         self.route = route
         self._speed = context.config.speed
         drive = drive_of(context.robot.drive)
-        self.drive = drive._replace(max_speed=min(drive.max_speed, SWIFT_SPEED))
+        self._drive = drive._replace(max_speed=min(drive.max_speed, SWIFT_SPEED))
         self._walls = Walls(ground.plan.clearance, ground.plan.origin, ground.plan.resolution, ground.reach)
         begin = np.zeros(COLUMNS)
         begin[:3] = pose
         self.is_complete, self._trace = compiled_rehearsal.rehearse(
-            route.waypoints, route.speeds, plain(self.drive), plain(self._walls), begin, True, np.inf)
+            route.waypoints, route.speeds, plain(self._drive), plain(self._walls), begin, True, np.inf)
         self._trace[:, ALONG] = np.maximum.accumulate(self._trace[:, ALONG])
         self._before, self.swept = context.swept, context.swept.copy()
         brush = self.swept.brush
@@ -86,7 +85,7 @@ class Rehearsal:
         if not edits:
             return []
         seconds, samples = compiled_changes.changes(
-            *self.route, plain(self.drive), plain(self._walls), self._speed, self._trace, self.swept.brush,
+            *self.route, plain(self._drive), plain(self._walls), self._speed, self._trace, self.swept.brush,
             plain(self._passes), np.array([edit[:2] for edit in edits]),
             np.concatenate([NO_PATH, *(edit.path for edit in edits)]),
             np.cumsum([0, *(len(edit.path) for edit in edits)]))
