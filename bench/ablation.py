@@ -109,7 +109,8 @@ def summarise(stage, found, cases):
         pairs = [(found[(stage, *case)], found[('nothing', *case)]) for case in cases if case[2] == target]
         changes = [one.multiple - other.multiple for one, other in pairs
                    if math.isfinite(one.multiple + other.multiple)]
-        columns += [f'{statistics.median(one.multiple for one, _ in pairs):.3f}', f'{statistics.mean(changes):+.3f}']
+        columns += [f'{statistics.median(one.multiple for one, _ in pairs):.3f}',
+                    f'{statistics.mean(changes or [math.nan]):+.3f}']
     missions = [found[(stage, *case)] for case in cases]
     seconds = statistics.mean(mission.seconds for mission in missions)
     missed = sum(not math.isfinite(mission.multiple) for mission in missions)
