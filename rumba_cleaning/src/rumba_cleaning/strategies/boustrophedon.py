@@ -17,8 +17,9 @@ from rumba_sim.model.common.geometry import Pose, hypot
 
 WORTH = 0.0005  # of coverage: a round that gains less, and less than half of what was missing, is the last: a round for
 #                 the last spots gains little more
-DEAR = 150.0  # [m/m^2] that a round beside obstacles drives for what it gains, beyond which it is the last: five times
-#               what the planner drives for a crumb, so most of what it planned for cannot be reached
+DEAR = 150.0  # [m/m^2] that a round drives for what it gains, beyond which it is the last beside obstacles, or once the
+#               rounds after the first are longer than that: five times what the planner drives for a crumb, so most of
+#               what it planned for cannot be reached, or a robot as wide as a corridor does not keep to its lanes
 HELPED = 0.01  # of coverage: a retry that gained less was in vain: to touch all obstacles again takes long
 # Rounds that gain too little, since something unknown in the way ends them, one after the other, after which no other
 # is planned, and so many while less than this share is swept of what lies beside all obstacles that are known. As many
@@ -83,6 +84,7 @@ class Boustrophedon(Behaviour):
         self._missing = 1.0  # of coverage to the target then
         self._reason = ''  # why this round is the last, if there is nothing to drive
         self._driven = 0.0  # [m] since then
+        self._first = self._later = 0.0  # [m] driven in the first round, and in all rounds after that
         self._last: Optional[Pose] = None  # where the robot was
         self._unchecked = 0.0  # [s] since it was last checked whether all beside obstacles is swept
         self._impasse, self._standstill = Impasse(), standstill.Standstill()
@@ -151,12 +153,18 @@ class Boustrophedon(Behaviour):
         context.learn(pose)
         coverage = context.swept.coverage
         gain = coverage - self._before
-        is_dear = context.ground.has_marks and self._driven > DEAR * gain * context.swept.reachable_area
+        if self._rounds < 2:
+            self._first = self._driven
+        else:
+            self._later += self._driven
+        has_marks, is_long = context.ground.has_marks, self._later > self._first
+        is_dear = (has_marks or is_long) and self._driven > DEAR * gain * context.swept.reachable_area
         is_gain = gain > min(WORTH, 0.5 * self._missing) and not is_dear
         self._idle = 0 if is_gain else self._idle + 1
         self._missing = context.target_coverage - coverage
         self._most = max(self._most, context.beside_obstacles(pose).coverage)
-        patience = VAIN if context.beside_marks(pose).coverage > MUCH else PATIENT
+        may_open = has_marks or not is_long
+        patience = PATIENT if may_open and context.beside_marks(pose).coverage <= MUCH else VAIN
         is_worth = self._rounds < ROUNDS and self._idle < patience
         is_swept = self._most >= context.target_coverage  # but for what lies behind obstacles
         self._reason = 'nothing more can be reached' if is_worth or is_swept else 'another round would gain too little'
