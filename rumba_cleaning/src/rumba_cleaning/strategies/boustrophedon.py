@@ -17,9 +17,10 @@ from rumba_sim.model.common.geometry import Pose, hypot
 
 WORTH = 0.0005  # of coverage: a round that gains less, and less than half of what was missing, is the last: a round for
 #                 the last spots gains little more
-DEAR = 150.0  # [m/m^2] that a round drives for what it gains, beyond which it is the last beside obstacles, or once the
-#               rounds after the first are longer than that: five times what the planner drives for a crumb, so most of
-#               what it planned for cannot be reached, or a robot as wide as a corridor does not keep to its lanes
+DEAR = 150.0  # [m/m^2] that a round drives for what it gains, beyond which it is the last beside obstacles, or on a map
+#               that does not grow once the rounds after the first are longer than that: five times what the planner
+#               drives for a crumb, so most of what it planned for cannot be reached, or the robot cannot keep to its
+#               lanes in a corridor that is hardly wider
 HELPED = 0.01  # of coverage: a retry that gained less was in vain: to touch all obstacles again takes long
 # Rounds that gain too little, since something unknown in the way ends them, one after the other, after which no other
 # is planned, and so many while less than this share is swept of what lies beside all obstacles that are known. As many
@@ -157,7 +158,7 @@ class Boustrophedon(Behaviour):
             self._first = self._driven
         else:
             self._later += self._driven
-        has_marks, is_long = context.ground.has_marks, self._later > self._first
+        has_marks, is_long = context.ground.has_marks, self._later > self._first and context.survey is None
         is_dear = (has_marks or is_long) and self._driven > DEAR * gain * context.swept.reachable_area
         is_gain = gain > min(WORTH, 0.5 * self._missing) and not is_dear
         self._idle = 0 if is_gain else self._idle + 1
