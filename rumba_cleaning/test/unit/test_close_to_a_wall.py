@@ -1,4 +1,4 @@
-"""A robot that begins where its map shows a wall a little closer than it is: the nearest node is free, its pose is not."""
+"""A robot that begins where its map shows a wall too close: the nearest node is free, its pose is not."""
 
 import math
 

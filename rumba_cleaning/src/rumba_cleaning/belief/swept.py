@@ -23,7 +23,7 @@ class Swept:
 
     Attributes:
         start: from where it was counted what can be reached, x and y [m], map frame.
-        planned: share of that which robots plan to reach [0..1]: straits, through which they do not plan, hide the rest.
+        planned: share of that [0..1] which robots plan to reach: they do not plan their way through straits.
     """
 
     def __init__(self, plan: FloorPlan, config: RobotConfig, is_exact: bool = True) -> None:

@@ -141,7 +141,7 @@ class Sweep:
         return int(self.tally['swept'][0]) / self.reachable if self.reachable else 1.0
 
     def planned(self, x: float, y: float) -> float:
-        """Share [0..1] of what can be reached that does not lie behind straits for a robot that starts at (x, y) [m]."""
+        """Share [0..1] of what can be reached that is not behind straits for a robot that starts at (x, y) [m]."""
         return reach(self._plan, self._config, x, y, is_exact=False).reachable / max(self.reachable, 1)
 
     def within(self, clearance: Array, x: float, y: float) -> Part:
