@@ -21,7 +21,7 @@ NO_FUSED = 'glibc.cpu.hwcaps=-FMA,-AVX2,-FMA4,-FMA_Usable,-AVX2_Usable,-FMA4_Usa
 MISSIONS = """
 import sys
 from rumba_evaluation.trials.trial import Trial
-from rumba_sim.model import map_file, named_maps
+from rumba_sim.model.maps import map_file, named_maps
 for name in sys.argv[2:]:
     for seed in range(1, int(sys.argv[1]) + 1):
         trial = Trial(map_file.load(named_maps.path(name)), 'boustrophedon', seed=seed)

@@ -5,7 +5,7 @@ import pytest
 MISSION = '''
 from rumba_cleaning import strategies
 from rumba_evaluation.trials.trial import Trial
-from rumba_sim.model import map_file
+from rumba_sim.model.maps import map_file
 strategies.load("zigzag_strategy.zigzag")
 trial = Trial(map_file.load("{maps}/studio.yaml"), "zigzag", seed=3)
 while trial.world.floor.coverage < 0.5 and not trial.is_over:

@@ -16,7 +16,7 @@ from simulators import TIMEOUT, Heard, Simulator, wait
 BROKEN = """
 import dataclasses
 import time
-from rumba_sim.ros.common import node
+from rumba_sim.ros.running import node
 from rumba_sim.ros.participants.requests import Requests
 
 @dataclasses.dataclass(frozen=True)

@@ -12,6 +12,7 @@ import pytest
 
 from rumba_sim.model.compiling import compiled
 
+MODEL = pathlib.Path(compiled.__file__).parents[1]
 LINE = 'rumba_sim: the kernel is compiled anew, which takes some seconds: '
 ADVICE = '; NUMBA_CACHE_DIR can name a writable folder for its cache\n'
 TURN = 'from rumba_sim.model.compiling.compiled import fast; print(fast.wrap(7.0) == 7.0 - 6.283185307179586)'
@@ -41,9 +42,8 @@ def source(tmp_path):
     folder = tmp_path / 'src' / 'rumba_sim'
     folder.mkdir(parents=True)
     (folder / '__init__.py').touch()
-    shutil.copytree(os.path.dirname(compiled.__file__), str(folder / 'model'),
-                    ignore=shutil.ignore_patterns('__pycache__'))
-    for place in (folder / 'model', folder / 'model' / 'kernel'):
+    shutil.copytree(str(MODEL), str(folder / 'model'), ignore=shutil.ignore_patterns('__pycache__'))
+    for place in {path.parent for path in (folder / 'model').rglob('*.py')}:
         (place / '__pycache__').touch()  # where numba wants a folder; root can write into any
     return tmp_path / 'src'
 
@@ -73,8 +73,7 @@ def test_if_there_is_a_place_for_the_cache_nothing_is_said_and_it_is_used(source
 
 
 def test_code_from_the_cache_works_with_a_numba_that_has_counters_of_arrays_only_once_it_compiles(tmp_path):
-    path = os.path.dirname(os.path.dirname(os.path.dirname(compiled.__file__)))
-    environment = {**os.environ, 'PYTHONPATH': path, 'NUMBA_CACHE_DIR': str(tmp_path)}
+    environment = {**os.environ, 'PYTHONPATH': str(MODEL.parents[1]), 'NUMBA_CACHE_DIR': str(tmp_path)}
     for code in (ARRAY, LATER + ARRAY):  # without the counters, a process ends by a segmentation fault
         process = subprocess.run([sys.executable, '-c', code], env=environment, stdout=subprocess.PIPE, check=True)
         assert process.stdout == b'1.0\n'
@@ -127,21 +126,23 @@ def test_a_source_with_another_time_and_the_same_contents_needs_no_compiling(sou
 
 SMALL = {  # the real ones take a minute
     'kernel/__init__.py': '',
-    'kernel/twice.py': 'def twice(x):\n    return 2.0 * x\n',
-    'kernel/four_times.py': 'from rumba_sim.model.kernel.twice import twice\n\n\ndef four_times(x):\n'
+    'kernel/part/__init__.py': '',
+    'kernel/part/twice.py': 'def twice(x):\n    return 2.0 * x\n',
+    'kernel/four_times.py': 'from rumba_sim.model.kernel.part.twice import twice\n\n\ndef four_times(x):\n'
                             '    return twice(twice(x))\n',
-    'batch.py': 'from rumba_sim.model.kernel import four_times\n\n\ndef eight_times(x):\n'
-                '    return 2.0 * four_times.four_times(x)\n'}
+    'compiling/batch.py': 'from rumba_sim.model.kernel import four_times\n\n\ndef eight_times(x):\n'
+                          '    return 2.0 * four_times.four_times(x)\n'}
 
 
 @pytest.mark.parametrize('name, call, changed, result', [
-    ('fast', 'four_times(3.0)', 'kernel/twice.py', 27.0), ('many', 'eight_times(1.5)', 'kernel/twice.py', 27.0),
-    ('many', 'eight_times(1.5)', 'batch.py', 18.0)])
+    ('fast', 'four_times(3.0)', 'kernel/part/twice.py', 27.0),
+    ('many', 'eight_times(1.5)', 'kernel/part/twice.py', 27.0),
+    ('many', 'eight_times(1.5)', 'compiling/batch.py', 18.0)])
 def test_what_was_cached_does_not_outlive_a_change_of_a_file_that_it_depends_on(
         source, tmp_path, name, call, changed, result):
     model, home = source / 'rumba_sim' / 'model', {'HOME': str(tmp_path / 'home')}
     shutil.rmtree(str(model / 'kernel'))
-    (model / 'kernel').mkdir()
+    (model / 'kernel' / 'part').mkdir(parents=True)
     for path, text in SMALL.items():
         (model / path).write_text(text)
     code = f'from rumba_sim.model.compiling.compiled import {name}; print({name}.{call})'

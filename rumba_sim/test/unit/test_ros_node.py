@@ -99,7 +99,7 @@ def test_a_signal_during_the_registration_ends_the_node_too(monkeypatch):
 INTERRUPTED = '''
 import os, signal
 import rosgraph
-from rumba_sim.ros.common import node
+from rumba_sim.ros.running import node
 
 calls = []
 

@@ -236,7 +236,7 @@ def test_a_disk_that_is_full_in_the_middle_of_a_file_is_one_error_and_nothing_mo
 import gc, resource, signal, sys
 sys.path.insert(0, {str(pathlib.Path(__file__).parent)!r})
 from rooms import room
-from rumba_sim.model import world_state
+from rumba_sim.model.simulation import world_state
 from rumba_sim.model.common.errors import WorldError
 from rumba_sim.model.simulation.world import World
 signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
