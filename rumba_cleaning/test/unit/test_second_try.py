@@ -27,18 +27,18 @@ def test_who_met_obstacles_and_has_much_left_begins_again_but_only_once(met):
     if not met:
         context.forget_obstacles()
     second_try = SecondTry(context)
-    assert not second_try.is_worth_it
-    second_try.give_up(PLAN.start)
-    assert second_try.is_worth_it == met
+    assert not second_try.is_worth_it(PLAN.start)
+    second_try.give_up()
+    assert second_try.is_worth_it(PLAN.start) == met
     second_try.begin()
-    second_try.give_up(PLAN.start)
-    assert not second_try.is_worth_it
+    second_try.give_up()
+    assert not second_try.is_worth_it(PLAN.start)
 
 
 @pytest.mark.parametrize('share, is_worth', [(0.94, True), (0.98, False)])
 def test_who_is_home_and_has_little_left_to_clean_does_not_begin_again(monkeypatch, share, is_worth):
     context = shut_in()
     second_try = SecondTry(context)
-    second_try.give_up(PLAN.start)
-    monkeypatch.setattr(context, 'beside_obstacles', lambda: Part(1.0, share))
-    assert second_try.is_worth_it == is_worth
+    second_try.give_up()
+    monkeypatch.setattr(context, 'beside_marks', lambda pose: Part(1.0, share))
+    assert second_try.is_worth_it(PLAN.start) == is_worth

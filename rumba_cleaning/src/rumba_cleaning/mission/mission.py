@@ -137,7 +137,7 @@ class Mission(StagedMission):
         self._confinement.rest()
         self._confinement.is_known = True
         assert self._last is not None
-        self._second_try.give_up(self._last)
+        self._second_try.give_up()
         return self._close(Status.FAILED, message, Outcome.BLOCKED)
 
     def take_note(self, observation: Observation) -> None:
@@ -235,9 +235,9 @@ class Mission(StagedMission):
             return self._succeed()
         if self._context.ground.has_doubtful:
             self._context.ground.settle()
+        self._second_try.give_up()
         if self._context.is_met_beside_obstacles(observation.pose):
             return self._close(Status.SUCCEEDED, swept(self._context), Outcome.SUCCEEDED)
-        self._second_try.give_up(observation.pose)
         return self._close(Status.FAILED, f'{swept(self._context)}, the target is {percent(target)}: '
                                           f'{self._cleaning.message}', Outcome.INCOMPLETE)
 
@@ -270,7 +270,7 @@ class Mission(StagedMission):
             self._homes = 0
             if self._closing is None:
                 return self._arrive()
-            return self._begin_again() if self._second_try.is_worth_it else self._end()
+            return self._begin_again() if self._second_try.is_worth_it(observation.pose) else self._end()
         return command
 
     def _begin_again(self) -> Command:

@@ -3,7 +3,7 @@
 from rumba_cleaning.belief.context import Context
 from rumba_sim.model.common.geometry import Pose
 
-MUCH = 0.97  # of what lies beside obstacles: who swept so much left crumbs, and was not shut in; our choice
+MUCH = 0.97  # of the floor: who swept so much left crumbs, and was not shut in; our choice
 
 
 class SecondTry:
@@ -14,16 +14,14 @@ class SecondTry:
         self._context = context
         self._was_shut_in = self._has_begun = False
 
-    def give_up(self, pose: Pose) -> None:
-        """The robot gives up at a pose: see whether obstacles shut it in."""
-        context = self._context
-        self._was_shut_in = context.ground.has_lasting and (
-            context.beside_obstacles().coverage < MUCH or context.is_cut_off(pose))
+    def give_up(self) -> None:
+        """The robot gives up: see whether obstacles may keep it from much of the floor."""
+        self._was_shut_in = self._context.ground.has_lasting and self._context.swept.coverage < MUCH
 
-    @property
-    def is_worth_it(self) -> bool:
-        """Whether it was shut in, and much of the floor is open from where it is now."""
-        return self._was_shut_in and not self._has_begun and self._context.beside_obstacles().coverage < MUCH
+    def is_worth_it(self, pose: Pose) -> bool:
+        """Whether it was shut in, and much of the floor is open from the pose where it is now."""
+        enough = min(MUCH, self._context.target_coverage)
+        return self._was_shut_in and not self._has_begun and self._context.beside_marks(pose).coverage < enough
 
     def begin(self) -> None:
         """It begins again."""

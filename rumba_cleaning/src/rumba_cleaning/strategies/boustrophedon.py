@@ -18,7 +18,7 @@ from rumba_sim.model.common.geometry import Pose, hypot
 WORTH = 0.0005  # of coverage: a round that gains less, and less than half of what was missing, is the last: a round for
 #                 the last spots gains little more
 DEAR = 150.0  # [m/m^2] that a round drives for what it gains, beyond which it is the last beside obstacles, or on a map
-#               that does not grow once the rounds after the first are longer than that: five times what the planner
+#               that does not grow once the rounds after the longest are longer than that: five times what the planner
 #               drives for a crumb, so most of what it planned for cannot be reached, or the robot cannot keep to its
 #               lanes in a corridor that is hardly wider
 HELPED = 0.01  # of coverage: a retry that gained less was in vain: to touch all obstacles again takes long
@@ -85,7 +85,7 @@ class Boustrophedon(Behaviour):
         self._missing = 1.0  # of coverage to the target then
         self._reason = ''  # why this round is the last, if there is nothing to drive
         self._driven = 0.0  # [m] since then
-        self._first = self._later = 0.0  # [m] driven in the first round, and in all rounds after that
+        self._longest = self._after = 0.0  # [m] driven in the longest round, and in all rounds after that
         self._last: Optional[Pose] = None  # where the robot was
         self._unchecked = 0.0  # [s] since it was last checked whether all beside obstacles is swept
         self._impasse, self._standstill = Impasse(), standstill.Standstill()
@@ -154,11 +154,11 @@ class Boustrophedon(Behaviour):
         context.learn(pose)
         coverage = context.swept.coverage
         gain = coverage - self._before
-        if self._rounds < 2:
-            self._first = self._driven
+        if self._driven > self._longest:
+            self._longest, self._after = self._driven, 0.0
         else:
-            self._later += self._driven
-        has_marks, is_long = context.ground.has_marks, self._later > self._first and context.survey is None
+            self._after += self._driven
+        has_marks, is_long = context.ground.has_marks, self._after > self._longest and context.survey is None
         is_dear = (has_marks or is_long) and self._driven > DEAR * gain * context.swept.reachable_area
         is_gain = gain > min(WORTH, 0.5 * self._missing) and not is_dear
         self._idle = 0 if is_gain else self._idle + 1
