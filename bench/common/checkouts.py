@@ -13,8 +13,9 @@ PAIRS = 3
 def add_arguments(parser):
     """The arguments of a bench that can compare."""
     parser.add_argument('--against', type=pathlib.Path, metavar='CHECKOUT',
-                        help='another checkout with the same messages, which need not be built: measure both in turn, '
-                             'and print ratios; the first pair is left out, for which code may be compiled')
+                        help='another checkout with the same messages and modules, which need not be built: measure '
+                             'both in turn, and print ratios; the first pair, for which code may be compiled, is left '
+                             'out')
     parser.add_argument('--pairs', type=int, default=PAIRS, help='with --against: how often to measure both')
 
 
