@@ -23,7 +23,7 @@ from rumba_sim.model.maps import map_file  # noqa: E402
 from rumba_sim.model.settings.robot_config import RobotConfig  # noqa: E402
 from rumba_sim.ros.participants.maps import map_path  # noqa: E402
 from rumba_viewer.painting.paint_scene import ScenePainter  # noqa: E402
-from rumba_viewer.scene.dock_field import dock  # noqa: E402
+from rumba_viewer.scene.dock_field import docks  # noqa: E402
 from rumba_viewer.scene.snapshot import Grid, MapFeatures, Path, Robot, Snapshot  # noqa: E402
 from rumba_viewer.scene.theme import LIGHT  # noqa: E402
 from rumba_viewer.scene.view_transform import ViewTransform  # noqa: E402
@@ -56,7 +56,7 @@ def snapshot(step, number):
         number: identifies the coverage; a painter paints it again if it changes.
     """
     plan = map_file.load(map_path(MAP))
-    features = MapFeatures(dock(plan, RobotConfig()), plan.carpet, plan.cliff, True)
+    features = MapFeatures(docks(plan, RobotConfig()), plan.carpet, plan.cliff, True)
     grid = Grid(plan.occupancy, plan.resolution, *plan.origin, 0)
     swept = Grid(np.where(plan.free, 100, -1).astype(np.int8), plan.resolution, *plan.origin, number)
     angles = np.linspace(-np.pi, np.pi, 360)
@@ -66,8 +66,8 @@ def snapshot(step, number):
 
     def now():
         point = path[step()]
-        return Snapshot(grid, swept, features, (Robot('rumba', Pose(*point, 0.0), beams=point + beams,
-                                                      path=Path(path, 0)),))
+        return Snapshot(grid, coverage=swept, features=features, robots=(
+            Robot('rumba', Pose(*point, 0.0), beams=point + beams, path=Path(path, 0), planned=path[::-1]),))
     return now
 
 

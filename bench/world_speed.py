@@ -52,7 +52,7 @@ def told_by(checkout):
 
 
 def table():
-    """Simulated seconds in a CPU second, by what was simulated."""
+    """Rows of a table: each has a name, and the simulated seconds in a CPU second."""
     for resolution in (0.05, 0.02):
         plan = room20.room20(resolution)
         for beams in (0, 360):

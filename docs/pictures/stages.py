@@ -1,6 +1,7 @@
-"""Draws the stages of a plan for the apartment: ./rumba shell python3 docs/pictures/stages.py"""
+"""Draws the stages of a plan for the apartment: ./rumba shell python3 docs/pictures/stages.py [FILE]"""
 
 import pathlib
+import sys
 
 import numpy as np
 from matplotlib.colors import ListedColormap, to_rgb
@@ -9,10 +10,8 @@ from matplotlib.figure import Figure
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.cleaning_config import CleaningConfig
 from rumba_cleaning.planning import planner
-from rumba_cleaning.planning.common.effort import effort
-from rumba_cleaning.planning.decompose.regions import regions
-from rumba_cleaning.planning.swaths.problem import Problem
-from rumba_cleaning.planning.swaths.walls import Walls
+from rumba_cleaning.planning.order.route import through
+from rumba_cleaning.planning.swaths.drafting import choices, drafted
 from rumba_sim.model.maps import map_file, named_maps
 from rumba_sim.model.maps.floor_colours import LIGHT
 from rumba_sim.model.settings.robot_config import RobotConfig
@@ -21,28 +20,27 @@ from rumba_sim.model.simulation.world import World
 PALE = 0.75  # of white in the colours of regions
 
 
-def main():
-    """Plan, and draw what each stage comes to."""
+def main(path=pathlib.Path(__file__).with_name('stages.png')):
+    """Plan, and draw what each stage comes to, into a file."""
     floor = map_file.load(named_maps.path('apartment'))
     start = World(floor).start
     context = Context(floor, RobotConfig(), CleaningConfig())
     context.swept.begin(start.x, start.y)
-    labels = regions(context.ground)
-    problem = Problem(context, start, None, np.ones(floor.occupancy.shape, bool), labels, Walls(context.ground),
-                      effort(context))
-    draft, route = planner.drafts(problem)[0]
+    problem = planner.posed(context, start)
+    labels, draft = problem.labels, next(drafted(problem, choices(problem)))
+    route = through(problem, draft.stretches)
     figure = Figure(figsize=(10.0, 8.0), layout='constrained')
     panels = figure.subplots(2, 2, sharex=True, sharey=True).ravel()
     colours = LIGHT.lines
     for axes, title in zip(panels, ('1  Regions', '2, 3  Rings and lanes, of the first draft', '4  Tour',
-                                    '5, 6  Rebuilt and improved: the plan')):
+                                    '5  Improved: the plan')):
         show(axes, floor, labels, colours)
         axes.set_title(title, loc='left')
     for part in draft.stretches:
         panels[1].plot(*part.variants[0].path().T, color=colours[part.region % len(colours)], linewidth=1.0)
     panels[2].plot(*route.waypoints.T, color=colours[0], linewidth=0.8)
     panels[3].plot(*planner.plan(context, start).waypoints.T, color=colours[0], linewidth=0.8)
-    figure.savefig(str(pathlib.Path(__file__).with_name('stages.png')), dpi=90)
+    figure.savefig(str(path), dpi=90)
 
 
 def show(axes, floor, labels, colours):
@@ -60,4 +58,4 @@ def show(axes, floor, labels, colours):
 
 
 if __name__ == '__main__':
-    main()
+    main(*sys.argv[1:])

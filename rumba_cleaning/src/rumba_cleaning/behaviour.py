@@ -21,6 +21,7 @@ UNKNOWN: Covariance = ((math.inf, 0.0, 0.0), (0.0, math.inf, 0.0), (0.0, 0.0, ma
 LOST_AT, LOST_TURNED = 0.3, 0.5  # [m], [rad] standard deviations of a pose from which on the robot is lost; our choice
 UNSURE_AT, UNSURE_TURNED = 0.1, 0.3  # [m], [rad] the same while the laser is silent; our choice
 NO_CLIFFS = (False, False, False, False)
+SIDE = 0.74  # [rad] the middle of the part of the bumper that presses one switch alone: (field + overlap) / 4
 FALLEN = 'a wheel hangs over a cliff: the robot must be put elsewhere'
 # Methods of Behaviour that no subclass overrides.
 FINAL = ('step', 'stand_by', 'stop', 'restart', 'succeed', 'fail', 'planned_path')
@@ -60,6 +61,11 @@ class Observation(NamedTuple):
         left, right = self.bumper
         far_left, near_left, near_right, far_right = self.cliffs
         return left or far_left or near_left, right or near_right or far_right
+
+
+def direction(left: bool, right: bool) -> float:
+    """Where something is, from ahead to the left, that presses these switches alone, both, or none [rad]."""
+    return 0.0 if left == right else SIDE if left else -SIDE
 
 
 class Command(NamedTuple):

@@ -22,7 +22,7 @@ from rumba_cleaning.planning.simulate.rehearsal import Rehearsal
 from rumba_cleaning.planning.swaths.drafting import choices, drafted
 from rumba_cleaning.planning.swaths.lanes import Layout
 from rumba_cleaning.planning.swaths.layouts import DRAFTS, IN_RINGS, OTHER_SHAPES, Draft
-from rumba_cleaning.planning.swaths.problem import Problem
+from rumba_cleaning.planning.swaths.problem import Problem, need
 from rumba_cleaning.route import Route
 from rumba_sim.model.common.geometry import Pose
 
@@ -126,7 +126,7 @@ def test_a_route_with_more_turns_is_to_sweep_more_since_each_is_driven_otherwise
     zigzag = points + np.array([[0.0, 0.1 * (index % 2)] for index in range(16)])
     few, many = (Rehearsal(problem.context, START, Route(route, np.full(15, 0.3))) for route in (points, zigzag))
     for rehearsal in (few, many):
-        beyond = improvement._need(problem, rehearsal) - problem.need(rehearsal.swept, 0.0)
+        beyond = improvement._need(problem.context, rehearsal) - need(problem.context, rehearsal.swept)
         assert beyond == pytest.approx(improvement.MARGIN * rehearsal.turned)
     assert many.turned > 4.0 * few.turned > 0.0
 

@@ -5,9 +5,9 @@ import math
 import pytest
 from rooms import RADIUS, quiet, room
 
-from rumba_cleaning.behaviour import Observation
+from rumba_cleaning.behaviour import SIDE, Observation
 from rumba_cleaning.belief.context import Context
-from rumba_cleaning.belief.recent import SIDE, Recent
+from rumba_cleaning.belief.recent import Recent
 from rumba_cleaning.cleaning_config import CleaningConfig
 from rumba_cleaning.control import CONTROL_DT, CONTROL_TICKS, observe
 from rumba_cleaning.pose_source import DeadReckoning

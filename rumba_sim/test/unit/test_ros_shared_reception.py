@@ -13,8 +13,8 @@ from rospy.impl.tcpros_base import TCPROSTransport
 from rospy.impl.tcpros_pubsub import TCPROSSub
 from std_msgs.msg import String
 
-from rumba_sim.ros.common import shared_reception
-from rumba_sim.ros.common.shared_reception import SharedConnection, share
+from rumba_sim.ros.running import shared_reception
+from rumba_sim.ros.running.shared_reception import SharedConnection, share
 
 TOPICS = '/one', '/two'
 PATIENCE = 10.0  # [s]

@@ -246,6 +246,18 @@ def test_a_planned_path_is_dashed_from_corner_to_corner(theme):
     assert changed.sum() < 8 * WHOLE.scale
 
 
+def test_a_picture_of_plans_that_was_kept_follows_other_plans_views_and_robots():
+    one, other = np.array([(0.6, 3.0), (2.6, 3.0)]), np.array([(0.6, 2.0), (2.6, 2.0)])
+    keeping, nearer = ScenePainter(), WHOLE.zoomed(1.5, 100.0, 100.0)
+    for planned, view in ((one, WHOLE), (one, WHOLE), (other, WHOLE), (other, nearer), (None, nearer), (one, nearer)):
+        now = snapshot(robot(pose=Pose(0.3, 4.0, 0.0), planned=planned))
+        kept = QImage(int(view.width), int(view.height), QImage.Format_RGB32)
+        painter = QPainter(kept)
+        keeping.paint(painter, now, view, LIGHT)
+        painter.end()
+        assert kept == picture(now, view, LIGHT)
+
+
 @THEMES
 def test_particles_and_the_believed_robot_are_painted_where_they_are_beside_the_true_one(theme):
     true, believed = Pose(0.0, 4.0, 0.0), Pose(1.5, 4.0, 0.5 * math.pi)

@@ -8,7 +8,7 @@ import enum
 import math
 from typing import Optional
 
-from rumba_cleaning.behaviour import Command, Observation
+from rumba_cleaning.behaviour import Command, Observation, direction
 from rumba_cleaning.behaviours import recoil
 from rumba_cleaning.behaviours.follower import Follower
 from rumba_cleaning.belief.context import Context
@@ -17,7 +17,6 @@ from rumba_cleaning.route import Ahead, Route
 from rumba_sim.model.common.geometry import Pose
 
 KNOWN = 0.03  # [m] if a known obstacle is so near to the body, a contact is a contact with that: three errors of a pose
-SIDE = 0.74  # [rad] the middle of the part of the bumper that presses one switch alone: (field + overlap) / 4
 OBSTACLE = 0.05  # [m] radius that is assumed for what a contact reveals; `Ground` makes it larger if it is met again
 TALL = 0.2  # [m] from there, within which the laser sees what is not low: the bumper tells the side alone
 GAP = 0.02  # [m] from the body to that: one cell of a fine map
@@ -133,7 +132,7 @@ class Travel:
             self._context.ground.leave_out(*observation.pose[:2], self._context.robot.drive.radius)
         is_stuck = self._waited > PATIENCE
         if is_stuck or touches and (is_at_edge or not _is_known(self._context.ground, observation.pose)):
-            mark(self._context, observation.pose, 0.0 if left == right else SIDE if left else -SIDE, touches)
+            mark(self._context, observation.pose, direction(left, right), touches)
             return True
         return False
 

@@ -118,10 +118,10 @@ class Context:
             self._note_cliffs(observation)
             return observation
         observation = self._recent.corrected(observation)
-        anew = self._recent.relearned(observation)
-        if anew is not None:
+        forgets, observations = self._recent.noted(observation)
+        if forgets:
             self.begin_anew(observation.pose)
-        for each in [observation] if anew is None else anew:
+        for each in observations:
             self._note_cliffs(each)
         return observation
 

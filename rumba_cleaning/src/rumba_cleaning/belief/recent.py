@@ -4,14 +4,13 @@ import collections
 import math
 from typing import Deque, List, Optional, Tuple
 
-from rumba_cleaning.behaviour import Observation
+from rumba_cleaning.behaviour import Observation, direction
 from rumba_localisation.edges import JUMP
 from rumba_sim.model.common.geometry import Pose, hypot
 
 # [m] of way at least, and twice that at most: with wheels that differ by 1 %, the heading errs by 0.04 rad after a
 # metre, and what was seen at its beginning is 0.02 m off, as much as the guard spares.
 REMEMBERED = 1.0
-SIDE = 0.74  # [rad] the middle of the part of the bumper that presses one switch alone, as in `travel`
 
 
 class Recent:
@@ -39,22 +38,22 @@ class Recent:
         if hypot(*step) > JUMP:
             self._lead = 0.0, 0.0
         elif left or right:
-            angle = before.theta + (0.0 if left and right else SIDE if left else -SIDE)
+            angle = before.theta + direction(left, right)
             against = max(step[0] * math.cos(angle) + step[1] * math.sin(angle), 0.0)
             if last is not None and not any(last.bumper):
                 against *= 0.5  # the contact began in between
             self._lead = self._lead[0] + against * math.cos(angle), self._lead[1] + against * math.sin(angle)
         return observation._replace(pose=pose._replace(x=pose.x - self._lead[0], y=pose.y - self._lead[1]))
 
-    def relearned(self, observation: Observation) -> Optional[List[Observation]]:
-        """What to know anew, at times, with this observation as the last; None: it adds to what is known."""
+    def noted(self, observation: Observation) -> Tuple[bool, List[Observation]]:
+        """Whether it is time to forget the floor, and the observations by which to know it then, this one the last."""
         pose, last = observation.pose, self._at or observation.pose
         self._at = pose
         self._way += hypot(pose.x - last.x, pose.y - last.y)
         self._observations.append((self._way, observation))
         if self._way <= self._forgets_at:
-            return None
+            return False, [observation]
         self._forgets_at = self._way + REMEMBERED
         while self._way - self._observations[0][0] > REMEMBERED:
             self._observations.popleft()
-        return [each for _, each in self._observations]
+        return True, [each for _, each in self._observations]

@@ -15,7 +15,7 @@ class SecondTry:
         self._was_shut_in = self._has_begun = False
 
     def give_up(self) -> None:
-        """The robot gives up: see whether obstacles may keep it from much of the floor."""
+        """The robot stops cleaning: see whether obstacles may keep it from much of the floor."""
         self._was_shut_in = self._context.ground.has_lasting and self._context.swept.coverage < MUCH
 
     def is_worth_it(self, pose: Pose) -> bool:

@@ -40,13 +40,18 @@ def plan(context: Context, pose: Pose, end: Optional[Pose] = None) -> Optional[R
     spiral = spiral_over(context, pose) if end is None else None
     if spiral is not None:
         return spiral
-    ground = context.ground
-    problem = Problem(context, pose, end, _around(context, pose), regions(ground), main_direction(outlines(ground)),
-                      effort(context))
+    problem = posed(context, pose, end)
     routes = drafts(problem)
     if not routes:
         return _over_crumbs(problem)
     return routes[0] if problem.effort.rounds == 0 else improved(problem, routes)
+
+
+def posed(context: Context, pose: Pose, end: Optional[Pose] = None) -> Problem:
+    """What all stages of a plan go by: see `plan` for the arguments."""
+    ground = context.ground
+    return Problem(context, pose, end, _around(context, pose), regions(ground), main_direction(outlines(ground)),
+                   effort(context))
 
 
 def drafts(problem: Problem) -> List[Route]:

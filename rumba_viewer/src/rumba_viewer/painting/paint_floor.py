@@ -3,7 +3,7 @@
 Each layer is drawn at the size of the picture once, and kept until its content or the view changes.
 """
 
-from typing import Any, Dict, Iterator, Optional, Tuple
+from typing import Any, Dict, Iterator, List, Optional, Sequence, Tuple
 
 import numpy as np
 from PyQt5.QtCore import QPointF, QRectF, Qt
@@ -139,9 +139,7 @@ class PathPainter:
         content = (view, theme, tuple((name, path.number) for name, path in paths.items()))
         if content != self._content:
             self._content, self._drawn = content, {}
-            self._picture = QImage(max(int(view.width), 1), max(int(view.height), 1),
-                                   QImage.Format_ARGB32_Premultiplied)
-            self._picture.fill(Qt.transparent)
+            self._picture = _blank(view)
         for name, path in paths.items():
             self._add(name, path, view, theme)
         if paths:
@@ -161,15 +159,43 @@ class PathPainter:
         painter.end()
 
 
-def paint_plans(painter: QPainter, snapshot: Snapshot, view: ViewTransform, theme: Theme) -> None:
-    """Paint the planned paths of all robots, dashed; the unit of the painter is the pixel."""
-    painter.setBrush(Qt.NoBrush)
-    for robot in snapshot.robots:
-        if robot.planned is None:
-            continue
-        painter.setPen(QPen(QColor(line_colour(theme, robot.name)), PLAN_WIDTH, Qt.DashLine))
-        for line in _lines(robot.planned, view):
+class PlanPainter:
+    """Paints planned paths, dashed: keeps the last picture of them, since dashes take longer than all else."""
+
+    def __init__(self) -> None:
+        """Start with no picture."""
+        self._content: object = None
+        self._planned: List[Tuple[str, Array]] = []  # kept, so that nothing else gets the identity of its arrays
+        self._picture = QImage()
+
+    def paint(self, painter: QPainter, snapshot: Snapshot, view: ViewTransform, theme: Theme) -> None:
+        """Paint the planned paths of all robots."""
+        planned = [(robot.name, robot.planned) for robot in snapshot.robots if robot.planned is not None]
+        content = view, theme, [(name, id(points)) for name, points in planned]
+        if content != self._content:
+            self._content, self._planned, self._picture = content, planned, _dashed(planned, view, theme)
+        if planned:
+            painter.drawImage(0, 0, self._picture)
+
+
+def _dashed(planned: Sequence[Tuple[str, Array]], view: ViewTransform, theme: Theme) -> QImage:
+    """Paths of robots, by their names, on a transparent picture."""
+    picture = _blank(view)
+    painter = QPainter(picture)
+    painter.setRenderHint(QPainter.Antialiasing)
+    for name, points in planned:
+        painter.setPen(QPen(QColor(line_colour(theme, name)), PLAN_WIDTH, Qt.DashLine))
+        for line in _lines(points, view):
             painter.drawPolyline(QPolygonF([QPointF(x, y) for x, y in line.tolist()]))
+    painter.end()
+    return picture
+
+
+def _blank(view: ViewTransform) -> QImage:
+    """A transparent picture of a view."""
+    picture = QImage(max(int(view.width), 1), max(int(view.height), 1), QImage.Format_ARGB32_Premultiplied)
+    picture.fill(Qt.transparent)
+    return picture
 
 
 def _lines(points: Array, view: ViewTransform) -> Iterator[Array]:

@@ -9,7 +9,7 @@ from PyQt5.QtGui import QColor, QFont, QImage, QPainter, QPen
 from rumba_sim.model.common.geometry import Pose
 from rumba_viewer.painting import paint_robot
 from rumba_viewer.painting.paint_belief import paint_believed, paint_particles
-from rumba_viewer.painting.paint_floor import FloorPainter, PathPainter, paint_plans
+from rumba_viewer.painting.paint_floor import FloorPainter, PathPainter, PlanPainter
 from rumba_viewer.painting.paint_key import paint_key
 from rumba_viewer.painting.paint_obstacles import paint_obstacles
 from rumba_viewer.scene.snapshot import Snapshot
@@ -32,7 +32,7 @@ class ScenePainter:
     def __init__(self) -> None:
         """Start with nothing painted."""
         self.shows_path = self.shows_field = True
-        self._floor, self._paths = FloorPainter(), PathPainter()
+        self._floor, self._plans, self._paths = FloorPainter(), PlanPainter(), PathPainter()
 
     def paint(self, painter: QPainter, snapshot: Snapshot, view: ViewTransform, theme: Theme,
               ghost: Optional[Tuple[str, Pose]] = None) -> None:
@@ -68,7 +68,7 @@ class ScenePainter:
                 paint_robot.paint_dock_field(painter, dock, theme)
             painter.restore()
         if self.shows_path:
-            paint_plans(painter, snapshot, view, theme)
+            self._plans.paint(painter, snapshot, view, theme)
             self._paths.paint(painter, snapshot, view, theme)
         painter.save()
         paint_robot.in_metres(painter, view)

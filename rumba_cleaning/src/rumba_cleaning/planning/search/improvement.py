@@ -8,7 +8,7 @@ from rumba_cleaning.planning.search.shifts import shifts
 from rumba_cleaning.planning.search.shortcuts import shortcuts
 from rumba_cleaning.planning.simulate.edit import Edit
 from rumba_cleaning.planning.simulate.rehearsal import Rehearsal
-from rumba_cleaning.planning.swaths.problem import Problem
+from rumba_cleaning.planning.swaths.problem import Problem, need
 from rumba_cleaning.route import Route
 from rumba_sim.model.common.geometry import hypot
 
@@ -48,8 +48,7 @@ def improved(problem: Problem, routes: Sequence[Route]) -> Route:
 
 def is_met(context: Context, rehearsal: Rehearsal) -> bool:
     """Whether a route meets the target, even if its rehearsal errs by MARGIN."""
-    missing = (context.target_coverage - rehearsal.swept.coverage) * context.swept.reachable_area
-    return missing + MARGIN * rehearsal.turned <= 0.0
+    return _need(context, rehearsal) <= 0.0
 
 
 def _edited(problem: Problem, rehearsal: Rehearsal, found: Sequence[Edit],
@@ -61,23 +60,23 @@ def _edited(problem: Problem, rehearsal: Rehearsal, found: Sequence[Edit],
     context, route = problem.context, rehearsal.route
     fresh = [edit for edit in found if edit.place(route) not in poor]
     judged = rehearsal.judged(fresh)
-    edits, price = chosen(judged, _need(problem, rehearsal, EDITED), DEAREST)
+    edits, price = chosen(judged, _need(problem.context, rehearsal, EDITED), DEAREST)
     poor.update({edit.place(route) for edit in fresh} - {edit.place(route) for edit in judged if edit.is_near(price)})
     return Rehearsal(context, problem.pose, dense(applied(route, edits, context.config.speed))), price
 
 
 def _cost(problem: Problem, rehearsal: Rehearsal) -> float:
     """The time that a route will take, about, with the way to where it should end, once it meets the target [s]."""
-    need, metres = _need(problem, rehearsal), 0.0
+    need, metres = _need(problem.context, rehearsal), 0.0
     if problem.end is not None:
         x, y = rehearsal.route.waypoints[-1]
         metres = hypot(problem.end.x - x, problem.end.y - y)
     return rehearsal.seconds + metres / problem.context.config.transit_speed + need * (ADDED if need > 0.0 else SAVED)
 
 
-def _need(problem: Problem, rehearsal: Rehearsal, surplus: float = 0.0) -> float:
+def _need(context: Context, rehearsal: Rehearsal, surplus: float = 0.0) -> float:
     """Area that is missing to the target, to a surplus of coverage and to what a rehearsal may be wrong by [m^2]."""
-    return problem.need(rehearsal.swept, surplus) + MARGIN * rehearsal.turned
+    return need(context, rehearsal.swept, surplus) + MARGIN * rehearsal.turned
 
 
 def _merit(problem: Problem, rehearsal: Rehearsal) -> Tuple[bool, float]:

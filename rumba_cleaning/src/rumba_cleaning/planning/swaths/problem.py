@@ -26,6 +26,7 @@ class Problem(NamedTuple):
         """Crumbs of an area [m^2] or more: see `crumbs`."""
         return crumbs(self.context.ground, swept.missing_share() * self.around, self.labels, least, apart)
 
-    def need(self, swept: Swept, surplus: float) -> float:
-        """Area that is missing to the target and a surplus [m^2]."""
-        return (self.context.target_coverage + surplus - swept.coverage) * swept.reachable_area
+
+def need(context: Context, swept: Swept, surplus: float = 0.0) -> float:
+    """Area that is missing to the target and a surplus of coverage [m^2]."""
+    return (context.target_coverage + surplus - swept.coverage) * swept.reachable_area

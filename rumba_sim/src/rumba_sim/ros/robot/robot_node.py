@@ -22,7 +22,7 @@ from rumba_sim.model.simulation.robot import Robot
 from rumba_sim.model.simulation.world import World
 from rumba_sim.ros.common import conversions, teleop
 from rumba_sim.ros.common.frames import MAP, frames
-from rumba_sim.ros.common.shared_reception import share
+from rumba_sim.ros.running.shared_reception import share
 from rumba_sim.ros.participants.examiner import ExaminerServer
 from rumba_sim.ros.participants.requests import Requests
 from rumba_sim.ros.robot.interface_topics import InterfaceTopics

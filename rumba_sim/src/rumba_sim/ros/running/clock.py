@@ -4,7 +4,7 @@ import rospy
 from rosgraph_msgs.msg import Clock
 from rospy.impl import simtime
 
-from rumba_sim.ros.common.shared_reception import share
+from rumba_sim.ros.running.shared_reception import share
 
 CLOCK = '/clock'
 LATEST = 2 ** 31 - 1  # [s]: sums with durations are still times, and differences are durations

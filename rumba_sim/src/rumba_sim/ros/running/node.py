@@ -21,7 +21,7 @@ import yaml
 
 from rumba_sim.model.common import config, yaml_file
 from rumba_sim.model.common.errors import ConfigError, RumbaError, WorldError, one_line, quoted
-from rumba_sim.ros.common import shared_reception
+from rumba_sim.ros.running import shared_reception
 from rumba_sim.ros.common.paths import absolute
 from rumba_sim.ros.running import (
     clock, launched, master_watch, peers, prompt_accept, prompt_connection, prompt_end, publisher_updates)

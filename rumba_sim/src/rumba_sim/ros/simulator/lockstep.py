@@ -11,7 +11,7 @@ from std_msgs.msg import Header
 
 from rumba_msg.msg import Lockstep as LockstepMessage
 from rumba_msg.msg import LockstepAnswer
-from rumba_sim.ros.common.shared_reception import share
+from rumba_sim.ros.running.shared_reception import share
 from rumba_sim.ros.participants.examiner import ExaminerServer
 from rumba_sim.ros.participants.lockstep import ANSWERS, QUEUE, TOPIC
 from rumba_sim.ros.participants.requests import Requests

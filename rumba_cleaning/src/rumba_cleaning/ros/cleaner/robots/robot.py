@@ -13,7 +13,7 @@ from rumba_cleaning.ros.cleaner.robots.senses import TOPICS, Senses
 from rumba_cleaning.ros.cleaner.robots.team import Team
 from rumba_cleaning.ros.cleaner.robots.teleop import Teleop
 from rumba_sim.model.settings.own_robot import OwnRobot
-from rumba_sim.ros.common.shared_reception import share
+from rumba_sim.ros.running.shared_reception import share
 from rumba_sim.ros.participants.lockstep import TOPIC as TICKS
 from rumba_sim.ros.participants.lockstep import Participant
 
