@@ -64,10 +64,12 @@ def snapshot(step, number):
     turns = np.linspace(0.0, 60.0, POINTS)
     path = np.stack([4.0 + 0.05 * turns * np.cos(turns), 3.0 + 0.04 * turns * np.sin(turns)], axis=1)
 
+    planned = path[::-1]
+
     def now():
         point = path[step()]
         return Snapshot(grid, coverage=swept, features=features, robots=(
-            Robot('rumba', Pose(*point, 0.0), beams=point + beams, path=Path(path, 0), planned=path[::-1]),))
+            Robot('rumba', Pose(*point, 0.0), beams=point + beams, path=Path(path, 0), planned=planned),))
     return now
 
 
