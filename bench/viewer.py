@@ -63,7 +63,6 @@ def snapshot(step, number):
     beams = 2.0 * np.stack([np.cos(angles), np.sin(angles)], axis=1)
     turns = np.linspace(0.0, 60.0, POINTS)
     path = np.stack([4.0 + 0.05 * turns * np.cos(turns), 3.0 + 0.04 * turns * np.sin(turns)], axis=1)
-
     planned = path[::-1]
 
     def now():
