@@ -10,21 +10,20 @@ drive it: for a velocity or what comes on the topic `~answer` while they let it 
 """
 
 import math
-import time
 
 import numpy as np
 import rospy
 import tf2_msgs.msg
 from create_msgs.msg import Bumper, ChargingState, Cliff, Mode, MotorSetpoint
 from fake_create_dock import Dock, Firmware
-from fake_robot import DT, Judge, Room, Walls, has_ended, live, moved, transform, turned
+from fake_robot import DT, NEWS, Judge, Room, Walls, keep_pace, live, moved, publisher, transform, turned
 from geometry_msgs.msg import Twist
 from nav_msgs.msg import Odometry
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import LaserScan
 from std_msgs.msg import Empty, Float32, Header, UInt16
 
-RADIUS, BASE, BRUSH, LASER, STEPS = 0.17425, 0.235, 0.17, 0.04, 10  # [m]
+RADIUS, BASE, BRUSH, LASER, STEPS = 0.17425, 0.235, 0.17, 0.04, 5  # [m]
 LATCH = 0.2  # [s] after which create_driver stops a robot that gets no command
 CAPACITY = 2.7  # [Ah]
 IDLE, WHEELS, BRUSHES = 0.1, 0.5, 0.4  # shares of the load of a robot that cleans at 0.3 m/s
@@ -80,7 +79,9 @@ class FakeCreate:
 
     def take_answer(self, _, whose):
         """Note that one of those who drive has heard everything so far."""
-        self.answered[whose] = self.now
+        with NEWS:
+            self.answered[whose] = self.now
+            NEWS.notify()
 
     def take_duty(self, message, motor):
         """Have a brush turn, unless the robot is passive."""
@@ -99,7 +100,9 @@ class FakeCreate:
         """Note that somebody knows where the robot was when it took a scan."""
         for each in message.transforms:
             if each.header.frame_id == 'map':
-                self.corrected = each.header.stamp
+                with NEWS:
+                    self.corrected = each.header.stamp
+                    NEWS.notify()
 
     # --- what happens -------------------------------------------------------------------------------------------------
 
@@ -159,7 +162,7 @@ class FakeCreate:
     def publish(self, topic, message, latch=False):
         """Publish a message; the first one opens the topic."""
         if topic not in self.publishers:
-            self.publishers[topic] = rospy.Publisher(topic, type(message), queue_size=10, latch=latch)
+            self.publishers[topic] = publisher(topic, type(message), latch)
         self.publishers[topic].publish(message)
 
     def tell(self):
@@ -192,15 +195,13 @@ class FakeCreate:
         return LaserScan(Header(stamp=self.now, frame_id='laser'), 0.0, angles[-1], math.pi / 180, 0.0, DT, 0.1, 12.0,
                          np.float32(found).tolist(), [])
 
+    def is_followed(self):
+        """Whether those on whom it waits have answered what it last told."""
+        return not (self.waits and self.corrected < self.now) and all(when >= self.now for when in self.answered.values())
+
     def run(self):
         """Live, as fast as the others keep up, but at most ten times as fast as the real one would."""
-        while not has_ended():
-            begin = time.monotonic()
-            self.step()
-            while not has_ended() and time.monotonic() - begin < 1.0 and (
-                    self.waits and self.corrected < self.now or time.monotonic() - begin < DT / 10
-                    or any(when < self.now for when in list(self.answered.values()))):
-                time.sleep(0.001)
+        keep_pace(self, DT / 10)
 
 
 if __name__ == '__main__':

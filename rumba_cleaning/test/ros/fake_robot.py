@@ -11,7 +11,9 @@ The parameter `~fault` plants one of the faults that owners of robots make.
 import math
 import os
 import signal
+import threading
 import time
+import warnings
 from typing import List, NamedTuple, Tuple
 
 import numpy as np
@@ -24,7 +26,7 @@ from scipy import ndimage
 from sensor_msgs.msg import LaserScan
 from std_msgs.msg import Float32, Header
 
-RADIUS, BASE, BRUSH, LASER, DT, STEPS = 0.16, 0.2, 0.2, 0.05, 0.1, 10  # [m], [s]
+RADIUS, BASE, BRUSH, LASER, DT, STEPS = 0.16, 0.2, 0.2, 0.05, 0.1, 5  # [m], [s]
 CELL = 0.01  # [m]
 
 
@@ -134,12 +136,12 @@ class FakeRobot:
         self.haste = rospy.get_param('~haste', 10)
         self.fault = rospy.get_param('~fault', '')
         self.now = rospy.Time(100)
-        self.clock = rospy.Publisher('/clock', Clock, queue_size=1)
-        self.odometry = rospy.Publisher('/base/odometry', Odometry, queue_size=10)
-        self.scan = rospy.Publisher('/front/laser', LaserScan, queue_size=10)
-        self.covered = rospy.Publisher('/coverage', Float32, queue_size=1, latch=True)
-        self.tf = rospy.Publisher('/tf', tf2_msgs.msg.TFMessage, queue_size=10)
-        self.static = rospy.Publisher('/tf_static', tf2_msgs.msg.TFMessage, queue_size=1, latch=True)
+        self.clock = publisher('/clock', Clock)
+        self.odometry = publisher('/base/odometry', Odometry)
+        self.scan = publisher('/front/laser', LaserScan)
+        self.covered = publisher('/coverage', Float32, latch=True)
+        self.tf = publisher('/tf', tf2_msgs.msg.TFMessage)
+        self.static = publisher('/tf_static', tf2_msgs.msg.TFMessage, latch=True)
         if self.fault != 'no tf':
             self.static.publish([transform(self.now, 'chassis', 'front_laser', (LASER, 0.0, 0.0))])
         rospy.Subscriber('/base/velocity', Twist, self.take)
@@ -147,13 +149,17 @@ class FakeRobot:
 
     def take(self, message):
         """Take a command."""
-        self.command, self.commanded = message, self.now
+        with NEWS:
+            self.command, self.commanded = message, self.now
+            NEWS.notify()
 
     def hear(self, message):
         """Note that somebody knows where the robot was when it took a scan."""
         for each in message.transforms:
             if each.header.frame_id == 'map':
-                self.corrected = each.header.stamp
+                with NEWS:
+                    self.corrected = each.header.stamp
+                    NEWS.notify()
 
     def step(self):
         """Drive for DT, and tell of it."""
@@ -199,15 +205,34 @@ class FakeRobot:
                 np.float32(found).tolist(), []))
         self.covered.publish(self.judge.coverage())
 
+    def is_followed(self):
+        """Whether those on whom it waits have answered what it last told."""
+        return not (self.waits and self.corrected < self.now) and (
+            self.commanded is None or self.commanded >= self.now)
+
     def run(self):
         """Drive, as fast as the others keep up, but at most `haste` times as fast as the real one would."""
-        while not has_ended():
-            begin = time.monotonic()
-            self.step()
-            while not has_ended() and time.monotonic() - begin < 1.0 and (
-                    self.waits and self.corrected < self.now or time.monotonic() - begin < DT / self.haste
-                    or self.commanded is not None and self.commanded < self.now):
-                time.sleep(0.001)
+        keep_pace(self, DT / self.haste)
+
+
+def publisher(topic, kind, latch=False):
+    """A publisher that writes messages by itself: a queue takes a thread for each reader, and most of a fake's CPU time."""
+    with warnings.catch_warnings():
+        warnings.simplefilter('ignore', SyntaxWarning)  # that it has no queue
+        return rospy.Publisher(topic, kind, latch=latch, queue_size=None)
+
+
+NEWS = threading.Condition()  # something came for which a fake waits
+
+
+def keep_pace(fake, period):
+    """Have a fake step until it is told to end: not faster than by a period [s], nor than it is followed for a second."""
+    while not has_ended():
+        begin = time.monotonic()
+        fake.step()
+        with NEWS:
+            NEWS.wait_for(lambda: has_ended() or fake.is_followed(), 1.0)
+        time.sleep(max(begin + period - time.monotonic(), 0.0))
 
 
 def moved(pose, went, base=BASE):
@@ -238,6 +263,13 @@ def has_ended():
     return bool(SIGNALS) or rospy.is_shutdown()
 
 
+def note(number, _):
+    """Note a signal."""
+    SIGNALS.append(number)
+    with NEWS:
+        NEWS.notify()
+
+
 def live(name, kind):
     """Have a robot of a kind live as a node of a name.
 
@@ -245,7 +277,7 @@ def live(name, kind):
     """
     rospy.init_node(name, disable_rostime=True, disable_signals=True)
     for number in (signal.SIGINT, signal.SIGTERM):
-        signal.signal(number, lambda received, _: SIGNALS.append(received))
+        signal.signal(number, note)
     kind().run()
     rospy.signal_shutdown('told to end')
 
