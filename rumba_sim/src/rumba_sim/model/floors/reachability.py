@@ -1,7 +1,7 @@
 """Where a robot can stand, and which part of a floor its brush can reach."""
 
 import weakref
-from typing import Dict, NamedTuple, Tuple
+from typing import Dict, List, NamedTuple, Tuple
 
 import numpy as np
 from scipy import ndimage
@@ -74,8 +74,8 @@ def stands(plan: FloorPlan, needed: float, x: float, y: float, is_exact: bool = 
         bool (2 * rows + 1, 2 * columns + 1), at points half a cell apart: element (i, j) is the point
         `origin + 0.5 * resolution * (j, i)`.
     """
-    fitted = _exactly_fitting if is_exact else fitting
-    fits, is_wide = fitted(plan, needed), fitted(plan, needed + SLACK)
+    fitted = _exactly_fitting if is_exact else _all_fitting
+    fits, is_wide = fitted(plan, needed, needed + SLACK)
     start = _nearest(plan, fits, x, y)
     fits[start] = is_wide[start] = True
     labels = _parts(plan, needed, is_wide) if is_exact else ndimage.label(is_wide)[0]
@@ -100,7 +100,7 @@ class Parts:
             needed: the clearance that the robot needs [m].
         """
         self._plan = plan
-        labels = _parts(plan, needed, _exactly_fitting(plan, needed + SLACK))
+        labels = _parts(plan, needed, *_exactly_fitting(plan, needed + SLACK))
         sizes = np.bincount(labels.ravel())[1:]
         by_size = np.argsort(-sizes, kind='stable')[:np.count_nonzero(sizes)]
         ranks = np.zeros(len(sizes) + 1, labels.dtype)
@@ -122,18 +122,28 @@ def _parts(plan: FloorPlan, needed: float, is_wide: Array) -> Array:
     labels, number = ndimage.label(is_wide)
     if number < 2:
         return labels
-    return joined(labels, number, _floor(plan, needed + SLACK))
+    return joined(labels, number, _floor(plan), _in_cells(plan, needed + SLACK))
 
 
-def _floor(plan: FloorPlan, needed: float) -> Floor:
-    """The floor on which robots can be that need some clearance [m]."""
+def _floor(plan: FloorPlan) -> Floor:
     cells = plan.free if plan.cliff is None else plan.free & ~plan.cliff
-    return Floor(cells, plan.safe_clearance / plan.resolution, (needed - ROUNDING) / plan.resolution)
+    return Floor(cells, plan.safe_clearance / plan.resolution)
 
 
-def _exactly_fitting(plan: FloorPlan, needed: float) -> Array:
-    """As `fitting`, also where the interpolated clearance is too small, but the exact one is not."""
-    return np.asarray(fitting(plan, needed) | between_nodes(_floor(plan, needed)))
+def _in_cells(plan: FloorPlan, needed: float) -> float:
+    """A needed clearance [m] in cells, less what rounding may take from a clearance."""
+    return (needed - ROUNDING) / plan.resolution
+
+
+def _exactly_fitting(plan: FloorPlan, *needed: float) -> List[Array]:
+    """As `_all_fitting`, also where the interpolated clearance is too small, but the exact one is not."""
+    between = between_nodes(_floor(plan))
+    return [fits | (between >= _in_cells(plan, each)) for fits, each in zip(_all_fitting(plan, *needed), needed)]
+
+
+def _all_fitting(plan: FloorPlan, *needed: float) -> List[Array]:
+    """For each of several clearances [m], the points of `fitting`."""
+    return [fitting(plan, each) for each in needed]
 
 
 def fitting(plan: FloorPlan, needed: float) -> Array:

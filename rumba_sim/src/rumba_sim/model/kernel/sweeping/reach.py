@@ -2,6 +2,8 @@
 
 import math
 
+import numpy as np
+
 from rumba_sim.model.kernel import Array
 from rumba_sim.model.kernel.geometry import interpolated
 from rumba_sim.model.kernel.motion import PUSH
@@ -19,18 +21,30 @@ def mark_reachable(field: Array, resolution: float, stands: Array, reach: float,
         half: half the width of the brush [m].
     """
     squares, count = samples.shape[0] // (field.shape[0] - 1), 0
+    size = int(math.ceil(2.0 * half / resolution)) + 2  # positions of `stands` as far as the brush reaches
+    tiles = occupied_tiles(stands, size)
     for row in range(samples.shape[0]):
         for column in range(samples.shape[1]):
             if samples[row, column] & SWEEPABLE:
                 across, up = sample_point(row, column)
-                if is_reachable(field, resolution, stands, reach, half, across / squares, up / squares):
+                if is_reachable(field, resolution, stands, tiles, size, reach, half, across / squares, up / squares):
                     samples[row, column] |= REACHABLE
                     count += 1
     return count
 
 
-def is_reachable(field: Array, resolution: float, stands: Array, reach: float, half: float, u: float,
-                 v: float) -> bool:
+def occupied_tiles(stands: Array, size: int) -> Array:
+    """Whether a robot can stand at any position in each square of so many rows and columns of `stands`: bool (n, m)."""
+    tiles = np.zeros((stands.shape[0] // size + 1, stands.shape[1] // size + 1), np.bool_)
+    for row in range(stands.shape[0]):
+        for column in range(stands.shape[1]):
+            if stands[row, column]:
+                tiles[row // size, column // size] = True
+    return tiles
+
+
+def is_reachable(field: Array, resolution: float, stands: Array, tiles: Array, size: int, reach: float, half: float,
+                 u: float, v: float) -> bool:
     """Whether the point (u, v) [cells] lies within `half` of a position at which a robot can stand.
 
     The nearest such position is usually up the slope of the clearance. If that leads nowhere, all positions nearby are
@@ -44,8 +58,10 @@ def is_reachable(field: Array, resolution: float, stands: Array, reach: float, h
     to_u, to_v = u + away * along_u, v + away * along_v
     if interpolated(field, to_u, to_v)[0] >= reach - PUSH and stands_beside(stands, to_u, to_v):
         return True
-    size = int(math.ceil(2.0 * half / resolution)) + 2
     row, column = int(round(2.0 * v)), int(round(2.0 * u))
+    top, left = max(row // size - 1, 0), max(column // size - 1, 0)
+    if not tiles[top:row // size + 2, left:column // size + 2].any():
+        return False  # in a closed room, whose positions would all be tried for each sample
     for i in range(max(row - size, 0), min(row + size + 1, stands.shape[0])):
         for j in range(max(column - size, 0), min(column + size + 1, stands.shape[1])):
             if stands[i, j]:
