@@ -86,7 +86,7 @@ def test_what_the_file_says_is_in_the_lines(run, tmp_path):
 
 
 def test_a_start_outside_the_largest_part_and_a_floor_of_many_charges_are_told(run):
-    _, lines, _ = run(flat(), '--no-picture', start='[12.0, 12.0, 0.0]', resolution=0.2, origin='[-20.0, 0, 0]')
+    _, lines, _ = run(flat(), '--no-picture', start='[4.0, 9.0, 0.0]', resolution=0.15, origin='[-20.0, 0, 0]')
     assert any(line.startswith('to add') and 'start: [' in line and 'dock: [' in line for line in lines)
     assert any(line.startswith('mission') and 'charge' in line for line in lines)
 
