@@ -197,7 +197,8 @@ class FakeCreate:
 
     def is_followed(self):
         """Whether those on whom it waits have answered what it last told."""
-        return not (self.waits and self.corrected < self.now) and all(when >= self.now for when in self.answered.values())
+        return not (self.waits and self.corrected < self.now) and all(
+            when >= self.now for when in self.answered.values())
 
     def run(self):
         """Live, as fast as the others keep up, but at most ten times as fast as the real one would."""

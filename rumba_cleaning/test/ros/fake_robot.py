@@ -216,7 +216,7 @@ class FakeRobot:
 
 
 def publisher(topic, kind, latch=False):
-    """A publisher that writes messages by itself: a queue takes a thread for each reader, and most of a fake's CPU time."""
+    """A publisher that writes by itself: a queue takes a thread for each reader, and most of the CPU time of a fake."""
     with warnings.catch_warnings():
         warnings.simplefilter('ignore', SyntaxWarning)  # that it has no queue
         return rospy.Publisher(topic, kind, latch=latch, queue_size=None)
@@ -226,7 +226,7 @@ NEWS = threading.Condition()  # something came for which a fake waits
 
 
 def keep_pace(fake, period):
-    """Have a fake step until it is told to end: not faster than by a period [s], nor than it is followed for a second."""
+    """Have a fake step until it is told to end: each takes a period [s] at least, and waits a second for followers."""
     while not has_ended():
         begin = time.monotonic()
         fake.step()

@@ -7,9 +7,12 @@ import pytest
 from floors import context
 from rooms import crooked, room
 
-from rumba_cleaning.ros.cleaner.goals.go_to_position import heading_toward, velocity_toward
+from rumba_cleaning.cleaning_config import CleaningConfig
+from rumba_cleaning.ros.cleaner.goals.go_to_position import Knowledge, heading_toward, velocity_toward
+from rumba_sim.model.common.config import updated
 from rumba_sim.model.common.errors import MapError
 from rumba_sim.model.common.geometry import Pose, compose
+from rumba_sim.model.settings.robot_config import RobotConfig
 
 TARGET = Pose(3.5, 2.4, -2.0)
 
@@ -75,3 +78,28 @@ def test_a_target_that_cannot_be_reached_is_an_error(target, message):
     for toward in (velocity_toward, heading_toward):
         with pytest.raises(MapError, match=message):
             toward(context(plan), Pose(0.5, 0.5, 0.0), target)
+
+
+class Floors:
+    """A workplace that says which plan and which robot there are now."""
+
+    def __init__(self, plan, robot):
+        self.now = plan, robot
+
+    def look(self):
+        """The plan and the robot."""
+        return self.now
+
+
+@pytest.mark.parametrize('resolution', [0.02, 0.05, 0.1])
+def test_what_it_knows_of_floor_and_robot_is_worked_out_once(resolution):
+    plan, robot = room(2.0, 2.0, resolution), RobotConfig()
+    floors = Floors(plan, robot)
+    knowledge = Knowledge(floors, CleaningConfig())
+    first = knowledge.context()
+    assert knowledge.context() is first
+    floors.now = plan, updated(robot, {'drive': {'radius': 0.1}}, 'small')
+    second = knowledge.context()
+    assert second is not first and second.robot.drive.radius == 0.1
+    floors.now = room(3.0, 2.0, resolution), second.robot
+    assert knowledge.context().plan.columns > second.plan.columns

@@ -33,7 +33,7 @@ class Floor(NamedTuple):
 
 
 def between_nodes(floor: Floor) -> Array:
-    """How far the nearest obstacle is at the points of a lattice of half cells: float64 (2 * rows + 1, 2 * columns + 1).
+    """Distance to obstacles at the points of a lattice of half cells: float64 (2 * rows + 1, 2 * columns + 1).
 
     The interpolated clearance shows half a cell too little in the middle of a passage of an odd number of cells. Near
     an obstacle that the cells do not show, it is 0.

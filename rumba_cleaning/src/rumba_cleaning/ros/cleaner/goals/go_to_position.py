@@ -11,6 +11,7 @@ from rumba_cleaning.behaviours.compiled_follower import LEAST_AHEAD
 from rumba_cleaning.behaviours.follower import HEADING, Follower, turn_rate
 from rumba_cleaning.belief import paths
 from rumba_cleaning.belief.context import Context
+from rumba_cleaning.cleaning_config import CleaningConfig
 from rumba_cleaning.ros.cleaner.goals.settings import Settings
 from rumba_cleaning.ros.cleaner.goals.workplace import Workplace
 from rumba_cleaning.ros.cleaner.robots.senses import Senses
@@ -19,6 +20,8 @@ from rumba_msg.srv import TargetPosition, TargetPositionResponse
 from rumba_sim.model.common.errors import MapError, RumbaError
 from rumba_sim.model.common.geometry import Pose, wrap_angle
 from rumba_sim.model.kernel import Array
+from rumba_sim.model.maps.floor_plan import FloorPlan
+from rumba_sim.model.settings.robot_config import RobotConfig
 from rumba_sim.ros.running import peers
 
 THERE = 0.02  # [m] from the target, at most, for a robot that is there
@@ -31,12 +34,10 @@ class GoToPosition:
 
     def __init__(self, settings: Settings, workplace: Workplace, senses: Senses) -> None:
         """Serve a robot, unless another node does so already, for example one of a learner: that one keeps the name."""
-        self._workplace = workplace
-        self._config = settings.cleaning
+        self._knowledge = Knowledge(workplace, settings.cleaning)
         self._senses = senses
         self._toward = heading_toward if settings.go_to_position.answer == 'heading' else velocity_toward
         self._lock = threading.Lock()  # each client has a thread
-        self._context: Optional[Context] = None
         service = rospy.resolve_name(f'{settings.robot}/go_to_position')
         server = _other_server(service)
         if server:
@@ -51,18 +52,32 @@ class GoToPosition:
             if pose is None:
                 raise MapError(self._senses.missing())
             with self._lock:
-                linear_x, angular_z, message = self._toward(self._newest_context(), pose, target)
+                linear_x, angular_z, message = self._toward(self._knowledge.context(), pose, target)
         except RumbaError as error:
             return TargetPositionResponse(0.0, 0.0, False, str(error))
         return TargetPositionResponse(linear_x, angular_z, True, message)
 
-    def _newest_context(self) -> Context:
-        """The context of the calls before, with all that it computed, until map or robot change."""
+
+class Knowledge:
+    """What the service knows of floor and robot, with all that it computed for the calls before."""
+
+    def __init__(self, workplace: Workplace, config: CleaningConfig) -> None:
+        """Know nothing yet."""
+        self._workplace = workplace
+        self._config = config
+        self._of: Optional[Tuple[FloorPlan, RobotConfig]] = None
+        self._context: Optional[Context] = None
+
+    def context(self) -> Context:
+        """The same context, until map or robot change.
+
+        Raises:
+            MapError: as `Workplace.look`.
+        """
         plan, robot = self._workplace.look()
-        context = self._context
-        if context is None or context.plan is not plan or context.robot != robot:
-            context = self._context = Context(plan, robot, self._config)
-        return context
+        if self._context is None or self._of is None or self._of[0] is not plan or self._of[1] != robot:
+            self._of, self._context = (plan, robot), Context(plan, robot, self._config)
+        return self._context
 
 
 def velocity_toward(context: Context, pose: Pose, target: Pose) -> Tuple[float, float, str]:
