@@ -97,5 +97,5 @@ def test_the_recorder_says_when_a_command_was_silent_longest(tmp_path, arguments
     if '--until' in arguments:
         assert re.search(r"^silence: \d+\.\d s in all, \d+\.\d s until 'o\.e'$", done.stdout, re.MULTILINE)
     else:
-        assert re.search(r"^silence: 1\.\d s after 'one\\r\\n'$", done.stdout, re.MULTILINE)
+        assert re.search(r"^silence: \d\.\d s in all\nsilence: \d\.\d s after 'one\\r\\n'$", done.stdout, re.MULTILINE)
         assert [line.split(maxsplit=1)[1] for line in log.read_text().splitlines()] == ["'one\\r\\n'", "'two\\r\\n'"]
