@@ -29,6 +29,7 @@ class Reach(NamedTuple):
 
 _Answers = Dict[bool, Tuple[Tuple[float, float], Reach]]  # to the last questions, by whether they were exact
 _last: 'weakref.WeakKeyDictionary[FloorPlan, _Answers]' = weakref.WeakKeyDictionary()
+_open: 'weakref.WeakKeyDictionary[FloorPlan, Dict[float, Pose]]' = weakref.WeakKeyDictionary()
 
 
 def reach(plan: FloorPlan, config: RobotConfig, x: float, y: float, is_exact: bool = True) -> Reach:
@@ -115,6 +116,17 @@ class Parts:
     def open_pose(self, number: int) -> Pose:
         """The node with the most space around it in a part, facing along x; of all nodes, if none is in that part."""
         return self._plan.most_open_pose(self.labels[::2, ::2] == number)
+
+
+def most_open_pose(plan: FloorPlan, needed: float) -> Pose:
+    """The node with the most space around it in the largest part of a floor, facing along x.
+
+    The answers about a plan are remembered, since each world on a floor asks the same.
+    """
+    answers = _open.setdefault(plan, {})
+    if needed not in answers:
+        answers[needed] = Parts(plan, needed).open_pose(1)
+    return answers[needed]
 
 
 def _parts(plan: FloorPlan, needed: float, is_wide: Array) -> Array:

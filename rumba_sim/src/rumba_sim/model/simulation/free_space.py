@@ -7,7 +7,7 @@ import numpy as np
 
 from rumba_sim.model.common.errors import MapError, WorldError
 from rumba_sim.model.common.geometry import Pose, hypot, wrap_angle
-from rumba_sim.model.floors.reachability import Parts, stands
+from rumba_sim.model.floors.reachability import most_open_pose, stands
 from rumba_sim.model.kernel import Array
 from rumba_sim.model.maps.floor_plan import FloorPlan
 from rumba_sim.model.simulation.obstacles import Obstacles
@@ -42,7 +42,7 @@ class FreeSpace:
         """
         self._terrain, self._reachable, self._obstacles = terrain, reachable, obstacles
         self._radius, self._reach = radius, reach
-        self.start = terrain.start or terrain.dock or Parts(reachable, reach).open_pose(1)
+        self.start = terrain.start or terrain.dock or most_open_pose(reachable, reach)
         for what, pose in [*(('dock', dock) for dock in terrain.docks), ('start', self.start)]:
             self._check_plan(what, pose)
 
