@@ -7,6 +7,8 @@ import pytest
 from drivers import context_of, guarded, with_cliffs
 from rooms import quiet, room
 
+from rumba_cleaning.behaviour import SIDE, Command, Observation
+from rumba_cleaning.behaviours import recoil
 from rumba_cleaning.behaviours.travel import Going, Travel
 from rumba_cleaning.control import CONTROL_DT, observe
 from rumba_cleaning.edges.guard import Guard
@@ -63,3 +65,84 @@ def test_what_presses_a_switch_is_remembered_on_the_side_of_that_switch(bumper, 
     there, opposite = (float(ground.clearance[ground.node(pose.x + 0.13, pose.y + y)])
                        for y in (0.12 * side, -0.12 * side))
     assert there < opposite - 0.05
+
+
+# --- what presses the bumper, and what holds the robot ----------------------------------------------------------------
+
+ACROSS = Pose(1.2, 0.6, 0.5)
+ALONG = Route(np.array([ACROSS[:2], (1.2 + 1.5 * math.cos(0.5), 0.6 + 1.5 * math.sin(0.5))]), np.full(1, 0.3))
+
+
+def under_way():
+    """What a robot knows at the start of a route through an empty room, what it senses there, and its travel."""
+    context = context_of(ROOM, World(ROOM, quiet()))
+    return context, Observation(CONTROL_DT, ACROSS), Travel(context, ALONG)
+
+
+def commands(travel, observation, seconds):
+    """What it does for some seconds in which nothing changes, at most until the route has to be left."""
+    answers = []
+    for _ in range(round(seconds / CONTROL_DT)):
+        answers.append(travel.command(observation, False))
+        if travel.going is not Going.ON:
+            break
+    return answers
+
+
+def test_it_backs_off_straight_for_as_long_as_the_contact_asks_and_then_leaves_the_route():
+    _, observation, travel = under_way()
+    travel.command(observation, False)
+    touching = observation._replace(bumper=(True, True))
+    backward = commands(travel, touching, 5.0)
+    assert set(backward) == {Command(-recoil.SPEED, 0.0, False)} and travel.going is Going.BLOCKED
+    assert len(backward) * CONTROL_DT == pytest.approx(recoil.time_back(touching), abs=2.1 * CONTROL_DT)
+
+
+@pytest.mark.parametrize('bumper', [(True, False), (False, True), (True, True)])
+def test_a_contact_from_before_the_route_is_none_until_it_ends_and_comes_again(bumper):
+    _, observation, travel = under_way()
+    touching = observation._replace(bumper=bumper)
+    assert all(command.v >= 0.0 for command in commands(travel, touching, 1.0)) and travel.going is Going.ON
+    assert travel.command(observation, False).v >= 0.0
+    assert travel.command(touching, False).v < 0.0
+
+
+@pytest.mark.parametrize('angle, bumper', [(0.0, (True, True)), (SIDE, (True, False)), (-SIDE, (False, True))])
+def test_what_it_touches_is_marked_at_the_rim_of_the_body_whatever_its_heading(angle, bumper):
+    context, observation, travel = under_way()
+    travel.command(observation, False)
+    travel.command(observation._replace(bumper=bumper), False)
+    ground, away = context.ground, context.robot.drive.radius + 0.05
+    clearances = {turn: float(ground.clearance[ground.node(ACROSS.x + away * math.cos(ACROSS.theta + turn),
+                                                           ACROSS.y + away * math.sin(ACROSS.theta + turn))])
+                  for turn in (0.0, SIDE, -SIDE, math.pi)}
+    assert min(clearances, key=clearances.get) == angle and clearances[angle] < 0.05
+
+
+def test_a_robot_without_progress_takes_something_to_be_ahead_of_it_after_four_seconds():
+    _, observation, travel = under_way()
+    assert all(command.v >= 0.0 for command in commands(travel, observation, 3.9))
+    later = commands(travel, observation, 0.4)
+    assert later[-1].v < 0.0
+    assert commands(travel, observation, 2.0) and travel.going is Going.BLOCKED
+
+
+def test_slow_progress_is_progress_and_a_long_observation_is_no_waiting():
+    _, observation, travel = under_way()
+    for step in range(40):  # 2 cm in each second
+        away = 0.02 * step
+        pose = Pose(ACROSS.x + away * math.cos(0.5), ACROSS.y + away * math.sin(0.5), 0.5)
+        assert all(command.v >= 0.0 for command in commands(travel, observation._replace(pose=pose), 1.0))
+    _, observation, travel = under_way()
+    for _ in range(4):
+        assert travel.command(observation._replace(dt=60.0), False).v >= 0.0
+
+
+@pytest.mark.parametrize('bumper, is_forgotten', [((False, False), True), ((True, False), False)])
+def test_where_it_stands_and_touches_nothing_nothing_can_be(bumper, is_forgotten):
+    context, observation, travel = under_way()
+    context.ground.mark(ACROSS.x + 0.22, ACROSS.y, 0.1)
+    here = context.ground.node(ACROSS.x + 0.13, ACROSS.y)
+    assert context.ground.clearance[here] < 0.02
+    travel.command(observation._replace(bumper=bumper), False)
+    assert (context.ground.clearance[here] > 0.03) == is_forgotten
