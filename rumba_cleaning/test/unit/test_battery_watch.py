@@ -21,6 +21,7 @@ def test_the_charge_that_the_way_to_the_dock_needs_grows_with_its_length():
     world, behaviour = mission()
     context = context_of(PLAN, world)
     watch = BatteryWatch(context)
+    assert watch.has_home
     near, far = watch.needed(Pose(3.0, 1.2, 0.0)), watch.needed(Pose(0.4, 0.4, 0.0))
     rate = (0.19 + 1.0 + 0.5) / (2.7 * 3600.0)
     assert context.config.reserve + 40.0 * rate <= near < far
