@@ -85,7 +85,7 @@ class Boustrophedon(Behaviour):
         self._missing = 1.0  # of coverage to the target then
         self._reason = ''  # why this round is the last, if there is nothing to drive
         self._driven = 0.0  # [m] since then
-        self._longest = self._after = 0.0  # [m] driven in the longest round, and in all rounds after that
+        self._longest = self._after = 0.0  # [m] driven in the longest round that was not dear, and in all after that
         self._last: Optional[Pose] = None  # where the robot was
         self._unchecked = 0.0  # [s] since it was last checked whether all beside obstacles is swept
         self._impasse, self._standstill = Impasse(), standstill.Standstill()
@@ -154,13 +154,13 @@ class Boustrophedon(Behaviour):
         context.learn(pose)
         coverage = context.swept.coverage
         gain = coverage - self._before
-        if self._driven > self._longest:
+        is_dear = self._driven > DEAR * gain * context.swept.reachable_area
+        if self._driven > self._longest and not is_dear:
             self._longest, self._after = self._driven, 0.0
         else:
             self._after += self._driven
         has_marks, is_long = context.ground.has_marks, self._after > self._longest and context.survey is None
-        is_dear = (has_marks or is_long) and self._driven > DEAR * gain * context.swept.reachable_area
-        is_gain = gain > min(WORTH, 0.5 * self._missing) and not is_dear
+        is_gain = gain > min(WORTH, 0.5 * self._missing) and not (is_dear and (has_marks or is_long))
         self._idle = 0 if is_gain else self._idle + 1
         self._missing = context.target_coverage - coverage
         self._most = max(self._most, context.beside_obstacles(pose).coverage)
