@@ -9,7 +9,7 @@ from scipy import ndimage
 from rumba_sim.model.common.geometry import Pose
 from rumba_sim.model.compiling.compiled import fast
 from rumba_sim.model.floors.constants import clearance_needed
-from rumba_sim.model.floors.straits import Floor, between_nodes, joined
+from rumba_sim.model.floors.straits import Floor, exact, joined
 from rumba_sim.model.kernel import Array
 from rumba_sim.model.kernel.sweeping.samples import SWEEPABLE
 from rumba_sim.model.maps.floor_plan import ROUNDING, FloorPlan
@@ -53,9 +53,11 @@ def reach(plan: FloorPlan, config: RobotConfig, x: float, y: float, is_exact: bo
         asked, known = answers[is_exact]
         if asked == question and known.stands[_nearest(plan, known.stands, x, y)]:
             return known
-    where = stands(plan, needed, x, y, is_exact)
+    clearance = _clearance(plan, is_exact)
+    where = _standing(plan, clearance, needed, x, y, is_exact)
+    spare = np.where(where, np.maximum(clearance - needed, 0.0), -1.0)
     samples = _sweepable(plan)
-    number = int(fast.mark_reachable(plan.safe_clearance, plan.resolution, where, needed, half, samples))
+    number = int(fast.mark_reachable(plan.safe_clearance, plan.resolution, spare, needed, half, samples))
     found = Reach(where, samples, number)
     answers[is_exact] = question, found
     return found
@@ -74,8 +76,12 @@ def stands(plan: FloorPlan, needed: float, x: float, y: float, is_exact: bool = 
         bool (2 * rows + 1, 2 * columns + 1), at points half a cell apart: element (i, j) is the point
         `origin + 0.5 * resolution * (j, i)`.
     """
-    fitted = _exactly_fitting if is_exact else fitting
-    fits, is_wide = fitted(plan, needed), fitted(plan, needed + SLACK)
+    return _standing(plan, _clearance(plan, is_exact), needed, x, y, is_exact)
+
+
+def _standing(plan: FloorPlan, clearance: Array, needed: float, x: float, y: float, is_exact: bool) -> Array:
+    """As `stands`, by the clearance at its points, float64 (2 * rows + 1, 2 * columns + 1) [m]."""
+    fits, is_wide = clearance >= needed - ROUNDING, clearance >= needed + SLACK - ROUNDING
     start = _nearest(plan, fits, x, y)
     fits[start] = is_wide[start] = True
     labels = _parts(plan, needed, is_wide) if is_exact else ndimage.label(is_wide)[0]
@@ -100,7 +106,7 @@ class Parts:
             needed: the clearance that the robot needs [m].
         """
         self._plan = plan
-        labels = _parts(plan, needed, _exactly_fitting(plan, needed + SLACK))
+        labels = _parts(plan, needed, _clearance(plan, True) >= needed + SLACK - ROUNDING)
         sizes = np.bincount(labels.ravel())[1:]
         by_size = np.argsort(-sizes, kind='stable')[:np.count_nonzero(sizes)]
         ranks = np.zeros(len(sizes) + 1, labels.dtype)
@@ -131,22 +137,20 @@ def _floor(plan: FloorPlan, needed: float) -> Floor:
     return Floor(cells, plan.safe_clearance / plan.resolution, (needed - ROUNDING) / plan.resolution)
 
 
-def _exactly_fitting(plan: FloorPlan, needed: float) -> Array:
-    """As `fitting`, also where the interpolated clearance is too small, but the exact one is not."""
-    return np.asarray(fitting(plan, needed) | between_nodes(_floor(plan, needed)))
+def _clearance(plan: FloorPlan, is_exact: bool) -> Array:
+    """The clearance at the points, as `stands` answers them: float64 (2 * rows + 1, 2 * columns + 1) [m].
 
-
-def fitting(plan: FloorPlan, needed: float) -> Array:
-    """The points, as `stands` answers them, at which there is the needed clearance [m]."""
-    clearance = plan.safe_clearance
-    fits = np.zeros((2 * plan.rows + 1, 2 * plan.columns + 1), np.bool_)
-    needed -= ROUNDING
-    fits[::2, ::2] = clearance >= needed
-    fits[::2, 1::2] = 0.5 * (clearance[:, :-1] + clearance[:, 1:]) >= needed
-    fits[1::2, ::2] = 0.5 * (clearance[:-1] + clearance[1:]) >= needed
-    fits[1::2, 1::2] = 0.25 * (clearance[:-1, :-1] + clearance[:-1, 1:] + clearance[1:, :-1] + clearance[1:, 1:]
-                               ) >= needed
-    return fits
+    It is interpolated between the nodes, or exact where that shows too little.
+    """
+    nodes = plan.safe_clearance
+    found = np.empty((2 * plan.rows + 1, 2 * plan.columns + 1))
+    found[::2, ::2] = nodes
+    found[::2, 1::2] = 0.5 * (nodes[:, :-1] + nodes[:, 1:])
+    found[1::2, ::2] = 0.5 * (nodes[:-1] + nodes[1:])
+    found[1::2, 1::2] = 0.25 * (nodes[:-1, :-1] + nodes[:-1, 1:] + nodes[1:, :-1] + nodes[1:, 1:])
+    if is_exact:
+        np.maximum(found, plan.resolution * exact(_floor(plan, 0.0)), out=found)
+    return found
 
 
 def _nearest(plan: FloorPlan, fits: Array, x: float, y: float) -> Tuple[int, int]:

@@ -33,16 +33,17 @@ class Floor(NamedTuple):
     wide: float  # distance to obstacles that a robot needs
 
 
-def between_nodes(floor: Floor) -> Array:
-    """The points of a lattice of half cells that are wide enough: bool (2 * rows + 1, 2 * columns + 1).
+def exact(floor: Floor) -> Array:
+    """Distance to obstacles at a lattice of half cells, float64 (2 * rows + 1, 2 * columns + 1), in cells.
 
-    The interpolated clearance shows half a cell too little in the middle of a passage of an odd number of cells. None
-    of these points lies near an obstacle that the cells do not show.
+    The interpolated clearance shows half a cell too little in the middle of a passage of an odd number of cells. The
+    distance is 0 near obstacles that the cells do not show.
     """
     away = _exact(floor.cells, 2, beyond=False)
     hidden = np.zeros(away.shape, np.bool_)
     hidden[::2, ::2] = floor.clearance < away[::2, ::2] - CLOSER
-    return np.asarray((away >= floor.wide) & ~ndimage.binary_dilation(hidden, ALL_AROUND))
+    away[ndimage.binary_dilation(hidden, ALL_AROUND)] = 0.0
+    return away
 
 
 def joined(labels: Array, number: int, floor: Floor) -> Array:
