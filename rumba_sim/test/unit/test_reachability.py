@@ -9,6 +9,7 @@ from rooms import crooked, quiet, room, slanted
 from scipy import ndimage, spatial
 
 from rumba_sim.model.common.errors import MapError
+from rumba_sim.model.floors import reachability
 from rumba_sim.model.floors.constants import clearance_needed
 from rumba_sim.model.floors.reachability import SLACK, reach, stands
 from rumba_sim.model.kernel.sweeping.samples import REACHABLE, SWEEPABLE, sample_point
@@ -110,6 +111,17 @@ def test_between_things_closer_than_two_robots_the_floor_in_reach_is_that_by_exa
     plans = [strewn(seed) for seed in (1, 6, 12)]
     found, exact = (sum(each(plan, 0.4, 0.4) for plan in plans) for each in (area, exact_area))
     assert found == approx(exact, rel=0.0013)  # 0.16 % less by interpolated ones
+
+
+def test_straits_between_parts_are_looked_for_once(monkeypatch):
+    """Among specks that takes seconds."""
+    plan, asked, joined = strewn(1).refined(), [], reachability.joined
+    monkeypatch.setattr(reachability, 'joined', lambda *args: asked.append(args) or joined(*args))
+    needed = clearance_needed(RADIUS, plan.resolution)
+    areas = reachability.Parts(plan, needed).areas
+    reach(plan, quiet(), 0.4, 0.4)
+    assert reachability.Parts(plan, needed).areas.tolist() == areas.tolist() and len(areas) > 1 and len(asked) == 1
+    assert reachability.Parts(plan, needed - 0.02).areas.tolist() != areas.tolist() and len(asked) == 2
 
 
 def test_no_sample_in_a_wall_or_over_a_cliff_can_be_swept():

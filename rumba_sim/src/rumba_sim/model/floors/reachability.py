@@ -1,5 +1,6 @@
 """Where a robot can stand, and which part of a floor its brush can reach."""
 
+import math
 import weakref
 from typing import Dict, NamedTuple, Tuple
 
@@ -29,6 +30,7 @@ class Reach(NamedTuple):
 
 _Answers = Dict[bool, Tuple[Tuple[float, float], Reach]]  # to the last questions, by whether they were exact
 _last: 'weakref.WeakKeyDictionary[FloorPlan, _Answers]' = weakref.WeakKeyDictionary()
+_known_parts: 'weakref.WeakKeyDictionary[FloorPlan, Tuple[float, Array, Array]]' = weakref.WeakKeyDictionary()
 
 
 def reach(plan: FloorPlan, config: RobotConfig, x: float, y: float, is_exact: bool = True) -> Reach:
@@ -124,11 +126,18 @@ class Parts:
 
 
 def _parts(plan: FloorPlan, needed: float, is_wide: Array) -> Array:
-    """The part of each point of `stands` at which it is wide enough, as a number from 1 on; 0 elsewhere."""
+    """The part of each point of `stands` at which it is wide enough, as a number from 1 on; 0 elsewhere.
+
+    The last answer about a plan is remembered: a look at all straits among specks takes seconds.
+    """
+    asked, wide, known = _known_parts.get(plan, (math.nan, is_wide, is_wide))
+    if asked == needed and np.array_equal(wide, is_wide):
+        return known
     labels, number = ndimage.label(is_wide)
-    if number < 2:
-        return labels
-    return joined(labels, number, _floor(plan, needed + SLACK))
+    if number > 1:
+        labels = joined(labels, number, _floor(plan, needed + SLACK))
+    _known_parts[plan] = needed, is_wide, labels
+    return labels
 
 
 def _floor(plan: FloorPlan, needed: float) -> Floor:
