@@ -153,7 +153,8 @@ def test_once_the_rest_is_swept_it_does_not_try_again_what_obstacles_cut_off_a_c
         Obstacle('bench', Pose(1.2, 2.4, 0.0), 0.3, length=0.1, width=1.2)])
     world.spawn('rumba', brushes_up=True)
     world.step()
-    mission, tries, retry = Mission(context_of(plan, world, laser=True), 'boustrophedon', 0.98), [], boustrophedon._retry
+    mission = Mission(context_of(plan, world, laser=True), 'boustrophedon', 0.98)
+    tries, retry = [], boustrophedon._retry
 
     def counting(context, is_cut_off):
         tries.append(context.beside_obstacles().coverage)

@@ -85,7 +85,7 @@ def test_samples_are_reachable_as_the_definition_says(plan):
 
 
 def strewn(seed):
-    """A room of 4 x 3 m with three cells of 5 cm on each square metre that are walls, but for the corner of the start."""
+    """A room of 4 x 3 m with walls of one cell of 5 cm, three on each square metre, but for the corner of the start."""
     generator, cells = np.random.default_rng(seed), np.full((60, 80), FREE, np.int8)
     cells[generator.integers(0, 60, 36), generator.integers(0, 80, 36)] = OCCUPIED
     cells[:14, :14] = FREE
