@@ -146,6 +146,25 @@ def test_it_squeezes_through_a_gap_that_leads_to_more_of_the_floor():
     assert world.floor.coverage >= 0.97
 
 
+def test_once_the_rest_is_swept_it_does_not_try_again_what_obstacles_cut_off_a_corner(monkeypatch):
+    plan = room(4.0, 3.0, dock=Pose(4.0 - RADIUS - 0.01, 0.6, 0.0))
+    world = World(plan, quiet(), obstacles=[
+        Obstacle('shelf', Pose(0.6, 1.8, 0.0), 0.3, length=1.2, width=0.1),
+        Obstacle('bench', Pose(1.2, 2.4, 0.0), 0.3, length=0.1, width=1.2)])
+    world.spawn('rumba', brushes_up=True)
+    world.step()
+    mission = Mission(context_of(plan, world, laser=True), 'boustrophedon', 0.98)
+    tries, retry = [], boustrophedon._retry
+
+    def counting(context, is_cut_off):
+        tries.append(context.beside_obstacles().coverage)
+        return retry(context, is_cut_off)
+    monkeypatch.setattr(boustrophedon, '_retry', counting)
+    run(mission, world, seconds=3000.0, source=seeing(truth))
+    assert mission.outcome is Outcome.SUCCEEDED and world.floor.coverage >= 0.97
+    assert all(swept < 0.98 for swept in tries)
+
+
 @pytest.mark.thorough
 def test_a_robot_that_gave_up_where_it_was_shut_in_begins_again_at_its_dock():
     plan = room(5.0, 3.0, boxes=[(2.4, 0.0, 2.6, 1.0), (2.4, 1.9, 2.6, 3.0)], dock=Pose(4.9 - RADIUS, 1.45, 0.0))

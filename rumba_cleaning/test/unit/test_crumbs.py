@@ -95,6 +95,17 @@ def test_each_crumb_lies_in_its_region_and_its_path_where_the_robot_can_stand():
             assert untouched.ground.are_free(variant.path()).all()
 
 
+def test_no_path_along_a_strip_that_the_robot_can_only_pass_beside_leads_through_a_wall():
+    """A slot between two rooms, from one side of which to the other the strip lies aslant."""
+    plan = room(3.0, 2.2, 0.025, [(0.0, 0.9, 2.6, 0.95), (0.0, 1.25, 2.6, 1.3)])
+    context = knowing(plan, Pose(0.5, 0.5, 0.0))
+    x, y = (0.025 * (np.arange(size) + 0.5) for size in plan.occupancy.shape[::-1])
+    share = (np.abs(y[:, np.newaxis] - 1.0 - 0.1 * (x - 0.3)) < 0.05) & (x > 0.3) & (x < 2.3)
+    strips = crumbs(context.ground, share.astype(np.float32), regions(context.ground))
+    assert strips and all(context.ground.is_straight(*leg) for strip in strips for variant in strip.variants
+                          for leg in zip(variant.path(), variant.path()[1:]) if math.dist(*leg) > 0.2)
+
+
 def test_the_middle_of_a_bar_is_one_line_along_it():
     cells = np.zeros((12, 40), bool)
     cells[3:8, 2:38] = True

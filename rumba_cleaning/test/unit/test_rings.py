@@ -18,11 +18,11 @@ from rumba_sim.model.common.geometry import Pose
 START = Pose(0.5, 0.5, 0.0)
 
 
-def everywhere(floor, swept):
+def everywhere(floor, swept, spare=math.inf):
     """Rings on all of a floor, whatever shape its regions have."""
     labels = regions(floor)
     nowhere = np.zeros(labels.max() + 1, bool)
-    return rings(floor, swept, labels, Shapes(nowhere, nowhere), BRUSH, PASS)
+    return rings(floor, swept, labels, Shapes(nowhere, nowhere), BRUSH, PASS, spare)
 
 
 def planned(plan, start=START):
@@ -81,7 +81,8 @@ def test_floor_that_was_swept_needs_no_rings():
 
 def seen_by_rings(context, depth):
     plan = context.ground.plan
-    return compiled_rings.Floor(context.swept.brush.samples, plan.sample_squares, depth, plan.origin, plan.resolution)
+    return compiled_rings.Floor(context.swept.brush.samples, plan.sample_squares, depth, compiled_rings.RIDGE,
+                                plan.origin, plan.resolution)
 
 
 @pytest.mark.parametrize('resolution', [0.02, 0.05])
@@ -116,6 +117,13 @@ def test_where_two_sides_almost_touch_there_is_no_ring():
     width = 2.0 * (0.17425 + PASS * BRUSH) + 0.03  # of a corridor in whose middle the second ring is 3 cm wide
     _, _, found = planned(room(3.0, width, 0.01), Pose(0.3, 0.3, 0.0))
     assert [ring.level for ring in found] == [0]
+
+
+@pytest.mark.parametrize('spare, levels', [(0.2, []), (0.05, [0])])
+def test_a_passage_hardly_wider_than_the_robot_has_a_ring_if_a_pass_in_its_middle_leaves_too_much(spare, levels):
+    context = knowing(room(4.0, 0.4, 0.01), Pose(0.3, 0.2, 0.0))  # 3.65 m are left on both sides, 1.5 cm wide or more
+    found = everywhere(context.ground, context.swept.copy(), spare)
+    assert [ring.level for ring in found] == levels and all(ring.is_closed for ring in found)
 
 
 def test_rings_of_two_rooms_end_at_the_door_between_them():

@@ -42,3 +42,15 @@ def test_who_is_home_and_has_little_left_to_clean_does_not_begin_again(monkeypat
     second_try.give_up()
     monkeypatch.setattr(context, 'beside_marks', lambda pose: Part(1.0, share))
     assert second_try.is_worth_it(PLAN.start) == is_worth
+
+
+def test_a_robot_that_squeezes_past_what_shut_it_in_is_still_shut_in_by_what_it_knows():
+    """Otherwise half of a flat behind a door that is nearly closed would not count in the verdict."""
+    context = context_of(PLAN, World(PLAN, quiet()))
+    context.swept.begin(1.0, 1.0)
+    for y in (1.25, 1.65):  # 30 cm are left between them, and 37 cm if they are as small as they can be
+        context.ground.mark(2.5, y, 0.05, stays=True)
+    assert context.is_shut_in(PLAN.start) and context.is_cut_off(PLAN.start)
+    context.ground.squeeze(True)
+    assert context.is_shut_in(PLAN.start) and not context.is_cut_off(PLAN.start)
+    assert not context.with_target(0.0).is_met_beside_obstacles(PLAN.start)

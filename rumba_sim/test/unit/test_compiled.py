@@ -119,11 +119,11 @@ def test_compiled_and_plain_kernel_move_led_robots_in_the_same_way():
 
 def test_compiled_and_plain_kernel_find_the_same_floor_in_reach():
     plan = crooked(cliff=(3.6, 2.4, 4.0, 3.0))
-    where = stands(plan, 0.17, 0.5, 0.5)
+    spare = np.where(stands(plan, 0.17, 0.5, 0.5), 0.001, -1.0)
     found = []
     for functions in (PLAIN, fast):
         samples = np.full((plan.rows * 2, plan.columns * 2), SWEEPABLE, np.uint8)
-        count = functions.mark_reachable(plan.safe_clearance, plan.resolution, where, 0.17, 0.08, samples)
+        count = functions.mark_reachable(plan.safe_clearance, plan.resolution, spare, 0.17, 0.08, samples)
         assert count == np.count_nonzero(samples & REACHABLE) > 1000
         found.append(samples)
     np.testing.assert_array_equal(found[1], found[0])

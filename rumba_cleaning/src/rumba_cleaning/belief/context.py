@@ -234,15 +234,20 @@ class Context:
 
     def is_cut_off(self, pose: Pose) -> bool:
         """Whether obstacles that stay, as a closed door, keep a robot at a pose from a part of the floor."""
-        return self._is_cut_off(pose, CUT_OFF)
+        return self._is_cut_off(self.ground, pose, CUT_OFF)
 
     def is_shut_in(self, pose: Pose) -> bool:
-        """Whether they keep it from much of the floor, as from a room."""
-        return self._is_cut_off(pose, SHUT_IN)
+        """Whether they keep it from much of the floor, as from a room, unless it squeezes past them."""
+        return self._is_cut_off(self._usual_ground(), pose, SHUT_IN)
 
-    def _is_cut_off(self, pose: Pose, share: float) -> bool:
-        return (self.ground.has_lasting
-                and self.ground.cut_off(pose.x, pose.y) > share * self.swept.reachable_area)
+    def _is_cut_off(self, ground: Ground, pose: Pose, share: float) -> bool:
+        return ground.has_lasting and ground.cut_off(pose.x, pose.y) > share * self.swept.reachable_area
+
+    def _usual_ground(self) -> Ground:
+        """The ground as it is if nothing is squeezed past: a copy."""
+        usual = self.ground.copy()
+        usual.squeeze(False)
+        return usual
 
     def may_squeeze(self, pose: Pose) -> bool:
         """Whether squeezing past obstacles opens floor to a robot at a pose."""
@@ -289,8 +294,7 @@ class Context:
         """
         if not self.ground.has_lasting and not self.swept.has_straits:
             return Part(1.0, self.swept.coverage)
-        usual = self.ground.copy()
-        usual.squeeze(False)
+        usual = self._usual_ground()
         points = [self.swept.start] if pose is None else [self.swept.start, pose[:2]]
         return self.swept.within(usual.lasting_clearance(), *usual.places(points)[0])
 

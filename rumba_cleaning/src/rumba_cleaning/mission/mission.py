@@ -235,9 +235,9 @@ class Mission(StagedMission):
             return self._succeed()
         if self._context.ground.has_doubtful:
             self._context.ground.settle()
-        self._second_try.give_up()
         if self._context.is_met_beside_obstacles(observation.pose):
             return self._close(Status.SUCCEEDED, swept(self._context), Outcome.SUCCEEDED)
+        self._second_try.give_up()
         return self._close(Status.FAILED, f'{swept(self._context)}, the target is {percent(target)}: '
                                           f'{self._cleaning.message}', Outcome.INCOMPLETE)
 

@@ -8,6 +8,7 @@ from rumba_cleaning.behaviour import STOP, Behaviour, Command, Observation
 from rumba_cleaning.behaviours import standstill
 from rumba_cleaning.behaviours.detour import detour
 from rumba_cleaning.behaviours.impasse import Impasse
+from rumba_cleaning.behaviours.lull import Lull
 from rumba_cleaning.behaviours.travel import LONGEST, Going, Travel
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.outcome import Outcome
@@ -27,6 +28,7 @@ HELPED = 0.01  # of coverage: a retry that gained less was in vain: to touch all
 # retries may be in vain while obstacles keep the robot from much of the floor; else one is.
 VAIN, PATIENT, MUCH = 1, 5, 0.9
 CHECK = 5.0  # [s]: more often takes more computing, less often drives on in vain
+TOO_LITTLE = 'another round would gain too little'
 PAUSE = 20.0  # [s] after the first of these times, twice that after the second ...: who stands there may walk on
 MORE = 1.15  # times an equal share for a robot that several mates plan after: they drive farther for what others leave;
 #              our choice, by the apartment with three docks, where 1.1 gains nothing, and 1.2 less
@@ -85,10 +87,11 @@ class Boustrophedon(Behaviour):
         self._missing = 1.0  # of coverage to the target then
         self._reason = ''  # why this round is the last, if there is nothing to drive
         self._driven = 0.0  # [m] since then
-        self._longest = self._after = 0.0  # [m] driven in the longest round, and in all rounds after that
+        # [m] driven in the longest round, and after it; a dear one for the last spots does not count as the longest.
+        self._longest = self._after = 0.0
         self._last: Optional[Pose] = None  # where the robot was
         self._unchecked = 0.0  # [s] since it was last checked whether all beside obstacles is swept
-        self._impasse, self._standstill = Impasse(), standstill.Standstill()
+        self._impasse, self._standstill, self._lull = Impasse(), standstill.Standstill(), Lull()
         self._brushes_up = True
 
     def update(self, observation: Observation) -> Command:
@@ -96,6 +99,7 @@ class Boustrophedon(Behaviour):
         pose, last = observation.pose, self._last
         self._driven += 0.0 if last is None else hypot(pose.x - last.x, pose.y - last.y)
         self._last = pose
+        self._lull.watch(self._context.swept.coverage, min(observation.dt, LONGEST))
         self._leave_to_mate()
         if self._travel is None:
             if self._planning is None:
@@ -119,6 +123,8 @@ class Boustrophedon(Behaviour):
             self._unchecked = 0.0
             if self._context.is_all_swept(pose):
                 return self.succeed('nothing more can be reached')
+            if self._is_in_vain(pose):
+                return self.succeed(TOO_LITTLE)
         self._brushes_up = False
         command = self._travel.command(observation, self._brushes_up)
         self.message = f'{self._travel.remaining:.0f} m of the plan to go'
@@ -154,13 +160,13 @@ class Boustrophedon(Behaviour):
         context.learn(pose)
         coverage = context.swept.coverage
         gain = coverage - self._before
-        if self._driven > self._longest:
+        is_dear = self._driven > DEAR * gain * context.swept.reachable_area
+        if self._driven > self._longest and not (is_dear and coverage > MUCH):
             self._longest, self._after = self._driven, 0.0
         else:
             self._after += self._driven
         has_marks, is_long = context.ground.has_marks, self._after > self._longest and context.survey is None
-        is_dear = (has_marks or is_long) and self._driven > DEAR * gain * context.swept.reachable_area
-        is_gain = gain > min(WORTH, 0.5 * self._missing) and not is_dear
+        is_gain = gain > min(WORTH, 0.5 * self._missing) and not (is_dear and (has_marks or is_long))
         self._idle = 0 if is_gain else self._idle + 1
         self._missing = context.target_coverage - coverage
         self._most = max(self._most, context.beside_obstacles(pose).coverage)
@@ -168,13 +174,19 @@ class Boustrophedon(Behaviour):
         patience = PATIENT if may_open and context.beside_marks(pose).coverage <= MUCH else VAIN
         is_worth = self._rounds < ROUNDS and self._idle < patience
         is_swept = self._most >= context.target_coverage  # but for what lies behind obstacles
-        self._reason = 'nothing more can be reached' if is_worth or is_swept else 'another round would gain too little'
+        self._reason = 'nothing more can be reached' if is_worth or is_swept else TOO_LITTLE
         waits = self._vain < PATIENT and (self._most <= MUCH or context.is_shut_in(pose))
-        may_retry = context.ground.has_marks and (self._has_helped(coverage) or waits)
+        may_retry = context.ground.has_marks and (waits or not is_swept and self._has_helped(coverage))
         self._before, self._driven = coverage, 0.0
         self._rounds += 1
         self._rest = None
         self._planning = context.submit(_round, pose, is_worth, may_retry)
+
+    def _is_in_vain(self, pose: Pose) -> bool:
+        """Whether a round after one in vain, or another try, gains hardly anything beside obstacles either."""
+        context, is_extra = self._context, self._idle > 0 or self._tried_at >= 0.0
+        return (is_extra and self._lull.is_long and context.ground.has_marks
+                and context.beside_obstacles(pose).coverage > MUCH and not context.is_shut_in(pose))
 
     def _has_helped(self, coverage: float) -> bool:
         """Whether the last retry helped, if there was one."""

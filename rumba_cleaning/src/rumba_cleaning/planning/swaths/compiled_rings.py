@@ -27,6 +27,7 @@ class Floor(NamedTuple):
     samples: Array  # uint8 (rows * squares, columns * squares), as in `Sweep`
     squares: int  # of samples along the side of a cell
     depth: Array  # float64 (rows + 1, columns + 1), how far the nodes are from where the robot would touch a wall [m]
+    ridge: float  # [m] as RIDGE; 0: no part of a ring counts as a ridge
     origin: Tuple[float, float]  # of the nodes [m]
     resolution: float  # from node to node [m]
 
@@ -46,6 +47,16 @@ def needed(floor: Floor, path: Array, brush: float) -> Array:
         found[index] = missed_share(floor, path, index, brush) >= NEEDED and not is_ridge(
             floor, path[index, 0], path[index, 1])
     return found
+
+
+@compiled
+def ridges(floor: Floor, path: Array) -> int:
+    """How many waypoints of a path, float64 (any, 2) [m], lie on ridges."""
+    floor = Floor(*floor)
+    count = 0
+    for index in range(len(path)):
+        count += int(is_ridge(floor, path[index, 0], path[index, 1]))
+    return count
 
 
 @compiled
@@ -79,12 +90,12 @@ def missed_in(floor: Floor, row: int, column: int) -> int:
 @compiled
 def is_ridge(floor: Floor, x: float, y: float) -> bool:
     """Where the two sides of a ring almost touch: a pass in the middle sweeps there what both would."""
-    step = 0.5 * RIDGE
+    step = 0.5 * floor.ridge
     slope_x = depth_at(floor, x + step, y) - depth_at(floor, x - step, y)
     slope_y = depth_at(floor, x, y + step) - depth_at(floor, x, y - step)
-    inward = RIDGE / max(math.hypot(slope_x, slope_y), TINY)
+    inward = floor.ridge / max(math.hypot(slope_x, slope_y), TINY)
     inside = depth_at(floor, x + inward * slope_x, y + inward * slope_y)
-    return bool(inside < depth_at(floor, x, y) + WIDER * RIDGE)
+    return bool(inside < depth_at(floor, x, y) + WIDER * floor.ridge)
 
 
 @compiled

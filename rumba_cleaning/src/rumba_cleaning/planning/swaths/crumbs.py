@@ -24,6 +24,7 @@ AVERAGED = 5  # [cells] along the middle of a strip, which goes from cell to cel
 RIM = 0.045  # [m] from where the robot can stand to the middle of a spot: beyond that it turns to reach it
 INTO = 0.06  # [m] that the robot drives straight toward a spot at the rim
 TURN = 2.5  # [s] that a turn by 180 degrees takes, with stopping and starting
+JUMP = 3.0  # [cells] from one point of such a path to the next: a longer line may lead through what stands there
 STRAIGHT = 0.012  # [m] by which the path along a strip may leave its middle
 NEIGHBOURS = tuple((row, column) for row in (-1, 0, 1) for column in (-1, 0, 1) if row or column)
 
@@ -74,16 +75,22 @@ def _region(ground: Ground, cells: Array, corner: Array, regions: Array) -> int:
 
 def _strips(ground: Ground, cells: Array, corner: Array, region: int, area: float) -> List[Stretch]:
     """Paths along the middle of a crumb and of its branches."""
-    paths = []
+    paths: List[Array] = []
     for pixels in middle_lines(cells, int(TWIG / ground.plan.resolution)):
         points = ground.points(pixels + corner + 0.5)
         if len(points) > AVERAGED:
             points = ndimage.uniform_filter1d(points, AVERAGED, axis=0, mode='nearest')
-        paths.append(_standing(ground, points))
+        paths += _parted(ground, _standing(ground, points))
     lengths = [float(lengths_along(path)[-1]) for path in paths]
     found = [Stretch(pair([simplified(path, STRAIGHT)]), region, area * length / sum(lengths), True)
              for path, length in zip(paths, lengths) if length >= 2.0 * OVER]
     return found or [_spot(ground, cells, corner, region, area)]
+
+
+def _parted(ground: Ground, path: Array) -> List[Array]:
+    """The parts of a path whose points were moved to both sides of what stands there, as the two of a wall."""
+    jumps = np.flatnonzero(np.hypot(*np.diff(path, axis=0).T) > JUMP * ground.plan.resolution)
+    return np.split(path, [index + 1 for index in jumps if not ground.is_straight(path[index], path[index + 1])])
 
 
 def _standing(ground: Ground, points: Array) -> Array:

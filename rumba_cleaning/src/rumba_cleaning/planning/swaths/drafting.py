@@ -67,7 +67,8 @@ def _is_of_use(draft: Draft, shape: Shapes, usual: Shapes) -> bool:
 def _rings(problem: Problem, paper: Swept, shape: Shapes, draft: Draft) -> List[Stretch]:
     """Rings that clean what was missed along walls, and where there are to be no lanes; they are driven on paper."""
     ground, brush = problem.context.ground, problem.context.robot.brush.width
-    found = rings(ground, paper, problem.labels, shape, brush, draft.ring_pass)
+    spare = (1.0 - problem.context.target_coverage) * paper.reachable_area
+    found = rings(ground, paper, problem.labels, shape, brush, draft.ring_pass, spare)
     return [stretch(chain, brush) for chain in chains(found)]
 
 

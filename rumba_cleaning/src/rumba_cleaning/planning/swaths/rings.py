@@ -50,8 +50,12 @@ class Ring(NamedTuple):
     is_closed: bool
 
 
-def rings(ground: Ground, swept: Swept, labels: Array, shape: Shapes, brush: float, ring_pass: float) -> List[Ring]:
+def rings(ground: Ground, swept: Swept, labels: Array, shape: Shapes, brush: float, ring_pass: float,
+          spare: float) -> List[Ring]:
     """Rings on which something was missed, from the walls inward; only along the walls, where lanes suit a region.
+
+    In passages hardly wider than the robot one pass in the middle takes the place of both sides of a ring, unless that
+    leaves too much.
 
     Args:
         ground: where the robot can stand.
@@ -60,12 +64,13 @@ def rings(ground: Ground, swept: Swept, labels: Array, shape: Shapes, brush: flo
         shape: of the regions.
         brush: width of the brush [m].
         ring_pass: from ring to ring in regions that are not open, as a share of that.
+        spare: area that passes in the middle may leave beside them [m^2].
     """
     found: List[Ring] = []
     depth = _depth(ground)
     passes = _passes(depth, labels, shape.is_open, brush, ring_pass)
-    floor = compiled_rings.Floor(swept.brush.samples, ground.plan.sample_squares, depth, ground.plan.origin,
-                                 ground.plan.resolution)
+    floor = compiled_rings.Floor(swept.brush.samples, ground.plan.sample_squares, depth, compiled_rings.RIDGE,
+                                 ground.plan.origin, ground.plan.resolution)
     level = 0
     while True:
         lines = contours(passes, level)
@@ -73,6 +78,8 @@ def rings(ground: Ground, swept: Swept, labels: Array, shape: Shapes, brush: flo
             return found
         pieces = [_shaped(piece, shape.is_open[piece.region]) for line in lines
                   for piece in _by_region(line, ground, labels, level)]
+        if level == 0 and _left_beside_ridges(pieces, floor) > spare:
+            floor = floor._replace(ridge=0.0)
         needed = [ring for piece in sorted(pieces, key=lambda ring: -len(ring.waypoints))
                   for ring in _needed(piece, floor, brush)]
         for ring in needed:
@@ -97,6 +104,15 @@ def _depth(ground: Ground) -> Array:
 def _passes(depth: Array, labels: Array, is_open: Array, brush: float, ring_pass: float) -> Array:
     """Of which level the ring through each node is, with fractions: 0 beside the walls."""
     return np.asarray((depth - WALL_MARGIN) / (np.where(is_open, OPEN_PASS, ring_pass) * brush)[labels])
+
+
+def _left_beside_ridges(pieces: List[Ring], floor: compiled_rings.Floor) -> float:
+    """Area that one pass in the middle leaves beside it where the sides of rings almost touch, about [m^2].
+
+    Each side lies within RIDGE of the middle: half of that, on average.
+    """
+    count = sum(compiled_rings.ridges(plain(floor), piece.waypoints) for piece in pieces)
+    return 0.5 * floor.ridge * SPACING * count
 
 
 def _shaped(ring: Ring, is_open: bool) -> Ring:

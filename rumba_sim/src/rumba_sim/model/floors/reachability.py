@@ -1,7 +1,8 @@
 """Where a robot can stand, and which part of a floor its brush can reach."""
 
+import math
 import weakref
-from typing import Dict, List, NamedTuple, Tuple
+from typing import Dict, NamedTuple, Tuple
 
 import numpy as np
 from scipy import ndimage
@@ -9,7 +10,7 @@ from scipy import ndimage
 from rumba_sim.model.common.geometry import Pose
 from rumba_sim.model.compiling.compiled import fast
 from rumba_sim.model.floors.constants import clearance_needed
-from rumba_sim.model.floors.straits import Floor, between_nodes, joined
+from rumba_sim.model.floors.straits import Floor, exact, joined
 from rumba_sim.model.kernel import Array
 from rumba_sim.model.kernel.sweeping.samples import SWEEPABLE
 from rumba_sim.model.maps.floor_plan import ROUNDING, FloorPlan
@@ -30,6 +31,7 @@ class Reach(NamedTuple):
 _Answers = Dict[bool, Tuple[Tuple[float, float], Reach]]  # to the last questions, by whether they were exact
 _last: 'weakref.WeakKeyDictionary[FloorPlan, _Answers]' = weakref.WeakKeyDictionary()
 _open: 'weakref.WeakKeyDictionary[FloorPlan, Dict[float, Pose]]' = weakref.WeakKeyDictionary()
+_known_parts: 'weakref.WeakKeyDictionary[FloorPlan, Tuple[float, Array, Array]]' = weakref.WeakKeyDictionary()
 
 
 def reach(plan: FloorPlan, config: RobotConfig, x: float, y: float, is_exact: bool = True) -> Reach:
@@ -54,9 +56,11 @@ def reach(plan: FloorPlan, config: RobotConfig, x: float, y: float, is_exact: bo
         asked, known = answers[is_exact]
         if asked == question and known.stands[_nearest(plan, known.stands, x, y)]:
             return known
-    where = stands(plan, needed, x, y, is_exact)
+    clearance = _clearance(plan, is_exact)
+    where = _standing(plan, clearance, needed, x, y, is_exact)
+    spare = np.where(where, np.maximum(clearance - needed, 0.0), -1.0)
     samples = _sweepable(plan)
-    number = int(fast.mark_reachable(plan.safe_clearance, plan.resolution, where, needed, half, samples))
+    number = int(fast.mark_reachable(plan.safe_clearance, plan.resolution, spare, needed, half, samples))
     found = Reach(where, samples, number)
     answers[is_exact] = question, found
     return found
@@ -75,8 +79,12 @@ def stands(plan: FloorPlan, needed: float, x: float, y: float, is_exact: bool = 
         bool (2 * rows + 1, 2 * columns + 1), at points half a cell apart: element (i, j) is the point
         `origin + 0.5 * resolution * (j, i)`.
     """
-    fitted = _exactly_fitting if is_exact else _all_fitting
-    fits, is_wide = fitted(plan, needed, needed + SLACK)
+    return _standing(plan, _clearance(plan, is_exact), needed, x, y, is_exact)
+
+
+def _standing(plan: FloorPlan, clearance: Array, needed: float, x: float, y: float, is_exact: bool) -> Array:
+    """As `stands`, by the clearance at its points, float64 (2 * rows + 1, 2 * columns + 1) [m]."""
+    fits, is_wide = clearance >= needed - ROUNDING, clearance >= needed + SLACK - ROUNDING
     start = _nearest(plan, fits, x, y)
     fits[start] = is_wide[start] = True
     labels = _parts(plan, needed, is_wide) if is_exact else ndimage.label(is_wide)[0]
@@ -101,7 +109,7 @@ class Parts:
             needed: the clearance that the robot needs [m].
         """
         self._plan = plan
-        labels = _parts(plan, needed, *_exactly_fitting(plan, needed + SLACK))
+        labels = _parts(plan, needed, _clearance(plan, True) >= needed + SLACK - ROUNDING)
         sizes = np.bincount(labels.ravel())[1:]
         by_size = np.argsort(-sizes, kind='stable')[:np.count_nonzero(sizes)]
         ranks = np.zeros(len(sizes) + 1, labels.dtype)
@@ -130,45 +138,40 @@ def most_open_pose(plan: FloorPlan, needed: float) -> Pose:
 
 
 def _parts(plan: FloorPlan, needed: float, is_wide: Array) -> Array:
-    """The part of each point of `stands` at which it is wide enough, as a number from 1 on; 0 elsewhere."""
+    """The part of each point of `stands` at which it is wide enough, as a number from 1 on; 0 elsewhere.
+
+    The last answer about a plan is remembered: a look at all straits among specks takes seconds.
+    """
+    asked, wide, known = _known_parts.get(plan, (math.nan, is_wide, is_wide))
+    if asked == needed and np.array_equal(wide, is_wide):
+        return known
     labels, number = ndimage.label(is_wide)
-    if number < 2:
-        return labels
-    return joined(labels, number, _floor(plan), _in_cells(plan, needed + SLACK))
+    if number > 1:
+        labels = joined(labels, number, _floor(plan, needed + SLACK))
+    _known_parts[plan] = needed, is_wide, labels
+    return labels
 
 
-def _floor(plan: FloorPlan) -> Floor:
+def _floor(plan: FloorPlan, needed: float) -> Floor:
+    """The floor on which robots can be that need some clearance [m]."""
     cells = plan.free if plan.cliff is None else plan.free & ~plan.cliff
-    return Floor(cells, plan.safe_clearance / plan.resolution)
+    return Floor(cells, plan.safe_clearance / plan.resolution, (needed - ROUNDING) / plan.resolution)
 
 
-def _in_cells(plan: FloorPlan, needed: float) -> float:
-    """A needed clearance [m] in cells, less what rounding may take from a clearance."""
-    return (needed - ROUNDING) / plan.resolution
+def _clearance(plan: FloorPlan, is_exact: bool) -> Array:
+    """The clearance at the points, as `stands` answers them: float64 (2 * rows + 1, 2 * columns + 1) [m].
 
-
-def _exactly_fitting(plan: FloorPlan, *needed: float) -> List[Array]:
-    """As `_all_fitting`, also where the interpolated clearance is too small, but the exact one is not."""
-    between = between_nodes(_floor(plan))
-    return [fits | (between >= _in_cells(plan, each)) for fits, each in zip(_all_fitting(plan, *needed), needed)]
-
-
-def _all_fitting(plan: FloorPlan, *needed: float) -> List[Array]:
-    """For each of several clearances [m], the points of `fitting`."""
-    return [fitting(plan, each) for each in needed]
-
-
-def fitting(plan: FloorPlan, needed: float) -> Array:
-    """The points, as `stands` answers them, at which there is the needed clearance [m]."""
-    clearance = plan.safe_clearance
-    fits = np.zeros((2 * plan.rows + 1, 2 * plan.columns + 1), np.bool_)
-    needed -= ROUNDING
-    fits[::2, ::2] = clearance >= needed
-    fits[::2, 1::2] = 0.5 * (clearance[:, :-1] + clearance[:, 1:]) >= needed
-    fits[1::2, ::2] = 0.5 * (clearance[:-1] + clearance[1:]) >= needed
-    fits[1::2, 1::2] = 0.25 * (clearance[:-1, :-1] + clearance[:-1, 1:] + clearance[1:, :-1] + clearance[1:, 1:]
-                               ) >= needed
-    return fits
+    It is interpolated between the nodes, or exact where that shows too little.
+    """
+    nodes = plan.safe_clearance
+    found = np.empty((2 * plan.rows + 1, 2 * plan.columns + 1))
+    found[::2, ::2] = nodes
+    found[::2, 1::2] = 0.5 * (nodes[:, :-1] + nodes[:, 1:])
+    found[1::2, ::2] = 0.5 * (nodes[:-1] + nodes[1:])
+    found[1::2, 1::2] = 0.25 * (nodes[:-1, :-1] + nodes[:-1, 1:] + nodes[1:, :-1] + nodes[1:, 1:])
+    if is_exact:
+        np.maximum(found, plan.resolution * exact(_floor(plan, 0.0)), out=found)
+    return found
 
 
 def _nearest(plan: FloorPlan, fits: Array, x: float, y: float) -> Tuple[int, int]:

@@ -30,13 +30,14 @@ class Floor(NamedTuple):
 
     cells: Array  # bool (rows, columns): floor on which a robot can be
     clearance: Array  # float64 (rows + 1, columns + 1), distance from each node to the nearest obstacle
+    wide: float  # distance to obstacles that a robot needs
 
 
-def between_nodes(floor: Floor) -> Array:
-    """Distance to obstacles at the points of a lattice of half cells: float64 (2 * rows + 1, 2 * columns + 1).
+def exact(floor: Floor) -> Array:
+    """Distance to obstacles at a lattice of half cells, float64 (2 * rows + 1, 2 * columns + 1), in cells.
 
-    The interpolated clearance shows half a cell too little in the middle of a passage of an odd number of cells. Near
-    an obstacle that the cells do not show, it is 0.
+    The interpolated clearance shows half a cell too little in the middle of a passage of an odd number of cells. The
+    distance is 0 near obstacles that the cells do not show.
     """
     away = _exact(floor.cells, 2, beyond=False)
     hidden = np.zeros(away.shape, np.bool_)
@@ -45,14 +46,13 @@ def between_nodes(floor: Floor) -> Array:
     return away
 
 
-def joined(labels: Array, number: int, floor: Floor, wide: float) -> Array:
+def joined(labels: Array, number: int, floor: Floor) -> Array:
     """The labels of parts, the same for parts between which there is a strait.
 
     Args:
         labels: int (2 * rows + 1, 2 * columns + 1), the part of each point of a lattice of half cells, 0 for none.
         number: of parts.
         floor: on which they lie.
-        wide: distance to obstacles that a robot needs.
 
     Returns:
         The labels, or others in their place; each is that of one of the parts that are joined.
@@ -62,7 +62,7 @@ def joined(labels: Array, number: int, floor: Floor, wide: float) -> Array:
     largest = int(np.argmax(sizes[1:])) + 1
     for label, box in enumerate(ndimage.find_objects(labels), 1):
         if label != largest:
-            pairs += _neighbours(labels, label, _grown(box, 2 * SHORT, labels.shape), floor, wide)
+            pairs += _neighbours(labels, label, _grown(box, 2 * SHORT, labels.shape), floor)
     if not pairs:
         return labels
     one, other = np.array(pairs).T
@@ -73,7 +73,7 @@ def joined(labels: Array, number: int, floor: Floor, wide: float) -> Array:
     return np.asarray(first[groups][labels])
 
 
-def _neighbours(labels: Array, label: int, window: Window, floor: Floor, wide: float) -> List[Tuple[int, int]]:
+def _neighbours(labels: Array, label: int, window: Window, floor: Floor) -> List[Tuple[int, int]]:
     """Pairs of parts, one of which is that with a label, that a strait in its window joins."""
     here = labels[window]
     theirs = (here > 0) & (here != label)
@@ -81,7 +81,7 @@ def _neighbours(labels: Array, label: int, window: Window, floor: Floor, wide: f
         return []
     near = _around(here == label) & _around(theirs)
     rows, columns = (np.arange(span.start, span.stop) // 2 for span in window)  # nodes near the points
-    near &= floor.clearance[rows[:, np.newaxis], columns] >= wide - HIDDEN
+    near &= floor.clearance[rows[:, np.newaxis], columns] >= floor.wide - HIDDEN
     straits, _ = ndimage.label(near, ALL_AROUND)
     found = []
     for box in ndimage.find_objects(straits):
@@ -89,7 +89,7 @@ def _neighbours(labels: Array, label: int, window: Window, floor: Floor, wide: f
             continue
         top, left = window[0].start + box[0].start, window[1].start + box[1].start
         strait = slice(top, top + box[0].stop - box[0].start), slice(left, left + box[1].stop - box[1].start)
-        groups = _through(labels, _grown(strait, SHORT + 1, labels.shape), floor, wide)
+        groups = _through(labels, _grown(strait, SHORT + 1, labels.shape), floor)
         found += [(label, other) for group in groups if label in group for other in group if other != label]
     return found
 
@@ -99,19 +99,19 @@ def _around(mask: Array) -> Array:
     return np.asarray(ndimage.maximum_filter(mask, 2 * SHORT + 1))
 
 
-def _through(labels: Array, window: Window, floor: Floor, wide: float) -> List[List[int]]:
+def _through(labels: Array, window: Window, floor: Floor) -> List[List[int]]:
     """The parts in a small window of the lattice that hang together there, by exact distances: groups of labels."""
     cells = tuple(slice(span.start // 2, (span.stop + 1) // 2) for span in window)
-    beyond = math.ceil(wide) + 1
+    beyond = math.ceil(floor.wide) + 1
     outer = tuple(slice(max(span.start - beyond, 0), min(span.stop + beyond, size))
                   for span, size in zip(cells, floor.cells.shape))
     inner = tuple(slice((span.start - out.start) * FINER, (span.stop - out.start) * FINER + 1)
                   for span, out in zip(cells, outer))
     away = _exact(floor.cells[outer], FINER)[inner]
     nodes = floor.clearance[cells[0].start:cells[0].stop + 1, cells[1].start:cells[1].stop + 1]
-    if (nodes < np.minimum(away[::FINER, ::FINER], wide) - CLOSER).any():
+    if (nodes < np.minimum(away[::FINER, ::FINER], floor.wide) - CLOSER).any():
         return []  # obstacles stand there that the cells do not show
-    parts, _ = ndimage.label(away >= wide, ALL_AROUND)
+    parts, _ = ndimage.label(away >= floor.wide, ALL_AROUND)
     at_points = parts[::FINER // 2, ::FINER // 2]
     there = labels[2 * cells[0].start:2 * cells[0].stop + 1, 2 * cells[1].start:2 * cells[1].stop + 1]
     known = (there > 0) & (at_points > 0)
