@@ -97,12 +97,12 @@ def test_help_names_every_command():
     code, out, _ = rumba(ROOT, 'help')
     assert code == 0
     assert [line.split()[0] for line in out.splitlines() if re.match('  [a-z]', line)] == [
-        'run', 'test', 'build', 'shell', 'lint', 'bench', 'deb', 'docs', 'stress', 'help']
+        'run', 'test', 'build', 'shell', 'lint', 'bench', 'deb', 'docs', 'mutate', 'stress', 'help']
 
 
 def test_an_unknown_command_is_refused():
     assert rumba(ROOT, 'biuld') == (
-        2, '', "rumba: unknown command 'biuld': run, test, build, shell, lint, bench, deb, docs, stress or help\n")
+        2, '', "rumba: unknown command 'biuld': run, test, build, shell, lint, bench, deb, docs, mutate, stress or help\n")
 
 
 @pytest.mark.parametrize('argument', ['drian:=5', 'drain', '--screen'])

@@ -10,13 +10,14 @@ drive it: for a velocity or what comes on the topic `~answer` while they let it 
 """
 
 import math
+import warnings
 
 import numpy as np
 import rospy
 import tf2_msgs.msg
 from create_msgs.msg import Bumper, ChargingState, Cliff, Mode, MotorSetpoint
 from fake_create_dock import Dock, Firmware
-from fake_robot import DT, NEWS, Judge, Room, Walls, keep_pace, live, moved, publisher, transform, turned
+from fake_robot import DT, NEWS, Judge, Room, Walls, keep_pace, live, moved, transform, turned
 from geometry_msgs.msg import Twist
 from nav_msgs.msg import Odometry
 from rosgraph_msgs.msg import Clock
@@ -203,6 +204,13 @@ class FakeCreate:
     def run(self):
         """Live, as fast as the others keep up, but at most ten times as fast as the real one would."""
         keep_pace(self, DT / 10)
+
+
+def publisher(topic, kind, latch=False):
+    """A publisher that writes by itself: a queue takes a thread for each reader, and most of the CPU time of a fake."""
+    with warnings.catch_warnings():
+        warnings.simplefilter('ignore', SyntaxWarning)  # that it has no queue
+        return rospy.Publisher(topic, kind, latch=latch, queue_size=None)
 
 
 if __name__ == '__main__':

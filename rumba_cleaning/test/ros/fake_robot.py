@@ -13,7 +13,6 @@ import os
 import signal
 import threading
 import time
-import warnings
 from typing import List, NamedTuple, Tuple
 
 import numpy as np
@@ -136,12 +135,12 @@ class FakeRobot:
         self.haste = rospy.get_param('~haste', 10)
         self.fault = rospy.get_param('~fault', '')
         self.now = rospy.Time(100)
-        self.clock = publisher('/clock', Clock)
-        self.odometry = publisher('/base/odometry', Odometry)
-        self.scan = publisher('/front/laser', LaserScan)
-        self.covered = publisher('/coverage', Float32, latch=True)
-        self.tf = publisher('/tf', tf2_msgs.msg.TFMessage)
-        self.static = publisher('/tf_static', tf2_msgs.msg.TFMessage, latch=True)
+        self.clock = rospy.Publisher('/clock', Clock, queue_size=1)
+        self.odometry = rospy.Publisher('/base/odometry', Odometry, queue_size=10)
+        self.scan = rospy.Publisher('/front/laser', LaserScan, queue_size=10)
+        self.covered = rospy.Publisher('/coverage', Float32, queue_size=1, latch=True)
+        self.tf = rospy.Publisher('/tf', tf2_msgs.msg.TFMessage, queue_size=10)
+        self.static = rospy.Publisher('/tf_static', tf2_msgs.msg.TFMessage, queue_size=1, latch=True)
         if self.fault != 'no tf':
             self.static.publish([transform(self.now, 'chassis', 'front_laser', (LASER, 0.0, 0.0))])
         rospy.Subscriber('/base/velocity', Twist, self.take)
@@ -213,13 +212,6 @@ class FakeRobot:
     def run(self):
         """Drive, as fast as the others keep up, but at most `haste` times as fast as the real one would."""
         keep_pace(self, DT / self.haste)
-
-
-def publisher(topic, kind, latch=False):
-    """A publisher that writes by itself: a queue takes a thread for each reader, and most of the CPU time of a fake."""
-    with warnings.catch_warnings():
-        warnings.simplefilter('ignore', SyntaxWarning)  # that it has no queue
-        return rospy.Publisher(topic, kind, latch=latch, queue_size=None)
 
 
 NEWS = threading.Condition()  # something came for which a fake waits
