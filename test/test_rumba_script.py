@@ -101,8 +101,8 @@ def test_help_names_every_command():
 
 
 def test_an_unknown_command_is_refused():
-    assert rumba(ROOT, 'biuld') == (
-        2, '', "rumba: unknown command 'biuld': run, test, build, shell, lint, bench, deb, docs, mutate, stress or help\n")
+    commands = 'run, test, build, shell, lint, bench, deb, docs, mutate, stress or help'
+    assert rumba(ROOT, 'biuld') == (2, '', f"rumba: unknown command 'biuld': {commands}\n")
 
 
 @pytest.mark.parametrize('argument', ['drian:=5', 'drain', '--screen'])
