@@ -10,7 +10,7 @@ from rumba_cleaning.belief.ground import Ground
 from rumba_cleaning.compiled_bearings import bearings
 from rumba_cleaning.planning.common import gaussian
 from rumba_cleaning.planning.common.polyline import SPACING
-from rumba_cleaning.planning.decompose.compiled_turn import turned
+from rumba_sim.model.compiling.compiled import fast
 from rumba_sim.model.kernel import Array
 
 # Our choice, checked by test_turned_floor.py, which allows an error of 1.5 degrees.
@@ -75,14 +75,20 @@ def _turned(missed: Array, clearance: Array, axes: Array, window: Window) -> Tup
         window: of the map's grid that belongs to the part at least; it may reach beyond the map.
 
     Returns:
-        column and row, on a turned grid from the map's corner, at which the part begins; both arrays of the part.
+        column and row, on a turned grid from the map's corner, at which the part begins; both arrays of the part: what
+        is missed by the nearest cell, and the clearance interpolated. Off the map both are 0.
     """
     rows, columns = window
     corners = _on_axes(np.array([[column, row] for row in (rows.start, rows.stop)
                                  for column in (columns.start, columns.stop)]), axes.T)
     low = np.floor(corners.min(axis=0))
-    width, height = (np.ceil(corners.max(axis=0)) - low).astype(int)
-    return (low, *turned(missed, clearance, axes, low, int(height), int(width)))
+    shape = (np.ceil(corners.max(axis=0)) - low + 1.0).astype(int)[::-1]
+    nodes = _on_axes(np.indices(shape)[::-1].reshape(2, -1).T + low, axes)
+    cells = np.floor(nodes + 0.5 * axes.sum(axis=0)).astype(int)[:, ::-1]
+    is_on_map = ((cells >= 0) & (cells < missed.shape)).all(axis=1)
+    cells[~is_on_map] = 0
+    on_cells = (is_on_map & missed[cells[:, 0], cells[:, 1]]).reshape(shape)[:-1, :-1]
+    return low, on_cells, fast.interpolated_at(clearance, 0.0, 0.0, 1.0, nodes).reshape(shape)
 
 
 def _window(missed: Array, within: Optional[Window], margin: int) -> Window:

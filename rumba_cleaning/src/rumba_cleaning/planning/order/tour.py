@@ -3,10 +3,10 @@
 from typing import List, NamedTuple, Optional, Sequence
 
 import numpy as np
+from skimage import measure
 
 from rumba_cleaning.belief.ground import Ground
 from rumba_cleaning.planning.common import compiled_ways
-from rumba_cleaning.planning.common.contours import contours
 from rumba_cleaning.planning.common.lines import needed
 from rumba_cleaning.planning.common.polyline import simplified
 from rumba_cleaning.planning.common.rows import distinct
@@ -143,9 +143,8 @@ def _corners(ground: Ground, points: Array) -> Array:
     margin = AROUND / ground.plan.resolution
     low = np.maximum(nodes.min(axis=0) - margin, 0).astype(np.intp)
     high = (nodes.max(axis=0) + margin).astype(np.intp) + 1
-    window = ground.clearance[low[0]:high[0], low[1]:high[1]]
-    corners = np.concatenate([np.zeros((0, 2)), *(simplified(ground.points(line + low), CORNER)
-                                                  for line in contours(window, ground.reach + BESIDE + OUTSIDE))])
+    lines = measure.find_contours(ground.clearance[low[0]:high[0], low[1]:high[1]], ground.reach + BESIDE + OUTSIDE)
+    corners = np.concatenate([np.zeros((0, 2)), *(simplified(ground.points(line + low), CORNER) for line in lines)])
     thin = THIN
     while True:
         _, first = distinct(np.floor(corners / thin))

@@ -9,17 +9,16 @@ from typing import Dict, Iterator, List, NamedTuple
 
 import numpy as np
 from scipy import ndimage, spatial
+from skimage import measure
 
 from rumba_cleaning.belief.ground import Ground
 from rumba_cleaning.belief.swept import Swept
 from rumba_cleaning.planning.common import gaussian
-from rumba_cleaning.planning.common.contours import contours
 from rumba_cleaning.planning.common.polyline import SPACING, resampled
 from rumba_cleaning.planning.common.stretches import Stretch, Variant, pair
 from rumba_cleaning.planning.decompose.regions import Shapes
 from rumba_cleaning.planning.simulate.paper import drive
-from rumba_cleaning.planning.swaths import compiled_rings
-from rumba_sim.model.compiling.jit import plain
+from rumba_sim.model.compiling.compiled import fast
 from rumba_sim.model.kernel import Array
 
 # All figures are our choice; each comment says what speaks for a larger and for a smaller value.
@@ -35,6 +34,10 @@ WHOLE = 0.85  # share of a ring's waypoints that are needed, for all of it to be
 # [m] from a ring to the next one in its chain, anywhere, at most: large makes fewer stretches, but beyond two radii of
 # the robot there may be a wall in between.
 BESIDE = 0.32
+NEEDED = 0.25  # share of the brush's width that was missed, for a waypoint to be needed: small drives over swept floor
+POINTS = 9  # across the brush: one for each 2 cm of a brush of 17 cm
+RIDGE = 0.03  # [m] inside a ring the floor must still get wider: where it does not, one pass in the middle is enough
+WIDER = 0.7  # of that, by which it must: rings have corners, and a grid is not exact
 LOOK = 5  # waypoints from one to the next at which that is looked at
 FORWARD = 0.3  # [m] along the next ring at which it is entered: large bends gently, small drives less twice
 ROTATIONS = 12  # points at which a ring is entered, at most: more give shorter tours, and take more time to compare
@@ -64,17 +67,16 @@ def rings(ground: Ground, swept: Swept, labels: Array, shape: Shapes, brush: flo
     found: List[Ring] = []
     depth = _depth(ground)
     passes = _passes(depth, labels, shape.is_open, brush, ring_pass)
-    floor = compiled_rings.Floor(swept.brush.samples, ground.plan.sample_squares, depth, ground.plan.origin,
-                                 ground.plan.resolution)
     level = 0
     while True:
-        lines = contours(passes, level)
+        lines = measure.find_contours(passes, level)
         if not lines:
             return found
         pieces = [_shaped(piece, shape.is_open[piece.region]) for line in lines
                   for piece in _by_region(line, ground, labels, level)]
+        missing = swept.missing_share()
         needed = [ring for piece in sorted(pieces, key=lambda ring: -len(ring.waypoints))
-                  for ring in _needed(piece, floor, brush)]
+                  for ring in _needed(piece, is_needed(ground, missing, depth, piece.waypoints, brush))]
         for ring in needed:
             drive(swept, ring.waypoints)
         found += needed
@@ -85,7 +87,7 @@ def rings(ground: Ground, swept: Swept, labels: Array, shape: Shapes, brush: flo
 
 def outlines(ground: Ground) -> List[Array]:
     """The paths beside the walls, whole: float64 (any, 2) [m] each; closed ones end where they begin."""
-    return [resampled(ground.points(line), SPACING) for line in contours(_depth(ground) - WALL_MARGIN, 0.0)]
+    return [resampled(ground.points(line), SPACING) for line in measure.find_contours(_depth(ground), WALL_MARGIN)]
 
 
 def _depth(ground: Ground) -> Array:
@@ -134,10 +136,36 @@ def rotated(ring: Array, index: int) -> Array:
     return np.concatenate([ring[index:-1], ring[:index + 1]])
 
 
-def _needed(ring: Ring, floor: compiled_rings.Floor, brush: float) -> Iterator[Ring]:
-    """The parts of a ring on which the brush sweeps what was missed."""
+def is_needed(ground: Ground, missing: Array, depth: Array, path: Array, brush: float) -> Array:
+    """At which waypoints of a path the brush finds much that was missed, except on ridges: bool (any).
+
+    On a ridge the two sides of a ring almost touch, and a pass in the middle sweeps what both would.
+
+    Args:
+        ground: on which the path lies.
+        missing: share of each cell that was missed, float32 (rows, columns).
+        depth: of each node, as of `_depth`, float64 (rows + 1, columns + 1) [m].
+        path: float64 (2 or more, 2) [m].
+        brush: its width [m].
+    """
+    res, origin = ground.plan.resolution, ground.plan.origin
+    along = np.concatenate([path[1:], path[-1:]]) - np.concatenate([path[:1], path[:-1]])
+    left = along[:, ::-1] * (-1.0, 1.0) / np.hypot(*along.T)[:, np.newaxis]
+    across = path[:, np.newaxis] + brush * np.linspace(-0.5, 0.5, POINTS)[:, np.newaxis] * left[:, np.newaxis]
+    columns, rows = np.moveaxis((across - origin) / res, -1, 0).astype(np.intp)
+
+    def deep(points: Array) -> Array:
+        return np.asarray(fast.interpolated_at(depth, *origin, res, points))
+
+    slopes = np.stack([deep(path + step) - deep(path - step) for step in 0.5 * RIDGE * np.eye(2)], axis=1)
+    inward = RIDGE * slopes / np.maximum(np.hypot(*slopes.T), 1e-9)[:, np.newaxis]
+    is_ridge = deep(path + inward) < deep(path) + WIDER * RIDGE
+    return np.asarray((missing[rows, columns].mean(axis=1) >= NEEDED) & ~is_ridge)
+
+
+def _needed(ring: Ring, needed: Array) -> Iterator[Ring]:
+    """The parts of a ring on which waypoints are needed, bool (any)."""
     path = ring.waypoints
-    needed = compiled_rings.needed(plain(floor), path, brush)
     if needed.mean() > WHOLE:
         yield ring
         return
