@@ -42,7 +42,8 @@ def _tours(problem: Problem, parts: Sequence[Group]) -> List[Tuple[Group, Tour]]
     ways = Ways(doors(ground, labels), places, [*(part.region for part in parts), *of_fixed])
     start, goal = len(parts), None if end is None else len(parts) + 1
     seconds = ways.metres[:start + 1] / speed
-    visits = tour.order(seconds[:, :start], None if goal is None else seconds[:, goal])
+    to_goal = np.zeros(start + 1) if goal is None else seconds[:, goal]
+    visits = tour.order(np.column_stack([seconds[:, :start], to_goal]))
     tours, here, entry = [], start, places[start]
     for place, following in zip(visits, [*visits[1:], goal]):
         if here != start or parts[place].region != of_fixed[0]:

@@ -61,26 +61,25 @@ class Tour:
         self._effort = effort
         self._variants = [(index, variant) for index, stretch in enumerate(stretches)
                           for variant in range(len(stretch.variants))]
-        sizes = [len(stretch.variants) for stretch in stretches]
+        sizes = [*(len(stretch.variants) for stretch in stretches), 1]
         self._begins = np.concatenate([[0], np.cumsum(sizes)])
-        self._of = np.repeat(np.arange(len(stretches)), sizes)
+        self._of = np.repeat(np.arange(len(sizes)), sizes)
         ends = np.array([stretches[index].variants[variant].ends() for index, variant in self._variants])
         self._measure(ground, start, ends, end, speed)
-        self._found = compiled_tours.built(self._costs, self._last, self._begins)
+        self._tour = compiled_tours.built(self._costs, self._begins)
         self._improve()
 
     def _measure(self, ground: Ground, start: Array, ends: Array, end: Optional[Array], speed: float) -> None:
         """Find the ways from all ends (variants, 4, 2) [m] to all others, and the times that they take."""
         count = len(ends)
-        last = start if end is None else end
-        points = np.concatenate([ends[:, 0], ends[:, 3], [start, last]])
+        points = np.concatenate([ends[:, 0], [start if end is None else end], ends[:, 3], [start]])
         points = np.round(np.concatenate([points, _corners(ground, points)]), SAME)
         self._points, numbers = np.unique(points, axis=0, return_inverse=True)
-        numbers = numbers.reshape(-1)
-        firsts = self._begins[:-1]  # the variants of a stretch end near each other: those of the first one are enough
-        stops = np.unique(np.concatenate([numbers[firsts], numbers[count + firsts], numbers[2 * count:]]))
-        numbers = numbers[:2 * count + 2]
-        self._entries, self._exits = numbers[:count], numbers[count:-1]  # the last exit is the start of the tour
+        ends_of, corners = np.split(numbers.reshape(-1), [2 * count + 2])
+        self._entries, self._exits = np.split(ends_of, 2)
+        # The variants of a stretch end near each other: those of the first one are enough to stop at.
+        firsts = self._begins[:-1]
+        stops = np.unique(np.concatenate([self._entries[firsts], self._exits[firsts], corners]))
         nodes = np.clip((self._points - ground.plan.origin) / ground.plan.resolution, 0.0,
                         np.array(ground.clearance.shape[::-1]) - 1.0)
         metres, self._before = compiled_ways.lengths(ground.clearance, plain(needed(ground, BESIDE)), nodes, stops)
@@ -88,40 +87,35 @@ class Tour:
         metres *= ground.plan.resolution
         one, other = np.nonzero(~self._is_known)
         metres[one, other] = 2.0 * np.hypot(*(self._points[one] - self._points[other]).T) + UNSEEN
-        into = headings(ends[:, 0], ends[:, 1])
-        out = np.append(headings(ends[:, 2], ends[:, 3]), np.nan)
-        rates = speed, BENT, TURN_RATE, STOP
-        self._costs = compiled_ways.drive_times(metres, self._points, self._exits, self._entries, out, into, *rates)
-        self._last = np.zeros(count + 1)
-        if end is not None:
-            anywhere = np.array([np.nan])
-            self._last = compiled_ways.drive_times(metres, self._points, self._exits, numbers[-1:], out, anywhere,
-                                                   *rates)[:, 0]
+        into, out = (np.append(headings(ends[:, at], ends[:, at + 1]), np.nan) for at in (0, 2))
+        self._costs = compiled_ways.drive_times(metres, self._points, self._exits, self._entries, out, into, speed,
+                                                BENT, TURN_RATE, STOP)
+        if end is None:
+            self._costs[:, -1] = 0.0
 
     def _improve(self) -> None:
-        if len(self._found):
-            kicks = min(int(self._effort * STEPS / (len(self._found) * len(self._variants))), KICKS)
-            compiled_tours.shaken(self._costs, self._last, self._of, self._begins, self._found, ROUNDS, kicks)
+        _improve(self._costs, self._of, self._begins, self._tour, self._effort)
 
     @property
     def time(self) -> float:
         """Time between the stretches [s], about."""
-        return float(compiled_tours.length(self._costs, self._last, self._found))
+        return float(compiled_tours.length(self._costs, self._tour))
 
     def saved(self) -> Array:
         """What leaving out each stretch of the tour would save [s], and its index: float64 (any, 2)."""
-        times = compiled_tours.savings(self._costs, self._last, self._found)
-        return np.stack([times, self._of[self._found]], axis=1)
+        before, here, after = self._tour[:-2], self._tour[1:-1], self._tour[2:]
+        times = self._costs[before, here] + self._costs[here, after] - self._costs[before, after]
+        return np.stack([times, self._of[here]], axis=1)
 
     def leave_out(self, stretches: Sequence[int]) -> None:
         """Shorten the tour by stretches, given by their indices."""
-        self._found = self._found[~np.isin(self._of[self._found], stretches)]
+        self._tour = self._tour[~np.isin(self._of[self._tour], stretches)]
         self._improve()
 
     def legs(self) -> List[Leg]:
         """The stretches in order."""
         legs, here = [], self._exits[-1]
-        for number in self._found:
+        for number in self._tour[1:-1]:
             stretch, variant = self._variants[number]
             legs.append(Leg(stretch, variant, self._way(here, self._entries[number])))
             here = self._exits[number]
@@ -153,16 +147,24 @@ def _corners(ground: Ground, points: Array) -> Array:
         thin *= 2.0
 
 
-def order(costs: Array, last: Optional[Array] = None) -> List[int]:
+def order(costs: Array) -> List[int]:
     """The order in which to visit places once each, so that it takes little time.
 
     Args:
-        costs: float64 (places + 1, places) [s], from each place to each other; the last row belongs to the start.
-        last: float64 (places + 1) [s], from each place to where it ends; None: anywhere.
+        costs: float64 (places + 1, places + 1) [s], from each place to each other; the last row belongs to the start,
+            and the last column to the end.
     """
-    count = costs.shape[1]
-    alone = np.arange(count + 1)
-    costs, last = np.minimum(costs, FAR), np.zeros(count + 1) if last is None else np.minimum(last, FAR)
-    found = compiled_tours.built(costs, last, alone)
-    compiled_tours.improved(costs, last, alone[:-1], alone, found, ROUNDS)
-    return [int(place) for place in found]
+    alone = np.arange(len(costs) + 1)
+    costs = np.minimum(costs, FAR)
+    tour = compiled_tours.built(costs, alone)
+    _improve(costs, alone[:-1], alone, tour, 1)
+    return [int(place) for place in tour[1:-1]]
+
+
+def _improve(costs: Array, of: Array, begins: Array, tour: Array, effort: int) -> None:
+    """Improve a tour, by as many random changes as an effort is worth: see `compiled_tours`, and `Tour`."""
+    count = len(tour) - 2
+    if count:
+        kicks = min(int(effort * STEPS / (count * len(costs))), KICKS if count > 2 else 0)
+        places = np.sort(np.random.RandomState(1).randint(1, count + 2, (kicks, 3)), axis=1)
+        compiled_tours.shake(costs, of, begins, tour, ROUNDS, places)
