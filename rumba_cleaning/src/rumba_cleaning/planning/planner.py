@@ -6,7 +6,7 @@ import numpy as np
 
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.planning.common.effort import effort
-from rumba_cleaning.planning.decompose.regions import regions
+from rumba_cleaning.planning.decompose.regions import regions, shapes
 from rumba_cleaning.planning.decompose.turned_floor import main_direction
 from rumba_cleaning.planning.order.route import through
 from rumba_cleaning.planning.rectangle import spiral_over
@@ -50,8 +50,9 @@ def plan(context: Context, pose: Pose, end: Optional[Pose] = None) -> Optional[R
 def posed(context: Context, pose: Pose, end: Optional[Pose] = None) -> Problem:
     """What all stages of a plan go by: see `plan` for the arguments."""
     ground = context.ground
-    return Problem(context, pose, end, _around(context, pose), regions(ground), main_direction(outlines(ground)),
-                   effort(context))
+    labels = regions(ground)
+    return Problem(context, pose, end, _around(context, pose), labels, shapes(ground, labels),
+                   main_direction(outlines(ground)), effort(context))
 
 
 def drafts(problem: Problem) -> List[Route]:

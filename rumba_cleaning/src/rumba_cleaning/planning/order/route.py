@@ -1,4 +1,4 @@
-"""A route over stretches: region by region, with a tour in each from door to door."""
+"""A route over stretches: region by region, with a tour in each toward the next one."""
 
 from typing import Dict, Iterator, List, Optional, Sequence, Tuple
 
@@ -6,7 +6,7 @@ import numpy as np
 
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.planning.common.stretches import Stretch
-from rumba_cleaning.planning.decompose.regions import Ways, doors
+from rumba_cleaning.planning.decompose.regions import distances, doors
 from rumba_cleaning.planning.order import tour
 from rumba_cleaning.planning.order.groups import Group, groups
 from rumba_cleaning.planning.order.tour import Tour
@@ -33,28 +33,21 @@ def through(problem: Problem, found: List[Stretch]) -> Optional[Route]:
 
 
 def _tours(problem: Problem, parts: Sequence[Group]) -> List[Tuple[Group, Tour]]:
-    """Groups of stretches in the order in which they are cleaned, with a tour in each from door to door."""
+    """Groups of stretches in the order in which they are cleaned, with a tour in each toward the next one."""
     ground, speed, labels, end = (problem.context.ground, problem.context.config.transit_speed, problem.labels,
                                   problem.end)
     fixed = [problem.pose] if end is None else [problem.pose, end]
     places = np.array([*(part.middle() for part in parts), *(each[:2] for each in fixed)])
     of_fixed = [int(labels[ground.standing_at(each.x, each.y)]) for each in fixed]
-    ways = Ways(doors(ground, labels), places, [*(part.region for part in parts), *of_fixed])
-    start, goal = len(parts), None if end is None else len(parts) + 1
-    seconds = ways.metres[:start + 1] / speed
-    to_goal = np.zeros(start + 1) if goal is None else seconds[:, goal]
-    visits = tour.order(np.column_stack([seconds[:, :start], to_goal]))
-    tours, here, entry = [], start, places[start]
-    for place, following in zip(visits, [*visits[1:], goal]):
-        if here != start or parts[place].region != of_fixed[0]:
-            door = ways.doors(here, place)[1]
-            entry = places[here] if door is None else door
-        leave = None
-        if following is not None:
-            door = ways.doors(place, following)[0]
-            leave = places[following] if door is None else door
-        tours.append((parts[place], Tour(ground, entry, parts[place].stretches, leave, speed, problem.effort.tours)))
-        here = place
+    start = len(parts)
+    seconds = distances(doors(ground, labels), places, [*(part.region for part in parts), *of_fixed]) / speed
+    to_end = np.zeros(start + 1) if end is None else seconds[:start + 1, -1]
+    visits = tour.order(np.column_stack([seconds[:start + 1, :start], to_end]))
+    tours, here = [], places[start]
+    for place, following in zip(visits, [*visits[1:], -1]):
+        leave = None if following < 0 and end is None else places[following]
+        tours.append((parts[place], Tour(ground, here, parts[place].stretches, leave, speed, problem.effort.tours)))
+        here = tours[-1][1].end
     return tours
 
 

@@ -7,12 +7,12 @@ from skimage import measure
 
 from rumba_cleaning.belief.ground import Ground
 from rumba_cleaning.planning.common import compiled_ways
-from rumba_cleaning.planning.common.lines import needed
+from rumba_cleaning.planning.common.compiled_ways import Needed
 from rumba_cleaning.planning.common.polyline import simplified
 from rumba_cleaning.planning.common.rows import distinct
 from rumba_cleaning.planning.common.stretches import Stretch, headings
 from rumba_cleaning.planning.order import compiled_tours
-from rumba_cleaning.route import BENT, STOP, TURN_RATE
+from rumba_cleaning.route import corner_times
 from rumba_sim.model.compiling.jit import plain
 from rumba_sim.model.kernel import Array
 
@@ -22,6 +22,7 @@ KICKS = 300  # random changes of a tour, after each of which it is improved agai
 # ... and at most so many divided by stretches * variants, times an effort: more make shorter tours, and take more time.
 STEPS = 160_000
 BESIDE = 0.03  # [m] beyond the touching distance on a way: a robot that cuts a corner is stuck at an edge or a leg
+NEAR = 0.15  # [m] to the ends of a line, which lie beside walls if those of a path do: nearer than this, it may be too
 UNSEEN = 3.0  # [m] that are added to twice the distance of points between which no line of sight leads: a guess
 AROUND = 0.3  # [m] about all stretches, in which obstacles are looked at that a way may lead around
 OUTSIDE = 0.05  # [m] beyond BESIDE that ways lead around corners: large sees past them, small is short
@@ -82,14 +83,18 @@ class Tour:
         stops = np.unique(np.concatenate([self._entries[firsts], self._exits[firsts], corners]))
         nodes = np.clip((self._points - ground.plan.origin) / ground.plan.resolution, 0.0,
                         np.array(ground.clearance.shape[::-1]) - 1.0)
-        metres, self._before = compiled_ways.lengths(ground.clearance, plain(needed(ground, BESIDE)), nodes, stops)
+        needed = Needed(ground.reach + BESIDE, ground.reach, NEAR / ground.plan.resolution, ground.plan.resolution)
+        metres, self._before = compiled_ways.lengths(ground.clearance, plain(needed), nodes, stops)
         self._is_known = np.isfinite(metres)
         metres *= ground.plan.resolution
         one, other = np.nonzero(~self._is_known)
         metres[one, other] = 2.0 * np.hypot(*(self._points[one] - self._points[other]).T) + UNSEEN
         into, out = (np.append(headings(ends[:, at], ends[:, at + 1]), np.nan) for at in (0, 2))
-        self._costs = compiled_ways.drive_times(metres, self._points, self._exits, self._entries, out, into, speed,
-                                                BENT, TURN_RATE, STOP)
+        pairs = self._exits[:, np.newaxis], self._entries
+        along = headings(self._points[pairs[0]], self._points[pairs[1]])
+        corners = np.where(np.isnan(along), corner_times(into - out[:, np.newaxis]),
+                           corner_times(along - out[:, np.newaxis]) + corner_times(into - along))
+        self._costs = metres[pairs] / speed + corners
         if end is None:
             self._costs[:, -1] = 0.0
 
@@ -100,6 +105,11 @@ class Tour:
     def time(self) -> float:
         """Time between the stretches [s], about."""
         return float(compiled_tours.length(self._costs, self._tour))
+
+    @property
+    def end(self) -> Array:
+        """The point (2) at which its last stretch ends [m]."""
+        return np.asarray(self._points[self._exits[self._tour[-2]]])
 
     def saved(self) -> Array:
         """What leaving out each stretch of the tour would save [s], and its index: float64 (any, 2)."""

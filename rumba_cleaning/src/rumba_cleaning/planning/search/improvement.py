@@ -13,8 +13,7 @@ from rumba_cleaning.route import Route
 from rumba_sim.model.common.geometry import hypot
 
 # All figures are our choice; each comment says what speaks for a larger and for a smaller value.
-SURPLUS = 0.005  # of coverage that is planned beyond the target on paper, since no robot drives exactly as planned ...
-# [m^2] ... and by rehearsal, for each rad that the robot turns, since it drives each turn a little otherwise than
+# [m^2] planned beyond the target for each rad that the robot turns, since it drives each turn a little otherwise than
 # rehearsed: large sweeps too much, small may need another route for a few last spots.
 MARGIN = 0.00006
 EDITED = 0.0004  # of coverage that edits are to bring beyond that: together they bring a little less than one by one
@@ -44,11 +43,6 @@ def improved(problem: Problem, routes: Sequence[Route]) -> Route:
         rehearsal, price = _edited(problem, rehearsal, found, poor)
         tried.append(rehearsal)
     return max(tried, key=lambda rehearsal: _merit(problem, rehearsal)).route
-
-
-def is_met(context: Context, rehearsal: Rehearsal) -> bool:
-    """Whether a route meets the target, even if its rehearsal errs by MARGIN."""
-    return _need(context, rehearsal) <= 0.0
 
 
 def _edited(problem: Problem, rehearsal: Rehearsal, found: Sequence[Edit],
@@ -81,5 +75,5 @@ def _need(context: Context, rehearsal: Rehearsal, surplus: float = 0.0) -> float
 
 def _merit(problem: Problem, rehearsal: Rehearsal) -> Tuple[bool, float]:
     """Compares rehearsals: the quickest one that meets the target, or that which comes nearest to it."""
-    meets = is_met(problem.context, rehearsal)
+    meets = _need(problem.context, rehearsal) <= 0.0
     return meets, -rehearsal.seconds if meets else rehearsal.swept.coverage

@@ -1,10 +1,10 @@
 """What edits of a route would change, by rehearsals of the parts around them, compiled by numba."""
 
+import math
 from typing import Any, Tuple
 
 import numpy as np
 
-from rumba_cleaning.planning.common.compiled_ways import distance
 from rumba_cleaning.planning.simulate.compiled_passes import Passes, blank, gain
 from rumba_cleaning.planning.simulate.compiled_rehearsal import ALONG, DT, SPEED, Walls, rehearse
 from rumba_sim.model.compiling.jit import compiled
@@ -18,12 +18,13 @@ LEAD, TAIL = 0.25, 0.5
 
 
 @compiled
-def changes(waypoints: Array, speeds: Array, drive: Drive, walls: Walls, speed: float, trace: Array, brush: Brush,
-            passes: Passes, spans: Array, paths: Array, stops: Array) -> Tuple[Array, Array]:
+def changes(waypoints: Array, speeds: Array, lengths: Array, drive: Drive, walls: Walls, speed: float, trace: Array,
+            brush: Brush, passes: Passes, spans: Array, paths: Array, stops: Array) -> Tuple[Array, Array]:
     """What each of several edits of a route would change, if it were the only one.
 
     Args:
         waypoints, speeds, drive, walls, trace: as for `rehearse`; the trace is that of the route.
+        lengths: along the route to each waypoint, float64 (waypoints) [m].
         speed: at which what replaces a part is driven [m/s]; a faster route is driven with the brushes up.
         brush: of the floor.
         passes: those on the trace.
@@ -38,9 +39,7 @@ def changes(waypoints: Array, speeds: Array, drive: Drive, walls: Walls, speed: 
     passes = Passes(*passes)
     seconds, samples = np.full(len(spans), np.inf), np.zeros(len(spans), np.int64)
     scratch = blank(brush)
-    along, lengths = trace[:, ALONG].copy(), np.zeros(len(waypoints))
-    for index in range(1, len(waypoints)):
-        lengths[index] = lengths[index - 1] + distance(waypoints[index - 1], waypoints[index])
+    along = trace[:, ALONG].copy()
     for edit in range(len(spans)):
         first, last = spans[edit]
         low = max(np.searchsorted(along, lengths[first] - LEAD) - 1, 0)
@@ -81,5 +80,5 @@ def edited(waypoints: Array, speeds: Array, lengths: Array, here: float, first: 
     fast_at[len(fast_at) - (end - last):] = speeds[last:end]
     length = 0.0
     for index in range(1, len(points)):
-        length += distance(points[index - 1], points[index])
+        length += math.hypot(points[index, 0] - points[index - 1, 0], points[index, 1] - points[index - 1, 1])
     return points, fast_at, length - (lengths[end] - lengths[last] - TAIL)

@@ -58,8 +58,8 @@ class Rehearsal:
         self._square = self.swept.reachable_area / max(self.swept.reachable, 1)  # [m^2] of a sample
         self.turned = float(np.abs(self._trace[:, RIGHT] - self._trace[:, LEFT]).sum()) * DT / drive.wheel_base
         self.seconds = (len(self._trace) - 1) * DT
-        self._rows = np.minimum(np.searchsorted(self._trace[:, ALONG], lengths_along(route.waypoints)),
-                                len(self._trace) - 1)
+        self._lengths = lengths_along(route.waypoints)
+        self._rows = np.minimum(np.searchsorted(self._trace[:, ALONG], self._lengths), len(self._trace) - 1)
         self.reached = self._rows * DT
 
     @property
@@ -85,8 +85,8 @@ class Rehearsal:
         if not edits:
             return []
         seconds, samples = compiled_changes.changes(
-            *self.route, plain(self._drive), plain(self._walls), self._speed, self._trace, self.swept.brush,
-            plain(self._passes), np.array([edit[:2] for edit in edits]),
+            *self.route, self._lengths, plain(self._drive), plain(self._walls), self._speed, self._trace,
+            self.swept.brush, plain(self._passes), np.array([edit[:2] for edit in edits]),
             np.concatenate([NO_PATH, *(edit.path for edit in edits)]),
             np.cumsum([0, *(len(edit.path) for edit in edits)]))
         return [edit._replace(seconds=time, area=count * self._square)

@@ -6,7 +6,7 @@ long. What Choset calls a cell is called a block here, since a cell is a square 
 """
 
 import math
-from typing import List, NamedTuple, Optional, Tuple
+from typing import List, NamedTuple, Tuple
 
 import numpy as np
 
@@ -43,21 +43,21 @@ class Block(NamedTuple):
     time: float  # [s] that this takes, about
 
 
-def blocks(ground: Ground, missed: Array, brush: float, speed: float, angle: float = 0.0,
-           layout: Layout = Layout(), within: Optional[Window] = None) -> List[Block]:
+def blocks(ground: Ground, missed: Array, within: Window, brush: float, speed: float, angle: float = 0.0,
+           layout: Layout = Layout()) -> List[Block]:
     """Blocks whose lanes clean what was missed, except for crumbs.
 
     Args:
         ground: where the robot can stand.
         missed: the cells to clean, bool (rows, columns).
+        within: the window that holds them.
         brush: width of the brush [m].
         speed: along the lanes [m/s].
         angle: between the lanes and the map's axes [rad].
         layout: how the lanes are laid out.
-        within: the smallest window that holds all that was missed, if known.
     """
     found: List[Block] = []
-    floor = TurnedFloor(ground, missed, angle, brush, within)
+    floor = TurnedFloor(ground, missed, within, angle, brush)
     rate = brush * speed
     remaining = floor.missed.copy()
     grids = [_Grid(floor, remaining, ground.reach + SLACK, brush, along_x, layout) for along_x in (True, False)]

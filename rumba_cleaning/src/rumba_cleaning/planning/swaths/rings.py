@@ -13,7 +13,6 @@ from skimage import measure
 
 from rumba_cleaning.belief.ground import Ground
 from rumba_cleaning.belief.swept import Swept
-from rumba_cleaning.planning.common import gaussian
 from rumba_cleaning.planning.common.polyline import SPACING, resampled
 from rumba_cleaning.planning.common.stretches import Stretch, Variant, pair
 from rumba_cleaning.planning.decompose.regions import Shapes
@@ -25,9 +24,9 @@ from rumba_sim.model.kernel import Array
 WALL_MARGIN = 0.0003  # [m] between robot and wall: small sweeps more of the rim, large touches the wall less often
 # Of the brush's width from ring to ring: small leaves less where corners are cut, large drives less.
 PASS, OPEN_PASS = 0.93, 0.995  # usually, and in open regions, where few rings have corners
-SMOOTH = 0.02  # [m] standard deviation of the filter along a ring: takes out the steps of the grid, and cuts corners
-# The corners of a ring reach farther out by what such a filter [m] would cut off, as a robot does that goes round them.
-BLUR = 0.06
+SMOOTH = 0.07  # [m] along a ring that are averaged: takes out the steps of the grid, and cuts corners
+# [m] The corners of a ring reach farther out by what such an average cuts off, as a robot does that goes round them.
+BLUR = 0.21
 SHORTEST = 0.25  # [m] of a ring, and of its parts; a shorter one is left to the crumbs
 GAP = 0.3  # [m] of a ring that are not needed, but are driven: large saves turns, small saves distance
 WHOLE = 0.85  # share of a ring's waypoints that are needed, for all of it to be driven: saves turns, as GAP does
@@ -106,7 +105,7 @@ def _shaped(ring: Ring, is_open: bool) -> Ring:
     if not ring.is_closed or not (is_open or ring.level):
         return ring
     path = ring.waypoints[:-1]
-    smooth = ndimage.correlate1d(path, gaussian.weights((SMOOTH if is_open else BLUR) / SPACING), axis=0, mode='wrap')
+    smooth = ndimage.uniform_filter1d(path, int((SMOOTH if is_open else BLUR) / SPACING), axis=0, mode='wrap')
     path = smooth if is_open else 2.0 * path - smooth
     return ring._replace(waypoints=np.concatenate([path, path[:1]]))
 
