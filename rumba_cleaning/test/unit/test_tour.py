@@ -1,7 +1,6 @@
 """Tours against all possible orders, ways against their closed form, compiled code against the same code uncompiled."""
 
 import itertools
-import math
 import pathlib
 import types
 
@@ -15,7 +14,6 @@ from rooms import room
 
 from rumba_cleaning.planning.common import compiled_ways
 from rumba_cleaning.planning.common.compiled_ways import Needed
-from rumba_cleaning.planning.common.lines import ASIDE
 from rumba_cleaning.planning.common.stretches import Stretch, pair
 from rumba_cleaning.planning.order import compiled_tours
 from rumba_cleaning.planning.order.tour import BESIDE, Tour, order
@@ -106,28 +104,23 @@ def test_ways_lead_around_walls_and_end_at_the_stretches():
 def test_walls_do_not_vanish_from_ways():
     floor = ground(room(4.0, 3.0, 0.05, [(1.95, 0.0, 2.0, 2.2)]))
     near = np.array([[1.7, 0.5], [2.3, 0.5]])
-    metres, _ = compiled_ways.lengths(floor.clearance, Needed(floor.reach, floor.reach, 0.0, floor.reach, 1, 0.05),
+    metres, _ = compiled_ways.lengths(floor.clearance, Needed(floor.reach, floor.reach, 0.0, 0.05),
                                       (near - floor.plan.origin) / floor.plan.resolution, np.arange(2))
     assert metres[0, 1] == np.inf and metres[0, 0] == 0.0
 
 
-@pytest.mark.parametrize('resolution', [0.005, 0.01, 0.02, 0.025])
-@pytest.mark.parametrize('off, has_other_side, is_free', [(0.004, True, True), (-0.003, False, True),
-                                                          (-0.003, True, False), (-0.005, False, False)])
-def test_near_its_ends_a_way_may_graze_a_post_but_lead_through_no_gap_that_is_too_narrow(
-        resolution, off, has_other_side, is_free):
-    """A robot slides along one post; between two it is stuck."""
-    reach, radius = 0.17, 0.02
+@pytest.mark.parametrize('off, is_free', [(0.004, True), (-0.003, False)])
+def test_near_its_ends_a_way_may_be_nearer_to_a_post_but_not_touch_it(off, is_free):
+    reach, radius, resolution = 0.17, 0.02, 0.01
     y, x = resolution * np.mgrid[-60:61, -60:61]
-    sides = (-1, 1) if has_other_side else (-1,)
-    clearance = np.min([np.hypot(x, y - side * (reach + off + radius)) - radius for side in sides], axis=0)
-    needed = Needed(reach + 0.03, reach - 0.004, 0.15 / resolution, reach + 0.003, math.ceil(ASIDE / resolution),
-                    resolution)
+    clearance = np.hypot(x, y + reach + off + radius) - radius
+    needed = Needed(reach + 0.03, reach, 0.15 / resolution, resolution)
     along = 0.12 / resolution
     for way in ((-along, 0.0, along, 0.0), (along, 0.0, -along, 0.0), (0.0, along, 0.0, -along)):
         nodes = 60.0 + np.array(way)
         field = clearance if way[1] == 0.0 else np.ascontiguousarray(clearance.T)
         assert compiled_ways.sight(field, needed, *nodes) == is_free
+        assert not compiled_ways.sight(field, needed._replace(near=0.0), *nodes)
 
 
 @given(st.integers(0, 10 ** 6))
@@ -137,7 +130,7 @@ def test_a_line_of_sight_is_free_wherever_one_looks_although_free_floor_is_skipp
     posts = generator.uniform(0.0, 5.0, (6, 2))
     y, x = 0.05 * np.mgrid[0:101, 0:101]
     clearance = np.min([np.hypot(x - post[0], y - post[1]) for post in posts], axis=0)
-    needed = Needed(0.2, 0.2, 0.0, 0.2, 1, 0.05)
+    needed = Needed(0.2, 0.2, 0.0, 0.05)
     ends = generator.uniform(0.1, 4.9, (30, 2, 2))
     for start, end in ends:
         line = start + np.linspace(0.0, 1.0, 500)[:, np.newaxis] * (end - start)
@@ -220,7 +213,7 @@ def test_compiled_and_uncompiled_tours_and_ways_are_equal():
             module.shake(made._costs, made._of, made._begins, found[name], 20, np.array([[1, 3, 4], [2, 4, 7]]))
         assert (found['compiled'] == found['plain']).all()
         nodes = (made._points - HALL.plan.origin) / HALL.plan.resolution
-        asked = (HALL.clearance, Needed(HALL.reach + 0.01, HALL.reach - 0.01, 1.0, HALL.reach, 1, 0.1), nodes,
+        asked = (HALL.clearance, Needed(HALL.reach + 0.01, HALL.reach - 0.01, 1.0, 0.1), nodes,
                  np.arange(0, len(nodes), 2))
         assert uncompiled(compiled_ways).lengths(*asked)[0] == approx(compiled_ways.lengths(*asked)[0])
 

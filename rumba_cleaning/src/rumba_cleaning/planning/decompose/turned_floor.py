@@ -15,7 +15,7 @@ from rumba_sim.model.kernel import Array
 # Our choice, checked by test_turned_floor.py, which allows an error of 1.5 degrees.
 SPAN = 0.3  # [m] of a wall, over which its direction is measured: long averages over the steps of the grid
 BINS = 90  # of the histogram of directions, in a quarter turn: 1 degree each
-SMOOTH = 5  # [bins] that are averaged: walls of a drawn map are not quite straight
+WEIGHTS = (1, 2, 3, 2, 1)  # of bins that are averaged: walls of a drawn map are not quite straight
 STRAIGHT = 2  # [bins] a direction this near to an axis of the map counts as the axis: a turned grid is less exact
 QUARTER = 0.5 * math.pi  # [rad]
 Window = Tuple[slice, slice]  # rows and columns
@@ -78,6 +78,6 @@ def main_direction(outlines: List[Array]) -> float:
     for path in outlines:
         bins = np.rint(bearings(path[span:] - path[:-span]) / QUARTER * BINS).astype(int) % BINS
         counts += np.bincount(bins, minlength=BINS)
-    best = int(np.argmax(ndimage.uniform_filter1d(counts, SMOOTH, mode='wrap')))
+    best = int(np.argmax(ndimage.correlate1d(counts, WEIGHTS, mode='wrap')))
     best = best - BINS if best > BINS // 2 else best
     return 0.0 if abs(best) <= STRAIGHT else best * QUARTER / BINS
