@@ -11,7 +11,7 @@ from typing import List, NamedTuple, Optional
 import numpy as np
 
 from rumba_cleaning.belief.context import Context
-from rumba_cleaning.planning.order.transit import route_over
+from rumba_cleaning.planning.order.route import route_over
 from rumba_cleaning.planning.swaths.rings import WALL_MARGIN
 from rumba_cleaning.route import Route
 from rumba_sim.model.common.geometry import Pose, hypot

@@ -42,8 +42,6 @@ class Stretch(NamedTuple):
     variants: List[Variant]  # in pairs: a path, and the same path backward
     region: int  # label of the region in which it lies
     area: float  # [m^2] that it cleans, about
-    is_crumb: bool  # whether it may be left out if the target is met without it
-    delay: float = 0.0  # [s] that the robot stands still on it to turn
 
 
 def pair(parts: List[Array]) -> List[Variant]:

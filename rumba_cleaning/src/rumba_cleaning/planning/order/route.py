@@ -1,35 +1,31 @@
 """A route over stretches: region by region, with a tour in each toward the next one."""
 
-from typing import Dict, Iterator, List, Optional, Sequence, Tuple
+from typing import Iterable, Iterator, List, Optional, Sequence, Tuple
 
 import numpy as np
 
+from rumba_cleaning.belief import paths
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.planning.common.stretches import Stretch
 from rumba_cleaning.planning.decompose.regions import distances, doors
 from rumba_cleaning.planning.order import tour
 from rumba_cleaning.planning.order.groups import Group, groups
 from rumba_cleaning.planning.order.tour import Tour
-from rumba_cleaning.planning.order.transit import route_over
 from rumba_cleaning.planning.swaths.problem import Problem
 from rumba_cleaning.route import Route
+from rumba_sim.model.common.geometry import Pose
 from rumba_sim.model.kernel import Array
 
 # Our choice.
-YIELD = 0.7  # share of a crumb that is swept in passing, about: small plans for more crumbs than the target needs
-SPARE = 0.0005  # of coverage that is planned beyond the target, once the robot is past the lanes and rings
-CULLS = 4  # rounds in which crumbs are left out that cost much time for their area: more make better choices
+TRANSIT = 0.5  # [m] of a way between two paths: a longer one is driven at the speed of transit, ...
+SLOW = 0.15  # [m] ... except for its end: the robot has slowed down and lowered the brushes before its path begins
 
 
 def through(problem: Problem, found: List[Stretch]) -> Optional[Route]:
-    """A route over stretches between poses; of crumbs, only over as many as the target needs. None: there is none."""
+    """A route over stretches between poses; None: there is none."""
     if not found:
         return None
-    context, pose = problem.context, problem.pose
-    tours = _tours(problem, groups(found, problem.effort.rounds > 0))
-    if all(part.is_crumb for part in found):
-        _cull(context, tours)
-    return route_over(context, pose, _legs(tours))
+    return route_over(problem.context, problem.pose, _legs(_tours(problem, groups(found, problem.effort.rounds > 0))))
 
 
 def _tours(problem: Problem, parts: Sequence[Group]) -> List[Tuple[Group, Tour]]:
@@ -51,30 +47,43 @@ def _tours(problem: Problem, parts: Sequence[Group]) -> List[Tuple[Group, Tour]]
     return tours
 
 
-def _cull(context: Context, tours: List[Tuple[Group, Tour]]) -> None:
-    """Leave out crumbs that cost most time for their area, as long as the target can be met without them."""
-    swept = context.swept
-    needed = (context.target_coverage + SPARE - swept.coverage) * swept.reachable_area / YIELD  # [m^2]
-    for last in range(CULLS, 0, -1):
-        rows: List[Tuple[float, float, int, int]] = []
-        for number, (group, route) in enumerate(tours):
-            for saved, index in route.saved():
-                part = group.stretches[int(index)]
-                rows.append((float(saved + part.delay) / part.area, part.area, number, int(index)))
-        spare = (sum(row[1] for row in rows) - needed) / last
-        dropped: Dict[int, List[int]] = {}
-        for _, area, number, index in sorted(rows, key=lambda row: -row[0]):
-            spare -= area
-            if spare < 0.0:
-                break
-            dropped.setdefault(number, []).append(index)
-        for number, indices in dropped.items():
-            tours[number][1].leave_out(indices)
-
-
 def _legs(tours: List[Tuple[Group, Tour]]) -> Iterator[Tuple[Optional[Array], Array]]:
     """The way to each stretch of tours, if it is known, and the path over that: float64 (any, 2) [m] each."""
     for group, route in tours:
         for number, leg in enumerate(route.legs()):
             path = group.stretches[leg.stretch].variants[leg.variant].path()
             yield leg.way if number > 0 else None, path
+
+
+def route_over(context: Context, pose: Pose, legs: Iterable[Tuple[Optional[Array], Array]]) -> Optional[Route]:
+    """The route over paths from a pose; it leaves out what cannot be reached. None: that is all of it.
+
+    Args:
+        context: where the robot can stand.
+        pose: map frame.
+        legs: the way from the end of the path before, if it is known, and a path: float64 (any, 2) [m] each.
+    """
+    config = context.config
+    waypoints, speeds, is_there = [np.array([[pose.x, pose.y]])], [], True
+    for way, path in legs:
+        if way is None or not is_there:
+            way = paths.between(context.ground, waypoints[-1][-1], path[0])
+        is_there = way is not None
+        if way is None:
+            continue
+        way, way_speeds = _with_speeds(way, config.speed, config.transit_speed)
+        waypoints += [way[1:], path[1:]]
+        speeds += [way_speeds, np.full(len(path) - 1, config.speed)]
+    return Route(np.concatenate(waypoints), np.concatenate(speeds)) if speeds else None
+
+
+def _with_speeds(way: Array, speed: float, transit_speed: float) -> Tuple[Array, Array]:
+    """A way (any, 2) [m] between two paths, with the end of a long one apart, and the speeds on it [m/s]."""
+    legs = np.hypot(*np.diff(way, axis=0).T)
+    if legs.sum() <= TRANSIT:
+        return way, np.full(len(legs), speed)
+    fast = np.full(len(legs), transit_speed)
+    if legs[-1] <= SLOW:
+        return way, np.append(fast[:-1], speed)
+    slow = way[-1] - SLOW / legs[-1] * (way[-1] - way[-2])
+    return np.concatenate([way[:-1], [slow], way[-1:]]), np.append(fast, speed)

@@ -59,7 +59,6 @@ class Tour:
             speed: between the stretches [m/s].
             effort: how many times as much to search as usual.
         """
-        self._effort = effort
         self._variants = [(index, variant) for index, stretch in enumerate(stretches)
                           for variant in range(len(stretch.variants))]
         sizes = [*(len(stretch.variants) for stretch in stretches), 1]
@@ -68,7 +67,7 @@ class Tour:
         ends = np.array([stretches[index].variants[variant].ends() for index, variant in self._variants])
         self._measure(ground, start, ends, end, speed)
         self._tour = compiled_tours.built(self._costs, self._begins)
-        self._improve()
+        _improve(self._costs, self._of, self._begins, self._tour, effort)
 
     def _measure(self, ground: Ground, start: Array, ends: Array, end: Optional[Array], speed: float) -> None:
         """Find the ways from all ends (variants, 4, 2) [m] to all others, and the times that they take."""
@@ -98,9 +97,6 @@ class Tour:
         if end is None:
             self._costs[:, -1] = 0.0
 
-    def _improve(self) -> None:
-        _improve(self._costs, self._of, self._begins, self._tour, self._effort)
-
     @property
     def time(self) -> float:
         """Time between the stretches [s], about."""
@@ -110,17 +106,6 @@ class Tour:
     def end(self) -> Array:
         """The point (2) at which its last stretch ends [m]."""
         return np.asarray(self._points[self._exits[self._tour[-2]]])
-
-    def saved(self) -> Array:
-        """What leaving out each stretch of the tour would save [s], and its index: float64 (any, 2)."""
-        before, here, after = self._tour[:-2], self._tour[1:-1], self._tour[2:]
-        times = self._costs[before, here] + self._costs[here, after] - self._costs[before, after]
-        return np.stack([times, self._of[here]], axis=1)
-
-    def leave_out(self, stretches: Sequence[int]) -> None:
-        """Shorten the tour by stretches, given by their indices."""
-        self._tour = self._tour[~np.isin(self._of[self._tour], stretches)]
-        self._improve()
 
     def legs(self) -> List[Leg]:
         """The stretches in order."""

@@ -6,7 +6,7 @@ from typing import List, Sequence, Tuple
 import numpy as np
 
 from rumba_cleaning.planning.common.polyline import stride_counts, strides
-from rumba_cleaning.planning.simulate.edit import Edit
+from rumba_cleaning.planning.simulate.rehearsal import Edit
 from rumba_cleaning.route import Route
 from rumba_sim.model.kernel import Array
 

@@ -6,8 +6,7 @@ from rumba_cleaning.belief.context import Context
 from rumba_cleaning.planning.search.edits import applied, chosen, dense
 from rumba_cleaning.planning.search.shifts import shifts
 from rumba_cleaning.planning.search.shortcuts import shortcuts
-from rumba_cleaning.planning.simulate.edit import Edit
-from rumba_cleaning.planning.simulate.rehearsal import Rehearsal
+from rumba_cleaning.planning.simulate.rehearsal import Edit, Rehearsal
 from rumba_cleaning.planning.swaths.problem import Problem, need
 from rumba_cleaning.route import Route
 from rumba_sim.model.common.geometry import hypot

@@ -11,7 +11,7 @@ import numpy as np
 from rumba_cleaning.behaviours.compiled_follower import HAIRPIN
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.planning.common.compiled_ways import kept
-from rumba_cleaning.planning.simulate.edit import Edit
+from rumba_cleaning.planning.simulate.rehearsal import Edit
 from rumba_cleaning.route import Route
 from rumba_sim.model.common.geometry import hypot
 from rumba_sim.model.kernel import Array
@@ -19,10 +19,10 @@ from rumba_sim.model.kernel import Array
 # All figures are our choice.
 STRAIGHT = 0.01  # [m] by which waypoints may be off a straight part
 LONG = 0.4  # [m] of a straight part, at least: short ones belong to bends
-ASIDE = (-0.02, -0.01, 0.01, 0.02)  # [m] to the left, for straight parts
+ASIDE = (-0.04, -0.02, -0.01, 0.01, 0.02, 0.04)  # [m] to the left, for straight parts
 SHORT = 0.05  # [m] of a part, at least, for it to have a direction at its end
 BENT = 0.5  # [rad] that a corner turns, at least; at a hairpin the robot turns on the spot
-OUTWARD = (-0.04, -0.015, 0.02, 0.05)  # [m], for corners
+OUTWARD = (-0.08, -0.04, -0.015, 0.02, 0.05, 0.08)  # [m], for corners
 
 
 def shifts(context: Context, route: Route) -> Iterator[Edit]:

@@ -5,7 +5,7 @@ of all that a plan leaves, and rehearsals foresee it to about 0.1 % of the floor
 """
 
 from functools import cached_property
-from typing import List, Sequence
+from typing import List, NamedTuple, Sequence
 
 import numpy as np
 
@@ -15,13 +15,31 @@ from rumba_cleaning.edges.guard import SWIFT_SPEED
 from rumba_cleaning.planning.simulate import compiled_changes, compiled_passes, compiled_rehearsal
 from rumba_cleaning.planning.simulate.compiled_passes import Passes
 from rumba_cleaning.planning.simulate.compiled_rehearsal import ALONG, COLUMNS, DT, LEFT, RIGHT, Walls
-from rumba_cleaning.planning.simulate.edit import Edit
 from rumba_cleaning.route import Route, lengths_along
 from rumba_sim.model.common.geometry import Pose
 from rumba_sim.model.compiling.jit import plain
 from rumba_sim.model.kernel import Array
 
+NEAR = 1.2  # times a price: large judges more edits again, small may miss some that become worth it; our choice
 NO_PATH = np.zeros((0, 2))  # as that of an edit
+
+
+class Edit(NamedTuple):
+    """Part of a route that is replaced."""
+
+    first: int  # the waypoint before that part
+    last: int  # the one after it
+    path: Array  # float64 (any, 2) [m] that replaces it
+    seconds: float = 0.0  # that the route takes longer
+    area: float = 0.0  # [m^2] that is swept more
+
+    def place(self, route: Route) -> bytes:
+        """A key of the replaced part and its replacement: equal for edits of routes that are alike there."""
+        return bytes(route.waypoints[[self.first, self.last]].tobytes() + self.path.tobytes())
+
+    def is_near(self, price: float) -> bool:
+        """Whether it would be worth it at a price near to a given one [s/m^2]."""
+        return max(price * NEAR * self.area, price / NEAR * self.area) > self.seconds
 
 
 class Rehearsal:

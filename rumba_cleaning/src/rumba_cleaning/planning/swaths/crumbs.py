@@ -20,7 +20,6 @@ HEADINGS = 8  # in which a spot may be passed over; more take more time to compa
 OVER = 0.02  # [m] before and behind a spot: large passes over all of it, small takes less time
 RIM = 0.045  # [m] from where the robot can stand to the middle of a spot: beyond that it turns to reach it
 INTO = 0.06  # [m] that the robot drives straight toward a spot at the rim
-TURN = 2.5  # [s] that a turn by 180 degrees takes, with stopping and starting
 
 
 def crumbs(ground: Ground, share: Array, regions: Array, least: float = 0.0, apart: float = 0.0) -> List[Stretch]:
@@ -83,14 +82,14 @@ def _over(ground: Ground, cells: Array, regions: Array, share: Array) -> Stretch
     if np.ptp(ahead) >= LONG:
         line = _standing(ground, middle + np.array([[ahead.min()], [ahead.max()]]) * (math.cos(angle), math.sin(angle)))
         if ground.is_straight(*line):
-            return Stretch(pair([line]), region, area, True)
+            return Stretch(pair([line]), region, area)
     point = _standing(ground, middle[np.newaxis])[0]
     away = point - middle
     distance = float(np.hypot(*away))
     if distance > RIM:
         outside = point + INTO / distance * away
         outside = outside if ground.are_free(outside[np.newaxis])[0] else point
-        return Stretch(pair([np.array([outside, point, outside])]), region, area, True, TURN)
+        return Stretch(pair([np.array([outside, point, outside])]), region, area)
     half = 0.5 * (np.ptp(cells, axis=0).max() + 1) * res + OVER
     variants: List[Variant] = []
     for number in range(HEADINGS // 2):
@@ -99,7 +98,7 @@ def _over(ground: Ground, cells: Array, regions: Array, share: Array) -> Stretch
         line = np.array([point - step, point + step])
         line = np.where(ground.are_free(line)[:, np.newaxis], line, point)
         variants += pair([line])
-    return Stretch(variants, region, area, True)
+    return Stretch(variants, region, area)
 
 
 def _standing(ground: Ground, points: Array) -> Array:

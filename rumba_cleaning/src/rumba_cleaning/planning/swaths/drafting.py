@@ -10,8 +10,7 @@ from rumba_cleaning.belief.swept import Swept
 from rumba_cleaning.planning.common.stretches import Stretch
 from rumba_cleaning.planning.decompose.turned_floor import Window
 from rumba_cleaning.planning.simulate.paper import drive
-from rumba_cleaning.planning.swaths.lanes import Layout, blocks
-from rumba_cleaning.planning.swaths.links import block_variants, through
+from rumba_cleaning.planning.swaths.lanes import Layout, block_variants, blocks, through
 from rumba_cleaning.planning.swaths.problem import Problem
 from rumba_cleaning.planning.swaths.rings import PASS, chains, rings, stretch
 from rumba_sim.model.kernel import Array
@@ -30,7 +29,7 @@ class Draft(NamedTuple):
 # All figures are our choice. Which draft is best differs from floor to floor: routes by several are rehearsed.
 DRAFTS = (Draft(Layout(), 0.3),
           Draft(Layout(0.0, needed=0.15, gap=0.4, alike=2.7), 0.4),
-          Draft(Layout(0.09, needed=0.15, usual=0.7, gap=0.55, alike=1.35), 0.4))
+          Draft(Layout(0.08, needed=0.17, usual=0.5, gap=0.65), 0.45))
 # For regions in rings, such as a corridor a little wider than so many of them: one more pass in its middle, though what
 # is left there is thin and broken, or rings that overlap less.
 IN_RINGS = (DRAFTS[0]._replace(strip=0.015, apart=0.04), DRAFTS[0]._replace(strip=0.015, apart=0.04, ring_pass=0.995))
@@ -84,7 +83,7 @@ def _lanes(problem: Problem, paper: Swept, draft: Draft) -> List[Stretch]:
                                 problem.angle, draft.layout):
                 path = through(context.ground, block.lanes, 0)
                 drive(paper, path)
-                found.append(Stretch(block_variants(context.ground, block.lanes, path), region, block.area, False))
+                found.append(Stretch(block_variants(context.ground, block.lanes, path), region, block.area))
     return found
 
 

@@ -5,7 +5,7 @@ A robot follows them at full speed, whatever the direction of the walls, and the
 """
 
 import math
-from typing import Dict, Iterator, List, NamedTuple
+from typing import Iterator, List, NamedTuple
 
 import numpy as np
 from scipy import ndimage, spatial
@@ -37,7 +37,6 @@ NEEDED = 0.25  # share of the brush's width that was missed, for a waypoint to b
 POINTS = 9  # across the brush: one for each 2 cm of a brush of 17 cm
 RIDGE = 0.03  # [m] inside a ring the floor must still get wider: where it does not, one pass in the middle is enough
 WIDER = 0.7  # of that, by which it must: rings have corners, and a grid is not exact
-LOOK = 5  # waypoints from one to the next at which that is looked at
 FORWARD = 0.3  # [m] along the next ring at which it is entered: large bends gently, small drives less twice
 ROTATIONS = 12  # points at which a ring is entered, at most: more give shorter tours, and take more time to compare
 APART = 0.3  # [m] between those points, at least
@@ -183,46 +182,29 @@ def _needed(ring: Ring, needed: Array) -> Iterator[Ring]:
 
 def chains(found: List[Ring]) -> List[List[Ring]]:
     """Closed rings one inside the other, each list from the walls inward; every other ring is a list of its own."""
-    by_level: Dict[int, List[int]] = {}
-    for index, ring in enumerate(found):
-        if ring.is_closed:
-            by_level.setdefault(ring.level, []).append(index)
-    following: Dict[int, int] = {}
-    for level, here in by_level.items():
-        if level + 1 in by_level:
-            following.update(_followers(found, here, by_level[level + 1]))
-    inner = set(following.values())
-    lists = []
-    for index in range(len(found)):
-        if index not in inner:
-            chain = [index]
-            while chain[-1] in following:
-                chain.append(following[chain[-1]])
-            lists.append([found[number] for number in chain])
+    lists: List[List[Ring]] = []
+    for ring in found:
+        outer = next((chain for chain in lists if ring.is_closed and _is_inside(ring, chain[-1])), None)
+        if outer is None:
+            lists.append([ring])
+        else:
+            outer.append(ring)
     return lists
 
 
-def _followers(found: List[Ring], outer: List[int], inner: List[int]) -> Dict[int, int]:
-    """The ring of `inner` that lies beside each of `outer` all the way around; many have none, none has two."""
-    trees = {index: spatial.cKDTree(found[index].waypoints) for index in inner}
-    of_inner = np.repeat(inner, [len(found[index].waypoints) for index in inner])
-    tree = spatial.cKDTree(np.concatenate([found[index].waypoints for index in inner]))
-    followers: Dict[int, int] = {}
-    for index in outer:
-        points = found[index].waypoints[::LOOK]
-        near = np.unique(of_inner[tree.query_ball_point(points[0], BESIDE)]).tolist()
-        beside = [number for number in near if found[number].region == found[index].region
-                  and number not in followers.values() and trees[number].query(points)[0].max() < BESIDE]
-        if beside:
-            followers[index] = beside[0]
-    return followers
+def _is_inside(ring: Ring, outer: Ring) -> bool:
+    """Whether a ring lies beside another one, a level farther out, all the way around that."""
+    if not (outer.is_closed and outer.level + 1 == ring.level and outer.region == ring.region):
+        return False
+    tree = spatial.cKDTree(ring.waypoints)
+    return bool(tree.query(outer.waypoints[0])[0] < BESIDE and tree.query(outer.waypoints)[0].max() < BESIDE)
 
 
 def stretch(chain: List[Ring], brush: float) -> Stretch:
     """The paths along a chain: in both directions, from outside and from inside, from several points."""
     area = brush * SPACING * sum(len(ring.waypoints) for ring in chain)
     if not chain[0].is_closed:
-        return Stretch(pair([chain[0].waypoints]), chain[0].region, area, False)
+        return Stretch(pair([chain[0].waypoints]), chain[0].region, area)
     first = chain[0].waypoints
     step = max(int(APART / SPACING), math.ceil((len(first) - 1) / ROTATIONS))
     found: List[Variant] = []
@@ -231,7 +213,7 @@ def stretch(chain: List[Ring], brush: float) -> Stretch:
         twice = [np.concatenate([path[:-1], path]) for path in paths]
         for index in range(0, len(first) - 1, step):
             found += pair(_spiral(twice, index))
-    return Stretch(found, chain[0].region, area, False)
+    return Stretch(found, chain[0].region, area)
 
 
 def _spiral(twice: List[Array], index: int) -> List[Array]:
