@@ -11,7 +11,7 @@ PAIRS = 5  # of variants of each stretch
 def scattered(count, region, width, height, seed=1):
     """Short stretches all over a rectangle from (0, 0) [m]."""
     places = np.random.default_rng(seed).uniform((0.0, 0.0), (width, height), (count, 2))
-    return [Stretch(PAIRS * pair([np.array([place, place + (0.1, 0.0)])]), region, 0.1, False) for place in places]
+    return [Stretch(PAIRS * pair([np.array([place, place + (0.1, 0.0)])]), region, 0.1) for place in places]
 
 
 def names(stretches):
@@ -51,10 +51,10 @@ def test_as_many_as_a_group_may_have_are_not_parted():
 
 
 def test_a_stretch_with_too_many_variants_is_a_group_of_its_own():
-    large = [Stretch((MANY // 2) * pair([np.array([[x, 0.0], [x, 1.0]])]), 1, 0.1, False) for x in (3.0, 1.0)]
+    large = [Stretch((MANY // 2) * pair([np.array([[x, 0.0], [x, 1.0]])]), 1, 0.1) for x in (3.0, 1.0)]
     assert [len(group.stretches) for group in groups(large)] == [1, 1]
 
 
 def test_the_middle_is_that_beginning_of_a_stretch_which_is_nearest_to_the_mean():
-    group, = groups([Stretch(pair([np.array([[x, 0.0], [x, 1.0]])]), 1, 0.1, False) for x in (0.0, 4.0, 5.0)])
+    group, = groups([Stretch(pair([np.array([[x, 0.0], [x, 1.0]])]), 1, 0.1) for x in (0.0, 4.0, 5.0)])
     assert group.middle().tolist() == [4.0, 0.0]

@@ -6,7 +6,7 @@ from floors import along, ground, length
 from pytest import approx
 from rooms import distances, room
 
-from rumba_cleaning.planning.swaths.links import block_variants, through
+from rumba_cleaning.planning.swaths.lanes import block_variants, through
 
 PLAN = room(4.0, 3.0)
 FLOOR = ground(PLAN)

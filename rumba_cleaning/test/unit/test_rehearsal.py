@@ -12,7 +12,7 @@ from rumba_cleaning.behaviours.follower import Follower
 from rumba_cleaning.planning.planner import plan
 from rumba_cleaning.planning.search.edits import applied, dense
 from rumba_cleaning.planning.simulate import rehearsal as rehearsals
-from rumba_cleaning.planning.simulate.edit import Edit
+from rumba_cleaning.planning.simulate.rehearsal import Edit
 from rumba_cleaning.planning.simulate.rehearsal import NO_PATH, Rehearsal
 from rumba_cleaning.route import Route
 from rumba_sim.model.common.geometry import Pose

@@ -24,7 +24,7 @@ SPEED = 0.45
 
 def over_path(*points):
     """A stretch along a path."""
-    return Stretch(pair([np.array(points, float)]), 1, 1.0, True)
+    return Stretch(pair([np.array(points, float)]), 1, 1.0)
 
 
 def random_stretches(generator, count):
@@ -33,7 +33,7 @@ def random_stretches(generator, count):
     for _ in range(count):
         middle = generator.uniform((1.2, 1.2), (6.8, 4.8))
         paths = [np.array([middle, middle + generator.uniform(-0.9, 0.9, 2)]) for _ in range(generator.integers(1, 3))]
-        found.append(Stretch([variant for path in paths for variant in pair([path])], 1, 1.0, True))
+        found.append(Stretch([variant for path in paths for variant in pair([path])], 1, 1.0))
     return found
 
 
@@ -149,18 +149,6 @@ def test_a_way_keeps_off_walls_except_at_its_ends():
         way = Tour(floor, points[0] - [0.3, 0.0], stretches, None, SPEED).legs()[1].way
         assert 1.949 < length(way) < longest
         assert way[1:-1, 1].min(initial=9.0) > corner + BESIDE
-
-
-def test_stretches_that_are_left_out_shorten_the_tour_by_what_was_promised():
-    stretches = [over_path((1.0, 1.0), (2.0, 1.0)), over_path((4.0, 5.0), (4.1, 5.0)),
-                 over_path((3.0, 1.0), (4.0, 1.0))]
-    made = Tour(HALL, np.array([0.5, 1.0]), stretches, None, SPEED)
-    before, saved = made.time, {int(index): time for time, index in made.saved()}
-    assert sorted(saved) == [0, 1, 2] and max(saved, key=saved.get) == 1
-    made.leave_out([1])
-    assert made.time == approx(before - saved[1]) and [leg.stretch for leg in made.legs()] == [0, 2]
-    made.leave_out([0, 2])
-    assert made.legs() == []
 
 
 def test_a_tour_is_the_same_each_time():

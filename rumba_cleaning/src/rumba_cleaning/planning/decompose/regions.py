@@ -20,7 +20,7 @@ from rumba_sim.model.kernel import Array
 WIDE = 0.5  # [m] clearance that no point in a door has
 NODES = 0.05  # [m] between the nodes that are looked at: large is fast, small is exact
 # [m] by which the mean clearance of an open region, and of one that is no corridor, is larger than the robot needs.
-OPEN, NARROW = 1.0, 0.15
+OPEN, NARROW = 1.0, 0.17
 LEAST = 0.6  # [m^2] with such clearance make a region of their own; less belongs to the region beside it
 
 

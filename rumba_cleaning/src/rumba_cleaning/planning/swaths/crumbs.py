@@ -1,29 +1,36 @@
-"""Paths past crumbs, which rings and lanes do not clean: a long crumb is driven piece by piece, a spot passed over."""
+"""Paths past crumbs, which rings do not clean. A long one is driven along its middle, a spot is passed over."""
 
 import math
-from typing import Iterator, List
+from typing import Dict, List, Set, Tuple
 
 import numpy as np
 from scipy import ndimage
+from skimage import morphology
 
 from rumba_cleaning.belief.ground import Ground
-from rumba_cleaning.belief.search import path_lengths
+from rumba_cleaning.planning.common.polyline import simplified
 from rumba_cleaning.planning.common.stretches import Stretch, Variant, pair
+from rumba_cleaning.route import lengths_along
 from rumba_sim.model.kernel import Array
 
 # All figures are our choice; each comment says what speaks for a larger and for a smaller value.
 MISSED = 0.3  # share of a cell, for it to belong to a crumb: large makes fewer detours, small meets high targets
 LEAST = 0.0004  # [m^2] of a crumb: large makes fewer detours, small meets high targets
-PIECE = 0.3  # [m] along a piece of a crumb, at most: a large one is bent, small ones take more time to compare
-LONG = 0.15  # [m] of a piece that is driven from end to end; a shorter one is passed over in any direction
+STRIP = 0.3  # [m] length of a crumb that is driven along its middle; a shorter one is passed over in any direction
+TWIG = 0.12  # [m] length of a side branch of the middle that is driven too
 HEADINGS = 8  # in which a spot may be passed over; more take more time to compare
 OVER = 0.02  # [m] before and behind a spot: large passes over all of it, small takes less time
+AVERAGED = 5  # [cells] along the middle of a strip, which goes from cell to cell in steps
 RIM = 0.045  # [m] from where the robot can stand to the middle of a spot: beyond that it turns to reach it
 INTO = 0.06  # [m] that the robot drives straight toward a spot at the rim
+STRAIGHT = 0.012  # [m] by which the path along a strip may leave its middle
+NEIGHBOURS = tuple((row, column) for row in (-1, 0, 1) for column in (-1, 0, 1) if row or column)
+
+Pixel = Tuple[int, int]
 
 
 def crumbs(ground: Ground, share: Array, regions: Array, least: float = 0.0, apart: float = 0.0) -> List[Stretch]:
-    """The pieces of crumbs.
+    """The crumbs: strips and spots.
 
     Args:
         ground: where the robot can stand.
@@ -37,24 +44,16 @@ def crumbs(ground: Ground, share: Array, regions: Array, least: float = 0.0, apa
     areas = np.bincount(labels.ravel(), share.ravel()) * res * res
     found: List[Stretch] = []
     for number, window in enumerate(ndimage.find_objects(labels), 1):
-        if areas[number] >= max(least, LEAST):
-            corner = np.array([window[0].start, window[1].start])
-            found += [_over(ground, cells + corner, regions, share) for cells in _pieces(labels[window] == number, res)]
+        if areas[number] < max(least, LEAST):
+            continue
+        cells = labels[window] == number
+        corner = np.array([window[0].start, window[1].start])
+        region = _region(ground, cells, corner, regions)
+        if max(cells.shape) * res >= STRIP:
+            found += _strips(ground, cells, corner, region, areas[number])
+        else:
+            found.append(_spot(ground, cells, corner, region, areas[number]))
     return found
-
-
-def _pieces(cells: Array, resolution: float) -> Iterator[Array]:
-    """The cells, int (any, 2), of pieces of connected ones, bool (rows, columns), by their distance from an end."""
-    lengths = np.zeros(cells.shape)
-    for _ in range(2):  # from any cell to the one farthest from it, and from there to all others
-        end = np.argmax(np.where(cells, lengths, -1.0))
-        lengths = path_lengths(cells, *np.unravel_index(end, cells.shape))
-    count = int(lengths[cells].max() * resolution / PIECE) + 1
-    numbers = np.where(cells, np.minimum(lengths * count / max(lengths[cells].max(), 1.0), count - 1), -1).astype(int)
-    for number in range(count):
-        parts, _ = ndimage.label(numbers == number, np.ones((3, 3)))
-        for part, window in enumerate(ndimage.find_objects(parts), 1):
-            yield np.argwhere(parts[window] == part) + [side.start for side in window]
 
 
 def _joined(cells: Array, reach: int) -> Array:
@@ -66,31 +65,44 @@ def _joined(cells: Array, reach: int) -> Array:
     return np.asarray(ndimage.binary_dilation(cells, disc))
 
 
-def _over(ground: Ground, cells: Array, regions: Array, share: Array) -> Stretch:
-    """Along a long piece of cells, int (any, 2), or over the middle of a spot in any direction.
+def _region(ground: Ground, cells: Array, corner: Array, regions: Array) -> int:
+    """The region of the first of the cells."""
+    node = ground.standing(np.argwhere(cells)[:1] + corner)[0]
+    return int(regions[node[0], node[1]])
 
-    If a spot is at the rim, the robot drives toward it, and back after a turn on the spot.
-    """
-    res = ground.plan.resolution
-    node = ground.standing(cells[:1])[0]
-    region, area = int(regions[node[0], node[1]]), float(share[cells[:, 0], cells[:, 1]].sum()) * res * res
-    points = ground.points(cells + 0.5)
-    middle = points.mean(axis=0)
-    x, y = (points - middle).T
-    angle = 0.5 * math.atan2(2.0 * (x * y).sum(), (x * x - y * y).sum())  # of the main axis
-    ahead = x * math.cos(angle) + y * math.sin(angle)
-    if np.ptp(ahead) >= LONG:
-        line = _standing(ground, middle + np.array([[ahead.min()], [ahead.max()]]) * (math.cos(angle), math.sin(angle)))
-        if ground.is_straight(*line):
-            return Stretch(pair([line]), region, area)
-    point = _standing(ground, middle[np.newaxis])[0]
-    away = point - middle
+
+def _strips(ground: Ground, cells: Array, corner: Array, region: int, area: float) -> List[Stretch]:
+    """Paths along the middle of a crumb and of its branches."""
+    paths = []
+    for pixels in middle_lines(cells, int(TWIG / ground.plan.resolution)):
+        points = ground.points(pixels + corner + 0.5)
+        if len(points) > AVERAGED:
+            points = ndimage.uniform_filter1d(points, AVERAGED, axis=0, mode='nearest')
+        paths.append(_standing(ground, points))
+    lengths = [float(lengths_along(path)[-1]) for path in paths]
+    found = [Stretch(pair([simplified(path, STRAIGHT)]), region, area * length / sum(lengths))
+             for path, length in zip(paths, lengths) if length >= 2.0 * OVER]
+    return found or [_spot(ground, cells, corner, region, area)]
+
+
+def _standing(ground: Ground, points: Array) -> Array:
+    """Points (any, 2) [m], each that is too near to a wall moved to the nearest point where the robot can stand."""
+    near = ground.points(ground.standing(ground.nodes(points)))
+    off = np.hypot(*(near - points).T) > 1.5 * ground.plan.resolution
+    return np.where((off | ~ground.are_free(points))[:, np.newaxis], near, points)
+
+
+def _spot(ground: Ground, cells: Array, corner: Array, region: int, area: float) -> Stretch:
+    """Over the middle of a spot, in any direction; if it is at the rim, into it, and back after a turn on the spot."""
+    middle = ground.points(np.argwhere(cells).mean(axis=0)[np.newaxis] + corner + 0.5)
+    point = _standing(ground, middle)[0]
+    away = point - middle[0]
     distance = float(np.hypot(*away))
     if distance > RIM:
         outside = point + INTO / distance * away
         outside = outside if ground.are_free(outside[np.newaxis])[0] else point
         return Stretch(pair([np.array([outside, point, outside])]), region, area)
-    half = 0.5 * (np.ptp(cells, axis=0).max() + 1) * res + OVER
+    half = 0.5 * max(cells.shape) * ground.plan.resolution + OVER
     variants: List[Variant] = []
     for number in range(HEADINGS // 2):
         angle = math.pi * number / (HEADINGS // 2)
@@ -101,8 +113,30 @@ def _over(ground: Ground, cells: Array, regions: Array, share: Array) -> Stretch
     return Stretch(variants, region, area)
 
 
-def _standing(ground: Ground, points: Array) -> Array:
-    """Points (any, 2) [m], each that is too near to a wall moved to the nearest point where the robot can stand."""
-    near = ground.points(ground.standing(ground.nodes(points)))
-    off = np.hypot(*(near - points).T) > 1.5 * ground.plan.resolution
-    return np.where((off | ~ground.are_free(points))[:, np.newaxis], near, points)
+def middle_lines(cells: Array, twig: int) -> List[Array]:
+    """Lines of cells, int (any, 2), in the middle of bool (rows, columns); side branches have `twig` cells or more."""
+    lines: List[Array] = []
+    skeleton = morphology.skeletonize(np.pad(cells, 1))[1:-1, 1:-1]
+    left: Set[Pixel] = {(row, column) for row, column in np.argwhere(skeleton).tolist()}
+    while left:
+        reached, _ = _spread(left, min(left))
+        end, before = _spread(left, reached[-1])
+        line = [end[-1]]
+        while before[line[-1]] != line[-1]:
+            line.append(before[line[-1]])
+        if len(line) >= twig or not lines:
+            lines.append(np.array(line))
+        left -= set(line) if len(line) >= twig else set(reached)
+    return lines
+
+
+def _spread(cells: Set[Pixel], start: Pixel) -> Tuple[List[Pixel], Dict[Pixel, Pixel]]:
+    """All cells that are connected to a start, the farthest last, and for each the cell before it on the way."""
+    before, reached = {start: start}, [start]
+    for row, column in reached:
+        for down, right in NEIGHBOURS:
+            cell = (row + down, column + right)
+            if cell in cells and cell not in before:
+                before[cell] = row, column
+                reached.append(cell)
+    return reached, before
