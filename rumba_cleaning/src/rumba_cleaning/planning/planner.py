@@ -10,9 +10,7 @@ from rumba_cleaning.planning.decompose.regions import regions, shapes
 from rumba_cleaning.planning.decompose.turned_floor import main_direction
 from rumba_cleaning.planning.order.route import through
 from rumba_cleaning.planning.rectangle import spiral_over
-from rumba_cleaning.planning.search.edits import dense
 from rumba_cleaning.planning.search.improvement import improved
-from rumba_cleaning.planning.simulate.rehearsal import Rehearsal
 from rumba_cleaning.planning.swaths.drafting import choices, drafted
 from rumba_cleaning.planning.swaths.problem import Problem, need
 from rumba_cleaning.planning.swaths.rings import outlines
@@ -88,5 +86,4 @@ def _over_crumbs(problem: Problem) -> Optional[Route]:
     route = through(problem, found[:int(np.searchsorted(area, need(context, context.swept))) + 1])
     if route is None or problem.effort.rounds == 0 or context.ground.has_marks:
         return route
-    begun = Rehearsal(context, problem.pose, dense(route)).begun
-    return improved(problem, [begun])
+    return improved(problem, [route])

@@ -19,7 +19,7 @@ from rumba_sim.model.kernel import Array
 
 # All figures are our choice.
 APART = 0.995  # of the brush's width from lane to lane, at most
-TIGHTEST, WIDEST = 0.04, 0.25  # [m] radius of turns
+WIDEST = 0.25  # [m] radius of turns
 SURPLUS = 0.005  # of coverage that is planned beyond the target, since no robot drives exactly as planned
 SMALLEST = 8.0  # [m] of a side: smaller rooms are searched in little time
 STRAIGHT = 0.002  # [m] by which walls may be uneven
@@ -46,14 +46,12 @@ def spiral_over(context: Context, pose: Pose) -> Optional[Route]:
         pose: from which the route begins, map frame.
     """
     found = rectangle(context)
-    if found is None or context.swept.coverage > 0.0:
+    spare = (1.0 - context.target_coverage - SURPLUS) * context.swept.reachable_area
+    if found is None or context.swept.coverage > 0.0 or spare <= 0.0:
         return None
     brush = context.robot.brush.width
     path = corners(found, APART * brush)
-    spare = (1.0 - context.target_coverage - SURPLUS) * context.swept.reachable_area
     radius = min(spare / ((len(path) - 2) * (1.0 - 0.25 * math.pi) * 2.0 * brush), WIDEST)
-    if radius < TIGHTEST:
-        return None
     path = rounded(path, radius)
     first, last = (hypot(pose.x - end[0], pose.y - end[1]) for end in (path[0], path[-1]))
     return route_over(context, pose, [(None, path if first <= last else path[::-1])])

@@ -17,7 +17,6 @@ SPAN = 0.3  # [m] of a wall, over which its direction is measured: long averages
 BINS = 90  # of the histogram of directions, in a quarter turn: 1 degree each
 WEIGHTS = (1, 2, 3, 2, 1)  # of bins that are averaged: walls of a drawn map are not quite straight
 STRAIGHT = 2  # [bins] a direction this near to an axis of the map counts as the axis: a turned grid is less exact
-QUARTER = 0.5 * math.pi  # [rad]
 Window = Tuple[slice, slice]  # rows and columns
 
 
@@ -76,8 +75,8 @@ def main_direction(outlines: List[Array]) -> float:
     counts = np.zeros(BINS)
     span = int(SPAN / SPACING)
     for path in outlines:
-        bins = np.rint(bearings(path[span:] - path[:-span]) / QUARTER * BINS).astype(int) % BINS
+        bins = np.rint(bearings(path[span:] - path[:-span]) / (0.5 * math.pi) * BINS).astype(int) % BINS
         counts += np.bincount(bins, minlength=BINS)
     best = int(np.argmax(ndimage.correlate1d(counts, WEIGHTS, mode='wrap')))
     best = best - BINS if best > BINS // 2 else best
-    return 0.0 if abs(best) <= STRAIGHT else best * QUARTER / BINS
+    return 0.0 if abs(best) <= STRAIGHT else best * 0.5 * math.pi / BINS

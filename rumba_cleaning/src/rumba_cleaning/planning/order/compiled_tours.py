@@ -132,34 +132,32 @@ def untangled(costs: Array, of: Array, begins: Array, tour: Array) -> bool:
 
 
 @compiled
-def improve(costs: Array, of: Array, begins: Array, tour: Array, rounds: int) -> None:
-    """Improve a tour in rounds, as long as that helps."""
-    for _ in range(rounds):
+def improve(costs: Array, of: Array, begins: Array, tour: Array) -> None:
+    """Improve a tour as long as that helps."""
+    changed = True
+    while changed:
         changed = untangled(costs, of, begins, tour)
         for size in SEGMENTS:
             changed |= moved(costs, of, begins, tour, size)
         rechosen(costs, of, begins, tour)
-        if not changed:
-            return
 
 
 @compiled
-def shake(costs: Array, of: Array, begins: Array, tour: Array, rounds: int, kicks: Array) -> None:
+def shake(costs: Array, of: Array, begins: Array, tour: Array, kicks: Array) -> None:
     """Improve a tour, then swap segments of it and improve it again, and so on; the best tour is kept.
 
     (O. Martin, S. Otto and E. Felten, Large-Step Markov Chains for the Traveling Salesman Problem, 1991.)
 
     Args:
         costs, of, begins, tour: see above; the tour is changed.
-        rounds: of improvement, at most.
         kicks: int (any, 3), places of a tour in ascending order, by which segments begin and end that are swapped.
     """
-    improve(costs, of, begins, tour, rounds)
+    improve(costs, of, begins, tour)
     best = length(costs, tour)
     for index in range(len(kicks)):
         one, two, three = kicks[index]
         other = np.concatenate((tour[:one], tour[two:three], tour[one:two], tour[three:]))
-        improve(costs, of, begins, other, rounds)
+        improve(costs, of, begins, other)
         time = length(costs, other)
         if time < best - BETTER:
             best = time

@@ -17,7 +17,6 @@ from rumba_sim.model.compiling.jit import plain
 from rumba_sim.model.kernel import Array
 
 # All figures are our choice; each comment says what speaks for a larger and for a smaller value.
-ROUNDS = 20  # of improvement, at most: most tours stop improving earlier
 KICKS = 300  # random changes of a tour, after each of which it is improved again, at most; ...
 # ... and at most so many divided by stretches * variants, times an effort: more make shorter tours, and take more time.
 STEPS = 160_000
@@ -25,10 +24,8 @@ BESIDE = 0.03  # [m] beyond the touching distance on a way: a robot that cuts a 
 NEAR = 0.15  # [m] to the ends of a line, which lie beside walls if those of a path do: nearer than this, it may be too
 UNSEEN = 3.0  # [m] that are added to twice the distance of points between which no line of sight leads: a guess
 AROUND = 0.3  # [m] about all stretches, in which obstacles are looked at that a way may lead around
-OUTSIDE = 0.05  # [m] beyond BESIDE that ways lead around corners: large sees past them, small is short
-CORNER = 0.04  # [m] by which a way around a corner may cut it, so that it needs few points: less than OUTSIDE
-THIN = 0.3  # [m] side of the squares in each of which one such corner is enough, ...
-CORNERS = 300  # ... unless there are more; then the squares are larger: small is fast, large makes shorter ways
+OUTSIDE = 0.05  # [m] beyond BESIDE that ways lead around corners, which few points cut by no more than BESIDE
+CORNERS = 300  # of ways, at most, each in a square of its own: small is fast, large makes shorter ways
 FAR = 1e4  # [s] stands for infinity: finite, so that sums can be compared
 SAME = 4  # decimals of [m]: points that are equal so far are one point
 
@@ -133,8 +130,8 @@ def _corners(ground: Ground, points: Array) -> Array:
     low = np.maximum(nodes.min(axis=0) - margin, 0).astype(np.intp)
     high = (nodes.max(axis=0) + margin).astype(np.intp) + 1
     lines = measure.find_contours(ground.clearance[low[0]:high[0], low[1]:high[1]], ground.reach + BESIDE + OUTSIDE)
-    corners = np.concatenate([np.zeros((0, 2)), *(simplified(ground.points(line + low), CORNER) for line in lines)])
-    thin = THIN
+    corners = np.concatenate([np.zeros((0, 2)), *(simplified(ground.points(line + low), BESIDE) for line in lines)])
+    thin = AROUND
     while True:
         _, first = distinct(np.floor(corners / thin))
         if len(first) <= CORNERS:
@@ -162,4 +159,4 @@ def _improve(costs: Array, of: Array, begins: Array, tour: Array, effort: int) -
     if count:
         kicks = min(int(effort * STEPS / (count * len(costs))), KICKS if count > 2 else 0)
         places = np.sort(np.random.RandomState(1).randint(1, count + 2, (kicks, 3)), axis=1)
-        compiled_tours.shake(costs, of, begins, tour, ROUNDS, places)
+        compiled_tours.shake(costs, of, begins, tour, places)

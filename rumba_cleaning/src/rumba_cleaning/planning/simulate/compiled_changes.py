@@ -5,9 +5,10 @@ from typing import Any, Tuple
 
 import numpy as np
 
-from rumba_cleaning.planning.simulate.compiled_passes import Passes, blank, gain
+from rumba_cleaning.planning.simulate.compiled_passes import Passes, gain
 from rumba_cleaning.planning.simulate.compiled_rehearsal import ALONG, DT, SPEED, Walls, rehearse
 from rumba_sim.model.compiling.jit import compiled
+from rumba_sim.model.kernel.sweeping.samples import SWEEPABLE
 
 Array = Any  # numpy.ndarray
 Brush = Any  # rumba_sim.model.floors.sweep.Brush
@@ -38,7 +39,7 @@ def changes(waypoints: Array, speeds: Array, lengths: Array, drive: Drive, walls
     """
     passes = Passes(*passes)
     seconds, samples = np.full(len(spans), np.inf), np.zeros(len(spans), np.int64)
-    scratch = blank(brush)
+    scratch = np.full(brush.samples.shape, SWEEPABLE, np.uint8)
     along = trace[:, ALONG].copy()
     for edit in range(len(spans)):
         first, last = spans[edit]
@@ -68,16 +69,10 @@ def edited(waypoints: Array, speeds: Array, lengths: Array, here: float, first: 
     """
     begin = min(max(int(np.searchsorted(lengths, here, side='right')), 1), max(first, 1))
     end = min(np.searchsorted(lengths, lengths[last] + 2.0 * TAIL), len(waypoints) - 1)
-    before = waypoints[begin:first + 1]
-    points = np.empty((1 + len(before) + len(path) + end + 1 - last, 2))
-    share = (here - lengths[begin - 1]) / max(lengths[begin] - lengths[begin - 1], 1e-9)
-    points[0] = waypoints[begin - 1] + min(share, 1.0) * (waypoints[begin] - waypoints[begin - 1])
-    points[1:1 + len(before)] = before
-    points[1 + len(before):len(points) - (end + 1 - last)] = path
-    points[len(points) - (end + 1 - last):] = waypoints[last:end + 1]
-    fast_at = np.full(len(points) - 1, speed)
-    fast_at[:len(before)] = speeds[begin - 1:begin - 1 + len(before)]
-    fast_at[len(fast_at) - (end - last):] = speeds[last:end]
+    share = min((here - lengths[begin - 1]) / max(lengths[begin] - lengths[begin - 1], 1e-9), 1.0)
+    start = waypoints[begin - 1:begin] + share * (waypoints[begin:begin + 1] - waypoints[begin - 1:begin])
+    points = np.concatenate((start, waypoints[begin:first + 1], path, waypoints[last:end + 1]))
+    fast_at = np.concatenate((speeds[begin - 1:first], np.full(len(path) + 1, speed), speeds[last:end]))
     length = 0.0
     for index in range(1, len(points)):
         length += math.hypot(points[index, 0] - points[index - 1, 0], points[index, 1] - points[index - 1, 1])

@@ -13,7 +13,7 @@ from rumba_cleaning.behaviours.follower import drive_of
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.edges.guard import SWIFT_SPEED
 from rumba_cleaning.planning.simulate import compiled_changes, compiled_passes, compiled_rehearsal
-from rumba_cleaning.planning.simulate.compiled_passes import Passes
+from rumba_cleaning.planning.simulate.compiled_passes import BEFORE, Passes
 from rumba_cleaning.planning.simulate.compiled_rehearsal import ALONG, COLUMNS, DT, LEFT, RIGHT, Walls
 from rumba_cleaning.route import Route, lengths_along
 from rumba_sim.model.common.geometry import Pose
@@ -83,15 +83,10 @@ class Rehearsal:
     @property
     def alone(self) -> Array:
         """What is swept until each waypoint is reached, and at no other time: float64 (waypoints) [m^2]."""
-        return np.asarray(compiled_passes.alone(plain(self._passes), len(self._trace))[self._rows] * self._square)
-
-    @property
-    def begun(self) -> Route:
-        """The route up to the last waypoint that is reached; all of it if the robot would not get to the second."""
-        count = int((self._rows < len(self._trace) - 1).sum())
-        if self.is_complete or count < 2:
-            return self.route
-        return Route(self.route.waypoints[:count], self.route.speeds[:count - 1])
+        first, last = self._passes
+        rows = first[(first == last) & (first > BEFORE)]
+        counts = np.cumsum(np.bincount(rows + 1, minlength=len(self._trace)))
+        return np.asarray(counts[self._rows] * self._square)
 
     @cached_property
     def _passes(self) -> Passes:

@@ -21,8 +21,9 @@ TWIG = 0.12  # [m] length of a side branch of the middle that is driven too
 HEADINGS = 8  # in which a spot may be passed over; more take more time to compare
 OVER = 0.02  # [m] before and behind a spot: large passes over all of it, small takes less time
 AVERAGED = 5  # [cells] along the middle of a strip, which goes from cell to cell in steps
-RIM = 0.045  # [m] from where the robot can stand to the middle of a spot: beyond that it turns to reach it
-INTO = 0.06  # [m] that the robot drives straight toward a spot at the rim
+# [m] from where the robot can stand to the middle of a spot, which is at the rim beyond that: the robot drives so far
+# straight toward it, and turns to come back.
+RIM = 0.05
 STRAIGHT = 0.012  # [m] by which the path along a strip may leave its middle
 NEIGHBOURS = tuple((row, column) for row in (-1, 0, 1) for column in (-1, 0, 1) if row or column)
 
@@ -99,7 +100,7 @@ def _spot(ground: Ground, cells: Array, corner: Array, region: int, area: float)
     away = point - middle[0]
     distance = float(np.hypot(*away))
     if distance > RIM:
-        outside = point + INTO / distance * away
+        outside = point + RIM / distance * away
         outside = outside if ground.are_free(outside[np.newaxis])[0] else point
         return Stretch(pair([np.array([outside, point, outside])]), region, area)
     half = 0.5 * max(cells.shape) * ground.plan.resolution + OVER

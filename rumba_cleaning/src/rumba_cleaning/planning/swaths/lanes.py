@@ -20,7 +20,6 @@ from rumba_sim.model.floors.reachability import SLACK
 from rumba_sim.model.kernel import Array
 
 # All figures are our choice; each comment says what speaks for a larger and for a smaller value.
-LEAST = 0.08  # [m] length of a lane, half a brush: a shorter one is left to the crumbs
 TURN, BLOCK = 2.2, 3.0  # [s] estimates of the time from lane to lane, and from block to block: large wants long lanes
 POOR = 0.12  # share of brush * speed: a block that cleans less is left to the crumbs
 JOIN = 2  # [cells] that were swept, between cells that one lane shall still clean: noise, not a gap
@@ -123,9 +122,9 @@ class _Grid:
         self._missed = missed if along_x else missed.T  # a view
         self._floor = floor
         self._resolution = floor.resolution
-        self._rule = compiled_lanes.Rule(
-            clearance, 0.5 * (1.0 - layout.overlap) * brush / self._resolution, max(int(LEAST / self._resolution), 1),
-            JOIN, int(layout.gap / self._resolution), layout.needed, layout.alike)
+        half = 0.5 * brush / self._resolution
+        self._rule = compiled_lanes.Rule(clearance, (1.0 - layout.overlap) * half, max(int(half), 1), JOIN,
+                                         int(layout.gap / self._resolution), layout.needed, layout.alike)
 
     def window(self, lanes: Array) -> Window:
         """Rows and columns of the floor around lanes, with the margin in which these lanes change other blocks."""

@@ -27,17 +27,16 @@ PASS, OPEN_PASS = 0.93, 0.995  # usually, and in open regions, where few rings h
 SMOOTH = 0.07  # [m] along a ring that are averaged: takes out the steps of the grid, and cuts corners
 # [m] The corners of a ring reach farther out by what such an average cuts off, as a robot does that goes round them.
 BLUR = 0.21
-SHORTEST = 0.25  # [m] of a ring, and of its parts; a shorter one is left to the crumbs
-GAP = 0.3  # [m] of a ring that are not needed, but are driven: large saves turns, small saves distance
-WHOLE = 0.85  # share of a ring's waypoints that are needed, for all of it to be driven: saves turns, as GAP does
+# [m] of a ring, of its parts, and of gaps between these: a shorter part is left to the crumbs, a shorter gap is driven.
+SHORTEST = 0.25
+WHOLE = 0.85  # share of a ring's waypoints that are needed, for all of it to be driven: saves turns
 # [m] from a ring to the next one in its chain, anywhere, at most: large makes fewer stretches, but beyond two radii of
-# the robot there may be a wall in between.
+# the robot there may be a wall in between. So far along the next ring that is entered: large bends gently.
 BESIDE = 0.32
 NEEDED = 0.25  # share of the brush's width that was missed, for a waypoint to be needed: small drives over swept floor
 POINTS = 9  # across the brush: one for each 2 cm of a brush of 17 cm
 RIDGE = 0.03  # [m] inside a ring the floor must still get wider: where it does not, one pass in the middle is enough
 WIDER = 0.7  # of that, by which it must: rings have corners, and a grid is not exact
-FORWARD = 0.3  # [m] along the next ring at which it is entered: large bends gently, small drives less twice
 ROTATIONS = 12  # points at which a ring is entered, at most: more give shorter tours, and take more time to compare
 APART = 0.3  # [m] between those points, at least
 
@@ -167,7 +166,7 @@ def _needed(ring: Ring, needed: Array) -> Iterator[Ring]:
     if needed.mean() > WHOLE:
         yield ring
         return
-    size = int(GAP / SPACING)
+    size = int(SHORTEST / SPACING)
     if ring.is_closed and needed.any():
         index = int(np.argmin(needed))
         path, needed = rotated(path, index), rotated(needed, index)
@@ -223,6 +222,6 @@ def _spiral(twice: List[Array], index: int) -> List[Array]:
         size = len(path) // 2
         if parts:
             index = int(np.argmin(np.hypot(*(path[:size] - parts[-1][-1]).T)))
-            index = (index + int(FORWARD / SPACING)) % size
+            index = (index + int(BESIDE / SPACING)) % size
         parts.append(path[index:index + size + 1])
     return parts
