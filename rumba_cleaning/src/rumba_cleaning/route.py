@@ -22,7 +22,7 @@ def lengths_along(path: Array) -> Array:
 
 
 def corner_times(turns: Array) -> Array:
-    """Time lost at corners by angles, float64 (...) [rad], of any sign and number of turns [s]; none if they are NaN."""
+    """Time lost at corners [s] by their angles, float64 (...) [rad], of any sign: none if these are NaN."""
     sizes = np.abs((np.nan_to_num(turns) + math.pi) % (2.0 * math.pi) - math.pi)
     return np.maximum(sizes - BENT, 0.0) / TURN_RATE + np.where(sizes > SHARP, STOP, 0.0)
 

@@ -39,7 +39,7 @@ def first_draft(problem, overlap=0.05):
     return through(problem, draft.stretches)
 
 
-@pytest.mark.parametrize('width, height, rings', [(5.0, 3.0, 0), (8.0, 1.0, 0), (8.0, 0.7, 2)])
+@pytest.mark.parametrize('width, height, rings', [(5.0, 3.0, 0), (8.0, 1.2, 0), (8.0, 0.7, 2)])
 def test_there_are_drafts_for_rings_only_where_a_region_has_such(width, height, rings):
     assert choices(problem_of(room(width, height))) == (*DRAFTS, *IN_RINGS[:rings])
 
@@ -144,18 +144,15 @@ def test_a_route_that_nobody_can_follow_stays_as_it_is():
 
 
 @pytest.mark.parametrize('has_marks', [False, True])
-def test_of_a_route_over_crumbs_the_beginning_is_improved_that_a_robot_can_follow_unless_it_met_obstacles(
-        monkeypatch, has_marks):
-    context, given = knowing(room(4.0, 3.0, 0.02, [(1.9, 0.0, 2.1, 3.0)]), START), []
+def test_a_route_over_crumbs_is_improved_unless_the_robot_met_obstacles(monkeypatch, has_marks):
+    context, given = knowing(room(4.0, 3.0, 0.02), START), []
     if has_marks:
         context.ground.mark(3.0, 2.0, 0.05)
     through = Route(np.array([START[:2], (0.6, 1.5), (3.5, 1.5)]), np.full(2, 0.3))
     monkeypatch.setattr(planner, 'drafts', lambda _: [])
     monkeypatch.setattr(planner, 'through', lambda *_: through)
     monkeypatch.setattr(planner, 'improved', lambda _, routes: given.extend(routes) or routes[0])
-    found = planner.plan(context, START)
-    assert (found is through) == has_marks and len(given) == 1 - has_marks
-    assert has_marks or Rehearsal(context, START, found).is_complete and len(found.speeds) > 1
+    assert planner.plan(context, START) is through and len(given) == 1 - has_marks
 
 
 def test_plans_repeat():

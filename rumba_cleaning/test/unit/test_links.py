@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 from floors import along, ground, length
-from pytest import approx
 from rooms import distances, room
 
 from rumba_cleaning.planning.swaths.lanes import block_variants, through

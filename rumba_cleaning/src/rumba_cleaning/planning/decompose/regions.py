@@ -5,7 +5,7 @@ between them is narrowest.
 """
 
 import itertools
-from typing import Dict, List, NamedTuple
+from typing import Dict, List, NamedTuple, Tuple
 
 import numpy as np
 from scipy import ndimage, sparse
@@ -66,15 +66,8 @@ def shapes(ground: Ground, labels: Array) -> Shapes:
     return Shapes(room > OPEN, (room > NARROW) & (room <= OPEN))
 
 
-class Doors(NamedTuple):
-    """Where regions meet."""
-
-    points: Array  # float64 (doors, 2) [m]
-    sides: Array  # int (doors, 2), the labels of the two regions
-
-
-def doors(ground: Ground, labels: Array) -> Doors:
-    """The widest place of each border between two regions."""
+def doors(ground: Ground, labels: Array) -> Tuple[Array, Array]:
+    """The widest place of each border between two regions, float64 (any, 2) [m], and their labels, int (any, 2)."""
     sides, nodes = [], []
     for one, other in ((labels[1:], labels[:-1]), (labels[:, 1:], labels[:, :-1])):
         where = np.argwhere((one != other) & (one > 0) & (other > 0))
@@ -84,23 +77,25 @@ def doors(ground: Ground, labels: Array) -> Doors:
     pairs, places = np.concatenate(sides), np.concatenate(nodes)
     widest = np.argsort(-ground.clearance[places[:, 0], places[:, 1]], kind='stable')
     found, first = distinct(pairs[widest])
-    return Doors(ground.points(places[widest[first]]), found)
+    return ground.points(places[widest[first]]), found
 
 
-def distances(borders: Doors, places: Array, labels: List[int]) -> Array:
+def distances(ground: Ground, labels: Array, places: Array) -> Array:
     """Lengths of the ways from place to place over doors, as if each region were open floor [m]; inf: there is none.
 
     Args:
-        borders: where regions meet.
+        ground: where the robot can stand.
+        labels: the region of each node, int (rows + 1, columns + 1).
         places: float64 (places, 2) [m].
-        labels: the region of each place.
 
     Returns:
         float64 (places, places)
     """
-    points = np.concatenate([places, borders.points])
+    borders, sides_of = doors(ground, labels)
+    points = np.concatenate([places, borders])
+    nodes = ground.standing(ground.nodes(places))
     of_region: Dict[int, List[int]] = {}
-    for index, sides in enumerate([*([label] for label in labels), *borders.sides.tolist()]):
+    for index, sides in enumerate([*labels[nodes[:, 0], nodes[:, 1], np.newaxis].tolist(), *sides_of.tolist()]):
         for label in sides:
             of_region.setdefault(label, []).append(index)
     one, other = np.array([pair for members in of_region.values() for pair in itertools.permutations(members, 2)],

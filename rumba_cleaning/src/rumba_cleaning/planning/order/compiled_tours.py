@@ -17,7 +17,8 @@ from rumba_sim.model.compiling.jit import compiled
 
 Array = Any  # numpy.ndarray
 
-BETTER = 1e-6  # [s] an improvement: more than rounding errors, or the search would not end
+BETTER = 1e-6  # [s] an improvement: more than rounding errors
+ROUNDS = 20  # of improvement, at most: most tours stop improving earlier; our choice
 SEGMENTS = (1, 2, 3, 5)  # stretches that are moved together; our choice: longer segments take more time to try
 
 
@@ -133,13 +134,14 @@ def untangled(costs: Array, of: Array, begins: Array, tour: Array) -> bool:
 
 @compiled
 def improve(costs: Array, of: Array, begins: Array, tour: Array) -> None:
-    """Improve a tour as long as that helps."""
-    changed = True
-    while changed:
+    """Improve a tour in rounds, as long as that helps."""
+    for _ in range(ROUNDS):
         changed = untangled(costs, of, begins, tour)
         for size in SEGMENTS:
             changed |= moved(costs, of, begins, tour, size)
         rechosen(costs, of, begins, tour)
+        if not changed:
+            return
 
 
 @compiled

@@ -95,11 +95,6 @@ class Tour:
             self._costs[:, -1] = 0.0
 
     @property
-    def time(self) -> float:
-        """Time between the stretches [s], about."""
-        return float(compiled_tours.length(self._costs, self._tour))
-
-    @property
     def end(self) -> Array:
         """The point (2) at which its last stretch ends [m]."""
         return np.asarray(self._points[self._exits[self._tour[-2]]])

@@ -12,7 +12,8 @@ from rumba_sim.model.kernel import Array
 
 # Our choice.
 APART = 0.1  # [m] between the waypoints at which an edit may begin, at most: small makes detours shorter
-BETWEEN = 3  # waypoints between two edits, at least: each was judged as if it were the only one
+BETWEEN = 6  # waypoints between two edits, at least: each was judged as if it were the only one
+BETTER = 0.02  # [s] that an edit is worth, at least: many of less bring less than they promise
 HALVINGS = 14  # of the range in which the price is looked for
 
 
@@ -47,7 +48,7 @@ def _worth(edits: Sequence[Edit], price: float) -> List[Edit]:
     values = [(price * edit.area - edit.seconds, index) for index, edit in enumerate(edits)]
     found: List[Edit] = []
     taken: List[Tuple[int, int]] = [(-BETWEEN, -BETWEEN)]  # by their places, none of which overlap
-    for _, index in sorted((each for each in values if each[0] > 0.0), reverse=True):
+    for _, index in sorted((each for each in values if each[0] >= BETTER), reverse=True):
         edit = edits[index]
         place = bisect.bisect(taken, (edit.first, edit.last))
         if taken[place - 1][1] + BETWEEN <= edit.first and (

@@ -107,4 +107,3 @@ def window(brush: Brush, trace: Array) -> Window:
     bottom, top = trace[:, Y].min() - margin - k.origin_y, trace[:, Y].max() + margin - k.origin_y
     return ((max(int(bottom / k.sample_pitch), 0), min(int(top / k.sample_pitch), rows)),
             (max(int(left / k.sample_pitch), 0), min(int(right / k.sample_pitch), columns)))
-

@@ -17,7 +17,6 @@ from rumba_cleaning.planning.common.polyline import SPACING, resampled
 from rumba_cleaning.planning.common.stretches import Stretch, Variant, pair
 from rumba_cleaning.planning.decompose.regions import Shapes
 from rumba_cleaning.planning.simulate.paper import drive
-from rumba_sim.model.compiling.compiled import fast
 from rumba_sim.model.kernel import Array
 
 # All figures are our choice; each comment says what speaks for a larger and for a smaller value.
@@ -34,9 +33,8 @@ WHOLE = 0.85  # share of a ring's waypoints that are needed, for all of it to be
 # the robot there may be a wall in between. So far along the next ring that is entered: large bends gently.
 BESIDE = 0.32
 NEEDED = 0.25  # share of the brush's width that was missed, for a waypoint to be needed: small drives over swept floor
+RIDGE = 0.03  # [m] by which the floor must get wider inside a ring: else one pass in the middle is enough
 POINTS = 9  # across the brush: one for each 2 cm of a brush of 17 cm
-RIDGE = 0.03  # [m] inside a ring the floor must still get wider: where it does not, one pass in the middle is enough
-WIDER = 0.7  # of that, by which it must: rings have corners, and a grid is not exact
 ROTATIONS = 12  # points at which a ring is entered, at most: more give shorter tours, and take more time to compare
 APART = 0.3  # [m] between those points, at least
 
@@ -63,7 +61,9 @@ def rings(ground: Ground, swept: Swept, labels: Array, shape: Shapes, brush: flo
     """
     found: List[Ring] = []
     depth = _depth(ground)
-    passes = _passes(depth, labels, shape.is_open, brush, ring_pass)
+    is_steep = ndimage.maximum_filter(depth, 2 * math.ceil(RIDGE / ground.plan.resolution) + 3) > depth + RIDGE
+    apart = np.where(shape.is_open, OPEN_PASS, ring_pass)[labels] * brush
+    passes = (depth - WALL_MARGIN) / apart  # of which level the ring through each node is, with fractions
     level = 0
     while True:
         lines = measure.find_contours(passes, level)
@@ -73,7 +73,7 @@ def rings(ground: Ground, swept: Swept, labels: Array, shape: Shapes, brush: flo
                   for piece in _by_region(line, ground, labels, level)]
         missing = swept.missing_share()
         needed = [ring for piece in sorted(pieces, key=lambda ring: -len(ring.waypoints))
-                  for ring in _needed(piece, is_needed(ground, missing, depth, piece.waypoints, brush))]
+                  for ring in _needed(piece, is_needed(ground, missing, is_steep, piece.waypoints, brush))]
         for ring in needed:
             drive(swept, ring.waypoints)
         found += needed
@@ -91,11 +91,6 @@ def _depth(ground: Ground) -> Array:
     """How much farther each node is from the obstacles than the robot needs [m]; negative where it cannot stand."""
     near = ndimage.binary_dilation(ground.fits, np.ones((3, 3)), iterations=2)
     return np.where(near, ground.clearance - ground.reach, -ground.reach)
-
-
-def _passes(depth: Array, labels: Array, is_open: Array, brush: float, ring_pass: float) -> Array:
-    """Of which level the ring through each node is, with fractions: 0 beside the walls."""
-    return np.asarray((depth - WALL_MARGIN) / (np.where(is_open, OPEN_PASS, ring_pass) * brush)[labels])
 
 
 def _shaped(ring: Ring, is_open: bool) -> Ring:
@@ -133,7 +128,7 @@ def rotated(ring: Array, index: int) -> Array:
     return np.concatenate([ring[index:-1], ring[:index + 1]])
 
 
-def is_needed(ground: Ground, missing: Array, depth: Array, path: Array, brush: float) -> Array:
+def is_needed(ground: Ground, missing: Array, is_steep: Array, path: Array, brush: float) -> Array:
     """At which waypoints of a path the brush finds much that was missed, except on ridges: bool (any).
 
     On a ridge the two sides of a ring almost touch, and a pass in the middle sweeps what both would.
@@ -141,23 +136,16 @@ def is_needed(ground: Ground, missing: Array, depth: Array, path: Array, brush: 
     Args:
         ground: on which the path lies.
         missing: share of each cell that was missed, float32 (rows, columns).
-        depth: of each node, as of `_depth`, float64 (rows + 1, columns + 1) [m].
+        is_steep: which nodes are not on ridges of the clearance, bool (rows + 1, columns + 1).
         path: float64 (2 or more, 2) [m].
         brush: its width [m].
     """
-    res, origin = ground.plan.resolution, ground.plan.origin
     along = np.concatenate([path[1:], path[-1:]]) - np.concatenate([path[:1], path[:-1]])
     left = along[:, ::-1] * (-1.0, 1.0) / np.hypot(*along.T)[:, np.newaxis]
     across = path[:, np.newaxis] + brush * np.linspace(-0.5, 0.5, POINTS)[:, np.newaxis] * left[:, np.newaxis]
-    columns, rows = np.moveaxis((across - origin) / res, -1, 0).astype(np.intp)
-
-    def deep(points: Array) -> Array:
-        return np.asarray(fast.interpolated_at(depth, *origin, res, points))
-
-    slopes = np.stack([deep(path + step) - deep(path - step) for step in 0.5 * RIDGE * np.eye(2)], axis=1)
-    inward = RIDGE * slopes / np.maximum(np.hypot(*slopes.T), 1e-9)[:, np.newaxis]
-    is_ridge = deep(path + inward) < deep(path) + WIDER * RIDGE
-    return np.asarray((missing[rows, columns].mean(axis=1) >= NEEDED) & ~is_ridge)
+    columns, rows = np.moveaxis((across - ground.plan.origin) / ground.plan.resolution, -1, 0).astype(np.intp)
+    nodes = ground.nodes(path)
+    return np.asarray((missing[rows, columns].mean(axis=1) >= NEEDED) & is_steep[nodes[:, 0], nodes[:, 1]])
 
 
 def _needed(ring: Ring, needed: Array) -> Iterator[Ring]:
