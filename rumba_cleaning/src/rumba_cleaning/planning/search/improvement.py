@@ -41,7 +41,9 @@ def improved(problem: Problem, routes: Sequence[Route]) -> Route:
         found = [*shortcuts(context, rehearsal, CHEAP * price)[:SHORTCUTS], *shifts(context, rehearsal.route)]
         rehearsal, price = _edited(problem, rehearsal, found, poor)
         tried.append(rehearsal)
-    return max(tried, key=lambda rehearsal: _merit(problem, rehearsal)).route
+    met = [each for each in tried if _need(context, each) <= 0.0]
+    best = min(met, key=lambda each: each.seconds) if met else max(tried, key=lambda each: each.swept.coverage)
+    return best.route
 
 
 def _edited(problem: Problem, rehearsal: Rehearsal, found: Sequence[Edit],
@@ -53,7 +55,7 @@ def _edited(problem: Problem, rehearsal: Rehearsal, found: Sequence[Edit],
     context, route = problem.context, rehearsal.route
     fresh = [edit for edit in found if edit.place(route) not in poor]
     judged = rehearsal.judged(fresh)
-    edits, price = chosen(judged, _need(problem.context, rehearsal, EDITED), DEAREST)
+    edits, price = chosen(judged, _need(context, rehearsal, EDITED), DEAREST)
     poor.update({edit.place(route) for edit in fresh} - {edit.place(route) for edit in judged if edit.is_near(price)})
     return Rehearsal(context, problem.pose, dense(applied(route, edits, context.config.speed))), price
 
@@ -70,9 +72,3 @@ def _cost(problem: Problem, rehearsal: Rehearsal) -> float:
 def _need(context: Context, rehearsal: Rehearsal, surplus: float = 0.0) -> float:
     """Area that is missing to the target, to a surplus of coverage and to what a rehearsal may be wrong by [m^2]."""
     return need(context, rehearsal.swept, surplus) + MARGIN * rehearsal.turned
-
-
-def _merit(problem: Problem, rehearsal: Rehearsal) -> Tuple[bool, float]:
-    """Compares rehearsals: the quickest one that meets the target, or that which comes nearest to it."""
-    meets = _need(problem.context, rehearsal) <= 0.0
-    return meets, -rehearsal.seconds if meets else rehearsal.swept.coverage

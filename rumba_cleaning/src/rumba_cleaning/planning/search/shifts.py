@@ -16,11 +16,11 @@ from rumba_cleaning.route import BENT, Route
 
 # All figures are our choice.
 STRAIGHT = 0.01  # [m] by which waypoints may be off a straight part
-LONG = 0.2  # [m] of a straight part, at least: short ones belong to bends
-ASIDE = (-0.04, -0.02, -0.01, 0.01, 0.02, 0.04)  # [m] to the left, for straight parts
+LONG = 0.4  # [m] of a straight part, at least: short ones belong to bends
+ASIDE = (-0.02, -0.01, 0.01, 0.02)  # [m] to the left, for straight parts
 SHORT = 0.05  # [m] of a part, at least, for it to have a direction at its end
 # [m], for corners that turn by BENT at least; at a hairpin the robot turns on the spot.
-OUTWARD = (-0.08, -0.04, -0.015, 0.02, 0.05, 0.08)
+OUTWARD = (-0.04, -0.015, 0.02, 0.05)
 
 
 def shifts(context: Context, route: Route) -> Iterator[Edit]:

@@ -49,7 +49,8 @@ def crumbs(ground: Ground, share: Array, regions: Array, least: float = 0.0, apa
             continue
         cells = labels[window] == number
         corner = np.array([window[0].start, window[1].start])
-        region = _region(ground, cells, corner, regions)
+        node = ground.standing(np.argwhere(cells)[:1] + corner)[0]
+        region = int(regions[node[0], node[1]])
         if max(cells.shape) * res >= STRIP:
             found += _strips(ground, cells, corner, region, areas[number])
         else:
@@ -64,12 +65,6 @@ def _joined(cells: Array, reach: int) -> Array:
     across = np.arange(-reach, reach + 1)
     disc = across ** 2 + across[:, np.newaxis] ** 2 <= reach ** 2
     return np.asarray(ndimage.binary_dilation(cells, disc))
-
-
-def _region(ground: Ground, cells: Array, corner: Array, regions: Array) -> int:
-    """The region of the first of the cells."""
-    node = ground.standing(np.argwhere(cells)[:1] + corner)[0]
-    return int(regions[node[0], node[1]])
 
 
 def _strips(ground: Ground, cells: Array, corner: Array, region: int, area: float) -> List[Stretch]:
