@@ -8,7 +8,6 @@ import numpy as np
 from rumba_cleaning.planning.simulate.compiled_passes import Passes, gain
 from rumba_cleaning.planning.simulate.compiled_rehearsal import ALONG, DT, SPEED, Walls, rehearse
 from rumba_sim.model.compiling.jit import compiled
-from rumba_sim.model.kernel.sweeping.samples import SWEEPABLE
 
 Array = Any  # numpy.ndarray
 Brush = Any  # rumba_sim.model.floors.sweep.Brush
@@ -20,7 +19,8 @@ LEAD, TAIL = 0.25, 0.5
 
 @compiled
 def changes(waypoints: Array, speeds: Array, lengths: Array, drive: Drive, walls: Walls, speed: float, trace: Array,
-            brush: Brush, passes: Passes, spans: Array, paths: Array, stops: Array) -> Tuple[Array, Array]:
+            brush: Brush, passes: Passes, scratch: Array, spans: Array, paths: Array,
+            stops: Array) -> Tuple[Array, Array]:
     """What each of several edits of a route would change, if it were the only one.
 
     Args:
@@ -28,7 +28,7 @@ def changes(waypoints: Array, speeds: Array, lengths: Array, drive: Drive, walls
         lengths: along the route to each waypoint, float64 (waypoints) [m].
         speed: at which what replaces a part is driven [m/s]; a faster route is driven with the brushes up.
         brush: of the floor.
-        passes: those on the trace.
+        passes, scratch: as for `gain`.
         spans: int (edits, 2), the waypoints between which each edit replaces those of the route.
         paths: float64 (any, 2) [m], what it replaces them by, one path behind the other.
         stops: int (edits + 1), where each path begins, and the end of the last.
@@ -39,7 +39,6 @@ def changes(waypoints: Array, speeds: Array, lengths: Array, drive: Drive, walls
     """
     passes = Passes(*passes)
     seconds, samples = np.full(len(spans), np.inf), np.zeros(len(spans), np.int64)
-    scratch = np.full(brush.samples.shape, SWEEPABLE, np.uint8)
     along = trace[:, ALONG].copy()
     for edit in range(len(spans)):
         first, last = spans[edit]

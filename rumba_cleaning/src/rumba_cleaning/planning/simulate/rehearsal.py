@@ -19,6 +19,7 @@ from rumba_cleaning.route import Route, lengths_along
 from rumba_sim.model.common.geometry import Pose
 from rumba_sim.model.compiling.jit import plain
 from rumba_sim.model.kernel import Array
+from rumba_sim.model.kernel.sweeping.samples import SWEEPABLE
 
 NEAR = 1.2  # times a price: large judges more edits again, small may miss some that become worth it; our choice
 NO_PATH = np.zeros((0, 2))  # as that of an edit
@@ -99,7 +100,8 @@ class Rehearsal:
             return []
         seconds, samples = compiled_changes.changes(
             *self.route, self._lengths, plain(self._drive), plain(self._walls), self._speed, self._trace,
-            self.swept.brush, plain(self._passes), np.array([edit[:2] for edit in edits]),
+            self.swept.brush, plain(self._passes), np.full_like(self.swept.brush.samples, SWEEPABLE),
+            np.array([edit[:2] for edit in edits]),
             np.concatenate([NO_PATH, *(edit.path for edit in edits)]),
             np.cumsum([0, *(len(edit.path) for edit in edits)]))
         return [edit._replace(seconds=time, area=count * self._square)
