@@ -18,7 +18,7 @@ from rumba_sim.model.common.geometry import Pose, hypot
 from rumba_sim.model.kernel import Array
 
 # All figures are our choice.
-APART = 0.995  # of the brush's width from lane to lane, at most
+APART = 1.005  # of the brush's width from lane to lane, at most
 WIDEST = 0.25  # [m] radius of turns
 SURPLUS = 0.005  # of coverage that is planned beyond the target, since no robot drives exactly as planned
 SMALLEST = 8.0  # [m] of a side: smaller rooms are searched in little time
