@@ -26,9 +26,8 @@ from rumba_cleaning.planning import planner
 from rumba_cleaning.planning.common.effort import Effort
 from rumba_cleaning.planning.decompose.regions import Shapes, shapes
 from rumba_cleaning.planning.order import route, tour
-from rumba_cleaning.planning.order.groups import groups
 from rumba_cleaning.planning.search import improvement
-from rumba_cleaning.planning.swaths import compiled_links, drafting, layouts
+from rumba_cleaning.planning.swaths import drafting
 from rumba_cleaning.strategies import boustrophedon
 from rumba_evaluation.trials.cases import ANYWHERE, DOCK, Conditions
 from rumba_evaluation.trials.trial import Trial
@@ -38,6 +37,7 @@ PACKAGED = ('studio', 'apartment')
 HARD = ('spiral of 0.8 m', 'dining', 'slanted', 'jagged', 'cliffs', 'pits', 'thin', 'star', 'crossing', 'neck')
 RESOLUTION = 0.05  # [m] of the hard floors
 TARGETS = (0.98, 0.99)
+GROUPS = route.groups
 ROW = '{:<24}{:>9}{:>9}{:>9}{:>9}{:>10}{:>8}'
 
 
@@ -46,13 +46,13 @@ def nothing(*_):
     return []
 
 
-def without_rings(ground, labels, *_):
+def without_rings(ground, labels):
     """Lanes in all regions."""
     found = shapes(ground, labels)
     return Shapes(np.zeros_like(found.is_open), np.ones_like(found.has_lanes))
 
 
-def without_lanes(ground, labels, *_):
+def without_lanes(ground, labels):
     """Rings in all regions."""
     found = shapes(ground, labels)
     return Shapes(found.is_open, np.zeros_like(found.has_lanes))
@@ -62,15 +62,13 @@ def without_lanes(ground, labels, *_):
 STAGES = {
     'nothing': (),
     'rehearsal': ((planner, 'effort', lambda _: Effort(0)),),
-    'rings': ((drafting, 'shapes', without_rings), (drafting, 'rings', nothing)),
-    'lanes': ((drafting, 'shapes', without_lanes),),
+    'rings': ((planner, 'shapes', without_rings), (drafting, 'rings', nothing)),
+    'lanes': ((planner, 'shapes', without_lanes),),
     'shortcuts': ((improvement, 'shortcuts', nothing),),
-    'other drafts': ((drafting, 'drafts', lambda _: layouts.drafts(0)),),
-    'other layouts': ((drafting, 'layouts', lambda _: 1),),
+    'other drafts': ((planner, 'choices', lambda _: drafting.DRAFTS[:1]),),
     'shifts': ((improvement, 'shifts', nothing),),
     'strips': ((drafting, '_strips', nothing),),
-    'half circles': ((compiled_links, 'joined', lambda *_: np.zeros((0, 2))),),
-    'tours across rooms': ((route, 'groups', lambda found, _: groups(found)),),
+    'tours across rooms': ((route, 'groups', lambda found, _: GROUPS(found)),),
     'kicks': ((tour, 'KICKS', 0),),
     'spiral': ((planner, 'spiral_over', lambda *_: None),),
 }

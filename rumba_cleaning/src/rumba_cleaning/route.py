@@ -10,7 +10,8 @@ from rumba_sim.model.kernel import Array
 
 # All figures are our choice.
 BENT = 0.5  # [rad] a corner by less costs no time, since the robot goes round it at full speed
-STOP = 0.5  # [s] to slow down and to start again at a corner by more than a right angle
+SHARP = 1.6  # [rad] a corner by more, which is a little more than a right angle, ...
+STOP = 0.5  # [s] ... takes this to slow down and to start again
 TURN_RATE = 1.9  # [rad/s] of the robot in a corner, about
 SAME = 1e-3  # [m] lengths that differ by less are the same
 
@@ -18,6 +19,12 @@ SAME = 1e-3  # [m] lengths that differ by less are the same
 def lengths_along(path: Array) -> Array:
     """Length of a path (any, 2) [m] from its first waypoint to each: float64 (any) [m]."""
     return np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(path, axis=0).T))])
+
+
+def corner_times(turns: Array) -> Array:
+    """Time lost at corners [s] by their angles, float64 (...) [rad], of any sign: none if these are NaN."""
+    sizes = np.abs((np.nan_to_num(turns) + math.pi) % (2.0 * math.pi) - math.pi)
+    return np.maximum(sizes - BENT, 0.0) / TURN_RATE + np.where(sizes > SHARP, STOP, 0.0)
 
 
 class Route(NamedTuple):
@@ -30,8 +37,7 @@ class Route(NamedTuple):
         """How long it takes from its first waypoint to each, about: float64 (any) [s]."""
         along = np.diff(self.waypoints, axis=0)
         legs = np.hypot(*along.T) / self.speeds
-        turns = np.abs((np.diff(bearings(along)) + math.pi) % (2.0 * math.pi) - math.pi)
-        corners = np.maximum(turns - BENT, 0.0) / TURN_RATE + np.where(turns > 0.5 * math.pi, STOP, 0.0)
+        corners = corner_times(np.diff(bearings(along)))
         return np.concatenate([[0.0], np.cumsum(legs + np.append(corners, 0.0))])
 
     def beginning(self, share: float) -> 'Route':

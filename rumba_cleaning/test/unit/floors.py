@@ -147,3 +147,9 @@ def over(start, left, right, end, reach):
         slope = math.atan2(post[1] - y, abs(post[0] - x)) + math.asin(reach / far)
         result += math.sqrt(far ** 2 - reach ** 2) + reach * slope
     return result
+
+
+def window_around(cells):
+    """The smallest window, rows and columns, that holds bool (rows, columns); an empty one if there are none."""
+    sides = (np.flatnonzero(cells.any(axis=axis)) for axis in (1, 0))
+    return tuple(slice(side[0], side[-1] + 1) if len(side) else slice(0, 0) for side in sides)

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from pytest import approx
 
 from rumba_cleaning.planning.search.edits import APART, BETTER, BETWEEN, applied, chosen, dense
-from rumba_cleaning.planning.simulate.edit import Edit
+from rumba_cleaning.planning.simulate.rehearsal import Edit
 from rumba_cleaning.route import Route
 
 DEAREST = 1000.0

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from floors import BRUSH, along, ground, length, part_of, tilted
+from floors import BRUSH, along, ground, length, part_of, tilted, window_around
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from pytest import approx
@@ -13,13 +13,19 @@ from rooms import crooked, distances, quiet, room
 from rumba_cleaning.belief.swept import Swept
 from rumba_cleaning.planning.decompose.turned_floor import main_direction
 from rumba_cleaning.planning.simulate.paper import drive
-from rumba_cleaning.planning.swaths.lanes import BLOCK, TURN, Layout, blocks
+from rumba_cleaning.planning.swaths import lanes
+from rumba_cleaning.planning.swaths.lanes import BLOCK, TURN, Layout
 from rumba_cleaning.planning.swaths.rings import outlines
 from rumba_sim.model.maps.floor_plan import FREE, OCCUPIED, FloorPlan
 
 SPEED = 0.3
 APART = (1.0 - Layout().overlap) * BRUSH  # [m] from lane to lane
 FINE = pytest.mark.parametrize('resolution', [0.02, 0.05])
+
+
+def blocks(floor, missed, *others):
+    """The blocks of lanes that clean what was missed."""
+    return lanes.blocks(floor, missed, window_around(missed), *others)
 
 
 def direction(lane):
@@ -268,10 +274,10 @@ def test_on_any_floor_lanes_keep_off_walls_and_count_no_floor_twice(example):
     found = blocks(floor, missed, BRUSH, SPEED, angle)
     assert all(block.area > 0.0 and block.time > 0.0 and block.lanes for block in found)
     assert sum(block.area for block in found) <= area(missed, plan) * (1.0 if angle == 0.0 else 1.05) + 1e-9
-    lanes = [along(lane, plan.resolution) for block in found for lane in block.lanes]
-    if lanes:
+    driven = [along(lane, plan.resolution) for block in found for lane in block.lanes]
+    if driven:
         least = floor.reach if angle == 0.0 else floor.reach - 0.1 * plan.resolution
-        assert min(distances(plan, np.concatenate(lanes))) >= least
+        assert min(distances(plan, np.concatenate(driven))) >= least
 
 
 def test_a_floor_of_a_single_cell_makes_no_blocks():

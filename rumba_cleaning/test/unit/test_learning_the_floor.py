@@ -12,7 +12,7 @@ from rumba_cleaning.belief.context import Context
 from rumba_cleaning.cleaning_config import CleaningConfig
 from rumba_cleaning.control import act
 from rumba_cleaning.mission.mission import Mission
-from rumba_cleaning.planning.frontiers import frontiers, route_to_frontier
+from rumba_cleaning.strategies.frontiers import frontiers, route_to_frontier
 from rumba_cleaning.pose_source import Belief, Mapped
 from rumba_cleaning.survey import Survey
 from rumba_sim.model.common.geometry import Pose

@@ -1,15 +1,11 @@
-"""From lane to lane: half circles if they fit, other paths if they do not, and all lanes in each variant."""
-
-import math
+"""From lane to lane by paths that the robot can drive, and all lanes in each variant."""
 
 import numpy as np
 import pytest
 from floors import along, ground, length
-from pytest import approx
 from rooms import distances, room
 
-from rumba_cleaning.planning.swaths.compiled_links import BENDS, CORNERS, EARLY, OFFSET
-from rumba_cleaning.planning.swaths.links import block_variants, through
+from rumba_cleaning.planning.swaths.lanes import block_variants, through
 
 PLAN = room(4.0, 3.0)
 FLOOR = ground(PLAN)
@@ -34,58 +30,19 @@ def are_joined_without_bend(path, one, other):
     return path[0].tolist() == one[1].tolist() and path[-1].tolist() == other[1].tolist()
 
 
-def turned(points, angle, about=(2.0, 1.5)):
-    """Points (any, 2) turned by an angle [rad] about one point."""
-    cos, sin = math.cos(angle), math.sin(angle)
-    return (np.asarray(points) - about) @ np.array([[cos, sin], [-sin, cos]]) + about
-
-
-@pytest.mark.parametrize('angle', [0.0, 0.6, math.pi / 2.0, math.pi])
-@pytest.mark.parametrize('step', [0.17, -0.17, 0.1, 0.3])
-def test_two_lanes_side_by_side_are_joined_by_a_half_circle_that_begins_a_little_before_their_ends(step, angle):
-    one, other = (turned(lane, angle) for lane in lanes((1.2, 2.8), (1.2, 2.8), step=step, bottom=1.5))
-    bend = between(FLOOR, one, other)
-    ahead = (one[1] - one[0]) / 1.6
-    middle = 0.5 * (one[1] + other[1]) - EARLY * ahead
-    assert len(bend) == CORNERS
-    assert bend[0] == approx(one[1] - EARLY * ahead) and bend[-1] == approx(other[1] - EARLY * ahead)
-    assert np.hypot(*(bend - middle).T) == approx(0.5 * abs(step))
-    assert (((bend - middle) @ ahead)[1:-1] > 0.01).all()
-    assert length(np.concatenate([one[:1], bend])) == approx(1.6 - EARLY + 0.5 * math.pi * abs(step), rel=0.01)
-
-
-@pytest.mark.parametrize('first, second', [(2.4, 2.7), (2.7, 2.4)])
-def test_a_half_circle_lies_beyond_the_end_that_is_farther_out(first, second):
-    bend = between(FLOOR, *lanes((1.0, first), (1.0, second)))
-    circle = bend[1:] if first < second else bend[:-1]
-    begin = 2.7 - EARLY
-    assert len(circle) == CORNERS and np.hypot(*(circle - (begin, 1.0 + 0.5 * LANE)).T) == approx(0.5 * LANE)
-    assert (circle[1:-1, 0] > begin).all()
-    assert circle[0] == approx([begin, 1.0]) and circle[-1] == approx([begin, 1.0 + LANE])
-
-
-@pytest.mark.parametrize('ends', [((1.0, 3.78), (1.0, 3.78)), ((1.0, 3.6), (1.0, 3.8))])
-def test_if_a_half_circle_would_touch_a_wall_there_is_another_path(ends):
-    one, other = lanes(*ends, step=0.3)
-    path = between(FLOOR, one, other)
-    assert are_joined_without_bend(path, one, other)
-    assert min(distances(PLAN, along(path))) >= FLOOR.reach and length(path) < 0.4
-    assert path[:, 0].max() <= 3.8 + 1e-9
-
-
-def test_if_an_obstacle_was_met_at_the_half_circle_there_is_another_path():
-    floor = ground(PLAN)
-    one, other = lanes((1.0, 2.5), (1.0, 2.5))
-    assert len(between(floor, one, other)) == CORNERS
-    floor.mark(2.79 - EARLY, 1.085, 0.05)
-    assert are_joined_without_bend(between(floor, one, other), one, other)
-
-
-def test_lanes_that_are_not_side_by_side_are_joined_by_a_straight_line():
-    for one, other in (lanes((1.0, 2.5), (1.0, 2.5), step=BENDS[1] + 0.05), lanes((1.0, 2.0), (1.0, 2.1 + OFFSET)),
-                       lanes((1.0, 2.5), (1.0, 2.5), step=0.03)):
+def test_lanes_side_by_side_are_joined_by_a_straight_line():
+    for one, other in (lanes((1.0, 2.5), (1.0, 2.5)), lanes((1.0, 2.0), (1.0, 2.4)), lanes((1.0, 3.7), (1.0, 3.6))):
         path = between(FLOOR, one, other)
         assert len(path) == 2 and are_joined_without_bend(path, one, other)
+
+
+def test_if_an_obstacle_was_met_between_lanes_the_path_leads_around_it():
+    floor = ground(PLAN)
+    one, other = lanes((1.0, 2.5), (1.0, 2.5), step=0.5)
+    assert len(between(floor, one, other)) == 2
+    floor.mark(2.5, 1.25, 0.05)
+    path = between(floor, one, other)
+    assert len(path) > 2 and length(path) > 0.6
 
 
 def test_a_path_from_lane_to_lane_leads_around_an_obstacle_between_them():
@@ -122,7 +79,7 @@ def test_each_variant_drives_all_lanes_to_and_fro_from_another_corner_and_the_ne
             begin, end = lane[::1 if (index + first) % 2 == 0 else -1, 0]
             along_lane, = np.flatnonzero((np.abs(variant[1:] - variant[:-1])[:, 1] < 1e-9) & (
                 np.abs(variant[1:, 1] - lane[0, 1]) < 1e-9) & (
-                    np.sign(end - begin) * np.diff(variant[:, 0]) > abs(end - begin) - 2.0 * EARLY - 1e-9))
+                    np.sign(end - begin) * np.diff(variant[:, 0]) > abs(end - begin) - 1e-9))
             driven.append(int(along_lane))
         assert driven == sorted(driven) and driven[0] == 0 and driven[-1] == len(variant) - 2
     corners = {tuple(variant[0]) for variant in variants}

@@ -5,12 +5,12 @@ import pytest
 from floors import knowing, wiped
 from rooms import room
 
-from rumba_cleaning.planning.simulate.compiled_passes import BEFORE, NEVER, alone, blank, gain, passed
+from rumba_cleaning.planning.simulate.compiled_passes import BEFORE, NEVER, gain, passed
 from rumba_cleaning.planning.simulate.compiled_rehearsal import SPEED
 from rumba_cleaning.planning.simulate.rehearsal import Rehearsal
 from rumba_cleaning.route import Route
 from rumba_sim.model.common.geometry import Pose
-from rumba_sim.model.kernel.sweeping.samples import PASS, REACHABLE
+from rumba_sim.model.kernel.sweeping.samples import PASS, REACHABLE, SWEEPABLE
 
 START = Pose(0.5, 0.5, 0.0)
 SPEED_LIMIT = 0.3  # [m/s]
@@ -72,15 +72,16 @@ def test_what_is_swept_at_no_other_time_is_counted_where_the_brush_passes_it(con
     by_step = list(steps_of(context, trace))
     for is_passed in by_step:
         times += is_passed
-    counted = alone(passed(context.swept.brush, trace, SPEED_LIMIT), len(trace))
+    counted = Rehearsal(context, START, THERE_AND_BACK).alone * context.swept.reachable / context.swept.reachable_area
     expected = np.cumsum([0, *(np.count_nonzero(fresh & is_passed & (times == 1)) for is_passed in by_step)])
-    assert counted.tolist() == expected.tolist() and expected[-1] > 1000
+    assert expected[-1] > 1000 and counted[-1] == pytest.approx(expected[-1])
+    assert all(np.abs(expected - each).min() < 1e-6 for each in counted) and (np.diff(counted) >= 0.0).all()
 
 
 @pytest.mark.parametrize('low, high', [(0, 30), (20, 21), (25, 60), (70, 95)])
 def test_a_part_of_a_trace_gains_what_no_other_part_sweeps(context, trace, low, high):
     brush = context.swept.brush
-    passes, scratch = passed(brush, trace, SPEED_LIMIT), blank(brush)
+    passes, scratch = passed(brush, trace, SPEED_LIMIT), np.full(brush.samples.shape, SWEEPABLE, np.uint8)
     aside = trace[low:high + 1].copy()
     aside[:, 1] += 0.25
     rest = trace[:low + 1], trace[high:]
@@ -88,4 +89,4 @@ def test_a_part_of_a_trace_gains_what_no_other_part_sweeps(context, trace, low, 
     assert gain(brush, passes, scratch, trace, low, high, trace[low:low + 1], SPEED_LIMIT) == without - whole
     found = gain(brush, passes, scratch, trace, low, high, aside, SPEED_LIMIT)
     assert found == pytest.approx(with_it - whole, abs=8)  # strides are longer than steps
-    assert (scratch == blank(brush)).all()
+    assert (scratch == SWEEPABLE).all()

@@ -72,13 +72,6 @@ def test_lanes_suit_rooms_but_neither_halls_nor_corridors(width, height, is_open
     assert (found.is_open[label], found.has_lanes[label]) == (is_open, has_lanes)
 
 
-@RESOLUTIONS
-def test_how_wide_a_corridor_is_that_rings_suit_can_be_chosen(resolution):
-    floor = ground(room(8.0, 1.0, resolution))
-    label = at(floor, 4.0, 0.5)
-    assert [shapes(floor, regions(floor), narrow).has_lanes[label] for narrow in (0.05, 0.3)] == [True, False]
-
-
 def test_narrow_corridors_that_nothing_joins_are_separate_regions():
     floor = ground(room(5.0, 3.0, boxes=[(0.0, 0.6, 5.0, 0.7), (0.0, 1.3, 5.0, 1.4)]))
     found = [at(floor, 1.0, y) for y in (0.3, 1.0, 2.2)]

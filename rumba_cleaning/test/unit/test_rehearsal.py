@@ -12,7 +12,7 @@ from rumba_cleaning.behaviours.follower import Follower
 from rumba_cleaning.planning.planner import plan
 from rumba_cleaning.planning.search.edits import applied, dense
 from rumba_cleaning.planning.simulate import rehearsal as rehearsals
-from rumba_cleaning.planning.simulate.edit import Edit
+from rumba_cleaning.planning.simulate.rehearsal import Edit
 from rumba_cleaning.planning.simulate.rehearsal import NO_PATH, Rehearsal
 from rumba_cleaning.route import Route
 from rumba_sim.model.common.geometry import Pose
@@ -93,23 +93,6 @@ def test_a_route_that_nobody_can_follow_is_not_complete():
     context = knowing(room(4.0, 3.0, 0.02, [(1.9, 0.0, 2.1, 3.0)]), START)
     through = Route(np.array([[0.5, 0.5], [3.5, 0.5]]), np.array([0.3]))
     assert not Rehearsal(context, START, through).is_complete
-
-
-def test_a_route_that_nobody_can_follow_is_begun_up_to_where_the_robot_gets_stuck():
-    context = knowing(room(4.0, 3.0, 0.02, [(1.9, 0.0, 2.1, 3.0)]), START)
-    through = dense(Route(np.array([[0.5, 0.5], [0.5, 1.5], [3.5, 1.5]]), np.array([0.3, 0.2])))
-    begun = Rehearsal(context, START, through).begun
-    assert begun.waypoints[-1] == approx([1.9 - context.ground.reach, 1.5], abs=0.1)
-    assert begun.waypoints.tolist() == through.waypoints[:len(begun.waypoints)].tolist()
-    assert begun.speeds.tolist() == through.speeds[:len(begun.waypoints) - 1].tolist()
-    assert Rehearsal(context, START, begun).is_complete
-
-
-def test_a_route_that_a_robot_can_follow_or_not_even_begin_is_begun_as_it_is():
-    context = knowing(room(4.0, 3.0, 0.02, [(0.0, 1.0, 4.0, 1.1)]), START)
-    for y in (0.6, 2.5):
-        route = Route(np.array([[0.5, y], [3.5, y]]), np.array([0.3]))
-        assert Rehearsal(context, START, route).begun is route
 
 
 def test_a_rehearsal_knows_how_far_the_robot_turns_to_and_fro():

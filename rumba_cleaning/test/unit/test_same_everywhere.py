@@ -4,10 +4,8 @@ import math
 
 import numpy as np
 import pytest
-from scipy import ndimage
 
 from rumba_cleaning.compiled_bearings import bearings
-from rumba_cleaning.planning.common import gaussian
 from rumba_cleaning.planning.common.rows import distinct
 from rumba_cleaning.planning.decompose.turned_floor import _on_axes
 
@@ -32,14 +30,3 @@ def test_bearings_are_those_of_the_c_library():
 def test_points_are_turned_as_by_a_product_of_matrices(shape):
     points, axes = np.random.default_rng(3).normal(size=shape), np.array([[0.8, 0.6], [-0.6, 0.8]])
     assert _on_axes(points, axes) == pytest.approx(points @ axes)
-
-
-@pytest.mark.parametrize('sigma', [0.4, 1.0, 1.5, 3.0])
-def test_the_weights_of_a_gaussian_are_those_of_scipy_but_for_the_rounding_of_its_exponential(sigma):
-    unit = np.zeros(41)
-    unit[20] = 1.0
-    found = gaussian.weights(sigma)
-    half = len(found) // 2
-    wanted = ndimage.gaussian_filter1d(unit, sigma)[20 - half:21 + half]
-    np.testing.assert_allclose(found, wanted, rtol=1e-14)
-    assert found[half] / found[half + 1] == pytest.approx(math.exp(0.5 / sigma ** 2), rel=1e-15)

@@ -10,7 +10,7 @@ from rumba_cleaning.belief import paths
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.belief.track import Track
 from rumba_cleaning.cleaning_config import CleaningConfig
-from rumba_cleaning.planning.frontiers import frontiers
+from rumba_cleaning.strategies.frontiers import frontiers
 from rumba_cleaning.survey import Survey
 from rumba_sim.model.common.geometry import Pose
 from rumba_sim.model.maps.floor_plan import UNKNOWN, FloorPlan

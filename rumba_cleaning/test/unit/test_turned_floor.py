@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from floors import ground, tilted
+from floors import ground, tilted, window_around
 from pytest import approx
 from rooms import crooked, room
 
@@ -36,7 +36,7 @@ def test_a_turned_floor_equals_the_floor_cell_by_cell(angle):
     plan = crooked(0.1)
     floor = ground(plan)
     missed = plan.free & (np.random.default_rng(9).random(plan.occupancy.shape) < 0.5)
-    turned = TurnedFloor(floor, missed, angle, 0.2)
+    turned = TurnedFloor(floor, missed, window_around(missed), angle, 0.2)
     rows, columns = turned.missed.shape
     assert turned.clearance.shape == (rows + 1, columns + 1) and turned.resolution == 0.1
     seen = np.zeros_like(missed)
@@ -62,11 +62,11 @@ def test_only_the_part_around_the_cells_to_clean_is_turned_and_it_is_the_same_on
         plan = room(width, 4.0, 0.05)
         missed = np.zeros(plan.occupancy.shape, bool)
         missed[30:40, 40:60] = True  # 0.5 m x 1 m
-        turned = TurnedFloor(ground(plan), missed, angle, 0.17)
+        turned = TurnedFloor(ground(plan), missed, window_around(missed), angle, 0.17)
         rows, columns = np.nonzero(turned.missed)
         margin = 4  # cells of 5 cm, at least 0.17 m
-        assert (rows.min(), columns.min()) == (margin, margin)
-        assert (rows.max() + 1 + margin, columns.max() + 1 + margin) == turned.missed.shape
+        beside = [rows.min(), columns.min(), *(turned.missed.shape - np.array([rows.max(), columns.max()]) - 1)]
+        assert beside == 4 * [margin] if angle == 0.0 else margin <= min(beside) and max(beside) < 20
         assert turned.clearance.shape == tuple(size + 1 for size in turned.missed.shape)
         assert len(rows) == approx(200, abs=12)
         found.append((turned.missed, turned.clearance, turned.points(np.array([[0.0, 0.0]]))))
@@ -75,19 +75,10 @@ def test_only_the_part_around_the_cells_to_clean_is_turned_and_it_is_the_same_on
     assert (as_clear >= clearance - 1e-9).all()
 
 
-@pytest.mark.parametrize('angle', [0.0, 0.35])
-@pytest.mark.parametrize('rows, columns', [((30, 40), (40, 60)), ((0, 12), (0, 9))])  # in the middle; at the edge
-def test_a_window_that_is_known_need_not_be_looked_for(rows, columns, angle):
-    floor = ground(room(4.0, 4.0, 0.05))
-    missed = np.zeros(floor.plan.occupancy.shape, bool)
-    missed[slice(*rows), slice(*columns)] = True
-    found, known = (TurnedFloor(floor, missed, angle, 0.17, within)
-                    for within in (None, (slice(*rows), slice(*columns))))
-    assert (known.missed == found.missed).all() and (known.clearance == found.clearance).all()
-    assert (known.points(np.array([[1.0, 2.0]])) == found.points(np.array([[1.0, 2.0]]))).all()
-
-
-def test_nothing_to_clean_is_an_empty_part():
-    plan = room(4.0, 3.0, 0.05)
+def test_off_the_map_there_is_nothing_to_clean_and_no_clearance():
+    plan = room(1.0, 1.0, 0.05)
+    missed = np.ones(plan.occupancy.shape, bool)
     for angle in (0.0, 0.35):
-        assert TurnedFloor(ground(plan), np.zeros(plan.occupancy.shape, bool), angle, 0.17).missed.size == 0
+        turned = TurnedFloor(ground(plan), missed, window_around(missed), angle, 0.5)
+        assert not turned.missed[0].any() and not turned.missed[:, -1].any() and turned.missed.any()
+        assert turned.clearance[0].max() == turned.clearance[:, -1].max() == 0.0

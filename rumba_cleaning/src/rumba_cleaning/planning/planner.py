@@ -6,15 +6,13 @@ import numpy as np
 
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.planning.common.effort import effort
-from rumba_cleaning.planning.decompose.regions import regions
+from rumba_cleaning.planning.decompose.regions import regions, shapes
 from rumba_cleaning.planning.decompose.turned_floor import main_direction
 from rumba_cleaning.planning.order.route import through
 from rumba_cleaning.planning.rectangle import spiral_over
-from rumba_cleaning.planning.search.edits import dense
 from rumba_cleaning.planning.search.improvement import improved
-from rumba_cleaning.planning.simulate.rehearsal import Rehearsal
 from rumba_cleaning.planning.swaths.drafting import choices, drafted
-from rumba_cleaning.planning.swaths.problem import Problem
+from rumba_cleaning.planning.swaths.problem import Problem, need
 from rumba_cleaning.planning.swaths.rings import outlines
 from rumba_cleaning.route import Route
 from rumba_sim.model.common.geometry import Pose
@@ -22,6 +20,7 @@ from rumba_sim.model.kernel import Array
 
 # Our choice.
 MOST = 0.5  # share of what was missed that lanes, rings and large crumbs must clean, for them to be driven
+YIELD = 0.7  # share of a crumb that is swept in passing, about: small plans for more crumbs than the target needs
 BEYOND = 0.03  # [m] from what the brush reaches, where an obstacle may leave more floor free than the robot knows
 
 
@@ -50,8 +49,9 @@ def plan(context: Context, pose: Pose, end: Optional[Pose] = None) -> Optional[R
 def posed(context: Context, pose: Pose, end: Optional[Pose] = None) -> Problem:
     """What all stages of a plan go by: see `plan` for the arguments."""
     ground = context.ground
-    return Problem(context, pose, end, _around(context, pose), regions(ground), main_direction(outlines(ground)),
-                   effort(context))
+    labels = regions(ground)
+    return Problem(context, pose, end, _around(context, pose), labels, shapes(ground, labels),
+                   main_direction(outlines(ground)), effort(context))
 
 
 def drafts(problem: Problem) -> List[Route]:
@@ -76,14 +76,14 @@ def _around(context: Context, pose: Pose) -> Array:
 
 
 def _over_crumbs(problem: Problem) -> Optional[Route]:
-    """A route that visits crumb after crumb; None if there are none, or none can be reached.
+    """A route that visits the largest crumbs, as many as the target needs; None if there are none in reach.
 
     Beside obstacles that the robot met, no rehearsal would be true: how large they are is known by a few contacts.
     """
     context = problem.context
-    found = problem.crumbs(context.swept)
-    route = through(problem, found)
+    found = sorted(problem.crumbs(context.swept), key=lambda part: -part.area)
+    area = np.cumsum([YIELD * part.area for part in found])
+    route = through(problem, found[:int(np.searchsorted(area, need(context, context.swept))) + 1])
     if route is None or problem.effort.rounds == 0 or context.ground.has_marks:
         return route
-    begun = Rehearsal(context, problem.pose, dense(route)).begun
-    return improved(problem, [begun])
+    return improved(problem, [route])

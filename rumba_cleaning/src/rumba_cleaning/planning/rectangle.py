@@ -11,20 +11,16 @@ from typing import List, NamedTuple, Optional
 import numpy as np
 
 from rumba_cleaning.belief.context import Context
-from rumba_cleaning.planning.common.effort import effort
-from rumba_cleaning.planning.order.transit import route_over
-from rumba_cleaning.planning.search import improvement
-from rumba_cleaning.planning.search.edits import dense
-from rumba_cleaning.planning.simulate.rehearsal import Rehearsal
+from rumba_cleaning.planning.order.route import route_over
 from rumba_cleaning.planning.swaths.rings import WALL_MARGIN
 from rumba_cleaning.route import Route
 from rumba_sim.model.common.geometry import Pose, hypot
 from rumba_sim.model.kernel import Array
 
 # All figures are our choice.
-# Of the brush's width from lane to lane, at most. Lanes that are farther apart leave the most, and take the least time.
-APART = (1.005, 0.995)
-RADII = (0.25, 0.2, 0.16, 0.12, 0.1, 0.08, 0.06, 0.04)  # [m] of turns, by falling time
+APART = 1.005  # of the brush's width from lane to lane, at most
+WIDEST = 0.25  # [m] radius of turns
+SURPLUS = 0.005  # of coverage that is planned beyond the target, since no robot drives exactly as planned
 SMALLEST = 8.0  # [m] of a side: smaller rooms are searched in little time
 STRAIGHT = 0.002  # [m] by which walls may be uneven
 ARC = 0.2  # [rad] from waypoint to waypoint of a turn
@@ -42,43 +38,23 @@ class Rectangle(NamedTuple):
 def spiral_over(context: Context, pose: Pose) -> Optional[Route]:
     """A route over a floor that is one empty rectangle; None if it is not, or the route would miss the target.
 
-    It leads outward if the robot is in the middle, and else inward.
+    It leads outward if the robot is in the middle, and else inward. Its turns are as wide as the target allows: they
+    leave floor between the arcs of two laps.
 
     Args:
         context: with the floor that was swept before; it is not changed.
         pose: from which the route begins, map frame.
     """
     found = rectangle(context)
-    if found is None or context.swept.coverage > 0.0:
+    spare = (1.0 - context.target_coverage - SURPLUS) * context.swept.reachable_area
+    if found is None or context.swept.coverage > 0.0 or spare <= 0.0:
         return None
     brush = context.robot.brush.width
-    spirals = [corners(found, share * brush) for share in APART]
-    if effort(context).rounds == 0:
-        spiral = spirals[-1]
-        tight = next((radius for radius in RADII if _is_enough(context, spiral, radius)), None)
-        return None if tight is None else _from(context, pose, rounded(spiral, tight))
-    best = [each for each in (_widest(context, pose, spiral) for spiral in spirals) if each is not None]
-    return min(best, key=lambda rehearsal: rehearsal.seconds).route if best else None
-
-
-def _widest(context: Context, pose: Pose, spiral: Array) -> Optional[Rehearsal]:
-    """A rehearsal of a spiral with the widest turns that meet the target; None if none do."""
-    found, first, last = None, 0, len(RADII)
-    while first < last:
-        middle = (first + last) // 2
-        route = _from(context, pose, rounded(spiral, RADII[middle]))
-        rehearsal = None if route is None else Rehearsal(context, pose, dense(route))
-        if rehearsal is not None and rehearsal.is_complete and improvement.is_met(context, rehearsal):
-            found, last = rehearsal, middle
-        else:
-            first = middle + 1
-    return found
-
-
-def _is_enough(context: Context, spiral: Array, radius: float) -> bool:
-    """Whether a spiral with such turns [m] meets the target, although they leave floor between the arcs of two laps."""
-    left = (len(spiral) - 2) * (1.0 - 0.25 * math.pi) * 2.0 * radius * context.robot.brush.width
-    return left <= (1.0 - context.target_coverage - improvement.SURPLUS) * context.swept.reachable_area
+    path = corners(found, APART * brush)
+    radius = min(spare / ((len(path) - 2) * (1.0 - 0.25 * math.pi) * 2.0 * brush), WIDEST)
+    path = rounded(path, radius)
+    first, last = (hypot(pose.x - end[0], pose.y - end[1]) for end in (path[0], path[-1]))
+    return route_over(context, pose, [(None, path if first <= last else path[::-1])])
 
 
 def rectangle(context: Context) -> Optional[Rectangle]:
@@ -131,9 +107,3 @@ def rounded(path: Array, radius: float) -> Array:
         angles = np.linspace(0.0, 0.5 * math.pi, math.ceil(0.5 * math.pi / ARC) + 1)[:, np.newaxis]
         points.append(corner - size * into + size * (np.sin(angles) * into + (1.0 - np.cos(angles)) * out))
     return np.concatenate([*points, path[-1:]])
-
-
-def _from(context: Context, pose: Pose, path: Array) -> Optional[Route]:
-    """A route over a path from that of its ends which is nearer."""
-    first, last = (hypot(pose.x - end[0], pose.y - end[1]) for end in (path[0], path[-1]))
-    return route_over(context, pose, [(None, path if first <= last else path[::-1])])

@@ -119,5 +119,5 @@ class ExploreAndClean(Behaviour):
 
 def _plan(context: Context, pose: Pose, seen: List[Array]) -> Optional[Route]:
     """As `frontiers.route_to_frontier`, which is imported here, where nobody waits."""
-    from rumba_cleaning.planning import frontiers
+    from rumba_cleaning.strategies import frontiers
     return frontiers.route_to_frontier(context, pose, seen)

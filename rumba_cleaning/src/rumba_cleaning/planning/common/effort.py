@@ -7,8 +7,6 @@ from rumba_cleaning.belief.context import Context
 # All figures are our choice; each comment says what speaks for a larger and for a smaller value.
 WORK = 240.0  # [m^2] of floor, times rounds: large makes shorter routes, small plans faster
 THOROUGH = 10  # times as much as usual to search for tours where routes are rehearsed: small plans faster
-AREA = 600.0  # [m^2] to clean, times the layouts that are compared: large drives less, small plans faster
-LITTLE = 1.0  # [m^2] to clean, for which no layouts are compared: most of that is left to the crumbs
 
 
 class Effort(NamedTuple):
@@ -25,8 +23,3 @@ class Effort(NamedTuple):
 def effort(context: Context) -> Effort:
     """The effort for the floor of a context."""
     return Effort(min(int(WORK / context.swept.reachable_area), context.config.planning_rounds))
-
-
-def layouts(area: float) -> int:
-    """How many layouts are compared for an area to clean [m^2]."""
-    return 1 if area < LITTLE else max(int(AREA / area), 1)

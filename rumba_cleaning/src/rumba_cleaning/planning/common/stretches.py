@@ -7,6 +7,7 @@ import numpy as np
 from rumba_cleaning.compiled_bearings import bearings
 from rumba_sim.model.kernel import Array
 
+CLOSE = 0.02  # [m] points so near to each other have no direction between them
 AHEAD = 2  # waypoints from the end of a path, over which its heading is measured
 
 
@@ -29,9 +30,10 @@ class Variant(NamedTuple):
 
 
 def headings(points: Array, ahead: Array) -> Array:
-    """Directions from points (any, 2) [m] to others [rad]; NaN if they are the same."""
+    """Directions from points (..., 2) [m] to others: float64 (...) [rad]; NaN if they are CLOSE."""
     along = ahead - points
-    return np.where(np.hypot(*along.T) > 0.0, bearings(along), np.nan)
+    angles = bearings(along.reshape(-1, 2)).reshape(along.shape[:-1])
+    return np.where(np.hypot(along[..., 0], along[..., 1]) > CLOSE, angles, np.nan)
 
 
 class Stretch(NamedTuple):
@@ -40,8 +42,6 @@ class Stretch(NamedTuple):
     variants: List[Variant]  # in pairs: a path, and the same path backward
     region: int  # label of the region in which it lies
     area: float  # [m^2] that it cleans, about
-    is_crumb: bool  # whether it may be left out if the target is met without it
-    delay: float = 0.0  # [s] that the robot stands still on it to turn
 
 
 def pair(parts: List[Array]) -> List[Variant]:

@@ -4,7 +4,8 @@ A watershed of the clearance: each region grows from a wide part of the floor, a
 between them is narrowest.
 """
 
-from typing import Dict, List, NamedTuple, Optional, Tuple
+import itertools
+from typing import Dict, List, NamedTuple, Tuple
 
 import numpy as np
 from scipy import ndimage, sparse
@@ -19,7 +20,7 @@ from rumba_sim.model.kernel import Array
 WIDE = 0.5  # [m] clearance that no point in a door has
 NODES = 0.05  # [m] between the nodes that are looked at: large is fast, small is exact
 # [m] by which the mean clearance of an open region, and of one that is no corridor, is larger than the robot needs.
-OPEN, NARROW = 1.0, 0.15
+OPEN, NARROW = 1.0, 0.17
 LEAST = 0.6  # [m^2] with such clearance make a region of their own; less belongs to the region beside it
 
 
@@ -53,28 +54,20 @@ class Shapes(NamedTuple):
     has_lanes: Array  # bool (labels): lanes suit it better than rings, except along its walls
 
 
-def shapes(ground: Ground, labels: Array, narrow: float = NARROW) -> Shapes:
+def shapes(ground: Ground, labels: Array) -> Shapes:
     """How wide the regions are: in open ones and in corridors rings are best, in rooms with furniture lanes.
 
     Args:
         ground: where the robot can stand.
         labels: the region of each node, int (rows + 1, columns + 1).
-        narrow: mean clearance of a corridor beyond what the robot needs, at most [m].
     """
     counts = np.maximum(np.bincount(labels.ravel()), 1)
     room = np.bincount(labels.ravel(), ground.clearance.ravel()) / counts - ground.reach
-    return Shapes(room > OPEN, (room > narrow) & (room <= OPEN))
+    return Shapes(room > OPEN, (room > NARROW) & (room <= OPEN))
 
 
-class Doors(NamedTuple):
-    """Where regions meet."""
-
-    points: Array  # float64 (doors, 2) [m]
-    sides: Array  # int (doors, 2), the labels of the two regions
-
-
-def doors(ground: Ground, labels: Array) -> Doors:
-    """The widest place of each border between two regions."""
+def doors(ground: Ground, labels: Array) -> Tuple[Array, Array]:
+    """The widest place of each border between two regions, float64 (any, 2) [m], and their labels, int (any, 2)."""
     sides, nodes = [], []
     for one, other in ((labels[1:], labels[:-1]), (labels[:, 1:], labels[:, :-1])):
         where = np.argwhere((one != other) & (one > 0) & (other > 0))
@@ -84,44 +77,29 @@ def doors(ground: Ground, labels: Array) -> Doors:
     pairs, places = np.concatenate(sides), np.concatenate(nodes)
     widest = np.argsort(-ground.clearance[places[:, 0], places[:, 1]], kind='stable')
     found, first = distinct(pairs[widest])
-    return Doors(ground.points(places[widest[first]]), found)
+    return ground.points(places[widest[first]]), found
 
 
-class Ways:
-    """Ways from region to region, over the doors between them, as if each region were open floor.
+def distances(ground: Ground, labels: Array, places: Array) -> Array:
+    """Lengths of the ways from place to place over doors, as if each region were open floor [m]; inf: there is none.
 
-    Attributes:
-        metres: float64 (places, places), from place to place; inf if there is no way.
+    Args:
+        ground: where the robot can stand.
+        labels: the region of each node, int (rows + 1, columns + 1).
+        places: float64 (places, 2) [m].
+
+    Returns:
+        float64 (places, places)
     """
-
-    def __init__(self, borders: Doors, places: Array, labels: List[int]) -> None:
-        """Find the ways.
-
-        Args:
-            borders: where regions meet.
-            places: float64 (places, 2) [m].
-            labels: the region of each place.
-        """
-        self._places = len(places)
-        self._points = np.concatenate([places, borders.points])
-        of_region: Dict[int, List[int]] = {}
-        for index, label in enumerate(labels):
+    borders, sides_of = doors(ground, labels)
+    points = np.concatenate([places, borders])
+    nodes = ground.standing(ground.nodes(places))
+    of_region: Dict[int, List[int]] = {}
+    for index, sides in enumerate([*labels[nodes[:, 0], nodes[:, 1], np.newaxis].tolist(), *sides_of.tolist()]):
+        for label in sides:
             of_region.setdefault(label, []).append(index)
-        for index, sides in enumerate(borders.sides.tolist(), len(places)):
-            for label in sides:
-                of_region.setdefault(label, []).append(index)
-        pairs = np.array([(one, other) for members in of_region.values() for one in members for other in members
-                          if one != other], np.intp).reshape(-1, 2)
-        lengths = np.hypot(*(self._points[pairs[:, 0]] - self._points[pairs[:, 1]]).T) + 1e-6  # 0 means: no edge
-        size = len(self._points)
-        graph = sparse.csr_matrix((lengths, (pairs[:, 0], pairs[:, 1])), (size, size))
-        metres, self._before = csgraph.dijkstra(graph, indices=np.arange(self._places), return_predecessors=True)
-        self.metres = metres[:, :self._places]
-
-    def doors(self, start: int, end: int) -> Tuple[Optional[Array], Optional[Array]]:
-        """The first door and the last one on the way from a place to another: points (2) [m]; None: there is none."""
-        way = [end]
-        while way[-1] != start and self._before[start, way[-1]] >= 0:
-            way.append(int(self._before[start, way[-1]]))
-        between = [point for point in way[::-1] if point >= self._places]
-        return (self._points[between[0]], self._points[between[-1]]) if between else (None, None)
+    one, other = np.array([pair for members in of_region.values() for pair in itertools.permutations(members, 2)],
+                          np.intp).reshape(-1, 2).T
+    lengths = np.hypot(*(points[one] - points[other]).T) + 1e-6  # 0 means: no edge
+    graph = sparse.csr_matrix((lengths, (one, other)), (len(points), len(points)))
+    return np.asarray(csgraph.dijkstra(graph, indices=np.arange(len(places)))[:, :len(places)])

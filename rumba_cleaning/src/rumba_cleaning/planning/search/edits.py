@@ -6,14 +6,14 @@ from typing import List, Sequence, Tuple
 import numpy as np
 
 from rumba_cleaning.planning.common.polyline import stride_counts, strides
-from rumba_cleaning.planning.simulate.edit import Edit
+from rumba_cleaning.planning.simulate.rehearsal import Edit
 from rumba_cleaning.route import Route
 from rumba_sim.model.kernel import Array
 
 # Our choice.
 APART = 0.1  # [m] between the waypoints at which an edit may begin, at most: small makes detours shorter
 BETWEEN = 6  # waypoints between two edits, at least: each was judged as if it were the only one
-BETTER = 0.02  # [s] that an edit is worth, at least
+BETTER = 0.02  # [s] that an edit is worth, at least: many of less bring less than they promise
 HALVINGS = 14  # of the range in which the price is looked for
 
 

@@ -6,15 +6,13 @@ from rumba_cleaning.belief.context import Context
 from rumba_cleaning.planning.search.edits import applied, chosen, dense
 from rumba_cleaning.planning.search.shifts import shifts
 from rumba_cleaning.planning.search.shortcuts import shortcuts
-from rumba_cleaning.planning.simulate.edit import Edit
-from rumba_cleaning.planning.simulate.rehearsal import Rehearsal
+from rumba_cleaning.planning.simulate.rehearsal import Edit, Rehearsal
 from rumba_cleaning.planning.swaths.problem import Problem, need
 from rumba_cleaning.route import Route
 from rumba_sim.model.common.geometry import hypot
 
 # All figures are our choice; each comment says what speaks for a larger and for a smaller value.
-SURPLUS = 0.005  # of coverage that is planned beyond the target on paper, since no robot drives exactly as planned ...
-# [m^2] ... and by rehearsal, for each rad that the robot turns, since it drives each turn a little otherwise than
+# [m^2] planned beyond the target for each rad that the robot turns, since it drives each turn a little otherwise than
 # rehearsed: large sweeps too much, small may need another route for a few last spots.
 MARGIN = 0.00006
 EDITED = 0.0004  # of coverage that edits are to bring beyond that: together they bring a little less than one by one
@@ -43,12 +41,9 @@ def improved(problem: Problem, routes: Sequence[Route]) -> Route:
         found = [*shortcuts(context, rehearsal, CHEAP * price)[:SHORTCUTS], *shifts(context, rehearsal.route)]
         rehearsal, price = _edited(problem, rehearsal, found, poor)
         tried.append(rehearsal)
-    return max(tried, key=lambda rehearsal: _merit(problem, rehearsal)).route
-
-
-def is_met(context: Context, rehearsal: Rehearsal) -> bool:
-    """Whether a route meets the target, even if its rehearsal errs by MARGIN."""
-    return _need(context, rehearsal) <= 0.0
+    met = [each for each in tried if _need(context, each) <= 0.0]
+    best = min(met, key=lambda each: each.seconds) if met else max(tried, key=lambda each: each.swept.coverage)
+    return best.route
 
 
 def _edited(problem: Problem, rehearsal: Rehearsal, found: Sequence[Edit],
@@ -60,7 +55,7 @@ def _edited(problem: Problem, rehearsal: Rehearsal, found: Sequence[Edit],
     context, route = problem.context, rehearsal.route
     fresh = [edit for edit in found if edit.place(route) not in poor]
     judged = rehearsal.judged(fresh)
-    edits, price = chosen(judged, _need(problem.context, rehearsal, EDITED), DEAREST)
+    edits, price = chosen(judged, _need(context, rehearsal, EDITED), DEAREST)
     poor.update({edit.place(route) for edit in fresh} - {edit.place(route) for edit in judged if edit.is_near(price)})
     return Rehearsal(context, problem.pose, dense(applied(route, edits, context.config.speed))), price
 
@@ -77,9 +72,3 @@ def _cost(problem: Problem, rehearsal: Rehearsal) -> float:
 def _need(context: Context, rehearsal: Rehearsal, surplus: float = 0.0) -> float:
     """Area that is missing to the target, to a surplus of coverage and to what a rehearsal may be wrong by [m^2]."""
     return need(context, rehearsal.swept, surplus) + MARGIN * rehearsal.turned
-
-
-def _merit(problem: Problem, rehearsal: Rehearsal) -> Tuple[bool, float]:
-    """Compares rehearsals: the quickest one that meets the target, or that which comes nearest to it."""
-    meets = is_met(problem.context, rehearsal)
-    return meets, -rehearsal.seconds if meets else rehearsal.swept.coverage

@@ -4,54 +4,42 @@ So a lane sweeps a sliver beside it, and a robot that cuts a corner sweeps what 
 """
 
 import math
-from typing import Iterator, Optional
+from typing import Iterator
 
 import numpy as np
 
 from rumba_cleaning.behaviours.compiled_follower import HAIRPIN
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.planning.common.compiled_ways import kept
-from rumba_cleaning.planning.simulate.edit import Edit
-from rumba_cleaning.route import Route
-from rumba_sim.model.common.geometry import hypot
-from rumba_sim.model.kernel import Array
+from rumba_cleaning.planning.simulate.rehearsal import Edit
+from rumba_cleaning.route import BENT, Route
 
 # All figures are our choice.
 STRAIGHT = 0.01  # [m] by which waypoints may be off a straight part
 LONG = 0.4  # [m] of a straight part, at least: short ones belong to bends
 ASIDE = (-0.02, -0.01, 0.01, 0.02)  # [m] to the left, for straight parts
 SHORT = 0.05  # [m] of a part, at least, for it to have a direction at its end
-BENT = 0.5  # [rad] that a corner turns, at least; at a hairpin the robot turns on the spot
-OUTWARD = (-0.04, -0.015, 0.02, 0.05)  # [m], for corners
+# [m], for corners that turn by BENT at least; at a hairpin the robot turns on the spot.
+OUTWARD = (-0.04, -0.015, 0.02, 0.05)
 
 
 def shifts(context: Context, route: Route) -> Iterator[Edit]:
     """Shifts of all straight parts and corners of a route with waypoints that are not far apart."""
     waypoints = route.waypoints
-    corners = np.flatnonzero(kept(waypoints, STRAIGHT))
-    for first, last in zip(corners[1:], corners[2:-1]):
-        along = waypoints[last] - waypoints[first]
-        length = hypot(*along)
-        if length >= LONG:
-            left = np.array([-along[1], along[0]]) / length
-            paths = (waypoints[[first, last]] + aside * left for aside in ASIDE)
-            yield from (Edit(first - 1, last + 1, path) for path in paths if context.ground.is_straight(*path))
-    for before, corner, after in zip(corners, corners[1:], corners[2:]):
-        outward = _outward(waypoints[[before, corner, after]])
-        if outward is not None:
-            points = waypoints[corner] + np.array(OUTWARD)[:, np.newaxis] * outward
-            yield from (Edit(corner - 1, corner + 1, point[np.newaxis])
-                        for point in points[context.ground.are_free(points)])
-
-
-def _outward(points: Array) -> Optional[Array]:
-    """The direction out of the middle one of three points (3, 2), as a unit vector; None if it is no corner."""
-    legs = np.diff(points, axis=0)
+    kinks = np.flatnonzero(kept(waypoints, STRAIGHT))
+    legs = np.diff(waypoints[kinks], axis=0)
     sizes = np.hypot(*legs.T)
-    if sizes.min() < SHORT:
-        return None
-    (x, y), (to_x, to_y) = legs / sizes[:, np.newaxis]
-    if not BENT <= abs(math.atan2(x * to_y - y * to_x, x * to_x + y * to_y)) <= HAIRPIN:
-        return None
-    out = np.array([x - to_x, y - to_y])
-    return np.asarray(out / hypot(*out))
+    ahead = legs / sizes[:, np.newaxis]
+    for leg in np.flatnonzero(sizes[1:-1] >= LONG) + 1:
+        left = np.array([-ahead[leg, 1], ahead[leg, 0]])
+        paths = (waypoints[kinks[leg:leg + 2]] + aside * left for aside in ASIDE)
+        yield from (Edit(kinks[leg] - 1, kinks[leg + 1] + 1, path) for path in paths
+                    if context.ground.is_straight(*path))
+    outward = ahead[:-1] - ahead[1:]
+    away = np.hypot(*outward.T)  # twice the sine of half the angle
+    is_corner = (np.minimum(sizes[:-1], sizes[1:]) >= SHORT) & (away >= 2.0 * math.sin(0.5 * BENT)) & (
+        away <= 2.0 * math.sin(0.5 * HAIRPIN))
+    for corner, out in zip(kinks[1:-1][is_corner], outward[is_corner] / away[is_corner, np.newaxis]):
+        points = waypoints[corner] + np.array(OUTWARD)[:, np.newaxis] * out
+        yield from (Edit(corner - 1, corner + 1, point[np.newaxis])
+                    for point in points[context.ground.are_free(points)])

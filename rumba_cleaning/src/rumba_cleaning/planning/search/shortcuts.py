@@ -6,8 +6,7 @@ import numpy as np
 
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.planning.common.rows import distinct
-from rumba_cleaning.planning.simulate.edit import Edit
-from rumba_cleaning.planning.simulate.rehearsal import NO_PATH, Rehearsal
+from rumba_cleaning.planning.simulate.rehearsal import NO_PATH, Edit, Rehearsal
 from rumba_cleaning.route import lengths_along
 from rumba_sim.model.kernel import Array
 

@@ -1,11 +1,11 @@
 """What edits of a route would change, by rehearsals of the parts around them, compiled by numba."""
 
+import math
 from typing import Any, Tuple
 
 import numpy as np
 
-from rumba_cleaning.planning.common.compiled_ways import distance
-from rumba_cleaning.planning.simulate.compiled_passes import Passes, blank, gain
+from rumba_cleaning.planning.simulate.compiled_passes import Passes, gain
 from rumba_cleaning.planning.simulate.compiled_rehearsal import ALONG, DT, SPEED, Walls, rehearse
 from rumba_sim.model.compiling.jit import compiled
 
@@ -18,15 +18,17 @@ LEAD, TAIL = 0.25, 0.5
 
 
 @compiled
-def changes(waypoints: Array, speeds: Array, drive: Drive, walls: Walls, speed: float, trace: Array, brush: Brush,
-            passes: Passes, spans: Array, paths: Array, stops: Array) -> Tuple[Array, Array]:
+def changes(waypoints: Array, speeds: Array, lengths: Array, drive: Drive, walls: Walls, speed: float, trace: Array,
+            brush: Brush, passes: Passes, scratch: Array, spans: Array, paths: Array,
+            stops: Array) -> Tuple[Array, Array]:
     """What each of several edits of a route would change, if it were the only one.
 
     Args:
         waypoints, speeds, drive, walls, trace: as for `rehearse`; the trace is that of the route.
+        lengths: along the route to each waypoint, float64 (waypoints) [m].
         speed: at which what replaces a part is driven [m/s]; a faster route is driven with the brushes up.
         brush: of the floor.
-        passes: those on the trace.
+        passes, scratch: as for `gain`.
         spans: int (edits, 2), the waypoints between which each edit replaces those of the route.
         paths: float64 (any, 2) [m], what it replaces them by, one path behind the other.
         stops: int (edits + 1), where each path begins, and the end of the last.
@@ -37,10 +39,7 @@ def changes(waypoints: Array, speeds: Array, drive: Drive, walls: Walls, speed: 
     """
     passes = Passes(*passes)
     seconds, samples = np.full(len(spans), np.inf), np.zeros(len(spans), np.int64)
-    scratch = blank(brush)
-    along, lengths = trace[:, ALONG].copy(), np.zeros(len(waypoints))
-    for index in range(1, len(waypoints)):
-        lengths[index] = lengths[index - 1] + distance(waypoints[index - 1], waypoints[index])
+    along = trace[:, ALONG].copy()
     for edit in range(len(spans)):
         first, last = spans[edit]
         low = max(np.searchsorted(along, lengths[first] - LEAD) - 1, 0)
@@ -69,17 +68,11 @@ def edited(waypoints: Array, speeds: Array, lengths: Array, here: float, first: 
     """
     begin = min(max(int(np.searchsorted(lengths, here, side='right')), 1), max(first, 1))
     end = min(np.searchsorted(lengths, lengths[last] + 2.0 * TAIL), len(waypoints) - 1)
-    before = waypoints[begin:first + 1]
-    points = np.empty((1 + len(before) + len(path) + end + 1 - last, 2))
-    share = (here - lengths[begin - 1]) / max(lengths[begin] - lengths[begin - 1], 1e-9)
-    points[0] = waypoints[begin - 1] + min(share, 1.0) * (waypoints[begin] - waypoints[begin - 1])
-    points[1:1 + len(before)] = before
-    points[1 + len(before):len(points) - (end + 1 - last)] = path
-    points[len(points) - (end + 1 - last):] = waypoints[last:end + 1]
-    fast_at = np.full(len(points) - 1, speed)
-    fast_at[:len(before)] = speeds[begin - 1:begin - 1 + len(before)]
-    fast_at[len(fast_at) - (end - last):] = speeds[last:end]
+    share = min((here - lengths[begin - 1]) / max(lengths[begin] - lengths[begin - 1], 1e-9), 1.0)
+    start = waypoints[begin - 1:begin] + share * (waypoints[begin:begin + 1] - waypoints[begin - 1:begin])
+    points = np.concatenate((start, waypoints[begin:first + 1], path, waypoints[last:end + 1]))
+    fast_at = np.concatenate((speeds[begin - 1:first], np.full(len(path) + 1, speed), speeds[last:end]))
     length = 0.0
     for index in range(1, len(points)):
-        length += distance(points[index - 1], points[index])
+        length += math.hypot(points[index, 0] - points[index - 1, 0], points[index, 1] - points[index - 1, 1])
     return points, fast_at, length - (lengths[end] - lengths[last] - TAIL)

@@ -53,20 +53,10 @@ def sweep_trace(brush: Brush, samples: Array, trace: Array, speed: float) -> Non
 
 
 @compiled
-def blank(brush: Brush) -> Array:
-    """Samples of a floor of the same size, not passed yet and out of reach, so that no tally counts them.
-
-    Returns:
-        uint8 (rows, columns)
-    """
-    return np.full(brush.samples.shape, SWEEPABLE, np.uint8)
-
-
-@compiled
 def passed(brush: Brush, trace: Array, speed: float) -> Passes:
     """When the samples are passed on a trace; the brush is as before it."""
     first, last = np.full(brush.samples.shape, NEVER, np.int32), np.full(brush.samples.shape, BEFORE, np.int32)
-    samples = blank(brush)
+    samples = np.full(brush.samples.shape, SWEEPABLE, np.uint8)
     for row in range(samples.shape[0]):
         for column in range(samples.shape[1]):
             if brush.samples[row, column] & REACHABLE == 0 or brush.samples[row, column] >= PASS:
@@ -85,18 +75,6 @@ def passed(brush: Brush, trace: Array, speed: float) -> Passes:
 
 
 @compiled
-def alone(passes: Passes, count: int) -> Array:
-    """How many samples are passed up to each of so many rows of a trace, and at no other time: int (count)."""
-    passes = Passes(*passes)
-    found = np.zeros(count, np.int64)
-    for row in range(passes.first.shape[0]):
-        for column in range(passes.first.shape[1]):
-            if BEFORE < passes.first[row, column] == passes.last[row, column]:
-                found[passes.first[row, column] + 1] += 1
-    return np.cumsum(found)
-
-
-@compiled
 def gain(brush: Brush, passes: Passes, scratch: Array, trace: Array, low: int, high: int, other: Array,
          speed: float) -> int:
     """How many more samples are swept if the part of a trace between two rows is replaced by another trace.
@@ -104,12 +82,12 @@ def gain(brush: Brush, passes: Passes, scratch: Array, trace: Array, low: int, h
     Args:
         brush, trace, speed: see above.
         passes: those on the trace.
-        scratch: as `blank` makes it; it is so again afterwards.
+        scratch: SWEEPABLE samples, uint8 of the shape of the brush's; they are so again afterwards.
         low, high: the rows.
         other: that trace.
     """
     sweep_trace(brush, scratch, other, speed)
-    (bottom, top), (left, right) = joined(window(brush, trace[low:high + 1]), window(brush, other))
+    (bottom, top), (left, right) = window(brush, np.concatenate((trace[low:high + 1], other)))
     more = 0
     for row in range(bottom, top):
         for column in range(left, right):
@@ -129,10 +107,3 @@ def window(brush: Brush, trace: Array) -> Window:
     bottom, top = trace[:, Y].min() - margin - k.origin_y, trace[:, Y].max() + margin - k.origin_y
     return ((max(int(bottom / k.sample_pitch), 0), min(int(top / k.sample_pitch), rows)),
             (max(int(left / k.sample_pitch), 0), min(int(right / k.sample_pitch), columns)))
-
-
-@compiled
-def joined(one: Window, other: Window) -> Window:
-    """The smallest window around two."""
-    return ((min(one[0][0], other[0][0]), max(one[0][1], other[0][1])),
-            (min(one[1][0], other[1][0]), max(one[1][1], other[1][1])))

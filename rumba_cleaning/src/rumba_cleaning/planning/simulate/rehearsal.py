@@ -5,7 +5,7 @@ of all that a plan leaves, and rehearsals foresee it to about 0.1 % of the floor
 """
 
 from functools import cached_property
-from typing import List, Sequence
+from typing import List, NamedTuple, Sequence
 
 import numpy as np
 
@@ -13,15 +13,34 @@ from rumba_cleaning.behaviours.follower import drive_of
 from rumba_cleaning.belief.context import Context
 from rumba_cleaning.edges.guard import SWIFT_SPEED
 from rumba_cleaning.planning.simulate import compiled_changes, compiled_passes, compiled_rehearsal
-from rumba_cleaning.planning.simulate.compiled_passes import Passes
+from rumba_cleaning.planning.simulate.compiled_passes import BEFORE, Passes
 from rumba_cleaning.planning.simulate.compiled_rehearsal import ALONG, COLUMNS, DT, LEFT, RIGHT, Walls
-from rumba_cleaning.planning.simulate.edit import Edit
 from rumba_cleaning.route import Route, lengths_along
 from rumba_sim.model.common.geometry import Pose
 from rumba_sim.model.compiling.jit import plain
 from rumba_sim.model.kernel import Array
+from rumba_sim.model.kernel.sweeping.samples import SWEEPABLE
 
+NEAR = 1.2  # times a price: large judges more edits again, small may miss some that become worth it; our choice
 NO_PATH = np.zeros((0, 2))  # as that of an edit
+
+
+class Edit(NamedTuple):
+    """Part of a route that is replaced."""
+
+    first: int  # the waypoint before that part
+    last: int  # the one after it
+    path: Array  # float64 (any, 2) [m] that replaces it
+    seconds: float = 0.0  # that the route takes longer
+    area: float = 0.0  # [m^2] that is swept more
+
+    def place(self, route: Route) -> bytes:
+        """A key of the replaced part and its replacement: equal for edits of routes that are alike there."""
+        return bytes(route.waypoints[[self.first, self.last]].tobytes() + self.path.tobytes())
+
+    def is_near(self, price: float) -> bool:
+        """Whether it would be worth it at a price near to a given one [s/m^2]."""
+        return max(price * NEAR * self.area, price / NEAR * self.area) > self.seconds
 
 
 class Rehearsal:
@@ -58,22 +77,17 @@ class Rehearsal:
         self._square = self.swept.reachable_area / max(self.swept.reachable, 1)  # [m^2] of a sample
         self.turned = float(np.abs(self._trace[:, RIGHT] - self._trace[:, LEFT]).sum()) * DT / drive.wheel_base
         self.seconds = (len(self._trace) - 1) * DT
-        self._rows = np.minimum(np.searchsorted(self._trace[:, ALONG], lengths_along(route.waypoints)),
-                                len(self._trace) - 1)
+        self._lengths = lengths_along(route.waypoints)
+        self._rows = np.minimum(np.searchsorted(self._trace[:, ALONG], self._lengths), len(self._trace) - 1)
         self.reached = self._rows * DT
 
     @property
     def alone(self) -> Array:
         """What is swept until each waypoint is reached, and at no other time: float64 (waypoints) [m^2]."""
-        return np.asarray(compiled_passes.alone(plain(self._passes), len(self._trace))[self._rows] * self._square)
-
-    @property
-    def begun(self) -> Route:
-        """The route up to the last waypoint that is reached; all of it if the robot would not get to the second."""
-        count = int((self._rows < len(self._trace) - 1).sum())
-        if self.is_complete or count < 2:
-            return self.route
-        return Route(self.route.waypoints[:count], self.route.speeds[:count - 1])
+        first, last = self._passes
+        rows = first[(first == last) & (first > BEFORE)]
+        counts = np.cumsum(np.bincount(rows + 1, minlength=len(self._trace)))
+        return np.asarray(counts[self._rows] * self._square)
 
     @cached_property
     def _passes(self) -> Passes:
@@ -85,8 +99,9 @@ class Rehearsal:
         if not edits:
             return []
         seconds, samples = compiled_changes.changes(
-            *self.route, plain(self._drive), plain(self._walls), self._speed, self._trace, self.swept.brush,
-            plain(self._passes), np.array([edit[:2] for edit in edits]),
+            *self.route, self._lengths, plain(self._drive), plain(self._walls), self._speed, self._trace,
+            self.swept.brush, plain(self._passes), np.full_like(self.swept.brush.samples, SWEEPABLE),
+            np.array([edit[:2] for edit in edits]),
             np.concatenate([NO_PATH, *(edit.path for edit in edits)]),
             np.cumsum([0, *(len(edit.path) for edit in edits)]))
         return [edit._replace(seconds=time, area=count * self._square)

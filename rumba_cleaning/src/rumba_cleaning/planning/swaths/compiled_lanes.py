@@ -144,14 +144,6 @@ def lowest(remaining: Array, bottom: int, top: int, left: int, right: int, join:
 
 
 @compiled
-def fitting(clearance: Array, across: float, needed: float) -> Array:
-    """At which columns of a row, with fractions, the robot can stand: bool (columns + 1)."""
-    row = min(max(int(across), 0), len(clearance) - 2)
-    share = across - row
-    return clearance[row] * (1.0 - share) + clearance[row + 1] * share >= needed
-
-
-@compiled
 def band(across: float, half: float) -> Tuple[int, int]:
     """The rows whose centres a brush of half a width [cells] passes over: the first, and the one after the last."""
     return max(int(math.floor(across - half + 0.5)), 0), max(int(math.floor(across + half + 0.5)), 0)
@@ -173,7 +165,9 @@ def lane(remaining: Array, clearance: Array, rule: Rule, run: Tuple[int, int],
     step = (highest - 0.5) - highest  # down by half cells, a brush width
     for count in range(math.ceil((2.0 * rule.half + 0.51) / 0.5)):
         across = highest + count * step
-        fits = runs(fitting(clearance, across, rule.needed), 0)
+        row = min(max(int(across), 0), len(clearance) - 2)
+        share = across - row
+        fits = runs(clearance[row] * (1.0 - share) + clearance[row + 1] * share >= rule.needed, 0)
         for index in range(len(fits)):
             begin, end = fits[index, 0], fits[index, 1]
             low, high = max(begin, run[0]), min(end - 1, run[1])

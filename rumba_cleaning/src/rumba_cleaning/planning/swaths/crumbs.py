@@ -21,10 +21,9 @@ TWIG = 0.12  # [m] length of a side branch of the middle that is driven too
 HEADINGS = 8  # in which a spot may be passed over; more take more time to compare
 OVER = 0.02  # [m] before and behind a spot: large passes over all of it, small takes less time
 AVERAGED = 5  # [cells] along the middle of a strip, which goes from cell to cell in steps
-RIM = 0.045  # [m] from where the robot can stand to the middle of a spot: beyond that it turns to reach it
-INTO = 0.06  # [m] that the robot drives straight toward a spot at the rim
-TURN = 2.5  # [s] that a turn by 180 degrees takes, with stopping and starting
-JUMP = 3.0  # [cells] from one point of such a path to the next: a longer line may lead through what stands there
+# [m] from where the robot can stand to the middle of a spot, which is at the rim beyond that: the robot drives so far
+# straight toward it, and turns to come back.
+RIM = 0.05
 STRAIGHT = 0.012  # [m] by which the path along a strip may leave its middle
 NEIGHBOURS = tuple((row, column) for row in (-1, 0, 1) for column in (-1, 0, 1) if row or column)
 
@@ -50,7 +49,8 @@ def crumbs(ground: Ground, share: Array, regions: Array, least: float = 0.0, apa
             continue
         cells = labels[window] == number
         corner = np.array([window[0].start, window[1].start])
-        region = _region(ground, cells, corner, regions)
+        node = ground.standing(np.argwhere(cells)[:1] + corner)[0]
+        region = int(regions[node[0], node[1]])
         if max(cells.shape) * res >= STRIP:
             found += _strips(ground, cells, corner, region, areas[number])
         else:
@@ -67,12 +67,6 @@ def _joined(cells: Array, reach: int) -> Array:
     return np.asarray(ndimage.binary_dilation(cells, disc))
 
 
-def _region(ground: Ground, cells: Array, corner: Array, regions: Array) -> int:
-    """The region of the first of the cells."""
-    node = ground.standing(np.argwhere(cells)[:1] + corner)[0]
-    return int(regions[node[0], node[1]])
-
-
 def _strips(ground: Ground, cells: Array, corner: Array, region: int, area: float) -> List[Stretch]:
     """Paths along the middle of a crumb and of its branches."""
     paths: List[Array] = []
@@ -82,15 +76,14 @@ def _strips(ground: Ground, cells: Array, corner: Array, region: int, area: floa
             points = ndimage.uniform_filter1d(points, AVERAGED, axis=0, mode='nearest')
         paths += _parted(ground, _standing(ground, points))
     lengths = [float(lengths_along(path)[-1]) for path in paths]
-    found = [Stretch(pair([simplified(path, STRAIGHT)]), region, area * length / sum(lengths), True)
+    found = [Stretch(pair([simplified(path, STRAIGHT)]), region, area * length / sum(lengths))
              for path, length in zip(paths, lengths) if length >= 2.0 * OVER]
     return found or [_spot(ground, cells, corner, region, area)]
 
 
 def _parted(ground: Ground, path: Array) -> List[Array]:
     """The parts of a path whose points were moved to both sides of what stands there, as the two of a wall."""
-    jumps = np.flatnonzero(np.hypot(*np.diff(path, axis=0).T) > JUMP * ground.plan.resolution)
-    return np.split(path, [index + 1 for index in jumps if not ground.is_straight(path[index], path[index + 1])])
+    return np.split(path, np.flatnonzero(~ground.are_free(0.5 * (path[:-1] + path[1:]))) + 1)
 
 
 def _standing(ground: Ground, points: Array) -> Array:
@@ -107,9 +100,9 @@ def _spot(ground: Ground, cells: Array, corner: Array, region: int, area: float)
     away = point - middle[0]
     distance = float(np.hypot(*away))
     if distance > RIM:
-        outside = point + INTO / distance * away
+        outside = point + RIM / distance * away
         outside = outside if ground.are_free(outside[np.newaxis])[0] else point
-        return Stretch(pair([np.array([outside, point, outside])]), region, area, True, TURN)
+        return Stretch(pair([np.array([outside, point, outside])]), region, area)
     half = 0.5 * max(cells.shape) * ground.plan.resolution + OVER
     variants: List[Variant] = []
     for number in range(HEADINGS // 2):
@@ -118,7 +111,7 @@ def _spot(ground: Ground, cells: Array, corner: Array, region: int, area: float)
         line = np.array([point - step, point + step])
         line = np.where(ground.are_free(line)[:, np.newaxis], line, point)
         variants += pair([line])
-    return Stretch(variants, region, area, True)
+    return Stretch(variants, region, area)
 
 
 def middle_lines(cells: Array, twig: int) -> List[Array]:

@@ -6,11 +6,13 @@ long. What Choset calls a cell is called a block here, since a cell is a square 
 """
 
 import math
-from typing import List, NamedTuple, Optional, Tuple
+from typing import List, NamedTuple, Tuple
 
 import numpy as np
 
+from rumba_cleaning.belief import paths
 from rumba_cleaning.belief.ground import Ground
+from rumba_cleaning.planning.common.stretches import Variant, pair
 from rumba_cleaning.planning.decompose.turned_floor import TurnedFloor, Window
 from rumba_cleaning.planning.swaths import compiled_lanes
 from rumba_sim.model.compiling.jit import plain
@@ -18,7 +20,6 @@ from rumba_sim.model.floors.reachability import SLACK
 from rumba_sim.model.kernel import Array
 
 # All figures are our choice; each comment says what speaks for a larger and for a smaller value.
-LEAST = 0.08  # [m] length of a lane, half a brush: a shorter one is left to the crumbs
 TURN, BLOCK = 2.2, 3.0  # [s] estimates of the time from lane to lane, and from block to block: large wants long lanes
 POOR = 0.12  # share of brush * speed: a block that cleans less is left to the crumbs
 JOIN = 2  # [cells] that were swept, between cells that one lane shall still clean: noise, not a gap
@@ -43,21 +44,21 @@ class Block(NamedTuple):
     time: float  # [s] that this takes, about
 
 
-def blocks(ground: Ground, missed: Array, brush: float, speed: float, angle: float = 0.0,
-           layout: Layout = Layout(), within: Optional[Window] = None) -> List[Block]:
+def blocks(ground: Ground, missed: Array, within: Window, brush: float, speed: float, angle: float = 0.0,
+           layout: Layout = Layout()) -> List[Block]:
     """Blocks whose lanes clean what was missed, except for crumbs.
 
     Args:
         ground: where the robot can stand.
         missed: the cells to clean, bool (rows, columns).
+        within: the window that holds them.
         brush: width of the brush [m].
         speed: along the lanes [m/s].
         angle: between the lanes and the map's axes [rad].
         layout: how the lanes are laid out.
-        within: the smallest window that holds all that was missed, if known.
     """
     found: List[Block] = []
-    floor = TurnedFloor(ground, missed, angle, brush, within)
+    floor = TurnedFloor(ground, missed, within, angle, brush)
     rate = brush * speed
     remaining = floor.missed.copy()
     grids = [_Grid(floor, remaining, ground.reach + SLACK, brush, along_x, layout) for along_x in (True, False)]
@@ -74,6 +75,27 @@ def blocks(ground: Ground, missed: Array, brush: float, speed: float, angle: flo
                 found.append(Block(grid.metres(lanes), area, time))
             claimed[window] = True
     return found
+
+
+def block_variants(ground: Ground, lanes: List[Array], path: Array) -> List[Variant]:
+    """The paths through the lanes of a block, in pairs: from each end of the first lane, and backward.
+
+    Args:
+        ground: where the robot can stand.
+        lanes: float64 (2, 2) [m] each, side by side, all in the same direction.
+        path: through them, as `through` finds it, from the end 0.
+    """
+    return pair([path]) + (pair([through(ground, lanes, 1)]) if len(lanes) > 1 else [])
+
+
+def through(ground: Ground, lanes: List[Array], first: int) -> Array:
+    """The path through lanes, to and fro: float64 (any, 2) [m]; it begins at the end `first`, 0 or 1, of lane 0."""
+    parts: List[Array] = []
+    for index, lane in enumerate(lanes):
+        ends = lane if index % 2 == first else lane[::-1]
+        way = paths.between(ground, parts[-1][-1], ends[0]) if parts else None
+        parts += [ends] if way is None else [way[1:-1], ends]
+    return np.concatenate(parts)
 
 
 class _Grid:
@@ -100,9 +122,9 @@ class _Grid:
         self._missed = missed if along_x else missed.T  # a view
         self._floor = floor
         self._resolution = floor.resolution
-        self._rule = compiled_lanes.Rule(
-            clearance, 0.5 * (1.0 - layout.overlap) * brush / self._resolution, max(int(LEAST / self._resolution), 1),
-            JOIN, int(layout.gap / self._resolution), layout.needed, layout.alike)
+        half = 0.5 * brush / self._resolution
+        self._rule = compiled_lanes.Rule(clearance, (1.0 - layout.overlap) * half, max(int(half), 1), JOIN,
+                                         int(layout.gap / self._resolution), layout.needed, layout.alike)
 
     def window(self, lanes: Array) -> Window:
         """Rows and columns of the floor around lanes, with the margin in which these lanes change other blocks."""

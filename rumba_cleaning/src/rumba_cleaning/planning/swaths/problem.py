@@ -6,6 +6,7 @@ from rumba_cleaning.belief.context import Context
 from rumba_cleaning.belief.swept import Swept
 from rumba_cleaning.planning.common.effort import Effort
 from rumba_cleaning.planning.common.stretches import Stretch
+from rumba_cleaning.planning.decompose.regions import Shapes
 from rumba_cleaning.planning.swaths.crumbs import crumbs
 from rumba_sim.model.common.geometry import Pose
 from rumba_sim.model.kernel import Array
@@ -19,6 +20,7 @@ class Problem(NamedTuple):
     end: Optional[Pose]  # near which a route should end; None: anywhere
     around: Array  # the cells that it can sweep, bool (rows, columns)
     labels: Array  # the region of each node, int (rows + 1, columns + 1)
+    shapes: Shapes  # of the regions
     angle: float  # by which most walls are turned against the map's axes [rad]
     effort: Effort  # that the plan is worth
 

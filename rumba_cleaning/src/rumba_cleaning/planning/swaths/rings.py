@@ -5,38 +5,36 @@ A robot follows them at full speed, whatever the direction of the walls, and the
 """
 
 import math
-from typing import Dict, Iterator, List, NamedTuple
+from typing import Iterator, List, NamedTuple
 
 import numpy as np
 from scipy import ndimage, spatial
+from skimage import measure
 
 from rumba_cleaning.belief.ground import Ground
 from rumba_cleaning.belief.swept import Swept
-from rumba_cleaning.planning.common import gaussian
-from rumba_cleaning.planning.common.contours import contours
 from rumba_cleaning.planning.common.polyline import SPACING, resampled
 from rumba_cleaning.planning.common.stretches import Stretch, Variant, pair
 from rumba_cleaning.planning.decompose.regions import Shapes
 from rumba_cleaning.planning.simulate.paper import drive
-from rumba_cleaning.planning.swaths import compiled_rings
-from rumba_sim.model.compiling.jit import plain
 from rumba_sim.model.kernel import Array
 
 # All figures are our choice; each comment says what speaks for a larger and for a smaller value.
 WALL_MARGIN = 0.0003  # [m] between robot and wall: small sweeps more of the rim, large touches the wall less often
 # Of the brush's width from ring to ring: small leaves less where corners are cut, large drives less.
 PASS, OPEN_PASS = 0.93, 0.995  # usually, and in open regions, where few rings have corners
-SMOOTH = 0.02  # [m] standard deviation of the filter along a ring: takes out the steps of the grid, and cuts corners
-# The corners of a ring reach farther out by what such a filter [m] would cut off, as a robot does that goes round them.
-BLUR = 0.06
-SHORTEST = 0.25  # [m] of a ring, and of its parts; a shorter one is left to the crumbs
-GAP = 0.3  # [m] of a ring that are not needed, but are driven: large saves turns, small saves distance
-WHOLE = 0.85  # share of a ring's waypoints that are needed, for all of it to be driven: saves turns, as GAP does
+SMOOTH = 0.07  # [m] along a ring that are averaged: takes out the steps of the grid, and cuts corners
+# [m] The corners of a ring reach farther out by what such an average cuts off, as a robot does that goes round them.
+BLUR = 0.21
+# [m] of a ring, of its parts, and of gaps between these: a shorter part is left to the crumbs, a shorter gap is driven.
+SHORTEST = 0.25
+WHOLE = 0.85  # share of a ring's waypoints that are needed, for all of it to be driven: saves turns
 # [m] from a ring to the next one in its chain, anywhere, at most: large makes fewer stretches, but beyond two radii of
-# the robot there may be a wall in between.
+# the robot there may be a wall in between. So far along the next ring that is entered: large bends gently.
 BESIDE = 0.32
-LOOK = 5  # waypoints from one to the next at which that is looked at
-FORWARD = 0.3  # [m] along the next ring at which it is entered: large bends gently, small drives less twice
+NEEDED = 0.25  # share of the brush's width that was missed, for a waypoint to be needed: small drives over swept floor
+RIDGE = 0.03  # [m] by which the floor must get wider inside a ring: else one pass in the middle is enough
+POINTS = 9  # across the brush: one for each 2 cm of a brush of 17 cm
 ROTATIONS = 12  # points at which a ring is entered, at most: more give shorter tours, and take more time to compare
 APART = 0.3  # [m] between those points, at least
 
@@ -68,20 +66,21 @@ def rings(ground: Ground, swept: Swept, labels: Array, shape: Shapes, brush: flo
     """
     found: List[Ring] = []
     depth = _depth(ground)
-    passes = _passes(depth, labels, shape.is_open, brush, ring_pass)
-    floor = compiled_rings.Floor(swept.brush.samples, ground.plan.sample_squares, depth, compiled_rings.RIDGE,
-                                 ground.plan.origin, ground.plan.resolution)
+    is_steep = ndimage.maximum_filter(depth, 2 * math.ceil(RIDGE / ground.plan.resolution) + 3) > depth + RIDGE
+    apart = np.where(shape.is_open, OPEN_PASS, ring_pass)[labels] * brush
+    passes = (depth - WALL_MARGIN) / apart  # of which level the ring through each node is, with fractions
     level = 0
     while True:
-        lines = contours(passes, level)
+        lines = measure.find_contours(passes, level)
         if not lines:
             return found
         pieces = [_shaped(piece, shape.is_open[piece.region]) for line in lines
                   for piece in _by_region(line, ground, labels, level)]
-        if level == 0 and _left_beside_ridges(pieces, floor) > spare:
-            floor = floor._replace(ridge=0.0)
+        if level == 0 and _left_beside_ridges(ground, pieces, is_steep) > spare:
+            is_steep[:] = True
+        missing = swept.missing_share()
         needed = [ring for piece in sorted(pieces, key=lambda ring: -len(ring.waypoints))
-                  for ring in _needed(piece, floor, brush)]
+                  for ring in _needed(piece, is_needed(ground, missing, is_steep, piece.waypoints, brush))]
         for ring in needed:
             drive(swept, ring.waypoints)
         found += needed
@@ -92,7 +91,7 @@ def rings(ground: Ground, swept: Swept, labels: Array, shape: Shapes, brush: flo
 
 def outlines(ground: Ground) -> List[Array]:
     """The paths beside the walls, whole: float64 (any, 2) [m] each; closed ones end where they begin."""
-    return [resampled(ground.points(line), SPACING) for line in contours(_depth(ground) - WALL_MARGIN, 0.0)]
+    return [resampled(ground.points(line), SPACING) for line in measure.find_contours(_depth(ground), WALL_MARGIN)]
 
 
 def _depth(ground: Ground) -> Array:
@@ -101,18 +100,10 @@ def _depth(ground: Ground) -> Array:
     return np.where(near, ground.clearance - ground.reach, -ground.reach)
 
 
-def _passes(depth: Array, labels: Array, is_open: Array, brush: float, ring_pass: float) -> Array:
-    """Of which level the ring through each node is, with fractions: 0 beside the walls."""
-    return np.asarray((depth - WALL_MARGIN) / (np.where(is_open, OPEN_PASS, ring_pass) * brush)[labels])
-
-
-def _left_beside_ridges(pieces: List[Ring], floor: compiled_rings.Floor) -> float:
-    """Area that one pass in the middle leaves beside it where the sides of rings almost touch, about [m^2].
-
-    Each side lies within RIDGE of the middle: half of that, on average.
-    """
-    count = sum(compiled_rings.ridges(plain(floor), piece.waypoints) for piece in pieces)
-    return 0.5 * floor.ridge * SPACING * count
+def _left_beside_ridges(ground: Ground, pieces: List[Ring], is_steep: Array) -> float:
+    """Area that one pass in the middle leaves beside it on ridges, where each side of a ring is within RIDGE [m^2]."""
+    nodes = ground.nodes(np.concatenate([np.empty((0, 2)), *(piece.waypoints for piece in pieces)]))
+    return 0.5 * RIDGE * SPACING * float(np.count_nonzero(~is_steep[nodes[:, 0], nodes[:, 1]]))
 
 
 def _shaped(ring: Ring, is_open: bool) -> Ring:
@@ -120,7 +111,7 @@ def _shaped(ring: Ring, is_open: bool) -> Ring:
     if not ring.is_closed or not (is_open or ring.level):
         return ring
     path = ring.waypoints[:-1]
-    smooth = ndimage.correlate1d(path, gaussian.weights((SMOOTH if is_open else BLUR) / SPACING), axis=0, mode='wrap')
+    smooth = ndimage.uniform_filter1d(path, int((SMOOTH if is_open else BLUR) / SPACING), axis=0, mode='wrap')
     path = smooth if is_open else 2.0 * path - smooth
     return ring._replace(waypoints=np.concatenate([path, path[:1]]))
 
@@ -150,14 +141,33 @@ def rotated(ring: Array, index: int) -> Array:
     return np.concatenate([ring[index:-1], ring[:index + 1]])
 
 
-def _needed(ring: Ring, floor: compiled_rings.Floor, brush: float) -> Iterator[Ring]:
-    """The parts of a ring on which the brush sweeps what was missed."""
+def is_needed(ground: Ground, missing: Array, is_steep: Array, path: Array, brush: float) -> Array:
+    """At which waypoints of a path the brush finds much that was missed, except on ridges: bool (any).
+
+    On a ridge the two sides of a ring almost touch, and a pass in the middle sweeps what both would.
+
+    Args:
+        ground: on which the path lies.
+        missing: share of each cell that was missed, float32 (rows, columns).
+        is_steep: which nodes are not on ridges of the clearance, bool (rows + 1, columns + 1).
+        path: float64 (2 or more, 2) [m].
+        brush: its width [m].
+    """
+    along = np.concatenate([path[1:], path[-1:]]) - np.concatenate([path[:1], path[:-1]])
+    left = along[:, ::-1] * (-1.0, 1.0) / np.hypot(*along.T)[:, np.newaxis]
+    across = path[:, np.newaxis] + brush * np.linspace(-0.5, 0.5, POINTS)[:, np.newaxis] * left[:, np.newaxis]
+    columns, rows = np.moveaxis((across - ground.plan.origin) / ground.plan.resolution, -1, 0).astype(np.intp)
+    nodes = ground.nodes(path)
+    return np.asarray((missing[rows, columns].mean(axis=1) >= NEEDED) & is_steep[nodes[:, 0], nodes[:, 1]])
+
+
+def _needed(ring: Ring, needed: Array) -> Iterator[Ring]:
+    """The parts of a ring on which waypoints are needed, bool (any)."""
     path = ring.waypoints
-    needed = compiled_rings.needed(plain(floor), path, brush)
     if needed.mean() > WHOLE:
         yield ring
         return
-    size = int(GAP / SPACING)
+    size = int(SHORTEST / SPACING)
     if ring.is_closed and needed.any():
         index = int(np.argmin(needed))
         path, needed = rotated(path, index), rotated(needed, index)
@@ -172,46 +182,29 @@ def _needed(ring: Ring, floor: compiled_rings.Floor, brush: float) -> Iterator[R
 
 def chains(found: List[Ring]) -> List[List[Ring]]:
     """Closed rings one inside the other, each list from the walls inward; every other ring is a list of its own."""
-    by_level: Dict[int, List[int]] = {}
-    for index, ring in enumerate(found):
-        if ring.is_closed:
-            by_level.setdefault(ring.level, []).append(index)
-    following: Dict[int, int] = {}
-    for level, here in by_level.items():
-        if level + 1 in by_level:
-            following.update(_followers(found, here, by_level[level + 1]))
-    inner = set(following.values())
-    lists = []
-    for index in range(len(found)):
-        if index not in inner:
-            chain = [index]
-            while chain[-1] in following:
-                chain.append(following[chain[-1]])
-            lists.append([found[number] for number in chain])
+    lists: List[List[Ring]] = []
+    for ring in found:
+        outer = next((chain for chain in lists if ring.is_closed and _is_inside(ring, chain[-1])), None)
+        if outer is None:
+            lists.append([ring])
+        else:
+            outer.append(ring)
     return lists
 
 
-def _followers(found: List[Ring], outer: List[int], inner: List[int]) -> Dict[int, int]:
-    """The ring of `inner` that lies beside each of `outer` all the way around; many have none, none has two."""
-    trees = {index: spatial.cKDTree(found[index].waypoints) for index in inner}
-    of_inner = np.repeat(inner, [len(found[index].waypoints) for index in inner])
-    tree = spatial.cKDTree(np.concatenate([found[index].waypoints for index in inner]))
-    followers: Dict[int, int] = {}
-    for index in outer:
-        points = found[index].waypoints[::LOOK]
-        near = np.unique(of_inner[tree.query_ball_point(points[0], BESIDE)]).tolist()
-        beside = [number for number in near if found[number].region == found[index].region
-                  and number not in followers.values() and trees[number].query(points)[0].max() < BESIDE]
-        if beside:
-            followers[index] = beside[0]
-    return followers
+def _is_inside(ring: Ring, outer: Ring) -> bool:
+    """Whether a ring lies beside another one, a level farther out, all the way around that."""
+    if not (outer.is_closed and outer.level + 1 == ring.level and outer.region == ring.region):
+        return False
+    tree = spatial.cKDTree(ring.waypoints)
+    return bool(tree.query(outer.waypoints[0])[0] < BESIDE and tree.query(outer.waypoints)[0].max() < BESIDE)
 
 
 def stretch(chain: List[Ring], brush: float) -> Stretch:
     """The paths along a chain: in both directions, from outside and from inside, from several points."""
     area = brush * SPACING * sum(len(ring.waypoints) for ring in chain)
     if not chain[0].is_closed:
-        return Stretch(pair([chain[0].waypoints]), chain[0].region, area, False)
+        return Stretch(pair([chain[0].waypoints]), chain[0].region, area)
     first = chain[0].waypoints
     step = max(int(APART / SPACING), math.ceil((len(first) - 1) / ROTATIONS))
     found: List[Variant] = []
@@ -220,7 +213,7 @@ def stretch(chain: List[Ring], brush: float) -> Stretch:
         twice = [np.concatenate([path[:-1], path]) for path in paths]
         for index in range(0, len(first) - 1, step):
             found += pair(_spiral(twice, index))
-    return Stretch(found, chain[0].region, area, False)
+    return Stretch(found, chain[0].region, area)
 
 
 def _spiral(twice: List[Array], index: int) -> List[Array]:
@@ -230,6 +223,6 @@ def _spiral(twice: List[Array], index: int) -> List[Array]:
         size = len(path) // 2
         if parts:
             index = int(np.argmin(np.hypot(*(path[:size] - parts[-1][-1]).T)))
-            index = (index + int(FORWARD / SPACING)) % size
+            index = (index + int(BESIDE / SPACING)) % size
         parts.append(path[index:index + size + 1])
     return parts

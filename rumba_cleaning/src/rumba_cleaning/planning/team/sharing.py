@@ -20,17 +20,11 @@ def leave_to_mates(context: Context) -> None:
     """
     for ahead in context.mates.sweeping().values():
         route = ahead.rest()
-        if effort(context).rounds == 0 or not _rehearse(context, route):
+        if effort(context).rounds == 0:
             _drive_on_paper(context, route)
-
-
-def _rehearse(context: Context, route: Route) -> bool:
-    """Rehearse a route from its first waypoint, and sweep as it does; returns whether a robot would get to its end."""
-    (x, y), (to_x, to_y) = route.waypoints[:2]
-    rehearsal = Rehearsal(context, Pose(x, y, math.atan2(to_y - y, to_x - x)), route)
-    if rehearsal.is_complete:
-        context.swept = rehearsal.swept
-    return rehearsal.is_complete
+        else:
+            (x, y), (to_x, to_y) = route.waypoints[:2]
+            context.swept = Rehearsal(context, Pose(x, y, math.atan2(to_y - y, to_x - x)), route).swept
 
 
 def _drive_on_paper(context: Context, route: Route) -> None:

@@ -7,7 +7,7 @@ from scipy import ndimage
 
 from rumba_cleaning.belief import paths
 from rumba_cleaning.belief.context import Context
-from rumba_cleaning.belief.ground import Ground
+from rumba_cleaning.belief.ground import ALL_AROUND, Ground
 from rumba_cleaning.route import Route
 from rumba_sim.model.common.geometry import Pose
 from rumba_sim.model.kernel import Array
@@ -15,7 +15,6 @@ from rumba_sim.model.maps.floor_plan import OCCUPIED, FloorPlan
 
 LEAST = 0.1  # [m^2] of positions behind a frontier: smaller ones are seen when the robot cleans there; our choice
 SEEN = 0.4  # [m] around a point to which the robot went to look; what is unknown there then stays unknown
-EIGHT = np.ones((3, 3), np.bool_)  # neighbours
 
 
 def route_to_frontier(context: Context, pose: Pose, seen: List[Array]) -> Optional[Route]:
@@ -45,14 +44,14 @@ def frontiers(ground: Ground, pose: Pose) -> Array:
     Returns:
         int (any, 2)
     """
-    labels, _ = ndimage.label(ground.fits, EIGHT)
+    labels, _ = ndimage.label(ground.fits, ALL_AROUND)
     known = labels == labels[ground.standing_at(pose.x, pose.y)]
     is_met = ground.clearance < ground.plan.safe_clearance
     hoped = (_clearance_if_free(ground.plan) >= ground.reach) & ~known & ~is_met
-    parts, _ = ndimage.label(hoped, EIGHT)
+    parts, _ = ndimage.label(hoped, ALL_AROUND)
     is_large = np.bincount(parts.ravel()) * ground.plan.resolution ** 2 >= LEAST
     is_large[0] = False
-    return np.argwhere(known & ndimage.binary_dilation(is_large[parts], EIGHT))
+    return np.argwhere(known & ndimage.binary_dilation(is_large[parts], ALL_AROUND))
 
 
 def _clearance_if_free(plan: FloorPlan) -> Array:
