@@ -64,7 +64,7 @@ def test_rounds_that_each_gain_little_of_what_is_missing_but_enough_go_on(monkey
     def beginning(context, pose, end=None):
         rounds.append(pose)
         route = planned(context, pose, end)
-        count = 4 if len(rounds) <= 2 * boustrophedon.PATIENT else len(route.waypoints)
+        count = 5 if len(rounds) <= 2 * boustrophedon.PATIENT else len(route.waypoints)
         return Route(route.waypoints[:count], route.speeds[:count - 1])
     monkeypatch.setattr(boustrophedon, 'plan', beginning)
     mission = Mission(context_of(plan, world), 'boustrophedon', 0.97)

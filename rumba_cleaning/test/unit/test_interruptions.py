@@ -31,7 +31,7 @@ def test_stopped_and_resumed_it_goes_on_with_what_it_knows_of_the_floor(elsewher
 
 
 def test_resumed_at_the_dock_it_leaves_it_again_and_counts_its_charges_on():
-    world, behaviour = mission(drain=30.0)
+    world, behaviour = mission(drain=25.0)
     for _ in steps(behaviour, world, seconds=6000.0):
         if behaviour.state is State.CHARGING and behaviour.charging_time > 100.0:
             break

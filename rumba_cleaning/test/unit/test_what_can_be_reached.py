@@ -21,6 +21,7 @@ from rumba_sim.model.simulation.world import World
 SHARES = r'(.*) % swept, (.*) % of what '
 LEAST = 0.001  # of the coverage in the end: what is swept last is no matter
 DOCK = Pose(4.0 - RADIUS - 0.01, 0.5, 0.0)
+DOCKING = 100  # steps of the last half metre, at most, which any mission takes
 
 
 def two_parts():
@@ -55,7 +56,7 @@ def test_a_mission_that_cannot_get_into_a_niche_ends_soon_after_it_has_swept_the
     behaviour = Mission(context_of(plan, world, laser=laser), 'boustrophedon', 0.98)
     swept = [world.floor.coverage for _ in steps(behaviour, world, seconds=4000.0, source=seeing(truth))]
     reached = next(step for step, share in enumerate(swept) if share >= swept[-1] - LEAST)
-    assert len(swept) < 1.15 * reached, (CONTROL_DT * reached, CONTROL_DT * len(swept))
+    assert len(swept) < 1.15 * reached + DOCKING, (CONTROL_DT * reached, CONTROL_DT * len(swept))
     assert swept[-1] > 0.98 and world.robots['rumba'].is_docked
     assert behaviour.outcome is Outcome.SUCCEEDED
     of_map, beside = map(float, re.fullmatch(SHARES + 'lies beside obstacles', behaviour.message).groups())
