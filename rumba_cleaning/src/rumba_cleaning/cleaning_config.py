@@ -40,7 +40,7 @@ class CleaningConfig:
                                  'robot finds it by its bumper')
     cleaning_time: float = setting(2700.0, 'for which a robot without a map cleans, without the time to charge and '
                                            'to look for the dock (our choice)', 's', 1.0, 1e7)
-    planning_rounds: int = setting(5, 'in which a route is improved by rehearsal before the robot sets off, at most; '
+    planning_rounds: int = setting(8, 'in which a route is improved by rehearsal before the robot sets off, at most; '
                                       'fewer plan faster, and lead to longer routes; large floors get fewer', '', 0,
                                    20)
     time_limit: TimeLimits = section(TimeLimits, 'when an action is given up; simulated time')

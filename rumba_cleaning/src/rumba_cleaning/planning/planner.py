@@ -20,7 +20,7 @@ from rumba_sim.model.kernel import Array
 
 # Our choice.
 MOST = 0.5  # share of what was missed that lanes, rings and large crumbs must clean, for them to be driven
-YIELD = 0.7  # share of a crumb that is swept in passing, about: small plans for more crumbs than the target needs
+YIELD = 0.55  # share of a crumb that is swept in passing, about: small plans for more crumbs than the target needs
 BEYOND = 0.03  # [m] from what the brush reaches, where an obstacle may leave more floor free than the robot knows
 
 
