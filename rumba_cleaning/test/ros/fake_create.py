@@ -10,6 +10,8 @@ drive it: for a velocity or what comes on the topic `~answer` while they let it 
 """
 
 import math
+import threading
+import time
 import warnings
 
 import numpy as np
@@ -17,7 +19,7 @@ import rospy
 import tf2_msgs.msg
 from create_msgs.msg import Bumper, ChargingState, Cliff, Mode, MotorSetpoint
 from fake_create_dock import Dock, Firmware
-from fake_robot import DT, NEWS, Judge, Room, Walls, keep_pace, live, moved, transform, turned
+from fake_robot import DT, Judge, Room, Walls, has_ended, live, moved, transform, turned
 from geometry_msgs.msg import Twist
 from nav_msgs.msg import Odometry
 from rosgraph_msgs.msg import Clock
@@ -35,6 +37,9 @@ ROOMS = {
         (1.6, 3.2, 2.6, 4.0), (0.0, 2.6, 0.5, 3.4), (3.2, 1.2, 3.9, 2.0), (4.4, 0.0, 5.0, 1.0),
         *((x, y, x + 0.05, y + 0.05) for x in (1.2, 1.8) for y in (1.1, 1.7))],
         (3.6, 4.0 - 0.05 - RADIUS, math.pi / 2)), Dock(3.6, 4.0))}
+
+
+NEWS = threading.Condition()  # something came for which it waits
 
 
 class FakeCreate:
@@ -203,7 +208,12 @@ class FakeCreate:
 
     def run(self):
         """Live, as fast as the others keep up, but at most ten times as fast as the real one would."""
-        keep_pace(self, DT / 10)
+        while not has_ended():
+            begin = time.monotonic()
+            self.step()
+            with NEWS:
+                NEWS.wait_for(self.is_followed, 1.0)
+            time.sleep(max(begin + DT / 10 - time.monotonic(), 0.0))
 
 
 def publisher(topic, kind, latch=False):

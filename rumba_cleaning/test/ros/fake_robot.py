@@ -11,7 +11,6 @@ The parameter `~fault` plants one of the faults that owners of robots make.
 import math
 import os
 import signal
-import threading
 import time
 from typing import List, NamedTuple, Tuple
 
@@ -25,7 +24,7 @@ from scipy import ndimage
 from sensor_msgs.msg import LaserScan
 from std_msgs.msg import Float32, Header
 
-RADIUS, BASE, BRUSH, LASER, DT, STEPS = 0.16, 0.2, 0.2, 0.05, 0.1, 5  # [m], [s]
+RADIUS, BASE, BRUSH, LASER, DT, STEPS = 0.16, 0.2, 0.2, 0.05, 0.1, 10  # [m], [s]
 CELL = 0.01  # [m]
 
 
@@ -148,17 +147,13 @@ class FakeRobot:
 
     def take(self, message):
         """Take a command."""
-        with NEWS:
-            self.command, self.commanded = message, self.now
-            NEWS.notify()
+        self.command, self.commanded = message, self.now
 
     def hear(self, message):
         """Note that somebody knows where the robot was when it took a scan."""
         for each in message.transforms:
             if each.header.frame_id == 'map':
-                with NEWS:
-                    self.corrected = each.header.stamp
-                    NEWS.notify()
+                self.corrected = each.header.stamp
 
     def step(self):
         """Drive for DT, and tell of it."""
@@ -204,27 +199,15 @@ class FakeRobot:
                 np.float32(found).tolist(), []))
         self.covered.publish(self.judge.coverage())
 
-    def is_followed(self):
-        """Whether those on whom it waits have answered what it last told."""
-        return not (self.waits and self.corrected < self.now) and (
-            self.commanded is None or self.commanded >= self.now)
-
     def run(self):
         """Drive, as fast as the others keep up, but at most `haste` times as fast as the real one would."""
-        keep_pace(self, DT / self.haste)
-
-
-NEWS = threading.Condition()  # something came for which a fake waits
-
-
-def keep_pace(fake, period):
-    """Have a fake step until it is told to end: each takes a period [s] at least, and waits a second for followers."""
-    while not has_ended():
-        begin = time.monotonic()
-        fake.step()
-        with NEWS:
-            NEWS.wait_for(lambda: has_ended() or fake.is_followed(), 1.0)
-        time.sleep(max(begin + period - time.monotonic(), 0.0))
+        while not has_ended():
+            begin = time.monotonic()
+            self.step()
+            while not has_ended() and time.monotonic() - begin < 1.0 and (
+                    self.waits and self.corrected < self.now or time.monotonic() - begin < DT / self.haste
+                    or self.commanded is not None and self.commanded < self.now):
+                time.sleep(0.001)
 
 
 def moved(pose, went, base=BASE):
@@ -255,13 +238,6 @@ def has_ended():
     return bool(SIGNALS) or rospy.is_shutdown()
 
 
-def note(number, _):
-    """Note a signal."""
-    SIGNALS.append(number)
-    with NEWS:
-        NEWS.notify()
-
-
 def live(name, kind):
     """Have a robot of a kind live as a node of a name.
 
@@ -269,7 +245,7 @@ def live(name, kind):
     """
     rospy.init_node(name, disable_rostime=True, disable_signals=True)
     for number in (signal.SIGINT, signal.SIGTERM):
-        signal.signal(number, note)
+        signal.signal(number, lambda received, _: SIGNALS.append(received))
     kind().run()
     rospy.signal_shutdown('told to end')
 
