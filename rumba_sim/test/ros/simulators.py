@@ -25,7 +25,7 @@ from rumba_msg.srv import AddObstacle, Kill, RemoveObstacle, Spawn, Step, Telepo
 from rumba_sim.ros.running import publisher_updates
 
 TIMEOUT = 90.0  # [s] of the wall clock: on a busy machine, a mission takes half a minute as fast as it can
-LOOK_PERIOD = 0.1  # [s] between two questions to a master
+LOOK_PERIOD = 0.04  # [s] between two questions to a master
 STEP_RATE = 50  # the simulator's default [Hz]
 TICK = 1_000_000_000 // STEP_RATE  # [ns]
 ENDS_WITHIN = 30.0  # [s]: a deadlock lasts longer, a busy machine does not
@@ -45,7 +45,7 @@ SERVICES = {
 publisher_updates.use()  # what a test subscribes to must be heard on a busy machine too
 
 
-def wait(test, condition, what='it', period=0.01):
+def wait(test, condition, what='it', period=0.005):
     """Wait until a condition holds; returns what it returned. `period` [s] is long if to look takes long."""
     end = time.monotonic() + TIMEOUT
     while True:

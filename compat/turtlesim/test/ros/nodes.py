@@ -17,7 +17,7 @@ from turtlesim.msg import Color, Pose
 from turtlesim.srv import Kill, SetPen, Spawn, TeleportAbsolute, TeleportRelative
 
 TIMEOUT = 30.0
-LOOK_PERIOD = 0.1  # [s] between two questions to a master
+LOOK_PERIOD = 0.04  # [s] between two questions to a master
 ENDS_WITHIN = 30.0  # [s]: a deadlock lasts longer, a busy machine does not
 TOPICS = {'pose': Pose, 'color_sensor': Color, 'clock': Clock, 'rosout': Log, 'cmd_vel': Twist}
 SERVICES = {'clear': Empty, 'reset': Empty, 'spawn': Spawn, 'kill': Kill, 'save_png': Trigger, 'set_pen': SetPen,
@@ -26,7 +26,7 @@ LIBRARIES = ['geometry_msgs.msg', 'PIL.Image', 'rosgraph', 'rosgraph_msgs.msg', 
              'turtlesim.msg', 'turtlesim.srv', 'xmlrpc.server']  # of the nodes
 
 
-def wait(test, condition, what='it', period=0.01):
+def wait(test, condition, what='it', period=0.005):
     """Wait until a condition holds; return its value. `period` [s] is long if to look takes long."""
     end = time.monotonic() + TIMEOUT
     while True:
